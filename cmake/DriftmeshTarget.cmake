@@ -1,0 +1,38 @@
+# Flags that every target of the project shares, and the function that declares one box of the architecture.
+
+add_library(driftmesh_flags INTERFACE)
+# Contracting a*b+c into one fused operation changes the rounding that the exact predicates reason about and
+# lets two nodes compute different shared points. It is off on every target, whatever the compiler's default.
+target_compile_options(driftmesh_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
+                                                 -Wnon-virtual-dtor -Wold-style-cast)
+target_include_directories(driftmesh_flags INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+if(DRIFTMESH_WERROR)
+  target_compile_options(driftmesh_flags INTERFACE -Werror)
+endif()
+if(DRIFTMESH_CHECKED)
+  target_compile_definitions(driftmesh_flags INTERFACE DRIFTMESH_CHECKED)
+endif()
+if(DRIFTMESH_SANITIZE)
+  target_compile_options(driftmesh_flags INTERFACE -fsanitize=${DRIFTMESH_SANITIZE} -fno-omit-frame-pointer
+                                                   -fno-sanitize-recover=all)
+  target_link_options(driftmesh_flags INTERFACE -fsanitize=${DRIFTMESH_SANITIZE})
+endif()
+
+# driftmesh_library(NAME SOURCES a.cpp ... DEPENDS other boxes PRIVATE_LIBS outside libraries)
+# The boxes listed in DEPENDS are the only ones whose headers NAME may include; tests/check_includes reads
+# these declarations and fails on any other include.
+function(driftmesh_library NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_LIBS" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(dm_${NAME} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(dm_${NAME} PRIVATE ${ARG_PRIVATE_LIBS})
+  else()
+    add_library(dm_${NAME} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_link_libraries(dm_${NAME} ${scope} driftmesh_flags)
+  foreach(dep IN LISTS ARG_DEPENDS)
+    target_link_libraries(dm_${NAME} ${scope} dm_${dep})
+  endforeach()
+endfunction()

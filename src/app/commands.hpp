@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace driftmesh::app {
+
+// Each adds one subcommand, with its options and help, to the program. A subcommand's callback throws driftmesh::Error
+// for what the user can mend; main prints its message and exits with 1.
+
+}  // namespace driftmesh::app

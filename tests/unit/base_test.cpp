@@ -1,0 +1,28 @@
+#include <doctest/doctest.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/narrow.hpp"
+
+using namespace driftmesh;
+
+TEST_CASE("an input error names file, line, cause and next step") {
+  const InputError error({"bay.poly", 17}, "vertex 9 does not exist", "the file has 8 vertices");
+  CHECK(std::string(error.what()) == "bay.poly:17: vertex 9 does not exist; the file has 8 vertices");
+}
+
+TEST_CASE("a file error carries the system's reason") {
+  errno = ENOENT;
+  CHECK(std::string(FileError("x.node", "cannot open").what()) == "x.node: cannot open: No such file or directory");
+  errno = 0;
+  CHECK(std::string(FileError("x.node", "is empty").what()) == "x.node: is empty");
+}
+
+TEST_CASE("narrow refuses what does not fit") {
+  CHECK(narrow<std::int32_t>(std::size_t{2147483647}, "count") == 2147483647);
+  CHECK_THROWS_AS((void)narrow<std::int32_t>(std::size_t{2147483648}, "count"), LimitError);
+  CHECK_THROWS_AS((void)narrow<std::uint32_t>(-1, "count"), LimitError);
+}
