@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace driftmesh {
+
+/// A file that appears under its name only when it is complete. Bytes go to a temporary file in the same
+/// folder; commit() renames it over `path`. Destroyed without commit, it removes the temporary and leaves
+/// `path` as it was. A link is followed; what is not a regular file (a pipe, /dev/stdout, /dev/null) is
+/// written to directly. Every operation throws FileError that names `path` and the system's reason (disk
+/// full, no permission, ...).
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::string& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Appends bytes; small writes are gathered in a buffer.
+  void write(const void* bytes, std::size_t count);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+  /// Bytes written so far.
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  /// Flushes, closes and renames. Nothing may be written afterwards.
+  void commit();
+
+ private:
+  [[noreturn]] void fail(const char* what);
+  void close_and_remove() noexcept;
+
+  std::string path_;       // as the user named it, for messages
+  std::string target_;     // after following links
+  std::string temporary_;  // empty when writing directly
+  std::unique_ptr<char[]> buffer_;
+  std::FILE* stream_ = nullptr;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace driftmesh
