@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that the named groups need and that are missing.
+#   scripts/setup.sh [build] [test] [bench] [fuzz]        (default: build)
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/env.sh"
+
+# The one list of what the project needs from Debian 12.
+packages_of() {
+  case "$1" in
+    build) echo g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev \
+      libmuparser-dev libyaml-cpp-dev libcairo2-dev ;;
+    test) echo doctest-dev libboost-dev libcgal-dev clang-format gmsh python3 ;;
+    bench) echo libbenchmark-dev libcgal-dev ;;
+    fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
+    *)
+      echo "setup.sh: unknown group '$1'; use build, test, bench or fuzz" >&2
+      return 2
+      ;;
+  esac
+}
+
+missing_of() {
+  local package
+  for package in "$@"; do
+    [[ $(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) == *" installed" ]] || echo "$package"
+  done
+}
+
+as_root() {
+  if ((EUID == 0)); then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    echo "setup.sh: installing packages needs root: run this as root, or install sudo" >&2
+    return 1
+  fi
+}
+
+install() {
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
+}
+
+if ! command -v apt-get >/dev/null; then
+  echo "setup.sh: this is not a Debian system; install the equivalents of the packages listed in $0" >&2
+  exit 1
+fi
+
+needed=()
+for group in "${@:-build}"; do
+  packages=$(packages_of "$group")
+  read -ra words <<<"$packages"
+  needed+=("${words[@]}")
+done
+mapfile -t missing < <(missing_of "${needed[@]}" | sort -u)
+((${#missing[@]})) || exit 0
+
+say "Installing ${missing[*]}"
+# Package lists that are absent or out of date show as unknown or unavailable packages: refresh them then, and only then.
+if ! { apt-cache show "${missing[@]}" >/dev/null 2>&1 && install "${missing[@]}"; }; then
+  as_root apt-get update -q
+  install "${missing[@]}"
+fi
