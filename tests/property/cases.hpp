@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+
+namespace driftmesh::testing {
+
+/// How many random cases a property test tries: `standard`, a tenth of it under a sanitizer, or what the
+/// environment variable DRIFTMESH_CASES says.
+[[nodiscard]] inline std::int64_t case_count(std::int64_t standard) {
+  if (const char* wanted = std::getenv("DRIFTMESH_CASES")) return std::strtoll(wanted, nullptr, 10);
+#if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
+  return standard / 10;
+#else
+  return standard;
+#endif
+}
+
+/// A generator whose seed is printed, from DRIFTMESH_SEED where that is set: a failure can be run again.
+[[nodiscard]] inline std::mt19937_64 seeded_generator(const char* test) {
+  const char* wanted = std::getenv("DRIFTMESH_SEED");
+  const std::uint64_t seed = wanted ? std::strtoull(wanted, nullptr, 10) : std::random_device{}();
+  std::printf("%s: DRIFTMESH_SEED=%llu\n", test, static_cast<unsigned long long>(seed));
+  return std::mt19937_64(seed);
+}
+
+}  // namespace driftmesh::testing
