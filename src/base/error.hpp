@@ -24,6 +24,8 @@ class InputError : public Error {
  public:
   /// Message "file:line: what; next".
   InputError(const SourcePlace& place, const std::string& what, const std::string& next);
+  /// A message that is complete already: several of the above, one a line.
+  explicit InputError(const std::string& message) : Error(message) {}
 };
 
 /// A file could not be opened, read, written or renamed. The message names the file and the system's reason.

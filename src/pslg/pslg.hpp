@@ -7,7 +7,8 @@
 
 namespace driftmesh {
 
-/// A planar straight line graph: the input of the mesher. Plain data; nothing here is checked (see check and repair).
+/// A planar straight line graph: the input of the mesher. Plain data; nothing here is checked (see check and
+/// repair).
 struct Pslg {
   struct Segment {
     std::int32_t a = 0;  ///< index into points
@@ -30,6 +31,7 @@ struct Pslg {
   std::vector<Segment> segments;
   std::vector<Point> holes;
   std::vector<Region> regions;
+  std::int32_t first_number = 1;  ///< what files and messages call points[0]: 0 or 1
 };
 
 }  // namespace driftmesh

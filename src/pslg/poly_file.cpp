@@ -1,0 +1,103 @@
+#include "pslg/poly_file.hpp"
+
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/read_file.hpp"
+#include "pslg/record_scanner.hpp"
+#include "pslg/triangle_files.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr std::int32_t kMaxCount = std::numeric_limits<std::int32_t>::max();
+
+void move_nodes(NodeTable&& nodes, Pslg& pslg) {
+  pslg.points = std::move(nodes.points);
+  pslg.point_markers = std::move(nodes.markers);
+  pslg.attributes = std::move(nodes.attributes);
+  pslg.attributes_per_point = nodes.attributes_per_point;
+  pslg.first_number = nodes.first_number;
+}
+
+void require_points(const std::string& file, const NodeTable& nodes) {
+  if (nodes.points.empty()) throw InputError({file, 0}, "has no vertices", "there is nothing to mesh");
+}
+
+Pslg pslg_of_points(const std::string& file, NodeTable&& nodes) {
+  require_points(file, nodes);
+  Pslg pslg;
+  move_nodes(std::move(nodes), pslg);
+  return pslg;
+}
+
+void scan_segments(RecordScanner& scanner, Pslg& pslg) {
+  scanner.require_record("the number of segments", "add a line '0 0' if there are none");
+  const std::int32_t count = scanner.header("the number of segments", kMaxCount);
+  const bool has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
+  scanner.require_room(count, "segments", has_markers ? 4 : 3);
+  pslg.segments.reserve(static_cast<std::size_t>(count));
+  for (std::int32_t i = 0; i < count; ++i) {
+    scanner.require_element(i, count, "segments");
+    (void)scanner.integer("the segment number");
+    auto& segment = pslg.segments.emplace_back();
+    segment.a = scan_vertex(scanner, pslg.points.size(), pslg.first_number);
+    segment.b = scan_vertex(scanner, pslg.points.size(), pslg.first_number);
+    if (has_markers) segment.marker = scanner.integer("the boundary marker");
+  }
+}
+
+void scan_holes(RecordScanner& scanner, Pslg& pslg) {
+  scanner.require_record("the number of holes", "add a line '0' if there are none; the file may be truncated");
+  const std::int32_t count = scanner.header("the number of holes", kMaxCount);
+  scanner.require_room(count, "holes", 3);
+  for (std::int32_t i = 0; i < count; ++i) {
+    scanner.require_element(i, count, "holes");
+    (void)scanner.integer("the hole number");
+    pslg.holes.push_back(scanner.point());
+  }
+}
+
+// The section may be missing altogether.
+void scan_regions(RecordScanner& scanner, Pslg& pslg) {
+  if (!scanner.next_record()) return;
+  const std::int32_t count = scanner.header("the number of regions", kMaxCount);
+  scanner.require_room(count, "regions", 4);
+  for (std::int32_t i = 0; i < count; ++i) {
+    scanner.require_element(i, count, "regions");
+    (void)scanner.integer("the region number");
+    auto& region = pslg.regions.emplace_back();
+    region.at = scanner.point();
+    region.attribute = scanner.number("the region attribute");
+    region.max_area = scanner.has_field() ? scanner.number("the area bound") : region.attribute;
+  }
+}
+
+}  // namespace
+
+Pslg parse_poly(const std::string& file, std::string_view text) {
+  RecordScanner scanner(file, text);
+  NodeTable nodes = scan_nodes(scanner);
+  if (nodes.points.empty()) {
+    const std::string node_file = std::filesystem::path(file).replace_extension(".node").string();
+    nodes = read_node(node_file);
+    require_points(node_file, nodes);
+  }
+  Pslg pslg;
+  move_nodes(std::move(nodes), pslg);
+  scan_segments(scanner, pslg);
+  scan_holes(scanner, pslg);
+  scan_regions(scanner, pslg);
+  scanner.throw_problems();
+  return pslg;
+}
+
+Pslg read_poly(const std::string& path) {
+  const std::string text = read_file(path);
+  if (path.ends_with(".node")) return pslg_of_points(path, parse_node(path, text));
+  return parse_poly(path, text);
+}
+
+}  // namespace driftmesh

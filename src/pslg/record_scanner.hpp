@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "geometry/point.hpp"
+
+namespace driftmesh {
+
+/// Walks a text file of the Triangle family: records are lines of fields between blanks, '#' starts a
+/// comment, empty lines do not count. Problems are collected, so that one run shows the user the first ten of
+/// them.
+class RecordScanner {
+ public:
+  /// `text` must outlive the scanner. A byte order mark at its start is skipped.
+  RecordScanner(std::string file, std::string_view text);
+
+  /// Moves to the next line that has a field; false at the end of the file.
+  bool next_record();
+  /// Moves to the next record, or throws: "the file ends where <what> is expected; <next>".
+  void require_record(const std::string& what, const std::string& next);
+  /// Moves to the record of element `index` of the `count` that a header announced, or throws.
+  void require_element(std::int32_t index, std::int32_t count, const char* what);
+  /// Whether the current record has another field.
+  [[nodiscard]] bool has_field();
+  /// Whether a problem was noted on the current line. Its other fields then read as 0 without further
+  /// problems.
+  [[nodiscard]] bool broken() const { return broken_line_ == line_; }
+
+  /// The next field of the record. One that is missing, is not of this kind or is out of range is noted as a
+  /// problem that begins with `what`, and reads as 0.
+  std::int32_t integer(const char* what);
+  double number(const char* what);  ///< finite
+  Point point();                    ///< both coordinates in the range of in_coordinate_range
+
+  /// A field that announces a count or a choice from 0 to `limit`; throws when it is anything else.
+  std::int32_t header(const char* what, std::int32_t limit);
+  /// Like header(); 0 when the record has no more fields.
+  std::int32_t optional_header(const char* what, std::int32_t limit);
+  /// Throws unless the rest of the file can hold `count` records of `fields` fields: no memory is set aside
+  /// for a number that only claims to be true.
+  void require_room(std::int32_t count, const char* what, std::int32_t fields);
+
+  /// Notes a problem on the current line; throws all problems when there are too many.
+  void problem(const std::string& what, const std::string& next);
+  /// Notes a problem and throws.
+  [[noreturn]] void fail(const std::string& what, const std::string& next);
+  /// Throws InputError with all problems, one a line, if there are any.
+  void throw_problems() const;
+
+ private:
+  bool next_line();
+  [[nodiscard]] bool at_end_of_record() const;
+  [[nodiscard]] bool at_end_of_field() const;
+  std::string_view take_field();
+  template <class T>
+  T parse(const char* what);
+  double coordinate(const char* what);
+
+  std::string file_;
+  const char* at_;
+  const char* end_;
+  std::size_t line_ = 1;
+  std::size_t broken_line_ = 0;
+  bool started_ = false;
+  std::size_t problem_count_ = 0;
+  std::string problems_;
+};
+
+}  // namespace driftmesh

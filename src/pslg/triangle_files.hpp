@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/point.hpp"
+
+namespace driftmesh {
+
+class RecordScanner;
+
+/// A .node file of Triangle.
+struct NodeTable {
+  std::vector<Point> points;
+  std::vector<std::int32_t> markers;  ///< empty, or one for each point
+  std::vector<double> attributes;     ///< attributes_per_point values for each point, point by point
+  std::int32_t attributes_per_point = 0;
+  std::int32_t first_number = 1;  ///< what the file calls points[0]: 0 or 1
+};
+
+/// An .ele file of Triangle.
+struct EleTable {
+  std::vector<std::array<std::int32_t, 3>>
+      triangles;                   ///< corners as indices from 0; midpoints of 6-node elements dropped
+  std::vector<double> attributes;  ///< attributes_per_triangle values for each triangle
+  std::int32_t attributes_per_triangle = 0;
+};
+
+// All readers: '#' comments, any blanks, CRLF; fields beyond those announced are ignored. Throw FileError
+// when a file cannot be read and InputError with up to ten messages "file:line: what; next step" for what is
+// wrong in it.
+
+/// The first point's number, 0 or 1, decides the numbering; the others must follow one by one.
+[[nodiscard]] NodeTable read_node(const std::string& path);
+[[nodiscard]] NodeTable parse_node(const std::string& file, std::string_view text);
+
+/// Corner numbers are checked against the nodes that they refer to.
+[[nodiscard]] EleTable read_ele(const std::string& path, const NodeTable& nodes);
+[[nodiscard]] EleTable parse_ele(const std::string& file, std::string_view text, const NodeTable& nodes);
+
+/// An .area file: the area bound of each of `triangle_count` triangles; a negative value means no bound.
+[[nodiscard]] std::vector<double> read_area(const std::string& path, std::size_t triangle_count);
+[[nodiscard]] std::vector<double> parse_area(const std::string& file, std::string_view text,
+                                             std::size_t triangle_count);
+
+// Parts that the .poly reader shares.
+
+/// The node section that .node and .poly files begin with; `scanner` has not read anything yet. Problems stay
+/// noted in the scanner.
+[[nodiscard]] NodeTable scan_nodes(RecordScanner& scanner);
+/// A field that names a vertex, as an index from 0.
+[[nodiscard]] std::int32_t scan_vertex(RecordScanner& scanner, std::size_t point_count, std::int32_t first_number);
+
+}  // namespace driftmesh
