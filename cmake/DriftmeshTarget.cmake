@@ -19,7 +19,7 @@ if(DRIFTMESH_SANITIZE)
 endif()
 
 # driftmesh_library(NAME SOURCES a.cpp ... DEPENDS other boxes PRIVATE_LIBS outside libraries)
-# The boxes listed in DEPENDS are the only ones whose headers NAME may include; tests/check_includes reads
+# The boxes listed in DEPENDS are the only ones whose headers NAME may include; tests/structure/check_includes.py reads
 # these declarations and fails on any other include.
 function(driftmesh_library NAME)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_LIBS" ${ARGN})
