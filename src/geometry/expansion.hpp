@@ -43,8 +43,7 @@ struct Halves {
 /// is a library call of tens of nanoseconds.
 [[nodiscard]] inline Rounded two_product(double a, const Halves& a_half, double b, const Halves& b_half) {
   const double product = a * b;
-  const double rest =
-      product - a_half.upper * b_half.upper - a_half.lower * b_half.upper - a_half.upper * b_half.lower;
+  const double rest = product - a_half.upper * b_half.upper - a_half.lower * b_half.upper - a_half.upper * b_half.lower;
   return {product, a_half.lower * b_half.lower - rest};
 }
 

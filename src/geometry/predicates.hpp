@@ -35,10 +35,9 @@ namespace driftmesh {
 // that the predicates take. Input is held to 2^-120: a bisection of depth 62 between such points only makes
 // multiples of 2^(-172 - 62) = 2^-234. Other computed points (circumcenters) are brought into range by
 // snap_to_zero.
-inline constexpr double kMaxCoordinate = 0x1p240;  ///< largest magnitude of an input coordinate, 1.8e72
+inline constexpr double kMaxCoordinate = 0x1p240;             ///< largest magnitude of an input coordinate, 1.8e72
 inline constexpr double kSmallestInputCoordinate = 0x1p-120;  ///< smallest magnitude besides 0, 7.5e-37
-inline constexpr double kSmallestCoordinate =
-    0x1p-190;  ///< smallest magnitude of a computed coordinate besides 0
+inline constexpr double kSmallestCoordinate = 0x1p-190;       ///< smallest magnitude of a computed coordinate besides 0
 
 /// Whether an input coordinate may enter the mesher: 0, or kSmallestInputCoordinate <= |x| <= kMaxCoordinate.
 /// False for NaN and infinities.
@@ -87,8 +86,7 @@ inline constexpr double kIncircleBound = (10 + 96 * kRoundoff) * kRoundoff;
   const double ca = cdx * ady, ac = adx * cdy, b_lift = bdx * bdx + bdy * bdy;
   const double ab = adx * bdy, ba = bdx * ady, c_lift = cdx * cdx + cdy * cdy;
   const double det = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
-  const double permanent = (std::fabs(bc) + std::fabs(cb)) * a_lift +
-                           (std::fabs(ca) + std::fabs(ac)) * b_lift +
+  const double permanent = (std::fabs(bc) + std::fabs(cb)) * a_lift + (std::fabs(ca) + std::fabs(ac)) * b_lift +
                            (std::fabs(ab) + std::fabs(ba)) * c_lift;
   if (std::fabs(det) >= kIncircleBound * permanent) [[likely]]
     return det;
