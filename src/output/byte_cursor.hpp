@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace driftmesh {
+
+/// The bytes of a file in memory, read from front to back. No length found in the file is believed before the bytes
+/// for it are known to be there, so a damaged file costs an InputError and no memory.
+class ByteCursor {
+ public:
+  ByteCursor(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
+
+  [[nodiscard]] std::size_t remaining() const { return bytes_.size(); }
+  [[nodiscard]] std::string_view rest() const { return bytes_; }
+
+  template <class T>
+  requires std::is_trivially_copyable_v<T> T take(const char* what) {
+    T value;
+    std::memcpy(&value, take_bytes(1, sizeof(T), what).data(), sizeof(T));
+    return value;
+  }
+
+  /// The bytes of `count` items of `size` bytes each.
+  std::string_view take_bytes(std::uint64_t count, std::size_t size, const char* what) {
+    if (count > bytes_.size() / size)
+      throw InputError({path_, 0}, std::string("ends within ") + what, "it was not written completely, or is damaged");
+    const std::string_view taken = bytes_.substr(0, static_cast<std::size_t>(count) * size);
+    bytes_.remove_prefix(taken.size());
+    return taken;
+  }
+
+  /// The rest of the current line, without its end.
+  std::string_view take_line() {
+    const std::size_t end = bytes_.find('\n');
+    std::string_view line = bytes_.substr(0, end);
+    bytes_.remove_prefix(end == std::string_view::npos ? bytes_.size() : end + 1);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    return line;
+  }
+
+ private:
+  const std::string& path_;
+  std::string_view bytes_;
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh_piece.hpp"
+
+namespace driftmesh {
+
+using TriangleNeighbors = std::vector<std::array<std::int32_t, 3>>;
+
+/// Entry [t][i] is the triangle on the other side of the edge opposite vertex i of t, or -1 where there is none.
+/// Linear in the number of triangles, whatever the degrees of the vertices. Where more than two triangles share an
+/// edge (a broken mesh), they are paired in the order in which they are listed.
+[[nodiscard]] TriangleNeighbors triangle_neighbors(const MeshPiece& mesh);
+
+/// Finds the constrained edge between two vertices in constant time; most vertices of a mesh lie on no such edge and
+/// are answered by one bit.
+class ConstrainedEdgeIndex {
+ public:
+  explicit ConstrainedEdgeIndex(const MeshPiece& mesh);
+
+  /// The index into mesh.edges of the edge between a and b (in either direction; the first, if listed twice), or -1.
+  [[nodiscard]] std::int32_t find(std::int32_t a, std::int32_t b) const {
+    return on_edge_[static_cast<std::size_t>(a)] && on_edge_[static_cast<std::size_t>(b)] ? look_up(a, b) : -1;
+  }
+  /// Whether some constrained edge ends at the vertex.
+  [[nodiscard]] bool touches(std::int32_t vertex) const { return on_edge_[static_cast<std::size_t>(vertex)]; }
+
+ private:
+  [[nodiscard]] std::int32_t look_up(std::int32_t a, std::int32_t b) const;
+  [[nodiscard]] std::size_t home_slot(std::int32_t low, std::int32_t high) const;
+
+  std::span<const MeshPiece::Edge> edges_;
+  std::vector<bool> on_edge_;
+  std::vector<std::int32_t> slots_;  // open addressing, a power of two of them, -1 is empty
+};
+
+/// The triangles at each edge of mesh.edges: [0] on the left of a -> b, [1] on the right, -1 where there is none.
+[[nodiscard]] std::vector<std::array<std::int32_t, 2>> triangles_at_edges(const MeshPiece& mesh,
+                                                                          const ConstrainedEdgeIndex& index);
+
+}  // namespace driftmesh

@@ -1,0 +1,54 @@
+#include "output/mesh_file.hpp"
+
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "output/triangle_format.hpp"
+#include "output/vtu_format.hpp"
+
+namespace driftmesh {
+namespace {
+
+enum class Format { kTriangle, kVtu };
+
+Format format_of(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".vtu") return Format::kVtu;
+  for (const char* of_triangle : {".node", ".ele", ".poly", ".edge", ".neigh"})
+    if (extension == of_triangle) return Format::kTriangle;
+  throw InputError({path, 0}, extension.empty() ? "has no extension" : "has an unknown extension '" + extension + "'",
+                   "mesh files end in .vtu, or in .node, .ele, .poly, .edge, .neigh");
+}
+
+std::string without_extension(const std::string& path) {
+  return std::filesystem::path(path).replace_extension().string();
+}
+
+}  // namespace
+
+void write_mesh(const MeshPiece& mesh, const std::string& path, const WriteOptions& options) {
+  switch (format_of(path)) {
+    case Format::kVtu:
+      return write_vtu(mesh, path);
+    case Format::kTriangle:
+      return write_triangle_format(mesh, without_extension(path), options.holes);
+  }
+}
+
+MeshPiece read_mesh(const std::string& path) {
+  switch (format_of(path)) {
+    case Format::kVtu:
+      return read_vtu(path);
+    case Format::kTriangle:
+      return read_triangle_format(without_extension(path));
+  }
+  return {};
+}
+
+std::vector<std::string> mesh_files(const std::string& path) {
+  if (format_of(path) != Format::kTriangle) return {path};
+  const std::string stem = without_extension(path);
+  return {stem + ".node", stem + ".ele", stem + ".poly", stem + ".edge", stem + ".neigh"};
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_piece.hpp"
+
+namespace driftmesh {
+
+/// What a mesh file may hold beside the mesh.
+struct WriteOptions {
+  std::vector<Point> holes;  ///< a point in each hole, for Triangle's .poly; other formats need none
+};
+
+/// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, or Triangle's .node, .ele, .poly,
+/// .edge, .neigh (any of these stands for the whole set). Files appear under their names only when complete.
+/// docs/file-formats.md says what each format holds. Errors: InputError for an unknown extension, FileError.
+void write_mesh(const MeshPiece& mesh, const std::string& path, const WriteOptions& options = {});
+
+/// Reads a mesh back, from any of these formats. Nothing in the file is believed before it is checked: indices are
+/// in range and counts fit the file. Triangles come as the file lists them, so a check sees what the file holds;
+/// only a file whose area is negative as a whole is turned over.
+/// Errors: InputError naming file and place, FileError.
+[[nodiscard]] MeshPiece read_mesh(const std::string& path);
+
+/// The files that write_mesh would replace. Error: InputError for an unknown extension.
+[[nodiscard]] std::vector<std::string> mesh_files(const std::string& path);
+
+}  // namespace driftmesh

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_piece.hpp"
+
+namespace driftmesh {
+
+/// Writes STEM.node, .ele, .poly, .edge and .neigh as Triangle defines them, numbered from 1. None of them replaces
+/// an older file before all are written.
+void write_triangle_format(const MeshPiece& mesh, const std::string& stem, const std::vector<Point>& holes);
+
+/// Reads STEM.node and STEM.ele. The constrained edges are the segments of STEM.poly if that file exists and takes
+/// its vertices from the .node file; otherwise the edges of STEM.edge whose marker is not 0, if that file exists. The
+/// last attribute of a triangle is its region.
+[[nodiscard]] MeshPiece read_triangle_format(const std::string& stem);
+
+}  // namespace driftmesh

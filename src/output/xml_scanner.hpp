@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace driftmesh {
+
+/// One tag of an XML text: <name key="value" ...>, <name .../> or </name>.
+struct XmlTag {
+  std::string_view name;
+  std::map<std::string_view, std::string_view> attributes;
+  bool opens = true;  ///< false for </name>
+  std::size_t line = 0;
+
+  /// The attribute's value, or `otherwise` when the tag has none of that name.
+  [[nodiscard]] std::string_view attribute(std::string_view key, std::string_view otherwise = {}) const;
+};
+
+/// Reads the tags of an XML text one by one: as much of XML as mesh headers use (no entities, no CDATA). Character
+/// data, comments and processing instructions are passed over.
+class XmlScanner {
+ public:
+  XmlScanner(const std::string& file, std::string_view text) : file_(file), text_(text) {}
+
+  /// Reads the next tag; false at the end of the text. Error: InputError for what is not XML.
+  bool next(XmlTag& tag);
+  /// Where the scanner stands: just behind the last tag.
+  [[nodiscard]] std::size_t position() const { return position_; }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+  bool skip_to_tag();
+  void skip_past(std::string_view end);
+  void skip_blanks();
+  std::string_view take_name();
+  std::string_view take_quoted();
+  void take_attributes(XmlTag& tag);
+  void advance_to(std::size_t position);
+
+  const std::string& file_;
+  std::string_view text_;
+  std::size_t position_ = 0;
+  std::size_t line_ = 1;
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <random>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace driftmesh::test {
+
+inline std::string file_bytes(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline void replace_file(const std::string& path, const std::string& bytes) {
+  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+  stream << bytes;
+}
+
+/// How many damaged versions of a file a reader took, and how many it refused with driftmesh::Error. Any other
+/// outcome fails the test by itself.
+struct DamageCount {
+  int accepted = 0;
+  int refused = 0;
+};
+
+inline void read_damaged(const std::string& path, const std::string& bytes, const std::function<void()>& read,
+                         DamageCount& count) {
+  replace_file(path, bytes);
+  try {
+    read();
+    ++count.accepted;
+  } catch (const Error& error) {
+    CHECK(std::string(error.what()).size() > 10);
+    ++count.refused;
+  }
+}
+
+/// The file cut off after every number of bytes less than its size.
+inline DamageCount read_truncated(const std::string& path, const std::function<void()>& read) {
+  const std::string whole = file_bytes(path);
+  DamageCount count;
+  for (std::size_t size = 0; size < whole.size(); ++size) read_damaged(path, whole.substr(0, size), read, count);
+  replace_file(path, whole);
+  return count;
+}
+
+/// The file with every byte changed in turn, and `rounds` times with several random bytes changed.
+inline DamageCount read_flipped(const std::string& path, int rounds, std::uint32_t seed,
+                                const std::function<void()>& read) {
+  const std::string whole = file_bytes(path);
+  std::mt19937 random(seed);
+  DamageCount count;
+  const auto flip = [&](std::string& bytes, std::size_t at) {
+    bytes[at] = static_cast<char>(bytes[at] ^ static_cast<char>(1 + random() % 255));
+  };
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string bytes = whole;
+    flip(bytes, at);
+    read_damaged(path, bytes, read, count);
+  }
+  for (int round = 0; round < rounds; ++round) {
+    std::string bytes = whole;
+    for (std::size_t flips = 2 + random() % 8; flips > 0; --flips) flip(bytes, random() % bytes.size());
+    read_damaged(path, bytes, read, count);
+  }
+  replace_file(path, whole);
+  return count;
+}
+
+}  // namespace driftmesh::test

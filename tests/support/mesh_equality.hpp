@@ -1,0 +1,20 @@
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include "mesh/mesh_piece.hpp"
+
+namespace driftmesh::test {
+
+/// Checks that two meshes are the same in every array and order.
+inline void check_same_mesh(const MeshPiece& actual, const MeshPiece& expected) {
+  CHECK(actual.points == expected.points);
+  CHECK(actual.triangles == expected.triangles);
+  CHECK(actual.edges == expected.edges);
+  CHECK(actual.point_markers == expected.point_markers);
+  CHECK(actual.attributes_per_point == expected.attributes_per_point);
+  CHECK(actual.attributes == expected.attributes);
+  CHECK(actual.regions == expected.regions);
+}
+
+}  // namespace driftmesh::test

@@ -1,0 +1,232 @@
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <map>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "output/mesh_file.hpp"
+#include "support/damage.hpp"
+#include "support/mesh_equality.hpp"
+#include "support/random_mesh.hpp"
+#include "temporary_folder.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::test;
+
+namespace {
+
+// A second reader of VTU, line by line and with nothing of the first: the raw bytes of each array by
+// "section/name".
+class VtuOracle {
+ public:
+  explicit VtuOracle(const std::string& path) : bytes_(file_bytes(path)) {
+    const std::size_t appended = bytes_.find("<AppendedData encoding=\"raw\">");
+    REQUIRE(appended != std::string::npos);
+    begin_ = bytes_.find('_', appended) + 1;
+    header = bytes_.substr(0, begin_);
+    std::string section;
+    std::uint64_t expected_offset = 0;
+    std::istringstream lines(header);
+    for (std::string line; std::getline(lines, line);) {
+      line.erase(0, line.find_first_not_of(' '));
+      for (const char* name : {"PointData", "CellData", "Points", "Cells"})
+        if (line == std::string("<").append(name).append(">")) section = name;
+      if (!line.starts_with("<DataArray ")) continue;
+      CHECK(value_of(line, "format") == "appended");
+      const std::uint64_t offset = std::stoull(value_of(line, "offset"));
+      CHECK(offset == expected_offset);
+      const std::string name = section + "/" + value_of(line, "Name");
+      types[name] = value_of(line, "type");
+      arrays[name] = array_at(offset);
+      expected_offset = offset + 8 + arrays[name].size();
+    }
+    CHECK(bytes_.substr(begin_ + expected_offset) == "\n  </AppendedData>\n</VTKFile>\n");
+  }
+
+  template <class T>
+  std::vector<T> values(const std::string& name) const {
+    const std::string& data = arrays.at(name);
+    REQUIRE(data.size() % sizeof(T) == 0);
+    std::vector<T> result(data.size() / sizeof(T));
+    if (!data.empty()) std::memcpy(result.data(), data.data(), data.size());
+    return result;
+  }
+
+  std::string header;
+  std::map<std::string, std::string> arrays;
+  std::map<std::string, std::string> types;
+
+ private:
+  static std::string value_of(const std::string& line, const std::string& key) {
+    const std::size_t begin = line.find(std::string(" ").append(key).append("=\""));
+    REQUIRE(begin != std::string::npos);
+    const std::size_t value = begin + key.size() + 3;
+    return line.substr(value, line.find('"', value) - value);
+  }
+
+  std::string array_at(std::uint64_t offset) const {
+    std::uint64_t length = 0;
+    REQUIRE(begin_ + offset + 8 <= bytes_.size());
+    std::memcpy(&length, bytes_.data() + begin_ + offset, 8);
+    REQUIRE(begin_ + offset + 8 + length <= bytes_.size());
+    return bytes_.substr(begin_ + offset + 8, length);
+  }
+
+  std::string bytes_;
+  std::size_t begin_ = 0;
+};
+
+std::string message_of(const std::string& path) {
+  try {
+    (void)read_mesh(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("a .vtu reads back as the mesh that was written") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.vtu";
+  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+    CAPTURE(seed);
+    const RandomMeshParts parts{seed % 2 == 0, seed % 3 == 0, seed % 5 != 0, static_cast<std::int32_t>(seed % 4)};
+    const RandomMesh random(seed, 1 + static_cast<std::int32_t>(seed % 9), 1 + static_cast<std::int32_t>(seed % 7),
+                            parts, seed % 2 == 0 ? 1e-3 : 1e6);
+    write_mesh(random.mesh(), path);
+    check_same_mesh(read_mesh(path), random.mesh());
+  }
+}
+
+TEST_CASE("an empty mesh and points alone survive in .vtu") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.vtu";
+  MeshPiece mesh;
+  write_mesh(mesh, path);
+  check_same_mesh(read_mesh(path), mesh);
+  mesh.points = {{1, 2}, {3, 4}};
+  write_mesh(mesh, path);
+  check_same_mesh(read_mesh(path), mesh);
+}
+
+TEST_CASE("a .vtu holds the arrays that VTK expects, where its header says") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.vtu";
+  const RandomMesh random(17, 6, 5);
+  const MeshPiece& mesh = random.mesh();
+  REQUIRE(mesh.edges.size() > 20);
+  write_mesh(mesh, path);
+  const VtuOracle file(path);
+  const std::size_t triangles = mesh.triangles.size();
+  const std::size_t cells = triangles + mesh.edges.size();
+
+  CHECK(file.header.find("header_type=\"UInt64\"") != std::string::npos);
+  CHECK(file.header.find("NumberOfPoints=\"" + std::to_string(mesh.points.size()) + "\" NumberOfCells=\"" +
+                         std::to_string(cells) + "\"") != std::string::npos);
+  const std::map<std::string, std::string> expected_types = {
+      {"PointData/marker", "Int32"}, {"PointData/attribute", "Float64"},
+      {"CellData/marker", "Int32"},  {"CellData/region", "Float64"},
+      {"Points/Points", "Float64"},  {"Cells/connectivity", "Int32"},
+      {"Cells/offsets", "Int32"},    {"Cells/types", "UInt8"}};
+  CHECK(file.types == expected_types);
+
+  const auto xyz = file.values<double>("Points/Points");
+  REQUIRE(xyz.size() == 3 * mesh.points.size());
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    CHECK(Point{xyz[3 * v], xyz[3 * v + 1]} == mesh.points[v]);
+    CHECK(xyz[3 * v + 2] == 0);
+  }
+  const auto corners = file.values<std::int32_t>("Cells/connectivity");
+  const auto offsets = file.values<std::int32_t>("Cells/offsets");
+  const auto types = file.values<std::uint8_t>("Cells/types");
+  const auto markers = file.values<std::int32_t>("CellData/marker");
+  const auto regions = file.values<double>("CellData/region");
+  REQUIRE(offsets.size() == cells);
+  REQUIRE(types.size() == cells);
+  REQUIRE(markers.size() == cells);
+  REQUIRE(regions.size() == cells);
+  REQUIRE(offsets.back() == static_cast<std::int32_t>(corners.size()));
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const bool is_line = cell >= triangles;
+    const auto end = static_cast<std::size_t>(offsets[cell]);
+    CHECK(types[cell] == (is_line ? 3 : 5));
+    if (is_line) {
+      const MeshPiece::Edge& edge = mesh.edges[cell - triangles];
+      CHECK(MeshPiece::Edge{corners[end - 2], corners[end - 1], markers[cell]} == edge);
+      CHECK((regions[cell] == 7 || regions[cell] == -1.25));
+    } else {
+      CHECK(std::array{corners[end - 3], corners[end - 2], corners[end - 1]} == mesh.triangles[cell]);
+      CHECK(markers[cell] == 0);
+      CHECK(regions[cell] == mesh.regions[cell]);
+    }
+  }
+}
+
+TEST_CASE("a truncated .vtu is an error wherever it ends before its data do") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.vtu";
+  write_mesh(RandomMesh(3, 2, 2).mesh(), path);
+  const DamageCount count = read_truncated(path, [&] { (void)read_mesh(path); });
+  CHECK(count.accepted <= static_cast<int>(std::strlen("\n  </AppendedData>\n</VTKFile>\n")));
+  CHECK(count.refused > 1000);
+}
+
+TEST_CASE("a damaged .vtu never crashes the reader") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.vtu";
+  write_mesh(RandomMesh(4, 2, 1).mesh(), path);
+  const DamageCount count = read_flipped(path, 3000, 99, [&] { (void)read_mesh(path); });
+  CHECK(count.refused > 500);
+  CHECK(count.accepted > 100);  // coordinates and markers may change unseen
+}
+
+TEST_CASE("a .vtu of an encoding that is not read is refused with what to do") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.vtu";
+  write_mesh(RandomMesh(5, 2, 2).mesh(), path);
+  const std::string whole = file_bytes(path);
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    std::string changed = whole;
+    const std::size_t at = changed.find(from);
+    REQUIRE(at != std::string::npos);
+    replace_file(path, changed.replace(at, from.size(), to));
+    return message_of(path);
+  };
+  CHECK(refused("encoding=\"raw\"", "encoding=\"base64\"").find("'base64'; save it as") != std::string::npos);
+  CHECK(refused("format=\"appended\"", "format=\"ascii\"").find("'ascii'; save it as") != std::string::npos);
+  CHECK(refused("header_type", "compressor=\"vtkZLibDataCompressor\" header_type").find("compressed; save it as") !=
+        std::string::npos);
+  CHECK(refused("LittleEndian", "BigEndian").find("big-endian; save it as") != std::string::npos);
+  CHECK(refused("UnstructuredGrid", "PolyData").find("not of type UnstructuredGrid") != std::string::npos);
+}
+
+TEST_CASE("a .vtu with 32-bit lengths, as other programs write, is read") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.vtu";
+  MeshPiece mesh;
+  mesh.points = {{0, 0}, {1, 0}, {0, 1}};
+  mesh.triangles = {{0, 1, 2}};
+  std::string data;
+  const auto append = [&data](const auto& values) {
+    const auto bytes = static_cast<std::uint32_t>(values.size() * sizeof(values[0]));
+    data.append(reinterpret_cast<const char*>(&bytes), 4);
+    data.append(reinterpret_cast<const char*>(values.data()), bytes);
+  };
+  append(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
+  append(std::vector<std::int64_t>{0, 1, 2});
+  append(std::vector<std::int64_t>{3});
+  append(std::vector<std::uint8_t>{5});
+  replace_file(path,
+               "<VTKFile type='UnstructuredGrid' version='0.1' byte_order='LittleEndian'>\r\n<!-- by <hand> -->\n"
+               "<UnstructuredGrid><Piece NumberOfPoints='3' NumberOfCells='1'><Points>\n"
+               "<DataArray type='Float32' NumberOfComponents='3' format='appended' offset='0'/></Points><Cells>\n"
+               "<DataArray type='Int64' Name='connectivity' format='appended' offset='40'/>\n"
+               "<DataArray type='Int64' Name='offsets' format='appended' offset='68'/>\n"
+               "<DataArray type='UInt8' Name='types' format='appended' offset='80'/></Cells></Piece>\n"
+               "</UnstructuredGrid><AppendedData encoding='raw'>_" +
+                   data + "</AppendedData></VTKFile>");
+  check_same_mesh(read_mesh(path), mesh);
+}
