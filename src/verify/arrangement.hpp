@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/point.hpp"
+
+namespace driftmesh {
+
+/// The faces that a set of straight links and points cuts the plane into, found exactly by a sweep and without a
+/// triangulation: what a mesh must cover is known independent of how it was made.
+class Arrangement {
+ public:
+  struct Link {
+    std::int32_t a = 0;  ///< index into points
+    std::int32_t b = 0;  ///< index into points
+  };
+  static constexpr std::int32_t kUnbounded = 0;    ///< the face that reaches infinity
+  static constexpr std::int32_t kOnBoundary = -1;  ///< a query point lies on a link or a point
+
+  /// Points are distinct, finite and in the predicates' range; every link has two different ends; `queries` are
+  /// located but are no part of the arrangement. O(n log n).
+  Arrangement(std::vector<Point> points, std::vector<Link> links, std::vector<Point> queries = {});
+
+  /// Two features that meet where they must not (crossing or overlapping links, a link through a point), in words, if
+  /// there are any. Then nothing below may be asked.
+  [[nodiscard]] const std::optional<std::string>& conflict() const { return conflict_; }
+
+  [[nodiscard]] std::int32_t face_count() const { return static_cast<std::int32_t>(loops_of_face_.size()); }
+  /// The face on the left of the way from a link's a to its b.
+  [[nodiscard]] std::int32_t left_face(std::int32_t link) const { return face_of_side_[side(link, false)]; }
+  [[nodiscard]] std::int32_t right_face(std::int32_t link) const { return face_of_side_[side(link, true)]; }
+  /// The face around a point with no link, kOnBoundary for other points.
+  [[nodiscard]] std::int32_t face_of_point(std::int32_t point) const { return face_of_point_[index(point)]; }
+  [[nodiscard]] std::int32_t face_of_query(std::size_t query) const { return face_of_query_[query]; }
+  /// The number of connected parts of a face's boundary; a point with no link counts as one.
+  [[nodiscard]] std::int32_t boundary_parts(std::int32_t face) const { return loops_of_face_[index(face)]; }
+
+  [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+  [[nodiscard]] const std::vector<Link>& links() const { return links_; }
+
+ private:
+  friend class ArrangementSweep;
+  // A side of a link is a half-edge: 2 * link for the way a -> b, 2 * link + 1 for b -> a, with the face on its left.
+  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  static std::size_t side(std::int32_t link, bool reversed) { return 2 * index(link) + (reversed ? 1 : 0); }
+
+  [[nodiscard]] std::int32_t tail(std::int32_t half) const;
+  [[nodiscard]] std::span<const std::int32_t> outgoing(std::int32_t point) const;
+  void sort_outgoing();
+  [[nodiscard]] std::vector<std::int32_t> trace_loops();
+  void join_faces(const std::vector<std::int32_t>& below_point, const std::vector<std::int32_t>& below_query);
+
+  std::vector<Point> points_;
+  std::vector<Link> links_;
+  std::vector<Point> queries_;
+  std::optional<std::string> conflict_;
+  std::vector<std::int32_t> first_outgoing_;  // per point, into outgoing_
+  std::vector<std::int32_t> outgoing_;        // half-edges by their tail, counterclockwise from straight down
+  std::vector<std::int32_t> face_of_side_;
+  std::vector<std::int32_t> face_of_point_;
+  std::vector<std::int32_t> face_of_query_;
+  std::vector<std::int32_t> loops_of_face_;
+};
+
+}  // namespace driftmesh

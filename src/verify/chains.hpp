@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "mesh/mesh_piece.hpp"
+#include "verify/subsegments.hpp"
+
+namespace driftmesh {
+
+/// The subsegments of a mesh put end to end: a chain runs between two corners (points of the input) through vertices
+/// that have exactly two subsegments, so it is what became of one input segment.
+class Chains {
+ public:
+  static constexpr std::int32_t kNone = -1;
+
+  struct Chain {
+    std::vector<std::int32_t> vertices;     ///< from end to end
+    std::vector<std::int32_t> subsegments;  ///< subsegments[i] joins vertices[i] and vertices[i + 1]
+  };
+
+  /// `is_corner(v)`: chains end at point v. A vertex with other than two subsegments ends them in any case; a loop
+  /// without a corner is broken at one of its vertices.
+  Chains(const MeshPiece& mesh, const Subsegments& subsegments, const std::function<bool(std::int32_t)>& is_corner);
+
+  [[nodiscard]] const std::vector<Chain>& all() const { return chains_; }
+  [[nodiscard]] const Subsegments& subsegments() const { return *subsegments_; }
+  /// The chain that has `point` strictly between its ends, or kNone.
+  [[nodiscard]] std::int32_t through(std::int32_t point) const { return through_[static_cast<std::size_t>(point)]; }
+
+ private:
+  void follow(std::int32_t corner, std::int32_t subsegment);
+
+  const Subsegments* subsegments_;
+  std::vector<Chain> chains_;
+  std::vector<std::int32_t> through_;
+  std::vector<char> ends_chain_;  // per point
+  std::vector<char> taken_;       // per subsegment
+};
+
+/// Where the two subsegments of a vertex bend by more than a millionth, or their number is not two: what can be told
+/// about the corners of an input that is not at hand.
+[[nodiscard]] bool bends_at(const MeshPiece& mesh, const Subsegments& subsegments, std::int32_t point);
+
+}  // namespace driftmesh

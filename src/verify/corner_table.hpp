@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh_piece.hpp"
+
+namespace driftmesh {
+
+/// The corners at each point of a mesh, found by counting: corner 3 t + k is corner k of triangle t. It is all the
+/// adjacency that the checks use. 14 bytes a triangle.
+class CornerTable {
+ public:
+  /// Every index of `mesh` is valid. Throws LimitError above 1.4 billion triangles.
+  explicit CornerTable(const MeshPiece& mesh);
+
+  [[nodiscard]] std::span<const std::uint32_t> around(std::int32_t point) const {
+    const auto p = static_cast<std::size_t>(point);
+    return {corners_.data() + first_[p], first_[p + 1] - first_[p]};
+  }
+  [[nodiscard]] bool used(std::int32_t point) const { return !around(point).empty(); }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> corners_;
+};
+
+}  // namespace driftmesh

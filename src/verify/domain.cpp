@@ -1,0 +1,177 @@
+#include "verify/domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "geometry/predicates.hpp"
+#include "verify/extended.hpp"
+#include "verify/point_index.hpp"
+#include "verify/words.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr std::int32_t kNoRegion = -1;
+
+std::size_t index(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The convex hull counterclockwise, with the points on its edges (Andrew 1979). Empty when all points are collinear.
+std::vector<std::int32_t> convex_hull(const std::vector<Point>& points) {
+  std::vector<std::int32_t> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
+  const auto at = [&](std::int32_t i) -> const Point& { return points[index(i)]; };
+  std::sort(order.begin(), order.end(),
+            [&](std::int32_t a, std::int32_t b) { return std::tie(at(a).x, at(a).y) < std::tie(at(b).x, at(b).y); });
+  std::vector<std::int32_t> hull;
+  const auto add_side = [&](auto first, auto last) {
+    const std::size_t base = hull.size();
+    for (; first != last; ++first) {
+      while (hull.size() >= base + 2 && orient2d(at(hull[hull.size() - 2]), at(hull.back()), at(*first)) < 0)
+        hull.pop_back();
+      hull.push_back(*first);
+    }
+    hull.pop_back();
+  };
+  if (order.size() < 3) return {};
+  add_side(order.begin(), order.end());
+  if (hull.size() + 1 == order.size() && std::all_of(hull.begin(), hull.end(), [&](std::int32_t i) {
+        return orient2d(at(order.front()), at(i), at(order.back())) == 0;
+      }))
+    return {};
+  add_side(order.rbegin(), order.rend());
+  return hull;
+}
+
+}  // namespace
+
+Domain::Domain(const Pslg& input) {
+  std::vector<std::int32_t> number;
+  take_points(input, number);
+  if (conflict_) return;
+  if (input.segments.empty())
+    take_hull();
+  else
+    take_segments(input, number);
+
+  std::vector<Arrangement::Link> links;
+  links.reserve(segments_.size());
+  for (const Segment& s : segments_) links.push_back({s.a, s.b});
+  std::vector<Point> seeds = input.holes;
+  for (const auto& region : input.regions) seeds.push_back(region.at);
+  const Arrangement arrangement(points_, std::move(links), std::move(seeds));
+  conflict_ = arrangement.conflict();
+  if (conflict_) return;
+  classify(input, arrangement);
+  measure(arrangement);
+}
+
+void Domain::take_points(const Pslg& input, std::vector<std::int32_t>& number) {
+  PointIndex points(input.points);
+  std::vector<std::int32_t> number_of_first(input.points.size(), -1);
+  for (std::int32_t i = 0; index(i) < input.points.size(); ++i) {
+    const Point& p = input.points[index(i)];
+    if (!in_coordinate_range(p.x) || !in_coordinate_range(p.y)) {
+      conflict_ = "the point " + place_words(p) + " is outside the range of coordinates";
+      return;
+    }
+    const std::int32_t first = points.add(i);
+    if (first == i) {
+      number_of_first[index(i)] = static_cast<std::int32_t>(points_.size());
+      points_.push_back(p);
+    }
+    number.push_back(number_of_first[index(first)]);
+  }
+}
+
+void Domain::take_segments(const Pslg& input, const std::vector<std::int32_t>& number) {
+  std::vector<Segment> all;
+  for (const auto& s : input.segments) {
+    if (s.a < 0 || s.b < 0 || index(s.a) >= number.size() || index(s.b) >= number.size()) {
+      conflict_ = "a segment names a point that does not exist";
+      return;
+    }
+    const auto [a, b] = std::minmax(number[index(s.a)], number[index(s.b)]);
+    if (a != b) all.push_back({a, b, s.marker, 0, 0});
+  }
+  const auto ends = [](const Segment& s) { return std::pair(s.a, s.b); };
+  std::stable_sort(all.begin(), all.end(), [&](const Segment& s, const Segment& t) { return ends(s) < ends(t); });
+  std::unique_copy(all.begin(), all.end(), std::back_inserter(segments_),
+                   [&](const Segment& s, const Segment& t) { return ends(s) == ends(t); });
+}
+
+void Domain::take_hull() {
+  const std::vector<std::int32_t> hull = convex_hull(points_);
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const auto [a, b] = std::minmax(hull[i], hull[(i + 1) % hull.size()]);
+    segments_.push_back({a, b, 0, 0, 0});
+  }
+  markers_known_ = false;
+}
+
+void Domain::classify(const Pslg& input, const Arrangement& arrangement) {
+  inside_.assign(index(arrangement.face_count()), 1);
+  inside_[Arrangement::kUnbounded] = 0;
+  for (std::size_t hole = 0; hole < input.holes.size(); ++hole)
+    if (const std::int32_t face = arrangement.face_of_query(hole); face != Arrangement::kOnBoundary)
+      inside_[index(face)] = 0;
+
+  regions_ = input.regions;
+  region_of_face_.assign(inside_.size(), kNoRegion);
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    const std::int32_t face = arrangement.face_of_query(input.holes.size() + r);
+    if (face == Arrangement::kOnBoundary || !inside(face)) continue;
+    region_of_face_[index(face)] = static_cast<std::int32_t>(r);
+    has_regions_ = true;
+  }
+
+  point_inside_.assign(points_.size(), 0);
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    Segment& s = segments_[i];
+    s.left_face = arrangement.left_face(static_cast<std::int32_t>(i));
+    s.right_face = arrangement.right_face(static_cast<std::int32_t>(i));
+    if (inside(s)) point_inside_[index(s.a)] = point_inside_[index(s.b)] = 1;
+  }
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    if (const std::int32_t face = arrangement.face_of_point(static_cast<std::int32_t>(p));
+        face != Arrangement::kOnBoundary)
+      point_inside_[p] = inside_[index(face)];
+}
+
+// Euler number: points minus segments of the closed domain, plus for each open face 2 minus the parts of its boundary
+// (a disk with k - 1 holes).
+void Domain::measure(const Arrangement& arrangement) {
+  CompensatedSum twice_area;
+  double tolerance = 0;
+  for (const Segment& s : segments_) {
+    if (!inside(s)) continue;
+    --euler_number_;
+    if (inside(s.left_face) && inside(s.right_face)) continue;
+    const Point &a = points_[index(s.a)], &b = points_[index(s.b)];
+    const long double cross = cross_extended(points_.front(), a, b);
+    twice_area.add(inside(s.left_face) ? cross : -cross);
+    tolerance += split_tolerance(a, b) * std::hypot(b.x - a.x, b.y - a.y);
+  }
+  area_ = twice_area.value() / 2;
+  area_tolerance_ = tolerance + 1e-14 * area_;
+  euler_number_ += std::count(point_inside_.begin(), point_inside_.end(), 1);
+  for (std::int32_t face = 0; face < arrangement.face_count(); ++face)
+    if (inside(face)) euler_number_ += 2 - arrangement.boundary_parts(face);
+}
+
+// Each of two coordinates of a midpoint is rounded by half a unit in the last place; nested midpoints add up to a
+// dozen such units at the greatest depth.
+double Domain::split_tolerance(const Point& a, const Point& b) {
+  const double magnitude = std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y)});
+  return 32 * 0x1p-52 * magnitude;
+}
+
+const Pslg::Region* Domain::region_of(std::int32_t face) const {
+  const std::int32_t region = region_of_face_[index(face)];
+  return region == kNoRegion ? nullptr : &regions_[index(region)];
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pslg/pslg.hpp"
+#include "verify/arrangement.hpp"
+
+namespace driftmesh {
+
+/// The part of the plane that an input asks to be meshed, from an arrangement of its segments: the unbounded face and
+/// the faces that hold a hole point are carved. Points with equal coordinates and equal segments count once. Without
+/// segments, the domain is the convex hull of the points.
+class Domain {
+ public:
+  struct Segment {
+    std::int32_t a = 0;  ///< index into points()
+    std::int32_t b = 0;  ///< index into points()
+    std::int32_t marker = 0;
+    std::int32_t left_face = 0;   ///< of the way a -> b
+    std::int32_t right_face = 0;  ///< of the way a -> b
+  };
+
+  explicit Domain(const Pslg& input);
+
+  /// Why the input describes no domain (segments that cross, overlap or pass through points), if so. Then nothing
+  /// below may be asked.
+  [[nodiscard]] const std::optional<std::string>& conflict() const { return conflict_; }
+
+  [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+  [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
+  [[nodiscard]] bool markers_known() const { return markers_known_; }
+
+  [[nodiscard]] bool inside(std::int32_t face) const { return inside_[static_cast<std::size_t>(face)] != 0; }
+  [[nodiscard]] bool inside(const Segment& s) const { return inside(s.left_face) || inside(s.right_face); }
+  /// Whether a point lies in the closed domain.
+  [[nodiscard]] bool point_inside(std::int32_t point) const {
+    return point_inside_[static_cast<std::size_t>(point)] != 0;
+  }
+
+  [[nodiscard]] double area() const { return area_; }
+  /// How far sums of areas may differ because split points on the boundary are rounded.
+  [[nodiscard]] double area_tolerance() const { return area_tolerance_; }
+  /// Vertices - edges + faces of any triangulation of the domain.
+  [[nodiscard]] std::int64_t euler_number() const { return euler_number_; }
+  /// How far a split point of a segment between these ends may be off the segment.
+  [[nodiscard]] static double split_tolerance(const Point& a, const Point& b);
+
+  [[nodiscard]] bool has_regions() const { return has_regions_; }
+  /// The region seed that rules a face (the last of several), or null.
+  [[nodiscard]] const Pslg::Region* region_of(std::int32_t face) const;
+
+ private:
+  void take_points(const Pslg& input, std::vector<std::int32_t>& number);
+  void take_segments(const Pslg& input, const std::vector<std::int32_t>& number);
+  void take_hull();
+  void classify(const Pslg& input, const Arrangement& arrangement);
+  void measure(const Arrangement& arrangement);
+
+  std::optional<std::string> conflict_;
+  std::vector<Point> points_;
+  std::vector<Segment> segments_;
+  std::vector<char> inside_;        // per face
+  std::vector<char> point_inside_;  // per point
+  std::vector<Pslg::Region> regions_;
+  std::vector<std::int32_t> region_of_face_;  // -1: none
+  bool markers_known_ = true;
+  bool has_regions_ = false;
+  double area_ = 0;
+  double area_tolerance_ = 0;
+  std::int64_t euler_number_ = 0;
+};
+
+}  // namespace driftmesh

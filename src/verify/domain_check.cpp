@@ -1,0 +1,265 @@
+#include "verify/domain_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "verify/arrangement.hpp"
+#include "verify/extended.hpp"
+#include "verify/words.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr std::int32_t kNone = -1;
+constexpr std::int32_t kUnknownFace = -1;
+
+std::size_t index(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The boundary alone, its points renumbered.
+Arrangement arrange_boundary(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary,
+                             const std::vector<Point>& queries) {
+  std::unordered_map<std::int32_t, std::int32_t> number;
+  std::vector<Point> points;
+  std::vector<Arrangement::Link> links;
+  const auto take = [&](std::int32_t v) {
+    const auto [entry, added] = number.try_emplace(v, static_cast<std::int32_t>(points.size()));
+    if (added) points.push_back(mesh.points[index(v)]);
+    return entry->second;
+  };
+  links.reserve(boundary.size());
+  for (const auto& edge : boundary) {
+    const std::int32_t a = take(edge.a), b = take(edge.b);
+    links.push_back({a, b});
+  }
+  return Arrangement(std::move(points), std::move(links), queries);
+}
+
+}  // namespace
+
+void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary,
+                     const std::vector<Point>& holes, Findings& findings) {
+  const Arrangement arrangement = arrange_boundary(mesh, boundary, holes);
+  if (arrangement.conflict()) {
+    findings.add(Flaw::boundary_crosses, [&] { return "on the boundary " + *arrangement.conflict(); });
+    return;
+  }
+  enum : char { kUnseen, kCovered, kBare };
+  std::vector<char> state(index(arrangement.face_count()), kUnseen);
+  state[Arrangement::kUnbounded] = kBare;
+  const auto expect = [&](std::int32_t face, char expected, std::size_t edge) {
+    char& known = state[index(face)];
+    if (known == kUnseen) known = expected;
+    if (known != expected)
+      findings.add(Flaw::overlap, [&] {
+        return fmt::format("boundary {}: the {} side is {} by triangles, the rest of that face is {}",
+                           edge_words(mesh, boundary[edge].a, boundary[edge].b),
+                           expected == kCovered ? "left" : "right", expected == kCovered ? "covered" : "not covered",
+                           expected == kCovered ? "outside or not covered" : "covered");
+      });
+  };
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    expect(arrangement.left_face(static_cast<std::int32_t>(i)), kCovered, i);
+    expect(arrangement.right_face(static_cast<std::int32_t>(i)), kBare, i);
+  }
+  for (std::size_t h = 0; h < holes.size(); ++h)
+    if (const std::int32_t face = arrangement.face_of_query(h);
+        face != Arrangement::kOnBoundary && state[index(face)] == kCovered)
+      findings.add(Flaw::hole_filled,
+                   [&] { return fmt::format("the hole point {} lies inside the mesh", place_words(holes[h])); });
+}
+
+std::vector<char> DomainCheck::find_corners(const MeshPiece& mesh, const Domain& domain,
+                                            const PointIndex& mesh_points) {
+  std::vector<char> corner(mesh.points.size());
+  for (const Point& p : domain.points())
+    if (const std::int32_t v = mesh_points.find(p); v != PointIndex::kNone) corner[index(v)] = 1;
+  return corner;
+}
+
+DomainCheck::DomainCheck(const MeshPiece& mesh, const Domain& domain, const PointIndex& mesh_points,
+                         const Chains& chains, Findings& findings)
+    : mesh_(mesh),
+      domain_(domain),
+      chains_(chains),
+      findings_(findings),
+      segment_of_chain_(chains.all().size(), kNone) {
+  vertex_of_point_.reserve(domain.points().size());
+  for (const Point& p : domain.points()) vertex_of_point_.push_back(mesh_points.find(p));
+}
+
+void DomainCheck::check_points() {
+  for (std::size_t p = 0; p < vertex_of_point_.size(); ++p)
+    if (domain_.point_inside(static_cast<std::int32_t>(p)) && vertex_of_point_[p] == PointIndex::kNone)
+      findings_.add(Flaw::point_missing, [&] {
+        return fmt::format("the input point {} lies in the domain and is not a vertex",
+                           place_words(domain_.points()[p]));
+      });
+}
+
+std::string DomainCheck::chain_words(const Chains::Chain& chain) const {
+  return fmt::format("the chain of {} subsegments from {} to {}", chain.subsegments.size(),
+                     point_words(mesh_, chain.vertices.front()), point_words(mesh_, chain.vertices.back()));
+}
+
+void DomainCheck::check_chains() {
+  const auto key = [](std::int32_t u, std::int32_t v) {
+    return static_cast<std::uint64_t>(std::min(u, v)) << 32 | static_cast<std::uint64_t>(std::max(u, v));
+  };
+  std::unordered_map<std::uint64_t, std::int32_t> segment_between;  // vertices of the mesh
+  const auto& segments = domain_.segments();
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const std::int32_t a = vertex_of_point_[index(segments[i].a)], b = vertex_of_point_[index(segments[i].b)];
+    if (a != kNone && b != kNone) segment_between.emplace(key(a, b), static_cast<std::int32_t>(i));
+  }
+  std::vector<char> found(segments.size());
+  for (std::size_t c = 0; c < chains_.all().size(); ++c) {
+    const Chains::Chain& chain = chains_.all()[c];
+    const auto entry = segment_between.find(key(chain.vertices.front(), chain.vertices.back()));
+    if (entry == segment_between.end() || !domain_.inside(segments[index(entry->second)]) ||
+        found[index(entry->second)]) {
+      findings_.add(Flaw::unknown_subsegment, [&] {
+        return chain_words(chain) + (entry == segment_between.end() ? " joins points that no input segment joins"
+                                     : found[index(entry->second)]  ? " doubles another one"
+                                                                    : " is an input segment outside the domain");
+      });
+      continue;
+    }
+    found[index(entry->second)] = 1;
+    segment_of_chain_[c] = entry->second;
+    const Domain::Segment& segment = segments[index(entry->second)];
+    check_chain(chain, segment, vertex_of_point_[index(segment.a)] != chain.vertices.front());
+  }
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    if (!found[i] && domain_.inside(segments[i]))
+      findings_.add(Flaw::segment_missing, [&] {
+        return fmt::format("no chain of subsegments joins the ends {} and {} of an input segment",
+                           place_words(domain_.points()[index(segments[i].a)]),
+                           place_words(domain_.points()[index(segments[i].b)]));
+      });
+}
+
+void DomainCheck::check_chain(const Chains::Chain& chain, const Domain::Segment& segment, bool reversed) {
+  check_straight(chain);
+  const Subsegments& subsegments = chains_.subsegments();
+  const std::int32_t left = reversed ? segment.right_face : segment.left_face;
+  const std::int32_t right = reversed ? segment.left_face : segment.right_face;
+  for (std::size_t i = 0; i < chain.subsegments.size(); ++i) {
+    const std::int32_t s = chain.subsegments[i], from = chain.vertices[i];
+    if (domain_.markers_known() && subsegments[s].marker != segment.marker)
+      findings_.add(Flaw::wrong_marker, [&] {
+        return fmt::format("subsegment {}, {}, has marker {}, expected {}", s,
+                           edge_words(mesh_, subsegments[s].a, subsegments[s].b), subsegments[s].marker,
+                           segment.marker);
+      });
+    check_side(s, subsegments.left(s, from), left);
+    check_side(s, subsegments.right(s, from), right);
+  }
+}
+
+void DomainCheck::check_side(std::int32_t subsegment, std::int32_t triangle, std::int32_t face) {
+  const bool covered = triangle != Subsegments::kNone, expected = domain_.inside(face);
+  if (covered == expected) return;
+  const MeshPiece::Edge& edge = chains_.subsegments()[subsegment];
+  if (expected)
+    findings_.add(Flaw::not_covered, [&] {
+      return edge_words(mesh_, edge.a, edge.b) + " has no triangle on a side that lies in the domain";
+    });
+  else
+    findings_.add(face == Arrangement::kUnbounded ? Flaw::outside_filled : Flaw::hole_filled, [&] {
+      return triangle_words(mesh_, index(triangle)) + " lies " +
+             (face == Arrangement::kUnbounded ? "outside the domain" : "in a hole") + ", at " +
+             edge_words(mesh_, edge.a, edge.b);
+    });
+}
+
+void DomainCheck::check_straight(const Chains::Chain& chain) {
+  const auto at = [&](std::size_t i) -> const Point& { return mesh_.points[index(chain.vertices[i])]; };
+  const std::size_t last = chain.vertices.size() - 1;
+  const Point &a = at(0), &b = at(last);
+  const long double length = std::sqrt(dot_extended(a, b, b)), tolerance = Domain::split_tolerance(a, b);
+  long double before = 0;
+  for (std::size_t i = 1; i < last; ++i) {
+    const long double off = std::fabs(cross_extended(a, b, at(i))) / length, along = dot_extended(a, b, at(i)) / length;
+    if (off <= tolerance && along > before - tolerance && along < length + tolerance) {
+      before = along;
+      continue;
+    }
+    findings_.add(Flaw::off_segment, [&] {
+      return fmt::format(
+          "{} on {} is {:.3g} off its line (at most {:.3g}) and {:.17g} of {:.17g} along it, after {:.17g}",
+          point_words(mesh_, chain.vertices[i]), chain_words(chain), static_cast<double>(off),
+          static_cast<double>(tolerance), static_cast<double>(along), static_cast<double>(length),
+          static_cast<double>(before));
+    });
+    before = along;
+  }
+}
+
+void DomainCheck::check_area(double mesh_area) {
+  if (std::fabs(mesh_area - domain_.area()) <= domain_.area_tolerance()) return;
+  findings_.add(Flaw::wrong_area, [&] {
+    return fmt::format("the triangles cover {:.17g}, the domain has {:.17g} (rounding explains {:.3g})", mesh_area,
+                       domain_.area(), domain_.area_tolerance());
+  });
+}
+
+// From 3F = 2E - B and V - E + F = chi.
+void DomainCheck::check_euler(std::int64_t used_points, std::int64_t boundary_edges) {
+  const std::int64_t expected = 2 * used_points - boundary_edges - 2 * domain_.euler_number();
+  const auto actual = static_cast<std::int64_t>(mesh_.triangles.size());
+  if (actual == expected) return;
+  findings_.add(Flaw::wrong_euler, [&] {
+    return fmt::format("{} triangles; {} vertices, {} boundary edges and Euler number {} of the domain ask for {}",
+                       actual, used_points, boundary_edges, domain_.euler_number(), expected);
+  });
+}
+
+void DomainCheck::find_faces(DisjointSets& parts) {
+  std::vector<std::int32_t> face_of_part(mesh_.triangles.size(), kUnknownFace);
+  const auto note = [&](std::int32_t triangle, std::int32_t face) {
+    if (triangle != Subsegments::kNone) face_of_part[index(parts.find(triangle))] = face;
+  };
+  const Subsegments& subsegments = chains_.subsegments();
+  for (std::size_t c = 0; c < chains_.all().size(); ++c) {
+    if (segment_of_chain_[c] == kNone) continue;
+    const Chains::Chain& chain = chains_.all()[c];
+    const Domain::Segment& segment = domain_.segments()[index(segment_of_chain_[c])];
+    const bool reversed = vertex_of_point_[index(segment.a)] != chain.vertices.front();
+    for (std::size_t i = 0; i < chain.subsegments.size(); ++i) {
+      const std::int32_t s = chain.subsegments[i], from = chain.vertices[i];
+      note(subsegments.left(s, from), reversed ? segment.right_face : segment.left_face);
+      note(subsegments.right(s, from), reversed ? segment.left_face : segment.right_face);
+    }
+  }
+  face_of_triangle_.resize(mesh_.triangles.size());
+  for (std::int32_t t = 0; index(t) < face_of_triangle_.size(); ++t)
+    face_of_triangle_[index(t)] = face_of_part[index(parts.find(t))];
+}
+
+void DomainCheck::check_regions() {
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    const std::int32_t face = face_of_triangle_[t];
+    if (face == kUnknownFace) continue;
+    const Pslg::Region* region = domain_.region_of(face);
+    const double expected = region != nullptr ? region->attribute : 0,
+                 actual = mesh_.regions.empty() ? 0 : mesh_.regions[t];
+    if (actual != expected)
+      findings_.add(Flaw::wrong_region, [&] {
+        return fmt::format("{} has region attribute {}, expected {}", triangle_words(mesh_, t), actual, expected);
+      });
+  }
+}
+
+double DomainCheck::region_area(std::size_t triangle) const {
+  const std::int32_t face = face_of_triangle_[triangle];
+  const Pslg::Region* region = face == kUnknownFace ? nullptr : domain_.region_of(face);
+  return region != nullptr ? region->max_area : 0;
+}
+
+}  // namespace driftmesh

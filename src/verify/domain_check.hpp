@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh_piece.hpp"
+#include "verify/chains.hpp"
+#include "verify/disjoint_sets.hpp"
+#include "verify/domain.hpp"
+#include "verify/findings.hpp"
+#include "verify/point_index.hpp"
+#include "verify/subsegments.hpp"
+
+namespace driftmesh {
+
+/// The boundary of the mesh, directed with a triangle on the left of each edge, does not meet itself other than at
+/// points, and winds once around some faces of its arrangement and not at all around the others. With all triangles
+/// counterclockwise this proves that no point is covered twice. `holes`, where the input is at hand, must lie outside.
+void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary,
+                     const std::vector<Point>& holes, Findings& findings);
+
+/// The checks of a mesh against the domain that its input describes.
+class DomainCheck {
+ public:
+  DomainCheck(const MeshPiece& mesh, const Domain& domain, const PointIndex& mesh_points, const Chains& chains,
+              Findings& findings);
+
+  /// Every point of the domain's input is a vertex.
+  void check_points();
+  /// Chains of subsegments and the domain's segments are the same; see verify.
+  void check_chains();
+  void check_area(double mesh_area);
+  void check_euler(std::int64_t used_points, std::int64_t boundary_edges);
+
+  /// Finds the face of the domain that each triangle lies in. `parts` has joined triangles that share an edge which
+  /// is no subsegment.
+  void find_faces(DisjointSets& parts);
+  /// The region attributes of triangles; after find_faces.
+  void check_regions();
+  /// The area bound of the region that a triangle lies in, 0 if it has none; after find_faces.
+  [[nodiscard]] double region_area(std::size_t triangle) const;
+
+  /// For each point of a mesh whether it is one of the domain's points.
+  [[nodiscard]] static std::vector<char> find_corners(const MeshPiece& mesh, const Domain& domain,
+                                                      const PointIndex& mesh_points);
+
+ private:
+  [[nodiscard]] const Domain::Segment* segment_of(const Chains::Chain& chain) const;
+  void check_chain(const Chains::Chain& chain, const Domain::Segment& segment, bool reversed);
+  void check_straight(const Chains::Chain& chain);
+  void check_side(std::int32_t subsegment, std::int32_t triangle, std::int32_t face);
+  [[nodiscard]] std::string chain_words(const Chains::Chain& chain) const;
+
+  const MeshPiece& mesh_;
+  const Domain& domain_;
+  const Chains& chains_;
+  Findings& findings_;
+  std::vector<std::int32_t> vertex_of_point_;   // of the domain; PointIndex::kNone if missing
+  std::vector<std::int32_t> segment_of_chain_;  // kNone: the chain belongs to no segment
+  std::vector<std::int32_t> face_of_triangle_;
+};
+
+}  // namespace driftmesh

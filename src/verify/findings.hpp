@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace driftmesh {
+
+/// What can be wrong with a mesh. Each kind is counted on its own.
+enum class Flaw : std::uint8_t {
+  // The arrays of the piece.
+  bad_array,        ///< an array has the wrong length
+  bad_index,        ///< a triangle or subsegment names a point that does not exist, or one point twice
+  bad_coordinate,   ///< a used point is not finite or outside the range of the exact predicates
+  duplicate_point,  ///< two used points have the same coordinates
+  // The triangulation.
+  not_counterclockwise,  ///< a triangle is inverted or flat (exact)
+  duplicate_triangle,    ///< two triangles have the same corners
+  edge_used_twice,       ///< two triangles lie on the same side of an edge
+  open_edge,             ///< an edge with one triangle is not a subsegment: a triangle is missing, or a T-junction
+  tangled_vertex,        ///< the triangles around a vertex are more than one closed fan
+  stray_subsegment,      ///< a subsegment is not an edge of the mesh
+  duplicate_subsegment,  ///< a subsegment is listed twice
+  boundary_crosses,      ///< two subsegments of the boundary cross, overlap or touch other than at a common end
+  overlap,               ///< a part of the plane is covered by more than one triangle
+  not_delaunay,          ///< the point opposite an unconstrained edge lies inside the circumcircle (exact)
+  // The mesh against the input it was made from.
+  input_not_planar,    ///< the input's segments cross or overlap: nothing can be checked against it
+  point_missing,       ///< a point of the input lies in the domain and is not a vertex
+  segment_missing,     ///< no chain of subsegments runs from one end of an input segment to the other
+  unknown_subsegment,  ///< a chain of subsegments joins input points that no input segment joins
+  off_segment,         ///< a vertex of a chain is off its input segment, or out of order along it
+  wrong_marker,        ///< a subsegment does not carry the marker of its input segment
+  not_covered,         ///< a part of the domain along an input segment has no triangle
+  outside_filled,      ///< a triangle lies outside the outer boundary
+  hole_filled,         ///< a triangle lies in a hole
+  wrong_area,          ///< the triangles' areas do not sum to the area of the domain
+  wrong_euler,         ///< counts of triangles, vertices and boundary edges do not fit the domain's topology
+  wrong_region,        ///< a triangle carries another region attribute than the region it lies in
+  // Quality.
+  small_angle,  ///< an angle below the bound, without a small angle of the input as its cause
+  large_area,   ///< an area above the bound
+};
+inline constexpr std::size_t kFlawCount = static_cast<std::size_t>(Flaw::large_area) + 1;
+
+/// The name of the kind as words: "not delaunay".
+[[nodiscard]] const char* flaw_name(Flaw flaw);
+
+/// Counts every finding of each kind and keeps the messages of the first few.
+class Findings {
+ public:
+  explicit Findings(std::size_t listed_per_kind = 5) : listed_per_kind_(listed_per_kind) {}
+
+  /// Counts one finding; `describe` is called only when its message will be kept.
+  template <class Describe>
+  void add(Flaw flaw, const Describe& describe) {
+    Kind& kind = kinds_[static_cast<std::size_t>(flaw)];
+    if (kind.count++ < listed_per_kind_) kind.messages.push_back(describe());
+  }
+
+  [[nodiscard]] bool empty() const { return total() == 0; }
+  [[nodiscard]] std::uint64_t total() const;
+  [[nodiscard]] std::uint64_t count(Flaw flaw) const { return kinds_[static_cast<std::size_t>(flaw)].count; }
+  /// The kept messages: each names the triangle, edge or vertex, and the actual and the expected value.
+  [[nodiscard]] const std::vector<std::string>& messages(Flaw flaw) const {
+    return kinds_[static_cast<std::size_t>(flaw)].messages;
+  }
+
+ private:
+  struct Kind {
+    std::uint64_t count = 0;
+    std::vector<std::string> messages;
+  };
+  std::array<Kind, kFlawCount> kinds_;
+  std::size_t listed_per_kind_;
+};
+
+}  // namespace driftmesh

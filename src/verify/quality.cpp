@@ -1,0 +1,232 @@
+#include "verify/quality.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "verify/extended.hpp"
+#include "verify/words.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr double kSlack = 1e-9;         // relative, for rounding
+constexpr double kSameDistance = 1e-6;  // relative: two vertices count as equally far from their apex
+constexpr long double kDegrees = 180 / std::numbers::pi_v<long double>;
+
+std::size_t index(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// One triangle in double precision: its area and the cotangents of its angles, which fall from 0 to 180 degrees.
+struct Shape {
+  double twice_area;
+  std::array<double, 3> cotangent;
+};
+
+Shape shape_of(const Point& a, const Point& b, const Point& c) {
+  const double abx = b.x - a.x, aby = b.y - a.y, bcx = c.x - b.x, bcy = c.y - b.y, cax = a.x - c.x, cay = a.y - c.y;
+  const double twice_area = abx * -cay - aby * -cax;
+  const double scale = -1 / twice_area;
+  return {twice_area,
+          {(abx * cax + aby * cay) * scale, (abx * bcx + aby * bcy) * scale, (bcx * cax + bcy * cay) * scale}};
+}
+
+/// The angle at o between the ways to a and b, in degrees, in extended precision.
+double angle_at(const Point& o, const Point& a, const Point& b) {
+  return static_cast<double>(std::atan2(std::fabs(cross_extended(o, a, b)), dot_extended(o, a, b)) * kDegrees);
+}
+
+/// Bins of one degree by cotangent.
+class DegreeBins {
+ public:
+  DegreeBins() {
+    for (std::size_t d = 1; d < 180; ++d)
+      limits_[d - 1] = static_cast<double>(1 / std::tan(static_cast<long double>(d) / kDegrees));
+  }
+  /// The whole degrees of the angle.
+  [[nodiscard]] std::size_t bin(double cotangent) const {
+    std::size_t low = 0;  // the number of limits at or above the cotangent, by halving without branches
+    for (std::size_t step : {90u, 45u, 23u, 11u, 6u, 3u, 2u, 1u})
+      low += low + step <= limits_.size() && limits_[low + step - 1] >= cotangent ? step : 0;
+    return low;
+  }
+
+ private:
+  std::array<double, 179> limits_{};
+};
+
+class QualityCheck {
+ public:
+  QualityCheck(const MeshPiece& mesh, const Chains& chains, const QualityBounds& bounds, Findings& findings)
+      : mesh_(mesh), chains_(chains), bounds_(bounds), findings_(findings) {
+    const long double theta = static_cast<long double>(bounds.min_angle) / kDegrees;
+    max_ratio_ = bounds.min_angle > 0 ? (1 + kSlack) / (2 * std::sin(theta)) : 0;
+    sure_cotangent_ =
+        bounds.min_angle > 0 ? static_cast<double>(1 / std::tan(theta)) : std::numeric_limits<double>::infinity();
+  }
+
+  Quality run() {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) take(t);
+    quality_.total_area = area_sum_.value() / 2;
+    quality_.smallest_area = mesh_.triangles.empty() ? 0 : smallest_twice_area_ / 2;
+    quality_.largest_area = mesh_.triangles.empty() ? 0 : largest_twice_area_ / 2;
+    if (quality_.smallest_angle_triangle >= 0) {
+      quality_.smallest_angle = angles_of(quality_.smallest_angle_triangle).front();
+      quality_.largest_angle = angles_of(quality_.largest_angle_triangle).back();
+    }
+    return std::move(quality_);
+  }
+
+ private:
+  [[nodiscard]] const Point& corner(std::size_t t, std::size_t k) const {
+    return mesh_.points[index(mesh_.triangles[t][k])];
+  }
+
+  /// Sorted, in degrees.
+  [[nodiscard]] std::array<double, 3> angles_of(std::int32_t triangle) const {
+    const Point &a = corner(index(triangle), 0), &b = corner(index(triangle), 1), &c = corner(index(triangle), 2);
+    std::array<double, 3> angles{angle_at(a, b, c), angle_at(b, c, a), angle_at(c, a, b)};
+    std::sort(angles.begin(), angles.end());
+    return angles;
+  }
+
+  void take(std::size_t t) {
+    const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+    area_sum_.add(cross_extended(a, b, c));
+    const Shape shape = shape_of(a, b, c);
+    take_angles(t, shape);
+    take_area(t, shape.twice_area);
+  }
+
+  void take_angles(std::size_t t, const Shape& shape) {
+    for (const double cotangent : shape.cotangent) ++quality_.angles[bins_.bin(cotangent)];
+    const auto [least, most] = std::minmax({shape.cotangent[0], shape.cotangent[1], shape.cotangent[2]});
+    if (most > largest_cotangent_) {
+      largest_cotangent_ = most;
+      quality_.smallest_angle_triangle = static_cast<std::int32_t>(t);
+    }
+    if (least < smallest_cotangent_) {
+      smallest_cotangent_ = least;
+      quality_.largest_angle_triangle = static_cast<std::int32_t>(t);
+    }
+    if (!(most <= sure_cotangent_)) check_small_angle(t);
+  }
+
+  void take_area(std::size_t t, double twice_area) {
+    smallest_twice_area_ = std::min(smallest_twice_area_, twice_area);
+    if (twice_area > largest_twice_area_) {
+      largest_twice_area_ = twice_area;
+      quality_.largest_area_triangle = static_cast<std::int32_t>(t);
+    }
+    double bound = bounds_.max_area;
+    if (bounds_.region_area)
+      if (const double own = bounds_.region_area(t); own > 0) bound = bound > 0 ? std::min(bound, own) : own;
+    if (bound > 0 && twice_area > 2 * bound) check_large_area(t, bound);
+  }
+
+  void check_large_area(std::size_t t, double bound) {
+    const long double area = cross_extended(corner(t, 0), corner(t, 1), corner(t, 2)) / 2;
+    if (area <= bound * (1 + static_cast<long double>(kSlack))) return;
+    findings_.add(Flaw::large_area, [&] {
+      return triangle_words(mesh_, t) +
+             fmt::format(" has area {:.9g}, at most {:.9g} is allowed", static_cast<double>(area), bound);
+    });
+  }
+
+  // Circumradius / shortest edge = 1 / (2 sin of the smallest angle); R = abc / (4 area).
+  void check_small_angle(std::size_t t) {
+    const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+    const std::array<long double, 3> opposite{std::sqrt(dot_extended(b, c, c)), std::sqrt(dot_extended(c, a, a)),
+                                              std::sqrt(dot_extended(a, b, b))};
+    const auto apex = static_cast<std::size_t>(std::min_element(opposite.begin(), opposite.end()) - opposite.begin());
+    const long double others = opposite[(apex + 1) % 3] * opposite[(apex + 2) % 3];
+    const long double ratio = others / (2 * cross_extended(a, b, c));
+    if (ratio <= max_ratio_ && ratio > 0) return;
+
+    const double angle = angles_of(static_cast<std::int32_t>(t)).front();
+    const std::int32_t v = mesh_.triangles[t][apex], p = mesh_.triangles[t][(apex + 1) % 3],
+                       q = mesh_.triangles[t][(apex + 2) % 3];
+    const auto describe = [&] {
+      return triangle_words(mesh_, t) + fmt::format(
+                                            " has an angle of {:.6f} degrees at {}, circumradius / shortest edge "
+                                            "{:.6f} (at most {:.6f})",
+                                            angle, point_words(mesh_, v), static_cast<double>(ratio),
+                                            static_cast<double>(max_ratio_));
+    };
+    if (is_subsegment(v, p) && is_subsegment(v, q))
+      except(ExceptionCause::input_angle, describe);
+    else if (is_seditious(p, q))
+      except(ExceptionCause::small_wedge, describe);
+    else
+      findings_.add(Flaw::small_angle, describe);
+  }
+
+  [[nodiscard]] bool is_subsegment(std::int32_t u, std::int32_t v) const {
+    return chains_.subsegments().find(u, v) != Subsegments::kNone;
+  }
+
+  // Whether p and q lie inside two chains that meet at less than 60 degrees, equally far from their common end.
+  [[nodiscard]] bool is_seditious(std::int32_t p, std::int32_t q) const {
+    const std::int32_t cp = chains_.through(p), cq = chains_.through(q);
+    if (cp == Chains::kNone || cq == Chains::kNone || cp == cq) return false;
+    const auto &first = chains_.all()[index(cp)].vertices, &second = chains_.all()[index(cq)].vertices;
+    for (const std::int32_t apex : {first.front(), first.back()}) {
+      if (apex != second.front() && apex != second.back()) continue;
+      const Point &o = mesh_.points[index(apex)], &at_p = mesh_.points[index(p)], &at_q = mesh_.points[index(q)];
+      const long double op = std::sqrt(dot_extended(o, at_p, at_p)), oq = std::sqrt(dot_extended(o, at_q, at_q));
+      const long double rounding =
+          64 * 0x1p-52L * std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(at_p.x), std::fabs(at_p.y)});
+      if (angle_at(o, at_p, at_q) < 60 && std::fabs(op - oq) <= kSameDistance * op + rounding) return true;
+    }
+    return false;
+  }
+
+  template <class Describe>
+  void except(ExceptionCause cause, const Describe& describe) {
+    Quality::Exceptions& list = quality_.exceptions[static_cast<std::size_t>(cause)];
+    if (list.count++ < bounds_.max_listed) list.messages.push_back(describe());
+  }
+
+  const MeshPiece& mesh_;
+  const Chains& chains_;
+  const QualityBounds& bounds_;
+  Findings& findings_;
+  const DegreeBins bins_;
+  Quality quality_;
+  CompensatedSum area_sum_;
+  long double max_ratio_ = 0;
+  double sure_cotangent_ = 0;
+  double largest_cotangent_ = -std::numeric_limits<double>::infinity();
+  double smallest_cotangent_ = std::numeric_limits<double>::infinity();
+  double smallest_twice_area_ = std::numeric_limits<double>::infinity();
+  double largest_twice_area_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+const char* exception_name(ExceptionCause cause) {
+  return cause == ExceptionCause::input_angle ? "small angle of the input" : "wedge between input segments";
+}
+
+std::array<std::uint64_t, 18> Quality::angles_by_ten() const {
+  std::array<std::uint64_t, 18> tens{};
+  for (std::size_t d = 0; d < angles.size(); ++d) tens[d / 10] += angles[d];
+  return tens;
+}
+
+std::uint64_t Quality::exception_count() const {
+  std::uint64_t sum = 0;
+  for (const Exceptions& list : exceptions) sum += list.count;
+  return sum;
+}
+
+Quality check_quality(const MeshPiece& mesh, const Chains& chains, const QualityBounds& bounds, Findings& findings) {
+  return QualityCheck(mesh, chains, bounds, findings).run();
+}
+
+}  // namespace driftmesh

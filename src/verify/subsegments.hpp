@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh_piece.hpp"
+
+namespace driftmesh {
+
+/// The constrained subsegments of a mesh, found by either end, and the triangles on their two sides.
+class Subsegments {
+ public:
+  static constexpr std::int32_t kNone = -1;
+
+  /// Every index of `edges` is valid.
+  Subsegments(std::size_t point_count, std::vector<MeshPiece::Edge> edges);
+
+  [[nodiscard]] std::size_t size() const { return edges_.size(); }
+  [[nodiscard]] const MeshPiece::Edge& operator[](std::int32_t s) const { return edges_[static_cast<std::size_t>(s)]; }
+  /// Numbers of the subsegments that end at `point`.
+  [[nodiscard]] std::span<const std::int32_t> at(std::int32_t point) const {
+    const auto p = static_cast<std::size_t>(point);
+    return std::span(by_end_).subspan(first_[p], first_[p + 1] - first_[p]);
+  }
+  /// The number of the subsegment between two points, or kNone. Of a duplicate, the first.
+  [[nodiscard]] std::int32_t find(std::int32_t u, std::int32_t v) const;
+  [[nodiscard]] std::int32_t other_end(std::int32_t s, std::int32_t point) const {
+    const MeshPiece::Edge& edge = (*this)[s];
+    return edge.a == point ? edge.b : edge.a;
+  }
+
+  /// The triangle on the left and on the right of the way from `from` to the other end; kNone where there is none.
+  [[nodiscard]] std::int32_t left(std::int32_t s, std::int32_t from) const {
+    return sides(s)[(*this)[s].a == from ? 0 : 1];
+  }
+  [[nodiscard]] std::int32_t right(std::int32_t s, std::int32_t from) const {
+    return sides(s)[(*this)[s].a == from ? 1 : 0];
+  }
+  void set_sides(std::int32_t s, std::int32_t from, std::int32_t left, std::int32_t right);
+  [[nodiscard]] bool is_boundary(std::int32_t s) const { return (sides(s)[0] == kNone) != (sides(s)[1] == kNone); }
+
+ private:
+  [[nodiscard]] const std::array<std::int32_t, 2>& sides(std::int32_t s) const {
+    return sides_[static_cast<std::size_t>(s)];
+  }
+
+  std::vector<MeshPiece::Edge> edges_;
+  std::vector<std::array<std::int32_t, 2>> sides_;  // the triangle on the left and on the right of a -> b
+  std::vector<std::uint32_t> first_;
+  std::vector<std::int32_t> by_end_;
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,25 @@
+#include "verify/words.hpp"
+
+#include <fmt/format.h>
+
+namespace driftmesh {
+
+std::string triangle_words(const MeshPiece& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return fmt::format("triangle {} ({} {} {})", triangle, a, b, c);
+}
+
+std::string point_words(const MeshPiece& mesh, std::int32_t point) {
+  return fmt::format("point {} at {}", point, place_words(mesh.points[static_cast<std::size_t>(point)]));
+}
+
+std::string edge_words(const MeshPiece& mesh, std::int32_t u, std::int32_t v) {
+  return fmt::format("edge {}-{} from {} to {}", u, v, place_words(mesh.points[static_cast<std::size_t>(u)]),
+                     place_words(mesh.points[static_cast<std::size_t>(v)]));
+}
+
+std::string place_words(const Point& p) {
+  return fmt::format("({}, {})", p.x, p.y);
+}
+
+}  // namespace driftmesh
