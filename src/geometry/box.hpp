@@ -1,0 +1,35 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/point.hpp"
+
+namespace driftmesh {
+
+/// A closed axis-parallel box; without points until extended.
+struct Box {
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  void extend(const Point& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  void extend(const Box& other) {
+    low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y)};
+    high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y)};
+  }
+  [[nodiscard]] bool contains(const Point& p) const {
+    return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
+  }
+  [[nodiscard]] Point center() const { return midpoint(low, high); }
+  /// 0 inside.
+  [[nodiscard]] double squared_distance(const Point& p) const {
+    const double dx = std::max({low.x - p.x, p.x - high.x, 0.0});
+    const double dy = std::max({low.y - p.y, p.y - high.y, 0.0});
+    return dx * dx + dy * dy;
+  }
+};
+
+}  // namespace driftmesh

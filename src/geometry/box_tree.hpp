@@ -1,0 +1,93 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "geometry/box.hpp"
+
+namespace driftmesh {
+
+/// Boxes packed along a Hilbert curve into a tree of eight children a node (Kamel and Faloutsos, "On packing R-trees",
+/// CIKM 1993). Queries keep no state: answers depend on the query alone, and may be asked from several threads.
+class BoxTree {
+ public:
+  BoxTree() = default;
+  /// At most 2^31 - 1 boxes; they are copied, and named by their index in answers.
+  explicit BoxTree(const std::vector<Box>& boxes);
+
+  /// Calls visit(index) for every box that contains p, in an order that depends on the tree alone.
+  template <class Visit>
+  void visit_containing(const Point& p, Visit&& visit) const {
+    if (!levels_.empty()) visit_below(levels_.size() - 1, 0, levels_.back().size(), p, visit);
+  }
+
+  /// The item with the least squared_distance(index), the lowest index among equals; -1 for an empty tree. The function
+  /// gives an item's squared distance to p, at least that of its box.
+  template <class SquaredDistance>
+  [[nodiscard]] std::int32_t nearest(const Point& p, SquaredDistance&& squared_distance) const {
+    Nearest best;
+    if (!levels_.empty()) improve_below(levels_.size() - 1, 0, levels_.back().size(), p, squared_distance, best);
+    return best.item;
+  }
+
+ private:
+  static constexpr std::size_t kChildren = 8;
+  struct Nearest {
+    double squared_distance = std::numeric_limits<double>::infinity();
+    std::int32_t item = -1;
+  };
+
+  template <class Visit>
+  void visit_below(std::size_t level, std::size_t begin, std::size_t end, const Point& p, Visit& visit) const {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!levels_[level][i].contains(p)) continue;
+      if (level == 0)
+        visit(items_[i]);
+      else
+        visit_below(level - 1, kChildren * i, children_end(level, i), p, visit);
+    }
+  }
+
+  template <class SquaredDistance>
+  void improve_below(std::size_t level, std::size_t begin, std::size_t end, const Point& p, SquaredDistance& distance,
+                     Nearest& best) const {
+    struct Child {
+      double squared_distance;
+      std::size_t index;
+    };
+    std::array<Child, kChildren> children;
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) {  // nearest first
+      const double distance_to_box = levels_[level][i].squared_distance(p);
+      std::size_t k = count++;
+      for (; k > 0 && children[k - 1].squared_distance > distance_to_box; --k) children[k] = children[k - 1];
+      children[k] = {distance_to_box, i};
+    }
+    for (std::size_t k = 0; k < count && children[k].squared_distance <= best.squared_distance; ++k) {
+      const std::size_t i = children[k].index;
+      if (level == 0)
+        improve(items_[i], distance(items_[i]), best);
+      else
+        improve_below(level - 1, kChildren * i, children_end(level, i), p, distance, best);
+    }
+  }
+
+  static void improve(std::int32_t item, double squared_distance, Nearest& best) {
+    if (squared_distance < best.squared_distance ||
+        (squared_distance == best.squared_distance && (best.item < 0 || item < best.item)))
+      best = {squared_distance, item};
+  }
+  [[nodiscard]] std::size_t children_end(std::size_t level, std::size_t i) const {
+    return std::min(kChildren * (i + 1), levels_[level - 1].size());
+  }
+
+  std::vector<std::int32_t> items_;  // in the order of the curve
+  std::vector<std::vector<Box>>
+      levels_;  // level 0: boxes of items_; box i of a level holds boxes 8i... of the one below
+};
+
+}  // namespace driftmesh
