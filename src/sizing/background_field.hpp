@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "sizing/background_mesh.hpp"
+#include "sizing/size_field.hpp"
+
+namespace driftmesh {
+
+/// A length at each point of a background mesh, linear on each triangle; outside the mesh the value at the nearest
+/// point of its boundary.
+class VertexSizeField final : public SizeField {
+ public:
+  /// One length for each point of the mesh: > 0, or +infinity for no bound, which spreads to every place whose triangle
+  /// has such a corner. Throws Error otherwise. To limit their growth see limit_gradation.
+  VertexSizeField(BackgroundMesh mesh, std::vector<double> lengths);
+  [[nodiscard]] double edge_length(const Point& p) const override;
+
+ private:
+  BackgroundMesh mesh_;
+  std::vector<double> lengths_;
+};
+
+/// An area bound for each triangle of a background mesh, as the .area files of Triangle hold it; the target edge length
+/// is the side of the equilateral triangle of that area. On an edge or corner between triangles the largest of their
+/// bounds holds, so that a fine triangle of the background does not reach into its neighbours; outside the mesh the
+/// bound at the nearest point of its boundary.
+class TriangleAreaField final : public SizeField {
+ public:
+  /// One bound for each triangle; <= 0 for none. Throws Error when there are more or fewer, or one is not a number.
+  TriangleAreaField(BackgroundMesh mesh, const std::vector<double>& area_bounds);
+  [[nodiscard]] double edge_length(const Point& p) const override;
+
+ private:
+  BackgroundMesh mesh_;
+  std::vector<double> lengths_;  // of each triangle
+};
+
+/// The side of the equilateral triangle of the given area; +infinity for an area <= 0, which stands for no bound.
+[[nodiscard]] double edge_length_of_area(double area);
+
+/// For each point the shortest of the lengths of the triangles around it; +infinity where there is none.
+[[nodiscard]] std::vector<double> shortest_at_points(const BackgroundMesh& mesh,
+                                                     const std::vector<double>& lengths_of_triangles);
+
+}  // namespace driftmesh

@@ -1,0 +1,138 @@
+#include "sizing/background_mesh.hpp"
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "base/error.hpp"
+#include "geometry/predicates.hpp"
+#include "geometry/triangle_geometry.hpp"
+
+namespace driftmesh {
+namespace {
+
+void require_corners(const std::vector<BackgroundMesh::Triangle>& triangles, std::size_t point_count) {
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const std::int32_t corner : triangles[t])
+      if (corner < 0 || static_cast<std::size_t>(corner) >= point_count)
+        throw Error("background mesh: triangle " + std::to_string(t) + " (counted from 0) has the corner " +
+                    std::to_string(corner) + ", but there are " + std::to_string(point_count) + " points");
+}
+
+/// How far along the segment ab, 0 to 1, its point nearest to p lies.
+double nearest_on_segment(const Point& p, const Point& a, const Point& b) {
+  const double ex = b.x - a.x, ey = b.y - a.y;
+  const double t = ((p.x - a.x) * ex + (p.y - a.y) * ey) / (ex * ex + ey * ey);
+  return std::clamp(t, 0.0, 1.0);
+}
+
+double squared_distance_to_segment(const Point& p, const Point& a, const Point& b) {
+  const double t = nearest_on_segment(p, a, b);
+  return squared_distance(p, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
+}
+
+}  // namespace
+
+BackgroundMesh::BackgroundMesh(std::vector<Point> points, std::vector<Triangle> triangles)
+    : points_(std::move(points)), triangles_(std::move(triangles)) {
+  require_corners(triangles_, points_.size());
+  std::vector<Box> boxes(triangles_.size());
+  std::vector<bool> has_area(triangles_.size());
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto index = static_cast<std::int32_t>(t);
+    const double turn = orient2d(corner(index, 0), corner(index, 1), corner(index, 2));
+    if (turn < 0) std::swap(triangles_[t][1], triangles_[t][2]);
+    has_area[t] = turn != 0;
+    for (std::size_t i = 0; i < 3; ++i) boxes[t].extend(corner(index, i));
+  }
+  if (std::find(has_area.begin(), has_area.end(), true) == has_area.end())
+    throw Error("background mesh: no triangle has an area");
+  triangle_tree_ = BoxTree(boxes);
+  find_boundary(has_area);
+}
+
+/// An edge is on the boundary when no triangle has it in the other direction.
+void BackgroundMesh::find_boundary(const std::vector<bool>& has_area) {
+  struct Edge {
+    std::int32_t low, high;
+    bool rising;
+    BoundaryEdge place;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * triangles_.size());
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (!has_area[t]) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = triangles_[t][i], b = triangles_[t][(i + 1) % 3];
+      edges.push_back(
+          {std::min(a, b), std::max(a, b), a < b, {static_cast<std::int32_t>(t), static_cast<std::int32_t>(i)}});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) {
+    return std::tie(e.low, e.high, e.rising, e.place.triangle) < std::tie(f.low, f.high, f.rising, f.place.triangle);
+  });
+  std::vector<Box> boxes;
+  for (std::size_t i = 0, last = 0; i < edges.size(); i = last + 1) {
+    last = i;
+    while (last + 1 < edges.size() && edges[last + 1].low == edges[i].low && edges[last + 1].high == edges[i].high)
+      ++last;
+    if (edges[i].rising != edges[last].rising) continue;
+    boundary_.push_back(edges[i].place);
+    boxes.emplace_back();
+    for (const std::int32_t end : {edges[i].low, edges[i].high})
+      boxes.back().extend(points_[static_cast<std::size_t>(end)]);
+  }
+  boundary_tree_ = BoxTree(boxes);
+}
+
+template <class Visit>
+void BackgroundMesh::visit_triangles_with(const Point& p, Visit&& visit) const {
+  triangle_tree_.visit_containing(p, [&](std::int32_t t) {
+    const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+    const std::array<double, 3> opposite{orient2d(b, c, p), orient2d(c, a, p), orient2d(a, b, p)};
+    // The signs are exact. All of them are 0 on the line of a triangle without area.
+    const bool inside = opposite[0] >= 0 && opposite[1] >= 0 && opposite[2] >= 0;
+    if (inside && opposite[0] + opposite[1] + opposite[2] > 0) visit(t, opposite);
+  });
+}
+
+BackgroundMesh::Place BackgroundMesh::locate(const Point& p) const {
+  Place place{-1, {}};
+  visit_triangles_with(p, [&](std::int32_t t, const std::array<double, 3>& opposite) {
+    if (place.triangle < 0 || t < place.triangle) place = {t, opposite};
+  });
+  if (place.triangle < 0) return nearest_on_boundary(p);
+  const double total = place.weight[0] + place.weight[1] + place.weight[2];
+  for (double& w : place.weight) w /= total;
+  return place;
+}
+
+std::vector<std::int32_t> BackgroundMesh::triangles_at(const Point& p) const {
+  std::vector<std::int32_t> found;
+  visit_triangles_with(p, [&](std::int32_t t, const auto&) { found.push_back(t); });
+  if (found.empty()) found.push_back(nearest_on_boundary(p).triangle);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+BackgroundMesh::Place BackgroundMesh::nearest_on_boundary(const Point& p) const {
+  const auto ends = [&](std::int32_t edge) {
+    const auto [triangle, first] = boundary_[static_cast<std::size_t>(edge)];
+    const auto from = static_cast<std::size_t>(first);
+    return std::pair(corner(triangle, from), corner(triangle, (from + 1) % 3));
+  };
+  const std::int32_t edge = boundary_tree_.nearest(p, [&](std::int32_t candidate) {
+    const auto [a, b] = ends(candidate);
+    return squared_distance_to_segment(p, a, b);
+  });
+  const auto [a, b] = ends(edge);
+  const double t = nearest_on_segment(p, a, b);
+  const auto [triangle, first] = boundary_[static_cast<std::size_t>(edge)];
+  Place place{triangle, {}};
+  place.weight[static_cast<std::size_t>(first)] = 1 - t;
+  place.weight[static_cast<std::size_t>((first + 1) % 3)] = t;
+  return place;
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/box_tree.hpp"
+#include "geometry/point.hpp"
+
+namespace driftmesh {
+
+/// Triangles that carry a size field, made for asking which of them holds a point. Any set of triangles will do: with
+/// holes, in several pieces, of either orientation. Those of no area are left out of answers.
+class BackgroundMesh {
+ public:
+  using Triangle = std::array<std::int32_t, 3>;
+
+  /// A point as a convex combination of the corners of a triangle. Weights are >= 0 and sum up to 1.
+  struct Place {
+    std::int32_t triangle;
+    std::array<double, 3> weight;
+  };
+
+  /// Corners are indices into `points`, whose coordinates are in the range of the predicates. Throws Error when a
+  /// corner does not exist or no triangle has an area.
+  BackgroundMesh(std::vector<Point> points, std::vector<Triangle> triangles);
+
+  [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+
+  /// The place of `p` in the triangle that contains it: in the one of lowest index on a shared edge or corner. For a
+  /// point outside the mesh, the place of the nearest point of its boundary. Depends on `p` alone.
+  [[nodiscard]] Place locate(const Point& p) const;
+
+  /// All triangles that contain `p`, rising: several on a shared edge or corner. For a point outside, the triangle at
+  /// the nearest point of the boundary.
+  [[nodiscard]] std::vector<std::int32_t> triangles_at(const Point& p) const;
+
+ private:
+  struct BoundaryEdge {
+    std::int32_t triangle;
+    std::int32_t corner;  // the edge runs from this corner of the triangle to the next
+  };
+
+  [[nodiscard]] const Point& corner(std::int32_t triangle, std::size_t i) const {
+    return points_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)][i])];
+  }
+  template <class Visit>
+  void visit_triangles_with(const Point& p, Visit&& visit) const;
+  void find_boundary(const std::vector<bool>& has_area);
+  [[nodiscard]] Place nearest_on_boundary(const Point& p) const;
+
+  std::vector<Point> points_;
+  std::vector<Triangle> triangles_;  // counterclockwise
+  BoxTree triangle_tree_;
+  std::vector<BoundaryEdge> boundary_;
+  BoxTree boundary_tree_;
+};
+
+}  // namespace driftmesh

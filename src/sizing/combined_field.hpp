@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "sizing/size_field.hpp"
+
+namespace driftmesh {
+
+/// The same length everywhere.
+class UniformField final : public SizeField {
+ public:
+  /// > 0 or +infinity.
+  explicit UniformField(double length) : length_(length) {}
+  [[nodiscard]] double edge_length(const Point&) const override { return length_; }
+
+ private:
+  double length_;
+};
+
+/// The smallest of several fields, but never less than `shortest`. +infinity without fields.
+class SmallestField final : public SizeField {
+ public:
+  explicit SmallestField(std::vector<std::unique_ptr<SizeField>> fields, double shortest = 0)
+      : fields_(std::move(fields)), shortest_(shortest) {}
+  [[nodiscard]] double edge_length(const Point& p) const override {
+    double length = std::numeric_limits<double>::infinity();
+    for (const auto& field : fields_) length = std::min(length, field->edge_length(p));
+    return std::max(length, shortest_);
+  }
+
+ private:
+  std::vector<std::unique_ptr<SizeField>> fields_;
+  double shortest_;
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,104 @@
+#include "sizing/expression_field.hpp"
+
+#include <muParser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <regex>
+
+#include "base/error.hpp"
+
+namespace driftmesh {
+
+struct ExpressionField::Parser {
+  std::string text;
+  mu::Parser expression;
+  double x = 0;
+  double y = 0;
+
+  double value_at(const Point& p) {
+    x = p.x;
+    y = p.y;
+    return expression.Eval();
+  }
+};
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  return '"' + text + '"';
+}
+
+[[noreturn]] void fail(const std::string& expression, const std::string& what, const std::string& next) {
+  throw InputError({"size expression " + quoted(expression)}, what, next);
+}
+
+/// muParser counts positions from 0 and, at the end, past the end; they are columns from 1 here.
+[[noreturn]] void fail(const mu::ParserError& error, const std::string& expression) {
+  static const std::regex position("( found)? at (expression )?position [0-9]+|[.! ]+$");
+  std::string what = std::regex_replace(error.GetMsg(), position, "");
+  if (error.GetPos() >= 0)
+    what = "column " + std::to_string(std::min(static_cast<std::size_t>(error.GetPos()), expression.size()) + 1) +
+           ": " + what;
+  fail(expression, what, "it may use x, y, pi, e, numbers, + - * / ^ and functions such as sqrt, min, exp");
+}
+
+std::string printed(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+/// muParser would take "x = 1" as an assignment and go on with another x.
+void refuse_assignment(const std::string& expression) {
+  for (std::size_t i = 0; i < expression.size(); ++i) {
+    if (expression[i] != '=') continue;
+    const bool comparison = i + 1 < expression.size() && expression[i + 1] == '=';
+    const bool ends_comparison = i > 0 && std::string("<>!").find(expression[i - 1]) != std::string::npos;
+    if (!comparison && !ends_comparison)
+      fail(expression, "column " + std::to_string(i + 1) + ": a single \"=\"",
+           "give the value alone, and compare with \"==\"");
+    i += comparison ? 1 : 0;
+  }
+}
+
+}  // namespace
+
+ExpressionField::ExpressionField(const std::string& expression, double shortest)
+    : parser_(std::make_unique<Parser>()), shortest_(shortest) {
+  refuse_assignment(expression);
+  parser_->text = expression;
+  mu::Parser& parser = parser_->expression;
+  try {
+    parser.DefineVar("x", &parser_->x);
+    parser.DefineVar("y", &parser_->y);
+    parser.DefineConst("pi", std::numbers::pi);
+    parser.DefineConst("e", std::numbers::e);
+    parser.DefineFun("hypot", static_cast<double (*)(double, double)>(std::hypot));
+    parser.SetExpr(expression);
+    int values = 0;
+    parser.Eval(values);
+    if (values != 1) fail(expression, "has " + std::to_string(values) + " values", "a length is one value");
+  } catch (const mu::ParserError& error) {
+    fail(error, expression);
+  }
+}
+
+ExpressionField::~ExpressionField() = default;
+
+double ExpressionField::edge_length(const Point& p) const {
+  double value = 0;
+  try {
+    value = parser_->value_at(p);
+  } catch (const mu::ParserError& error) {
+    fail(error, parser_->text);
+  }
+  const double length = std::max(value, shortest_);  // NaN stays NaN
+  if (length > 0) return length;
+  fail(parser_->text, "is " + printed(value) + " at x = " + printed(p.x) + ", y = " + printed(p.y),
+       "it must be positive everywhere in the domain: use max(..., smallest length), or set a shortest edge");
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sizing/size_field.hpp"
+
+namespace driftmesh {
+
+/// The target edge length as an expression in x and y, for example "0.01 + 0.2*sqrt(x^2 + y^2)". The operators,
+/// functions and conditionals of muParser, with pi, e and hypot(a, b) besides.
+class ExpressionField final : public SizeField {
+ public:
+  /// Values below `shortest` count as `shortest`. Throws InputError that names the column and the token where the
+  /// expression is wrong.
+  explicit ExpressionField(const std::string& expression, double shortest = 0);
+  ~ExpressionField() override;
+
+  /// Throws InputError that names `p` when the value there is not a number, or not positive.
+  [[nodiscard]] double edge_length(const Point& p) const override;
+
+ private:
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+  double shortest_;
+};
+
+}  // namespace driftmesh

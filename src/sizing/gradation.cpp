@@ -1,0 +1,59 @@
+#include "sizing/gradation.hpp"
+
+#include <cmath>
+#include <functional>
+#include <queue>
+#include <utility>
+
+#include "geometry/triangle_geometry.hpp"
+
+namespace driftmesh {
+namespace {
+
+/// The points that each point shares an edge with, in one array: those of point i from begin[i] to begin[i + 1]. Most
+/// appear twice, once for each triangle at the edge.
+struct Neighbours {
+  std::vector<std::size_t> begin;
+  std::vector<std::int32_t> points;
+};
+
+Neighbours neighbours_along_edges(std::size_t point_count, const std::vector<std::array<std::int32_t, 3>>& triangles) {
+  Neighbours result;
+  result.begin.assign(point_count + 1, 0);
+  for (const auto& triangle : triangles)
+    for (const std::int32_t corner : triangle) result.begin[static_cast<std::size_t>(corner) + 1] += 2;
+  for (std::size_t i = 0; i < point_count; ++i) result.begin[i + 1] += result.begin[i];
+  result.points.resize(result.begin.back());
+  std::vector<std::size_t> next(result.begin.begin(), result.begin.end() - 1);
+  for (const auto& triangle : triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const std::size_t other : {(i + 1) % 3, (i + 2) % 3})
+        result.points[next[static_cast<std::size_t>(triangle[i])]++] = triangle[other];
+  return result;
+}
+
+}  // namespace
+
+void limit_gradation(const std::vector<Point>& points, const std::vector<std::array<std::int32_t, 3>>& triangles,
+                     double gradation, std::vector<double>& lengths) {
+  const Neighbours neighbours = neighbours_along_edges(points.size(), triangles);
+  // Dijkstra from all points at once: the shortest length is final and limits those around it.
+  using Entry = std::pair<double, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (std::isfinite(lengths[i])) queue.emplace(lengths[i], i);
+  while (!queue.empty()) {
+    const auto [length, i] = queue.top();
+    queue.pop();
+    if (length > lengths[i]) continue;
+    for (std::size_t k = neighbours.begin[i]; k < neighbours.begin[i + 1]; ++k) {
+      const auto j = static_cast<std::size_t>(neighbours.points[k]);
+      const double limit = length + gradation * std::sqrt(squared_distance(points[i], points[j]));
+      if (limit >= lengths[j]) continue;
+      lengths[j] = limit;
+      queue.emplace(limit, j);
+    }
+  }
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,106 @@
+#include "sizing/make_size_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "pslg/triangle_files.hpp"
+#include "sizing/background_field.hpp"
+#include "sizing/combined_field.hpp"
+#include "sizing/expression_field.hpp"
+#include "sizing/gradation.hpp"
+
+namespace driftmesh {
+namespace {
+
+bool has_ending(const std::string& path, std::string_view ending) {
+  return path.size() > ending.size() && path.ends_with(ending);
+}
+
+std::string stem_of(const std::string& path) {
+  for (const std::string_view ending : {".node", ".ele", ".area"})
+    if (has_ending(path, ending)) return path.substr(0, path.size() - ending.size());
+  return path;
+}
+
+BackgroundMesh background_mesh(const NodeTable& nodes, EleTable elements, const std::string& file) {
+  try {
+    return {nodes.points, std::move(elements.triangles)};
+  } catch (const Error& error) {
+    throw InputError({file}, error.what(), "give a mesh of triangles");
+  }
+}
+
+/// The first attribute of each point.
+std::vector<double> lengths_at_points(const NodeTable& nodes, const std::string& file) {
+  const auto stride = static_cast<std::size_t>(nodes.attributes_per_point);
+  if (stride == 0)
+    throw InputError({file}, "its points have no attribute, which would be the target edge length",
+                     "add one, or give the .area file with the area bounds of the triangles");
+  std::vector<double> lengths(nodes.points.size());
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    lengths[i] = nodes.attributes[i * stride];
+    if (!(lengths[i] > 0))
+      throw InputError({file},
+                       "the target edge length at point " +
+                           std::to_string(i + static_cast<std::size_t>(nodes.first_number)) + " is " +
+                           std::to_string(lengths[i]),
+                       "make the first attribute of every point a positive length");
+  }
+  return lengths;
+}
+
+std::unique_ptr<SizeField> graded_field(BackgroundMesh mesh, std::vector<double> lengths,
+                                        std::optional<double> gradation) {
+  if (gradation) limit_gradation(mesh.points(), mesh.triangles(), *gradation, lengths);
+  return std::make_unique<VertexSizeField>(std::move(mesh), std::move(lengths));
+}
+
+std::unique_ptr<SizeField> area_field(BackgroundMesh mesh, const std::vector<double>& areas,
+                                      std::optional<double> gradation) {
+  if (!gradation) return std::make_unique<TriangleAreaField>(std::move(mesh), areas);
+  std::vector<double> lengths(areas.size());
+  std::transform(areas.begin(), areas.end(), lengths.begin(), edge_length_of_area);
+  std::vector<double> at_points = shortest_at_points(mesh, lengths);
+  return graded_field(std::move(mesh), std::move(at_points), gradation);
+}
+
+void require_sound(const SizingOptions& options) {
+  if (!(options.longest > 0))
+    throw InputError({"longest edge length"}, std::to_string(options.longest), "it must be positive");
+  if (!(options.shortest >= 0) || options.shortest > options.longest)
+    throw InputError({"shortest edge length"}, std::to_string(options.shortest),
+                     "it must lie between 0 and the longest edge length");
+}
+
+}  // namespace
+
+std::unique_ptr<SizeField> read_background_field(const std::string& path, std::optional<double> gradation) {
+  if (gradation && !(*gradation > 0 && std::isfinite(*gradation)))
+    throw InputError({"gradation"}, std::to_string(*gradation), "it must be positive; 0.2 to 0.3 grade well");
+  const std::string stem = stem_of(path);
+  const NodeTable nodes = read_node(stem + ".node");
+  EleTable elements = read_ele(stem + ".ele", nodes);
+  const std::size_t triangle_count = elements.triangles.size();
+  BackgroundMesh mesh = background_mesh(nodes, std::move(elements), stem + ".ele");
+  if (has_ending(path, ".area"))
+    return area_field(std::move(mesh), read_area(stem + ".area", triangle_count), gradation);
+  return graded_field(std::move(mesh), lengths_at_points(nodes, stem + ".node"), gradation);
+}
+
+std::unique_ptr<SizeField> make_size_field(const SizingOptions& options) {
+  require_sound(options);
+  std::vector<std::unique_ptr<SizeField>> fields;
+  if (!options.expression.empty())
+    fields.push_back(std::make_unique<ExpressionField>(options.expression, options.shortest));
+  if (!options.background.empty()) fields.push_back(read_background_field(options.background, options.gradation));
+  if (std::isfinite(options.longest)) fields.push_back(std::make_unique<UniformField>(options.longest));
+  if (fields.empty()) return nullptr;
+  if (fields.size() == 1 && options.shortest == 0) return std::move(fields.front());
+  return std::make_unique<SmallestField>(std::move(fields), options.shortest);
+}
+
+}  // namespace driftmesh

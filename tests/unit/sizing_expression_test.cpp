@@ -1,0 +1,93 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "sizing/combined_field.hpp"
+#include "sizing/expression_field.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+template <class Action>
+std::string message_of(Action action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string construction_error(const std::string& expression) {
+  return message_of([&] { ExpressionField field(expression); });
+}
+
+bool mentions(const std::string& message, const std::string& part) {
+  return message.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("an expression in x and y gives the edge length") {
+  CHECK(ExpressionField("0.5").edge_length({3, 4}) == 0.5);
+  CHECK(ExpressionField("0.1 + 0.2*sqrt(x^2 + y^2)").edge_length({3, 4}) == doctest::Approx(1.1));
+  CHECK(ExpressionField("hypot(x, y)").edge_length({3, 4}) == 5);
+  CHECK(ExpressionField("pi*e").edge_length({0, 0}) == doctest::Approx(std::numbers::pi * std::numbers::e));
+  CHECK(ExpressionField("x < 2 ? 1 : 3").edge_length({1, 0}) == 1);
+  CHECK(ExpressionField("x < 2 ? 1 : 3").edge_length({2, 0}) == 3);
+  CHECK(ExpressionField("x == 2 || x >= 7 ? 1 : 3").edge_length({2, 0}) == 1);
+  CHECK(ExpressionField("max(min(x, y), 0.01)").edge_length({-4, 0}) == 0.01);
+}
+
+TEST_CASE("values do not depend on the questions before") {
+  const ExpressionField field("1 + x*x + y");
+  const double first = field.edge_length({0.1, 0.2});
+  (void)field.edge_length({7, 8});
+  CHECK(field.edge_length({0.1, 0.2}) == first);
+}
+
+TEST_CASE("errors in an expression name the column and the token") {
+  CHECK(mentions(construction_error("0.1 + z"), "size expression \"0.1 + z\": column 7: Unexpected token \"z\";"));
+  CHECK(mentions(construction_error("2*foo(x)"), "\"foo"));
+  CHECK(mentions(construction_error("sqrt(x"), "parenthesis"));
+  CHECK(mentions(construction_error("x +"), "column 4: Unexpected end of expression;"));
+  CHECK(mentions(construction_error("x = 2"), "column 3: a single \"=\""));
+  CHECK(mentions(construction_error("1, 2"), "2 values"));
+  for (const char* wrong : {"", "   ", "x y", ")", "1 2", "min()", "sqrt(1, 2)", "\"a\"", "x += 1", "0x", "\xc3\xa9"})
+    CHECK_MESSAGE(!construction_error(wrong).empty(), wrong);
+}
+
+TEST_CASE("a value that is no length names the point") {
+  const ExpressionField field("1 - x");
+  const std::string message = message_of([&] { (void)field.edge_length({1.5, 0.25}); });
+  CHECK(mentions(message, "-0.5 at x = 1.5, y = 0.25"));
+  CHECK(!message_of([&] { (void)field.edge_length({1, 0}); }).empty());
+  CHECK(!message_of([] { (void)ExpressionField("sqrt(x)").edge_length({-1, 0}); }).empty());
+  CHECK(!message_of([] { (void)ExpressionField("0/x").edge_length({0, 0}); }).empty());
+  CHECK(ExpressionField("1/x^2").edge_length({0, 0}) == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("a shortest length replaces values that are too small, but not what is no number") {
+  const ExpressionField field("x", 0.125);
+  CHECK(field.edge_length({-3, 0}) == 0.125);
+  CHECK(field.edge_length({0.5, 0}) == 0.5);
+  CHECK_THROWS_AS((void)ExpressionField("sqrt(x)", 0.125).edge_length({-1, 0}), InputError);
+}
+
+TEST_CASE("the smallest of several fields wins, above the shortest length") {
+  std::vector<std::unique_ptr<SizeField>> fields;
+  fields.push_back(std::make_unique<ExpressionField>("x"));
+  fields.push_back(std::make_unique<UniformField>(2.0));
+  const SmallestField field(std::move(fields), 0.5);
+  CHECK(field.edge_length({1, 0}) == 1);
+  CHECK(field.edge_length({3, 0}) == 2);
+  CHECK(field.edge_length({0.1, 0}) == 0.5);
+  CHECK(SmallestField({}).edge_length({0, 0}) == std::numeric_limits<double>::infinity());
+}
