@@ -35,6 +35,14 @@ class ByteCursor {
     return taken;
   }
 
+  [[nodiscard]] static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+  void skip_blanks() {
+    std::size_t blanks = 0;
+    while (blanks < bytes_.size() && is_blank(bytes_[blanks])) ++blanks;
+    bytes_.remove_prefix(blanks);
+  }
+
   /// The rest of the current line, without its end.
   std::string_view take_line() {
     const std::size_t end = bytes_.find('\n');

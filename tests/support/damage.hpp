@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -18,7 +19,8 @@ inline std::string file_bytes(const std::string& path) {
 }
 
 inline void replace_file(const std::string& path, const std::string& bytes) {
-  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+  std::filesystem::remove(path);  // some file systems write a truncated file out at once, which takes long
+  std::ofstream stream(path, std::ios::binary);
   stream << bytes;
 }
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace driftmesh {
+
+/// The name of the one surface group of a mesh without regions.
+inline constexpr std::string_view kDomainName = "domain";
+
+// The names of physical groups hold the exact value: a tag cannot, being a positive integer.
+[[nodiscard]] std::string marker_group_name(std::int32_t marker);
+[[nodiscard]] std::string region_group_name(double region);
+[[nodiscard]] std::optional<std::int32_t> marker_of_group_name(std::string_view name);
+[[nodiscard]] std::optional<double> region_of_group_name(std::string_view name);
+
+/// Tags for groups of the given distinct values: the value itself where that is an integer from 1 to the largest
+/// int32, otherwise the smallest tags that are left.
+[[nodiscard]] std::vector<std::int32_t> group_tags(const std::vector<double>& values);
+
+}  // namespace driftmesh

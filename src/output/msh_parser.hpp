@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "geometry/point.hpp"
+
+namespace driftmesh {
+
+/// What the sections of a .msh file hold, before tags become indices.
+struct RawMsh {
+  using EntityKey = std::pair<std::int32_t, std::int32_t>;  ///< dimension and tag
+  template <std::size_t kCorners>
+  struct Elements {
+    std::vector<std::uint64_t> tags;
+    std::vector<std::array<std::uint64_t, kCorners>> nodes;
+    std::vector<std::int32_t> entities;
+  };
+  struct Attribute {
+    std::vector<std::int32_t> nodes;
+    std::vector<double> values;
+  };
+  struct Marker {
+    std::uint64_t node = 0;
+    std::int32_t marker = 0;
+  };
+
+  std::map<EntityKey, std::string> group_names;    ///< of physical groups
+  std::map<EntityKey, std::int32_t> entity_group;  ///< the first physical group of an entity
+  std::vector<std::uint64_t> node_tags;
+  std::vector<Point> nodes;
+  Elements<2> lines;
+  Elements<3> triangles;
+  std::vector<Attribute> attributes;
+  std::optional<std::vector<Marker>> point_markers;
+};
+
+/// Reads the sections of a file of format 4.1, ASCII or binary. Tags may name what does not exist. Errors: InputError.
+[[nodiscard]] RawMsh parse_msh(const std::string& path, std::string_view bytes);
+
+}  // namespace driftmesh

@@ -1,0 +1,201 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/error.hpp"
+#include "output/mesh_file.hpp"
+#include "support/damage.hpp"
+#include "support/mesh_equality.hpp"
+#include "support/random_mesh.hpp"
+#include "temporary_folder.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::test;
+
+namespace {
+
+// Two triangles of a square as Gmsh writes them in ASCII: a surface in a named group, two curves in groups, two not;
+// tags with gaps; a point element; parametric nodes on a curve.
+const char* const kGmshText = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 7 "inlet"
+2 3 "fluid"
+$EndPhysicalNames
+$Entities
+1 3 1 0
+1 0 0 0 0
+1 0 0 0 1 0 0 1 7 2 1 -1
+2 1 0 0 1 1 0 1 9 0
+3 0 0 0 1 1 0 0 0
+1 0 0 0 1 1 0 1 3 3 1 2 3
+$EndEntities
+$Nodes
+3 4 1 12
+0 1 0 1
+1
+0 0 0
+1 1 1 1
+5
+1 0 0 0.5
+2 1 0 2
+10
+12
+1 1 0
+0 1 0
+$EndNodes
+$Elements
+5 6 1 20
+0 1 15 1
+1 1
+1 1 1 1
+2 1 5
+1 2 1 1
+3 5 10
+1 3 1 1
+4 10 12
+2 1 2 2
+19 1 5 10
+20 1 10 12
+$EndElements
+)";
+
+MeshPiece mesh_of_gmsh_text() {
+  MeshPiece mesh;
+  mesh.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.edges = {{0, 1, 7}, {1, 2, 9}, {2, 3, 0}};
+  mesh.regions = {3, 3};
+  return mesh;
+}
+
+std::string message_of(const std::string& path, const std::string& bytes) {
+  replace_file(path, bytes);
+  try {
+    (void)read_mesh(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("a .msh reads back as the mesh that was written") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+    CAPTURE(seed);
+    const RandomMeshParts parts{seed % 2 == 0, seed % 3 == 0, seed % 5 != 0, static_cast<std::int32_t>(seed % 4)};
+    const RandomMesh random(seed, 1 + static_cast<std::int32_t>(seed % 9), 1 + static_cast<std::int32_t>(seed % 7),
+                            parts, seed % 2 == 0 ? 1e-3 : 1e6);
+    write_mesh(random.mesh(), path);
+    check_same_mesh(read_mesh(path), random.mesh());
+  }
+}
+
+TEST_CASE("an empty mesh and points alone survive in .msh") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  MeshPiece mesh;
+  write_mesh(mesh, path);
+  check_same_mesh(read_mesh(path), mesh);
+  mesh.points = {{1, 2}, {3, 4}};
+  write_mesh(mesh, path);
+  check_same_mesh(read_mesh(path), mesh);
+}
+
+TEST_CASE("regions that are no positive integers keep their exact value in .msh") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  MeshPiece mesh;
+  const std::vector<double> regions = {0, -0.0, 1, 2, 0.1, 1e300, -7, 2147483647, 2147483648.0, 5e-324};
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const auto first = static_cast<std::int32_t>(mesh.points.size());
+    for (const Point p : {Point{0, 0}, Point{1, 0}, Point{0, 1}}) mesh.points.push_back({p.x + 2.0 * double(i), p.y});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  mesh.regions = regions;
+  write_mesh(mesh, path);
+  const MeshPiece read = read_mesh(path);
+  check_same_mesh(read, mesh);
+  CHECK(std::signbit(read.regions[1]));
+}
+
+TEST_CASE("an ASCII .msh of Gmsh gives markers and regions by the tags of its groups") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  replace_file(path, kGmshText);
+  check_same_mesh(read_mesh(path), mesh_of_gmsh_text());
+  replace_file(path, std::string("$Comments\nmade by hand\n$EndComments\n") + kGmshText +
+                         "$Periodic\n1\n0 1 2\n0\n$EndPeriodic\n");
+  CHECK_THROWS_AS((void)read_mesh(path), InputError);  // $MeshFormat has to come first
+  replace_file(path, std::string(kGmshText) + "$Periodic\n1\n0 1 2\n0\n$EndPeriodic\n");
+  check_same_mesh(read_mesh(path), mesh_of_gmsh_text());
+}
+
+TEST_CASE("a clockwise mesh is turned over as a whole; one inverted triangle stays for a check to find") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  const std::string one = replaced(kGmshText, "20 1 10 12", "20 1 12 10");
+  replace_file(path, replaced(one, "10\n12\n1 1 0\n0 1 0", "10\n12\n1 1 0\n0 0.5 0"));
+  CHECK(read_mesh(path).triangles[1] == std::array{0, 3, 2});
+  replace_file(path, replaced(one, "19 1 5 10", "19 1 10 5"));
+  CHECK(read_mesh(path).triangles == std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
+}
+
+TEST_CASE("a .msh that cannot be read is refused with what to do") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  const auto refused = [&](const char* from, const char* to) {
+    return message_of(path, replaced(kGmshText, from, to));
+  };
+  CHECK(refused("4.1 0 8", "2.2 0 8").find("version 4.1; convert it: gmsh") != std::string::npos);
+  CHECK(refused("2 1 2 2\n", "2 1 9 2\n").find("type 9, neither triangles (2) nor lines (1); save the mesh in first") !=
+        std::string::npos);
+  CHECK(refused("2 1 2 2\n", "2 1 3 2\n").find("type 3") != std::string::npos);
+  CHECK(refused("1 1 0\n", "1 1 0.5\n").find("not planar") != std::string::npos);
+  CHECK(refused("19 1 5 10", "19 1 5 11").find("a triangle names node 11, which does not exist") != std::string::npos);
+  CHECK(refused("10\n12\n", "10\n10\n").find("two nodes of tag 10") != std::string::npos);
+  CHECK(refused("1 1 0\n", "1 x1 0\n").find("holds 'x1' where a number is expected") != std::string::npos);
+  CHECK(refused("1 1 0\n", "1 nan 0\n").find("is not finite") != std::string::npos);
+  CHECK(refused("$Nodes", "$Knots").find("ends before $EndKnots") != std::string::npos);
+  CHECK(message_of(path, "").find("has no $MeshFormat") != std::string::npos);
+}
+
+TEST_CASE("a truncated .msh is an error wherever it ends before the mesh does") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  const auto read = [&] { (void)read_mesh(path); };
+  write_mesh(RandomMesh(3, 2, 2, {.point_markers = false, .attributes_per_point = 0}).mesh(), path);
+  const DamageCount binary = read_truncated(path, read);
+  CHECK(binary.accepted <= 1);  // without the last end of line
+  CHECK(binary.refused > 1000);
+  replace_file(path, kGmshText);
+  const DamageCount text = read_truncated(path, read);
+  CHECK(text.accepted <= 1);
+  CHECK(text.refused > 400);
+}
+
+TEST_CASE("a damaged .msh never crashes the reader") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  const auto read = [&] { (void)read_mesh(path); };
+  write_mesh(RandomMesh(4, 2, 2).mesh(), path);
+  const DamageCount binary = read_flipped(path, 3000, 5, read);
+  CHECK(binary.refused > 1000);
+  CHECK(binary.accepted > 100);
+  replace_file(path, kGmshText);
+  const DamageCount text = read_flipped(path, 3000, 6, read);
+  CHECK(text.refused > 1000);
+}
