@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <regex>
 
 #include "base/error.hpp"
 
@@ -35,10 +34,18 @@ std::string quoted(const std::string& text) {
   throw InputError({"size expression " + quoted(expression)}, what, next);
 }
 
+/// muParser's message without the position that ends many of them, and without its full stop.
+std::string bare_message(const mu::ParserError& error) {
+  std::string message = error.GetMsg();
+  for (const char* ending : {" found at position ", " at position ", " at expression position "})
+    message.erase(std::min(message.find(ending), message.size()));
+  message.erase(message.find_last_not_of(".! ") + 1);
+  return message;
+}
+
 /// muParser counts positions from 0 and, at the end, past the end; they are columns from 1 here.
 [[noreturn]] void fail(const mu::ParserError& error, const std::string& expression) {
-  static const std::regex position("( found)? at (expression )?position [0-9]+|[.! ]+$");
-  std::string what = std::regex_replace(error.GetMsg(), position, "");
+  std::string what = bare_message(error);
   if (error.GetPos() >= 0)
     what = "column " + std::to_string(std::min(static_cast<std::size_t>(error.GetPos()), expression.size()) + 1) +
            ": " + what;

@@ -37,6 +37,7 @@ bool mentions(const std::string& message, const std::string& part) {
 
 TEST_CASE("an expression in x and y gives the edge length") {
   CHECK(ExpressionField("0.5").edge_length({3, 4}) == 0.5);
+  CHECK(ExpressionField("1e-3*x").edge_length({3, 4}) == 3e-3);
   CHECK(ExpressionField("0.1 + 0.2*sqrt(x^2 + y^2)").edge_length({3, 4}) == doctest::Approx(1.1));
   CHECK(ExpressionField("hypot(x, y)").edge_length({3, 4}) == 5);
   CHECK(ExpressionField("pi*e").edge_length({0, 0}) == doctest::Approx(std::numbers::pi * std::numbers::e));
