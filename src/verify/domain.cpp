@@ -107,9 +107,8 @@ void Domain::take_hull() {
   const std::vector<std::int32_t> hull = convex_hull(points_);
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const auto [a, b] = std::minmax(hull[i], hull[(i + 1) % hull.size()]);
-    segments_.push_back({a, b, 0, 0, 0});
+    segments_.push_back({a, b, 1, 0, 0});
   }
-  markers_known_ = false;
 }
 
 void Domain::classify(const Pslg& input, const Arrangement& arrangement) {

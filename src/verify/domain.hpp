@@ -12,7 +12,7 @@ namespace driftmesh {
 
 /// The part of the plane that an input asks to be meshed, from an arrangement of its segments: the unbounded face and
 /// the faces that hold a hole point are carved. Points with equal coordinates and equal segments count once. Without
-/// segments, the domain is the convex hull of the points.
+/// segments, the domain is the convex hull of the points, its border marked 1.
 class Domain {
  public:
   struct Segment {
@@ -31,7 +31,6 @@ class Domain {
 
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
-  [[nodiscard]] bool markers_known() const { return markers_known_; }
 
   [[nodiscard]] bool inside(std::int32_t face) const { return inside_[static_cast<std::size_t>(face)] != 0; }
   [[nodiscard]] bool inside(const Segment& s) const { return inside(s.left_face) || inside(s.right_face); }
@@ -66,7 +65,6 @@ class Domain {
   std::vector<char> point_inside_;  // per point
   std::vector<Pslg::Region> regions_;
   std::vector<std::int32_t> region_of_face_;  // -1: none
-  bool markers_known_ = true;
   bool has_regions_ = false;
   double area_ = 0;
   double area_tolerance_ = 0;

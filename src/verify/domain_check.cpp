@@ -151,7 +151,7 @@ void DomainCheck::check_chain(const Chains::Chain& chain, const Domain::Segment&
   const std::int32_t right = reversed ? segment.left_face : segment.right_face;
   for (std::size_t i = 0; i < chain.subsegments.size(); ++i) {
     const std::int32_t s = chain.subsegments[i], from = chain.vertices[i];
-    if (domain_.markers_known() && subsegments[s].marker != segment.marker)
+    if (subsegments[s].marker != segment.marker)
       findings_.add(Flaw::wrong_marker, [&] {
         return fmt::format("subsegment {}, {}, has marker {}, expected {}", s,
                            edge_words(mesh_, subsegments[s].a, subsegments[s].b), subsegments[s].marker,
@@ -247,8 +247,7 @@ void DomainCheck::check_regions() {
     const std::int32_t face = face_of_triangle_[t];
     if (face == kUnknownFace) continue;
     const Pslg::Region* region = domain_.region_of(face);
-    const double expected = region != nullptr ? region->attribute : 0,
-                 actual = mesh_.regions.empty() ? 0 : mesh_.regions[t];
+    const double expected = region != nullptr ? region->attribute : 0, actual = mesh_.regions[t];
     if (actual != expected)
       findings_.add(Flaw::wrong_region, [&] {
         return fmt::format("{} has region attribute {}, expected {}", triangle_words(mesh_, t), actual, expected);

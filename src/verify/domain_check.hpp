@@ -35,7 +35,7 @@ class DomainCheck {
   /// Finds the face of the domain that each triangle lies in. `parts` has joined triangles that share an edge which
   /// is no subsegment.
   void find_faces(DisjointSets& parts);
-  /// The region attributes of triangles; after find_faces.
+  /// The region attributes of triangles, which the mesh lists; after find_faces.
   void check_regions();
   /// The area bound of the region that a triangle lies in, 0 if it has none; after find_faces.
   [[nodiscard]] double region_area(std::size_t triangle) const;

@@ -69,8 +69,9 @@ VerifyReport verify_against(const MeshPiece& mesh, const Pslg* input, const Veri
     against->check_euler(static_cast<std::int64_t>(used), static_cast<std::int64_t>(report.boundary_edges));
     if (parts) {
       against->find_faces(*parts);
-      against->check_regions();
-      bounds.region_area = [&](std::size_t t) { return against->region_area(t); };
+      report.regions_listed = !mesh.regions.empty() || mesh.triangles.empty();
+      if (report.regions_listed) against->check_regions();
+      if (options.region_areas) bounds.region_area = [&](std::size_t t) { return against->region_area(t); };
     }
   }
   report.quality = check_quality(mesh, chains, bounds, findings);

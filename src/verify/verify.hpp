@@ -13,6 +13,7 @@ namespace driftmesh {
 struct VerifyOptions {
   double min_angle = 0;        ///< degrees; 0: no bound
   double max_area = 0;         ///< 0: no bound beside those of the regions
+  bool region_areas = true;    ///< the input's regions bound the areas of their triangles
   bool check_delaunay = true;  ///< false for meshes that only need to be conforming
   std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
 };
@@ -25,6 +26,7 @@ struct VerifyReport {
   std::size_t subsegments = 0;
   std::size_t boundary_edges = 0;
   bool subsegments_listed = true;  ///< false: the piece lists none, and its boundary was taken as constrained
+  bool regions_listed = true;      ///< false: the input has regions, and the piece does not say which triangle is where
   double area = 0;
   bool against_input = false;
   double input_area = 0;  ///< of the domain that the input describes, if against_input
@@ -49,8 +51,8 @@ struct VerifyReport {
 ///   boundary of the mesh, so every point of it is covered once and no other;
 /// - every input segment in the domain is one chain of subsegments with its marker, in order along it and on it up to
 ///   the rounding of repeated midpoints; there are no other subsegments;
-/// - every input point in the domain is a vertex; area, Euler number and region attributes agree.
-/// An input without segments describes the convex hull of its points.
+/// - every input point in the domain is a vertex; area, Euler number and region attributes (if listed) agree.
+/// An input without segments describes the convex hull of its points, with marker 1 all around.
 [[nodiscard]] VerifyReport verify(const MeshPiece& mesh, const Pslg& input, const VerifyOptions& options);
 
 }  // namespace driftmesh

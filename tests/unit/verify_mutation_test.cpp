@@ -242,8 +242,10 @@ TEST_CASE("a wrong region attribute") {
   grid.mesh.regions[17] = 20;
   CHECK_ONLY(check(grid), Flaw::wrong_region);
   grid = GridCase();
+  CHECK(check(grid).regions_listed);
   grid.mesh.regions.clear();
-  CHECK_ONLY(check(grid), Flaw::wrong_region);
+  CHECK(check(grid).accepted());
+  CHECK(!check(grid).regions_listed);
 }
 
 TEST_CASE("a filled hole") {
@@ -399,6 +401,9 @@ TEST_CASE("the area bound of a region") {
   const VerifyReport report = check(grid, 0, 0);
   CHECK_ONLY(report, Flaw::large_area);
   CHECK(report.findings.count(Flaw::large_area) == 72);
+  VerifyOptions options;
+  options.region_areas = false;
+  CHECK(verify(grid.mesh, grid.input, options).accepted());
 }
 
 TEST_CASE("an input that is not planar") {

@@ -9,6 +9,7 @@
 #include "verify/chains.hpp"
 #include "verify/domain.hpp"
 #include "verify/quality.hpp"
+#include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
 using namespace driftmesh;
@@ -233,4 +234,21 @@ TEST_CASE("chains end at corners, at forks and at bends") {
   const Chains ring(mesh, loop, [](std::int32_t) { return false; });
   CHECK(ring.all().size() == 1);
   CHECK(ring.all()[0].vertices.size() == 4);
+}
+
+TEST_CASE("the report names counts, exceptions and flaws, and ends in a verdict of one line") {
+  VerifyOptions options;
+  options.min_angle = 20;
+  options.max_area = 1;
+  const VerifyReport report =
+      verify(one_triangle({0, 0}, {4, 0}, {4, 1}), options);  // area 2, smallest angle 14 degrees
+  const std::string text = report_text(report, options);
+  CHECK(text.find("exceptions     1 triangles with an angle below 20 degrees") != std::string::npos);
+  CHECK(text.find("small angle of the input: 1") != std::string::npos);
+  CHECK(text.find("large area: 1\n    triangle 0 (0 1 2) has area 2, at most 1 is allowed") != std::string::npos);
+  CHECK(verdict_text(report, options) == "rejected: large area (1)");
+  options.max_area = 0;
+  CHECK(
+      verdict_text(verify(one_triangle({0, 0}, {4, 0}, {4, 1}), options), options) ==
+      "accepted: constrained Delaunay, angles of at least 20 degrees but for 1 triangles at small angles of the input");
 }

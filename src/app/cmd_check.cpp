@@ -1,0 +1,75 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "app/commands.hpp"
+#include "base/error.hpp"
+#include "output/mesh_file.hpp"
+#include "pslg/poly_file.hpp"
+#include "verify/report_text.hpp"
+#include "verify/verify.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+constexpr int kRejected = 1;
+constexpr int kUnreadable = 2;
+
+struct CheckOptions {
+  std::string mesh;
+  std::string input;
+  VerifyOptions verify;
+  bool ignore_region_areas = false;
+  bool quiet = false;
+};
+
+VerifyReport read_and_verify(const CheckOptions& options) {
+  const MeshPiece mesh = read_mesh(options.mesh);
+  if (options.input.empty()) return verify(mesh, options.verify);
+  return verify(mesh, read_poly(options.input), options.verify);
+}
+
+int run_check(CheckOptions& options) {
+  options.verify.region_areas = !options.ignore_region_areas;
+  try {
+    const VerifyReport report = read_and_verify(options);
+    if (!options.quiet) std::cout << report_text(report, options.verify);
+    std::cout << verdict_text(report, options.verify) << '\n';
+    return report.accepted() ? 0 : kRejected;
+  } catch (const Error& error) {
+    std::cerr << "driftmesh: " << error.what() << '\n';
+    return kUnreadable;
+  }
+}
+
+}  // namespace
+
+void add_check(CLI::App& program) {
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = program.add_subcommand("check", "Verify a mesh from its file, independent of how it was made");
+  command->add_option("mesh", options->mesh, "The mesh: .vtu, .msh, or any file of Triangle's .node/.ele set")
+      ->required();
+  command->add_option("input", options->input,
+                      "The .poly that the mesh was made from; with it, the mesh must cover its domain and hold its "
+                      "segments, markers, points and regions");
+  command->add_option("-q,--angle", options->verify.min_angle, "Smallest angle asked for, in degrees")
+      ->check(CLI::Range(0.0, 60.0));
+  command->add_option("-a,--area", options->verify.max_area, "Largest area asked for")
+      ->check(CLI::Range(0.0, std::numeric_limits<double>::max()));
+  command->add_flag("--ignore-region-areas", options->ignore_region_areas,
+                    "The area bounds of the input's regions were not used");
+  command->add_option("--list", options->verify.max_listed, "Findings to print of each kind")->capture_default_str();
+  command->add_flag("--quiet", options->quiet, "Print the verdict alone");
+  command->footer(
+      "Exit code: 0 accepted, 1 rejected, 2 a file could not be read.\n"
+      "Angles below the bound are allowed where the input has them, and in wedges between input segments that meet at\n"
+      "less than 60 degrees; the report lists them.\n"
+      "Example: driftmesh check bay.vtu bay.poly --angle 20 --area 5000");
+  command->callback([options] {
+    if (const int code = run_check(*options); code != 0) throw CLI::RuntimeError(code);
+  });
+}
+
+}  // namespace driftmesh::app

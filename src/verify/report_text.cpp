@@ -1,0 +1,117 @@
+#include "verify/report_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace driftmesh {
+namespace {
+
+using Text = std::back_insert_iterator<std::string>;
+
+/// 1234567 -> "1,234,567"
+std::string grouped(std::uint64_t n) {
+  const std::string digits = std::to_string(n);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i != 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+void add_counts(const VerifyReport& report, Text out) {
+  fmt::format_to(out, "points         {}", grouped(report.points));
+  if (report.unused_points != 0) fmt::format_to(out, ", {} of them in no triangle", grouped(report.unused_points));
+  fmt::format_to(out, "\ntriangles      {}\nsubsegments    {}, {} on the boundary\n", grouped(report.triangles),
+                 grouped(report.subsegments), grouped(report.boundary_edges));
+  if (!report.subsegments_listed)
+    fmt::format_to(out, "               the file lists no subsegments: the boundary was taken as constrained\n");
+  if (!report.regions_listed) fmt::format_to(out, "regions        not listed by the mesh, and not checked\n");
+  fmt::format_to(out, "area           {:.17g}", report.area);
+  if (report.against_input) fmt::format_to(out, ", of the input {:.17g}", report.input_area);
+  fmt::format_to(out, "\nareas          {:.6g} to {:.6g}\nangles         {:.4f} to {:.4f} degrees\n",
+                 report.quality.smallest_area, report.quality.largest_area, report.quality.smallest_angle,
+                 report.quality.largest_angle);
+}
+
+void add_histogram(const Quality& quality, Text out) {
+  constexpr double kBarLength = 50;
+  const auto tens = quality.angles_by_ten();
+  const auto most = static_cast<double>(std::max<std::uint64_t>(1, *std::max_element(tens.begin(), tens.end())));
+  for (std::size_t i = 0; i < tens.size(); ++i) {
+    const auto length = static_cast<std::size_t>(std::ceil(kBarLength * static_cast<double>(tens[i]) / most));
+    fmt::format_to(out, "  {:>3} - {:>3}  {:>13}  {}\n", 10 * i, 10 * i + 10, grouped(tens[i]),
+                   std::string(length, '#'));
+  }
+}
+
+void add_list(const std::vector<std::string>& messages, std::uint64_t count, Text out) {
+  for (const std::string& message : messages) fmt::format_to(out, "    {}\n", message);
+  if (count > messages.size() && !messages.empty())
+    fmt::format_to(out, "    and {} more\n", grouped(count - messages.size()));
+}
+
+void add_exceptions(const Quality& quality, double min_angle, Text out) {
+  if (quality.exception_count() == 0) return;
+  fmt::format_to(out,
+                 "exceptions     {} triangles with an angle below {} degrees that small angles of the input explain\n",
+                 grouped(quality.exception_count()), min_angle);
+  for (std::size_t degree = 0; degree < 180 && static_cast<double>(degree) < min_angle; ++degree)
+    if (quality.angles[degree] != 0)
+      fmt::format_to(out, "  {:>3} - {:>3}  {:>13}\n", degree, degree + 1, grouped(quality.angles[degree]));
+  for (std::size_t c = 0; c < kExceptionCauseCount; ++c) {
+    const auto& list = quality.exceptions[c];
+    if (list.count == 0) continue;
+    fmt::format_to(out, "  {}: {}\n", exception_name(static_cast<ExceptionCause>(c)), grouped(list.count));
+    add_list(list.messages, list.count, out);
+  }
+}
+
+void add_flaws(const Findings& findings, Text out) {
+  for (std::size_t f = 0; f < kFlawCount; ++f) {
+    const auto flaw = static_cast<Flaw>(f);
+    if (findings.count(flaw) == 0) continue;
+    fmt::format_to(out, "{}: {}\n", flaw_name(flaw), grouped(findings.count(flaw)));
+    add_list(findings.messages(flaw), findings.count(flaw), out);
+  }
+}
+
+std::string what_was_checked(const VerifyReport& report, const VerifyOptions& options) {
+  std::string text = report.subsegments_listed ? "constrained Delaunay" : "Delaunay inside its boundary";
+  if (report.against_input) text += ", covers the input";
+  if (options.min_angle > 0) text += fmt::format(", angles of at least {} degrees", options.min_angle);
+  if (const auto n = report.quality.exception_count(); n != 0)
+    text += fmt::format(" but for {} triangles at small angles of the input", grouped(n));
+  if (options.max_area > 0) text += fmt::format(", areas of at most {}", options.max_area);
+  return text;
+}
+
+}  // namespace
+
+std::string report_text(const VerifyReport& report, const VerifyOptions& options) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  add_counts(report, out);
+  add_histogram(report.quality, out);
+  add_exceptions(report.quality, options.min_angle, out);
+  add_flaws(report.findings, out);
+  return text;
+}
+
+std::string verdict_text(const VerifyReport& report, const VerifyOptions& options) {
+  if (report.accepted()) return "accepted: " + what_was_checked(report, options);
+  std::string text = "rejected: ";
+  const char* separator = "";
+  for (std::size_t f = 0; f < kFlawCount; ++f) {
+    const auto flaw = static_cast<Flaw>(f);
+    if (report.findings.count(flaw) == 0) continue;
+    text += fmt::format("{}{} ({})", separator, flaw_name(flaw), grouped(report.findings.count(flaw)));
+    separator = ", ";
+  }
+  return text;
+}
+
+}  // namespace driftmesh
