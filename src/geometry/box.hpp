@@ -12,6 +12,12 @@ struct Box {
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
+  /// The smallest box that holds all points within `margin` of the segment ab in each axis.
+  [[nodiscard]] static Box around(const Point& a, const Point& b, double margin = 0) {
+    return {{std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin},
+            {std::max(a.x, b.x) + margin, std::max(a.y, b.y) + margin}};
+  }
+
   void extend(const Point& p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
@@ -22,6 +28,10 @@ struct Box {
   }
   [[nodiscard]] bool contains(const Point& p) const {
     return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
+  }
+  /// Whether they share a point.
+  [[nodiscard]] bool overlaps(const Box& other) const {
+    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
   }
   [[nodiscard]] Point center() const { return midpoint(low, high); }
   /// 0 inside.

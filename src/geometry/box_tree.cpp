@@ -6,21 +6,38 @@
 namespace driftmesh {
 namespace {
 
-/// Indices of boxes, sorted by the place of their centers on a Hilbert curve.
-std::vector<std::int32_t> sorted_along_curve(const std::vector<Box>& boxes) {
+constexpr std::ptrdiff_t kLongRun = 64;
+
+struct Place {
+  std::uint64_t on_curve;
+  std::int32_t item;
+};
+using Places = std::vector<Place>::iterator;
+
+/// Sorts by the place of the boxes' centers on a Hilbert curve. Centers in one cell of it, as all but a far outlier
+/// are, are sorted along a finer one: the tree is good whatever the distribution.
+void sort_along_curve(Places begin, Places end, const std::vector<Box>& boxes) {
+  const auto center = [&](const Place& place) { return boxes[static_cast<std::size_t>(place.item)].center(); };
   Box all;
-  for (const Box& box : boxes) all.extend(box);
+  for (Places i = begin; i != end; ++i) all.extend(center(*i));
+  if (all.low == all.high) return;
   const HilbertOrder order(all.low, all.high);
-  struct Place {
-    std::uint64_t on_curve;
-    std::int32_t item;
-  };
-  std::vector<Place> places(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    places[i] = {order.index(boxes[i].center()), narrow<std::int32_t>(i, "number of boxes")};
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+  for (Places i = begin; i != end; ++i) i->on_curve = order.index(center(*i));
+  std::sort(begin, end, [](const Place& a, const Place& b) {
     return a.on_curve != b.on_curve ? a.on_curve < b.on_curve : a.item < b.item;
   });
+  for (Places run = begin; run != end;) {
+    const Places next = std::find_if(run, end, [run](const Place& place) { return place.on_curve != run->on_curve; });
+    if (next - run > kLongRun && next - run < end - begin) sort_along_curve(run, next, boxes);
+    run = next;
+  }
+}
+
+/// Indices of boxes, in the order of the curve.
+std::vector<std::int32_t> sorted_along_curve(const std::vector<Box>& boxes) {
+  std::vector<Place> places(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) places[i] = {0, narrow<std::int32_t>(i, "number of boxes")};
+  sort_along_curve(places.begin(), places.end(), boxes);
   std::vector<std::int32_t> items(boxes.size());
   std::transform(places.begin(), places.end(), items.begin(), [](const Place& place) { return place.item; });
   return items;

@@ -19,10 +19,17 @@ class BoxTree {
   /// At most 2^31 - 1 boxes; they are copied, and named by their index in answers.
   explicit BoxTree(const std::vector<Box>& boxes);
 
-  /// Calls visit(index) for every box that contains p, in an order that depends on the tree alone.
+  /// Calls visit(index) for every box that passes enter(box), in an order that depends on the tree alone. enter must
+  /// accept every box that contains an accepted one.
+  template <class Enter, class Visit>
+  void search(Enter&& enter, Visit&& visit) const {
+    if (!levels_.empty()) visit_below(levels_.size() - 1, 0, levels_.back().size(), enter, visit);
+  }
+
+  /// search() for the boxes that contain p.
   template <class Visit>
   void visit_containing(const Point& p, Visit&& visit) const {
-    if (!levels_.empty()) visit_below(levels_.size() - 1, 0, levels_.back().size(), p, visit);
+    search([&p](const Box& box) { return box.contains(p); }, visit);
   }
 
   /// The item with the least squared_distance(index), the lowest index among equals; -1 for an empty tree. The function
@@ -41,14 +48,14 @@ class BoxTree {
     std::int32_t item = -1;
   };
 
-  template <class Visit>
-  void visit_below(std::size_t level, std::size_t begin, std::size_t end, const Point& p, Visit& visit) const {
+  template <class Enter, class Visit>
+  void visit_below(std::size_t level, std::size_t begin, std::size_t end, Enter& enter, Visit& visit) const {
     for (std::size_t i = begin; i < end; ++i) {
-      if (!levels_[level][i].contains(p)) continue;
+      if (!enter(levels_[level][i])) continue;
       if (level == 0)
         visit(items_[i]);
       else
-        visit_below(level - 1, kChildren * i, children_end(level, i), p, visit);
+        visit_below(level - 1, kChildren * i, children_end(level, i), enter, visit);
     }
   }
 

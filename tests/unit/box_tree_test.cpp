@@ -56,6 +56,25 @@ TEST_CASE("a box tree finds the boxes that contain a point and the nearest one")
   }
 }
 
+TEST_CASE("a far outlier does not slow the search") {
+  std::mt19937_64 random(4);
+  std::vector<Box> boxes = random_boxes(random, 20000);
+  boxes.push_back(Box::around({1e30, 1e30}, {1e30, 1e30}));
+  const BoxTree tree(boxes);
+  const Box place = Box::around({0.5, 0.5}, {0.51, 0.51});
+  std::size_t found = 0, looked_at = 0;
+  tree.search(
+      [&](const Box& box) {
+        ++looked_at;
+        return box.overlaps(place);
+      },
+      [&](std::int32_t) { ++found; });
+  CHECK(found == static_cast<std::size_t>(
+                     std::count_if(boxes.begin(), boxes.end(), [&](const Box& box) { return box.overlaps(place); })));
+  CHECK(found > 0);
+  CHECK(looked_at < 2000);
+}
+
 TEST_CASE("an empty tree has no answer") {
   const BoxTree tree(std::vector<Box>{});
   tree.visit_containing({0, 0}, [](std::int32_t) { FAIL("there is no box"); });

@@ -1,0 +1,41 @@
+#include "pslg/describe.hpp"
+
+#include <charconv>
+
+namespace driftmesh {
+namespace {
+
+// Appending to a named string keeps gcc 12 from a false warning about overlapping copies.
+template <class Number>
+void append(std::string& text, Number value) {
+  char digits[32];  // the longest double has 24 characters
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+}  // namespace
+
+std::string coordinates(const Point& p) {
+  std::string text = "(";
+  append(text, p.x);
+  text += ", ";
+  append(text, p.y);
+  return text += ')';
+}
+
+std::string vertex_name(const Pslg& pslg, std::int32_t index, const Point& p) {
+  std::string text = "the new vertex ";
+  if (index >= 0) {
+    text = "vertex ";
+    append(text, std::int64_t{index} + pslg.first_number);
+    text += ' ';
+  }
+  return text += coordinates(p);
+}
+
+std::string segment_name(const Pslg& pslg, std::int32_t index) {
+  std::string text = "segment ";
+  append(text, std::int64_t{index} + pslg.first_number);
+  return text;
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "pslg/pslg.hpp"
+
+namespace driftmesh {
+
+// Words for messages, with the numbers that the user's file uses.
+
+/// "(x, y)" with as many digits as the coordinates need.
+[[nodiscard]] std::string coordinates(const Point& p);
+/// "vertex 17 (x, y)"; `index` counts the points as they were read, -1 means a point that repair made.
+[[nodiscard]] std::string vertex_name(const Pslg& pslg, std::int32_t index, const Point& p);
+/// "segment 12".
+[[nodiscard]] std::string segment_name(const Pslg& pslg, std::int32_t index);
+
+}  // namespace driftmesh

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pslg/pslg.hpp"
+#include "pslg/repair_report.hpp"
+
+namespace driftmesh {
+
+/// Why a planar graph may bound no area.
+struct OpenBoundary {
+  bool has_loop = false;                ///< some segments form a closed chain, so they enclose area
+  std::vector<std::int32_t> open_ends;  ///< points that are an end of exactly one segment
+};
+
+/// `pslg` was repaired.
+[[nodiscard]] OpenBoundary find_open_boundary(const Pslg& pslg);
+
+/// A sentence for the error that carving left nothing: which chains are open and where, with the vertex numbers of the
+/// user's file (`report` is that of the repair), or that every chain is closed and so holes cover all.
+[[nodiscard]] std::string describe_open_boundary(const Pslg& pslg, const RepairReport& report);
+
+}  // namespace driftmesh

@@ -1,0 +1,369 @@
+#include "pslg/planarize.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/narrow.hpp"
+#include "geometry/box_tree.hpp"
+#include "pslg/closeness.hpp"
+#include "pslg/describe.hpp"
+#include "pslg/point_welder.hpp"
+#include "pslg/repair.hpp"
+
+namespace driftmesh {
+namespace {
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+template <class Describe>
+void note(RepairItem& item, Describe describe) {
+  if (item.count++ < RepairItem::kMaxExamples) item.examples.push_back(describe());
+}
+
+/// Accepts the boxes that come close to a segment: those that meet its box and lie not wholly on one side of its line.
+/// Rounding only lets through more.
+class NearSegment {
+ public:
+  NearSegment(const Point& a, const Point& b)
+      : a_(a), dx_(b.x - a.x), dy_(b.y - a.y), box_(Box::around(a, b, closeness(a, b))) {
+    const double reach = std::fabs(dx_) + std::fabs(dy_);
+    slack_ = 2 * closeness(a, b) * reach + 1e-14 * reach * reach;
+  }
+  bool operator()(const Box& other) const {
+    if (!box_.overlaps(other)) return false;
+    const double x0 = std::max(box_.low.x, other.low.x) - a_.x, x1 = std::min(box_.high.x, other.high.x) - a_.x;
+    const double y0 = std::max(box_.low.y, other.low.y) - a_.y, y1 = std::min(box_.high.y, other.high.y) - a_.y;
+    const auto [low_y, high_y] = std::minmax(dx_ * y0, dx_ * y1);
+    const auto [low_x, high_x] = std::minmax(dy_ * x0, dy_ * x1);
+    return low_y - high_x <= slack_ && high_y - low_x >= -slack_;
+  }
+
+ private:
+  Point a_;
+  double dx_, dy_;
+  double slack_ = 0;
+  Box box_;
+};
+
+/// Works in rounds. Each finds, for segments and points that are new since the last one, which points lie on which
+/// segments and which segments cross, then splits. New points are rounded, so pieces may cross or touch what the whole
+/// segment did not: the next round sees to it. A round that finds nothing proves that the graph is planar.
+class Planarizer {
+ public:
+  Planarizer(Pslg& pslg, const std::string& file, RepairReport& report)
+      : pslg_(pslg), file_(file), report_(report), welder_(pslg.points.size()) {}
+
+  void run() {
+    weld_points();
+    start_segments();
+    for (int round = 0; fresh_exists_; ++round) {
+      if (round == kMaxRounds) fail_to_end();
+      find_splits();
+      split_segments();
+    }
+    finish();
+  }
+
+ private:
+  /// A segment on its way: the pieces of segment `origin` of the input.
+  struct Piece {
+    Pslg::Segment segment;
+    std::int32_t origin = 0;
+    bool fresh = true;
+  };
+  /// Segment `piece` passes through `vertex`, at this place along it.
+  struct Split {
+    std::int32_t piece = 0;
+    std::int32_t vertex = 0;
+    double along = 0;
+  };
+
+  /// Finds points [first, last).
+  struct PointTree {
+    BoxTree tree;
+    std::int32_t first = 0;
+    std::size_t last = 0;
+  };
+
+  const std::vector<Point>& points() const { return welder_.points(); }
+  const Point& point(std::int32_t v) const { return points()[at(v)]; }
+
+  void weld_points();
+  void start_segments();
+  void keep_once(RepairItem& item);
+  void find_splits();
+  std::size_t points_in_trees() const { return point_trees_.empty() ? 0 : point_trees_.back().last; }
+  void add_point_tree();
+  std::vector<Box> piece_boxes() const;
+  void find_points_on(std::int32_t piece, const PointTree& points);
+  void find_crossings_of(std::int32_t piece, const BoxTree& tree);
+  void find_segments_through(std::int32_t vertex, const BoxTree& tree);
+  void test_point(std::int32_t vertex, std::int32_t piece);
+  void test_pair(std::int32_t piece, std::int32_t other);
+  void add_crossing(std::int32_t piece, std::int32_t other);
+  void add_split(std::int32_t piece, std::int32_t vertex);
+  void split_segments();
+  void copy_point_data(std::int32_t index);
+  void interpolate_point_data(const Piece& piece, const Point& p);
+  void finish();
+  [[noreturn]] void fail_to_end() const;
+
+  std::string name(std::int32_t vertex) const;
+  std::string name(const Piece& piece) const { return segment_name(pslg_, piece.origin); }
+
+  Pslg& pslg_;
+  const std::string& file_;
+  RepairReport& report_;
+  PointWelder welder_;
+  std::vector<std::int32_t> welded_;  // for each point of the input its index in points()
+  std::vector<std::int32_t> markers_;
+  std::vector<double> attributes_;
+  std::vector<Piece> pieces_;
+  std::vector<Split> splits_;
+  std::vector<PointTree> point_trees_;
+  std::int64_t split_count_ = 0;
+  bool fresh_exists_ = false;
+};
+
+std::string Planarizer::name(std::int32_t vertex) const {
+  return vertex_name(pslg_, report_.original_point[at(vertex)], point(vertex));
+}
+
+void Planarizer::weld_points() {
+  const auto count = narrow<std::int32_t>(pslg_.points.size(), "vertices");
+  welded_.reserve(pslg_.points.size());
+  report_.original_point.reserve(pslg_.points.size());
+  for (std::int32_t i = 0; i < count; ++i) {
+    const Point& p = pslg_.points[at(i)];
+    const std::int32_t kept = welder_.add(p);
+    welded_.push_back(kept);
+    if (at(kept) == report_.original_point.size()) {
+      report_.original_point.push_back(i);
+      copy_point_data(i);
+      continue;
+    }
+    if (!markers_.empty() && markers_[at(kept)] == 0) markers_[at(kept)] = pslg_.point_markers[at(i)];
+    note(point(kept) == p ? report_.duplicate_points : report_.close_points,
+         [&] { return vertex_name(pslg_, i, p) + " merged into " + name(kept); });
+  }
+}
+
+void Planarizer::copy_point_data(std::int32_t index) {
+  if (!pslg_.point_markers.empty()) markers_.push_back(pslg_.point_markers[at(index)]);
+  const auto stride = at(pslg_.attributes_per_point);
+  for (std::size_t k = 0; k < stride; ++k) attributes_.push_back(pslg_.attributes[at(index) * stride + k]);
+}
+
+void Planarizer::interpolate_point_data(const Piece& piece, const Point& p) {
+  report_.original_point.push_back(-1);
+  if (!pslg_.point_markers.empty()) markers_.push_back(piece.segment.marker);
+  const Point &a = point(piece.segment.a), &b = point(piece.segment.b);
+  const double t = std::hypot(p.x - a.x, p.y - a.y) / std::hypot(b.x - a.x, b.y - a.y);
+  const auto stride = at(pslg_.attributes_per_point);
+  for (std::size_t k = 0; k < stride; ++k) {
+    const double at_a = attributes_[at(piece.segment.a) * stride + k];
+    const double at_b = attributes_[at(piece.segment.b) * stride + k];
+    attributes_.push_back((1 - t) * at_a + t * at_b);
+  }
+}
+
+void Planarizer::start_segments() {
+  pieces_.reserve(pslg_.segments.size());
+  std::int32_t origin = 0;
+  for (const Pslg::Segment& s : pslg_.segments) {
+    const Piece piece{{welded_[at(s.a)], welded_[at(s.b)], s.marker}, origin++, true};
+    if (piece.segment.a != piece.segment.b)
+      pieces_.push_back(piece);
+    else
+      note(report_.zero_length_segments, [&] { return name(piece) + " begins and ends at " + name(piece.segment.a); });
+  }
+  keep_once(report_.duplicate_segments);
+  fresh_exists_ = !pieces_.empty();
+}
+
+// Of pieces that join the same two points the first stays.
+void Planarizer::keep_once(RepairItem& item) {
+  struct Key {
+    std::int32_t low, high, piece;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<Key> keys;
+  keys.reserve(pieces_.size());
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const auto [low, high] = std::minmax(pieces_[i].segment.a, pieces_[i].segment.b);
+    keys.push_back({low, high, static_cast<std::int32_t>(i)});
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::int32_t> dropped;
+  std::int32_t kept = -1;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const bool repeats = i > 0 && keys[i].low == keys[i - 1].low && keys[i].high == keys[i - 1].high;
+    if (!repeats) {
+      kept = keys[i].piece;
+      continue;
+    }
+    const Piece& other = pieces_[at(keys[i].piece)];
+    Pslg::Segment& first = pieces_[at(kept)].segment;
+    dropped.push_back(keys[i].piece);
+    note(item, [&] { return name(other) + " repeats " + name(pieces_[at(kept)]); });
+    if (first.marker == 0) first.marker = other.segment.marker;
+    if (other.segment.marker != 0 && other.segment.marker != first.marker)
+      note(report_.marker_conflicts, [&] { return name(other) + " and " + name(pieces_[at(kept)]); });
+  }
+  if (dropped.empty()) return;
+  for (const std::int32_t i : dropped) pieces_[at(i)].origin = -1;
+  std::erase_if(pieces_, [](const Piece& piece) { return piece.origin < 0; });
+}
+
+// The points that are new since the last tree.
+void Planarizer::add_point_tree() {
+  const std::size_t first = points_in_trees();
+  if (first == points().size()) return;
+  std::vector<Box> boxes;
+  boxes.reserve(points().size() - first);
+  for (std::size_t i = first; i < points().size(); ++i) boxes.push_back(Box::around(points()[i], points()[i]));
+  point_trees_.push_back({BoxTree(boxes), static_cast<std::int32_t>(first), points().size()});
+}
+
+std::vector<Box> Planarizer::piece_boxes() const {
+  std::vector<Box> boxes;
+  boxes.reserve(pieces_.size());
+  for (const Piece& piece : pieces_) {
+    const Point &a = point(piece.segment.a), &b = point(piece.segment.b);
+    boxes.push_back(Box::around(a, b, closeness(a, b)));
+  }
+  return boxes;
+}
+
+void Planarizer::find_splits() {
+  const std::size_t first_new = point_trees_.empty() ? points().size() : points_in_trees();
+  add_point_tree();
+  const BoxTree piece_tree(piece_boxes());
+  const auto piece_count = narrow<std::int32_t>(pieces_.size(), "segments");
+  splits_.clear();
+  for (std::int32_t i = 0; i < piece_count; ++i) {
+    if (!pieces_[at(i)].fresh) continue;
+    for (const PointTree& tree : point_trees_) find_points_on(i, tree);
+    find_crossings_of(i, piece_tree);
+  }
+  for (std::size_t v = first_new; v < points().size(); ++v)
+    find_segments_through(static_cast<std::int32_t>(v), piece_tree);
+}
+
+void Planarizer::find_points_on(std::int32_t piece, const PointTree& points) {
+  const Pslg::Segment s = pieces_[at(piece)].segment;
+  points.tree.search(NearSegment(point(s.a), point(s.b)), [&](std::int32_t i) { test_point(points.first + i, piece); });
+}
+
+void Planarizer::find_segments_through(std::int32_t vertex, const BoxTree& tree) {
+  tree.visit_containing(point(vertex), [&](std::int32_t piece) {
+    if (!pieces_[at(piece)].fresh) test_point(vertex, piece);
+  });
+}
+
+void Planarizer::find_crossings_of(std::int32_t piece, const BoxTree& tree) {
+  const Pslg::Segment s = pieces_[at(piece)].segment;
+  tree.search(NearSegment(point(s.a), point(s.b)), [&](std::int32_t other) {
+    if (other > piece || !pieces_[at(other)].fresh) test_pair(piece, other);
+  });
+}
+
+void Planarizer::test_point(std::int32_t vertex, std::int32_t piece) {
+  const Piece& p = pieces_[at(piece)];
+  if (vertex == p.segment.a || vertex == p.segment.b) return;
+  const OnSegment where = on_segment(point(vertex), point(p.segment.a), point(p.segment.b));
+  if (where == OnSegment::no) return;
+  add_split(piece, vertex);
+  note(where == OnSegment::exactly ? report_.points_on_segments : report_.points_close_segments,
+       [&] { return name(vertex) + " on " + name(p); });
+}
+
+// Where an end of one lies on the other, that vertex splits it and no new one is needed.
+void Planarizer::test_pair(std::int32_t piece, std::int32_t other) {
+  const Pslg::Segment s = pieces_[at(piece)].segment, t = pieces_[at(other)].segment;
+  if (s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b) return;
+  const Point &a = point(s.a), &b = point(s.b), &c = point(t.a), &d = point(t.b);
+  if (!cross_properly(a, b, c, d)) return;
+  const auto touches = [](const Point& p, const Point& u, const Point& v) {
+    return on_segment(p, u, v) != OnSegment::no;
+  };
+  if (touches(a, c, d) || touches(b, c, d) || touches(c, a, b) || touches(d, a, b)) return;
+  add_crossing(piece, other);
+}
+
+void Planarizer::add_crossing(std::int32_t piece, std::int32_t other) {
+  const Piece &s = pieces_[at(piece)], &t = pieces_[at(other)];
+  const Point p = crossing_point(point(s.segment.a), point(s.segment.b), point(t.segment.a), point(t.segment.b));
+  const std::int32_t vertex = welder_.add(p);
+  if (at(vertex) == report_.original_point.size()) interpolate_point_data(s, p);
+  add_split(piece, vertex);
+  add_split(other, vertex);
+  note(report_.crossings, [&] { return name(s) + " and " + name(t) + " cross at " + coordinates(p); });
+}
+
+void Planarizer::add_split(std::int32_t piece, std::int32_t vertex) {
+  const Pslg::Segment s = pieces_[at(piece)].segment;
+  if (vertex == s.a || vertex == s.b) return;
+  if (++split_count_ > kMaxSplits)
+    throw InputError({file_, 0}, "the segments cross or overlap more than " + std::to_string(kMaxSplits) + " times",
+                     "their vertex numbers are probably wrong");
+  const Point &a = point(s.a), &b = point(s.b), &p = point(vertex);
+  splits_.push_back({piece, vertex, (p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y)});
+}
+
+void Planarizer::split_segments() {
+  std::sort(splits_.begin(), splits_.end(), [](const Split& l, const Split& r) {
+    if (l.piece != r.piece) return l.piece < r.piece;
+    return l.along != r.along ? l.along < r.along : l.vertex < r.vertex;
+  });
+  std::vector<Piece> next;
+  next.reserve(pieces_.size() + splits_.size());
+  auto split = splits_.begin();
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(pieces_.size()); ++i) {
+    Piece piece = pieces_[at(i)];
+    piece.fresh = split != splits_.end() && split->piece == i;
+    const std::int32_t end = piece.segment.b;
+    for (; split != splits_.end() && split->piece == i; ++split) {
+      if (split->vertex == piece.segment.a) continue;  // two crossings rounded to one point
+      piece.segment.b = split->vertex;
+      next.push_back(piece);
+      piece.segment.a = split->vertex;
+    }
+    piece.segment.b = end;
+    next.push_back(piece);
+  }
+  pieces_ = std::move(next);
+  fresh_exists_ = !splits_.empty();
+  if (fresh_exists_) keep_once(report_.overlaps);
+}
+
+void Planarizer::finish() {
+  std::vector<Pslg::Segment> segments;
+  segments.reserve(pieces_.size());
+  for (const Piece& piece : pieces_) segments.push_back(piece.segment);
+  pslg_.segments = std::move(segments);
+  pslg_.points = points();
+  pslg_.point_markers = std::move(markers_);
+  pslg_.attributes = std::move(attributes_);
+}
+
+void Planarizer::fail_to_end() const {
+  const Split& last = splits_.front();
+  throw InputError({file_, 0},
+                   "segments near " + coordinates(point(last.vertex)) + " still cross after " +
+                       std::to_string(kMaxRounds) + " rounds of repair, because rounding moves them each time",
+                   "simplify the input there or give it coordinates with fewer digits");
+}
+
+}  // namespace
+
+void planarize(Pslg& pslg, const std::string& file, RepairReport& report) {
+  Planarizer(pslg, file, report).run();
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,141 @@
+#include "pslg/repair.hpp"
+
+#include <string>
+
+#include "base/error.hpp"
+#include "geometry/box_tree.hpp"
+#include "geometry/predicates.hpp"
+#include "pslg/closeness.hpp"
+#include "pslg/describe.hpp"
+#include "pslg/planarize.hpp"
+
+namespace driftmesh {
+namespace {
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+bool usable(const Point& p) {
+  return in_coordinate_range(p.x) && in_coordinate_range(p.y);
+}
+
+// What the readers guarantee and a program that fills a Pslg may miss.
+void check_values(const Pslg& pslg, const std::string& file) {
+  const auto fail = [&](const std::string& what, const char* next) { throw InputError({file, 0}, what, next); };
+  const std::size_t n = pslg.points.size();
+  if (!pslg.point_markers.empty() && pslg.point_markers.size() != n)
+    fail("there are " + std::to_string(pslg.point_markers.size()) + " markers for " + std::to_string(n) + " points",
+         "give none or one for each");
+  if (pslg.attributes_per_point < 0 || pslg.attributes.size() != n * at(pslg.attributes_per_point))
+    fail("the attributes do not match the points", "give attributes_per_point values for each point");
+  for (std::size_t i = 0; i < n; ++i)
+    if (!usable(pslg.points[i]))
+      fail(vertex_name(pslg, static_cast<std::int32_t>(i), pslg.points[i]) + " is outside the range of coordinates",
+           "scale the input");
+  for (std::size_t i = 0; i < pslg.segments.size(); ++i) {
+    const Pslg::Segment& s = pslg.segments[i];
+    if (s.a < 0 || s.b < 0 || at(s.a) >= n || at(s.b) >= n)
+      fail(segment_name(pslg, static_cast<std::int32_t>(i)) + " names a vertex that does not exist",
+           "there are as many vertices as points");
+  }
+}
+
+void check_spans_plane(const Pslg& pslg, const std::string& file) {
+  if (pslg.points.size() < 3)
+    throw InputError({file, 0}, "has " + std::to_string(pslg.points.size()) + " different vertices",
+                     "a mesh needs three or more");
+  for (const Point& p : pslg.points)
+    if (orient2d(pslg.points[0], pslg.points[1], p) != 0) return;
+  throw InputError({file, 0}, "all vertices lie on one line", "a mesh needs an area");
+}
+
+/// Answers where a seed lies among the segments of a planar graph.
+class SeedCheck {
+ public:
+  explicit SeedCheck(const Pslg& pslg) : pslg_(pslg), tree_(boxes(pslg)) {
+    for (const Point& p : pslg.points) bounds_.extend(p);
+  }
+
+  /// The index of a segment that `p` lies on, or -1.
+  [[nodiscard]] std::int32_t segment_at(const Point& p) const {
+    std::int32_t found = -1;
+    visit(Box::around(p, p), [&](std::int32_t i, const Point& a, const Point& b) {
+      if (orient2d(a, b, p) == 0) found = i;
+    });
+    return found;
+  }
+
+  /// Whether nothing lies between `p` and infinity in one of the four axis directions, so that no boundary holds it.
+  /// A point deep in an inlet of the outside may escape it.
+  [[nodiscard]] bool certainly_outside(const Point& p) const {
+    if (!bounds_.contains(p)) return true;
+    if (pslg_.segments.empty()) return false;  // the domain is the convex hull
+    return sees_nothing(p, {bounds_.high.x, p.y}) || sees_nothing(p, {bounds_.low.x, p.y}) ||
+           sees_nothing(p, {p.x, bounds_.high.y}) || sees_nothing(p, {p.x, bounds_.low.y});
+  }
+
+ private:
+  static std::vector<Box> boxes(const Pslg& pslg) {
+    std::vector<Box> all;
+    for (const Pslg::Segment& s : pslg.segments) all.push_back(Box::around(pslg.points[at(s.a)], pslg.points[at(s.b)]));
+    return all;
+  }
+
+  template <class Visit>
+  void visit(const Box& place, Visit visit) const {
+    tree_.search([&](const Box& box) { return box.overlaps(place); },
+                 [&](std::int32_t i) {
+                   const Pslg::Segment& s = pslg_.segments[at(i)];
+                   visit(i, pslg_.points[at(s.a)], pslg_.points[at(s.b)]);
+                 });
+  }
+
+  // A segment whose box the ray meets is met by the ray itself unless both ends of the ray lie on one side of it.
+  [[nodiscard]] bool sees_nothing(const Point& p, const Point& far) const {
+    bool nothing = true;
+    visit(Box::around(p, far), [&](std::int32_t, const Point& a, const Point& b) {
+      const double side = orient2d(a, b, p), far_side = orient2d(a, b, far);
+      nothing = nothing && ((side > 0 && far_side > 0) || (side < 0 && far_side < 0));
+    });
+    return nothing;
+  }
+
+  const Pslg& pslg_;
+  BoxTree tree_;
+  Box bounds_;
+};
+
+void check_seed(const SeedCheck& check, const Point& seed, const std::string& name, const std::string& file,
+                const char* effect, RepairReport& report) {
+  if (!usable(seed)) throw InputError({file, 0}, name + " is outside the range of coordinates", "correct it");
+  if (check.segment_at(seed) >= 0)
+    throw InputError({file, 0}, name + " lies on a segment", "move it to the side that is meant");
+  if (check.certainly_outside(seed)) report.warnings.push_back(name + " lies outside the domain; " + effect);
+}
+
+void check_seeds(const Pslg& pslg, const std::string& file, RepairReport& report) {
+  if (pslg.holes.empty() && pslg.regions.empty()) return;
+  const SeedCheck check(pslg);
+  std::size_t number = 0;
+  for (const Point& hole : pslg.holes)
+    check_seed(check, hole, "hole " + std::to_string(++number) + " at " + coordinates(hole), file, "it removes nothing",
+               report);
+  number = 0;
+  for (const Pslg::Region& region : pslg.regions)
+    check_seed(check, region.at, "region " + std::to_string(++number) + " at " + coordinates(region.at), file,
+               "it has no effect", report);
+}
+
+}  // namespace
+
+RepairReport repair(Pslg& pslg, const std::string& file) {
+  check_values(pslg, file);
+  RepairReport report;
+  planarize(pslg, file, report);
+  check_spans_plane(pslg, file);
+  check_seeds(pslg, file, report);
+  return report;
+}
+
+}  // namespace driftmesh

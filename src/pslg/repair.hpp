@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "pslg/pslg.hpp"
+#include "pslg/repair_report.hpp"
+
+namespace driftmesh {
+
+/// Makes `pslg` planar, and says what that took. Afterwards, by exact predicates:
+/// - no two points are equal, or within rounding error of each other (closeness.hpp);
+/// - no segment has length zero, no two join the same points;
+/// - no point lies in the interior of a segment, or within rounding error of it;
+/// - no two segments meet except at a point that is an end of both.
+/// A Pslg that has these properties is left as it is; so repairing twice changes nothing the second time. Points,
+/// holes and regions keep their order, and segments (cut into pieces) theirs. New points lie where segments crossed;
+/// their attributes are interpolated along the first of them, their marker is its marker.
+///
+/// Holes and regions whose seed is certainly outside are reported as warnings. Throws InputError, naming `file`, for
+/// what has no clear intent: indices or coordinates out of range, less than three points or all on one line, a seed on
+/// a segment, more than kMaxSplits places where segments must be split, or (never seen) crossings that rounding creates
+/// anew in each of kMaxRounds rounds.
+RepairReport repair(Pslg& pslg, const std::string& file = "input");
+
+inline constexpr std::int64_t kMaxSplits = 20'000'000;
+inline constexpr int kMaxRounds = 100;
+
+}  // namespace driftmesh

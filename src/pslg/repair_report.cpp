@@ -1,0 +1,43 @@
+#include "pslg/repair_report.hpp"
+
+#include <array>
+#include <utility>
+
+namespace driftmesh {
+namespace {
+
+using NamedItem = std::pair<const RepairItem*, const char*>;
+
+std::array<NamedItem, 9> items_of(const RepairReport& r) {
+  return {{{&r.duplicate_points, "duplicate vertices merged"},
+           {&r.close_points, "vertices within rounding error of another merged"},
+           {&r.zero_length_segments, "segments of length zero dropped"},
+           {&r.duplicate_segments, "duplicate segments dropped"},
+           {&r.points_on_segments, "segments split at a vertex on them"},
+           {&r.points_close_segments, "segments led through a vertex within rounding error of them"},
+           {&r.crossings, "crossings of segments made vertices"},
+           {&r.overlaps, "shared pieces of overlapping segments kept once"},
+           {&r.marker_conflicts, "merged segments had different markers, the first was kept"}}};
+}
+
+}  // namespace
+
+bool RepairReport::changed() const {
+  for (const auto& [item, name] : items_of(*this))
+    if (item->count > 0) return true;
+  return false;
+}
+
+std::string RepairReport::summary() const {
+  std::string text;
+  for (const auto& [item, name] : items_of(*this)) {
+    if (item->count == 0) continue;
+    text += "repaired: " + std::to_string(item->count) + " " + name + "\n";
+    for (const std::string& example : item->examples) text += "  " + example + "\n";
+    if (item->count > static_cast<std::int64_t>(item->examples.size())) text += "  ...\n";
+  }
+  for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
+  return text;
+}
+
+}  // namespace driftmesh

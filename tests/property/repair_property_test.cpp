@@ -1,0 +1,264 @@
+#include <doctest/doctest.h>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pslg/repair.hpp"
+
+using namespace driftmesh;
+using Rational = boost::multiprecision::cpp_rational;
+
+namespace {
+
+// The oracle: exact rational arithmetic on all pairs, nothing shared with the code under test.
+
+struct ExactPoint {
+  Rational x, y;
+  bool operator==(const ExactPoint&) const = default;
+};
+
+ExactPoint exact(const Point& p) {
+  return {Rational(p.x), Rational(p.y)};
+}
+
+int turn(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
+  const Rational area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  return area.sign();
+}
+
+bool within(const Rational& v, const Rational& a, const Rational& b) {
+  return (a <= v && v <= b) || (b <= v && v <= a);
+}
+
+bool on_closed_segment(const ExactPoint& p, const ExactPoint& a, const ExactPoint& b) {
+  return turn(a, b, p) == 0 && within(p.x, a.x, b.x) && within(p.y, a.y, b.y);
+}
+
+// Empty when `pslg` is a planar straight line graph, otherwise what is wrong.
+std::string planarity_fault(const Pslg& pslg) {
+  std::vector<ExactPoint> p;
+  for (const Point& point : pslg.points) p.push_back(exact(point));
+  for (std::size_t i = 0; i < p.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (p[i] == p[j]) return "points " + std::to_string(j) + " and " + std::to_string(i) + " are equal";
+  const auto& segments = pslg.segments;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const auto a = static_cast<std::size_t>(segments[i].a), b = static_cast<std::size_t>(segments[i].b);
+    if (a == b) return "segment " + std::to_string(i) + " has length zero";
+    for (std::size_t v = 0; v < p.size(); ++v)
+      if (v != a && v != b && on_closed_segment(p[v], p[a], p[b]))
+        return "point " + std::to_string(v) + " lies on segment " + std::to_string(i);
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto c = static_cast<std::size_t>(segments[j].a), d = static_cast<std::size_t>(segments[j].b);
+      if ((a == c && b == d) || (a == d && b == c)) return "segments repeat: " + std::to_string(j);
+      if (a == c || a == d || b == c || b == d) continue;  // more than the shared end would put an end on the other
+      if (turn(p[a], p[b], p[c]) * turn(p[a], p[b], p[d]) < 0 && turn(p[c], p[d], p[a]) * turn(p[c], p[d], p[b]) < 0)
+        return "segments " + std::to_string(j) + " and " + std::to_string(i) + " cross";
+    }
+  }
+  return "";
+}
+
+double distance(const Point& p, const Point& a, const Point& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
+  const double t = length2 == 0 ? 0 : std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length2, 0.0, 1.0);
+  return std::hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
+}
+
+// The largest distance from a sample on a segment of `from` to the nearest segment of `to`.
+double one_sided_distance(const Pslg& from, const Pslg& to) {
+  double largest = 0;
+  for (const Pslg::Segment& s : from.segments) {
+    const Point a = from.points[static_cast<std::size_t>(s.a)], b = from.points[static_cast<std::size_t>(s.b)];
+    if (a == b) continue;
+    for (const double t : {0.0, 0.13, 0.5, 0.71, 1.0}) {
+      const Point sample{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+      double nearest = INFINITY;
+      for (const Pslg::Segment& o : to.segments)
+        nearest = std::min(nearest, distance(sample, to.points[static_cast<std::size_t>(o.a)],
+                                             to.points[static_cast<std::size_t>(o.b)]));
+      largest = std::max(largest, nearest);
+    }
+  }
+  return largest;
+}
+
+double magnitude(const Pslg& pslg) {
+  double largest = 0;
+  for (const Point& p : pslg.points) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y)});
+  return largest;
+}
+
+bool same(const Pslg& a, const Pslg& b) {
+  return a.points == b.points && a.segments == b.segments && a.point_markers == b.point_markers &&
+         a.attributes == b.attributes;
+}
+
+// Soups of segments, one kind of trouble each.
+
+using Random = std::mt19937_64;
+
+std::int32_t integer(Random& random, std::int32_t low, std::int32_t high) {
+  return std::uniform_int_distribution<std::int32_t>(low, high)(random);
+}
+double real(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+void add_random_segments(Pslg& pslg, Random& random, int count) {
+  const auto last = static_cast<std::int32_t>(pslg.points.size()) - 1;
+  for (int i = 0; i < count; ++i)
+    pslg.segments.push_back({integer(random, 0, last), integer(random, 0, last), integer(random, 0, 2)});
+}
+
+Pslg integer_grid(Random& random) {
+  Pslg pslg;
+  for (int i = 0; i < 15; ++i)
+    pslg.points.push_back({static_cast<double>(integer(random, 0, 5)), static_cast<double>(integer(random, 0, 5))});
+  add_random_segments(pslg, random, 12);
+  return pslg;
+}
+
+Pslg random_reals(Random& random) {
+  Pslg pslg;
+  for (int i = 0; i < 16; ++i) pslg.points.push_back({real(random, -1, 1), real(random, -1, 1)});
+  add_random_segments(pslg, random, 10);
+  return pslg;
+}
+
+// Points computed to lie on earlier segments, as a program that makes T-junctions does: most miss by rounding.
+Pslg computed_junctions(Random& random) {
+  Pslg pslg;
+  const double shift = integer(random, 0, 1) * 4e6;
+  for (int i = 0; i < 4; ++i) pslg.points.push_back({shift + real(random, 0, 1), shift + real(random, 0, 1)});
+  pslg.segments = {{0, 1, 1}, {2, 3, 2}};
+  for (int i = 0; i < 6; ++i) {
+    const auto on = static_cast<std::size_t>(integer(random, 0, static_cast<std::int32_t>(pslg.segments.size()) - 1));
+    const Point a = pslg.points[static_cast<std::size_t>(pslg.segments[on].a)];
+    const Point b = pslg.points[static_cast<std::size_t>(pslg.segments[on].b)];
+    const double t = real(random, 0, 1);
+    pslg.points.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
+    pslg.segments.push_back({static_cast<std::int32_t>(pslg.points.size()) - 1, integer(random, 0, 3), 3});
+  }
+  return pslg;
+}
+
+// Long lines that differ by a few units in the last place: they cross several times once ends are rounded.
+Pslg nearly_parallel(Random& random) {
+  Pslg pslg;
+  for (int i = 0; i < 8; ++i) {
+    const double tilt = integer(random, -20, 20) * 0x1p-52, lift = integer(random, -20, 20) * 0x1p-52;
+    const double x0 = real(random, 0, 0.4), x1 = real(random, 0.6, 1);
+    pslg.points.push_back({x0, 0.3 + x0 * 0.7 + lift});
+    pslg.points.push_back({x1, 0.3 + x1 * 0.7 + lift + tilt});
+    pslg.segments.push_back({2 * i, 2 * i + 1, i});
+  }
+  return pslg;
+}
+
+// Lines through one point, which no two crossings computed from them hit exactly.
+Pslg pencil(Random& random) {
+  Pslg pslg;
+  const Point center{real(random, -1, 1), real(random, -1, 1)};
+  for (int i = 0; i < 7; ++i) {
+    const double angle = real(random, 0, 3.14159), r = real(random, 0.1, 10), s = real(random, 0.1, 10);
+    pslg.points.push_back({center.x + r * std::cos(angle), center.y + r * std::sin(angle)});
+    pslg.points.push_back({center.x - s * std::cos(angle), center.y - s * std::sin(angle)});
+    pslg.segments.push_back({2 * i, 2 * i + 1, 0});
+  }
+  return pslg;
+}
+
+// The spacing of doubles itself as the grid: everything is close to everything.
+Pslg last_place_grid(Random& random) {
+  Pslg pslg;
+  for (int i = 0; i < 20; ++i)
+    pslg.points.push_back({1 + integer(random, 0, 40) * 0x1p-52, 1 + integer(random, 0, 40) * 0x1p-52});
+  pslg.points.push_back({0, 1});
+  pslg.points.push_back({0.5, 0});
+  add_random_segments(pslg, random, 12);
+  return pslg;
+}
+
+struct Kind {
+  const char* name;
+  Pslg (*make)(Random&);
+};
+const Kind kKinds[] = {{"integer grid", integer_grid},
+                       {"random reals", random_reals},
+                       {"computed junctions", computed_junctions},
+                       {"nearly parallel", nearly_parallel},
+                       {"pencil", pencil},
+                       {"last place grid", last_place_grid}};
+
+void decorate(Pslg& pslg, Random& random) {
+  pslg.attributes_per_point = 1;
+  for (const Point& p : pslg.points) {
+    pslg.attributes.push_back(2 * p.x - p.y);
+    pslg.point_markers.push_back(integer(random, 0, 3));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("repair makes any soup of segments planar, keeps its shape, and changes nothing the second time") {
+  std::int64_t crossings = 0, overlaps = 0, on_segments = 0, close_segments = 0, close_points = 0, duplicates = 0;
+  for (const Kind& kind : kKinds) {
+    for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+      CAPTURE(std::string(kind.name));
+      CAPTURE(seed);
+      Random random(seed);
+      Pslg input = kind.make(random);
+      decorate(input, random);
+      Pslg once = input;
+      const RepairReport report = repair(once);
+      REQUIRE(planarity_fault(once) == "");
+      // A vertex is moved by a few units in the last place at a time; a chain of them may add up.
+      const double reach = 200 * 0x1p-52 * magnitude(input);
+      CHECK(one_sided_distance(input, once) <= reach);
+      CHECK(one_sided_distance(once, input) <= reach);
+      CHECK(once.point_markers.size() == once.points.size());
+      CHECK(once.attributes.size() == once.points.size());
+      CHECK(report.original_point.size() == once.points.size());
+      for (std::size_t i = 0; i < once.points.size(); ++i)
+        CHECK(once.attributes[i] == doctest::Approx(2 * once.points[i].x - once.points[i].y).epsilon(1e-6));
+      Pslg twice = once;
+      CHECK_FALSE(repair(twice).changed());
+      CHECK(same(once, twice));
+      crossings += report.crossings.count;
+      overlaps += report.overlaps.count;
+      on_segments += report.points_on_segments.count;
+      close_segments += report.points_close_segments.count;
+      close_points += report.close_points.count;
+      duplicates += report.duplicate_points.count;
+    }
+  }
+  // The soups really had what they are for.
+  CHECK(crossings > 1000);
+  CHECK(overlaps > 100);
+  CHECK(on_segments > 100);
+  CHECK(close_segments > 100);
+  CHECK(close_points > 100);
+  CHECK(duplicates > 100);
+}
+
+TEST_CASE("the oracle sees every kind of fault") {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {2, 2}, {0, 2}, {2, 0}, {1, 1}};
+  pslg.segments = {{0, 1, 0}};
+  CHECK(planarity_fault(pslg) == "point 4 lies on segment 0");
+  pslg.points[4] = {5, 5};
+  CHECK(planarity_fault(pslg) == "");
+  pslg.segments.push_back({2, 3, 0});
+  CHECK(planarity_fault(pslg) == "segments 0 and 1 cross");
+  pslg.segments[1] = {1, 0, 0};
+  CHECK(planarity_fault(pslg) == "segments repeat: 0");
+  pslg.segments[1] = {3, 3, 0};
+  CHECK(planarity_fault(pslg) == "segment 1 has length zero");
+  pslg.points[4] = {0, 2};
+  CHECK(planarity_fault(pslg) == "points 2 and 4 are equal");
+}

@@ -1,0 +1,228 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "base/error.hpp"
+#include "pslg/open_boundary.hpp"
+#include "pslg/poly_file.hpp"
+#include "pslg/repair.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+using Segments = std::vector<Pslg::Segment>;
+
+Pslg square() {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}};
+  return pslg;
+}
+
+std::string error_of(Pslg pslg) {
+  try {
+    (void)repair(pslg, "in.poly");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("a planar graph is left as it is") {
+  Pslg pslg = square();
+  const RepairReport report = repair(pslg);
+  CHECK_FALSE(report.changed());
+  CHECK(report.summary().empty());
+  CHECK(pslg.points == square().points);
+  CHECK(pslg.segments == square().segments);
+  CHECK(report.original_point == std::vector<std::int32_t>{0, 1, 2, 3});
+}
+
+TEST_CASE("duplicate points are merged; the first keeps its attributes, a marker that it lacks is taken over") {
+  Pslg pslg = square();
+  pslg.points.insert(pslg.points.begin() + 1, {0, 0});
+  pslg.segments = {{1, 2, 1}, {2, 3, 2}, {3, 4, 3}, {4, 0, 4}};
+  pslg.point_markers = {0, 7, 1, 1, 1};
+  pslg.attributes_per_point = 1;
+  pslg.attributes = {10, 20, 30, 40, 50};
+  const RepairReport report = repair(pslg);
+  CHECK(pslg.points == square().points);
+  CHECK(pslg.segments == square().segments);
+  CHECK(pslg.point_markers == std::vector<std::int32_t>{7, 1, 1, 1});
+  CHECK(pslg.attributes == std::vector<double>{10, 30, 40, 50});
+  CHECK(report.original_point == std::vector<std::int32_t>{0, 2, 3, 4});
+  CHECK(report.summary() ==
+        "repaired: 1 duplicate vertices merged\n"
+        "  vertex 2 (0, 0) merged into vertex 1 (0, 0)\n");
+}
+
+TEST_CASE("points within rounding error of each other are one; farther ones are two") {
+  Pslg pslg = square();
+  pslg.points.push_back({4, std::nextafter(4, 5)});
+  CHECK(repair(pslg).close_points.count == 1);
+  CHECK(pslg.points == square().points);
+  pslg.points.push_back({4, 4 + 1e-13});
+  CHECK_FALSE(repair(pslg).changed());
+}
+
+TEST_CASE("segments of length zero and duplicates are dropped, conflicting markers reported") {
+  Pslg pslg = square();
+  pslg.segments.push_back({2, 2, 9});
+  pslg.segments.push_back({1, 0, 0});
+  pslg.segments.push_back({1, 0, 8});
+  const RepairReport report = repair(pslg);
+  CHECK(pslg.segments == square().segments);
+  CHECK(report.zero_length_segments.count == 1);
+  CHECK(report.duplicate_segments.count == 2);
+  CHECK(report.marker_conflicts.count == 1);
+  CHECK(report.summary().find("segment 5 begins and ends at vertex 3 (4, 4)") != std::string::npos);
+}
+
+TEST_CASE("a marker survives the merging with a segment that has none") {
+  Pslg pslg = square();
+  pslg.segments[0].marker = 0;
+  pslg.segments.push_back({1, 0, 5});
+  CHECK(repair(pslg).marker_conflicts.count == 0);
+  CHECK(pslg.segments[0] == Pslg::Segment{0, 1, 5});
+}
+
+TEST_CASE("a segment is split at points on it, in order, and keeps its marker") {
+  Pslg pslg = square();
+  pslg.points.push_back({3, 0});
+  pslg.points.push_back({1, 0});
+  const RepairReport report = repair(pslg);
+  CHECK(report.points_on_segments.count == 2);
+  CHECK(pslg.segments == Segments{{0, 5, 1}, {5, 4, 1}, {4, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}});
+}
+
+TEST_CASE("a segment that misses a point by rounding is led through it") {
+  Pslg pslg;
+  const double third = 1.0 / 3;
+  pslg.points = {{0, 0}, {1, 0.7}, {third, third * 0.7}, {0, 1}};
+  pslg.segments = {{0, 1, 0}, {2, 3, 0}};
+  pslg.points[2].y = std::nextafter(pslg.points[2].y, 1);
+  const RepairReport report = repair(pslg);
+  CHECK(report.points_close_segments.count == 1);
+  CHECK(pslg.segments == Segments{{0, 2, 0}, {2, 1, 0}, {2, 3, 0}});
+}
+
+TEST_CASE("overlapping collinear segments become pieces that do not overlap") {
+  Pslg pslg = square();
+  pslg.points.push_back({1, 0});
+  pslg.points.push_back({6, 0});
+  pslg.segments.push_back({4, 5, 6});
+  const RepairReport report = repair(pslg);
+  CHECK(report.overlaps.count == 1);
+  CHECK(report.marker_conflicts.count == 1);
+  CHECK(pslg.segments == Segments{{0, 4, 1}, {4, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}, {1, 5, 6}});
+}
+
+TEST_CASE("crossing segments meet in a new vertex with interpolated attributes") {
+  Pslg pslg = square();
+  pslg.segments = {{0, 2, 5}, {1, 3, 6}};
+  pslg.attributes_per_point = 2;
+  pslg.attributes = {0, 1, 0, 0, 4, 3, 0, 0};
+  pslg.point_markers = {1, 1, 1, 1};
+  const RepairReport report = repair(pslg);
+  CHECK(report.crossings.count == 1);
+  CHECK(report.crossings.examples == std::vector<std::string>{"segment 1 and segment 2 cross at (2, 2)"});
+  REQUIRE(pslg.points.size() == 5);
+  CHECK(pslg.points[4] == Point{2, 2});
+  CHECK(pslg.segments == Segments{{0, 4, 5}, {4, 2, 5}, {1, 4, 6}, {4, 3, 6}});
+  CHECK(pslg.attributes[8] == 2);
+  CHECK(pslg.attributes[9] == 2);
+  CHECK(pslg.point_markers.size() == 5);
+  CHECK(report.original_point.back() == -1);
+}
+
+TEST_CASE("numbers in messages are those of the file") {
+  Pslg pslg = square();
+  pslg.first_number = 0;
+  pslg.points.push_back({0, 0});
+  CHECK(repair(pslg).summary().find("vertex 4 (0, 0) merged into vertex 0 (0, 0)") != std::string::npos);
+}
+
+TEST_CASE("seeds that are certainly outside are reported, others are not") {
+  Pslg pslg = square();
+  pslg.points.insert(pslg.points.end(), {{10, 10}, {12, 10}, {10, 12}});
+  pslg.segments.insert(pslg.segments.end(), {{4, 5, 0}, {5, 6, 0}, {6, 4, 0}});
+  pslg.holes = {{2, 2}, {8, 8}, {100, 0}};
+  pslg.regions = {{{10.5, 10.5}, 1, 0}, {{11.5, 11.5}, 2, 0}};
+  const RepairReport report = repair(pslg);
+  CHECK(report.warnings ==
+        std::vector<std::string>{"hole 2 at (8, 8) lies outside the domain; it removes nothing",
+                                 "hole 3 at (100, 0) lies outside the domain; it removes nothing",
+                                 "region 2 at (11.5, 11.5) lies outside the domain; it has no effect"});
+  CHECK_FALSE(report.changed());
+}
+
+TEST_CASE("what has no clear intent is an error") {
+  Pslg pslg = square();
+  pslg.holes = {{2, 0}};
+  CHECK(error_of(pslg) == "in.poly: hole 1 at (2, 0) lies on a segment; move it to the side that is meant");
+  pslg = square();
+  pslg.points[3].x = std::numeric_limits<double>::quiet_NaN();
+  CHECK(error_of(pslg) == "in.poly: vertex 4 (nan, 4) is outside the range of coordinates; scale the input");
+  pslg = square();
+  pslg.segments[1].b = 4;
+  CHECK(error_of(pslg) ==
+        "in.poly: segment 2 names a vertex that does not exist; there are as many vertices as points");
+  pslg = square();
+  pslg.point_markers = {1};
+  CHECK(error_of(pslg) == "in.poly: there are 1 markers for 4 points; give none or one for each");
+  pslg = {};
+  pslg.points = {{0, 0}, {1, 1}, {0, 0}};
+  CHECK(error_of(pslg) == "in.poly: has 2 different vertices; a mesh needs three or more");
+  pslg.points = {{0, 0}, {1, 1}, {3, 3}, {2, 2}};
+  CHECK(error_of(pslg) == "in.poly: all vertices lie on one line; a mesh needs an area");
+}
+
+TEST_CASE("the published models need no repair") {
+  for (const char* name : {"A", "key", "pipe", "cylinder_flow", "chesapeake"}) {
+    CAPTURE(std::string(name));
+    const std::string path = std::string(DRIFTMESH_SOURCE_DIR "/../shared/data/") + name + ".poly";
+    if (!std::filesystem::exists(path)) {
+      MESSAGE("skipped, not here: " << path);
+      continue;
+    }
+    Pslg pslg = read_poly(path);
+    const RepairReport report = repair(pslg, path);
+    CHECK(report.summary() == "");
+    const OpenBoundary boundary = find_open_boundary(pslg);
+    CHECK(boundary.has_loop);
+    CHECK(boundary.open_ends.empty());
+  }
+}
+
+TEST_CASE("an open boundary is found and described") {
+  Pslg pslg = square();
+  pslg.segments.pop_back();
+  const RepairReport report = repair(pslg);
+  const OpenBoundary boundary = find_open_boundary(pslg);
+  CHECK_FALSE(boundary.has_loop);
+  CHECK(boundary.open_ends == std::vector<std::int32_t>{0, 3});
+  CHECK(describe_open_boundary(pslg, report) ==
+        "no segments form a closed boundary; it is open at vertex 1 (0, 0) and vertex 4 (0, 4)");
+  CHECK(describe_open_boundary(square(), report) ==
+        "every chain of segments is closed, but the holes cover all that they enclose");
+  pslg.segments.clear();
+  CHECK(describe_open_boundary(pslg, report) == "there are no segments that bound an area");
+}
+
+TEST_CASE("what would take forever is an error soon") {
+  Pslg pslg;
+  const std::int32_t n = 7000;  // nested segments on one line: n^2 / 2 points on segments
+  for (std::int32_t i = 0; i < n; ++i) {
+    pslg.points.push_back({static_cast<double>(i), 0});
+    pslg.points.push_back({static_cast<double>(2 * n - i), 0});
+    pslg.segments.push_back({2 * i, 2 * i + 1, 0});
+  }
+  CHECK(error_of(pslg) ==
+        "in.poly: the segments cross or overlap more than 20000000 times; their vertex numbers are probably wrong");
+}
