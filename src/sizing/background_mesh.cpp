@@ -34,6 +34,25 @@ double squared_distance_to_segment(const Point& p, const Point& a, const Point& 
 
 }  // namespace
 
+/// The edges of all triangles that have an area, sorted by their ends.
+std::vector<BackgroundMesh::Edge> BackgroundMesh::edges_of(const std::vector<Triangle>& triangles,
+                                                           const std::vector<bool>& has_area) {
+  std::vector<Edge> edges;
+  edges.reserve(3 * triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!has_area[t]) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
+      edges.push_back(
+          {std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), static_cast<std::uint8_t>(i), a < b});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) {
+    return std::tie(e.low, e.high, e.rising, e.triangle) < std::tie(f.low, f.high, f.rising, f.triangle);
+  });
+  return edges;
+}
+
 BackgroundMesh::BackgroundMesh(std::vector<Point> points, std::vector<Triangle> triangles)
     : points_(std::move(points)), triangles_(std::move(triangles)) {
   require_corners(triangles_, points_.size());
@@ -49,41 +68,31 @@ BackgroundMesh::BackgroundMesh(std::vector<Point> points, std::vector<Triangle> 
   if (std::find(has_area.begin(), has_area.end(), true) == has_area.end())
     throw Error("background mesh: no triangle has an area");
   triangle_tree_ = BoxTree(boxes);
-  find_boundary(has_area);
+  connect(edges_of(triangles_, has_area));
 }
 
-/// An edge is on the boundary when no triangle has it in the other direction.
-void BackgroundMesh::find_boundary(const std::vector<bool>& has_area) {
-  struct Edge {
-    std::int32_t low, high;
-    bool rising;
-    BoundaryEdge place;
+/// Notes what lies across each edge. An edge is on the boundary when no triangle has it in the other direction.
+void BackgroundMesh::connect(const std::vector<Edge>& edges) {
+  std::vector<Triangle> neighbours(triangles_.size(), {-1, -1, -1});
+  const auto across = [&](const Edge& edge) -> std::int32_t& {
+    return neighbours[static_cast<std::size_t>(edge.triangle)][edge.corner];
   };
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles_.size());
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    if (!has_area[t]) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t a = triangles_[t][i], b = triangles_[t][(i + 1) % 3];
-      edges.push_back(
-          {std::min(a, b), std::max(a, b), a < b, {static_cast<std::int32_t>(t), static_cast<std::int32_t>(i)}});
+  std::vector<Box> boxes;
+  for (std::size_t first = 0, last = 0; first < edges.size(); first = last + 1) {
+    last = first;
+    while (last + 1 < edges.size() && edges[last + 1].same_ends(edges[first])) ++last;
+    if (edges[first].rising == edges[last].rising) {
+      boundary_.push_back(edges[first]);
+      boxes.emplace_back();
+      for (const std::int32_t end : {edges[first].low, edges[first].high})
+        boxes.back().extend(points_[static_cast<std::size_t>(end)]);
+    } else if (last == first + 1) {
+      across(edges[first]) = edges[last].triangle;
+      across(edges[last]) = edges[first].triangle;
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) {
-    return std::tie(e.low, e.high, e.rising, e.place.triangle) < std::tie(f.low, f.high, f.rising, f.place.triangle);
-  });
-  std::vector<Box> boxes;
-  for (std::size_t i = 0, last = 0; i < edges.size(); i = last + 1) {
-    last = i;
-    while (last + 1 < edges.size() && edges[last + 1].low == edges[i].low && edges[last + 1].high == edges[i].high)
-      ++last;
-    if (edges[i].rising != edges[last].rising) continue;
-    boundary_.push_back(edges[i].place);
-    boxes.emplace_back();
-    for (const std::int32_t end : {edges[i].low, edges[i].high})
-      boxes.back().extend(points_[static_cast<std::size_t>(end)]);
-  }
   boundary_tree_ = BoxTree(boxes);
+  walk_ = TriangleWalk(points_, triangles_, neighbours);
 }
 
 template <class Visit>
@@ -98,10 +107,12 @@ void BackgroundMesh::visit_triangles_with(const Point& p, Visit&& visit) const {
 }
 
 BackgroundMesh::Place BackgroundMesh::locate(const Point& p) const {
-  Place place{-1, {}};
-  visit_triangles_with(p, [&](std::int32_t t, const std::array<double, 3>& opposite) {
-    if (place.triangle < 0 || t < place.triangle) place = {t, opposite};
-  });
+  const TriangleWalk::Found found = walk_.find(p);
+  Place place{found.triangle, found.opposite};
+  if (place.triangle < 0)
+    visit_triangles_with(p, [&](std::int32_t t, const std::array<double, 3>& opposite) {
+      if (place.triangle < 0 || t < place.triangle) place = {t, opposite};
+    });
   if (place.triangle < 0) return nearest_on_boundary(p);
   const double total = place.weight[0] + place.weight[1] + place.weight[2];
   for (double& w : place.weight) w /= total;
@@ -109,6 +120,7 @@ BackgroundMesh::Place BackgroundMesh::locate(const Point& p) const {
 }
 
 std::vector<std::int32_t> BackgroundMesh::triangles_at(const Point& p) const {
+  if (const TriangleWalk::Found inside = walk_.find(p); inside.triangle >= 0) return {inside.triangle};
   std::vector<std::int32_t> found;
   visit_triangles_with(p, [&](std::int32_t t, const auto&) { found.push_back(t); });
   if (found.empty()) found.push_back(nearest_on_boundary(p).triangle);
@@ -117,21 +129,19 @@ std::vector<std::int32_t> BackgroundMesh::triangles_at(const Point& p) const {
 }
 
 BackgroundMesh::Place BackgroundMesh::nearest_on_boundary(const Point& p) const {
-  const auto ends = [&](std::int32_t edge) {
-    const auto [triangle, first] = boundary_[static_cast<std::size_t>(edge)];
-    const auto from = static_cast<std::size_t>(first);
-    return std::pair(corner(triangle, from), corner(triangle, (from + 1) % 3));
+  const auto ends = [&](const Edge& edge) {
+    return std::pair(corner(edge.triangle, edge.corner), corner(edge.triangle, (edge.corner + 1U) % 3));
   };
-  const std::int32_t edge = boundary_tree_.nearest(p, [&](std::int32_t candidate) {
-    const auto [a, b] = ends(candidate);
+  const std::int32_t nearest = boundary_tree_.nearest(p, [&](std::int32_t candidate) {
+    const auto [a, b] = ends(boundary_[static_cast<std::size_t>(candidate)]);
     return squared_distance_to_segment(p, a, b);
   });
+  const Edge& edge = boundary_[static_cast<std::size_t>(nearest)];
   const auto [a, b] = ends(edge);
   const double t = nearest_on_segment(p, a, b);
-  const auto [triangle, first] = boundary_[static_cast<std::size_t>(edge)];
-  Place place{triangle, {}};
-  place.weight[static_cast<std::size_t>(first)] = 1 - t;
-  place.weight[static_cast<std::size_t>((first + 1) % 3)] = t;
+  Place place{edge.triangle, {}};
+  place.weight[edge.corner] = 1 - t;
+  place.weight[(edge.corner + 1U) % 3] = t;
   return place;
 }
 

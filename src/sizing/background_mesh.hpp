@@ -6,6 +6,7 @@
 
 #include "geometry/box_tree.hpp"
 #include "geometry/point.hpp"
+#include "sizing/triangle_walk.hpp"
 
 namespace driftmesh {
 
@@ -37,9 +38,12 @@ class BackgroundMesh {
   [[nodiscard]] std::vector<std::int32_t> triangles_at(const Point& p) const;
 
  private:
-  struct BoundaryEdge {
+  struct Edge {
+    std::int32_t low, high;  // the ends
     std::int32_t triangle;
-    std::int32_t corner;  // the edge runs from this corner of the triangle to the next
+    std::uint8_t corner;  // it runs from this corner of the triangle to the next
+    bool rising;          // from low to high
+    [[nodiscard]] bool same_ends(const Edge& other) const { return low == other.low && high == other.high; }
   };
 
   [[nodiscard]] const Point& corner(std::int32_t triangle, std::size_t i) const {
@@ -47,13 +51,15 @@ class BackgroundMesh {
   }
   template <class Visit>
   void visit_triangles_with(const Point& p, Visit&& visit) const;
-  void find_boundary(const std::vector<bool>& has_area);
+  static std::vector<Edge> edges_of(const std::vector<Triangle>& triangles, const std::vector<bool>& has_area);
+  void connect(const std::vector<Edge>& edges);
   [[nodiscard]] Place nearest_on_boundary(const Point& p) const;
 
   std::vector<Point> points_;
   std::vector<Triangle> triangles_;  // counterclockwise
+  TriangleWalk walk_;                // answers most questions; the trees answer the others
   BoxTree triangle_tree_;
-  std::vector<BoundaryEdge> boundary_;
+  std::vector<Edge> boundary_;
   BoxTree boundary_tree_;
 };
 

@@ -1,0 +1,71 @@
+// Nanoseconds a question to a size field. A refiner asks about once for each point that it inserts.
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "sizing/background_field.hpp"
+#include "sizing/expression_field.hpp"
+
+namespace {
+
+using namespace driftmesh;
+
+/// The unit square as n x n cells of two triangles; lines bunched towards the origin by `power`.
+BackgroundMesh square(int n, double power) {
+  std::vector<Point> points;
+  std::vector<BackgroundMesh::Triangle> triangles;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) points.push_back({std::pow(double(i) / n, power), std::pow(double(j) / n, power)});
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const std::int32_t a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
+      triangles.push_back({a, b, c});
+      triangles.push_back({a, c, d});
+    }
+  return {std::move(points), std::move(triangles)};
+}
+
+std::vector<Point> random_points(double low, double high) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(low, high);
+  std::vector<Point> points(4096);
+  for (Point& p : points) p = {uniform(random), uniform(random)};
+  return points;
+}
+
+void ask(benchmark::State& state, const SizeField& field, const std::vector<Point>& points) {
+  for (auto _ : state)
+    for (const Point& p : points) benchmark::DoNotOptimize(field.edge_length(p));
+  state.counters["call"] = benchmark::Counter(
+      static_cast<double>(points.size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void vertex_field(benchmark::State& state, double power, double low, double high) {
+  BackgroundMesh mesh = square(static_cast<int>(state.range(0)), power);
+  std::vector<double> lengths(mesh.points().size(), 1);
+  ask(state, VertexSizeField(std::move(mesh), std::move(lengths)), random_points(low, high));
+}
+
+void area_field(benchmark::State& state) {
+  BackgroundMesh mesh = square(static_cast<int>(state.range(0)), 1);
+  const std::vector<double> areas(mesh.triangles().size(), 1);
+  ask(state, TriangleAreaField(std::move(mesh), areas), random_points(0, 1));
+}
+
+void expression(benchmark::State& state) {
+  ask(state, ExpressionField("0.01 + 0.1*hypot(x, y)"), random_points(0, 1));
+}
+
+BENCHMARK_CAPTURE(vertex_field, inside, 1, 0, 1)->Arg(10)->Arg(100)->Arg(500);
+BENCHMARK_CAPTURE(vertex_field, inside_graded, 5, 0, 1)->Arg(500);
+BENCHMARK_CAPTURE(vertex_field, outside, 1, 1.1, 2)->Arg(500);
+BENCHMARK(area_field)->Arg(500);
+BENCHMARK(expression);
+
+}  // namespace
+
+BENCHMARK_MAIN();
