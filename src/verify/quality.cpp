@@ -62,7 +62,7 @@ class DegreeBins {
 
 class QualityCheck {
  public:
-  QualityCheck(const MeshPiece& mesh, const Chains& chains, const QualityBounds& bounds, Findings& findings)
+  QualityCheck(const MeshPiece& mesh, const Chains& chains, const CheckedBounds& bounds, Findings& findings)
       : mesh_(mesh), chains_(chains), bounds_(bounds), findings_(findings) {
     const long double theta = static_cast<long double>(bounds.min_angle) / kDegrees;
     max_ratio_ = bounds.min_angle > 0 ? (1 + kSlack) / (2 * std::sin(theta)) : 0;
@@ -159,9 +159,9 @@ class QualityCheck {
                                             static_cast<double>(max_ratio_));
     };
     if (is_subsegment(v, p) && is_subsegment(v, q))
-      except(ExceptionCause::input_angle, describe);
+      except(SmallAngleCause::input_angle, describe);
     else if (is_seditious(p, q))
-      except(ExceptionCause::small_wedge, describe);
+      except(SmallAngleCause::small_wedge, describe);
     else
       findings_.add(Flaw::small_angle, describe);
   }
@@ -187,14 +187,14 @@ class QualityCheck {
   }
 
   template <class Describe>
-  void except(ExceptionCause cause, const Describe& describe) {
+  void except(SmallAngleCause cause, const Describe& describe) {
     Quality::Exceptions& list = quality_.exceptions[static_cast<std::size_t>(cause)];
     if (list.count++ < bounds_.max_listed) list.messages.push_back(describe());
   }
 
   const MeshPiece& mesh_;
   const Chains& chains_;
-  const QualityBounds& bounds_;
+  const CheckedBounds& bounds_;
   Findings& findings_;
   const DegreeBins bins_;
   Quality quality_;
@@ -209,8 +209,8 @@ class QualityCheck {
 
 }  // namespace
 
-const char* exception_name(ExceptionCause cause) {
-  return cause == ExceptionCause::input_angle ? "small angle of the input" : "wedge between input segments";
+const char* cause_name(SmallAngleCause cause) {
+  return cause == SmallAngleCause::input_angle ? "small angle of the input" : "wedge between input segments";
 }
 
 std::array<std::uint64_t, 18> Quality::angles_by_ten() const {
@@ -225,7 +225,7 @@ std::uint64_t Quality::exception_count() const {
   return sum;
 }
 
-Quality check_quality(const MeshPiece& mesh, const Chains& chains, const QualityBounds& bounds, Findings& findings) {
+Quality check_quality(const MeshPiece& mesh, const Chains& chains, const CheckedBounds& bounds, Findings& findings) {
   return QualityCheck(mesh, chains, bounds, findings).run();
 }
 

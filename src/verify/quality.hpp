@@ -13,13 +13,13 @@
 namespace driftmesh {
 
 /// Why an angle below the bound is allowed.
-enum class ExceptionCause : std::uint8_t {
+enum class SmallAngleCause : std::uint8_t {
   input_angle,  ///< the angle is one of the input: both of its sides are subsegments
   small_wedge,  ///< the shortest edge joins, at the same distance from their common end, two input segments that meet
                 ///< at less than 60 degrees (a "seditious" edge: Shewchuk and Si 2014; Miller, Pav, Walkington 2003)
 };
-inline constexpr std::size_t kExceptionCauseCount = 2;
-[[nodiscard]] const char* exception_name(ExceptionCause cause);
+inline constexpr std::size_t kSmallAngleCauseCount = 2;
+[[nodiscard]] const char* cause_name(SmallAngleCause cause);
 
 /// Shape and size of the triangles of a mesh.
 struct Quality {
@@ -37,14 +37,14 @@ struct Quality {
   std::int32_t largest_angle_triangle = -1;
   std::int32_t largest_area_triangle = -1;
   std::array<std::uint64_t, 180> angles{};  ///< [d]: angles from d up to d + 1 degrees
-  std::array<Exceptions, kExceptionCauseCount> exceptions;
+  std::array<Exceptions, kSmallAngleCauseCount> exceptions;
 
   /// The histogram in 18 bins of ten degrees.
   [[nodiscard]] std::array<std::uint64_t, 18> angles_by_ten() const;
   [[nodiscard]] std::uint64_t exception_count() const;
 };
 
-struct QualityBounds {
+struct CheckedBounds {
   double min_angle = 0;                                     ///< degrees; 0: no bound
   double max_area = 0;                                      ///< 0: no bound
   std::function<double(std::size_t triangle)> region_area;  ///< empty, or each triangle's own bound (<= 0: none)
@@ -54,7 +54,7 @@ struct QualityBounds {
 /// Measures all triangles and adds those that break a bound without an allowed cause to `findings`. The angle bound is
 /// circumradius / shortest edge <= 1 / (2 sin min_angle), with a relative slack of 1e-9 for rounding; what seems to
 /// break a bound in double precision is computed again in extended precision.
-[[nodiscard]] Quality check_quality(const MeshPiece& mesh, const Chains& chains, const QualityBounds& bounds,
+[[nodiscard]] Quality check_quality(const MeshPiece& mesh, const Chains& chains, const CheckedBounds& bounds,
                                     Findings& findings);
 
 }  // namespace driftmesh

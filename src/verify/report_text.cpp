@@ -62,10 +62,10 @@ void add_exceptions(const Quality& quality, double min_angle, Text out) {
   for (std::size_t degree = 0; degree < 180 && static_cast<double>(degree) < min_angle; ++degree)
     if (quality.angles[degree] != 0)
       fmt::format_to(out, "  {:>3} - {:>3}  {:>13}\n", degree, degree + 1, grouped(quality.angles[degree]));
-  for (std::size_t c = 0; c < kExceptionCauseCount; ++c) {
+  for (std::size_t c = 0; c < kSmallAngleCauseCount; ++c) {
     const auto& list = quality.exceptions[c];
     if (list.count == 0) continue;
-    fmt::format_to(out, "  {}: {}\n", exception_name(static_cast<ExceptionCause>(c)), grouped(list.count));
+    fmt::format_to(out, "  {}: {}\n", cause_name(static_cast<SmallAngleCause>(c)), grouped(list.count));
     add_list(list.messages, list.count, out);
   }
 }

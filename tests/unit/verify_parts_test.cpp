@@ -185,7 +185,7 @@ TEST_CASE("a small angle is excused where the input has it, and nowhere else") {
   MeshPiece wedge = one_triangle({0, 0}, {4, 0}, {4, 1});  // 14 degrees
   VerifyReport report = verify(wedge, options);
   CHECK(report.accepted());
-  CHECK(report.quality.exceptions[static_cast<std::size_t>(ExceptionCause::input_angle)].count == 1);
+  CHECK(report.quality.exceptions[static_cast<std::size_t>(SmallAngleCause::input_angle)].count == 1);
 
   // The same corner cut by a vertex: its two angles of 7 degrees are no angles of the input.
   MeshPiece cut;
@@ -211,7 +211,7 @@ TEST_CASE("a skinny triangle on a seditious edge is excused when its ends are eq
   options.check_delaunay = false;
   VerifyReport report = verify(mesh(1), options);
   CHECK(report.accepted());
-  CHECK(report.quality.exceptions[static_cast<std::size_t>(ExceptionCause::small_wedge)].count == 1);
+  CHECK(report.quality.exceptions[static_cast<std::size_t>(SmallAngleCause::small_wedge)].count == 1);
   CHECK(report.quality.exception_count() == 1);
   report = verify(mesh(1.01), options);
   CHECK(report.findings.count(Flaw::small_angle) == 1);
