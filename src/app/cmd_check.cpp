@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "output/mesh_file.hpp"
 #include "pslg/poly_file.hpp"
+#include "pslg/repair.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -28,7 +29,10 @@ struct CheckOptions {
 VerifyReport read_and_verify(const CheckOptions& options) {
   const MeshPiece mesh = read_mesh(options.mesh);
   if (options.input.empty()) return verify(mesh, options.verify);
-  return verify(mesh, read_poly(options.input), options.verify);
+  Pslg input = read_poly(options.input);
+  const RepairReport repairs = repair(input, options.input);
+  if (!options.quiet) std::cout << repairs.summary();
+  return verify(mesh, input, options.verify);
 }
 
 int run_check(CheckOptions& options) {
