@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "sizing/size_field.hpp"
+
+namespace driftmesh {
+
+/// What every triangle of a finished mesh must meet.
+struct QualityBounds {
+  double min_angle = 20;  ///< degrees; 0 asks for nothing
+  double max_area = 0;    ///< <= 0: no bound
+  /// Bound of each region label (see triangulate), <= 0 for none; empty if regions set no bounds.
+  std::vector<double> region_max_area;
+  /// Target edge length as a function of position, or null. Not owned.
+  const SizeField* size = nullptr;
+};
+
+/// Refinement terminates on every input up to about 33 degrees in practice; the theory stops earlier
+/// (docs/guarantees.md). Above kMaxAngle nothing is promised and the bound is refused.
+inline constexpr double kMaxAngle = 34;
+
+/// Twice the area of the equilateral triangle with edges of length h.
+[[nodiscard]] inline double twice_area_of_edge(double h) {
+  return h * h * (std::numbers::sqrt3 / 2);
+}
+
+inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+}  // namespace driftmesh

@@ -1,0 +1,158 @@
+#include "mesh/carve.hpp"
+
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/narrow.hpp"
+#include "geometry/predicates.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr auto id = &Triangulation::id;
+
+HalfEdge across(const Triangulation& mesh, HalfEdge h) {
+  const HalfEdge g = mesh.twin(h);
+  if (!is_constrained(g)) return g;
+  const auto& half = mesh.subsegments[id(subsegment_of(g))].half;
+  return half[0] == h ? half[1] : half[0];
+}
+
+bool holds(const Triangulation& mesh, TriangleId t, const Point& p) {
+  for (int i = 0; i < 3; ++i)
+    if (orient2d(mesh.corner(t, next(i)), mesh.corner(t, previous(i)), p) < 0) return false;
+  return true;
+}
+
+/// The last resort of locate: constrained edges can make a walk circle.
+TriangleId search_all(const Triangulation& mesh, const Point& p) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.triangles[t].alive() && holds(mesh, static_cast<TriangleId>(t), p)) return static_cast<TriangleId>(t);
+  return kNone;
+}
+
+/// Everything that can be reached from `seeds` without crossing a constrained edge.
+class Flood {
+ public:
+  explicit Flood(const Triangulation& mesh) : mesh_(mesh), reached_(mesh.triangles.size(), false) {}
+
+  void add(TriangleId seed) {
+    if (reached_[id(seed)]) return;
+    reached_[id(seed)] = true;
+    stack_.push_back(seed);
+    while (!stack_.empty()) {
+      const TriangleId t = stack_.back();
+      stack_.pop_back();
+      order_.push_back(t);
+      for (const HalfEdge h : mesh_.triangles[id(t)].neighbor)
+        if (!is_constrained(h) && !reached_[id(triangle_of(h))]) {
+          reached_[id(triangle_of(h))] = true;
+          stack_.push_back(triangle_of(h));
+        }
+    }
+  }
+  [[nodiscard]] bool reached(TriangleId t) const { return reached_[id(t)]; }
+  [[nodiscard]] const std::vector<TriangleId>& triangles() const { return order_; }
+
+ private:
+  const Triangulation& mesh_;
+  std::vector<bool> reached_;
+  std::vector<TriangleId> stack_;
+  std::vector<TriangleId> order_;
+};
+
+void remove_outside(Triangulation& mesh, const Flood& outside) {
+  for (const TriangleId t : outside.triangles()) {
+    for (int i = 0; i < 3; ++i) {
+      const HalfEdge g = mesh.twin(half_edge(t, i));
+      if (!is_constrained(g)) continue;
+      for (HalfEdge& half : mesh.subsegments[id(subsegment_of(g))].half)
+        if (half == half_edge(t, i)) half = kNone;
+    }
+    mesh.remove_triangle(t);
+  }
+}
+
+/// Keeps the roots (whole segments at this stage) that still bound a triangle.
+void drop_unused_segments(Triangulation& mesh) {
+  std::vector<Subsegment> subsegments;
+  std::vector<RootSegment> roots;
+  for (RootSegment root : mesh.roots) {
+    Subsegment s = mesh.subsegments[id(root.tree)];
+    if (s.half[0] == kNone && s.half[1] == kNone) continue;
+    const auto kept = static_cast<SubsegmentId>(subsegments.size());
+    for (const HalfEdge h : s.half)
+      if (h != kNone)
+        mesh.triangles[id(triangle_of(h))].neighbor[static_cast<std::size_t>(index_of(h))] = constrained(kept);
+    s.root = static_cast<RootId>(roots.size());
+    root.tree = kept;
+    subsegments.push_back(s);
+    roots.push_back(root);
+  }
+  mesh.subsegments.swap(subsegments);
+  mesh.roots.swap(roots);
+}
+
+void label_regions(Triangulation& mesh, const std::vector<TriangleId>& seeds) {
+  if (seeds.empty()) return;
+  mesh.region.resize(mesh.triangles.size(), 0);
+  for (std::size_t r = 0; r < seeds.size(); ++r) {
+    if (seeds[r] == kNone || !mesh.triangles[id(seeds[r])].alive()) continue;
+    Flood flood(mesh);
+    flood.add(seeds[r]);
+    for (const TriangleId t : flood.triangles()) mesh.region[id(t)] = narrow<std::uint16_t>(r + 1, "number of regions");
+  }
+}
+
+[[noreturn]] void nothing_left(const Pslg& pslg, bool before_holes) {
+  if (before_holes)
+    throw Error("the segments enclose no area: the outer boundary is open or missing (" +
+                std::to_string(pslg.segments.size()) + " segments); close the boundary");
+  throw Error("the hole points remove the whole domain: each of them must lie inside a closed ring of segments");
+}
+
+}  // namespace
+
+TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start) {
+  TriangleId t = start;
+  const std::size_t most = 4 * mesh.triangles.size() + 16;
+  unsigned turn = 0;  // which edge is tried first; its change keeps the walk from circling
+  for (std::size_t step = 0; step < most; ++step) {
+    HalfEdge out = kNone;
+    bool inside = true;
+    turn = turn * 1664525u + 1013904223u;
+    for (int k = 0; k < 3 && out == kNone; ++k) {
+      const int i = static_cast<int>((static_cast<unsigned>(k) + (turn >> 16)) % 3);
+      if (orient2d(mesh.corner(t, next(i)), mesh.corner(t, previous(i)), p) >= 0) continue;
+      inside = false;
+      out = across(mesh, half_edge(t, i));
+    }
+    if (inside) return t;
+    if (out == kNone) break;
+    t = triangle_of(out);
+  }
+  return search_all(mesh, p);
+}
+
+void carve(Triangulation& mesh, const Pslg& pslg) {
+  const auto seed = [&](const Point& p) { return locate(mesh, p, 0); };
+  std::vector<TriangleId> region_seeds;
+  for (const Pslg::Region& r : pslg.regions) region_seeds.push_back(seed(r.at));
+  std::vector<TriangleId> hole_seeds;
+  for (const Point& h : pslg.holes) hole_seeds.push_back(seed(h));
+
+  Flood outside(mesh);
+  for (const Subsegment& s : mesh.subsegments)
+    if ((s.half[0] == kNone) != (s.half[1] == kNone))  // of the frame
+      outside.add(triangle_of(s.half[0] == kNone ? s.half[1] : s.half[0]));
+  const bool open = outside.triangles().size() == mesh.triangles.size();
+  for (const TriangleId t : hole_seeds)
+    if (t != kNone) outside.add(t);
+  if (outside.triangles().size() == mesh.triangles.size()) nothing_left(pslg, open);
+  remove_outside(mesh, outside);
+  drop_unused_segments(mesh);
+  label_regions(mesh, region_seeds);
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/triangulation.hpp"
+
+namespace driftmesh {
+
+/// The region around a constrained segment that no free vertex may enter: the points that see the segment under more
+/// than a given angle (Shewchuk's diametral lens; with 90 degrees, Ruppert's diametral circle).
+struct Lens {
+  /// Square of the cosine of the angle, which is at least 90 degrees.
+  double cos_squared = 0;
+};
+
+/// Insertion of one point by Bowyer and Watson's algorithm. `gather` finds the cavity (the triangles whose open
+/// circumdisks hold the point, never across a constrained segment) and changes nothing; `fill` replaces it by the
+/// triangles between the point and the cavity's border. One object serves a mesh for its lifetime, so that the loop
+/// allocates nothing.
+///
+/// The point's differences to the vertices around it, their squared lengths and the cross products along the border
+/// are computed once each: the orientation of a border edge, the in-circle determinant of the triangle behind it, and
+/// the area of the triangle that will stand on it share them. Signs are exact: a static error bound decides, or the
+/// expansion arithmetic of predicates.hpp.
+class Cavity {
+ public:
+  explicit Cavity(Triangulation& mesh);
+
+  enum class Found {
+    kClear,       ///< the cavity is ready to be filled
+    kEncroached,  ///< the point lies in the lens of a constrained segment or beyond it, see encroached()
+    kOccupied,    ///< a vertex stands at the point
+    kDegenerate,  ///< rounding left no room for the point: some triangle would not be counterclockwise
+  };
+
+  /// The cavity of a free point, found from `start`, a triangle whose circumdisk holds the point.
+  Found gather(const Point& p, TriangleId start, const Lens& lens);
+  /// The same without constrained segments to mind, walking from any triangle (for the initial triangulation).
+  Found gather_from_afar(const Point& p, TriangleId start);
+  /// The cavity of point `m` on the leaf subsegment `s`, on both sides of it (or on one, where the domain ends).
+  Found gather_on(SubsegmentId s, const Point& m);
+
+  [[nodiscard]] SubsegmentId encroached() const { return encroached_; }
+
+  /// Fills the cavity of a free point with triangles around `v`, which stands at that point.
+  void fill(VertexId v);
+  /// Fills the cavity found by gather_on and links the two pieces of the subsegment: `at_start` from its start to `v`,
+  /// and `at_end` from `v` to its end.
+  void fill_on(VertexId v, SubsegmentId at_start, SubsegmentId at_end);
+
+  /// One of the triangles that the last fill made, with the figures that its quality follows from.
+  struct Fresh {
+    TriangleId triangle;
+    double twice_area;
+    double ab, bc, ca;  ///< squared lengths of the edges
+  };
+  [[nodiscard]] int fresh_count() const { return border_count_; }
+  [[nodiscard]] TriangleId fresh_triangle(int i) const { return slots_[at(i)]; }
+  [[nodiscard]] Fresh fresh(int i) const;
+
+ private:
+  /// A vertex near the point, relative to it.
+  struct Corner {
+    double dx, dy;
+    double lift;  // squared distance
+    VertexId vertex;
+  };
+  /// An edge of the growing cavity, a to b with the point on its left.
+  struct Edge {
+    double cross;  // twice the area of (point, a, b)
+    HalfEdge outer;
+    std::int32_t a, b;  // indices into corners_
+  };
+
+  static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  void start(const Point& p);
+  [[nodiscard]] Corner relative(VertexId v) const;
+  static double cross(const Corner& a, const Corner& b) { return a.dx * b.dy - b.dx * a.dy; }
+  bool in_circle(const Edge& e, const Corner& c, double ac, double cb) const;
+  [[nodiscard]] double exact_orientation(const Corner& a, const Corner& b) const;
+  template <bool kMindConstraints>
+  Found walk(TriangleId t);
+  Found leave(TriangleId t, const double (&sides)[3]);
+  void load(TriangleId t);
+  template <bool kMindLens>
+  Found expand(double cos_squared);
+  Found check_star() const;
+  void push(HalfEdge outer, int a, int b, double cross_ab);
+  void emit(const Edge& e);
+  void take_slots();
+  void reserve(std::size_t more);
+
+  Triangulation& mesh_;
+  Point p_;
+  SubsegmentId encroached_ = kNone;
+  std::vector<Corner> corners_;
+  std::vector<Edge> stack_;
+  std::vector<Edge> border_;
+  std::vector<TriangleId> slots_;  // first those of the cavity's triangles, then added ones
+  int corner_count_ = 0;
+  int stack_count_ = 0;
+  int border_count_ = 0;
+  int killed_count_ = 0;
+  int first_left_ = 0;       // of a split: where the border passes from the right side of the segment to the left
+  TriangleId next_ = kNone;  // where the walk goes on
+  bool doubtful_ = false;    // some border edge's orientation is not certain
+};
+
+}  // namespace driftmesh

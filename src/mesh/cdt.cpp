@@ -1,0 +1,241 @@
+#include "mesh/cdt.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/narrow.hpp"
+#include "geometry/hilbert.hpp"
+#include "geometry/predicates.hpp"
+#include "mesh/carve.hpp"
+#include "mesh/cavity.hpp"
+#include "mesh/convex_hull.hpp"
+#include "mesh/flips.hpp"
+#include "mesh/renumber.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr auto id = &Triangulation::id;
+
+/// Four corners of a box around everything. Constrained segments will hide them from the inside of the domain, so they
+/// can be at any distance without spoiling a Delaunay property that lasts.
+void add_box(Triangulation& mesh, const Pslg& pslg) {
+  Point low = pslg.points[0], high = low;
+  for (const Point& p : pslg.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const double margin = 4 * std::max({high.x - low.x, high.y - low.y, std::ldexp(std::abs(low.x), -40),
+                                      std::ldexp(std::abs(low.y), -40), kSmallestInputCoordinate});
+  const VertexId a = mesh.add_vertex({low.x - margin, low.y - margin}, kFrame);
+  const VertexId b = mesh.add_vertex({high.x + margin, low.y - margin}, kFrame);
+  const VertexId c = mesh.add_vertex({high.x + margin, high.y + margin}, kFrame);
+  const VertexId d = mesh.add_vertex({low.x - margin, high.y + margin}, kFrame);
+  const RootId ab = mesh.add_root(a, b, 0, kNone), bc = mesh.add_root(b, c, 0, kNone);
+  const RootId cd = mesh.add_root(c, d, 0, kNone), da = mesh.add_root(d, a, 0, kNone);
+  const TriangleId t = mesh.add_triangle(), u = mesh.add_triangle();
+  mesh.triangles[id(t)].vertex = {a, b, c};
+  mesh.triangles[id(u)].vertex = {a, c, d};
+  const auto frame = [&](RootId root) { return constrained(mesh.roots[id(root)].tree); };
+  mesh.link(half_edge(t, 2), frame(ab));
+  mesh.link(half_edge(t, 0), frame(bc));
+  mesh.link(half_edge(u, 0), frame(cd));
+  mesh.link(half_edge(u, 1), frame(da));
+  mesh.link(half_edge(t, 1), half_edge(u, 2));
+}
+
+std::vector<VertexId> in_hilbert_order(const std::vector<Point>& points) {
+  Point low = points[0], high = low;
+  for (const Point& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const HilbertOrder order(low, high);
+  std::vector<std::pair<std::uint64_t, VertexId>> keyed;
+  keyed.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) keyed.emplace_back(order.index(points[i]), static_cast<VertexId>(i));
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<VertexId> sorted;
+  sorted.reserve(points.size());
+  for (const auto& k : keyed) sorted.push_back(k.second);
+  return sorted;
+}
+
+std::string describe(const Triangulation& mesh, VertexId v) {
+  const Point& p = mesh.points[id(v)];
+  return "point " + std::to_string(v) + " (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+}
+
+void insert_points(Triangulation& mesh, const Pslg& pslg) {
+  Cavity cavity(mesh);
+  TriangleId near = 0;
+  for (const VertexId v : in_hilbert_order(pslg.points)) {
+    const Cavity::Found found = cavity.gather_from_afar(mesh.points[id(v)], near);
+    if (found != Cavity::Found::kClear)
+      throw Error(describe(mesh, v) + " coincides with another point; repair the input first");
+    cavity.fill(v);
+    near = cavity.fresh_triangle(0);
+  }
+}
+
+/// Forces the segments of a PSLG into the triangulation of its points, by flips (Sloan 1993), and restores the
+/// constrained Delaunay property by more of them.
+class SegmentRecovery {
+ public:
+  explicit SegmentRecovery(Triangulation& mesh) : mesh_(mesh), incident_(mesh.points.size(), kNone) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) note(static_cast<TriangleId>(t));
+  }
+
+  void recover(VertexId a, VertexId b, std::int32_t marker) {
+    const HalfEdge h = find_edge_or_crossing(a, b);
+    HalfEdge edge = h;
+    if (mesh_.edge_start(h) != a) {  // an edge in the way
+      collect_crossings(a, b, h);
+      flip_crossings(a, b);
+      edge = find_edge_or_crossing(a, b);
+    }
+    constrain(edge, mesh_.add_root(std::min(a, b), std::max(a, b), marker, kNone));
+    restore_delaunay();
+  }
+
+ private:
+  using Pair = std::pair<VertexId, VertexId>;
+
+  void note(TriangleId t) {
+    for (const VertexId v : mesh_.triangles[id(t)].vertex) incident_[id(v)] = t;
+  }
+
+  const Point& at(VertexId v) const { return mesh_.points[id(v)]; }
+
+  /// The half-edge on the other side of `h`, also across a constrained one.
+  HalfEdge across(HalfEdge h) const {
+    const HalfEdge g = mesh_.twin(h);
+    if (!is_constrained(g)) return g;
+    const auto& half = mesh_.subsegments[id(subsegment_of(g))].half;
+    return half[0] == h ? half[1] : half[0];
+  }
+
+  [[noreturn]] void not_repaired(VertexId a, VertexId b, const std::string& what) const {
+    throw Error("the segment from " + describe(mesh_, a) + " to " + describe(mesh_, b) + " " + what +
+                "; repair the input first");
+  }
+
+  /// Turns around `a` to the half-edge from a to b if there is one, or else to the edge opposite to a that ab crosses.
+  HalfEdge find_edge_or_crossing(VertexId a, VertexId b) const {
+    const TriangleId first = incident_[id(a)];
+    TriangleId t = first;
+    do {
+      const auto& v = mesh_.triangles[id(t)].vertex;
+      const int i = v[0] == a ? 0 : v[1] == a ? 1 : 2;
+      const VertexId s = v[next(i)], e = v[previous(i)];
+      if (s == b) return half_edge(t, previous(i));
+      const double right = orient2d(at(a), at(s), at(b));
+      const bool ahead = (at(s).x - at(a).x) * (at(b).x - at(a).x) + (at(s).y - at(a).y) * (at(b).y - at(a).y) > 0;
+      if (right == 0 && ahead) not_repaired(a, b, "passes through " + describe(mesh_, s));
+      if (e != b && right > 0 && orient2d(at(a), at(b), at(e)) > 0) return half_edge(t, i);
+      t = triangle_of(across(half_edge(t, next(i))));
+    } while (t != first);
+    not_repaired(a, b, "leaves the triangulation");
+  }
+
+  void collect_crossings(VertexId a, VertexId b, HalfEdge h) {
+    for (;;) {
+      const HalfEdge g = mesh_.twin(h);
+      if (is_constrained(g)) not_repaired(a, b, "crosses another one");
+      crossings_.emplace_back(mesh_.edge_start(h), mesh_.edge_end(h));
+      const VertexId d = mesh_.apex(g);
+      if (d == b) return;
+      const double side = orient2d(at(a), at(b), at(d));
+      if (side == 0) not_repaired(a, b, "passes through " + describe(mesh_, d));
+      // g runs from the left end to the right end of the crossed edge; the next crossed edge joins d to the other side.
+      h = half_edge(triangle_of(g), side > 0 ? next(index_of(g)) : previous(index_of(g)));
+    }
+  }
+
+  HalfEdge find_edge(VertexId u, VertexId w) const {
+    const TriangleId first = incident_[id(u)];
+    TriangleId t = first;
+    do {
+      const auto& v = mesh_.triangles[id(t)].vertex;
+      const int i = v[0] == u ? 0 : v[1] == u ? 1 : 2;
+      if (v[next(i)] == w) return half_edge(t, previous(i));
+      t = triangle_of(across(half_edge(t, next(i))));
+    } while (t != first);
+    return kNone;
+  }
+
+  void flip_crossings(VertexId a, VertexId b) {
+    while (!crossings_.empty()) {
+      const auto [u, w] = crossings_.front();
+      crossings_.pop_front();
+      const HalfEdge h = find_edge(u, w);
+      if (!is_flippable(mesh_, h)) {
+        crossings_.emplace_back(u, w);
+        continue;
+      }
+      const HalfEdge g = flip(mesh_, h);
+      note_flip(g);
+      const VertexId c = mesh_.edge_start(g), d = mesh_.edge_end(g);
+      const bool touches = c == a || c == b || d == a || d == b;
+      if (!touches && (orient2d(at(a), at(b), at(c)) > 0) != (orient2d(at(a), at(b), at(d)) > 0))
+        crossings_.emplace_back(c, d);
+    }
+  }
+
+  void note_flip(HalfEdge g) {
+    for (const TriangleId t : {triangle_of(g), triangle_of(mesh_.twin(g))}) {
+      note(t);
+      flipped_.push_back(t);
+    }
+  }
+
+  void constrain(HalfEdge h, RootId root) {
+    const HalfEdge g = mesh_.twin(h);
+    if (is_constrained(g)) return;  // a duplicate segment: repair() removes those
+    const HalfEdge s = constrained(mesh_.roots[id(root)].tree);
+    mesh_.link(h, s);
+    mesh_.link(g, s);
+  }
+
+  void restore_delaunay() {
+    pending_.clear();
+    for (const TriangleId t : flipped_)
+      for (int i = 0; i < 3; ++i) pending_.push_back(half_edge(t, i));
+    flipped_.clear();
+    legalize(mesh_, pending_, flipped_);
+    for (const TriangleId t : flipped_) note(t);
+    flipped_.clear();
+  }
+
+  Triangulation& mesh_;
+  std::vector<TriangleId> incident_;  // a triangle of each vertex
+  std::deque<Pair> crossings_;
+  std::vector<TriangleId> flipped_;
+  std::vector<HalfEdge> pending_;
+};
+
+void recover_segments(Triangulation& mesh, const std::vector<Pslg::Segment>& segments) {
+  SegmentRecovery recovery(mesh);
+  for (const Pslg::Segment& s : segments) recovery.recover(s.a, s.b, s.marker);
+}
+
+}  // namespace
+
+Triangulation triangulate(const Pslg& pslg) {
+  if (pslg.points.size() < 3) throw Error("a domain needs at least three points");
+  Triangulation mesh;
+  for (std::size_t i = 0; i < pslg.points.size(); ++i)
+    mesh.add_vertex(pslg.points[i], narrow<VertexOrigin>(i, "number of points"));
+  add_box(mesh, pslg);
+  insert_points(mesh, pslg);
+  recover_segments(mesh, pslg.segments.empty() ? convex_hull(pslg.points) : pslg.segments);
+  carve(mesh, pslg);
+  renumber(mesh);
+  return mesh;
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "mesh/triangulation.hpp"
+#include "pslg/pslg.hpp"
+
+namespace driftmesh {
+
+/// The constrained Delaunay triangulation of the domain that a PSLG describes: everything outside its outer boundary
+/// and everything reachable from its hole points removed, triangles labelled by region.
+/// Vertex origins are indices into `pslg.points`; roots stand in the order of `pslg.segments`, without those that
+/// bound no part of the domain. Region labels: 0 is "no region point", i + 1 is pslg.regions[i]; the array is empty if
+/// there are no region points. Triangles come out in Hilbert order.
+///
+/// The PSLG must be what repair() leaves: distinct points in coordinate range, segments that meet only at shared ends.
+/// Without segments, the convex hull of the points is the domain.
+/// Throws Error if the PSLG is not repaired, if its points are collinear, or if it encloses nothing (the message names
+/// the cause: an open boundary, or hole points that empty the domain).
+[[nodiscard]] Triangulation triangulate(const Pslg& pslg);
+
+}  // namespace driftmesh

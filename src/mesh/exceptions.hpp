@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/bounds.hpp"
+#include "mesh/triangulation.hpp"
+
+namespace driftmesh {
+
+/// Why a triangle may stay below the angle bound.
+enum class ExceptionCause : std::uint8_t {
+  kUnexplained,  ///< nothing excuses it
+  kInputAngle,   ///< its smallest angle lies between two constrained edges: it is an angle of the input
+  kShell,        ///< its shortest edge joins two segments of one acute corner at the same distance from the apex
+  kPrecision,    ///< coordinates have no room for a point that would help
+};
+
+/// What excuses triangle t, judged by its place alone: never kPrecision.
+[[nodiscard]] ExceptionCause cause_of(const Triangulation& mesh, TriangleId t);
+
+/// The triangles of a refined mesh that miss the angle or the area bound, by cause. Looks at every triangle anew and
+/// trusts nothing that the refiner remembers.
+struct Exceptions {
+  struct Item {
+    TriangleId triangle;
+    ExceptionCause cause;
+    double smallest_angle;  ///< degrees
+  };
+  std::vector<Item> skinny;  ///< below the angle bound
+  std::vector<TriangleId>
+      large;  ///< above their area bound: empty unless refinement was stopped early or precision ran out
+};
+[[nodiscard]] Exceptions find_exceptions(const Triangulation& mesh, const QualityBounds& bounds);
+
+/// The distribution of the angles of a mesh.
+struct AngleSummary {
+  double smallest = 180;                ///< degrees
+  double largest = 0;                   ///< degrees
+  std::array<std::int64_t, 18> bins{};  ///< number of angles from 10 i to 10 (i + 1) degrees
+  double smallest_area = 0, largest_area = 0, total_area = 0;
+};
+[[nodiscard]] AngleSummary summarize_angles(const Triangulation& mesh);
+
+}  // namespace driftmesh

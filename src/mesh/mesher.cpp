@@ -1,0 +1,57 @@
+#include "mesh/mesher.hpp"
+
+#include <chrono>
+
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+
+namespace driftmesh {
+namespace {
+
+/// Seconds since its construction.
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+QualityBounds bounds_of(const Pslg& pslg, const MeshRequest& request) {
+  QualityBounds bounds{request.min_angle, request.max_area, {}, request.size};
+  if (!request.region_areas) return bounds;
+  bounds.region_max_area.push_back(0);  // label 0: outside all regions
+  for (const Pslg::Region& r : pslg.regions) bounds.region_max_area.push_back(r.max_area);
+  return bounds;
+}
+
+/// Insertions between two reports: some tens of milliseconds.
+constexpr std::int64_t kReportEvery = 100'000;
+
+}  // namespace
+
+MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshProgress& progress) {
+  MeshResult result;
+  result.bounds = bounds_of(pslg, request);
+  const Stopwatch triangulating;
+  result.mesh = triangulate(pslg);
+  result.acute_corners = prepare_corners(result.mesh);
+  result.seconds_triangulate = triangulating.seconds();
+
+  const Stopwatch refining;
+  Refiner refiner(result.mesh, result.bounds);
+  refiner.limit_triangles(request.max_triangles);
+  const double forecast = progress ? refiner.predict_triangles() : 0;
+  Refiner::Status status = Refiner::Status::kBudget;
+  while (status == Refiner::Status::kBudget) {
+    status = refiner.refine(progress ? kReportEvery : INT64_MAX);
+    if (progress) progress(static_cast<std::int64_t>(result.mesh.live_triangles()), forecast);
+  }
+  result.complete = status == Refiner::Status::kDone;
+  result.counters = refiner.counters();
+  result.seconds_refine = refining.seconds();
+  return result;
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,326 @@
+#include "mesh/refiner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/assert.hpp"
+#include "base/error.hpp"
+#include "geometry/triangle_geometry.hpp"
+#include "mesh/exceptions.hpp"
+#include "mesh/flips.hpp"
+#include "mesh/renumber.hpp"
+
+namespace driftmesh {
+namespace {
+
+/// Triangles of the finished mesh that come from one triangle of the coarse stage, and of one block of them. A block
+/// with its vertices (32 bytes a triangle) stays in a second-level cache.
+constexpr double kFinePerCoarse = 256;
+constexpr double kFinePerBlock = 8192;
+/// Measured for area-bounded refinement: the mean area of the triangles, relative to the bound.
+constexpr double kMeanArea = 0.645;
+
+double radians(double degrees) {
+  return degrees * (std::numbers::pi / 180);
+}
+
+/// The lens of Chew and Shewchuk: points that see the segment at more than 120 degrees, or at more than 180 degrees
+/// less twice the angle bound where that is smaller, since a segment that is not in the way of the bound need not be
+/// split.
+double cos_squared_of_lens(double min_angle) {
+  const double cosine = std::cos(radians(std::min(120.0, 180 - 2 * min_angle)));
+  return cosine * cosine;
+}
+
+}  // namespace
+
+Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds) : mesh_(mesh), bounds_(bounds), cavity_(mesh) {
+  if (!(bounds.min_angle >= 0 && bounds.min_angle <= kMaxAngle))
+    throw Error("the angle bound must lie between 0 and " + std::to_string(static_cast<int>(kMaxAngle)) +
+                " degrees: beyond, refinement need not end");
+  if (std::isnan(bounds.max_area)) throw Error("the area bound is not a number");
+  // A relative margin of 1e-9 lets a reader of the file, with other roundings, see the bound met.
+  const double sine = std::sin(radians(bounds.min_angle));
+  sin_squared_ = sine * sine * (1 + 1e-9);
+  off_center_factor_ = bounds.min_angle > 0 ? off_center_factor(bounds.min_angle) : 0;
+  lens_.cos_squared = cos_squared_of_lens(bounds.min_angle);
+
+  const auto twice = [](double area) { return area > 0 ? 2 * area * (1 - 1e-12) : kNoBound; };
+  twice_area_bounds_.push_back(twice(bounds.max_area));
+  for (std::size_t r = 1; r < bounds.region_max_area.size(); ++r)
+    twice_area_bounds_.push_back(std::min(twice(bounds.max_area), twice(bounds.region_max_area[r])));
+  if (bounds.size != nullptr)
+    for (const Point& p : mesh.points) size_.push_back(bounds.size->edge_length(p));
+}
+
+// ---- Shapes and bounds ----
+
+Refiner::Shape Refiner::shape(double twice_area, double ab, double bc, double ca) {
+  return {twice_area, std::min(ab, std::min(bc, ca)), std::max(ab, std::max(bc, ca)), ab * bc * ca};
+}
+
+Refiner::Shape Refiner::shape_of(TriangleId t) const {
+  const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
+  return shape(2 * signed_area(a, b, c), squared_distance(a, b), squared_distance(b, c), squared_distance(c, a));
+}
+
+inline double Refiner::twice_area_bound(TriangleId t) const {
+  double bound = twice_area_bounds_[0];
+  if (twice_area_bounds_.size() > 1 && !mesh_.region.empty()) bound = twice_area_bounds_[mesh_.region[id(t)]];
+  if (bounds_.size != nullptr) bound = std::min(bound, sized_bound(t));
+  return bound * coarsening_;
+}
+
+double Refiner::sized_bound(TriangleId t) const {
+  const auto& v = mesh_.triangles[id(t)].vertex;
+  const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
+  const double h = std::min({size_[id(v[0])], size_[id(v[1])], size_[id(v[2])],
+                             bounds_.size->edge_length({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3})});
+  return twice_area_of_edge(h);
+}
+
+double Refiner::predict_triangles() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+    if (!mesh_.triangles[i].alive()) continue;
+    const auto t = static_cast<TriangleId>(i);
+    sum += std::max(1.0, shape_of(t).twice_area / (kMeanArea * twice_area_bound(t) / coarsening_));
+  }
+  return sum;
+}
+
+// ---- The order of work ----
+
+Refiner::Status Refiner::refine(std::int64_t insertions) {
+  const auto inserted = [this] { return counters_.free_points + counters_.segment_points; };
+  const std::int64_t stop = insertions > INT64_MAX - inserted() ? INT64_MAX : inserted() + insertions;
+  while (inserted() < stop) {
+    if (static_cast<std::int64_t>(mesh_.triangles.size()) >= max_triangles_ &&
+        static_cast<std::int64_t>(mesh_.live_triangles()) >= max_triangles_)
+      return Status::kFull;
+    if (!step()) return Status::kDone;
+  }
+  return Status::kBudget;
+}
+
+/// One attempt at one triangle or segment; false when all is done.
+bool Refiner::step() {
+  switch (stage_) {
+    case Stage::kSegments:
+      if (!step_segments()) enter(wants_coarse_stage() ? Stage::kCoarse : Stage::kFine);
+      return true;
+    case Stage::kCoarse:
+      if (!step_large() && !sweep_.next_block()) enter(Stage::kFine);
+      return true;
+    case Stage::kFine:
+      if (!step_large() && !step_skinny() && !sweep_.next_block()) enter(Stage::kRest);
+      return true;
+    case Stage::kRest:
+      if (!step_large() && !step_skinny()) stage_ = Stage::kDone;
+      return true;
+    case Stage::kDone:
+      break;
+  }
+  return false;
+}
+
+void Refiner::enter(Stage stage) {
+  const auto size = [this] { return static_cast<TriangleId>(mesh_.triangles.size()); };
+  stage_ = stage;
+  switch (stage) {
+    case Stage::kCoarse:
+      coarsening_ = kFinePerCoarse;
+      sweep_.start(size(), size());
+      break;
+    case Stage::kFine: {
+      const bool after_coarse = coarsening_ != 1;
+      coarsening_ = 1;
+      if (after_coarse) renumber(mesh_);
+      if (after_coarse && bounds_.size != nullptr)
+        for (std::size_t v = 0; v < mesh_.points.size(); ++v) size_[v] = bounds_.size->edge_length(mesh_.points[v]);
+      sweep_.start(size(), after_coarse ? static_cast<TriangleId>(kFinePerBlock / kFinePerCoarse) : size());
+      skinny_.clear();
+      break;
+    }
+    case Stage::kRest:
+      for (const TriangleId t : deferred_)
+        if (mesh_.triangles[id(t)].alive()) note(t, shape_of(t));
+      deferred_.clear();
+      break;
+    default:
+      break;
+  }
+}
+
+/// Whether the finished mesh will outgrow the cache by far, so that it pays to refine it block by block.
+bool Refiner::wants_coarse_stage() const {
+  const double final_size = predict_triangles();
+  return final_size > 4 * kFinePerBlock &&
+         final_size > kFinePerCoarse / 4 * static_cast<double>(mesh_.live_triangles());
+}
+
+/// Splits given segments whose lens holds a vertex from the start.
+bool Refiner::step_segments() {
+  if (next_segment_ == static_cast<SubsegmentId>(mesh_.subsegments.size())) return false;
+  const Subsegment& s = mesh_.subsegments[id(next_segment_)];
+  if (s.is_leaf()) {
+    const Point &a = mesh_.points[id(s.vertex[0])], &b = mesh_.points[id(s.vertex[1])];
+    const double cosine = -std::sqrt(lens_.cos_squared);
+    for (const HalfEdge h : s.half)
+      if (h != kNone && in_diametral_lens(mesh_.points[id(mesh_.apex(h))], a, b, cosine)) {
+        split(next_segment_);
+        break;
+      }
+  }
+  ++next_segment_;
+  return true;
+}
+
+bool Refiner::step_large() {
+  const TriangleId t = sweep_.current(static_cast<TriangleId>(mesh_.triangles.size()));
+  if (t == kNone) return false;
+  if (!mesh_.triangles[id(t)].alive()) {
+    sweep_.done_with(t);
+    return true;
+  }
+  const Shape s = shape_of(t);
+  const double bound = twice_area_bound(t);
+  const Verdict verdict = judge(s, bound);
+  if (verdict == Verdict::kLarge && improve(t, false) == Progress::kChanged) return true;
+  if (verdict == Verdict::kLarge) ++counters_.given_up;
+  sweep_.done_with(t);
+  if (verdict == Verdict::kSkinny) note_skinny(t, s, bound);
+  return true;
+}
+
+bool Refiner::step_skinny() {
+  const SkinnyBuckets::Entry entry = skinny_.take();
+  const TriangleId t = entry.triangle;
+  if (t == kNone) return false;
+  if (!mesh_.triangles[id(t)].alive()) return true;
+  const Shape s = shape_of(t);
+  if (judge(s, kNoBound) != Verdict::kSkinny || !entry.fits(s.shortest)) return true;
+  if (cause_of(mesh_, t) != ExceptionCause::kUnexplained) return true;
+  const std::int64_t before = counters_.free_points;
+  if (improve(t, true) == Progress::kStuck)
+    ++counters_.given_up;
+  else if (counters_.free_points == before)
+    skinny_.add(t, entry.bucket);  // a segment was split instead: the triangle may still be there
+  return true;
+}
+
+// ---- Insertion ----
+
+inline Point Refiner::candidate(TriangleId t, bool skinny) const {
+  const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
+  return skinny ? off_center_of_triangle(a, b, c, off_center_factor_) : circumcenter(a, b, c);
+}
+
+VertexId Refiner::add_vertex(const Point& p, VertexOrigin origin) {
+  const VertexId v = mesh_.add_vertex(p, origin);
+  if (bounds_.size != nullptr) {
+    if (id(v) >= size_.size()) size_.resize_uninitialized(id(v) + 1);
+    size_[id(v)] = bounds_.size->edge_length(p);
+  }
+  return v;
+}
+
+/// Inserts the candidate point of triangle t, or splits the segment that it encroaches upon.
+Refiner::Progress Refiner::improve(TriangleId t, bool skinny) {
+  const Point p = candidate(t, skinny);
+  if (!std::isfinite(p.x) || !std::isfinite(p.y)) return Progress::kStuck;
+  switch (cavity_.gather(p, t, lens_)) {
+    case Cavity::Found::kClear:
+      cavity_.fill(add_vertex(p, kFree));
+      ++counters_.free_points;
+      note_fresh();
+      return Progress::kChanged;
+    case Cavity::Found::kEncroached:
+      ++counters_.encroaching;
+      return split(cavity_.encroached()) ? Progress::kChanged : Progress::kStuck;
+    default:
+      return Progress::kStuck;
+  }
+}
+
+/// Deletes the free vertices opposite to a segment that see it under more than 90 degrees.
+void Refiner::clear_diametral_circle(SubsegmentId s) {
+  for (const std::size_t side : {0, 1}) {
+    for (;;) {
+      const Subsegment& segment = mesh_.subsegments[id(s)];
+      const HalfEdge h = segment.half[side];
+      if (h == kNone) break;
+      const VertexId apex = mesh_.apex(h);
+      if (mesh_.origin[id(apex)] != kFree) break;
+      if (!in_diametral_lens(mesh_.points[id(apex)], mesh_.points[id(segment.vertex[0])],
+                             mesh_.points[id(segment.vertex[1])], 0))
+        break;
+      changed_.clear();
+      if (!remove_vertex(mesh_, h, changed_)) break;
+      ++counters_.deleted_points;
+      for (const TriangleId t : changed_)
+        if (mesh_.triangles[id(t)].alive()) note(t, shape_of(t));
+    }
+  }
+}
+
+/// Splits leaf s at its midpoint. False if depth or precision does not allow it.
+bool Refiner::split(SubsegmentId s) {
+  if (dyadic::depth(mesh_.subsegments[id(s)].path) >= dyadic::kMaxDepth) return false;
+  clear_diametral_circle(s);
+  const auto [a, b] = mesh_.subsegments[id(s)].vertex;
+  const Point m = midpoint(mesh_.points[id(a)], mesh_.points[id(b)]);
+  if (cavity_.gather_on(s, m) != Cavity::Found::kClear) return false;
+  const VertexId v = add_vertex(m, ~s);
+  const SubsegmentId child = mesh_.halve(s, v);
+  cavity_.fill_on(v, child, child + 1);
+  ++counters_.segment_points;
+  note_fresh();
+  return true;
+}
+
+bool Refiner::add_split_point(RootId root, dyadic::Path path) {
+  for (;;) {
+    const SubsegmentId s = mesh_.descend(root, path);
+    if (!mesh_.subsegments[id(s)].is_leaf()) return true;
+    if (stage_ == Stage::kDone) enter(Stage::kRest);
+    if (!split(s)) return false;
+  }
+}
+
+inline void Refiner::note_fresh() {
+  const int n = cavity_.fresh_count();
+  for (int i = 0; i < n; ++i) {
+    if (sweep_.will_visit(cavity_.fresh_triangle(i))) continue;
+    const Cavity::Fresh f = cavity_.fresh(i);
+    note(f.triangle, shape(f.twice_area, f.ab, f.bc, f.ca));
+  }
+}
+
+/// Queues a triangle that needs work, unless the sweep will come to it anyway.
+inline void Refiner::note(TriangleId t, const Shape& s) {
+  const double bound = twice_area_bound(t);
+  switch (judge(s, bound)) {
+    case Verdict::kLarge:
+      sweep_.visit_again(t);
+      break;
+    case Verdict::kSkinny:
+      note_skinny(t, s, bound);
+      break;
+    case Verdict::kFine:
+      break;
+  }
+}
+
+/// A long skinny triangle at the edge of a block in work leads into a block still coarse, whose turn will do away with
+/// it: it waits for the end.
+inline void Refiner::note_skinny(TriangleId t, const Shape& s, double bound) {
+  if (stage_ == Stage::kCoarse) return;
+  if (stage_ == Stage::kFine && s.longest > 8 * bound)
+    deferred_.push_back(t);
+  else
+    skinny_.add(t, SkinnyBuckets::bucket_of(s.shortest));
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/bounds.hpp"
+#include "mesh/cavity.hpp"
+#include "mesh/triangulation.hpp"
+#include "mesh/worklist.hpp"
+
+namespace driftmesh {
+
+/// A point that refinement put on a root segment: what a SPLIT message says.
+struct SplitPoint {
+  RootId root;
+  dyadic::Path path;
+};
+
+/// Delaunay refinement of one subdomain: inserts circumcenters and off-centers of triangles that miss the bounds, and
+/// midpoints of constrained segments that such a point would encroach upon, until every triangle meets the bounds.
+///
+/// Segments are protected by diametral lenses; before one is split, the free vertices that see it under more than 90
+/// degrees are deleted (Chew 1993; both are needed for bounds above 31 degrees, and the deletion for termination when
+/// neighbours split a shared segment at any time). Triangles too large are worked off in sweeps over the mesh, from a
+/// coarse version of the bound to the bound itself; then skinny ones, shortest edge first.
+///
+/// The order is fixed by the mesh alone: the same input gives the same mesh. The object can be stopped after any number
+/// of insertions and go on later, and can be told of split points in between.
+class Refiner {
+ public:
+  /// `mesh` must outlive the refiner and be changed by nobody else while it exists. Throws Error for an angle bound
+  /// outside [0, kMaxAngle] or NaN bounds.
+  Refiner(Triangulation& mesh, const QualityBounds& bounds);
+
+  enum class Status {
+    kDone,    ///< every triangle meets the bounds, but for those that exceptions.hpp explains
+    kBudget,  ///< stopped after the given number of insertions; call again
+    kFull,    ///< the mesh has reached the limit on triangles
+  };
+  /// Works for at most about `insertions` insertions.
+  Status refine(std::int64_t insertions);
+  Status refine() { return refine(INT64_MAX); }
+
+  /// Stop at this many live triangles (kFull). Default: what the handles can name.
+  void limit_triangles(std::int64_t most) { max_triangles_ = std::min(most, kMaxTriangles - 64); }
+
+  /// Puts point `path` of `root` into the mesh, with the points that must exist before it (its ancestors). Nothing
+  /// happens if it is there. Returns false if the depth or the precision of coordinates does not allow it.
+  bool add_split_point(RootId root, dyadic::Path path);
+
+  struct Counters {
+    std::int64_t free_points = 0;     ///< circumcenters and off-centers inserted
+    std::int64_t segment_points = 0;  ///< midpoints inserted
+    std::int64_t deleted_points = 0;  ///< free vertices deleted before a split
+    std::int64_t encroaching = 0;     ///< points rejected because they encroached
+    std::int64_t given_up = 0;        ///< triangles left as they are because coordinates have no room for a point
+  };
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+
+  /// A forecast of the number of triangles at the end, from the present mesh and the bounds on area and size (the angle
+  /// bound adds to it only where no area bound is active). Within a few percent for area-bounded refinement.
+  [[nodiscard]] double predict_triangles() const;
+
+ private:
+  enum class Stage { kSegments, kCoarse, kFine, kRest, kDone };
+  enum class Verdict { kFine, kLarge, kSkinny };
+  enum class Progress { kChanged, kStuck };
+  struct Shape {
+    double twice_area;
+    double shortest, longest;  // squared lengths
+    double product;            // of the three squared lengths
+  };
+
+  static constexpr std::size_t id(std::int32_t i) { return Triangulation::id(i); }
+  static Shape shape(double twice_area, double ab, double bc, double ca);
+  [[nodiscard]] Shape shape_of(TriangleId t) const;
+  [[nodiscard]] double twice_area_bound(TriangleId t) const;
+  [[nodiscard]] double sized_bound(TriangleId t) const;
+  [[nodiscard]] Verdict judge(const Shape& s, double bound) const {
+    if (s.twice_area > bound) return Verdict::kLarge;
+    return s.twice_area * s.twice_area * s.shortest < sin_squared_ * s.product ? Verdict::kSkinny : Verdict::kFine;
+  }
+
+  bool step();
+  bool step_segments();
+  bool step_large();
+  bool step_skinny();
+  void enter(Stage stage);
+  [[nodiscard]] bool wants_coarse_stage() const;
+
+  Progress improve(TriangleId t, bool skinny);
+  [[nodiscard]] Point candidate(TriangleId t, bool skinny) const;
+  bool split(SubsegmentId s);
+  void clear_diametral_circle(SubsegmentId s);
+  void note_fresh();
+  void note(TriangleId t, const Shape& s);
+  void note_skinny(TriangleId t, const Shape& s, double bound);
+  VertexId add_vertex(const Point& p, VertexOrigin origin);
+
+  Triangulation& mesh_;
+  QualityBounds bounds_;
+  Cavity cavity_;
+  Lens lens_;
+  double sin_squared_ = 0;  // of the angle bound, with a margin for rounding
+  double off_center_factor_ = 0;
+  double coarsening_ = 1;                  // all area bounds are this much larger at the moment
+  std::vector<double> twice_area_bounds_;  // by region label
+  GrowingArray<double> size_;              // of each vertex, if there is a size field
+  std::int64_t max_triangles_ = kMaxTriangles - 64;
+
+  Stage stage_ = Stage::kSegments;
+  SubsegmentId next_segment_ = 0;
+  Sweep sweep_;
+  SkinnyBuckets skinny_;
+  std::vector<TriangleId> deferred_;
+  std::vector<TriangleId> changed_;
+  Counters counters_;
+};
+
+}  // namespace driftmesh

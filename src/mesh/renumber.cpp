@@ -1,0 +1,118 @@
+#include "mesh/renumber.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "geometry/hilbert.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr auto id = &Triangulation::id;
+
+std::vector<TriangleId> live_triangles(const Triangulation& mesh) {
+  std::vector<TriangleId> live;
+  live.reserve(mesh.live_triangles());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.triangles[t].alive()) live.push_back(static_cast<TriangleId>(t));
+  return live;
+}
+
+HilbertOrder hilbert_order(const Triangulation& mesh) {
+  Point low{0, 0}, high{0, 0};
+  if (!mesh.points.empty()) low = high = mesh.points[0];
+  for (const Point& p : mesh.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return HilbertOrder(low, high);
+}
+
+void sort_by_hilbert(const Triangulation& mesh, std::vector<TriangleId>& triangles) {
+  const HilbertOrder order = hilbert_order(mesh);
+  std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
+  keyed.reserve(triangles.size());
+  for (const TriangleId t : triangles) {
+    const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+    keyed.emplace_back(order.index({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}), t);
+  }
+  std::sort(keyed.begin(), keyed.end());
+  std::transform(keyed.begin(), keyed.end(), triangles.begin(), [](const auto& k) { return k.second; });
+}
+
+/// New ids in the order of first use by `order`; kNone for vertices without use.
+std::vector<VertexId> vertices_by_use(const Triangulation& mesh, const std::vector<TriangleId>& order,
+                                      std::vector<VertexId>& old_of_new) {
+  std::vector<VertexId> new_of_old(mesh.points.size(), kNone);
+  for (const TriangleId t : order)
+    for (const VertexId v : mesh.triangles[id(t)].vertex)
+      if (new_of_old[id(v)] == kNone) {
+        new_of_old[id(v)] = static_cast<VertexId>(old_of_new.size());
+        old_of_new.push_back(v);
+      }
+  return new_of_old;
+}
+
+void move_vertices(Triangulation& mesh, const std::vector<VertexId>& old_of_new) {
+  GrowingArray<Point> points;
+  GrowingArray<VertexOrigin> origin;
+  points.reserve(old_of_new.size());
+  origin.reserve(old_of_new.size());
+  for (const VertexId v : old_of_new) {
+    points.push_back(mesh.points[id(v)]);
+    origin.push_back(mesh.origin[id(v)]);
+  }
+  mesh.points.swap(points);
+  mesh.origin.swap(origin);
+  mesh.free_vertices.clear();
+}
+
+void move_triangles(Triangulation& mesh, const std::vector<TriangleId>& order,
+                    const std::vector<VertexId>& new_vertex) {
+  std::vector<TriangleId> new_of_old(mesh.triangles.size(), kNone);
+  for (std::size_t i = 0; i < order.size(); ++i) new_of_old[id(order[i])] = static_cast<TriangleId>(i);
+  const auto moved = [&](HalfEdge h) { return h < 0 ? h : half_edge(new_of_old[id(triangle_of(h))], index_of(h)); };
+
+  GrowingArray<Triangle> triangles;
+  GrowingArray<std::uint16_t> region;
+  triangles.reserve(order.size());
+  for (const TriangleId t : order) {
+    Triangle triangle = mesh.triangles[id(t)];
+    for (VertexId& v : triangle.vertex) v = new_vertex[id(v)];
+    for (HalfEdge& h : triangle.neighbor) h = moved(h);
+    triangles.push_back(triangle);
+    if (!mesh.region.empty()) region.push_back(mesh.region[id(t)]);
+  }
+  mesh.triangles.swap(triangles);
+  mesh.region.swap(region);
+  mesh.free_triangles.clear();
+  for (Subsegment& s : mesh.subsegments)
+    if (s.is_leaf())
+      for (HalfEdge& h : s.half) h = h == kNone ? kNone : moved(h);
+}
+
+void rebuild_in_order(Triangulation& mesh, const std::vector<TriangleId>& order) {
+  std::vector<VertexId> old_of_new;
+  const std::vector<VertexId> new_vertex = vertices_by_use(mesh, order, old_of_new);
+  move_triangles(mesh, order, new_vertex);
+  for (Subsegment& s : mesh.subsegments)
+    for (VertexId& v : s.vertex) v = new_vertex[id(v)];
+  for (RootSegment& r : mesh.roots)
+    for (VertexId& v : r.vertex) v = new_vertex[id(v)];
+  move_vertices(mesh, old_of_new);
+}
+
+}  // namespace
+
+void renumber(Triangulation& mesh) {
+  std::vector<TriangleId> order = live_triangles(mesh);
+  sort_by_hilbert(mesh, order);
+  rebuild_in_order(mesh, order);
+}
+
+void compact(Triangulation& mesh) {
+  rebuild_in_order(mesh, live_triangles(mesh));
+}
+
+}  // namespace driftmesh

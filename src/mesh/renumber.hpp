@@ -1,0 +1,15 @@
+#pragma once
+
+#include "mesh/triangulation.hpp"
+
+namespace driftmesh {
+
+/// Drops free slots, sorts triangles along a Hilbert curve and vertices by their first use, so that what is near in the
+/// plane is near in memory. All handles change; origins, roots and paths keep their meaning. Vertices that no triangle
+/// uses are dropped.
+void renumber(Triangulation& mesh);
+
+/// Drops free slots and unused vertices, keeping the order of the rest.
+void compact(Triangulation& mesh);
+
+}  // namespace driftmesh

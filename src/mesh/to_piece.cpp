@@ -1,0 +1,91 @@
+#include "mesh/to_piece.hpp"
+
+#include <algorithm>
+
+namespace driftmesh {
+namespace {
+
+constexpr auto id = &Triangulation::id;
+
+/// The place of every vertex of `mesh` in the piece: input points first, then the others as they are stored.
+struct VertexOrder {
+  std::vector<std::int32_t> place;       // of each vertex; kNone for free slots
+  std::vector<VertexId> input_vertices;  // in the order of the input
+  std::size_t count = 0;
+};
+
+VertexOrder order_vertices(const Triangulation& mesh, std::size_t input_points) {
+  VertexOrder order;
+  std::vector<VertexId> vertex_of_input(input_points, kNone);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (is_input(mesh.origin[v])) vertex_of_input[id(mesh.origin[v])] = static_cast<VertexId>(v);
+  order.place.assign(mesh.points.size(), kNone);
+  std::int32_t next_place = 0;
+  for (const VertexId v : vertex_of_input)
+    if (v != kNone) {
+      order.place[id(v)] = next_place++;
+      order.input_vertices.push_back(v);
+    }
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (order.place[v] == kNone && mesh.origin[v] != kDeleted) order.place[v] = next_place++;
+  order.count = static_cast<std::size_t>(next_place);
+  return order;
+}
+
+void fill_points(const Triangulation& mesh, const Pslg& pslg, const VertexOrder& order, MeshPiece& piece) {
+  piece.points.resize(order.count);
+  piece.point_markers.assign(order.count, 0);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (order.place[v] != kNone) piece.points[id(order.place[v])] = mesh.points[v];
+
+  for (const Subsegment& s : mesh.subsegments)
+    if (s.is_leaf())
+      for (const VertexId v : s.vertex) {
+        std::int32_t& marker = piece.point_markers[id(order.place[id(v)])];
+        if (marker == 0) marker = mesh.roots[id(s.root)].marker;
+      }
+  if (!pslg.point_markers.empty())
+    for (std::size_t k = 0; k < order.input_vertices.size(); ++k)
+      piece.point_markers[k] = pslg.point_markers[id(mesh.origin[id(order.input_vertices[k])])];
+}
+
+void fill_attributes(const Triangulation& mesh, const Pslg& pslg, const VertexOrder& order, MeshPiece& piece) {
+  const auto width = static_cast<std::size_t>(pslg.attributes_per_point);
+  piece.attributes_per_point = pslg.attributes_per_point;
+  piece.attributes.assign(order.count * width, 0);
+  for (std::size_t k = 0; k < order.input_vertices.size(); ++k) {
+    const std::size_t point = id(mesh.origin[id(order.input_vertices[k])]);
+    std::copy_n(pslg.attributes.begin() + static_cast<std::ptrdiff_t>(point * width), width,
+                piece.attributes.begin() + static_cast<std::ptrdiff_t>(k * width));
+  }
+}
+
+void fill_triangles(const Triangulation& mesh, const Pslg& pslg, const VertexOrder& order, MeshPiece& piece) {
+  piece.triangles.reserve(mesh.live_triangles());
+  if (!mesh.region.empty()) piece.regions.reserve(mesh.live_triangles());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!mesh.triangles[t].alive()) continue;
+    const auto& v = mesh.triangles[t].vertex;
+    piece.triangles.push_back({order.place[id(v[0])], order.place[id(v[1])], order.place[id(v[2])]});
+    if (mesh.region.empty()) continue;
+    const std::size_t label = mesh.region[t];
+    piece.regions.push_back(label == 0 ? 0 : pslg.regions[label - 1].attribute);
+  }
+}
+
+}  // namespace
+
+MeshPiece to_piece(const Triangulation& mesh, const Pslg& pslg) {
+  MeshPiece piece;
+  const VertexOrder order = order_vertices(mesh, pslg.points.size());
+  fill_points(mesh, pslg, order, piece);
+  fill_attributes(mesh, pslg, order, piece);
+  fill_triangles(mesh, pslg, order, piece);
+  for (const Subsegment& s : mesh.subsegments)
+    if (s.is_leaf())
+      piece.edges.push_back(
+          {order.place[id(s.vertex[0])], order.place[id(s.vertex[1])], mesh.roots[id(s.root)].marker});
+  return piece;
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+#include "mesh/triangulation.hpp"
+
+namespace driftmesh {
+
+/// The slots of the triangle array that may hold a triangle too large, in the order in which they are looked at. There
+/// is no queue of triangles: a cursor sweeps over the array itself, so that a slot waits without being written
+/// anywhere, however often its triangle changes.
+///
+/// The sweep goes block by block over the `given` slots that exist at the start (sorted in space, see renumber), and
+/// after each block over the slots that were added meanwhile, so that the part of the mesh in work stays in cache.
+/// Slots behind the cursor that get a triangle in need of work are noted in a stack.
+class Sweep {
+ public:
+  void start(TriangleId given, TriangleId block) {
+    cursor_ = block_end_ = 0;
+    given_ = added_ = given;
+    block_ = std::max<TriangleId>(block, 1);
+    again_.clear();
+  }
+  /// Whether the sweep will still come to slot `t`.
+  [[nodiscard]] bool will_visit(TriangleId t) const { return (t >= cursor_ && t < given_) || t >= added_; }
+  void visit_again(TriangleId t) { again_.push_back(t); }
+
+  /// The slot to look at now, kNone at the end of a block. It stays the same until done_with.
+  [[nodiscard]] TriangleId current(TriangleId size) const {
+    if (!again_.empty()) return again_.back();
+    if (cursor_ < block_end_) return cursor_;
+    return added_ < size ? added_ : kNone;
+  }
+  void done_with(TriangleId t) {
+    if (!again_.empty())
+      again_.pop_back();
+    else if (t == cursor_ && cursor_ < block_end_)
+      ++cursor_;
+    else
+      ++added_;
+  }
+  /// Moves on to the next block of given slots. False if there is none.
+  bool next_block() {
+    if (block_end_ == given_) return false;
+    block_end_ = given_ - block_end_ < block_ ? given_ : block_end_ + block_;
+    return true;
+  }
+
+ private:
+  TriangleId cursor_ = 0;     // given slots before it are done
+  TriangleId block_end_ = 0;  // of the given slots in work
+  TriangleId given_ = 0;
+  TriangleId added_ = 0;  // added slots before it are done
+  TriangleId block_ = 1;
+  std::vector<TriangleId> again_;
+};
+
+/// Skinny triangles by the length of their shortest edge, in buckets a factor of sqrt(2) apart: off-centers pay off
+/// when the shortest edges come first (Ungor 2004; measured in docs/benchmarks.md). Entries are slots; whether the
+/// triangle in it still belongs there is asked when it is taken out.
+class SkinnyBuckets {
+ public:
+  SkinnyBuckets() : buckets_(2048) {}
+  /// The bucket of a squared length: its binary exponent.
+  static int bucket_of(double squared_length) {
+    return static_cast<int>(std::bit_cast<std::uint64_t>(squared_length) >> 52) & 2047;
+  }
+  void add(TriangleId t, int bucket) {
+    buckets_[static_cast<std::size_t>(bucket)].push_back(t);
+    lowest_ = std::min(lowest_, bucket);
+  }
+  struct Entry {
+    TriangleId triangle;
+    int bucket;
+    /// Whether a triangle with this shortest edge can be the one that was added. Its squared length may have been
+    /// computed in another order then, and shells make powers of two common: the next bucket counts, too.
+    [[nodiscard]] bool fits(double squared_length) const { return std::abs(bucket_of(squared_length) - bucket) <= 1; }
+  };
+  /// Takes out an entry of the lowest bucket; triangle kNone if all are empty.
+  Entry take() {
+    while (lowest_ < 2048 && buckets_[static_cast<std::size_t>(lowest_)].empty()) ++lowest_;
+    if (lowest_ == 2048) return {kNone, 0};
+    auto& bucket = buckets_[static_cast<std::size_t>(lowest_)];
+    const TriangleId t = bucket.back();
+    bucket.pop_back();
+    return {t, lowest_};
+  }
+  void clear() {
+    for (auto& bucket : buckets_) bucket.clear();
+    lowest_ = 2048;
+  }
+
+ private:
+  std::vector<std::vector<TriangleId>> buckets_;
+  int lowest_ = 2048;
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,271 @@
+#include "mesh/mesher.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "base/error.hpp"
+#include "geometry/triangle_geometry.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/to_piece.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+constexpr auto id = &Triangulation::id;
+
+Pslg rectangle(double width, double height) {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {width, 0}, {width, height}, {0, height}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}};
+  return pslg;
+}
+
+void add_ring(Pslg& pslg, Point center, double radius, int n, int marker) {
+  const auto first = static_cast<std::int32_t>(pslg.points.size());
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    pslg.points.push_back({center.x + radius * std::cos(angle), center.y + radius * std::sin(angle)});
+    pslg.segments.push_back({first + i, first + (i + 1) % n, marker});
+  }
+}
+
+/// A square with `wedges` segments of random lengths and directions that meet in its middle.
+Pslg fan(unsigned seed, int wedges) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi), radius(0.1, 0.9);
+  Pslg pslg;
+  pslg.points = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, 0}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
+  for (int i = 0; i < wedges; ++i) {
+    const double a = angle(random), r = radius(random);
+    pslg.segments.push_back({4, static_cast<std::int32_t>(pslg.points.size()), 2});
+    pslg.points.push_back({r * std::cos(a), r * std::sin(a)});
+  }
+  return pslg;
+}
+
+/// Checks the invariants of a triangulation from its raw arrays: orientation, reciprocity, local Delaunay property.
+void check_valid(const Triangulation& mesh) {
+  std::size_t inverted = 0, unlinked = 0, not_delaunay = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!mesh.triangles[i].alive()) continue;
+    const auto t = static_cast<TriangleId>(i);
+    inverted += !(orient2d(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)) > 0);
+    for (int k = 0; k < 3; ++k) {
+      const HalfEdge h = half_edge(t, k), g = mesh.twin(h);
+      if (is_constrained(g)) {
+        const Subsegment& s = mesh.subsegments[id(subsegment_of(g))];
+        unlinked += !s.is_leaf() || (s.half[0] != h && s.half[1] != h);
+      } else {
+        unlinked +=
+            mesh.twin(g) != h || mesh.edge_start(g) != mesh.edge_end(h) || mesh.edge_end(g) != mesh.edge_start(h);
+        not_delaunay +=
+            incircle(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), mesh.points[id(mesh.apex(g))]) > 0;
+      }
+    }
+  }
+  CHECK(inverted == 0);
+  CHECK(unlinked == 0);
+  CHECK(not_delaunay == 0);
+}
+
+double total_area(const Triangulation& mesh) {
+  return summarize_angles(mesh).total_area;
+}
+
+}  // namespace
+
+TEST_CASE("a rectangle becomes two triangles") {
+  const Triangulation mesh = triangulate(rectangle(2, 1));
+  CHECK(mesh.live_triangles() == 2);
+  CHECK(mesh.live_vertices() == 4);
+  CHECK(total_area(mesh) == 2);
+  check_valid(mesh);
+}
+
+TEST_CASE("holes are carved and regions labelled") {
+  Pslg pslg = rectangle(4, 2);
+  pslg.points.push_back({2, 0});
+  pslg.points.push_back({2, 2});
+  pslg.segments = {{0, 4, 1}, {4, 1, 1}, {1, 2, 2}, {2, 5, 3}, {5, 3, 3}, {3, 0, 4}, {4, 5, 9}};
+  add_ring(pslg, {1, 1}, 0.5, 16, 7);
+  pslg.holes = {{1, 1}};
+  pslg.regions = {{{0.1, 0.1}, 10, 0}, {{3, 1}, 20, 0}};
+  const Triangulation mesh = triangulate(pslg);
+  check_valid(mesh);
+  const double ring = 16 * 0.5 * 0.5 * 0.5 * std::sin(2 * std::numbers::pi / 16);
+  CHECK(total_area(mesh) == doctest::Approx(8 - ring));
+  double left = 0, right = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto k = static_cast<TriangleId>(t);
+    REQUIRE(mesh.region[t] != 0);
+    (mesh.region[t] == 1 ? left : right) += signed_area(mesh.corner(k, 0), mesh.corner(k, 1), mesh.corner(k, 2));
+  }
+  CHECK(left == doctest::Approx(4 - ring));
+  CHECK(right == doctest::Approx(4));
+}
+
+TEST_CASE("points without segments are meshed up to their convex hull") {
+  Pslg pslg;
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> coordinate(0, 30);  // many collinear and cocircular points
+  for (int i = 0; i < 31; ++i)
+    for (int j = 0; j < 31; ++j)
+      if (coordinate(random) > 10) pslg.points.push_back({double(i), double(j)});
+  for (const Point corner : {Point{0, 0}, Point{30, 0}, Point{30, 30}, Point{0, 30}})
+    if (std::find(pslg.points.begin(), pslg.points.end(), corner) == pslg.points.end()) pslg.points.push_back(corner);
+  const Triangulation mesh = triangulate(pslg);
+  check_valid(mesh);
+  CHECK(mesh.live_vertices() == pslg.points.size());
+  CHECK(total_area(mesh) == 900);
+}
+
+TEST_CASE("inputs that enclose nothing are refused with the cause") {
+  Pslg open = rectangle(1, 1);
+  open.segments.pop_back();
+  CHECK_THROWS_WITH_AS(triangulate(open), doctest::Contains("outer boundary is open"), Error);
+  Pslg emptied = rectangle(1, 1);
+  emptied.holes = {{0.5, 0.5}};
+  CHECK_THROWS_WITH_AS(triangulate(emptied), doctest::Contains("hole points remove"), Error);
+  Pslg line;
+  line.points = {{0, 0}, {1, 1}, {2, 2}, {3, 3}};
+  CHECK_THROWS_WITH_AS(triangulate(line), doctest::Contains("one line"), Error);
+  Pslg crossing = rectangle(1, 1);
+  crossing.segments.push_back({0, 2, 0});
+  crossing.segments.push_back({1, 3, 0});
+  CHECK_THROWS_WITH_AS(triangulate(crossing), doctest::Contains("crosses another"), Error);
+}
+
+TEST_CASE("refinement meets the bounds on area and angle") {
+  for (const double angle : {0.0, 20.0, 30.0, 33.0}) {
+    Pslg pslg = rectangle(2, 1);
+    add_ring(pslg, {0.7, 0.5}, 0.2, 32, 5);
+    pslg.holes = {{0.7, 0.5}};
+    MeshRequest request;
+    request.min_angle = angle;
+    request.max_area = 1e-4;
+    const MeshResult result = mesh_domain(pslg, request);
+    CAPTURE(angle);
+    check_valid(result.mesh);
+    const Exceptions exceptions = find_exceptions(result.mesh, result.bounds);
+    CHECK(exceptions.skinny.empty());
+    CHECK(exceptions.large.empty());
+    CHECK(result.counters.given_up == 0);
+    CHECK(result.complete);
+    CHECK(summarize_angles(result.mesh).smallest >= angle);
+  }
+}
+
+TEST_CASE("small angles of the input end, and are the only exceptions") {
+  for (unsigned seed = 1; seed <= 6; ++seed)
+    for (const int wedges : {3, 7, 20, 40})
+      for (const double angle : {20.0, 33.0}) {
+        CAPTURE(seed);
+        CAPTURE(wedges);
+        MeshRequest request;
+        request.min_angle = angle;
+        request.max_area = 0.01;
+        const MeshResult result = mesh_domain(fan(seed, wedges), request);
+        check_valid(result.mesh);
+        const Exceptions exceptions = find_exceptions(result.mesh, result.bounds);
+        CHECK(exceptions.large.empty());  // the area bound holds at small angles, too
+        for (const Exceptions::Item& item : exceptions.skinny) CHECK(item.cause != ExceptionCause::kPrecision);
+        CHECK(total_area(result.mesh) == doctest::Approx(4).epsilon(1e-12));
+      }
+}
+
+TEST_CASE("region bounds hold, also where regions touch") {
+  Pslg pslg = rectangle(2, 1);
+  pslg.points.push_back({1, 0});
+  pslg.points.push_back({1, 1});
+  pslg.segments = {{0, 4, 1}, {4, 1, 1}, {1, 2, 2}, {2, 5, 3}, {5, 3, 3}, {3, 0, 4}, {4, 5, 9}};
+  pslg.regions = {{{0.5, 0.5}, 1, 1e-3}, {{1.5, 0.5}, 2, 1e-2}};
+  MeshRequest request;
+  const MeshResult result = mesh_domain(pslg, request);
+  CHECK(find_exceptions(result.mesh, result.bounds).large.empty());
+  std::size_t fine = 0, coarse = 0;
+  for (const std::uint16_t r : result.mesh.region) (r == 1 ? fine : coarse) += 1;
+  CHECK(fine > 5 * coarse);
+  request.region_areas = false;
+  CHECK(mesh_domain(pslg, request).mesh.live_triangles() < 50);
+}
+
+TEST_CASE("a mesh can be made in slices, and comes out the same") {
+  const Pslg pslg = fan(3, 9);
+  QualityBounds bounds;
+  bounds.max_area = 1e-4;
+  Triangulation whole = triangulate(pslg), sliced = triangulate(pslg);
+  CHECK(Refiner(whole, bounds).refine() == Refiner::Status::kDone);
+  Refiner refiner(sliced, bounds);
+  int slices = 0;
+  while (refiner.refine(97) == Refiner::Status::kBudget) ++slices;
+  CHECK(slices > 100);
+  CHECK(refiner.refine(1) == Refiner::Status::kDone);
+  REQUIRE(whole.triangles.size() == sliced.triangles.size());
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t)
+    REQUIRE(whole.triangles[t].vertex == sliced.triangles[t].vertex);
+  for (std::size_t v = 0; v < whole.points.size(); ++v) REQUIRE(whole.points[v] == sliced.points[v]);
+}
+
+TEST_CASE("split points from outside are inserted with their ancestors at any time") {
+  QualityBounds bounds;
+  bounds.max_area = 1e-3;
+  for (const std::int64_t before : {0, 1, 50, 300, 100000}) {
+    Triangulation mesh = triangulate(rectangle(2, 1));
+    Refiner refiner(mesh, bounds);
+    refiner.refine(before);
+    const dyadic::Path path = 0b1'0110'1011;
+    CHECK(refiner.add_split_point(0, path));
+    CHECK(refiner.add_split_point(0, path));  // a duplicate changes nothing
+    CHECK(refiner.refine() == Refiner::Status::kDone);
+    check_valid(mesh);
+    for (dyadic::Path k = path; k >= 1; k = dyadic::parent(k)) {
+      const Subsegment& s = mesh.subsegments[id(mesh.descend(0, k))];
+      CHECK(s.path == k);
+      CHECK(!s.is_leaf());
+    }
+    const Exceptions exceptions = find_exceptions(mesh, bounds);
+    CHECK(exceptions.large.empty());
+    CHECK(exceptions.skinny.empty());
+  }
+}
+
+TEST_CASE("a limit on triangles stops refinement with a valid mesh") {
+  MeshRequest request;
+  request.max_area = 1e-6;
+  request.max_triangles = 5000;
+  const MeshResult result = mesh_domain(rectangle(1, 1), request);
+  CHECK(!result.complete);
+  CHECK(result.mesh.live_triangles() >= 5000);
+  CHECK(result.mesh.live_triangles() < 5100);
+  check_valid(result.mesh);
+}
+
+TEST_CASE("a piece has the input's points first and every subsegment once") {
+  const Pslg pslg = rectangle(2, 1);
+  MeshRequest request;
+  request.max_area = 0.01;
+  const MeshResult result = mesh_domain(pslg, request);
+  const MeshPiece piece = to_piece(result.mesh, pslg);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(piece.points[i] == pslg.points[i]);
+  CHECK(piece.triangles.size() == result.mesh.live_triangles());
+  CHECK(piece.points.size() == result.mesh.live_vertices());
+  double by_marker[5] = {};
+  for (const MeshPiece::Edge& e : piece.edges)
+    by_marker[e.marker] += std::sqrt(squared_distance(piece.points[id(e.a)], piece.points[id(e.b)]));
+  CHECK(by_marker[1] == doctest::Approx(2));
+  CHECK(by_marker[2] == doctest::Approx(1));
+  CHECK(by_marker[3] == doctest::Approx(2));
+  CHECK(by_marker[4] == doctest::Approx(1));
+}
+
+TEST_CASE("requests out of range are refused") {
+  MeshRequest request;
+  request.min_angle = 35;
+  CHECK_THROWS_AS(mesh_domain(rectangle(1, 1), request), Error);
+  request.min_angle = -1;
+  CHECK_THROWS_AS(mesh_domain(rectangle(1, 1), request), Error);
+}
