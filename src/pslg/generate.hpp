@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+
+#include "pslg/pslg.hpp"
+
+namespace driftmesh {
+
+// Parametric inputs for demonstrations, tests and benchmarks. Each is a function of its options alone (and so of the
+// seed, where there is one), and is planar: repair() finds nothing to do. Options out of range, or that make a shape
+// overlap itself, throw InputError. Boundaries are counterclockwise, holes clockwise, every hole has a seed.
+
+/// Cross-section of a regeneratively cooled pipe: a ring with cooling channels in its wall. Markers: 1 outside, 2 bore,
+/// 3, 4, ... channels. Lengths in one unit, say 0.1 mm.
+struct PipeOptions {
+  double outer_radius = 300;
+  double bore_radius = 120;
+  std::int32_t channels = 8;
+  double channel_depth = 90;   ///< in the direction of the radius; channels lie in the middle of the wall
+  double channel_width = 110;  ///< along the circle through their middle
+  double fillet = 25;          ///< radius of the rounded corners of a channel
+  double edge = 7.5;           ///< longest edge of the boundary
+};
+[[nodiscard]] Pslg generate_pipe(const PipeOptions& options);
+
+/// Half of the channel around a cylinder at the origin: flow along x, the axis y = 0 is the symmetry line. Markers:
+/// 1 inflow, 2 outflow, 3 top, 4 symmetry line, 5 cylinder.
+struct CylinderFlowOptions {
+  double radius = 0.5;
+  double upstream = 15;    ///< from the center to the inflow
+  double downstream = 35;  ///< from the center to the outflow
+  double height = 28;
+  std::int32_t arc_edges = 128;  ///< edges of the half circle
+  double edge = 1;               ///< longest edge of the rest of the boundary
+};
+[[nodiscard]] Pslg generate_cylinder_flow(const CylinderFlowOptions& options);
+
+/// A square of side 1 with segments that leave one point at small angles. Markers: 1 square, 2 fan.
+struct FanOptions {
+  std::int32_t wedges = 30;
+  double angle = 1;  ///< of each wedge, in degrees
+  bool from_corner = false;
+};
+[[nodiscard]] Pslg generate_fan(const FanOptions& options);
+
+/// A rectangle of height 1 into which thin slits are cut from above. Markers: 1 rectangle, 2 slits.
+struct CombOptions {
+  std::int32_t slits = 40;
+  double pitch = 0.1;   ///< distance of the slits
+  double width = 1e-3;  ///< of a slit
+  double depth = 0.9;
+};
+[[nodiscard]] Pslg generate_comb(const CombOptions& options);
+
+/// A plate with columns x rows holes, regular polygons in unit cells. Markers: 1 plate, 2 holes.
+struct HolesOptions {
+  std::int32_t columns = 20;
+  std::int32_t rows = 10;
+  std::int32_t sides = 12;
+  double radius = 0.3;
+  double jitter = 0.1;  ///< random displacement of a hole in each axis
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] Pslg generate_holes(const HolesOptions& options);
+
+/// A 2 x 1 rectangle with a regular polygon as a hole in its middle. Markers: 1 rectangle, 2 hole.
+struct RectangleHoleOptions {
+  std::int32_t sides = 32;
+  double radius = 0.25;
+};
+[[nodiscard]] Pslg generate_rectangle_hole(const RectangleHoleOptions& options);
+
+/// A random simple polygon: a labyrinth without loops, its corners displaced. Marker 1. Edges have length about 1.
+struct RandomPolygonOptions {
+  std::int32_t vertices = 1000;
+  double jitter = 0.3;  ///< largest displacement of a corner in each axis, below 0.5
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] Pslg generate_random_polygon(const RandomPolygonOptions& options);
+
+/// Random points in the unit square, some joined by short segments that do not cross: no boundary, so the convex hull
+/// is the domain.
+struct RandomPointsOptions {
+  std::int32_t points = 100000;
+  std::int32_t segments = 10000;  ///< at most a quarter of the points
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] Pslg generate_random_points(const RandomPointsOptions& options);
+
+/// A bay with inlets, an estuary and islands; lengths in metres. Markers: 1 coast, 2 open sea, 3, 4, ... islands.
+struct BayOptions {
+  double width = 60e3;
+  double height = 90e3;
+  double resolution = 100;  ///< about the distance of the coastline's points
+  double roughness = 0.5;   ///< 0: smooth coast, 1: very ragged
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] Pslg generate_bay(const BayOptions& options);
+
+}  // namespace driftmesh

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "geometry/point.hpp"
+#include "pslg/seeded_random.hpp"
+
+namespace driftmesh {
+
+/// Gradient noise in the plane (K. Perlin, "Improving noise", SIGGRAPH 2002): smooth, zero at integer points, about
+/// -0.7 to 0.7, without visible period below 256.
+class GradientNoise {
+ public:
+  explicit GradientNoise(SeededRandom& random);
+  [[nodiscard]] double operator()(const Point& p) const;
+  /// A sum of `octaves` noises, each of twice the frequency and `gain` times the height of the one before.
+  [[nodiscard]] double fractal(const Point& p, int octaves, double gain) const;
+
+ private:
+  [[nodiscard]] double corner(std::int64_t x, std::int64_t y, double dx, double dy) const;
+  std::array<std::uint8_t, 256> order_{};
+  std::array<Point, 256> gradients_{};
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,204 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "base/error.hpp"
+#include "pslg/generate.hpp"
+#include "pslg/open_boundary.hpp"
+#include "pslg/repair.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+const double kPiHere = std::acos(-1.0);
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Signed: boundaries are counterclockwise and holes clockwise, so all segments together run around the domain.
+double area(const Pslg& pslg) {
+  double twice = 0;
+  const Point o = pslg.points[0];
+  for (const Pslg::Segment& s : pslg.segments) {
+    const Point a = pslg.points[at(s.a)], b = pslg.points[at(s.b)];
+    twice += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
+  }
+  return twice / 2;
+}
+
+std::map<std::int32_t, int> marker_counts(const Pslg& pslg) {
+  std::map<std::int32_t, int> counts;
+  for (const Pslg::Segment& s : pslg.segments) ++counts[s.marker];
+  return counts;
+}
+
+/// How often a ray from p to the east crosses segments.
+int crossings_east(const Pslg& pslg, const Point& p) {
+  int count = 0;
+  for (const Pslg::Segment& s : pslg.segments) {
+    const Point a = pslg.points[at(s.a)], b = pslg.points[at(s.b)];
+    if ((a.y > p.y) == (b.y > p.y)) continue;
+    if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) ++count;
+  }
+  return count;
+}
+
+/// What holds for every kind that has a boundary: planar, loops only, holes inside their loops.
+void check_closed_model(const Pslg& pslg) {
+  Pslg copy = pslg;
+  const RepairReport report = repair(copy);
+  CHECK(report.summary() == "");
+  CHECK(find_open_boundary(pslg).open_ends.empty());
+  CHECK(pslg.points.size() == pslg.segments.size());
+  for (const Point& hole : pslg.holes) CHECK(crossings_east(pslg, hole) % 2 == 0);
+  CHECK(area(pslg) > 0);
+}
+
+bool same(const Pslg& a, const Pslg& b) {
+  return a.points == b.points && a.segments == b.segments && a.holes == b.holes;
+}
+
+std::string error_of(const std::function<void()>& make) {
+  try {
+    make();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("pipe: bore and channels, area of the ring less the channels") {
+  PipeOptions o;
+  const Pslg pslg = generate_pipe(o);
+  check_closed_model(pslg);
+  CHECK(pslg.holes.size() == 9);
+  CHECK(marker_counts(pslg).size() == 10);
+  // Bending a channel keeps its area, because it is centred on the circle along which widths are measured.
+  const double channel = o.channel_depth * o.channel_width - (4 - kPiHere) * o.fillet * o.fillet;
+  const double ring = kPiHere * (o.outer_radius * o.outer_radius - o.bore_radius * o.bore_radius);
+  CHECK(area(pslg) == doctest::Approx(ring - 8 * channel).epsilon(2e-3));
+  for (const std::int32_t channels : {0, 1, 3, 11}) {
+    o.channels = channels;
+    const Pslg other = generate_pipe(o);
+    check_closed_model(other);
+    CHECK(other.holes.size() == at(channels) + 1);
+  }
+  for (const Pslg::Segment& s : pslg.segments)
+    CHECK(std::hypot(pslg.points[at(s.a)].x - pslg.points[at(s.b)].x, pslg.points[at(s.a)].y - pslg.points[at(s.b)].y) <
+          1.25 * o.edge);
+}
+
+TEST_CASE("cylinder-flow: markers of the five sides, area of the rectangle less the half disc") {
+  const CylinderFlowOptions o;
+  const Pslg pslg = generate_cylinder_flow(o);
+  check_closed_model(pslg);
+  CHECK(marker_counts(pslg) == std::map<std::int32_t, int>{{1, 28}, {2, 28}, {3, 50}, {4, 50}, {5, 128}});
+  CHECK(area(pslg) == doctest::Approx(50 * 28 - kPiHere / 8).epsilon(1e-6));
+}
+
+TEST_CASE("rectangle-hole, comb and holes: area and counts") {
+  const Pslg rectangle = generate_rectangle_hole({});
+  check_closed_model(rectangle);
+  CHECK(rectangle.points.size() == 36);
+  CHECK(area(rectangle) == doctest::Approx(2 - 16 * 0.0625 * std::sin(kPiHere / 16)));
+
+  const CombOptions comb;
+  check_closed_model(generate_comb(comb));
+  CHECK(area(generate_comb(comb)) == doctest::Approx(41 * 0.1 - 40 * 1e-3 * 0.9));
+  CHECK(marker_counts(generate_comb(comb)) == std::map<std::int32_t, int>{{1, 44}, {2, 120}});
+
+  HolesOptions holes;
+  const Pslg plate = generate_holes(holes);
+  check_closed_model(plate);
+  CHECK(plate.holes.size() == 200);
+  CHECK(area(plate) == doctest::Approx(200 - 200 * 6 * 0.09 * std::sin(kPiHere / 6)));
+  holes.seed = 2;
+  CHECK_FALSE(same(plate, generate_holes(holes)));
+}
+
+TEST_CASE("fan: the wedges have the angle, from the center and from a corner") {
+  for (const bool corner : {false, true}) {
+    const Pslg pslg = generate_fan({20, 2, corner});
+    Pslg copy = pslg;
+    CHECK(repair(copy).summary() == "");
+    CHECK(marker_counts(pslg) == std::map<std::int32_t, int>{{1, 4}, {2, 21}});
+    double last = 0;
+    for (std::size_t i = 4; i < pslg.segments.size(); ++i) {
+      const Point a = pslg.points[at(pslg.segments[i].a)], b = pslg.points[at(pslg.segments[i].b)];
+      const double angle = std::atan2(b.y - a.y, b.x - a.x) * 180 / kPiHere;
+      if (i > 4) CHECK(angle - last == doctest::Approx(2));
+      last = angle;
+    }
+  }
+}
+
+TEST_CASE("random-polygon: one simple loop with just so many vertices, whatever the jitter") {
+  for (const std::int32_t vertices : {4, 5, 6, 7, 8, 50, 51, 1002, 20003})
+    for (const double jitter : {0.0, 0.3, 0.499}) {
+      CAPTURE(vertices);
+      CAPTURE(jitter);
+      const Pslg pslg = generate_random_polygon({vertices, jitter, 5});
+      check_closed_model(pslg);
+      CHECK(pslg.points.size() == at(vertices));
+      for (std::int32_t i = 0; i < vertices; ++i)
+        REQUIRE(pslg.segments[at(i)] == Pslg::Segment{i, (i + 1) % vertices, 1});
+    }
+}
+
+TEST_CASE("random-points: as many points and segments as asked for, none crossing") {
+  for (const auto& [points, segments] :
+       {std::pair{3, 0}, {4, 1}, {100, 25}, {1000, 250}, {20000, 1000}, {20000, 5000}}) {
+    const RandomPointsOptions o{points, segments, 3};
+    Pslg pslg = generate_random_points(o);
+    CHECK(pslg.points.size() == at(points));
+    CHECK(pslg.segments.size() == at(segments));
+    CHECK(repair(pslg).summary() == "");
+  }
+}
+
+TEST_CASE("bay: one coast with open sea, islands with their holes, about 10,000 points, in metres") {
+  const Pslg bay = generate_bay({});
+  check_closed_model(bay);
+  CHECK(bay.points.size() > 8000);
+  CHECK(bay.points.size() < 13000);
+  CHECK(bay.holes.size() > 20);
+  CHECK(marker_counts(bay).size() == bay.holes.size() + 2);
+  CHECK(area(bay) > 0.1 * 60e3 * 90e3);
+  CHECK(area(bay) < 0.7 * 60e3 * 90e3);
+  for (std::uint64_t seed = 2; seed <= 8; ++seed)
+    for (const double roughness : {0.0, 0.5, 1.0}) {
+      CAPTURE(seed);
+      CAPTURE(roughness);
+      BayOptions o;
+      o.seed = seed;
+      o.roughness = roughness;
+      o.resolution = 600;
+      const Pslg other = generate_bay(o);
+      check_closed_model(other);
+      CHECK(same(other, generate_bay(o)));
+    }
+}
+
+TEST_CASE("options out of range are named") {
+  CHECK(error_of([] { (void)generate_pipe({.channels = 20}); }) ==
+        "generate pipe: the channels do not fit side by side; take fewer or narrower ones");
+  CHECK(error_of([] { (void)generate_pipe({.edge = -1}); }) == "generate pipe: the edge length must be positive");
+  CHECK(error_of([] { (void)generate_pipe({.outer_radius = std::nan("")}); }).starts_with("generate pipe: "));
+  CHECK(error_of([] { (void)generate_pipe({.edge = 1e-300}); }).starts_with("generate: the edge length is too small"));
+  CHECK(error_of([] { (void)generate_cylinder_flow({.radius = 40}); }).starts_with("generate cylinder-flow: "));
+  CHECK(error_of([] { (void)generate_fan({.wedges = 400}); }).starts_with("generate fan: the wedges must span"));
+  CHECK(error_of([] { (void)generate_comb({.width = 0.2}); }).starts_with("generate comb: the width"));
+  CHECK(error_of([] { (void)generate_holes({.radius = 0.6}); }).starts_with("generate holes: "));
+  CHECK(error_of([] { (void)generate_rectangle_hole({.sides = 2}); }).starts_with("generate rectangle-hole: "));
+  CHECK(error_of([] { (void)generate_random_polygon({.vertices = 3}); }).starts_with("generate random-polygon: "));
+  CHECK(
+      error_of([] { (void)generate_random_points({.points = 100, .segments = 26}); }).starts_with("generate random-"));
+  CHECK(error_of([] { (void)generate_bay({.resolution = 0}); }).starts_with("generate bay: the resolution"));
+}
