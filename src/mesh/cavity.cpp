@@ -1,6 +1,7 @@
 #include "mesh/cavity.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/assert.hpp"
 #include "geometry/predicates.hpp"
@@ -24,18 +25,44 @@ Cavity::Cavity(Triangulation& mesh) : mesh_(mesh) {
   reserve(64);
 }
 
-void Cavity::reserve(std::size_t more) {
-  const std::size_t size = std::max<std::size_t>(corners_.size() * 2, more);
-  corners_.resize(size);
-  stack_.resize(size);
-  border_.resize(size);
-  slots_.resize(size);
+void Cavity::reserve(std::size_t corners) {
+  corners_.resize(corners);
+  stack_.resize(corners);
+  border_.resize(corners);
+  slots_.resize(corners);
+}
+
+/// Doubles the room. The corners move, and the edges' pointers with them; returns `e` as it is then.
+Cavity::Edge Cavity::with_more_room(const Edge& e) {
+  std::vector<Corner> old = corners_;
+  old.swap(corners_);  // `old` is what the edges point into
+  reserve(2 * old.size());
+  const auto moved = [&](const Edge& edge) {
+    return Edge{edge.cross, corners_.data() + (edge.a - old.data()), corners_.data() + (edge.b - old.data()),
+                edge.outer};
+  };
+  for (int i = 0; i < stack_count_; ++i) stack_[at(i)] = moved(stack_[at(i)]);
+  for (int i = 0; i < border_count_; ++i) border_[at(i)] = moved(border_[at(i)]);
+  return moved(e);
+}
+
+inline Cavity::Ends Cavity::ends() {
+  return {corners_.data() + corner_count_, stack_.data() + stack_count_, border_.data() + border_count_,
+          slots_.data() + killed_count_};
+}
+
+inline void Cavity::keep(const Ends& ends) {
+  corner_count_ = static_cast<int>(ends.corner - corners_.data());
+  stack_count_ = static_cast<int>(ends.stack - stack_.data());
+  border_count_ = static_cast<int>(ends.border - border_.data());
+  killed_count_ = static_cast<int>(ends.slot - slots_.data());
 }
 
 inline void Cavity::start(const Point& p) {
   p_ = p;
   corner_count_ = stack_count_ = border_count_ = killed_count_ = 0;
-  doubtful_ = false;
+  least_cross_ = INFINITY;
+  largest_lifts_ = 0;
 }
 
 inline Cavity::Corner Cavity::relative(VertexId v) const {
@@ -46,29 +73,11 @@ inline Cavity::Corner Cavity::relative(VertexId v) const {
 }
 
 inline void Cavity::push(HalfEdge outer, int a, int b, double cross_ab) {
-  if (outer >= 0) __builtin_prefetch(&mesh_.triangles[Triangulation::id(triangle_of(outer))]);
-  stack_[at(stack_count_++)] = {cross_ab, outer, a, b};
-}
-
-inline void Cavity::emit(const Edge& e) {
-  doubtful_ |= e.cross <= kOrientationBound * (corners_[at(e.a)].lift + corners_[at(e.b)].lift) + kUnderflow;
-  border_[at(border_count_++)] = e;
+  stack_[at(stack_count_++)] = {cross_ab, &corners_[at(a)], &corners_[at(b)], outer};
 }
 
 double Cavity::exact_orientation(const Corner& a, const Corner& b) const {
   return orient2d(p_, mesh_.points[Triangulation::id(a.vertex)], mesh_.points[Triangulation::id(b.vertex)]);
-}
-
-inline bool Cavity::in_circle(const Edge& e, const Corner& c, double ac, double cb) const {
-  const Corner& a = corners_[at(e.a)];
-  const Corner& b = corners_[at(e.b)];
-  const double determinant = b.lift * ac + a.lift * cb - c.lift * e.cross;
-  const double sum = a.lift + b.lift + c.lift;
-  const double bound = kInCircleBound * (sum * sum) + kUnderflow;
-  if (determinant > bound) return true;
-  if (determinant < -bound) return false;
-  const auto point = [this](const Corner& k) -> const Point& { return mesh_.points[Triangulation::id(k.vertex)]; };
-  return incircle(point(b), point(a), point(c), p_) > 0;
 }
 
 inline void Cavity::load(TriangleId t) {
@@ -134,45 +143,72 @@ Cavity::Found Cavity::walk(TriangleId t) {
 /// triangle is met twice.
 template <bool kMindLens>
 Cavity::Found Cavity::expand(double cos_squared) {
-  while (stack_count_ != 0) {
-    const Edge e = stack_[at(--stack_count_)];
-    const Corner& a = corners_[at(e.a)];
-    const Corner& b = corners_[at(e.b)];
-    if (is_constrained(e.outer)) {
-      if constexpr (kMindLens) {
-        const double dot = a.dx * b.dx + a.dy * b.dy;
-        if (dot < 0 && dot * dot > cos_squared * (a.lift * b.lift)) {
-          encroached_ = subsegment_of(e.outer);
-          return Found::kEncroached;
+  // Local copies of what the loop touches: a store to one array does not force the others' addresses to be reloaded.
+  const Triangle* const triangles = mesh_.triangles.data();
+  const Point* const points = mesh_.points.data();
+  const double px = p_.x, py = p_.y;
+  Ends ends = this->ends();
+  const Corner* corners_end = corners_.data() + corners_.size() - 4;
+  const Edge* bottom = stack_.data();
+  double least_cross = least_cross_, largest_lifts = largest_lifts_;
+
+  Edge e = *--ends.stack;
+  for (;;) {
+    const double lifts = e.a->lift + e.b->lift;
+    if (!is_constrained(e.outer)) [[likely]] {
+      const Triangle& triangle = triangles[triangle_of(e.outer)];
+      const int i = index_of(e.outer);
+      const VertexId v = triangle.vertex[at(i)];
+      const double dx = points[v].x - px, dy = points[v].y - py;
+      const double lift = dx * dx + dy * dy;
+      const double ac = e.a->dx * dy - dx * e.a->dy;
+      const double cb = dx * e.b->dy - e.b->dx * dy;
+      const double determinant = e.b->lift * ac + e.a->lift * cb - lift * e.cross;
+      const double sum = lifts + lift;
+      const double bound = kInCircleBound * (sum * sum) + kUnderflow;
+      bool inside = determinant > bound;
+      if (std::abs(determinant) <= bound) [[unlikely]]
+        inside = incircle(points[e.b->vertex], points[e.a->vertex], points[v], p_) > 0;
+      if (inside) {
+        *ends.corner = {dx, dy, lift, v};
+        *ends.slot++ = triangle_of(e.outer);
+        *ends.stack++ = {cb, ends.corner, e.b, triangle.neighbor[at(previous(i))]};
+        e = {ac, e.a, ends.corner++, triangle.neighbor[at(next(i))]};
+        if (ends.corner >= corners_end) [[unlikely]] {
+          keep(ends);
+          e = with_more_room(e);
+          ends = this->ends();
+          corners_end = corners_.data() + corners_.size() - 4;
+          bottom = stack_.data();
         }
+        continue;
       }
-      emit(e);
-      continue;
+    } else if constexpr (kMindLens) {
+      const double dot = e.a->dx * e.b->dx + e.a->dy * e.b->dy;
+      if (dot < 0 && dot * dot > cos_squared * (e.a->lift * e.b->lift)) {
+        encroached_ = subsegment_of(e.outer);
+        return Found::kEncroached;
+      }
     }
-    const Triangle& triangle = mesh_.triangles[Triangulation::id(triangle_of(e.outer))];
-    const int i = index_of(e.outer);
-    const Corner c = relative(triangle.vertex[at(i)]);
-    const double ac = cross(a, c);
-    const double cb = cross(c, b);
-    if (!in_circle(e, c, ac, cb)) {
-      emit(e);
-      continue;
-    }
-    if (at(corner_count_) + 4 >= corners_.size()) reserve(0);
-    const int k = corner_count_++;
-    corners_[at(k)] = c;
-    slots_[at(killed_count_++)] = triangle_of(e.outer);
-    push(triangle.neighbor[at(previous(i))], k, e.b, cb);
-    push(triangle.neighbor[at(next(i))], e.a, k, ac);
+    least_cross = std::min(least_cross, e.cross);
+    largest_lifts = std::max(largest_lifts, lifts);
+    *ends.border++ = e;
+    if (ends.stack == bottom) break;
+    e = *--ends.stack;
   }
+  keep(ends);
+  least_cross_ = least_cross;
+  largest_lifts_ = largest_lifts;
   return Found::kClear;
 }
 
-Cavity::Found Cavity::check_star() const {
-  for (int i = 0; i < border_count_; ++i) {
-    const Edge& e = border_[at(i)];
-    if (!(exact_orientation(corners_[at(e.a)], corners_[at(e.b)]) > 0)) return Found::kDegenerate;
-  }
+/// Whether every border edge has the point strictly on its left. In a constrained Delaunay triangulation it has; only
+/// the midpoints of segments, which rounding puts beside them, can spoil that.
+inline Cavity::Found Cavity::check_star() const {
+  if (least_cross_ > kOrientationBound * largest_lifts_ + kUnderflow) [[likely]]
+    return Found::kClear;
+  for (int i = 0; i < border_count_; ++i)
+    if (!(exact_orientation(*border_[at(i)].a, *border_[at(i)].b) > 0)) return Found::kDegenerate;
   return Found::kClear;
 }
 
@@ -180,14 +216,14 @@ Cavity::Found Cavity::gather(const Point& p, TriangleId t, const Lens& lens) {
   start(p);
   if (const Found found = walk<true>(t); found != Found::kClear) return found;
   if (const Found found = expand<true>(lens.cos_squared); found != Found::kClear) return found;
-  return doubtful_ ? check_star() : Found::kClear;
+  return check_star();
 }
 
 Cavity::Found Cavity::gather_from_afar(const Point& p, TriangleId t) {
   start(p);
   if (const Found found = walk<false>(t); found != Found::kClear) return found;
   expand<false>(0);
-  return doubtful_ ? check_star() : Found::kClear;
+  return check_star();
 }
 
 Cavity::Found Cavity::gather_on(SubsegmentId s, const Point& m) {
@@ -213,21 +249,20 @@ Cavity::Found Cavity::gather_on(SubsegmentId s, const Point& m) {
     push(triangle.neighbor[at(next(i))], from, apex, cross(corners_[at(from)], corners_[at(apex)]));
     expand<false>(0);
   }
-  return doubtful_ ? check_star() : Found::kClear;
+  return check_star();
 }
 
 /// Gives every border edge a slot for its triangle: those of the cavity's triangles, then added ones.
 inline void Cavity::take_slots() {
-  if (!mesh_.region.empty()) {
-    // A cavity never crosses a constrained segment, so each side keeps its region.
-    const std::uint16_t left = mesh_.region[Triangulation::id(slots_[at(killed_count_ - 1)])];
-    const std::uint16_t right = mesh_.region[Triangulation::id(slots_[0])];
-    for (int i = killed_count_; i < border_count_; ++i) slots_[at(i)] = mesh_.add_triangle();
-    for (int i = 0; i < border_count_; ++i)
-      mesh_.region[Triangulation::id(slots_[at(i)])] = i < first_left_ ? right : left;
+  const int added = border_count_ - killed_count_;
+  mesh_.add_triangles(&slots_[at(killed_count_)], added);
+  if (mesh_.region.empty()) [[likely]]
     return;
-  }
-  for (int i = killed_count_; i < border_count_; ++i) slots_[at(i)] = mesh_.add_triangle();
+  // A cavity never crosses a constrained segment, so each side keeps its region.
+  const std::uint16_t right = mesh_.region[Triangulation::id(slots_[0])];
+  const std::uint16_t left = mesh_.region[Triangulation::id(slots_[at(killed_count_ - 1)])];
+  for (int i = 0; i < border_count_; ++i)
+    mesh_.region[Triangulation::id(slots_[at(i)])] = i < first_left_ ? right : left;
 }
 
 void Cavity::fill(VertexId v) {
@@ -240,8 +275,7 @@ void Cavity::fill(VertexId v) {
   for (int i = 0; i < n; ++i) {
     const Edge& e = border_[at(i)];
     const TriangleId after = slots_[at(i + 1 == n ? 0 : i + 1)];
-    triangles[here] = {{v, corners_[at(e.a)].vertex, corners_[at(e.b)].vertex},
-                       {e.outer, half_edge(after, 2), half_edge(before, 1)}};
+    triangles[here] = {{v, e.a->vertex, e.b->vertex}, {e.outer, half_edge(after, 2), half_edge(before, 1)}};
     if (is_constrained(e.outer)) [[unlikely]]
       mesh_.link(half_edge(here, 0), e.outer);
     else
@@ -261,7 +295,7 @@ void Cavity::fill_on(VertexId v, SubsegmentId at_start, SubsegmentId at_end) {
     const bool opens = i == 0 || i == right;
     const bool closes = i == n - 1 || i == right - 1;
     Triangle& triangle = mesh_.triangles[Triangulation::id(here)];
-    triangle.vertex = {v, corners_[at(e.a)].vertex, corners_[at(e.b)].vertex};
+    triangle.vertex = {v, e.a->vertex, e.b->vertex};
     mesh_.link(half_edge(here, 0), e.outer);
     if (!opens) mesh_.link(half_edge(here, 2), half_edge(slots_[at(i - 1)], 1));
     // The right border runs from the segment's start to its end, the left one back.
@@ -273,8 +307,7 @@ void Cavity::fill_on(VertexId v, SubsegmentId at_start, SubsegmentId at_end) {
 
 Cavity::Fresh Cavity::fresh(int i) const {
   const Edge& e = border_[at(i)];
-  const Corner& a = corners_[at(e.a)];
-  const Corner& b = corners_[at(e.b)];
+  const Corner &a = *e.a, &b = *e.b;
   const double dx = b.dx - a.dx;
   const double dy = b.dy - a.dy;
   return {slots_[at(i)], e.cross, a.lift, dx * dx + dy * dy, b.lift};

@@ -69,15 +69,15 @@ class Cavity {
   /// An edge of the growing cavity, a to b with the point on its left.
   struct Edge {
     double cross;  // twice the area of (point, a, b)
+    const Corner* a;
+    const Corner* b;
     HalfEdge outer;
-    std::int32_t a, b;  // indices into corners_
   };
 
   static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
   void start(const Point& p);
   [[nodiscard]] Corner relative(VertexId v) const;
   static double cross(const Corner& a, const Corner& b) { return a.dx * b.dy - b.dx * a.dy; }
-  bool in_circle(const Edge& e, const Corner& c, double ac, double cb) const;
   [[nodiscard]] double exact_orientation(const Corner& a, const Corner& b) const;
   template <bool kMindConstraints>
   Found walk(TriangleId t);
@@ -87,9 +87,18 @@ class Cavity {
   Found expand(double cos_squared);
   Found check_star() const;
   void push(HalfEdge outer, int a, int b, double cross_ab);
-  void emit(const Edge& e);
   void take_slots();
-  void reserve(std::size_t more);
+  void reserve(std::size_t corners);
+  Edge with_more_room(const Edge& e);
+  /// One past the last element in use of each array, as pointers for the inner loop.
+  struct Ends {
+    Corner* corner;
+    Edge* stack;
+    Edge* border;
+    TriangleId* slot;
+  };
+  [[nodiscard]] Ends ends();
+  void keep(const Ends& ends);
 
   Triangulation& mesh_;
   Point p_;
@@ -102,9 +111,10 @@ class Cavity {
   int stack_count_ = 0;
   int border_count_ = 0;
   int killed_count_ = 0;
-  int first_left_ = 0;       // of a split: where the border passes from the right side of the segment to the left
-  TriangleId next_ = kNone;  // where the walk goes on
-  bool doubtful_ = false;    // some border edge's orientation is not certain
+  int first_left_ = 0;        // of a split: where the border passes from the right side of the segment to the left
+  TriangleId next_ = kNone;   // where the walk goes on
+  double least_cross_ = 0;    // of the border's edges
+  double largest_lifts_ = 0;  // sum of the squared distances of an edge's ends, of the border's edges
 };
 
 }  // namespace driftmesh

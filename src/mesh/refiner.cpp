@@ -56,13 +56,17 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds) : mesh_(mesh)
 
 // ---- Shapes and bounds ----
 
-Refiner::Shape Refiner::shape(double twice_area, double ab, double bc, double ca) {
+inline Refiner::Shape Refiner::shape(double twice_area, double ab, double bc, double ca) {
   return {twice_area, std::min(ab, std::min(bc, ca)), std::max(ab, std::max(bc, ca)), ab * bc * ca};
 }
 
-Refiner::Shape Refiner::shape_of(TriangleId t) const {
+inline double Refiner::twice_area(TriangleId t) const {
+  return 2 * signed_area(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
+}
+
+inline Refiner::Shape Refiner::shape_of(TriangleId t) const {
   const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-  return shape(2 * signed_area(a, b, c), squared_distance(a, b), squared_distance(b, c), squared_distance(c, a));
+  return shape(twice_area(t), squared_distance(a, b), squared_distance(b, c), squared_distance(c, a));
 }
 
 inline double Refiner::twice_area_bound(TriangleId t) const {
@@ -85,7 +89,7 @@ double Refiner::predict_triangles() const {
   for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
     if (!mesh_.triangles[i].alive()) continue;
     const auto t = static_cast<TriangleId>(i);
-    sum += std::max(1.0, shape_of(t).twice_area / (kMeanArea * twice_area_bound(t) / coarsening_));
+    sum += std::max(1.0, twice_area(t) / (kMeanArea * twice_area_bound(t) / coarsening_));
   }
   return sum;
 }
@@ -177,21 +181,24 @@ bool Refiner::step_segments() {
   return true;
 }
 
+/// Sweeps on to the next triangle that is too large, and inserts its circumcenter. False at the end of the block.
 bool Refiner::step_large() {
-  const TriangleId t = sweep_.current(static_cast<TriangleId>(mesh_.triangles.size()));
-  if (t == kNone) return false;
-  if (!mesh_.triangles[id(t)].alive()) {
+  for (;;) {
+    const TriangleId t = sweep_.current(static_cast<TriangleId>(mesh_.triangles.size()));
+    if (t == kNone) return false;
+    if (mesh_.triangles[id(t)].alive()) [[likely]] {
+      const double bound = twice_area_bound(t);
+      if (twice_area(t) > bound) {
+        if (improve(t, circumcenter(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2))) == Progress::kChanged)
+          return true;
+        ++counters_.given_up;
+      } else if (stage_ != Stage::kCoarse) {
+        const Shape s = shape_of(t);
+        if (is_skinny(s)) note_skinny(t, s, bound);
+      }
+    }
     sweep_.done_with(t);
-    return true;
   }
-  const Shape s = shape_of(t);
-  const double bound = twice_area_bound(t);
-  const Verdict verdict = judge(s, bound);
-  if (verdict == Verdict::kLarge && improve(t, false) == Progress::kChanged) return true;
-  if (verdict == Verdict::kLarge) ++counters_.given_up;
-  sweep_.done_with(t);
-  if (verdict == Verdict::kSkinny) note_skinny(t, s, bound);
-  return true;
 }
 
 bool Refiner::step_skinny() {
@@ -200,10 +207,12 @@ bool Refiner::step_skinny() {
   if (t == kNone) return false;
   if (!mesh_.triangles[id(t)].alive()) return true;
   const Shape s = shape_of(t);
-  if (judge(s, kNoBound) != Verdict::kSkinny || !entry.fits(s.shortest)) return true;
+  if (!is_skinny(s) || !entry.fits(s.shortest)) return true;
   if (cause_of(mesh_, t) != ExceptionCause::kUnexplained) return true;
   const std::int64_t before = counters_.free_points;
-  if (improve(t, true) == Progress::kStuck)
+  const Point p =
+      off_center_of_triangle(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), off_center_factor_);
+  if (improve(t, p) == Progress::kStuck)
     ++counters_.given_up;
   else if (counters_.free_points == before)
     skinny_.add(t, entry.bucket);  // a segment was split instead: the triangle may still be there
@@ -211,11 +220,6 @@ bool Refiner::step_skinny() {
 }
 
 // ---- Insertion ----
-
-inline Point Refiner::candidate(TriangleId t, bool skinny) const {
-  const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-  return skinny ? off_center_of_triangle(a, b, c, off_center_factor_) : circumcenter(a, b, c);
-}
 
 VertexId Refiner::add_vertex(const Point& p, VertexOrigin origin) {
   const VertexId v = mesh_.add_vertex(p, origin);
@@ -226,9 +230,8 @@ VertexId Refiner::add_vertex(const Point& p, VertexOrigin origin) {
   return v;
 }
 
-/// Inserts the candidate point of triangle t, or splits the segment that it encroaches upon.
-Refiner::Progress Refiner::improve(TriangleId t, bool skinny) {
-  const Point p = candidate(t, skinny);
+/// Inserts p, a point in the circumdisk of triangle t, or splits the segment that it encroaches upon.
+inline Refiner::Progress Refiner::improve(TriangleId t, const Point& p) {
   if (!std::isfinite(p.x) || !std::isfinite(p.y)) return Progress::kStuck;
   switch (cavity_.gather(p, t, lens_)) {
     case Cavity::Found::kClear:
@@ -300,23 +303,17 @@ inline void Refiner::note_fresh() {
 
 /// Queues a triangle that needs work, unless the sweep will come to it anyway.
 inline void Refiner::note(TriangleId t, const Shape& s) {
+  if (sweep_.will_visit(t)) return;
   const double bound = twice_area_bound(t);
-  switch (judge(s, bound)) {
-    case Verdict::kLarge:
-      sweep_.visit_again(t);
-      break;
-    case Verdict::kSkinny:
-      note_skinny(t, s, bound);
-      break;
-    case Verdict::kFine:
-      break;
-  }
+  if (s.twice_area > bound)
+    sweep_.visit_again(t);
+  else if (stage_ != Stage::kCoarse && is_skinny(s))
+    note_skinny(t, s, bound);
 }
 
 /// A long skinny triangle at the edge of a block in work leads into a block still coarse, whose turn will do away with
 /// it: it waits for the end.
 inline void Refiner::note_skinny(TriangleId t, const Shape& s, double bound) {
-  if (stage_ == Stage::kCoarse) return;
   if (stage_ == Stage::kFine && s.longest > 8 * bound)
     deferred_.push_back(t);
   else

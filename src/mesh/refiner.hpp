@@ -64,7 +64,6 @@ class Refiner {
 
  private:
   enum class Stage { kSegments, kCoarse, kFine, kRest, kDone };
-  enum class Verdict { kFine, kLarge, kSkinny };
   enum class Progress { kChanged, kStuck };
   struct Shape {
     double twice_area;
@@ -75,11 +74,12 @@ class Refiner {
   static constexpr std::size_t id(std::int32_t i) { return Triangulation::id(i); }
   static Shape shape(double twice_area, double ab, double bc, double ca);
   [[nodiscard]] Shape shape_of(TriangleId t) const;
+  [[nodiscard]] double twice_area(TriangleId t) const;
   [[nodiscard]] double twice_area_bound(TriangleId t) const;
   [[nodiscard]] double sized_bound(TriangleId t) const;
-  [[nodiscard]] Verdict judge(const Shape& s, double bound) const {
-    if (s.twice_area > bound) return Verdict::kLarge;
-    return s.twice_area * s.twice_area * s.shortest < sin_squared_ * s.product ? Verdict::kSkinny : Verdict::kFine;
+  /// Whether the smallest angle is below the bound: its sine is the area's double over the two longer edges' product.
+  [[nodiscard]] bool is_skinny(const Shape& s) const {
+    return s.twice_area * s.twice_area * s.shortest < sin_squared_ * s.product;
   }
 
   bool step();
@@ -89,8 +89,7 @@ class Refiner {
   void enter(Stage stage);
   [[nodiscard]] bool wants_coarse_stage() const;
 
-  Progress improve(TriangleId t, bool skinny);
-  [[nodiscard]] Point candidate(TriangleId t, bool skinny) const;
+  Progress improve(TriangleId t, const Point& p);
   bool split(SubsegmentId s);
   void clear_diametral_circle(SubsegmentId s);
   void note_fresh();

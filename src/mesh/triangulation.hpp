@@ -129,6 +129,17 @@ struct Triangulation {
   void remove_vertex(VertexId v);
   /// A slot for a triangle (uninitialized), a free one if there is one. Throws LimitError past kMaxTriangles.
   TriangleId add_triangle();
+  /// The same for `count` triangles at once.
+  void add_triangles(TriangleId* slots, int count) {
+    const std::size_t size = triangles.size() + id(count);
+    if (!free_triangles.empty() || !region.empty() || size > triangles.capacity() || size > kMaxTriangles)
+        [[unlikely]] {
+      for (int i = 0; i < count; ++i) slots[i] = add_triangle();
+      return;
+    }
+    for (int i = 0; i < count; ++i) slots[i] = static_cast<TriangleId>(triangles.size()) + i;
+    triangles.resize_uninitialized(size);
+  }
   void remove_triangle(TriangleId t);
   /// Makes `inner` (an edge of a live triangle, start to end counterclockwise) and what lies across it know each other.
   void link(HalfEdge inner, HalfEdge outer);
