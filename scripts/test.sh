@@ -48,7 +48,7 @@ run_preset() {
   rm -f "$report"
   if build "$preset"; then
     say "Testing $preset"
-    ctest --preset "$preset" -j "$jobs" --no-tests=error --output-junit "$report" || true
+    ctest --preset "$preset" -j "$jobs" --timeout 300 --no-tests=error --output-junit "$report" || true
   fi
   if [[ ! -s $report ]]; then
     one "preset $preset" false
