@@ -130,7 +130,7 @@ class SegmentRecovery {
     TriangleId t = first;
     do {
       const auto& v = mesh_.triangles[id(t)].vertex;
-      const int i = v[0] == a ? 0 : v[1] == a ? 1 : 2;
+      const int i = corner_of(t, a);
       const VertexId s = v[next(i)], e = v[previous(i)];
       if (s == b) return half_edge(t, previous(i));
       const double right = orient2d(at(a), at(s), at(b));
@@ -156,14 +156,27 @@ class SegmentRecovery {
     }
   }
 
+  int corner_of(TriangleId t, VertexId v) const {
+    const auto& vertex = mesh_.triangles[id(t)].vertex;
+    return vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2;
+  }
+
+  /// The triangle after `t` counterclockwise around u. The fan around a corner of the box is open: from its last
+  /// triangle to its first.
+  TriangleId turn(TriangleId t, VertexId u) const {
+    HalfEdge h = across(half_edge(t, next(corner_of(t, u))));
+    if (h != kNone) return triangle_of(h);
+    while ((h = across(half_edge(t, previous(corner_of(t, u))))) != kNone) t = triangle_of(h);
+    return t;
+  }
+
   HalfEdge find_edge(VertexId u, VertexId w) const {
     const TriangleId first = incident_[id(u)];
     TriangleId t = first;
     do {
-      const auto& v = mesh_.triangles[id(t)].vertex;
-      const int i = v[0] == u ? 0 : v[1] == u ? 1 : 2;
-      if (v[next(i)] == w) return half_edge(t, previous(i));
-      t = triangle_of(across(half_edge(t, next(i))));
+      const int i = corner_of(t, u);
+      if (mesh_.triangles[id(t)].vertex[next(i)] == w) return half_edge(t, previous(i));
+      t = turn(t, u);
     } while (t != first);
     return kNone;
   }

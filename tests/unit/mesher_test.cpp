@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -137,6 +138,30 @@ TEST_CASE("inputs that enclose nothing are refused with the cause") {
   crossing.segments.push_back({0, 2, 0});
   crossing.segments.push_back({1, 3, 0});
   CHECK_THROWS_WITH_AS(triangulate(crossing), doctest::Contains("crosses another"), Error);
+}
+
+TEST_CASE("long segments are forced through many triangles, also next to the outer boundary") {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    CAPTURE(seed);
+    constexpr int kStrips = 10;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    Pslg pslg = rectangle(1, 1);
+    for (int i = 0; i < 500; ++i) pslg.points.push_back({unit(random), unit(random)});
+    for (int strip = 0; strip < kStrips; ++strip) {
+      pslg.segments.push_back({static_cast<std::int32_t>(pslg.points.size()),
+                               static_cast<std::int32_t>(pslg.points.size() + 1), 5 + strip});
+      for (const double x : {0.05 * unit(random), 1 - 0.05 * unit(random)})
+        pslg.points.push_back({x, (strip + unit(random)) / kStrips});
+    }
+    const Triangulation mesh = triangulate(pslg);
+    check_valid(mesh);
+    const MeshPiece piece = to_piece(mesh, pslg);
+    for (const Pslg::Segment& s : pslg.segments)
+      CHECK(std::count_if(piece.edges.begin(), piece.edges.end(), [&](const MeshPiece::Edge& e) {
+              return std::minmax(e.a, e.b) == std::minmax(s.a, s.b) && e.marker == s.marker;
+            }) == 1);
+  }
 }
 
 TEST_CASE("refinement meets the bounds on area and angle") {
