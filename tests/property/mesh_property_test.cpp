@@ -1,0 +1,129 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "mesh/cdt.hpp"
+#include "mesh/mesher.hpp"
+#include "mesh/to_piece.hpp"
+#include "oracles/mesh_oracle.hpp"
+#include "oracles/meshing.hpp"
+#include "oracles/random_pslg.hpp"
+#include "pslg/repair.hpp"
+#include "verify/report_text.hpp"
+#include "verify/verify.hpp"
+
+// Random inputs through the mesher, looked at by the verification and, while they are small, by the brute-force
+// oracles. A failure prints its seed and the input as a .poly.
+
+using namespace driftmesh;
+using namespace driftmesh::oracles;
+
+namespace {
+
+const std::vector<std::string> kRight;
+
+Point random_point(std::mt19937_64& random, const RandomPslgShape& shape) {
+  std::uniform_real_distribution<double> in(-1, 1);
+  const double x = in(random), y = in(random);
+  return {shape.offset + shape.scale * x, shape.offset + shape.scale * y};
+}
+
+MeshRequest random_request(std::uint64_t seed, const RandomPslgShape& shape) {
+  std::mt19937_64 random(seed * 77 + 5);
+  const double angles[] = {0, 10, 20, 20.7, 25, 28, 30, 33};
+  MeshRequest request;
+  request.min_angle = angles[random() % 8];
+  request.max_area = random() % 2 == 0 ? 0 : shape.scale * shape.scale * std::exp2(-static_cast<double>(random() % 9));
+  request.max_triangles = 200000;
+  return request;
+}
+
+}  // namespace
+
+TEST_CASE("triangulations of random inputs stand up to brute force") {
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    CAPTURE(seed);
+    const RandomPslgShape shape = make_random_shape(seed);
+    RandomPslg random = make_random_pslg(seed, shape);
+    CAPTURE(poly_text(random.input));
+    REQUIRE(!repair(random.input).changed());
+    const MeshPiece mesh = to_piece(triangulate(random.input), random.input);
+    const VerifyReport report = verify(mesh, random.input, {});
+    INFO(report_text(report, {}));
+    CHECK(report.accepted());
+    CHECK(check_constrained_delaunay(mesh) == kRight);
+    CHECK(check_area(mesh, find_boundary(mesh)) == kRight);
+    CHECK(check_coverage(mesh, random.input, 0, std::vector<bool>(random.input.segments.size(), false)) == kRight);
+    std::mt19937_64 places(seed + 1000);  // not the points that the input was made from
+    for (int i = 0; i < 20; ++i) {
+      const Point p = random_point(places, shape);
+      CHECK(count_covering(mesh, p) == (inside_by_parity(random.input, random.boundary_segments, p) ? 1 : 0));
+    }
+  }
+}
+
+TEST_CASE("refined meshes of random inputs keep every promise") {
+  std::size_t triangles = 0, exceptions = 0, meshes_with_holes = 0;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    CAPTURE(seed);
+    const RandomPslgShape shape = make_random_shape(seed);
+    const RandomPslg random = make_random_pslg(seed, shape);
+    const MeshRequest request = random_request(seed, shape);
+    CAPTURE(request.min_angle);
+    CAPTURE(request.max_area);
+    CAPTURE(poly_text(random.input));
+    const MeshingOutcome outcome = repair_mesh_and_verify(random.input, request);
+    CHECK(outcome.failure == "");
+    CHECK(outcome.refusal == "");
+    CHECK(outcome.complete);
+    triangles += outcome.triangles;
+    exceptions += outcome.exceptions;
+    meshes_with_holes += !random.input.holes.empty();
+  }
+  MESSAGE(triangles << " triangles, " << exceptions << " exceptions");
+  CHECK(triangles > 10000);
+  CHECK(exceptions > 10);
+  CHECK(meshes_with_holes > 30);
+}
+
+TEST_CASE("refined meshes of small random inputs cover their segments, by rational arithmetic") {
+  for (std::uint64_t seed = 500; seed < 515; ++seed) {
+    CAPTURE(seed);
+    const RandomPslgShape shape = make_random_shape(seed);
+    const RandomPslg random = make_random_pslg(seed, shape);
+    CAPTURE(poly_text(random.input));
+    MeshRequest request;
+    request.min_angle = 20;
+    const MeshResult result = mesh_domain(random.input, request);
+    const MeshPiece mesh = to_piece(result.mesh, random.input);
+    const double tolerance = 64 * 0x1p-52 * (std::fabs(shape.offset) + shape.scale);
+    CHECK(check_coverage(mesh, random.input, tolerance, std::vector<bool>(random.input.segments.size(), false)) ==
+          kRight);
+    CHECK(check_area(mesh, find_boundary(mesh)) == kRight);
+  }
+}
+
+TEST_CASE("arbitrary bytes become inputs that are refused or meshed well") {
+  std::size_t meshed = 0, refused = 0;
+  for (std::uint64_t seed = 140; seed <= 500; ++seed) {
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    std::vector<std::uint8_t> bytes(4 + random() % 60);
+    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    const MeshingCase c = case_from_bytes(bytes);
+    CAPTURE(c.request.min_angle);
+    CAPTURE(c.request.max_area);
+    CAPTURE(poly_text(c.input));
+    const MeshingOutcome outcome = repair_mesh_and_verify(c.input, c.request);
+    CHECK(outcome.failure == "");
+    CHECK((outcome.complete || !c.coarse));
+    meshed += outcome.refusal.empty();
+    refused += !outcome.refusal.empty();
+  }
+  MESSAGE(meshed << " meshed, " << refused << " refused");
+  CHECK(meshed > 100);
+  CHECK(refused > 0);
+}
