@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "protocol/messages.hpp"
+
+namespace driftmesh::protocol {
+
+/// SPLITs that wait for company: one buffer a destination rank, sent as one message when it reaches the threshold or
+/// when the rank has nothing better to do. (The paper, section 4: aggregation.)
+///
+/// What waits here is on its way as far as termination is concerned.
+class Aggregator {
+ public:
+  static constexpr std::size_t kDefaultThreshold = 512;
+
+  /// A threshold of 1 sends every SPLIT at once. Throws Error for a threshold of 0.
+  Aggregator(Rank self, Rank ranks, std::size_t threshold = kDefaultThreshold);
+
+  /// Adds a SPLIT for subdomain `to`, which `destination` owns in epoch `epoch` as far as this rank knows. Returns the
+  /// batch that became full by it.
+  [[nodiscard]] std::optional<Outgoing> add(Rank destination, SubdomainId to, Epoch epoch, const SplitEntry& entry);
+
+  /// All that waits, a message a destination.
+  [[nodiscard]] std::vector<Outgoing> flush();
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+
+ private:
+  struct Waiting {
+    SubdomainId to;
+    Epoch epoch;
+    SplitEntry entry;
+  };
+  Outgoing take(Rank destination);
+
+  Rank self_;
+  std::size_t threshold_;
+  std::size_t size_ = 0;
+  std::vector<std::vector<Waiting>> buffers_;  // by destination
+  std::vector<Rank> filled_;                   // the destinations with a buffer that is not empty
+};
+
+}  // namespace driftmesh::protocol

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "protocol/ids.hpp"
+
+namespace driftmesh::protocol {
+
+/// Who owns a subdomain in one of its epochs. An epoch has one owner: the owner of the epoch before chose it.
+struct Location {
+  Rank owner = 0;
+  Epoch epoch = 0;
+  friend bool operator==(const Location&, const Location&) = default;
+};
+
+/// One rank's knowledge of where every subdomain is. It only moves forward: a record of a higher epoch replaces one of
+/// a lower, never the reverse.
+///
+/// What to do with a message for a subdomain that says epoch m, and so was sent to the owner of epoch m:
+///   here      this rank holds the subdomain;
+///   hold      it does not, but owns it in an epoch >= m by its record, or its record is older than m: the subdomain
+///             is on its way here, because a rank that has let go of epoch m has a record above m;
+///   forward   otherwise, to the owner in the record, with the record's epoch, which is above m: a record (q, m) with
+///             another owner q would give epoch m two owners.
+/// Epochs rise with every hop, so a message never circles, and is forwarded at most (epoch in which it is handled -
+/// epoch it was first sent with) times.
+class Directory {
+ public:
+  enum class Route { kHere, kHold, kForward };
+
+  /// `owners[s]` is the owner of subdomain s in epoch 0.
+  Directory(Rank self, const std::vector<Rank>& owners);
+
+  [[nodiscard]] SubdomainId subdomains() const { return static_cast<SubdomainId>(records_.size()); }
+  [[nodiscard]] Location where(SubdomainId s) const { return records_.at(index(s)); }
+  [[nodiscard]] bool holds(SubdomainId s) const { return held_.at(index(s)); }
+  [[nodiscard]] Route route(SubdomainId s, Epoch epoch) const;
+
+  /// Takes a record over without asking whether it is newer; see RankProtocol, which asks.
+  void set(SubdomainId s, const Location& location) { records_.at(index(s)) = location; }
+  /// Lets go of a subdomain held here; returns its next location. Throws Error if it is not held here.
+  Location depart(SubdomainId s, Rank destination);
+  /// Takes over a subdomain that was handed to this rank. Returns false, and changes nothing, if that cannot be: the
+  /// subdomain is here, or this rank has let go of this epoch before.
+  [[nodiscard]] bool arrive(SubdomainId s, Epoch epoch);
+
+ private:
+  static std::size_t index(SubdomainId s) { return static_cast<std::size_t>(s); }
+
+  Rank self_;
+  std::vector<Location> records_;
+  std::vector<bool> held_;
+};
+
+}  // namespace driftmesh::protocol

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "protocol/dyadic.hpp"
+#include "protocol/ids.hpp"
+
+/// What ranks say to each other. The layout on the wire is in codec.cpp; the rules are in docs/protocol.md.
+namespace driftmesh::protocol {
+
+// ---- Work: counted by the termination detector -----------------------------------------------------------------
+
+/// One point on a shared edge: 12 bytes on the wire.
+struct SplitEntry {
+  EdgeId edge = 0;
+  dyadic::Path path = dyadic::kWhole;
+  friend bool operator==(const SplitEntry&, const SplitEntry&) = default;
+};
+
+/// SPLITs for one subdomain, from one rank.
+struct SplitGroup {
+  SubdomainId to = 0;
+  Epoch epoch = 0;  ///< of `to`, as the rank that sent or forwarded the group last believed
+  Rank origin = 0;  ///< the rank that made the points; it is told when the group had to be forwarded
+  std::vector<SplitEntry> entries;
+  friend bool operator==(const SplitGroup&, const SplitGroup&) = default;
+};
+
+/// What an aggregator held for one rank.
+struct SplitBatch {
+  std::vector<SplitGroup> groups;
+  friend bool operator==(const SplitBatch&, const SplitBatch&) = default;
+};
+
+/// A subdomain moves to the rank that this is sent to.
+struct HandOff {
+  SubdomainId subdomain = 0;
+  Epoch epoch = 0;  ///< with the receiver as owner
+  Bytes packed;     ///< the packed form; opaque to the protocol
+  friend bool operator==(const HandOff&, const HandOff&) = default;
+};
+
+// ---- Control: advice, not counted, refused once the work is over -----------------------------------------------
+
+/// Where a subdomain is, or was a while ago.
+struct LocationUpdate {
+  SubdomainId subdomain = 0;
+  Rank owner = 0;
+  Epoch epoch = 0;
+  friend bool operator==(const LocationUpdate&, const LocationUpdate&) = default;
+};
+
+struct SubdomainLoad {
+  SubdomainId subdomain = 0;
+  double remaining = 0;     ///< triangles still to be made, predicted
+  std::uint64_t bytes = 0;  ///< of the packed form, estimated
+  friend bool operator==(const SubdomainLoad&, const SubdomainLoad&) = default;
+};
+
+/// What the sender has to do, and how fast it is.
+struct LoadReport {
+  std::uint32_t round = 0;
+  double speed = 0;  ///< triangles a second, a running average
+  std::vector<SubdomainLoad> loads;
+  friend bool operator==(const LoadReport&, const LoadReport&) = default;
+};
+
+struct PlannedMove {
+  SubdomainId subdomain = 0;
+  Rank destination = 0;
+  friend bool operator==(const PlannedMove&, const PlannedMove&) = default;
+};
+
+/// Moves that a planner advises the receiver to make.
+struct Plan {
+  std::uint32_t round = 0;
+  std::vector<PlannedMove> moves;
+  friend bool operator==(const Plan&, const Plan&) = default;
+};
+
+// ---- Detection: how the end is found; each of these travels along the ring of ranks ------------------------------
+
+/// Safra's token (EWD998).
+struct Token {
+  std::uint64_t round = 0;  ///< the probes of rank 0, from 1
+  std::int64_t count = 0;   ///< SPLITs and hand-offs sent less handled, over the ranks visited
+  bool black = false;       ///< whether a visited rank has handled any since the last visit
+  friend bool operator==(const Token&, const Token&) = default;
+};
+
+/// The work is over; what is left is control traffic under way.
+struct Terminate {
+  std::uint64_t pass = 0;    ///< around the ring, from 1
+  std::int64_t work = 0;     ///< sent less handled over the ranks visited: an audit, 0 at the end of a pass
+  std::int64_t control = 0;  ///< control messages sent less received over the ranks visited
+  friend bool operator==(const Terminate&, const Terminate&) = default;
+};
+
+/// Nothing is under way any more but this.
+struct Finish {
+  friend bool operator==(const Finish&, const Finish&) = default;
+};
+
+using Message = std::variant<SplitBatch, HandOff, LocationUpdate, LoadReport, Plan, Token, Terminate, Finish>;
+
+enum class Traffic { kWork, kControl, kDetection };
+[[nodiscard]] Traffic traffic_of(const Message& message);
+
+/// A message and the rank that it goes to.
+struct Outgoing {
+  Rank destination = 0;
+  Message message;
+};
+
+}  // namespace driftmesh::protocol

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "base/error.hpp"
+#include "protocol/ids.hpp"
+
+namespace driftmesh::protocol {
+
+/// A message that breaks the protocol: damaged, truncated, of another version, or one that its sender must not send.
+/// The run cannot go on: the message names the sender, and every rank stops.
+class ProtocolError : public Error {
+ public:
+  ProtocolError(Rank sender, const std::string& what)
+      : Error("message from rank " + std::to_string(sender) + ": " + what), sender_(sender) {}
+  [[nodiscard]] Rank sender() const { return sender_; }
+
+ private:
+  Rank sender_;
+};
+
+}  // namespace driftmesh::protocol
