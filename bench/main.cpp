@@ -29,7 +29,8 @@ void add_options(CLI::App& app, CommandLine& line) {
   std::vector<std::string> known;
   for (const auto& [name, suite] : suites()) known.push_back(name);
   app.add_option("suite", line.names, "What to measure; everything when absent")->check(CLI::IsMember(known));
-  app.add_option("--data", line.data, "Folder of pipe.poly, cylinder_flow.poly, chesapeake.poly")
+  app.add_option("--data", line.data,
+                 "Folder of pipe.poly, cylinder_flow.poly, chesapeake.poly; generated inputs stand in for missing ones")
       ->capture_default_str();
   app.add_option("--json", line.json, "Write every single run to this file");
   app.add_option("--repetitions", line.options.repetitions, "Runs of which the median counts")

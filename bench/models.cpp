@@ -1,13 +1,12 @@
 #include "bench/models.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <random>
 #include <utility>
 
 #include "base/narrow.hpp"
 #include "bench/cgal_mesher.hpp"
+#include "pslg/generate.hpp"
 #include "pslg/poly_file.hpp"
 
 namespace driftmesh::bench {
@@ -21,15 +20,6 @@ void add_loop(Pslg& pslg, const std::vector<Point>& corners) {
   for (std::int32_t i = 0; i < count; ++i) pslg.segments.push_back({first + i, first + (i + 1) % count, 1});
 }
 
-std::vector<Point> regular_polygon(const Point& centre, double radius, int corners) {
-  std::vector<Point> polygon;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::numbers::pi * i / corners;
-    polygon.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
-  }
-  return polygon;
-}
-
 Model with_area(const std::string& name, Pslg pslg) {
   const double area = domain_area(pslg);
   return {name, std::move(pslg), area};
@@ -38,21 +28,15 @@ Model with_area(const std::string& name, Pslg pslg) {
 }  // namespace
 
 std::vector<Model> load_models(const std::filesystem::path& folder) {
-  std::vector<Model> models;
-  for (const std::string name : {"pipe", "cylinder_flow", "chesapeake"}) {
+  const auto load = [&](const std::string& name, const std::string& substitute, const auto& generate) {
     const std::filesystem::path path = folder / (name + ".poly");
-    if (std::filesystem::exists(path)) models.push_back(with_area(name, read_poly(path.string())));
-  }
-  models.push_back(with_area("rectangle with a hole", rectangle_with_hole()));
-  return models;
-}
-
-Pslg rectangle_with_hole() {
-  Pslg pslg;
-  add_loop(pslg, {{0, 0}, {2, 0}, {2, 1}, {0, 1}});
-  add_loop(pslg, regular_polygon({1, 0.5}, 0.2, 32));
-  pslg.holes.push_back({1, 0.5});
-  return pslg;
+    return std::filesystem::exists(path) ? with_area(name, read_poly(path.string()))
+                                         : with_area(substitute, generate());
+  };
+  return {load("pipe", "generated pipe", [] { return generate_pipe({}); }),
+          load("cylinder_flow", "generated cylinder flow", [] { return generate_cylinder_flow({}); }),
+          load("chesapeake", "generated bay", [] { return generate_bay({}); }),
+          with_area("rectangle with a hole", generate_rectangle_hole({}))};
 }
 
 Pslg points_with_chains(std::size_t points, std::size_t segments, std::uint64_t seed) {
