@@ -10,6 +10,8 @@ namespace driftmesh::app {
 // for what the user can mend; main prints its message and exits with 1.
 
 void add_check(CLI::App& program);
+void add_convert(CLI::App& program);
 void add_generate(CLI::App& program);
+void add_plot(CLI::App& program);
 
 }  // namespace driftmesh::app

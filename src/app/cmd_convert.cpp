@@ -1,0 +1,42 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/commands.hpp"
+#include "base/error.hpp"
+#include "output/mesh_file.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+struct ConvertOptions {
+  std::string input;
+  std::string output;
+};
+
+// Triangle's set of files has five names; writing one must not replace another that is being read.
+void refuse_to_overwrite_input(const ConvertOptions& options) {
+  std::error_code ignored;
+  for (const std::string& read : mesh_files(options.input))
+    for (const std::string& written : mesh_files(options.output))
+      if (std::filesystem::equivalent(read, written, ignored))
+        throw InputError({written, 0}, "is the input itself", "choose another name for the output");
+}
+
+}  // namespace
+
+void add_convert(CLI::App& program) {
+  const auto options = std::make_shared<ConvertOptions>();
+  CLI::App* command = program.add_subcommand("convert", "Write a mesh in another format");
+  command->add_option("input", options->input, "The mesh: .vtu, .msh, or any file of Triangle's .node/.ele set")
+      ->required();
+  command->add_option("output", options->output, "The new file; its extension chooses the format")->required();
+  command->footer("Example: driftmesh convert bay.vtu bay.msh");
+  command->callback([options] {
+    refuse_to_overwrite_input(*options);
+    write_mesh(read_mesh(options->input), options->output);
+  });
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,103 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "output/mesh_file.hpp"
+#include "output/plot.hpp"
+#include "pslg/poly_file.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+const std::map<std::string, PlotColor> kColors = {
+    {"angle", PlotColor::angle}, {"area", PlotColor::area}, {"region", PlotColor::region}, {"none", PlotColor::none}};
+const std::map<std::string, PlotEdges> kEdges = {
+    {"auto", PlotEdges::automatic}, {"on", PlotEdges::on}, {"off", PlotEdges::off}};
+
+template <class Value>
+std::vector<std::string> keys_of(const std::map<std::string, Value>& names) {
+  std::vector<std::string> keys;
+  for (const auto& entry : names) keys.push_back(entry.first);
+  return keys;
+}
+
+struct PlotCommand {
+  std::string input;
+  std::string output;
+  PlotOptions plot;
+  std::string color = "angle";
+  std::string edges = "auto";
+  std::string size;
+  std::vector<double> box;
+};
+
+// "1600x900"
+std::string check_size(const std::string& text) {
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2) return {};
+  return "'" + text + "' is not WIDTHxHEIGHT, for example 1600x900";
+}
+
+std::string check_box(const std::vector<double>& box) {
+  if (box.empty() || (box.size() == 4 && box[0] < box[2] && box[1] < box[3])) return {};
+  return "--box needs x0,y0,x1,y1 with x0 < x1 and y0 < y1";
+}
+
+void run_plot(PlotCommand& command) {
+  if (const std::string problem = check_box(command.box); !problem.empty()) throw CLI::ValidationError(problem);
+  command.plot.color = kColors.at(command.color);
+  command.plot.edges = kEdges.at(command.edges);
+  if (!command.box.empty()) command.plot.box = Box{{command.box[0], command.box[1]}, {command.box[2], command.box[3]}};
+  if (!command.size.empty())
+    (void)std::sscanf(command.size.c_str(), "%dx%d", &command.plot.width, &command.plot.height);
+  const std::filesystem::path input(command.input);
+  if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
+  if (command.plot.title.empty()) command.plot.title = input.filename().string();
+  if (input.extension() == ".poly")
+    plot_pslg(read_poly(command.input), command.output, command.plot);
+  else
+    plot_mesh(read_mesh(command.input), command.output, command.plot);
+}
+
+}  // namespace
+
+void add_plot(CLI::App& program) {
+  const auto options = std::make_shared<PlotCommand>();
+  CLI::App* command = program.add_subcommand("plot", "Draw a mesh or an input as PNG, SVG or PDF");
+  command->add_option("input", options->input, "A mesh (.vtu, .msh, .ele, .node) or an input (.poly)")->required();
+  command->add_option("-o,--output", options->output,
+                      "The picture: .png, .svg or .pdf  [the input's name with .png, in this folder]");
+  command->add_option("--color", options->color, "What the triangles' colours show")
+      ->check(CLI::IsMember(keys_of(kColors)))
+      ->type_name("WHAT")
+      ->capture_default_str();
+  command->add_option("--edges", options->edges, "Draw the triangles' edges; auto: where they can be seen")
+      ->check(CLI::IsMember(keys_of(kEdges)))
+      ->type_name("WHEN")
+      ->capture_default_str();
+  CLI::Option* const width =
+      command->add_option("--width", options->plot.width, "Width in pixels; the height follows")->capture_default_str();
+  command->add_option("--size", options->size, "Width and height in pixels, as 1600x900")
+      ->check(check_size)
+      ->type_name("WxH")
+      ->excludes(width);
+  command->add_option("--box", options->box, "Show only this part of the plane")
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("X0,Y0,X1,Y1");
+  command->add_option("--title", options->plot.title, "The title  [the input's name]");
+  command->footer(
+      "Where triangles are smaller than about two pixels, each pixel shows the worst angle, or the mean area, of the\n"
+      "triangles in it.\n"
+      "Example: driftmesh plot bay.vtu --color area --box 380000,4180000,420000,4210000 -o bay.svg");
+  command->callback([options] { run_plot(*options); });
+}
+
+}  // namespace driftmesh::app

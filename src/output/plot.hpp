@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "geometry/box.hpp"
+#include "mesh/mesh_piece.hpp"
+#include "pslg/pslg.hpp"
+
+namespace driftmesh {
+
+/// What a triangle's colour says.
+enum class PlotColor {
+  angle,   ///< its smallest angle, 0 to 60 degrees
+  area,    ///< its area, on a logarithmic scale
+  region,  ///< its region attribute
+  none     ///< nothing: all have one light colour
+};
+
+enum class PlotEdges {
+  automatic,  ///< drawn where they are long enough to be seen; none in a density image
+  on,         ///< always drawn, however small: millions of lines take their time
+  off
+};
+
+struct PlotOptions {
+  int width = 1600;  ///< pixels (points in PDF)
+  int height = 0;    ///< 0: follows from the shape of what is shown
+  PlotColor color = PlotColor::angle;
+  PlotEdges edges = PlotEdges::automatic;
+  std::optional<Box> box{};  ///< shows this part only
+  std::string title{};
+};
+
+/// Draws the mesh as .png, .svg or .pdf, by the extension of `path`. Triangles of less than about two pixels on average
+/// are not drawn one by one: each pixel then shows the worst angle, or the mean of the logarithms of the areas, of the
+/// triangles in it. Errors: InputError for an unknown extension or an impossible size, FileError.
+void plot_mesh(const MeshPiece& mesh, const std::string& path, const PlotOptions& options);
+
+/// Draws segments by marker, points (if they are not too many), holes as crosses and regions with their labels.
+void plot_pslg(const Pslg& pslg, const std::string& path, const PlotOptions& options);
+
+}  // namespace driftmesh
