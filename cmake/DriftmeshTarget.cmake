@@ -17,6 +17,9 @@ if(DRIFTMESH_SANITIZE)
                                                    -fno-sanitize-recover=all)
   target_link_options(driftmesh_flags INTERFACE -fsanitize=${DRIFTMESH_SANITIZE})
 endif()
+if(DRIFTMESH_FUZZ)
+  target_compile_options(driftmesh_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # driftmesh_library(NAME SOURCES a.cpp ... DEPENDS other boxes PRIVATE_LIBS outside libraries)
 # The boxes listed in DEPENDS are the only ones whose headers NAME may include; tests/structure/check_includes.py reads

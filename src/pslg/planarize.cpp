@@ -38,8 +38,8 @@ class NearSegment {
     if (!box_.overlaps(other)) return false;
     const double x0 = std::max(box_.low.x, other.low.x) - a_.x, x1 = std::min(box_.high.x, other.high.x) - a_.x;
     const double y0 = std::max(box_.low.y, other.low.y) - a_.y, y1 = std::min(box_.high.y, other.high.y) - a_.y;
-    const auto [low_y, high_y] = std::minmax(dx_ * y0, dx_ * y1);
-    const auto [low_x, high_x] = std::minmax(dy_ * x0, dy_ * x1);
+    const auto [low_y, high_y] = std::minmax({dx_ * y0, dx_ * y1});
+    const auto [low_x, high_x] = std::minmax({dy_ * x0, dy_ * x1});
     return low_y - high_x <= slack_ && high_y - low_x >= -slack_;
   }
 
