@@ -1,0 +1,131 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "mesh/digest.hpp"
+#include "mesh/interpolate_attributes.hpp"
+#include "mesh/mesher.hpp"
+#include "mesh/to_piece.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+/// A square with a round hole, a slanted inner segment and a few free points.
+Pslg domain() {
+  Pslg pslg;
+  pslg.points = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 12;
+    pslg.points.push_back({0.7 * std::cos(angle), 0.7 * std::sin(angle)});
+    pslg.segments.push_back({4 + i, 4 + (i + 1) % 12, 2});
+  }
+  pslg.holes = {{0, 0}};
+  pslg.points.insert(pslg.points.end(), {{1.2, 0.1}, {1.7, 1.3}, {-1.5, 0.4}, {0.1, 0.05}});  // the last: in the hole
+  pslg.segments.push_back({16, 17, 3});
+  return pslg;
+}
+
+std::array<double, 2> linear(const Point& p) {
+  return {3 * p.x - 2 * p.y + 1, -p.x + 0.25 * p.y};
+}
+
+MeshPiece meshed(const Pslg& pslg) {
+  MeshRequest request;
+  request.max_area = 0.01;
+  return to_piece(mesh_domain(pslg, request).mesh, pslg);
+}
+
+/// The same mesh, numbered differently.
+MeshPiece shuffled(MeshPiece mesh, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<std::int32_t> place(mesh.points.size());
+  for (std::size_t i = 0; i < place.size(); ++i) place[i] = static_cast<std::int32_t>(i);
+  std::shuffle(place.begin(), place.end(), random);
+  const std::vector<Point> points = mesh.points;
+  for (std::size_t i = 0; i < points.size(); ++i) mesh.points[static_cast<std::size_t>(place[i])] = points[i];
+  for (auto& triangle : mesh.triangles) {
+    for (std::int32_t& v : triangle) v = place[static_cast<std::size_t>(v)];
+    std::rotate(triangle.begin(), triangle.begin() + random() % 3, triangle.end());
+  }
+  std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("Attributes that are linear in the input are so in the mesh") {
+  Pslg pslg = domain();
+  pslg.attributes_per_point = 2;
+  for (const Point& p : pslg.points) pslg.attributes.insert(pslg.attributes.end(), {linear(p)[0], linear(p)[1]});
+  MeshPiece piece = meshed(pslg);
+  REQUIRE(piece.points.size() > 2 * pslg.points.size());
+  interpolate_attributes(pslg, piece);
+  double error = 0;
+  for (std::size_t v = 0; v < piece.points.size(); ++v)
+    for (std::size_t k = 0; k < 2; ++k)
+      error = std::max(error, std::abs(piece.attributes[2 * v + k] - linear(piece.points[v])[k]));
+  CHECK(error < 1e-13);
+}
+
+TEST_CASE("Attributes of points on a segment mix those of its ends, whatever lies beside it") {
+  Pslg pslg = domain();
+  pslg.attributes_per_point = 1;
+  pslg.attributes.assign(pslg.points.size(), 0);
+  pslg.attributes[16] = pslg.attributes[17] = 5;  // the ends of the inner segment
+  MeshPiece piece = meshed(pslg);
+  interpolate_attributes(pslg, piece);
+  int on_segment = 0;
+  for (const MeshPiece::Edge& e : piece.edges)
+    if (e.marker == 3) {
+      ++on_segment;
+      CHECK(piece.attributes[static_cast<std::size_t>(e.a)] == doctest::Approx(5).epsilon(1e-12));
+      CHECK(piece.attributes[static_cast<std::size_t>(e.b)] == doctest::Approx(5).epsilon(1e-12));
+    }
+  CHECK(on_segment > 2);
+  CHECK(*std::max_element(piece.attributes.begin(), piece.attributes.end()) == doctest::Approx(5));
+  CHECK(*std::min_element(piece.attributes.begin(), piece.attributes.end()) == 0);
+}
+
+TEST_CASE("The digest knows a mesh again by its triangles alone") {
+  const Pslg pslg = domain();
+  MeshRequest request;
+  request.max_area = 0.01;
+  const MeshResult result = mesh_domain(pslg, request);
+  const MeshPiece piece = to_piece(result.mesh, pslg);
+  const std::uint64_t digest = mesh_digest(piece);
+  CHECK(mesh_digest(result.mesh) == digest);
+  for (unsigned seed = 1; seed <= 5; ++seed) CHECK(mesh_digest(shuffled(piece, seed)) == digest);
+
+  MeshPiece first = piece, second = piece;  // in two parts
+  first.triangles.resize(piece.triangles.size() / 3);
+  second.triangles.erase(second.triangles.begin(),
+                         second.triangles.begin() + static_cast<std::ptrdiff_t>(first.triangles.size()));
+  CHECK(mesh_digest(first) + mesh_digest(second) == digest);
+}
+
+TEST_CASE("The digest changes with any bit of a coordinate, a lost triangle, a turned edge or orientation") {
+  const MeshPiece piece = meshed(domain());
+  const std::uint64_t digest = mesh_digest(piece);
+  MeshPiece moved = piece;
+  moved.points[5].y = std::nextafter(moved.points[5].y, 10);
+  CHECK(mesh_digest(moved) != digest);
+  MeshPiece less = piece;
+  less.triangles.pop_back();
+  CHECK(mesh_digest(less) != digest);
+  MeshPiece turned = piece;
+  std::swap(turned.triangles[0][0], turned.triangles[0][1]);
+  CHECK(mesh_digest(turned) != digest);
+}
+
+TEST_CASE("The digest is the documented function") {
+  MeshPiece piece;
+  piece.points = {{1, 0}, {0, 1}, {-0.0, 0}};
+  piece.triangles = {{0, 1, 2}};
+  CHECK(mesh_digest(piece) == 0x7494931EE3D2960FU);  // computed by another program from the definition
+}
