@@ -1,23 +1,55 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <memory>
+#include <new>
 
 #include "app/commands.hpp"
+#include "app/help_text.hpp"
+
+namespace {
+
+constexpr int kError = 1;
+constexpr int kUsage = 2;
+
+void add_commands(CLI::App& program) {
+  using namespace driftmesh::app;
+  add_mesh(program);
+  add_check(program);
+  add_convert(program);
+  add_generate(program);
+  add_plot(program);
+}
+
+int parse_and_run(CLI::App& program, int argc, char** argv) {
+  try {
+    program.parse(argc, argv);
+    return 0;
+  } catch (const CLI::RuntimeError& finished) {
+    return finished.get_exit_code();
+  } catch (const CLI::Success& help) {
+    return program.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "driftmesh: " << error.what() << "; see --help\n";
+    return kUsage;
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"driftmesh: quality Delaunay meshes of planar domains"};
-  app.require_subcommand(1);
-  driftmesh::app::add_check(app);
-  driftmesh::app::add_convert(app);
-  driftmesh::app::add_generate(app);
-  driftmesh::app::add_plot(app);
+  CLI::App program{"driftmesh: quality Delaunay meshes of planar domains", "driftmesh"};
+  program.formatter(std::make_shared<driftmesh::app::HelpFormatter>());
+  program.set_version_flag("--version", "driftmesh " DRIFTMESH_VERSION);
+  program.require_subcommand(1);
+  add_commands(program);
+  program.footer("driftmesh COMMAND --help says what each can do.");  // last: commands inherit what is set before
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
+    return parse_and_run(program, argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "driftmesh: out of memory; ask for larger triangles, or see --max-memory of driftmesh mesh\n";
   } catch (const std::exception& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';
-    return 1;
   }
-  return 0;
+  return kError;
 }

@@ -43,6 +43,7 @@ MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshP
   Refiner refiner(result.mesh, result.bounds);
   refiner.limit_triangles(request.max_triangles);
   const double forecast = progress ? refiner.predict_triangles() : 0;
+  if (progress) progress(static_cast<std::int64_t>(result.mesh.live_triangles()), forecast);
   Refiner::Status status = Refiner::Status::kBudget;
   while (status == Refiner::Status::kBudget) {
     status = refiner.refine(progress ? kReportEvery : INT64_MAX);

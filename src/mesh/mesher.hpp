@@ -31,7 +31,8 @@ struct MeshResult {
   double seconds_refine = 0;
 };
 
-/// Called now and then while a mesh is made, with the present and the forecast number of triangles.
+/// Called before refinement and now and then during it, with the present and the forecast number of triangles. What it
+/// throws ends the work and passes through.
 using MeshProgress = std::function<void(std::int64_t triangles, double forecast)>;
 
 /// Meshes the domain of a repaired PSLG (see repair): triangulate, prepare acute corners, refine. The whole domain as

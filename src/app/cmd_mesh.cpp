@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "app/commands.hpp"
+#include "app/config_file.hpp"
+#include "app/limits.hpp"
+#include "app/memory.hpp"
+#include "app/mesh_options.hpp"
+#include "app/output_files.hpp"
+#include "app/progress_line.hpp"
+#include "app/run_record.hpp"
+#include "app/summary.hpp"
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "mesh/interpolate_attributes.hpp"
+#include "mesh/mesher.hpp"
+#include "mesh/to_piece.hpp"
+#include "output/mesh_file.hpp"
+#include "pslg/poly_file.hpp"
+#include "pslg/repair.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+constexpr int kStoppedByLimit = 3;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// One run: the stages in their order, and what is noted of each.
+class MeshRun {
+ public:
+  MeshRun(const MeshOptions& options, std::string command)
+      : options_(options), progress_(!options.quiet && ProgressLine::possible()) {
+    run_.command = std::move(command);
+    run_.input_file = options.input;
+    run_.min_angle = options.angle;
+    run_.max_area = options.area;
+  }
+
+  /// The exit code.
+  int go() {
+    check_outputs(options_.outputs, {options_.json}, options_.input);
+    Pslg pslg = timed("read", [&] { return read_poly(options_.input); });
+    timed("repair", [&] { repair_input(pslg); });
+    size_ = timed("size", [&] { return make_size_field(options_.sizing); });
+    MeshResult result = mesh(pslg);
+    timed("inspect", [&] { record_mesh(run_, result); });
+    if (result.complete || options_.keep_incomplete) write(std::move(result), pslg);
+    finish();
+    if (result.complete) return 0;
+    progress_.erase();
+    std::cerr << "driftmesh: " << stopped_message(limits_, run_.triangles, options_.keep_incomplete) << '\n';
+    return kStoppedByLimit;
+  }
+
+ private:
+  template <class Work>
+  std::invoke_result_t<Work> timed(const char* stage, Work&& work) {
+    progress_.begin(stage);
+    const Clock::time_point start = Clock::now();
+    struct Note {  // also when work returns a value
+      MeshRun& run;
+      const char* stage;
+      Clock::time_point start;
+      ~Note() { run.note(stage, seconds_since(start)); }
+    } note{*this, stage, start};
+    return work();
+  }
+  void note(const char* stage, double seconds) { run_.stages.push_back({stage, seconds}); }
+
+  void repair_input(Pslg& pslg) {
+    run_.repairs = repair(pslg, options_.input);
+    run_.input_points = static_cast<std::int64_t>(pslg.points.size());
+    run_.input_segments = static_cast<std::int64_t>(pslg.segments.size());
+    run_.input_holes = static_cast<std::int64_t>(pslg.holes.size());
+    run_.input_regions = static_cast<std::int64_t>(pslg.regions.size());
+    progress_.erase();
+    if (!options_.quiet) std::cerr << run_.repairs.summary();
+  }
+
+  MeshResult mesh(const Pslg& pslg) {
+    limits_ = find_limits(options_);
+    MeshRequest request{options_.angle, options_.area, !options_.no_region_areas, size_.get(), limits_.triangles};
+    progress_.begin("triangulate");
+    MeshResult result = mesh_domain(pslg, request, [&](std::int64_t triangles, double forecast) {
+      if (std::exchange(run_.forecast, forecast) == 0 && !options_.keep_incomplete) check_forecast(limits_, forecast);
+      progress_.refining(triangles, forecast);
+    });
+    note("triangulate", result.seconds_triangulate);
+    note("refine", result.seconds_refine);
+    run_.seconds_refine = result.seconds_refine;
+    run_.peak_refining = peak_memory();
+    run_.stopped_by = limits_.option();
+    return result;
+  }
+
+  void write(MeshResult&& result, const Pslg& pslg) {
+    if (options_.outputs.empty()) return;
+    const MeshPiece piece = timed("convert", [&] { return convert(std::move(result.mesh), pslg); });
+    timed("write", [&] {
+      for (const std::string& output : options_.outputs) write_mesh(piece, output, {pslg.holes});
+    });
+    for (const std::string& output : options_.outputs)
+      for (const std::string& file : mesh_files(output)) run_.files.push_back({file, std::filesystem::file_size(file)});
+  }
+
+  static MeshPiece convert(Triangulation mesh, const Pslg& pslg) {
+    MeshPiece piece = to_piece(mesh, pslg);
+    interpolate_attributes(pslg, piece);
+    return piece;
+  }
+
+  void finish() {
+    run_.seconds = seconds_since(start_);
+    run_.peak = peak_memory();
+    progress_.erase();
+    if (!options_.quiet) std::cout << summary_text(run_) << std::flush;
+    if (options_.json.empty()) return;
+    AtomicFile file(options_.json);
+    file.write(summary_json(run_));
+    file.commit();
+  }
+
+  const MeshOptions& options_;
+  ProgressLine progress_;
+  RunRecord run_;
+  std::unique_ptr<SizeField> size_;
+  Limits limits_;
+  Clock::time_point start_ = Clock::now();
+};
+
+int run_mesh(CLI::App& command, MeshOptions& options) {
+  if (!options.config.empty()) apply_config(command, options.config);
+  check_mesh_options(options);
+  return MeshRun(options, command_line_of(command, {"config", "quiet"})).go();
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& program) {
+  const auto options = std::make_shared<MeshOptions>();
+  CLI::App* const command = program.add_subcommand("mesh", "Make a quality mesh of a domain");
+  add_mesh_options(*command, *options);
+  command->callback([command, options] {
+    if (const int code = run_mesh(*command, *options); code != 0) throw CLI::RuntimeError(code);
+  });
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,60 @@
+#include "app/limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/memory.hpp"
+#include "app/words.hpp"
+#include "base/error.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+// Measured on meshes of 10 million triangles: the triangulation with its work lists, and with the flat arrays beside it
+// from which files are written.
+constexpr std::uint64_t kBytesRefining = 44;
+constexpr std::uint64_t kBytesWriting = 72;
+constexpr double kForecastError = 1.1;
+
+std::string advice(const Limits& limits) {
+  return fmt::format("allow more with {}, or ask for larger triangles", limits.option());
+}
+
+std::string words_of(const Limits& limits) {
+  if (!limits.by_memory) return "the " + grouped(limits.triangles) + " of --max-triangles";
+  return fmt::format("the {} that fit in {} of memory (about {} bytes each)", grouped(limits.triangles),
+                     bytes_words(limits.memory), limits.bytes_per_triangle);
+}
+
+}  // namespace
+
+Limits find_limits(const MeshOptions& options) {
+  Limits limits{options.max_triangles, false, options.max_memory,
+                options.outputs.empty() ? kBytesRefining : kBytesWriting};
+  const std::uint64_t present = present_memory();
+  if (limits.memory == 0)
+    if (const std::uint64_t free = free_memory(); free != 0) limits.memory = present + free / 10 * 9;
+  if (limits.memory == 0) return limits;
+  const std::uint64_t room = limits.memory > present ? limits.memory - present : 0;
+  const auto fit = static_cast<std::int64_t>(std::min<std::uint64_t>(room / limits.bytes_per_triangle, INT64_MAX));
+  limits.by_memory = fit < limits.triangles;
+  limits.triangles = std::min(limits.triangles, fit);
+  return limits;
+}
+
+void check_forecast(const Limits& limits, double forecast) {
+  if (!(forecast > kForecastError * static_cast<double>(limits.triangles))) return;
+  throw LimitError(
+      fmt::format("these bounds need about {} triangles, more than {}; {}, or keep what fits with "
+                  "--keep-incomplete",
+                  estimate_words(forecast), words_of(limits), advice(limits)));
+}
+
+std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept) {
+  return fmt::format("stopped at {} triangles, {}, before all bounds were met; {}{}", grouped(triangles),
+                     words_of(limits), advice(limits),
+                     kept ? "" : ". No mesh was written; --keep-incomplete writes what was made");
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "app/mesh_options.hpp"
+
+namespace driftmesh::app {
+
+/// What one mesh may cost.
+struct Limits {
+  std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop there
+  bool by_memory = false;                                ///< because of memory: max_triangles allows more
+  std::uint64_t memory = 0;                              ///< bytes that the process may take, 0: unknown
+  std::uint64_t bytes_per_triangle = 0;                  ///< what a triangle is expected to take at the worst moment
+
+  /// The option that sets the limit.
+  [[nodiscard]] std::string option() const { return by_memory ? "--max-memory" : "--max-triangles"; }
+};
+
+/// The limits that the options and the machine set, at this moment: memory that the process has now counts as used.
+[[nodiscard]] Limits find_limits(const MeshOptions& options);
+
+/// Throws LimitError when a forecast of the number of triangles is beyond the limit by more than forecasts err.
+void check_forecast(const Limits& limits, double forecast);
+
+/// What to tell the user whose mesh hit the limit.
+[[nodiscard]] std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept);
+
+}  // namespace driftmesh::app

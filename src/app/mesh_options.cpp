@@ -1,0 +1,138 @@
+#include "app/mesh_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+std::string check_positive(const std::string& text) {
+  double value = 0;
+  if (CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)) return {};
+  return "'" + text + "' is not a positive number";
+}
+
+std::string check_angle(const std::string& text) {
+  double value = 0;
+  if (CLI::detail::lexical_cast(text, value) && value >= 0 && value <= kMaxAngle) return {};
+  return "'" + text + "' is not an angle from 0 to " + std::to_string(static_cast<int>(kMaxAngle)) +
+         " degrees; above that refinement need not come to an end";
+}
+
+CLI::Validator positive() {
+  return {check_positive, ""};
+}
+
+void add_quality_options(CLI::App& command, MeshOptions& options) {
+  constexpr const char* kGroup = "Triangles (lengths and areas in the units of the input)";
+  command.add_option("-a,--area", options.area, "No triangle is larger than this")
+      ->check(positive())
+      ->type_name("AREA")
+      ->group(kGroup);
+  command
+      .add_option("-q,--angle", options.angle,
+                  "No angle is smaller than this, in degrees, from 0 to 34, but for those that small angles of the "
+                  "input force. Up to 20.7 termination is proven; up to about 33 it holds in practice, at the price of "
+                  "more triangles")
+      ->check(CLI::Validator(check_angle, ""))
+      ->capture_default_str()
+      ->type_name("DEGREES")
+      ->group(kGroup);
+  command
+      .add_option("--size", options.sizing.expression,
+                  "Edge length as an expression in x and y: \"0.1 + 0.02 * sqrt(x^2 + y^2)\"")
+      ->type_name("EXPR")
+      ->group(kGroup);
+  command
+      .add_option("--size-mesh", options.sizing.background,
+                  "Edge length from a background mesh: FILE.node with FILE.ele, the length as the first attribute of "
+                  "each point, or FILE.area with an area bound for each triangle")
+      ->type_name("FILE")
+      ->group(kGroup);
+  command
+      .add_option("--gradation", options.sizing.gradation,
+                  "How much the lengths of --size-mesh may grow per unit of distance; 0.2 to 0.3 grade well")
+      ->check(positive())
+      ->type_name("G")
+      ->group(kGroup);
+  command.add_option("--size-min", options.sizing.shortest, "Edge lengths asked for are at least this")
+      ->check(positive())
+      ->type_name("LENGTH")
+      ->group(kGroup);
+  command.add_option("--size-max", options.sizing.longest, "Edge lengths asked for are at most this")
+      ->check(positive())
+      ->type_name("LENGTH")
+      ->group(kGroup);
+  command.add_flag("--no-region-areas", options.no_region_areas, "Ignore the area bounds of the input's regions")
+      ->group(kGroup);
+}
+
+void add_limit_options(CLI::App& command, MeshOptions& options) {
+  constexpr const char* kGroup = "Limits";
+  command
+      .add_option("--max-triangles", options.max_triangles,
+                  "Stop at this many triangles, or at once when more are to be expected; 50M is 50 million")
+      ->transform(CLI::AsSizeValue(true).description(""))
+      ->check(CLI::Range(std::int64_t{1}, MeshRequest{}.max_triangles).description(""))
+      ->type_name("N")
+      ->group(kGroup);
+  command
+      .add_option("--max-memory", options.max_memory,
+                  "Likewise for memory: 6G is 6 GiB  [90 % of what the machine has free]")
+      ->transform(CLI::AsSizeValue(false).description(""))
+      ->type_name("SIZE")
+      ->group(kGroup);
+  command.add_flag("--keep-incomplete", options.keep_incomplete, "Write what was made when a limit stops the work")
+      ->group(kGroup);
+}
+
+void add_output_options(CLI::App& command, MeshOptions& options) {
+  constexpr const char* kGroup = "Output";
+  command
+      .add_option(
+          "-o,--output", options.outputs,
+          "Mesh file, by extension: .vtu (ParaView), .msh (Gmsh 4.1), or .node, .ele, .poly, .edge, .neigh (any "
+          "of them writes Triangle's whole set). Can be given several times; without it, the summary alone")
+      ->expected(1)
+      ->take_all()
+      ->type_name("FILE")
+      ->group(kGroup);
+  command.add_option("--json", options.json, "Write everything of the summary as a JSON file too")
+      ->type_name("FILE")
+      ->group(kGroup);
+  command.add_flag("--quiet", options.quiet, "Print nothing but errors")->group(kGroup);
+  command
+      .add_option("--config", options.config,
+                  "Take options from a YAML file, by their long names (input: bay.poly, area: 5000, output: [a.vtu]); "
+                  "what the command line gives wins")
+      ->type_name("FILE.yaml");
+}
+
+}  // namespace
+
+void add_mesh_options(CLI::App& command, MeshOptions& options) {
+  command.add_option("input", options.input, "The domain: Triangle's .poly (its .node beside it), or .node")
+      ->type_name("INPUT.poly");
+  add_quality_options(command, options);
+  add_limit_options(command, options);
+  add_output_options(command, options);
+  command.footer(
+      "Examples:\n"
+      "  driftmesh mesh bay.poly --area 5000 -o bay.vtu             areas up to 5000, angles from 20 degrees\n"
+      "  driftmesh mesh bay.poly --angle 30 -o bay.msh -o bay.ele   by angle alone, two formats\n"
+      "  driftmesh mesh bay.poly --size \"20 + 0.1*abs(x)\" --json run.json\n"
+      "Exit code: 0 done, 1 error, 2 wrong usage, 3 stopped by a limit.\n"
+      "Check a mesh with: driftmesh check bay.vtu bay.poly --angle 20 --area 5000");
+}
+
+void check_mesh_options(const MeshOptions& options) {
+  if (options.input.empty())
+    throw InputError("no input; say which: driftmesh mesh INPUT.poly (see driftmesh mesh --help)");
+  if (options.sizing.gradation && options.sizing.background.empty())
+    throw InputError("--gradation limits the growth of --size-mesh, which is not given");
+  if (options.sizing.shortest > options.sizing.longest) throw InputError("--size-min is greater than --size-max");
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/mesher.hpp"
+#include "sizing/make_size_field.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace driftmesh::app {
+
+/// What `driftmesh mesh` was asked for.
+struct MeshOptions {
+  std::string input;
+  double area = 0;  ///< <= 0: no bound
+  double angle = 20;
+  bool no_region_areas = false;
+  SizingOptions sizing;
+
+  std::int64_t max_triangles = MeshRequest{}.max_triangles;
+  std::uint64_t max_memory = 0;  ///< bytes; 0: 90 % of what the machine has free
+  bool keep_incomplete = false;
+
+  std::vector<std::string> outputs;
+  std::string json;
+  bool quiet = false;
+  std::string config;
+};
+
+/// Adds the options of `driftmesh mesh`, with their help, to its subcommand. `options` must outlive it.
+void add_mesh_options(CLI::App& command, MeshOptions& options);
+
+/// Throws Error for options that do not go together.
+void check_mesh_options(const MeshOptions& options);
+
+}  // namespace driftmesh::app

@@ -1,0 +1,51 @@
+#include "app/output_files.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "output/mesh_file.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Opens it as writing will, and lets go. Not what is no regular file: opening a pipe already does something.
+void try_to_open(const std::string& file) {
+  std::error_code ignored;
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored) && !fs::is_directory(file, ignored)) return;
+  const AtomicFile attempt(file);
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored);
+}
+
+void check_file(const std::string& file, const std::string& input) {
+  for (const std::string& read : {input, fs::path(input).replace_extension(".node").string()})
+    if (same_file(file, read))
+      throw InputError({file}, "this is the input, or beside it", "give the mesh another name");
+  try_to_open(file);
+}
+
+}  // namespace
+
+void check_outputs(const std::vector<std::string>& meshes, const std::vector<std::string>& others,
+                   const std::string& input) {
+  std::vector<std::string> files;
+  for (const std::string& mesh : meshes)
+    for (const std::string& file : mesh_files(mesh)) files.push_back(file);
+  std::copy_if(others.begin(), others.end(), std::back_inserter(files), [](const auto& f) { return !f.empty(); });
+  std::set<std::string> seen;
+  for (const std::string& file : files) {
+    check_file(file, input);
+    if (!seen.insert(fs::absolute(file).lexically_normal().string()).second)
+      throw InputError({file}, "would be written twice", "name each output once");
+  }
+}
+
+}  // namespace driftmesh::app

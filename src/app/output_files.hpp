@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace driftmesh::app {
+
+/// Throws before the work starts for what would fail after it: an unknown extension, a folder that does not exist or
+/// cannot be written to, one file named twice, a file of the input that would be replaced. `meshes` are mesh files as
+/// write_mesh takes them, `others` (none if empty) single files.
+void check_outputs(const std::vector<std::string>& meshes, const std::vector<std::string>& others,
+                   const std::string& input);
+
+}  // namespace driftmesh::app

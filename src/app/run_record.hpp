@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/exceptions.hpp"
+#include "mesh/mesher.hpp"
+#include "pslg/repair_report.hpp"
+
+namespace driftmesh::app {
+
+/// What is known of one run of `driftmesh mesh`: what its summary and its JSON file say. Times are in seconds, memory
+/// in bytes, angles in degrees.
+struct RunRecord {
+  std::string command;  ///< a command line that makes the same mesh
+  std::string input_file;
+  std::int64_t input_points = 0, input_segments = 0, input_holes = 0, input_regions = 0;  ///< after repair
+  RepairReport repairs;
+
+  double min_angle = 0;
+  double max_area = 0;  ///< <= 0: no bound
+
+  bool complete = true;
+  std::string stopped_by;  ///< the limit that stopped the work, if it is not complete
+  std::int64_t triangles = 0, vertices = 0, subsegments = 0;
+  std::int32_t acute_corners = 0;
+  double forecast = 0;  ///< of triangles, before refinement
+  Refiner::Counters counters;
+  AngleSummary shape;
+  std::uint64_t digest = 0;
+
+  /// Triangles that miss a bound for the same reason.
+  struct ExceptionGroup {
+    static constexpr std::size_t kMaxPlaces = 3;
+    std::string cause;
+    std::int64_t count = 0;
+    double worst_angle = 180;   ///< of those below the angle bound
+    std::vector<Point> places;  ///< where the worst are
+  };
+  std::vector<ExceptionGroup> exceptions;
+
+  struct Stage {
+    std::string name;
+    double seconds;
+  };
+  std::vector<Stage> stages;
+  double seconds_refine = 0;
+  double seconds = 0;  ///< all stages and what lies between
+  std::uint64_t peak_refining = 0, peak = 0;
+
+  struct File {
+    std::string name;
+    std::uint64_t bytes;
+  };
+  std::vector<File> files;
+
+  [[nodiscard]] double triangles_per_second() const {
+    return seconds_refine > 0 ? static_cast<double>(triangles) / seconds_refine : 0;
+  }
+};
+
+/// Fills in what the finished mesh shows: counts, angles, areas, exceptions, digest.
+void record_mesh(RunRecord& run, const MeshResult& result);
+
+}  // namespace driftmesh::app

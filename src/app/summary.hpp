@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "app/run_record.hpp"
+
+namespace driftmesh::app {
+
+/// The record in words, for people: up to 100 columns, a line or a small table for each subject.
+[[nodiscard]] std::string summary_text(const RunRecord& run);
+
+/// The histogram alone: 18 lines of 10 degrees, with count, share and bar.
+[[nodiscard]] std::string histogram_text(const AngleSummary& shape);
+
+/// The record as JSON, for programs; docs/file-formats.md describes it. Its "version" rises when a field changes its
+/// meaning or goes.
+[[nodiscard]] std::string summary_json(const RunRecord& run);
+
+}  // namespace driftmesh::app

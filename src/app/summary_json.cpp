@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/summary.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kVersion = 1;
+
+Json input_json(const RunRecord& run) {
+  const RepairReport& r = run.repairs;
+  return {{"file", run.input_file},
+          {"points", run.input_points},
+          {"segments", run.input_segments},
+          {"holes", run.input_holes},
+          {"regions", run.input_regions},
+          {"repairs",
+           {{"duplicate_points", r.duplicate_points.count},
+            {"close_points", r.close_points.count},
+            {"zero_length_segments", r.zero_length_segments.count},
+            {"duplicate_segments", r.duplicate_segments.count},
+            {"points_on_segments", r.points_on_segments.count},
+            {"points_close_segments", r.points_close_segments.count},
+            {"crossings", r.crossings.count},
+            {"overlaps", r.overlaps.count},
+            {"marker_conflicts", r.marker_conflicts.count}}},
+          {"warnings", r.warnings}};
+}
+
+Json mesh_json(const RunRecord& run) {
+  return {{"complete", run.complete},
+          {"triangles", run.triangles},
+          {"vertices", run.vertices},
+          {"subsegments", run.subsegments},
+          {"acute_corners", run.acute_corners},
+          {"free_points_added", run.counters.free_points},
+          {"segment_points_added", run.counters.segment_points},
+          {"free_points_deleted", run.counters.deleted_points},
+          {"encroaching_points_rejected", run.counters.encroaching},
+          {"smallest_angle", run.shape.smallest},
+          {"largest_angle", run.shape.largest},
+          {"angles_by_10_degrees", run.shape.bins},
+          {"smallest_area", run.shape.smallest_area},
+          {"largest_area", run.shape.largest_area},
+          {"total_area", run.shape.total_area},
+          {"digest", fmt::format("{:016x}", run.digest)}};
+}
+
+Json exceptions_json(const RunRecord& run) {
+  Json list = Json::array();
+  for (const RunRecord::ExceptionGroup& group : run.exceptions) {
+    Json places = Json::array();
+    for (const Point& p : group.places) places.push_back({p.x, p.y});
+    Json item = {{"cause", group.cause}, {"triangles", group.count}, {"places", places}};
+    if (group.worst_angle < 180) item["worst_angle"] = group.worst_angle;
+    list.push_back(item);
+  }
+  return list;
+}
+
+Json work_json(const RunRecord& run) {
+  Json stages = Json::object();
+  for (const RunRecord::Stage& stage : run.stages) stages[stage.name] = stage.seconds;
+  return {{"seconds", run.seconds},
+          {"seconds_by_stage", stages},
+          {"triangles_per_second", run.triangles_per_second()},
+          {"forecast_triangles", run.forecast},
+          {"peak_bytes_refining", run.peak_refining},
+          {"peak_bytes", run.peak}};
+}
+
+Json files_json(const RunRecord& run) {
+  Json list = Json::array();
+  for (const RunRecord::File& file : run.files) list.push_back({{"name", file.name}, {"bytes", file.bytes}});
+  return list;
+}
+
+}  // namespace
+
+std::string summary_json(const RunRecord& run) {
+  const Json record = {
+      {"format", "driftmesh run"},    {"version", kVersion},
+      {"program", DRIFTMESH_VERSION}, {"command", run.command},
+      {"input", input_json(run)},     {"bounds", {{"min_angle", run.min_angle}, {"max_area", run.max_area}}},
+      {"mesh", mesh_json(run)},       {"exceptions", exceptions_json(run)},
+      {"work", work_json(run)},       {"files", files_json(run)}};
+  // A file name need not be UTF-8.
+  return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "app/summary.hpp"
+#include "app/words.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+using Text = std::back_insert_iterator<std::string>;
+
+/// "1 hole", "26 holes"
+std::string counted(std::int64_t n, const char* what) {
+  return fmt::format("{} {}{}", grouped(n), what, n == 1 ? "" : "s");
+}
+
+std::int64_t repair_count(const RepairReport& r) {
+  std::int64_t count = 0;
+  for (const RepairItem* item : {&r.duplicate_points, &r.close_points, &r.zero_length_segments, &r.duplicate_segments,
+                                 &r.points_on_segments, &r.points_close_segments, &r.crossings, &r.overlaps})
+    count += item->count;
+  return count;
+}
+
+void add_input(const RunRecord& run, Text out) {
+  fmt::format_to(out, "input        {}: {}, {}, {}, {}\n", run.input_file, counted(run.input_points, "point"),
+                 counted(run.input_segments, "segment"), counted(run.input_holes, "hole"),
+                 counted(run.input_regions, "region"));
+  if (const std::int64_t n = repair_count(run.repairs); n > 0)
+    fmt::format_to(out, "             after {}\n", counted(n, "repair"));
+}
+
+void add_mesh(const RunRecord& run, Text out) {
+  fmt::format_to(out, "mesh         {}, {}, {}\n", counted(run.triangles, "triangle"),
+                 run.vertices == 1 ? "1 vertex" : grouped(run.vertices) + " vertices",
+                 counted(run.subsegments, "subsegment"));
+  if (!run.complete) fmt::format_to(out, "             INCOMPLETE: stopped by {}\n", run.stopped_by);
+  fmt::format_to(out, "angles       {:.4f} to {:.4f} degrees", run.shape.smallest, run.shape.largest);
+  if (run.min_angle > 0) fmt::format_to(out, "; asked for at least {}", run.min_angle);
+  fmt::format_to(out, "\nareas        {:.6g} to {:.6g}", run.shape.smallest_area, run.shape.largest_area);
+  if (run.max_area > 0) fmt::format_to(out, "; asked for at most {:.10g}", run.max_area);
+  fmt::format_to(out, "; {:.10g} in all\n", run.shape.total_area);
+}
+
+void add_exceptions(const RunRecord& run, Text out) {
+  if (run.exceptions.empty()) {
+    fmt::format_to(out, "exceptions   none\n");
+    return;
+  }
+  const char* label = "exceptions";
+  for (const RunRecord::ExceptionGroup& group : run.exceptions) {
+    fmt::format_to(out, "{:<12} {}, {}", label, counted(group.count, "triangle"), group.cause);
+    if (group.worst_angle < 180) fmt::format_to(out, ", from {:.4f} degrees", group.worst_angle);
+    fmt::format_to(out, "\n             at");
+    for (const Point& p : group.places) fmt::format_to(out, " ({:.9g}, {:.9g})", p.x, p.y);
+    fmt::format_to(out, "{}\n", group.count > static_cast<std::int64_t>(group.places.size()) ? " ..." : "");
+    label = "";
+  }
+}
+
+void add_work(const RunRecord& run, Text out) {
+  if (run.seconds_refine > 0.001)  // below, the clock decides
+    fmt::format_to(out, "refinement   {} triangles per second\n", rate_words(run.triangles_per_second()));
+  fmt::format_to(out, "time         {}:", duration_words(run.seconds));
+  const char* separator = "";
+  for (const RunRecord::Stage& stage : run.stages) {
+    if (stage.seconds < 0.0005) continue;
+    fmt::format_to(out, "{} {} {:.3f}", separator, stage.name, stage.seconds);
+    separator = ",";
+  }
+  const auto per_triangle = [&](std::uint64_t bytes) {
+    return static_cast<double>(bytes) / static_cast<double>(std::max<std::int64_t>(1, run.triangles));
+  };
+  fmt::format_to(out, "\nmemory       {} at most, while refining {}", bytes_words(run.peak),
+                 bytes_words(run.peak_refining));
+  if (run.triangles >= 1'000'000)  // below, the program itself and its input weigh more
+    fmt::format_to(out, "; {:.1f} and {:.1f} bytes a triangle", per_triangle(run.peak),
+                   per_triangle(run.peak_refining));
+  fmt::format_to(out, "\n");
+}
+
+void add_files(const RunRecord& run, Text out) {
+  const char* label = "written";
+  for (const RunRecord::File& file : run.files) {
+    fmt::format_to(out, "{:<12} {}, {}\n", label, file.name, bytes_words(file.bytes));
+    label = "";
+  }
+  fmt::format_to(out, "digest       {:016x}\nrepeat       {}\n", run.digest, run.command);
+}
+
+}  // namespace
+
+std::string histogram_text(const AngleSummary& shape) {
+  constexpr double kBarLength = 50;
+  const std::int64_t total =
+      std::max<std::int64_t>(1, std::accumulate(shape.bins.begin(), shape.bins.end(), std::int64_t{0}));
+  const auto most =
+      static_cast<double>(std::max<std::int64_t>(1, *std::max_element(shape.bins.begin(), shape.bins.end())));
+  std::string text;
+  for (std::size_t i = 0; i < shape.bins.size(); ++i) {
+    const auto count = static_cast<double>(shape.bins[i]);
+    const auto length = static_cast<std::size_t>(std::ceil(kBarLength * count / most));  // what is there can be seen
+    fmt::format_to(std::back_inserter(text), "  {:>3} - {:>3} {:>14}  {:>5.1f} %  {}", 10 * i, 10 * i + 10,
+                   grouped(shape.bins[i]), 100 * count / static_cast<double>(total), std::string(length, '#'));
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string summary_text(const RunRecord& run) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  add_input(run, out);
+  add_mesh(run, out);
+  text += histogram_text(run.shape);
+  add_exceptions(run, out);
+  add_work(run, out);
+  add_files(run, out);
+  return text;
+}
+
+}  // namespace driftmesh::app

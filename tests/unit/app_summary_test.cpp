@@ -1,0 +1,81 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "app/help_text.hpp"
+#include "app/progress_line.hpp"
+#include "app/summary.hpp"
+#include "app/words.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::app;
+
+TEST_CASE("Numbers in words") {
+  CHECK(grouped(0) == "0");
+  CHECK(grouped(999) == "999");
+  CHECK(grouped(1000) == "1,000");
+  CHECK(grouped(-1234567) == "-1,234,567");
+  CHECK(bytes_words(999) == "999 B");
+  CHECK(bytes_words(1000) == "1 kB");
+  CHECK(bytes_words(999'499) == "999 kB");
+  CHECK(bytes_words(999'999) == "1 MB");
+  CHECK(bytes_words(1'530'000'000) == "1.53 GB");
+  CHECK(duration_words(0.0421) == "0.042 s");
+  CHECK(duration_words(1.5) == "1.50 s");
+  CHECK(duration_words(59.96) == "60.0 s");
+  CHECK(duration_words(200) == "3 min 20 s");
+  CHECK(duration_words(7500) == "2 h 05 min");
+  CHECK(rate_words(850'000) == "850 thousand");
+  CHECK(rate_words(5'314'000) == "5.31 million");
+  CHECK(estimate_words(999) == "999");
+  CHECK(estimate_words(12'345'678) == "12,300,000");
+  CHECK(estimate_words(1e20) == "1e+20");
+}
+
+TEST_CASE("The histogram is aligned, adds up and shows every angle that is there") {
+  AngleSummary shape;
+  shape.bins[2] = 1;
+  shape.bins[5] = 1'000'000;
+  shape.bins[17] = 250'000;
+  std::istringstream lines(histogram_text(shape));
+  std::size_t count = 0, bar_column = std::string::npos;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const auto bars = std::count(line.begin(), line.end(), '#');
+    CHECK(bars == (count == 2 ? 1 : count == 5 ? 50 : count == 17 ? 13 : 0));
+    CHECK(line.size() <= 100);
+    if (bars == 0) continue;
+    if (bar_column == std::string::npos) bar_column = line.find('#');
+    CHECK(line.find('#') == bar_column);
+    CHECK(line.find(" - ") == 5);
+  }
+  CHECK(count == 18);
+}
+
+TEST_CASE("The summary names exceptions, places and an incomplete mesh") {
+  RunRecord run;
+  run.command = "driftmesh mesh bay.poly";
+  run.input_file = "bay.poly";
+  run.triangles = 1234;
+  run.exceptions.push_back({"small angle of the input", 12, 10.66, {{1, 2}, {3.5, 4}}});
+  run.complete = false;
+  run.stopped_by = "--max-triangles";
+  run.digest = 0xABCDEF;
+  const std::string text = summary_text(run);
+  for (const char* expected :
+       {"1,234 triangles", "12 triangles, small angle of the input, from 10.6600 degrees", "(1, 2) (3.5, 4) ...",
+        "INCOMPLETE: stopped by --max-triangles", "0000000000abcdef", "driftmesh mesh bay.poly"})
+    CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
+}
+
+TEST_CASE("Progress in words") {
+  CHECK(refining_words(1'000'000, 4'000'000, 0.5) ==
+        "refining      1,000,000 of about 4,000,000 triangles  25 %  2 million/s  2 s left");
+  CHECK(refining_words(5'000'000, 4'000'000, 1) == "refining      5,000,000 triangles  5 million/s");
+}
+
+TEST_CASE("Help text is wrapped at spaces") {
+  CHECK(wrapped("one two three", 7) == "one two\nthree");
+  CHECK(wrapped("toolongaword is", 5) == "toolongaword\nis");
+  CHECK(wrapped("", 5).empty());
+}
