@@ -67,12 +67,15 @@ bool holds_no_corner(const Triangulation& mesh, const Polygon& polygon, std::siz
   return true;
 }
 
+/// Up to this many corners it pays to look for an ear that is Delaunay as it stands; beyond, flips are cheaper.
+constexpr std::size_t kSmallPolygon = 12;
+
 /// The ear whose circumdisk holds no other corner if there is one (it is Delaunay as it stands), else any; n if none.
 std::size_t choose_ear(const Triangulation& mesh, const Polygon& polygon, VertexId center) {
   std::size_t good = polygon.size(), tight = polygon.size();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Ear ear = ear_at(mesh, polygon, i, center);
-    if (ear == Ear::kGood && holds_no_corner(mesh, polygon, i)) return i;
+    if (ear == Ear::kGood && (polygon.size() > kSmallPolygon || holds_no_corner(mesh, polygon, i))) return i;
     if (ear == Ear::kGood) good = i;
     if (ear == Ear::kTight) tight = i;
   }
