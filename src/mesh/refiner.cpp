@@ -1,6 +1,7 @@
 #include "mesh/refiner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -31,6 +32,28 @@ double radians(double degrees) {
 double cos_squared_of_lens(double min_angle) {
   const double cosine = std::cos(radians(std::min(120.0, 180 - 2 * min_angle)));
   return cosine * cosine;
+}
+
+/// How many triangles a size field asks for in a triangle: the integral of one over the mean area, by subdivision until
+/// the field varies little or the pieces are about as small as the triangles asked for.
+double integrate_size(const SizeField& field, double twice_area_bound, const std::array<Point, 3>& corners,
+                      int depth = 0) {
+  const auto& [a, b, c] = corners;
+  const Point centroid{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+  const double h[4] = {field.edge_length(a), field.edge_length(b), field.edge_length(c), field.edge_length(centroid)};
+  const auto [least, most] = std::minmax({h[0], h[1], h[2], h[3]});
+  const double twice = 2 * signed_area(a, b, c);
+  constexpr int kDeepest = 8;
+  constexpr double kSmooth = 1.2;
+  if (depth == kDeepest || most <= kSmooth * least || twice < 4 * twice_area_of_edge(least)) {
+    const double mean = (h[0] + h[1] + h[2] + 3 * h[3]) / 6;
+    return twice / (kMeanArea * std::min(twice_area_of_edge(mean), twice_area_bound));
+  }
+  const Point ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
+  double sum = 0;
+  for (const std::array<Point, 3>& part : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}})
+    sum += integrate_size(field, twice_area_bound, part, depth + 1);
+  return sum;
 }
 
 }  // namespace
@@ -69,9 +92,14 @@ inline Refiner::Shape Refiner::shape_of(TriangleId t) const {
   return shape(twice_area(t), squared_distance(a, b), squared_distance(b, c), squared_distance(c, a));
 }
 
+/// The bound of the request and of the region, without the size field.
+inline double Refiner::constant_bound(TriangleId t) const {
+  return twice_area_bounds_.size() > 1 && !mesh_.region.empty() ? twice_area_bounds_[mesh_.region[id(t)]]
+                                                                : twice_area_bounds_[0];
+}
+
 inline double Refiner::twice_area_bound(TriangleId t) const {
-  double bound = twice_area_bounds_[0];
-  if (twice_area_bounds_.size() > 1 && !mesh_.region.empty()) bound = twice_area_bounds_[mesh_.region[id(t)]];
+  double bound = constant_bound(t);
   if (bounds_.size != nullptr) bound = std::min(bound, sized_bound(t));
   return bound * coarsening_;
 }
@@ -89,7 +117,11 @@ double Refiner::predict_triangles() const {
   for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
     if (!mesh_.triangles[i].alive()) continue;
     const auto t = static_cast<TriangleId>(i);
-    sum += std::max(1.0, twice_area(t) / (kMeanArea * twice_area_bound(t) / coarsening_));
+    double count = twice_area(t) / (kMeanArea * constant_bound(t));
+    if (bounds_.size != nullptr)
+      count = integrate_size(*bounds_.size, constant_bound(t),
+                             {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
+    sum += std::max(1.0, count);
   }
   return sum;
 }

@@ -75,6 +75,7 @@ class Refiner {
   static Shape shape(double twice_area, double ab, double bc, double ca);
   [[nodiscard]] Shape shape_of(TriangleId t) const;
   [[nodiscard]] double twice_area(TriangleId t) const;
+  [[nodiscard]] double constant_bound(TriangleId t) const;
   [[nodiscard]] double twice_area_bound(TriangleId t) const;
   [[nodiscard]] double sized_bound(TriangleId t) const;
   /// Whether the smallest angle is below the bound: its sine is the area's double over the two longer edges' product.
