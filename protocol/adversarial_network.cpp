@@ -1,0 +1,146 @@
+#include "protocol/adversarial_network.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace driftmesh::protocol {
+
+class AdversarialNetwork::Endpoint final : public Transport {
+ public:
+  Endpoint(AdversarialNetwork& network, Rank rank) : network_(network), rank_(rank) {}
+  [[nodiscard]] Rank rank() const override { return rank_; }
+  [[nodiscard]] Rank ranks() const override { return static_cast<Rank>(network_.boxes_.size()); }
+  void send(Rank destination, Bytes bytes) override { network_.send(rank_, destination, std::move(bytes)); }
+  std::optional<Received> poll() override { return network_.poll(rank_); }
+  void idle() override {}
+  [[nodiscard]] double now() const override { return static_cast<double>(network_.steps_); }
+
+ private:
+  AdversarialNetwork& network_;
+  Rank rank_;
+};
+
+Adversary Adversary::from_seed(std::uint64_t seed) {
+  std::mt19937_64 random(seed * 2 + 1);
+  Adversary result;
+  result.seed = seed;
+  result.fifo = random() % 4 == 0;
+  result.delay = static_cast<double>(random() % 10) / 10;
+  result.starve = random() % 3 == 0;
+  result.hold_one = random() % 2 == 0;
+  result.copy = random() % 2 == 0 ? 0.2 : 0;
+  return result;
+}
+
+AdversarialNetwork::AdversarialNetwork(Rank ranks, Adversary adversary)
+    : adversary_(std::move(adversary)), random_(adversary_.seed), boxes_(static_cast<std::size_t>(ranks)) {
+  for (Rank r = 0; r < ranks; ++r) endpoints_.push_back(std::make_unique<Endpoint>(*this, r));
+  const auto size = static_cast<std::uint64_t>(ranks);
+  if (adversary_.starve && ranks > 1) {
+    starved_ = static_cast<Rank>(below(size));
+    starve_from_ = below(40 * size);
+    starve_to_ = starve_from_ + 1 + below(200 * size);
+  }
+  if (adversary_.hold_one) {
+    held_serial_ = below(60);
+    release_ = below(400 * size);
+  }
+}
+
+AdversarialNetwork::~AdversarialNetwork() = default;
+
+Transport& AdversarialNetwork::transport(Rank rank) {
+  return *endpoints_.at(static_cast<std::size_t>(rank));
+}
+
+const std::vector<AdversarialNetwork::Parcel>& AdversarialNetwork::under_way(Rank destination) const {
+  return boxes_.at(static_cast<std::size_t>(destination));
+}
+
+void AdversarialNetwork::send(Rank source, Rank destination, Bytes bytes) {
+  if (destination < 0 || destination >= static_cast<Rank>(boxes_.size()))
+    throw LimitError("rank " + std::to_string(source) + " sends to rank " + std::to_string(destination) + " of " +
+                     std::to_string(boxes_.size()));
+  auto& box = boxes_[static_cast<std::size_t>(destination)];
+  const bool copy = adversary_.may_copy && adversary_.may_copy(source, bytes) && chance(adversary_.copy);
+  if (copy) box.push_back({source, bytes, serial_, true});
+  box.push_back({source, std::move(bytes), serial_, false});
+  ++serial_, ++in_flight_, ++activity_;
+}
+
+std::optional<Received> AdversarialNetwork::poll(Rank destination) {
+  auto& box = boxes_[static_cast<std::size_t>(destination)];
+  if (box.empty() || chance(adversary_.delay)) return std::nullopt;
+  const auto candidates = deliverable(box);
+  if (candidates.empty()) return std::nullopt;
+  return deliver(box, candidates[below(candidates.size())]);
+}
+
+bool AdversarialNetwork::is_held(const Parcel& parcel) const {
+  return parcel.serial == held_serial_ && steps_ < release_;
+}
+
+// Which parcels may come next: with FIFO, the oldest of each source, and none of a source whose oldest is held.
+std::vector<std::size_t> AdversarialNetwork::deliverable(const std::vector<Parcel>& box) const {
+  std::vector<std::size_t> result;
+  std::vector<bool> met(boxes_.size(), false);
+  for (std::size_t i = 0; i < box.size(); ++i) {
+    const auto source = static_cast<std::size_t>(box[i].source);
+    const bool in_order = !met[source] || !adversary_.fifo || box[i].is_copy;
+    if (!box[i].is_copy) met[source] = true;
+    if (in_order && !is_held(box[i])) result.push_back(i);
+  }
+  return result;
+}
+
+Received AdversarialNetwork::deliver(std::vector<Parcel>& box, std::size_t which) {
+  Parcel parcel = std::move(box[which]);
+  box.erase(box.begin() + static_cast<std::ptrdiff_t>(which));
+  ++activity_, ++counters_.delivered;
+  if (parcel.is_copy)
+    ++counters_.copies;
+  else
+    --in_flight_;
+  for (const Parcel& other : box) {
+    if (other.source == parcel.source && other.serial < parcel.serial && !other.is_copy) {
+      ++counters_.reordered;
+      break;
+    }
+  }
+  if (steps_ < release_ && held_serial_ < parcel.serial) ++counters_.held;
+  return {parcel.source, std::move(parcel.bytes)};
+}
+
+bool AdversarialNetwork::is_starved(Rank rank) const {
+  return rank == starved_ && steps_ >= starve_from_ && steps_ < starve_to_;
+}
+
+RunResult AdversarialNetwork::run(std::span<const RankStep> steps, const std::function<void(Rank)>& after_step) {
+  const std::size_t ranks = boxes_.size();
+  std::vector<Rank> going;
+  for (Rank r = 0; r < static_cast<Rank>(ranks); ++r) going.push_back(r);
+  std::vector<std::uint64_t> idle_since(ranks, UINT64_MAX);  // the activity at the last idle step
+  const auto stalled = [&] {
+    return in_flight_ == 0 && std::all_of(going.begin(), going.end(),
+                                          [&](Rank r) { return idle_since[static_cast<std::size_t>(r)] == activity_; });
+  };
+  while (!going.empty()) {
+    if (++steps_ > adversary_.step_limit) return {RunEnd::kStepLimit, steps_};
+    const Rank rank = going[below(going.size())];
+    if (is_starved(rank)) {
+      ++counters_.starved;
+      continue;
+    }
+    const StepResult result = steps[static_cast<std::size_t>(rank)]();
+    idle_since[static_cast<std::size_t>(rank)] = result == StepResult::kIdle ? activity_ : UINT64_MAX;
+    if (result == StepResult::kFinished) std::erase(going, rank);
+    if (after_step) after_step(rank);
+    if (result == StepResult::kIdle && stalled()) return {RunEnd::kStalled, steps_};
+  }
+  return {RunEnd::kFinished, steps_};
+}
+
+}  // namespace driftmesh::protocol

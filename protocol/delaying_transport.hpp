@@ -1,0 +1,38 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "protocol/transport.hpp"
+
+namespace driftmesh::protocol {
+
+/// Another transport, made unpleasant: what it receives is kept for a random number of polls and handed out in random
+/// order. For tests of real ranks, whose messages otherwise arrive sooner, and in better order, than on a busy network.
+class DelayingTransport final : public Transport {
+ public:
+  /// Messages wait up to `longest` polls each. The inner transport must outlive this one.
+  DelayingTransport(Transport& inner, std::uint64_t seed, std::uint64_t longest);
+
+  [[nodiscard]] Rank rank() const override { return inner_.rank(); }
+  [[nodiscard]] Rank ranks() const override { return inner_.ranks(); }
+  void send(Rank destination, Bytes bytes) override { inner_.send(destination, std::move(bytes)); }
+  std::optional<Received> poll() override;
+  void idle() override;
+  [[nodiscard]] double now() const override { return inner_.now(); }
+  void spend(double seconds) override { inner_.spend(seconds); }
+
+ private:
+  struct Kept {
+    std::uint64_t until;  // poll
+    Received message;
+  };
+
+  Transport& inner_;
+  std::mt19937_64 random_;
+  std::uint64_t longest_;
+  std::uint64_t polls_ = 0;
+  std::vector<Kept> kept_;
+};
+
+}  // namespace driftmesh::protocol

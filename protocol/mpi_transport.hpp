@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "protocol/transport.hpp"
+
+/// The only part of the protocol that knows MPI. Communicators are named by their Fortran handles (MPI_Comm_c2f), which
+/// the MPI standard makes plain integers: whoever includes this needs no mpi.h.
+namespace driftmesh::protocol {
+
+/// MPI, from its initialization to its end. One object, made by the main thread before all others.
+class MpiSession {
+ public:
+  MpiSession(int& argc, char**& argv);
+  /// Finalizes MPI, which waits for all ranks. Not to be reached with a failure in hand: call abort instead.
+  ~MpiSession();
+  MpiSession(const MpiSession&) = delete;
+  MpiSession& operator=(const MpiSession&) = delete;
+
+  [[nodiscard]] static int world();  ///< MPI_COMM_WORLD
+
+  /// Prints `message` on stderr and stops all ranks; mpiexec exits with a code other than 0. Works, as an exit of this
+  /// process alone, without MPI too.
+  [[noreturn]] static void abort(const std::string& message);
+};
+
+/// Messages between the ranks of an MPI communicator. It works on a duplicate of its own, so that it can neither take
+/// messages of another library nor lose its own to one. No call waits for another rank, but for construction and
+/// close(), which all ranks of the communicator make together.
+class MpiTransport final : public Transport {
+ public:
+  explicit MpiTransport(int communicator);
+  /// Without close() before, gives up: what is being sent may or may not arrive. For errors only.
+  ~MpiTransport() override;
+
+  [[nodiscard]] Rank rank() const override;
+  [[nodiscard]] Rank ranks() const override;
+  void send(Rank destination, Bytes bytes) override;
+  std::optional<Received> poll() override;
+  void idle() override;
+  [[nodiscard]] double now() const override;
+
+  /// Ends it in good order: waits until all that was sent has been received. Throws ProtocolError if a message has
+  /// arrived that nobody polled.
+  void close();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace driftmesh::protocol

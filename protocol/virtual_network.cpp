@@ -1,0 +1,125 @@
+#include "protocol/virtual_network.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace driftmesh::protocol {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+void require_positive(double value, const char* what) {
+  if (!(value > 0) || value == kNever)
+    throw Error(std::string("virtual cluster: ") + what + " must be above 0, not " + std::to_string(value));
+}
+
+}  // namespace
+
+class VirtualNetwork::Endpoint final : public Transport {
+ public:
+  Endpoint(VirtualNetwork& network, Rank rank) : network_(network), rank_(rank) {}
+  [[nodiscard]] Rank rank() const override { return rank_; }
+  [[nodiscard]] Rank ranks() const override { return static_cast<Rank>(network_.ranks_.size()); }
+  void send(Rank destination, Bytes bytes) override { network_.send(rank_, destination, std::move(bytes)); }
+  std::optional<Received> poll() override { return network_.poll(rank_); }
+  void idle() override {}
+  [[nodiscard]] double now() const override { return network_.clock(rank_); }
+  void spend(double seconds) override {
+    network_.state(rank_).clock += seconds / network_.cluster_.speeds[static_cast<std::size_t>(rank_)];
+  }
+
+ private:
+  VirtualNetwork& network_;
+  Rank rank_;
+};
+
+VirtualNetwork::VirtualNetwork(VirtualCluster cluster) : cluster_(std::move(cluster)), ranks_(cluster_.speeds.size()) {
+  for (const double speed : cluster_.speeds) require_positive(speed, "a rank's speed");
+  require_positive(cluster_.step_overhead, "the time of a step");
+  if (!cluster_.link) cluster_.link = [](Rank, Rank) { return Link{}; };
+  for (std::size_t r = 0; r < ranks_.size(); ++r)
+    ranks_[r].endpoint = std::make_unique<Endpoint>(*this, static_cast<Rank>(r));
+}
+
+VirtualNetwork::~VirtualNetwork() = default;
+
+Transport& VirtualNetwork::transport(Rank rank) {
+  return *ranks_.at(static_cast<std::size_t>(rank)).endpoint;
+}
+
+double VirtualNetwork::makespan() const {
+  double latest = 0;
+  for (const RankState& rank : ranks_) latest = std::max(latest, rank.clock);
+  return latest;
+}
+
+double VirtualNetwork::wake_time(const RankState& rank) const {
+  if (!rank.idle) return rank.clock;
+  return rank.inbox.empty() ? kNever : std::max(rank.clock, rank.inbox.front().arrival);
+}
+
+void VirtualNetwork::send(Rank source, Rank destination, Bytes bytes) {
+  if (destination < 0 || destination >= static_cast<Rank>(ranks_.size()))
+    throw LimitError("rank " + std::to_string(source) + " sends to rank " + std::to_string(destination) + " of " +
+                     std::to_string(ranks_.size()));
+  RankState& from = state(source);
+  RankState& to = state(destination);
+  from.clock += cluster_.message_overhead;
+  double arrival = from.clock;
+  if (source != destination) {
+    const Link link = cluster_.link(source, destination);
+    from.line_free = std::max(from.line_free, from.clock) + static_cast<double>(bytes.size()) / link.bandwidth;
+    arrival = from.line_free + link.latency;
+  }
+  const double before = wake_time(to);
+  bytes_ += bytes.size();
+  to.inbox.push_back({arrival, serial_++, {source, std::move(bytes)}});
+  std::push_heap(to.inbox.begin(), to.inbox.end(), std::greater<>());
+  if (to.idle && !to.finished) {
+    agenda_.erase({before, destination});
+    agenda_.insert({wake_time(to), destination});
+  }
+}
+
+std::optional<Received> VirtualNetwork::poll(Rank rank) {
+  RankState& me = state(rank);
+  if (me.inbox.empty() || me.inbox.front().arrival > me.clock) return std::nullopt;
+  std::pop_heap(me.inbox.begin(), me.inbox.end(), std::greater<>());
+  Received message = std::move(me.inbox.back().message);
+  me.inbox.pop_back();
+  me.clock += cluster_.message_overhead;
+  return message;
+}
+
+RunResult VirtualNetwork::run(std::span<const RankStep> steps) {
+  agenda_.clear();
+  std::size_t going = ranks_.size();
+  for (std::size_t r = 0; r < ranks_.size(); ++r) agenda_.insert({ranks_[r].clock, static_cast<Rank>(r)});
+  std::uint64_t taken = 0;
+  while (going > 0) {
+    if (agenda_.empty() || agenda_.begin()->first == kNever) return {RunEnd::kStalled, taken};
+    if (taken == cluster_.step_limit) return {RunEnd::kStepLimit, taken};
+    ++taken;
+    const auto [when, rank] = *agenda_.begin();
+    agenda_.erase(agenda_.begin());
+    RankState& me = state(rank);
+    me.waited += when - me.clock;
+    me.clock = when;
+    me.idle = false;
+    const StepResult result = steps[static_cast<std::size_t>(rank)]();
+    me.clock = std::max(me.clock, when + cluster_.step_overhead);
+    me.idle = result == StepResult::kIdle;
+    me.finished = result == StepResult::kFinished;
+    if (me.finished)
+      --going;
+    else
+      agenda_.insert({wake_time(me), rank});
+  }
+  return {RunEnd::kFinished, taken};
+}
+
+}  // namespace driftmesh::protocol

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "protocol/rank_step.hpp"
+#include "protocol/transport.hpp"
+
+namespace driftmesh::protocol {
+
+/// One direction of the way between two ranks.
+struct Link {
+  double latency = 50e-6;  ///< seconds
+  double bandwidth = 1e9;  ///< bytes a second
+};
+
+/// A cluster that need not exist. Message costs follow the LogGP model (Alexandrov et al. 1995): a sender is busy for
+/// the overhead, its messages leave one after the other at the bandwidth, and arrive a latency later; the receiver
+/// pays the overhead again.
+struct VirtualCluster {
+  std::vector<double> speeds;                    ///< of each rank, relative to the reference machine
+  std::function<Link(Rank from, Rank to)> link;  ///< Link{} between all, if empty; a rank reaches itself in no time
+  double message_overhead = 1e-6;                ///< seconds of a rank's time for each message sent and each received
+  double step_overhead = 1e-6;                   ///< seconds that the shortest step takes; above 0
+  std::uint64_t step_limit = UINT64_MAX;
+};
+
+/// Ranks in one process and on one thread, each with a clock of its own that advances by what it spends and by
+/// waiting. The rank whose clock is furthest behind steps next, so a message sent at a moment is there for every poll
+/// at later moments. Within a step, poll before spending: what others send during the step is not known to it.
+class VirtualNetwork {
+ public:
+  /// One rank for each entry of `cluster.speeds`. Throws Error for speeds, overheads that are not above 0.
+  explicit VirtualNetwork(VirtualCluster cluster);
+  ~VirtualNetwork();
+  VirtualNetwork(const VirtualNetwork&) = delete;
+  VirtualNetwork& operator=(const VirtualNetwork&) = delete;
+
+  [[nodiscard]] Transport& transport(Rank rank);
+
+  /// Steps the ranks until all have finished or none can go on. What a step throws ends the run.
+  RunResult run(std::span<const RankStep> steps);
+
+  [[nodiscard]] double clock(Rank rank) const { return state(rank).clock; }    ///< seconds
+  [[nodiscard]] double waited(Rank rank) const { return state(rank).waited; }  ///< seconds of the clock, idle
+  [[nodiscard]] double makespan() const;                                       ///< the latest clock
+  [[nodiscard]] std::uint64_t messages() const { return serial_; }
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  class Endpoint;
+  struct Parcel {
+    double arrival;
+    std::uint64_t serial;
+    Received message;
+    bool operator>(const Parcel& o) const { return arrival != o.arrival ? arrival > o.arrival : serial > o.serial; }
+  };
+  struct RankState {
+    std::unique_ptr<Endpoint> endpoint;
+    double clock = 0;
+    double waited = 0;
+    double line_free = 0;  // when the last message has left
+    bool idle = false;
+    bool finished = false;
+    std::vector<Parcel> inbox;  // a heap, the earliest arrival first
+  };
+  [[nodiscard]] const RankState& state(Rank rank) const { return ranks_[static_cast<std::size_t>(rank)]; }
+  [[nodiscard]] RankState& state(Rank rank) { return ranks_[static_cast<std::size_t>(rank)]; }
+  [[nodiscard]] double wake_time(const RankState& rank) const;
+  void send(Rank source, Rank destination, Bytes bytes);
+  std::optional<Received> poll(Rank rank);
+
+  VirtualCluster cluster_;
+  std::vector<RankState> ranks_;
+  std::set<std::pair<double, Rank>> agenda_;  // who can step, and when
+  std::uint64_t serial_ = 0;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace driftmesh::protocol

@@ -1,0 +1,184 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "protocol/adversarial_network.hpp"
+#include "protocol/delaying_transport.hpp"
+#include "protocol/transport_contract.hpp"
+#include "protocol/virtual_network.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::protocol;
+
+namespace {
+
+template <class Network>
+std::vector<RankStep> steps_on(Network& network, Rank ranks, const contract::Program& program) {
+  std::vector<RankStep> steps;
+  for (Rank r = 0; r < ranks; ++r) steps.push_back(program(network.transport(r)));
+  return steps;
+}
+
+// Rank 0 sends `count` numbered messages to rank 1, which returns the order in which they arrive.
+std::vector<int> order_of_arrival(AdversarialNetwork& network, int count) {
+  std::vector<int> order;
+  const std::vector<RankStep> steps{[&] {
+                                      for (int i = 0; i < count; ++i) network.transport(0).send(1, Bytes{std::byte(i)});
+                                      return StepResult::kFinished;
+                                    },
+                                    [&] {
+                                      if (const auto message = network.transport(1).poll())
+                                        order.push_back(std::to_integer<int>(message->bytes[0]));
+                                      return order.size() == static_cast<std::size_t>(count) ? StepResult::kFinished
+                                                                                             : StepResult::kIdle;
+                                    }};
+  CHECK(network.run(steps).end == RunEnd::kFinished);
+  return order;
+}
+
+}  // namespace
+
+TEST_CASE("the adversarial network keeps the contract") {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    const Rank ranks = static_cast<Rank>(seed % 4) + 1;
+    CAPTURE(seed);
+    contract::check_transport_contract([&](const contract::Program& program) {
+      AdversarialNetwork network(ranks, Adversary::from_seed(seed));
+      REQUIRE(network.run(steps_on(network, ranks, program)).end == RunEnd::kFinished);
+      CHECK(network.in_flight() == 0);
+    });
+  }
+}
+
+TEST_CASE("virtual ranks keep the contract") {
+  for (std::size_t ranks = 1; ranks <= 5; ++ranks) {
+    CAPTURE(ranks);
+    contract::check_transport_contract([&](const contract::Program& program) {
+      VirtualCluster cluster{.speeds = std::vector<double>(ranks, 1.0), .link = {}};
+      cluster.speeds.back() = 0.25;
+      VirtualNetwork network(cluster);
+      REQUIRE(network.run(steps_on(network, static_cast<Rank>(ranks), program)).end == RunEnd::kFinished);
+    });
+  }
+}
+
+TEST_CASE("a delaying transport keeps the contract, and reorders") {
+  bool reordered = false;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    CAPTURE(seed);
+    contract::check_transport_contract([&](const contract::Program& program) {
+      VirtualNetwork network({.speeds = {1, 1, 2}, .link = {}});
+      std::vector<std::unique_ptr<DelayingTransport>> delaying;
+      std::vector<RankStep> steps;
+      for (Rank r = 0; r < 3; ++r) {
+        delaying.push_back(std::make_unique<DelayingTransport>(network.transport(r), seed, 20));
+        // A virtual rank that waits is woken by arrivals only, not by the end of a delay.
+        steps.push_back([step = program(*delaying.back())] {
+          const auto result = step();
+          return result == StepResult::kIdle ? StepResult::kBusy : result;
+        });
+      }
+      REQUIRE(network.run(steps).end == RunEnd::kFinished);
+    });
+    AdversarialNetwork inner(1, {.seed = seed, .fifo = true, .may_copy = {}});
+    DelayingTransport delaying(inner.transport(0), seed, 10);
+    for (int i = 0; i < 10; ++i) delaying.send(0, Bytes{std::byte(i)});
+    int last = -1;
+    for (int got = 0; got < 10;)
+      if (const auto message = delaying.poll()) {
+        const int number = std::to_integer<int>(message->bytes[0]);
+        reordered = reordered || number < last;
+        last = number;
+        ++got;
+      }
+  }
+  CHECK(reordered);
+}
+
+TEST_CASE("the adversary does what it says, and the same again from the same seed") {
+  AdversarialNetwork::Counters sum;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    CAPTURE(seed);
+    auto adversary = Adversary::from_seed(seed);
+    adversary.may_copy = [](Rank, std::span<const std::byte>) { return false; };
+    AdversarialNetwork network(2, adversary), again(2, adversary);
+    const auto order = order_of_arrival(network, 100);
+    CHECK(order == order_of_arrival(again, 100));
+    CHECK(network.counters().copies == 0);
+    if (adversary.fifo) CHECK(std::is_sorted(order.begin(), order.end()));
+    sum.delivered += network.counters().delivered;
+    sum.reordered += network.counters().reordered;
+    sum.starved += network.counters().starved;
+    sum.held += network.counters().held;
+  }
+  CHECK(sum.delivered == 6000);
+  CHECK(sum.reordered > 1000);
+  CHECK(sum.starved > 100);
+  CHECK(sum.held > 100);
+}
+
+TEST_CASE("the adversary copies only what it may") {
+  Adversary adversary{.seed = 5, .copy = 0.5, .may_copy = [](Rank, auto bytes) { return bytes[0] == std::byte{1}; }};
+  AdversarialNetwork network(1, adversary);
+  Transport& transport = network.transport(0);
+  std::array<int, 2> got{};
+  for (int i = 0; i < 200; ++i) transport.send(0, Bytes{std::byte(i % 2)});
+  for (int i = 0; i < 2000; ++i)
+    if (const auto message = transport.poll()) ++got[std::to_integer<std::size_t>(message->bytes[0])];
+  CHECK(got[0] == 100);
+  CHECK(got[1] > 120);
+  CHECK(got[1] == 100 + static_cast<int>(network.counters().copies));
+  CHECK(network.in_flight() == 0);
+}
+
+TEST_CASE("ranks that wait for each other stall, and are told") {
+  const std::vector<RankStep> waiting(3, [] { return StepResult::kIdle; });
+  CHECK(AdversarialNetwork(3, {.seed = 3, .may_copy = {}}).run(waiting).end == RunEnd::kStalled);
+  CHECK(VirtualNetwork({.speeds = {1, 1, 1}, .link = {}}).run(waiting).end == RunEnd::kStalled);
+  const std::vector<RankStep> busy(3, [] { return StepResult::kBusy; });
+  CHECK(AdversarialNetwork(3, {.seed = 3, .may_copy = {}, .step_limit = 100}).run(busy).end == RunEnd::kStepLimit);
+  CHECK(VirtualNetwork({.speeds = {1}, .link = {}, .step_limit = 100}).run(busy).end == RunEnd::kStepLimit);
+}
+
+TEST_CASE("virtual time is what the cluster's figures say") {
+  // Rank 0 works 3 s on the reference machine, at half speed; then sends 1 MB to rank 1, which waits for it.
+  VirtualCluster cluster{.speeds = {0.5, 2}, .link = [](Rank, Rank) { return Link{0.25, 1e6}; }};
+  cluster.message_overhead = 0.125;
+  VirtualNetwork network(cluster);
+  const std::vector<RankStep> steps{[&] {
+                                      network.transport(0).spend(3);
+                                      network.transport(0).send(1, Bytes(500'000));
+                                      network.transport(0).send(1, Bytes(500'000));
+                                      return StepResult::kFinished;
+                                    },
+                                    [&, got = 0]() mutable {
+                                      if (network.transport(1).poll()) ++got;
+                                      if (got < 2) return StepResult::kIdle;
+                                      network.transport(1).spend(1);
+                                      return StepResult::kFinished;
+                                    }};
+  CHECK(network.run(steps).end == RunEnd::kFinished);
+  CHECK(network.clock(0) == doctest::Approx(6 + 2 * 0.125));
+  // The second message leaves when the first has left, at 6.125 + 0.5; it is there at 7.375, and is taken in at 7.5.
+  CHECK(network.clock(1) == doctest::Approx(6.125 + 0.5 + 0.5 + 0.25 + 0.125 + 0.5));
+  CHECK(network.waited(1) == doctest::Approx(7.375 - 0.125).epsilon(1e-4));
+  CHECK(network.makespan() == network.clock(1));
+  CHECK(network.bytes() == 1'000'000);
+  CHECK_THROWS_AS(VirtualNetwork({.speeds = {1, 0}, .link = {}}), Error);
+}
+
+TEST_CASE("equal ranks with equal work end together, whatever their number") {
+  for (const std::size_t ranks : {1u, 10u, 1000u}) {
+    VirtualNetwork network({.speeds = std::vector<double>(ranks, 1.0), .link = {}});
+    const auto program = [](Transport& transport) -> RankStep {
+      return [&transport, slices = 0]() mutable {
+        transport.spend(0.001);
+        return ++slices == 50 ? StepResult::kFinished : StepResult::kBusy;
+      };
+    };
+    CHECK(network.run(steps_on(network, static_cast<Rank>(ranks), program)).steps == 50 * ranks);
+    CHECK(network.makespan() == doctest::Approx(0.05));
+  }
+}
