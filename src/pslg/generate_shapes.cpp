@@ -112,7 +112,7 @@ Pslg generate_cylinder_flow(const CylinderFlowOptions& o) {
 }
 
 Pslg generate_fan(const FanOptions& o) {
-  require_option(o.wedges >= 1 && o.wedges <= 100000, "fan", "the number of wedges must be 1 to 100000");
+  require_option(o.wedges >= 1 && o.wedges <= 10000, "fan", "the number of wedges must be 1 to 10000");
   require_option(o.angle > 0, "fan", "the angle must be positive");
   require_option(o.wedges * o.angle < (o.from_corner ? 90 : 360), "fan",
                  o.from_corner ? "the wedges must span less than 90 degrees at a corner"
