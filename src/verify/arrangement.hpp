@@ -20,7 +20,7 @@ class Arrangement {
     std::int32_t b = 0;  ///< index into points
   };
   static constexpr std::int32_t kUnbounded = 0;    ///< the face that reaches infinity
-  static constexpr std::int32_t kOnBoundary = -1;  ///< a query point lies on a link or a point
+  static constexpr std::int32_t kOnBoundary = -1;  ///< a query point lies on a link or an end of one
 
   /// Points are distinct, finite and in the predicates' range; every link has two different ends; `queries` are
   /// located but are no part of the arrangement. O(n log n).

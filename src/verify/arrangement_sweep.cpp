@@ -70,7 +70,8 @@ void ArrangementSweep::run() {
     for (; query != query_order.end(); ++query) {
       const Point& q = queries_[static_cast<std::size_t>(*query)];
       if (lexicographically_less(p, q)) break;
-      locate_query(static_cast<std::size_t>(*query), &p);
+      const bool has_links = !group(first_low_, by_low_, point).empty() || !group(first_high_, by_high_, point).empty();
+      locate_query(static_cast<std::size_t>(*query), q == p && has_links);
     }
     visit_point(point);
     if (conflict_) return;
@@ -102,11 +103,11 @@ bool ArrangementSweep::meet_wrongly(std::int32_t a, std::int32_t b) const {
   return b_reaches_a && a_reaches_b;
 }
 
-void ArrangementSweep::locate_query(std::size_t query, const Point* coinciding_point) {
+void ArrangementSweep::locate_query(std::size_t query, bool on_point) {
   const Point& q = queries_[query];
   const auto above = status_.lower_bound(q);
   const bool on_link = above != status_.end() && side_of(*above, q) == 0;
-  if (q == *coinciding_point || on_link)
+  if (on_point || on_link)
     below_query_[query] = kOn;
   else if (above != status_.begin())
     below_query_[query] = *std::prev(above);

@@ -17,7 +17,7 @@ namespace driftmesh {
 class ArrangementSweep {
  public:
   static constexpr std::int32_t kNothing = -1;  ///< no link below
-  static constexpr std::int32_t kOn = -2;       ///< the query lies on a link or a point
+  static constexpr std::int32_t kOn = -2;       ///< the query lies on a link or an end of one
 
   ArrangementSweep(std::span<const Point> points, std::span<const Arrangement::Link> links,
                    std::span<const Point> queries);
@@ -50,7 +50,7 @@ class ArrangementSweep {
   [[nodiscard]] bool link_below_link(std::int32_t a, std::int32_t b) const;
   [[nodiscard]] bool meet_wrongly(std::int32_t a, std::int32_t b) const;
 
-  void locate_query(std::size_t query, const Point* coinciding_point);
+  void locate_query(std::size_t query, bool on_point);
   void visit_point(std::int32_t point);
   void end_links(std::int32_t point);
   void start_links(std::int32_t point);

@@ -22,8 +22,7 @@ std::size_t index(std::int32_t i) {
 }
 
 /// The boundary alone, its points renumbered.
-Arrangement arrange_boundary(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary,
-                             const std::vector<Point>& queries) {
+Arrangement arrange_boundary(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary) {
   std::unordered_map<std::int32_t, std::int32_t> number;
   std::vector<Point> points;
   std::vector<Arrangement::Link> links;
@@ -37,14 +36,13 @@ Arrangement arrange_boundary(const MeshPiece& mesh, const std::vector<MeshPiece:
     const std::int32_t a = take(edge.a), b = take(edge.b);
     links.push_back({a, b});
   }
-  return Arrangement(std::move(points), std::move(links), queries);
+  return Arrangement(std::move(points), std::move(links));
 }
 
 }  // namespace
 
-void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary,
-                     const std::vector<Point>& holes, Findings& findings) {
-  const Arrangement arrangement = arrange_boundary(mesh, boundary, holes);
+void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary, Findings& findings) {
+  const Arrangement arrangement = arrange_boundary(mesh, boundary);
   if (arrangement.conflict()) {
     findings.add(Flaw::boundary_crosses, [&] { return "on the boundary " + *arrangement.conflict(); });
     return;
@@ -67,11 +65,6 @@ void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& 
     expect(arrangement.left_face(static_cast<std::int32_t>(i)), kCovered, i);
     expect(arrangement.right_face(static_cast<std::int32_t>(i)), kBare, i);
   }
-  for (std::size_t h = 0; h < holes.size(); ++h)
-    if (const std::int32_t face = arrangement.face_of_query(h);
-        face != Arrangement::kOnBoundary && state[index(face)] == kCovered)
-      findings.add(Flaw::hole_filled,
-                   [&] { return fmt::format("the hole point {} lies inside the mesh", place_words(holes[h])); });
 }
 
 std::vector<char> DomainCheck::find_corners(const MeshPiece& mesh, const Domain& domain,

@@ -15,9 +15,8 @@ namespace driftmesh {
 
 /// The boundary of the mesh, directed with a triangle on the left of each edge, does not meet itself other than at
 /// points, and winds once around some faces of its arrangement and not at all around the others. With all triangles
-/// counterclockwise this proves that no point is covered twice. `holes`, where the input is at hand, must lie outside.
-void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary,
-                     const std::vector<Point>& holes, Findings& findings);
+/// counterclockwise this proves that no point is covered twice.
+void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary, Findings& findings);
 
 /// The checks of a mesh against the domain that its input describes.
 class DomainCheck {

@@ -53,7 +53,7 @@ VerifyReport verify_against(const MeshPiece& mesh, const Pslg* input, const Veri
   local.check_vertices(parts ? &*parts : nullptr, options.check_delaunay);
   check_subsegments(mesh, subsegments, findings);
   report.boundary_edges = local.boundary().size();
-  check_embedding(mesh, local.boundary(), input != nullptr ? input->holes : std::vector<Point>{}, findings);
+  check_embedding(mesh, local.boundary(), findings);
 
   std::vector<char> corner;
   if (domain) corner = DomainCheck::find_corners(mesh, *domain, points);

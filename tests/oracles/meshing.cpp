@@ -84,7 +84,7 @@ MeshingCase case_from_bytes(std::span<const std::uint8_t> data) {
   result.request.min_angle = kAngles[bounds & 7];
   constexpr double kAreas[] = {0, 0, 30, 3, 0.5, 0};
   result.request.max_area = kAreas[(bounds >> 3) % 6] * grid.step * grid.step;
-  result.request.max_triangles = 60000;
+  result.request.max_triangles = result.coarse ? 60000 : 10000;
 
   const int points = 3 + (counts & 15), holes = counts >> 4 & 3, regions = counts >> 6 & 3;
   for (int i = 0; i < points; ++i) input.points.push_back(take_point(bytes, grid, nudged));

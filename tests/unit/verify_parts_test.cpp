@@ -44,7 +44,8 @@ TEST_CASE("an arrangement of nested squares: each ring is a face of two boundary
   add_loop(points, links, square(2, 2, 2));
   add_loop(points, links, square(5, 5, 2));
   points.push_back({4.5, 4.5});
-  const Arrangement a(points, links, {{0.5, 0.5}, {1.5, 1.5}, {3, 3}, {6, 6}, {20, 3}, {0, 4}, {10, 10}, {3, 8.5}});
+  const Arrangement a(points, links,
+                      {{0.5, 0.5}, {1.5, 1.5}, {3, 3}, {6, 6}, {20, 3}, {0, 4}, {10, 10}, {3, 8.5}, {4.5, 4.5}});
   REQUIRE(!a.conflict());
   CHECK(a.face_count() == 5);
   CHECK(a.face_of_query(4) == Arrangement::kUnbounded);
@@ -52,6 +53,7 @@ TEST_CASE("an arrangement of nested squares: each ring is a face of two boundary
   CHECK(a.face_of_query(6) == Arrangement::kOnBoundary);
   CHECK(a.face_of_query(1) == a.face_of_query(7));
   CHECK(a.face_of_point(16) == a.face_of_query(1));
+  CHECK(a.face_of_query(8) == a.face_of_query(1));  // on a point without links
   CHECK(a.face_of_point(0) == Arrangement::kOnBoundary);
   CHECK(a.left_face(0) == a.face_of_query(0));
   CHECK(a.right_face(0) == Arrangement::kUnbounded);
