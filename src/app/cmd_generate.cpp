@@ -106,9 +106,9 @@ void add_stress_tests(CLI::App& generate) {
                                    option(command, "--seed", o.seed, "Another seed makes another polygon");
                                  });
   add_kind<RandomPointsOptions>(
-      generate, "random-points", "Random points in a square, some joined by segments; no boundary",
-      generate_random_points, [](CLI::App& command, RandomPointsOptions& o) {
-        option(command, "--points", o.points, "Number of points");
+      generate, "random-points", "Random points in a square, some joined by segments", generate_random_points,
+      [](CLI::App& command, RandomPointsOptions& o) {
+        option(command, "--points", o.points, "Number of points, besides the corners of the square");
         option(command, "--segments", o.segments, "Number of segments, at most a quarter of the points");
         option(command, "--seed", o.seed, "Another seed makes other points");
       });

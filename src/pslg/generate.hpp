@@ -78,11 +78,10 @@ struct RandomPolygonOptions {
 };
 [[nodiscard]] Pslg generate_random_polygon(const RandomPolygonOptions& options);
 
-/// Random points in the unit square, some joined by short segments that do not cross: no boundary, so the convex hull
-/// is the domain.
+/// Random points in the unit square, some joined by short segments that do not cross. Markers: 1 square, 2 segments.
 struct RandomPointsOptions {
-  std::int32_t points = 100000;
-  std::int32_t segments = 10000;  ///< at most a quarter of the points
+  std::int32_t points = 100000;   ///< besides the corners of the square
+  std::int32_t segments = 10000;  ///< besides its sides; at most a quarter of the points
   std::uint64_t seed = 1;
 };
 [[nodiscard]] Pslg generate_random_points(const RandomPointsOptions& options);

@@ -148,6 +148,7 @@ Pslg generate_random_points(const RandomPointsOptions& o) {
                  "the number of segments must be 0 to a quarter of the points");
   SeededRandom random(o.seed);
   Pslg pslg;
+  pslg.points.reserve(static_cast<std::size_t>(o.points) + 4);
   for (std::int32_t i = 0; i < o.points; ++i) {
     const double x = random.uniform();
     pslg.points.push_back({x, random.uniform()});
@@ -159,7 +160,8 @@ Pslg generate_random_points(const RandomPointsOptions& o) {
   for (std::size_t k = 0; static_cast<std::int32_t>(pslg.segments.size()) < o.segments; k += 2)
     for (const auto& cell : cells)
       if (k + 1 < cell.size() && static_cast<std::int32_t>(pslg.segments.size()) < o.segments)
-        pslg.segments.push_back({cell[k], cell[k + 1], 1});
+        pslg.segments.push_back({cell[k], cell[k + 1], 2});
+  add_loop(pslg, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1);
   return checked(std::move(pslg), "random-points");
 }
 

@@ -17,7 +17,7 @@ std::array<NamedItem, 9> items_of(const RepairReport& r) {
            {&r.points_close_segments, "segments led through a vertex within rounding error of them"},
            {&r.crossings, "crossings of segments made vertices"},
            {&r.overlaps, "shared pieces of overlapping segments kept once"},
-           {&r.marker_conflicts, "merged segments had different markers, the first was kept"}}};
+           {&r.marker_conflicts, "markers of merged segments that differed, the first kept"}}};
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ std::string RepairReport::summary() const {
   std::string text;
   for (const auto& [item, name] : items_of(*this)) {
     if (item->count == 0) continue;
-    text += "repaired: " + std::to_string(item->count) + " " + name + "\n";
+    text += std::string("repaired: ") + name + ": " + std::to_string(item->count) + "\n";
     for (const std::string& example : item->examples) text += "  " + example + "\n";
     if (item->count > static_cast<std::int64_t>(item->examples.size())) text += "  ...\n";
   }

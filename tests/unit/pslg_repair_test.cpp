@@ -58,7 +58,7 @@ TEST_CASE("duplicate points are merged; the first keeps its attributes, a marker
   CHECK(pslg.attributes == std::vector<double>{10, 30, 40, 50});
   CHECK(report.original_point == std::vector<std::int32_t>{0, 2, 3, 4});
   CHECK(report.summary() ==
-        "repaired: 1 duplicate vertices merged\n"
+        "repaired: duplicate vertices merged: 1\n"
         "  vertex 2 (0, 0) merged into vertex 1 (0, 0)\n");
 }
 
