@@ -1,11 +1,15 @@
 #include "mesh/digest.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <vector>
 
 namespace driftmesh {
 namespace {
+
+constexpr std::uint64_t kStart = 0x9E3779B97F4A7C15U;
 
 constexpr std::uint64_t mix(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
@@ -13,39 +17,53 @@ constexpr std::uint64_t mix(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-bool is_less(const Point& p, const Point& q) {
-  return p.x < q.x || (p.x == q.x && p.y < q.y);
+std::uint64_t bits(double x) {
+  return std::bit_cast<std::uint64_t>(x + 0.0);  // -0 + 0 is 0
 }
 
-std::uint64_t triangle_digest(const std::array<const Point*, 3>& corner) {
-  std::size_t first = is_less(*corner[1], *corner[0]) ? 1 : 0;
-  if (is_less(*corner[2], *corner[first])) first = 2;
-  std::uint64_t h = 0x9E3779B97F4A7C15U;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point& p = *corner[(first + k) % 3];
-    h = mix(h ^ std::bit_cast<std::uint64_t>(p.x + 0.0));  // -0 + 0 is 0
-    h = mix(h ^ std::bit_cast<std::uint64_t>(p.y + 0.0));
-  }
-  return h;
+std::uint64_t of_point(const Point& p) {
+  return mix(mix(bits(p.x) + kStart) + bits(p.y));
 }
+
+/// Of a directed edge between points with these digests.
+std::uint64_t of_edge(std::uint64_t from, std::uint64_t to) {
+  return mix(from + 2 * to);
+}
+
+/// Digests by triangles, from those of all points: there are six corners to a point.
+class Sum {
+ public:
+  Sum(const Point* points, std::size_t count) : of_points_(count) {
+    std::transform(points, points + count, of_points_.begin(), of_point);
+  }
+
+  void add(const std::array<std::int32_t, 3>& triangle) {
+    const std::uint64_t a = of_points_[index(triangle[0])], b = of_points_[index(triangle[1])],
+                        c = of_points_[index(triangle[2])];
+    sum_ += mix(of_edge(a, b) + of_edge(b, c) + of_edge(c, a));
+  }
+  [[nodiscard]] std::uint64_t value() const { return sum_; }
+
+ private:
+  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+  std::vector<std::uint64_t> of_points_;
+  std::uint64_t sum_ = 0;
+};
 
 }  // namespace
 
 std::uint64_t mesh_digest(const MeshPiece& mesh) {
-  std::uint64_t sum = 0;
-  const auto point = [&](std::int32_t i) { return &mesh.points[static_cast<std::size_t>(i)]; };
-  for (const auto& [a, b, c] : mesh.triangles) sum += triangle_digest({point(a), point(b), point(c)});
-  return sum;
+  Sum sum(mesh.points.data(), mesh.points.size());
+  for (const auto& triangle : mesh.triangles) sum.add(triangle);
+  return sum.value();
 }
 
 std::uint64_t mesh_digest(const Triangulation& mesh) {
-  std::uint64_t sum = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!mesh.triangles[t].alive()) continue;
-    const auto id = static_cast<TriangleId>(t);
-    sum += triangle_digest({&mesh.corner(id, 0), &mesh.corner(id, 1), &mesh.corner(id, 2)});
-  }
-  return sum;
+  Sum sum(mesh.points.data(), mesh.points.size());
+  for (const Triangle& t : mesh.triangles)
+    if (t.alive()) sum.add(t.vertex);
+  return sum.value();
 }
 
 }  // namespace driftmesh

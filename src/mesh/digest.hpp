@@ -12,9 +12,10 @@ namespace driftmesh {
 /// the same before and after writing and reading, and the digest of a mesh in parts is the sum (modulo 2^64) of theirs.
 /// Equal meshes have equal digests; different ones differ but for a chance of 2^-64. It is no defence against forgery.
 ///
-/// Definition: the sum over all triangles, modulo 2^64, of h(x1, y1, x2, y2, x3, y3), where corner 1 is the least in
-/// (x, y) and the others follow counterclockwise. h starts from 0x9E3779B97F4A7C15 and takes in each coordinate's
-/// IEEE-754 bits b (-0 as 0) by h = mix(h ^ b), with mix the finalizer of splitmix64 (Steele, Lea and Flood 2014).
+/// Definition, all sums modulo 2^64, with mix the finalizer of splitmix64 (Steele, Lea and Flood 2014) and coordinates
+/// as the bits of IEEE-754 doubles, -0 as 0: a point has h = mix(mix(x + 0x9E3779B97F4A7C15) + y), an edge from point a
+/// to point b has e(a, b) = mix(h(a) + 2 h(b)), a counterclockwise triangle abc has mix(e(a, b) + e(b, c) + e(c, a)),
+/// and the mesh the sum over its triangles.
 [[nodiscard]] std::uint64_t mesh_digest(const MeshPiece& mesh);
 [[nodiscard]] std::uint64_t mesh_digest(const Triangulation& mesh);
 

@@ -41,19 +41,43 @@ double area_bound(const Triangulation& mesh, const QualityBounds& bounds, Triang
   return std::min(bound, twice_area_of_edge(std::min(h, bounds.size->edge_length(centroid))) / 2);
 }
 
-/// Bins of 10 degrees by the cosine, without a trigonometric function for each of millions of angles.
+/// Signed squares of cosines order angles as cosines do, and cost no root.
+double signed_square(double x) {
+  return x * std::abs(x);
+}
+
+/// The angle, in degrees, of a signed squared cosine.
+double degrees_of(double signed_cosine_squared) {
+  const double c = std::clamp(signed_cosine_squared, -1.0, 1.0);
+  return std::acos(std::copysign(std::sqrt(std::abs(c)), c)) * kDegrees;
+}
+
+/// Bins of 10 degrees by the signed squared cosine, without a trigonometric function, a search or a branch for each of
+/// millions of angles: a table knows the bin but for the one limit that a cell may hold.
 class CosineBins {
  public:
   CosineBins() {
-    for (std::size_t i = 0; i < limits_.size(); ++i) limits_[i] = std::cos(static_cast<double>(i + 1) * 10 / kDegrees);
+    for (std::size_t i = 0; i < 17; ++i)
+      limits_[i] = signed_square(std::cos(static_cast<double>(i + 1) * 10 / kDegrees));
+    limits_[17] = -2;  // no angle is beyond the last bin
+    for (std::size_t cell = 0; cell < kCells; ++cell) {
+      const double top = static_cast<double>(cell + 1) / kCellsPerUnit - 1;  // the smallest angles of the cell
+      const auto it = std::find_if(limits_.begin(), limits_.end(), [&](double limit) { return top > limit; });
+      first_[cell] = static_cast<std::uint8_t>(it - limits_.begin());
+    }
   }
-  [[nodiscard]] std::size_t bin(double cosine) const {
-    const auto it = std::find_if(limits_.begin(), limits_.end(), [&](double limit) { return cosine > limit; });
-    return static_cast<std::size_t>(it - limits_.begin());
+  [[nodiscard]] std::size_t bin(double signed_cosine_squared) const {
+    const double place = (signed_cosine_squared + 1) * kCellsPerUnit;
+    const auto cell = static_cast<std::size_t>(std::clamp(place, 0.0, kCells - 1.0));
+    const std::size_t first = first_[cell];
+    return first + (signed_cosine_squared <= limits_[first] ? 1 : 0);
   }
 
  private:
-  std::array<double, 17> limits_{};
+  static constexpr double kCellsPerUnit = 64;  // limits are at least 0.03 apart: at most one in a cell
+  static constexpr std::size_t kCells = 128;
+  std::array<double, 18> limits_{};
+  std::array<std::uint8_t, kCells> first_{};
 };
 
 }  // namespace
@@ -92,30 +116,27 @@ AngleSummary summarize_angles(const Triangulation& mesh) {
   AngleSummary summary;
   summary.smallest_area = kNoBound;
   const CosineBins bins;
-  double least_cosine = 1, greatest_cosine = -1;
+  double least = 1, greatest = -1;  // signed squared cosines
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (!mesh.triangles[i].alive()) continue;
     const auto t = static_cast<TriangleId>(i);
     const Point* p[3] = {&mesh.corner(t, 0), &mesh.corner(t, 1), &mesh.corner(t, 2)};
-    double squared[3], root[3];
+    double squared[3];
+    for (int k = 0; k < 3; ++k) squared[k] = squared_distance(*p[next(k)], *p[previous(k)]);
     for (int k = 0; k < 3; ++k) {
-      squared[k] = squared_distance(*p[next(k)], *p[previous(k)]);
-      root[k] = std::sqrt(squared[k]);
-    }
-    for (int k = 0; k < 3; ++k) {
-      const double dot = squared[next(k)] + squared[previous(k)] - squared[k];  // law of cosines
-      const double cosine = dot / (2 * root[next(k)] * root[previous(k)]);
+      const double v = squared[next(k)], w = squared[previous(k)];
+      const double cosine = signed_square(v + w - squared[k]) / (4 * v * w);  // law of cosines
       ++summary.bins[bins.bin(cosine)];
-      least_cosine = std::min(least_cosine, cosine);
-      greatest_cosine = std::max(greatest_cosine, cosine);
+      least = std::min(least, cosine);
+      greatest = std::max(greatest, cosine);
     }
     const double area = signed_area(*p[0], *p[1], *p[2]);
     summary.total_area += area;
     summary.smallest_area = std::min(summary.smallest_area, area);
     summary.largest_area = std::max(summary.largest_area, area);
   }
-  summary.smallest = std::acos(std::clamp(greatest_cosine, -1.0, 1.0)) * kDegrees;
-  summary.largest = std::acos(std::clamp(least_cosine, -1.0, 1.0)) * kDegrees;
+  summary.smallest = degrees_of(greatest);
+  summary.largest = degrees_of(least);
   return summary;
 }
 
