@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -23,6 +24,7 @@
 #include "mesh/mesher.hpp"
 #include "mesh/to_piece.hpp"
 #include "output/mesh_file.hpp"
+#include "output/plot.hpp"
 #include "pslg/poly_file.hpp"
 #include "pslg/repair.hpp"
 
@@ -37,6 +39,17 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+std::string sizing_words(const SizingOptions& sizing) {
+  std::string words;
+  const auto add = [&](const std::string& what) { words += (words.empty() ? "" : ", ") + what; };
+  if (!sizing.expression.empty()) add(sizing.expression);
+  if (!sizing.background.empty()) add(sizing.background);
+  if (sizing.gradation) add(fmt::format("gradation {}", *sizing.gradation));
+  if (sizing.shortest > 0) add(fmt::format("at least {}", sizing.shortest));
+  if (std::isfinite(sizing.longest)) add(fmt::format("at most {}", sizing.longest));
+  return words;
+}
+
 /// One run: the stages in their order, and what is noted of each.
 class MeshRun {
  public:
@@ -46,11 +59,12 @@ class MeshRun {
     run_.input_file = options.input;
     run_.min_angle = options.angle;
     run_.max_area = options.area;
+    run_.sizing = sizing_words(options.sizing);
   }
 
   /// The exit code.
   int go() {
-    check_outputs(options_.outputs, {options_.json}, options_.input);
+    check_outputs(options_.outputs, options_.picture, options_.json, options_.input);
     Pslg pslg = timed("read", [&] { return read_poly(options_.input); });
     timed("repair", [&] { repair_input(pslg); });
     size_ = timed("size", [&] { return make_size_field(options_.sizing); });
@@ -106,14 +120,19 @@ class MeshRun {
   }
 
   void write(MeshResult&& result, const Pslg& pslg) {
-    if (options_.outputs.empty()) return;
+    if (options_.outputs.empty() && options_.picture.empty()) return;
     const MeshPiece piece = timed("convert", [&] { return convert(std::move(result.mesh), pslg); });
     timed("write", [&] {
       for (const std::string& output : options_.outputs) write_mesh(piece, output, {pslg.holes});
     });
     for (const std::string& output : options_.outputs)
-      for (const std::string& file : mesh_files(output)) run_.files.push_back({file, std::filesystem::file_size(file)});
+      for (const std::string& file : mesh_files(output)) note_file(file);
+    if (options_.picture.empty()) return;
+    const std::string title = std::filesystem::path(options_.input).filename().string();
+    timed("plot", [&] { plot_mesh(piece, options_.picture, {.title = title}); });
+    note_file(options_.picture);
   }
+  void note_file(const std::string& file) { run_.files.push_back({file, std::filesystem::file_size(file)}); }
 
   static MeshPiece convert(Triangulation mesh, const Pslg& pslg) {
     MeshPiece piece = to_piece(mesh, pslg);

@@ -3,8 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "base/error.hpp"
-
 namespace driftmesh::app {
 namespace {
 
@@ -99,6 +97,10 @@ void add_output_options(CLI::App& command, MeshOptions& options) {
       ->take_all()
       ->type_name("FILE")
       ->group(kGroup);
+  command
+      .add_option("--plot", options.picture, "Picture of the mesh: .png, .svg or .pdf (more: driftmesh plot --help)")
+      ->type_name("FILE")
+      ->group(kGroup);
   command.add_option("--json", options.json, "Write everything of the summary as a JSON file too")
       ->type_name("FILE")
       ->group(kGroup);
@@ -120,7 +122,7 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
   add_output_options(command, options);
   command.footer(
       "Examples:\n"
-      "  driftmesh mesh bay.poly --area 5000 -o bay.vtu             areas up to 5000, angles from 20 degrees\n"
+      "  driftmesh mesh bay.poly --area 5000 --plot bay.png -o bay.vtu   areas up to 5000, angles from 20 degrees\n"
       "  driftmesh mesh bay.poly --angle 30 -o bay.msh -o bay.ele   by angle alone, two formats\n"
       "  driftmesh mesh bay.poly --size \"20 + 0.1*abs(x)\" --json run.json\n"
       "Exit code: 0 done, 1 error, 2 wrong usage, 3 stopped by a limit.\n"
@@ -128,11 +130,13 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
 }
 
 void check_mesh_options(const MeshOptions& options) {
-  if (options.input.empty())
-    throw InputError("no input; say which: driftmesh mesh INPUT.poly (see driftmesh mesh --help)");
-  if (options.sizing.gradation && options.sizing.background.empty())
-    throw InputError("--gradation limits the growth of --size-mesh, which is not given");
-  if (options.sizing.shortest > options.sizing.longest) throw InputError("--size-min is greater than --size-max");
+  if (options.input.empty()) throw CLI::RequiredError("INPUT.poly");
+  const SizingOptions& sizing = options.sizing;
+  if (sizing.gradation && sizing.background.empty())
+    throw CLI::ValidationError("--gradation", "limits the growth of --size-mesh, which is not given");
+  if (sizing.shortest > sizing.longest) throw CLI::ValidationError("--size-min", "is greater than --size-max");
+  if (sizing.shortest > 0 && sizing.expression.empty() && sizing.background.empty() && !std::isfinite(sizing.longest))
+    throw CLI::ValidationError("--size-min", "bounds --size, --size-mesh and --size-max, of which none is given");
 }
 
 }  // namespace driftmesh::app

@@ -26,6 +26,7 @@ struct MeshOptions {
   bool keep_incomplete = false;
 
   std::vector<std::string> outputs;
+  std::string picture;
   std::string json;
   bool quiet = false;
   std::string config;
@@ -34,7 +35,7 @@ struct MeshOptions {
 /// Adds the options of `driftmesh mesh`, with their help, to its subcommand. `options` must outlive it.
 void add_mesh_options(CLI::App& command, MeshOptions& options);
 
-/// Throws Error for options that do not go together.
+/// Throws CLI::ParseError for options that are missing or do not go together.
 void check_mesh_options(const MeshOptions& options);
 
 }  // namespace driftmesh::app

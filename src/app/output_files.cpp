@@ -1,12 +1,12 @@
 #include "app/output_files.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "output/mesh_file.hpp"
+#include "output/plot.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -34,12 +34,15 @@ void check_file(const std::string& file, const std::string& input) {
 
 }  // namespace
 
-void check_outputs(const std::vector<std::string>& meshes, const std::vector<std::string>& others,
+void check_outputs(const std::vector<std::string>& meshes, const std::string& picture, const std::string& record,
                    const std::string& input) {
   std::vector<std::string> files;
   for (const std::string& mesh : meshes)
     for (const std::string& file : mesh_files(mesh)) files.push_back(file);
-  std::copy_if(others.begin(), others.end(), std::back_inserter(files), [](const auto& f) { return !f.empty(); });
+  if (!picture.empty() && !is_picture_name(picture))
+    throw InputError({picture}, "is no picture format", "use a name that ends in .png, .svg or .pdf");
+  for (const std::string& file : {picture, record})
+    if (!file.empty()) files.push_back(file);
   std::set<std::string> seen;
   for (const std::string& file : files) {
     check_file(file, input);

@@ -20,6 +20,7 @@ struct RunRecord {
 
   double min_angle = 0;
   double max_area = 0;  ///< <= 0: no bound
+  std::string sizing;   ///< the size field in words, or empty
 
   bool complete = true;
   std::string stopped_by;  ///< the limit that stopped the work, if it is not complete

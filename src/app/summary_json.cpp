@@ -83,11 +83,16 @@ Json files_json(const RunRecord& run) {
 
 std::string summary_json(const RunRecord& run) {
   const Json record = {
-      {"format", "driftmesh run"},    {"version", kVersion},
-      {"program", DRIFTMESH_VERSION}, {"command", run.command},
-      {"input", input_json(run)},     {"bounds", {{"min_angle", run.min_angle}, {"max_area", run.max_area}}},
-      {"mesh", mesh_json(run)},       {"exceptions", exceptions_json(run)},
-      {"work", work_json(run)},       {"files", files_json(run)}};
+      {"format", "driftmesh run"},
+      {"version", kVersion},
+      {"program", DRIFTMESH_VERSION},
+      {"command", run.command},
+      {"input", input_json(run)},
+      {"bounds", {{"min_angle", run.min_angle}, {"max_area", run.max_area}, {"edge_length", run.sizing}}},
+      {"mesh", mesh_json(run)},
+      {"exceptions", exceptions_json(run)},
+      {"work", work_json(run)},
+      {"files", files_json(run)}};
   // A file name need not be UTF-8.
   return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -44,6 +44,7 @@ void add_mesh(const RunRecord& run, Text out) {
   fmt::format_to(out, "\nareas        {:.6g} to {:.6g}", run.shape.smallest_area, run.shape.largest_area);
   if (run.max_area > 0) fmt::format_to(out, "; asked for at most {:.10g}", run.max_area);
   fmt::format_to(out, "; {:.10g} in all\n", run.shape.total_area);
+  if (!run.sizing.empty()) fmt::format_to(out, "edge length  {}\n", run.sizing);
 }
 
 void add_exceptions(const RunRecord& run, Text out) {
@@ -63,7 +64,7 @@ void add_exceptions(const RunRecord& run, Text out) {
 }
 
 void add_work(const RunRecord& run, Text out) {
-  if (run.seconds_refine > 0.001)  // below, the clock decides
+  if (run.seconds_refine > 0.02)  // below, the clock decides
     fmt::format_to(out, "refinement   {} triangles per second\n", rate_words(run.triangles_per_second()));
   fmt::format_to(out, "time         {}:", duration_words(run.seconds));
   const char* separator = "";

@@ -32,6 +32,9 @@ struct PlotOptions {
   std::string title{};
 };
 
+/// Whether a picture can have this name: it ends in .png, .svg or .pdf.
+[[nodiscard]] bool is_picture_name(const std::string& path);
+
 /// Draws the mesh as .png, .svg or .pdf, by the extension of `path`. Triangles of less than about two pixels on average
 /// are not drawn one by one: each pixel then shows the worst angle, or the mean of the logarithms of the areas, of the
 /// triangles in it. Errors: InputError for an unknown extension or an impossible size, FileError.

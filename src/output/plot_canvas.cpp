@@ -7,11 +7,14 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "output/plot.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
 // Fontconfig keeps what it has loaded until the process ends; that is no leak of ours.
 extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig";
+}
 #endif
 
 namespace driftmesh {
@@ -20,15 +23,14 @@ namespace {
 constexpr int kSmallest = 100;
 constexpr int kLargest = 20000;
 
-std::string checked_extension(const std::string& path, int width, int height) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension != ".png" && extension != ".svg" && extension != ".pdf")
+std::string checked_name(const std::string& path, int width, int height) {
+  if (!is_picture_name(path))
     throw InputError({path, 0}, "is no picture format", "use a name that ends in .png, .svg or .pdf");
   for (int length : {width, height})
     if (length < kSmallest || length > kLargest)
       throw InputError({path, 0}, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
                        "each side may have " + std::to_string(kSmallest) + " to " + std::to_string(kLargest));
-  return extension;
+  return path;
 }
 
 cairo_status_t write_bytes(void* picture_file, const unsigned char* bytes, unsigned count) {
@@ -44,8 +46,13 @@ cairo_status_t write_bytes(void* picture_file, const unsigned char* bytes, unsig
 
 }  // namespace
 
+bool is_picture_name(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".png" || extension == ".svg" || extension == ".pdf";
+}
+
 Canvas::Canvas(const std::string& path, int width, int height)
-    : file_((checked_extension(path, width, height), path)), is_png_(path.ends_with(".png")) {
+    : file_(checked_name(path, width, height)), is_png_(path.ends_with(".png")) {
   if (is_png_)
     surface_ = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
   else if (path.ends_with(".svg"))
