@@ -98,6 +98,12 @@ bool same(const Pslg& a, const Pslg& b) {
          a.attributes == b.attributes;
 }
 
+// By a power of two, which changes no decision.
+Pslg scaled(Pslg pslg, double factor) {
+  for (Point& p : pslg.points) p = {p.x * factor, p.y * factor};
+  return pslg;
+}
+
 // Soups of segments, one kind of trouble each.
 
 using Random = std::mt19937_64;
@@ -226,6 +232,10 @@ TEST_CASE("repair makes any soup of segments planar, keeps its shape, and change
       CHECK(report.original_point.size() == once.points.size());
       for (std::size_t i = 0; i < once.points.size(); ++i)
         CHECK(once.attributes[i] == doctest::Approx(2 * once.points[i].x - once.points[i].y).epsilon(1e-6));
+      Pslg large = scaled(input, 0x1p200);
+      repair(large);
+      CHECK(large.segments == once.segments);
+      CHECK(large.points == scaled(once, 0x1p200).points);
       Pslg twice = once;
       CHECK_FALSE(repair(twice).changed());
       CHECK(same(once, twice));
