@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "mesh/mesh_piece.hpp"
 
@@ -16,5 +17,7 @@ void write_msh(const MeshPiece& mesh, const std::string& path);
 /// the order of their tags. Markers and regions are what the names of the physical groups say if write_msh wrote them,
 /// otherwise the groups' tags, and 0 for what is in no group.
 [[nodiscard]] MeshPiece read_msh(const std::string& path);
+/// The same from memory; `file` is for messages.
+[[nodiscard]] MeshPiece parse_msh(const std::string& file, std::string_view bytes);
 
 }  // namespace driftmesh

@@ -235,7 +235,7 @@ class MshParser {
 
 }  // namespace
 
-RawMsh parse_msh(const std::string& path, std::string_view bytes) {
+RawMsh parse_msh_sections(const std::string& path, std::string_view bytes) {
   return MshParser(path, bytes).parse();
 }
 

@@ -42,6 +42,6 @@ struct RawMsh {
 };
 
 /// Reads the sections of a file of format 4.1, ASCII or binary. Tags may name what does not exist. Errors: InputError.
-[[nodiscard]] RawMsh parse_msh(const std::string& path, std::string_view bytes);
+[[nodiscard]] RawMsh parse_msh_sections(const std::string& path, std::string_view bytes);
 
 }  // namespace driftmesh

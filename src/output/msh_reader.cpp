@@ -136,11 +136,14 @@ class MshAssembler {
 
 }  // namespace
 
-MeshPiece read_msh(const std::string& path) {
-  const std::string bytes = read_file(path);
-  MeshPiece mesh = MshAssembler(path, parse_msh(path, bytes)).assemble();
-  check_read_mesh(mesh, path);
+MeshPiece parse_msh(const std::string& file, std::string_view bytes) {
+  MeshPiece mesh = MshAssembler(file, parse_msh_sections(file, bytes)).assemble();
+  check_read_mesh(mesh, file);
   return mesh;
+}
+
+MeshPiece read_msh(const std::string& path) {
+  return parse_msh(path, read_file(path));
 }
 
 }  // namespace driftmesh

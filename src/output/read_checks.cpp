@@ -4,16 +4,23 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "geometry/predicates.hpp"
 
 namespace driftmesh {
 namespace {
 
 const char* const kNext = "the file is damaged or was not written completely";
 
+// Of what the mesher computes; false for NaN.
+bool is_in_range(double x) {
+  return x == 0 || (std::fabs(x) >= kSmallestCoordinate && std::fabs(x) <= kMaxCoordinate);
+}
+
 void check_points(const MeshPiece& mesh, const std::string& path) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
-    if (!std::isfinite(mesh.points[v].x) || !std::isfinite(mesh.points[v].y))
-      throw InputError({path, 0}, "point " + std::to_string(v) + " (counted from 0) is not finite", kNext);
+    if (!is_in_range(mesh.points[v].x) || !is_in_range(mesh.points[v].y))
+      throw InputError({path, 0}, "point " + std::to_string(v) + " (counted from 0) is not finite or out of range",
+                       kNext);
 }
 
 class VertexRange {

@@ -6,9 +6,10 @@
 
 namespace driftmesh {
 
-/// The last step of every reader: refuses what no mesh can hold (coordinates that are not finite, vertex indices out
-/// of range, arrays whose lengths disagree) and turns over a mesh whose area is negative as a whole. A single
-/// triangle that is inverted stays as it is, for a check to find. Error: InputError naming the file.
+/// The last step of every reader: refuses what no mesh can hold (coordinates that are not finite or beyond the range of
+/// predicates.hpp, vertex indices out of range, arrays whose lengths disagree) and turns over a mesh whose area is
+/// negative as a whole. A single triangle that is inverted stays as it is, for a check to find. Error: InputError
+/// naming the file.
 void check_read_mesh(MeshPiece& mesh, const std::string& path);
 
 }  // namespace driftmesh

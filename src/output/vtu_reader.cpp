@@ -283,16 +283,19 @@ void read_cells(MeshPiece& mesh, const std::string& path, const ArrayReader& arr
 
 }  // namespace
 
-MeshPiece read_vtu(const std::string& path) {
-  const std::string bytes = read_file(path);
-  const Header header = HeaderParser(path, bytes).parse();
-  const ArrayReader arrays(path, header, std::string_view(bytes).substr(header.data_begin));
+MeshPiece parse_vtu(const std::string& file, std::string_view bytes) {
+  const Header header = HeaderParser(file, bytes).parse();
+  const ArrayReader arrays(file, header, bytes.substr(header.data_begin));
   MeshPiece mesh;
-  read_points(mesh, path, arrays, header.points);
+  read_points(mesh, file, arrays, header.points);
   read_point_data(mesh, arrays, header.points);
-  read_cells(mesh, path, arrays, header.cells);
-  check_read_mesh(mesh, path);
+  read_cells(mesh, file, arrays, header.cells);
+  check_read_mesh(mesh, file);
   return mesh;
+}
+
+MeshPiece read_vtu(const std::string& path) {
+  return parse_vtu(path, read_file(path));
 }
 
 }  // namespace driftmesh

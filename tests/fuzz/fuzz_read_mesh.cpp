@@ -1,0 +1,47 @@
+// Bytes to the readers of VTU and .msh: what is accepted must be a mesh whose indices and lengths fit.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "output/msh_format.hpp"
+#include "output/vtu_format.hpp"
+
+namespace {
+
+using namespace driftmesh;
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void require_consistent(const MeshPiece& mesh) {
+  const auto exists = [&mesh](std::int32_t v) { return v >= 0 && static_cast<std::size_t>(v) < mesh.points.size(); };
+  for (const auto& triangle : mesh.triangles)
+    for (const std::int32_t vertex : triangle) require(exists(vertex));
+  for (const auto& edge : mesh.edges) require(exists(edge.a) && exists(edge.b));
+  require(mesh.regions.empty() || mesh.regions.size() == mesh.triangles.size());
+  require(mesh.point_markers.empty() || mesh.point_markers.size() == mesh.points.size());
+  require(mesh.attributes.size() == mesh.points.size() * static_cast<std::size_t>(mesh.attributes_per_point));
+}
+
+template <class Parse>
+void parse_and_check(Parse parse, std::string_view bytes) {
+  try {
+    require_consistent(parse("fuzz", bytes));
+  } catch (const Error&) {
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  parse_and_check(parse_vtu, bytes);
+  parse_and_check(parse_msh, bytes);
+  return 0;
+}
