@@ -69,11 +69,9 @@ TEST_CASE("a link is followed and stays a link") {
 TEST_CASE("errors name the file and the reason") {
   const TemporaryFolder folder;
   const std::string missing = (folder.path() / "no" / "out.txt").string();
-  CHECK_THROWS_WITH_AS(AtomicFile{missing}, (missing + ": cannot write: No such file or directory").c_str(),
-                       FileError);
+  CHECK_THROWS_WITH_AS(AtomicFile{missing}, (missing + ": cannot write: No such file or directory").c_str(), FileError);
   const std::string directory = folder.path().string();
-  CHECK_THROWS_WITH_AS(AtomicFile{directory}, (directory + ": cannot write: Is a directory").c_str(),
-                       FileError);
+  CHECK_THROWS_WITH_AS(AtomicFile{directory}, (directory + ": cannot write: Is a directory").c_str(), FileError);
 }
 
 TEST_CASE("a full disk is noticed, at the latest by commit") {
