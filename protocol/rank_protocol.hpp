@@ -17,10 +17,12 @@ namespace driftmesh::protocol {
 /// The decisions that the proofs in docs/protocol.md rest on, in one place so that tests can replace each by a wrong
 /// one and see that it is noticed.
 struct SoundRules {
-  /// The stations of a SPLIT on its way to the rank that handles it.
-  enum class Station { kEntersAggregator, kLeavesAggregator, kForwarded };
+  /// The stations of a SPLIT on its way to the subdomain that it is for.
+  enum class Station { kEntersAggregator, kLeavesAggregator, kForwarded, kHeld, kReachesSubdomain };
   /// A SPLIT counts as sent once, and from the first moment: nothing that waits anywhere is unknown to the counts.
   static constexpr bool counts_as_sent(Station station) { return station == Station::kEntersAggregator; }
+  /// It counts as handled once, and not before its subdomain has it: what is held back is still under way.
+  static constexpr bool counts_as_handled(Station station) { return station == Station::kReachesSubdomain; }
   /// A rank with nothing to do does not let others wait for what it has collected.
   static constexpr bool flushes_when_idle() { return true; }
   /// A rank passes the token only when nothing that it holds could become work.
@@ -96,6 +98,9 @@ class BasicRankProtocol {
 
   void count_sent(Station station, std::size_t entries) {
     if (Rules::counts_as_sent(station)) termination_.work_sent(static_cast<std::int64_t>(entries));
+  }
+  void count_handled(Station station, std::size_t entries) {
+    if (Rules::counts_as_handled(station)) termination_.work_handled(static_cast<std::int64_t>(entries));
   }
   void send_batch(Outgoing batch);
   void learn(SubdomainId s, const Location& news) {
@@ -189,6 +194,7 @@ void BasicRankProtocol<Rules>::take_group(Rank source, SplitGroup&& group, Deliv
       return handle(std::move(group), delivery);
     case Directory::Route::kHold:
       ++counters_.held;
+      count_handled(Station::kHeld, group.entries.size());
       held_[group.to].push_back(std::move(group));
       return;
     case Directory::Route::kForward:
@@ -198,7 +204,7 @@ void BasicRankProtocol<Rules>::take_group(Rank source, SplitGroup&& group, Deliv
 
 template <class Rules>
 void BasicRankProtocol<Rules>::handle(SplitGroup&& group, Delivery& delivery) {
-  termination_.work_handled(static_cast<std::int64_t>(group.entries.size()));
+  count_handled(Station::kReachesSubdomain, group.entries.size());
   counters_.splits_handled += static_cast<std::int64_t>(group.entries.size());
   delivery.splits.push_back(std::move(group));
 }

@@ -1,0 +1,60 @@
+#include <doctest/doctest.h>
+#include <mpi.h>
+
+#include "protocol/delaying_transport.hpp"
+#include "protocol/mpi_transport.hpp"
+#include "protocol/toy_rank.hpp"
+
+using namespace driftmesh::protocol;
+using namespace driftmesh::protocol::toy;
+
+namespace {
+
+std::vector<std::uint64_t> sum_over_ranks(std::vector<std::uint64_t> values) {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  return values;
+}
+
+// For each edge the digest of one side's points less that of the other side's: 0 over all ranks if both sides agree.
+// After them, the number of subdomains, of their points, and of hand-offs.
+std::vector<std::uint64_t> summary(const World& world, const ToyRank<>& rank) {
+  std::vector<std::uint64_t> values(world.edges.size() + 3, 0);
+  for (const auto& [id, subdomain] : rank.subdomains()) {
+    ++values[world.edges.size()];
+    for (const auto& [edge, paths] : subdomain.points()) {
+      SplitDigest digest;
+      for (const auto path : paths) digest.add(path);
+      const auto e = static_cast<std::size_t>(edge);
+      values[e] += world.edges[e].one == id ? digest.sum : 0 - digest.sum;
+      values[world.edges.size() + 1] += digest.count;
+    }
+  }
+  values.back() = static_cast<std::uint64_t>(rank.protocol().counters().hand_offs);
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("random work, moves and forwarding on real ranks, with random delays") {
+  std::uint64_t points = 0, moves = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    CAPTURE(seed);
+    MpiTransport transport(MpiSession::world());
+    DelayingTransport delaying(transport, seed, 20);
+    const World world(seed, transport.ranks());
+    ToyRank<> rank(delaying, world);
+    run_rank(delaying, [&] { return rank.step(); });
+    CHECK(!rank.at_work());
+    transport.close();
+
+    const auto total = sum_over_ranks(summary(world, rank));
+    for (std::size_t e = 0; e < world.edges.size(); ++e) REQUIRE(total[e] == 0);
+    REQUIRE(total[world.edges.size()] == world.owners.size());
+    points += total[world.edges.size() + 1];
+    moves += total.back();
+  }
+  int ranks = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  CHECK(points > 1000);
+  CHECK(moves >= (ranks == 1 ? 0u : 50u));
+}

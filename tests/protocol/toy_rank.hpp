@@ -1,0 +1,133 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "protocol/rank_protocol.hpp"
+#include "protocol/rank_step.hpp"
+#include "protocol/toy_world.hpp"
+#include "protocol/transport.hpp"
+
+namespace driftmesh::protocol::toy {
+
+/// A rank's loop with toy subdomains: the real protocol, codec and transport, at random also the things that a
+/// balancer does: moves, advice that is out of date or said twice, waiting for an answer while otherwise idle.
+template <class Rules = SoundRules, class Mesh = SoundMesh>
+class ToyRank {
+ public:
+  ToyRank(Transport& transport, const World& world)
+      : transport_(transport),
+        world_(world),
+        protocol_(transport.rank(), transport.ranks(), world.owners, world.aggregation),
+        random_{world.seed * 7919 + static_cast<std::uint64_t>(transport.rank())},
+        moves_left_(world.moves),
+        advice_left_(world.moves) {
+    for (std::size_t s = 0; s < world.owners.size(); ++s)
+      if (world.owners[s] == transport.rank()) put(Subdomain(world, static_cast<SubdomainId>(s)));
+  }
+
+  StepResult step() {
+    const bool heard = poll();
+    const bool active = work();
+    if (active) balance();
+    if (!active || random_.chance(3)) protocol_.rest(!active);
+    send();
+    if (protocol_.finished()) return StepResult::kFinished;
+    return heard || active ? StepResult::kBusy : StepResult::kIdle;
+  }
+
+  [[nodiscard]] const BasicRankProtocol<Rules>& protocol() const { return protocol_; }
+  [[nodiscard]] const std::map<SubdomainId, Subdomain>& subdomains() const { return subdomains_; }
+  /// Whether something here is work, or will become some.
+  [[nodiscard]] bool at_work() const {
+    return protocol_.aggregated() > 0 || protocol_.held_groups() > 0 || any_active();
+  }
+  [[nodiscard]] bool broken() const {
+    return std::any_of(subdomains_.begin(), subdomains_.end(), [](const auto& s) { return s.second.broken(); });
+  }
+
+ private:
+  void put(Subdomain subdomain) {
+    const SubdomainId id = subdomain.id();
+    subdomains_.insert_or_assign(id, std::move(subdomain));
+  }
+  [[nodiscard]] bool any_active() const {
+    return std::any_of(subdomains_.begin(), subdomains_.end(), [](const auto& s) { return s.second.active(); });
+  }
+
+  bool poll() {
+    bool heard = false;
+    for (int i = 0; i < 3; ++i) {
+      const auto received = transport_.poll();
+      if (!received) break;
+      heard = true;
+      auto delivery = protocol_.receive(received->source, decode(received->source, received->bytes, world_.limits()));
+      if (delivery.arrival) put(Subdomain(delivery.arrival->subdomain, delivery.arrival->packed));
+      for (const SplitGroup& group : delivery.splits)
+        for (const SplitEntry& entry : group.entries) subdomains_.at(group.to).tell(entry);
+    }
+    return heard;
+  }
+
+  // A unit of work of one active subdomain. Returns whether there was any.
+  bool work() {
+    std::vector<Subdomain*> active;
+    for (auto& [id, subdomain] : subdomains_)
+      if (subdomain.active()) active.push_back(&subdomain);
+    if (active.empty()) return false;
+    Subdomain& subdomain = *active[random_.below(active.size())];
+    std::vector<SplitEntry> said;
+    subdomain.template work<Mesh>(said);
+    for (const SplitEntry& entry : said) {
+      const Edge edge = world_.edges[static_cast<std::size_t>(entry.edge)];
+      tell(edge.one == subdomain.id() ? edge.other : edge.one, entry);
+    }
+    return true;
+  }
+
+  void tell(SubdomainId to, const SplitEntry& entry) {
+    if (protocol_.holds(to))
+      subdomains_.at(to).tell(entry);
+    else
+      protocol_.send_split(to, entry);
+  }
+
+  void balance() {
+    if (moves_left_ > 0 && random_.chance(15)) {
+      --moves_left_;
+      auto chosen = subdomains_.begin();
+      std::advance(chosen, static_cast<std::ptrdiff_t>(random_.below(subdomains_.size())));
+      const Rank to = any_rank();
+      if (to != transport_.rank()) {
+        protocol_.hand_off(chosen->first, to, chosen->second.pack());
+        subdomains_.erase(chosen);
+      }
+    }
+    if (advice_left_ > 0 && random_.chance(10)) {
+      --advice_left_;
+      const auto s = static_cast<SubdomainId>(random_.below(world_.owners.size()));
+      const Location location = protocol_.where(s);
+      const Rank to = any_rank();
+      for (int twice = 0; twice < 2; ++twice) protocol_.advise(to, LocationUpdate{s, location.owner, location.epoch});
+      protocol_.advise(any_rank(), LoadReport{0, 1.0, {}});
+    }
+  }
+
+  void send() {
+    for (const Outgoing& outgoing : protocol_.take_outgoing())
+      transport_.send(outgoing.destination, encode(outgoing.message));
+  }
+
+  Rank any_rank() { return static_cast<Rank>(random_.below(static_cast<std::uint64_t>(transport_.ranks()))); }
+
+  Transport& transport_;
+  const World& world_;
+  BasicRankProtocol<Rules> protocol_;
+  Random random_;
+  std::uint64_t moves_left_;
+  std::uint64_t advice_left_;
+  std::map<SubdomainId, Subdomain> subdomains_;
+};
+
+}  // namespace driftmesh::protocol::toy

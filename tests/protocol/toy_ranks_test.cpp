@@ -1,0 +1,260 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "protocol/adversarial_network.hpp"
+#include "protocol/toy_rank.hpp"
+#include "protocol/virtual_network.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::protocol;
+using namespace driftmesh::protocol::toy;
+
+namespace {
+
+// What happened over many runs, so that a test can see that its runs were not idle ones.
+struct Tally {
+  std::int64_t splits = 0, batches = 0, hand_offs = 0, forwarded = 0, held = 0;
+  std::uint64_t reordered = 0, copies = 0, starved = 0, held_back = 0, late_rounds = 0;
+};
+
+template <class Rules, class Mesh>
+class Run {
+ public:
+  Run(std::uint64_t seed, Rank ranks) : world_(seed, ranks), network_(ranks, adversary(seed)) {
+    for (Rank r = 0; r < ranks; ++r) ranks_.push_back(std::make_unique<Toy>(network_.transport(r), world_));
+  }
+
+  // The first thing that went wrong, or nothing.
+  std::string verdict(Tally& tally) {
+    std::vector<RankStep> steps;
+    for (auto& rank : ranks_) steps.push_back([this, &rank] { return watched(*rank); });
+    try {
+      const RunResult result = network_.run(steps);
+      if (result.end == RunEnd::kStalled) return "stalled";
+      if (result.end == RunEnd::kStepLimit) return "does not end";
+    } catch (const Wrong& wrong) {
+      return wrong.what;
+    } catch (const Error& error) {
+      return std::string("error: ") + error.what();
+    }
+    add_to(tally);
+    return verdict_on_the_end();
+  }
+
+ private:
+  using Toy = ToyRank<Rules, Mesh>;
+  struct Wrong {
+    std::string what;
+  };
+
+  static Adversary adversary(std::uint64_t seed) {
+    Adversary result = Adversary::from_seed(seed);
+    result.may_copy = [](Rank source, auto bytes) { return traffic_of(source, bytes) == Traffic::kDetection; };
+    result.step_limit = 400'000;
+    return result;
+  }
+
+  StepResult watched(Toy& rank) {
+    const StepResult result = rank.step();
+    if (rank.broken()) throw Wrong{"a point without its parent"};
+    const bool quiet = !work_anywhere();
+    if (!quiet && rank.protocol().phase() != Termination::Phase::kWorking) throw Wrong{"terminated too early"};
+    const std::uint64_t rounds = ranks_[0]->protocol().termination().rounds();
+    if (quiet && !rounds_when_quiet_) rounds_when_quiet_ = rounds;
+    if (quiet && rounds > *rounds_when_quiet_ + 2) throw Wrong{"terminated too late"};
+    if (!quiet && rounds_when_quiet_) throw Wrong{"work out of nothing"};
+    return result;
+  }
+
+  // The truth, from the ranks' subdomains and the messages on the network, not from anybody's counts.
+  bool work_anywhere() {
+    for (const auto& rank : ranks_)
+      if (rank->at_work()) return true;
+    for (Rank r = 0; r < world_.ranks; ++r)
+      for (const auto& parcel : network_.under_way(r))
+        if (traffic_of(parcel.source, parcel.bytes) == Traffic::kWork) return true;
+    return false;
+  }
+
+  std::string verdict_on_the_end() {
+    if (network_.in_flight() != 0) return "messages left behind";
+    std::map<SubdomainId, const Subdomain*> all;
+    for (const auto& rank : ranks_)
+      for (const auto& [id, subdomain] : rank->subdomains())
+        if (!all.emplace(id, &subdomain).second) return "a subdomain with two owners";
+    if (all.size() != world_.owners.size()) return "a subdomain is lost";
+    for (std::size_t e = 0; e < world_.edges.size(); ++e) {
+      const auto edge = static_cast<EdgeId>(e);
+      auto one = all.at(world_.edges[e].one)->points().at(edge);
+      auto other = all.at(world_.edges[e].other)->points().at(edge);
+      std::sort(one.begin(), one.end());
+      std::sort(other.begin(), other.end());
+      if (one != other) return "the two sides of an edge differ";
+    }
+    return {};
+  }
+
+  void add_to(Tally& tally) {
+    for (const auto& rank : ranks_) {
+      const ProtocolCounters& counters = rank->protocol().counters();
+      tally.splits += counters.splits_sent;
+      tally.batches += counters.batches_sent;
+      tally.hand_offs += counters.hand_offs;
+      tally.forwarded += counters.forwarded;
+      tally.held += counters.held;
+    }
+    tally.reordered += network_.counters().reordered;
+    tally.copies += network_.counters().copies;
+    tally.starved += network_.counters().starved;
+    tally.held_back += network_.counters().held;
+    tally.late_rounds = std::max(
+        tally.late_rounds, ranks_[0]->protocol().termination().rounds() - rounds_when_quiet_.value_or(UINT64_MAX / 2));
+  }
+
+  World world_;
+  AdversarialNetwork network_;
+  std::vector<std::unique_ptr<Toy>> ranks_;
+  std::optional<std::uint64_t> rounds_when_quiet_;
+};
+
+Rank ranks_for(std::uint64_t seed) {
+  static constexpr std::array<Rank, 8> kRanks{2, 3, 4, 1, 5, 2, 8, 16};
+  return kRanks[seed % kRanks.size()];
+}
+
+template <class Rules = SoundRules, class Mesh = SoundMesh>
+std::string verdict(std::uint64_t seed, Tally& tally) {
+  return Run<Rules, Mesh>(seed, ranks_for(seed)).verdict(tally);
+}
+
+// A wrong rule must show within so many seeds, and for the reason it was made for.
+template <class Rules, class Mesh = SoundMesh>
+void must_be_caught(std::uint64_t seeds, std::string_view as) {
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const std::string what = verdict<Rules, Mesh>(seed, tally);
+    if (what.empty()) continue;
+    MESSAGE("caught at seed ", seed, ": ", what);
+    CHECK(what.find(as) != std::string::npos);
+    return;
+  }
+  FAIL("not caught within ", seeds, " seeds");
+}
+
+// DRIFTMESH_SEEDS=N runs N seeds instead.
+std::uint64_t seeds_to_run(std::uint64_t usual) {
+  const char* wish = std::getenv("DRIFTMESH_SEEDS");
+  return wish == nullptr ? usual : std::strtoull(wish, nullptr, 10);
+}
+
+}  // namespace
+
+TEST_CASE("random work among adversarial ranks: nothing lost, and the end is found in time") {
+  Tally tally;
+  for (std::uint64_t seed = 1, last = seeds_to_run(5000); seed <= last; ++seed) {
+    CAPTURE(seed);
+    REQUIRE(verdict(seed, tally) == "");
+  }
+  MESSAGE(tally.splits, " splits in ", tally.batches, " batches, ", tally.hand_offs, " hand-offs, ", tally.forwarded,
+          " groups forwarded, ", tally.held, " held; ", tally.reordered, " messages reordered, ", tally.copies,
+          " copied; at most ", tally.late_rounds, " probes after the last work");
+  CHECK(tally.splits > tally.batches + 1000);
+  CHECK(tally.hand_offs > 1000);
+  CHECK(tally.forwarded > 1000);
+  CHECK(tally.held > 500);
+  CHECK(tally.reordered > 1000);
+  CHECK(tally.copies > 1000);
+  CHECK(tally.starved > 1000);
+  CHECK(tally.held_back > 1000);
+  CHECK(tally.late_rounds == 2);
+}
+
+TEST_CASE("mutation: an aggregator that is not flushed counts as passive") {
+  struct Rules : SoundRules {
+    static constexpr bool counts_as_sent(Station station) { return station == Station::kLeavesAggregator; }
+    static constexpr bool flushes_when_idle() { return false; }
+    static constexpr bool passive(bool program_is_passive, bool, bool nothing_held) {
+      return program_is_passive && nothing_held;
+    }
+  };
+  must_be_caught<Rules>(50, "terminated too early");
+}
+
+TEST_CASE("mutation: an idle rank keeps what it has collected") {
+  struct Rules : SoundRules {
+    static constexpr bool flushes_when_idle() { return false; }
+  };
+  must_be_caught<Rules>(50, "stalled");
+}
+
+TEST_CASE("mutation: the token is passed by a rank that is active") {
+  struct Rules : SoundRules {
+    static constexpr bool passive(bool, bool, bool) { return true; }
+  };
+  must_be_caught<Rules>(200, "");
+}
+
+TEST_CASE("mutation: forwarding counts as sending") {
+  struct Rules : SoundRules {
+    static constexpr bool counts_as_sent(Station station) {
+      return station == Station::kEntersAggregator || station == Station::kForwarded;
+    }
+  };
+  must_be_caught<Rules>(200, "");
+}
+
+TEST_CASE("mutation: what is held back counts as handled") {
+  struct Rules : SoundRules {
+    static constexpr bool counts_as_handled(Station station) { return station == Station::kHeld; }
+    static constexpr bool passive(bool program_is_passive, bool aggregator_empty, bool) {
+      return program_is_passive && aggregator_empty;
+    }
+  };
+  must_be_caught<Rules>(200, "");
+}
+
+TEST_CASE("mutation: location records without epochs") {
+  struct Rules : SoundRules {
+    static constexpr bool supersedes(const Location&, const Location&) { return true; }
+  };
+  must_be_caught<Rules>(500, "");
+}
+
+TEST_CASE("mutation: missing ancestors are not replayed") {
+  struct Mesh : SoundMesh {
+    static constexpr bool replays_ancestors() { return false; }
+  };
+  must_be_caught<SoundRules, Mesh>(50, "a point without its parent");
+}
+
+TEST_CASE("mutation: a point that is there is inserted again") {
+  struct Mesh : SoundMesh {
+    static constexpr bool inserts_again() { return true; }
+  };
+  must_be_caught<SoundRules, Mesh>(50, "the two sides of an edge differ");
+}
+
+TEST_CASE("the same ranks in virtual time") {
+  for (const std::size_t count : {1u, 4u, 64u}) {
+    const World world(9, static_cast<Rank>(count));
+    VirtualCluster cluster{.speeds = std::vector<double>(count, 1.0), .link = {}};
+    VirtualNetwork network(cluster);
+    std::vector<std::unique_ptr<ToyRank<>>> ranks;
+    std::vector<RankStep> steps;
+    for (Rank r = 0; r < static_cast<Rank>(count); ++r) {
+      ranks.push_back(std::make_unique<ToyRank<>>(network.transport(r), world));
+      steps.push_back([&network, r, rank = ranks.back().get()] {
+        const StepResult result = rank->step();
+        if (result == StepResult::kBusy) network.transport(r).spend(1e-5);
+        return result;
+      });
+    }
+    CHECK(network.run(steps).end == RunEnd::kFinished);
+    for (const auto& rank : ranks) CHECK(!rank->at_work());
+  }
+}
