@@ -1,10 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <string>
 
 #include "app/commands.hpp"
+#include "app/sizing_options.hpp"
+#include "app/validators.hpp"
 #include "base/error.hpp"
 #include "output/mesh_file.hpp"
 #include "pslg/poly_file.hpp"
@@ -22,7 +23,8 @@ struct CheckOptions {
   std::string mesh;
   std::string input;
   VerifyOptions verify;
-  bool ignore_region_areas = false;
+  bool no_region_areas = false;
+  SizingOptions sizing;
   bool quiet = false;
 };
 
@@ -36,8 +38,11 @@ VerifyReport read_and_verify(const CheckOptions& options) {
 }
 
 int run_check(CheckOptions& options) {
-  options.verify.region_areas = !options.ignore_region_areas;
+  check_sizing_options(options.sizing);
+  options.verify.region_areas = !options.no_region_areas;
   try {
+    const std::unique_ptr<SizeField> size = make_size_field(options.sizing);
+    options.verify.size = size.get();
     const VerifyReport report = read_and_verify(options);
     if (!options.quiet) std::cout << report_text(report, options.verify);
     std::cout << verdict_text(report, options.verify) << '\n';
@@ -58,12 +63,20 @@ void add_check(CLI::App& program) {
   command->add_option("input", options->input,
                       "The .poly that the mesh was made from; with it, the mesh must cover its domain and hold its "
                       "segments, markers, points and regions");
-  command->add_option("-q,--angle", options->verify.min_angle, "Smallest angle asked for, in degrees")
-      ->check(CLI::Range(0.0, 60.0));
-  command->add_option("-a,--area", options->verify.max_area, "Largest area asked for")
-      ->check(CLI::Range(0.0, std::numeric_limits<double>::max()));
-  command->add_flag("--ignore-region-areas", options->ignore_region_areas,
-                    "The area bounds of the input's regions were not used");
+  constexpr const char* kGroup = "Bounds that the mesh must keep (as for driftmesh mesh)";
+  command->add_option("-a,--area", options->verify.max_area, "No triangle is larger than this")
+      ->check(positive())
+      ->type_name("AREA")
+      ->group(kGroup);
+  command
+      ->add_option("-q,--angle", options->verify.min_angle,
+                   "No angle is smaller than this, in degrees, but for those that small angles of the input force")
+      ->check(CLI::Range(0.0, 60.0).description(""))
+      ->type_name("DEGREES")
+      ->group(kGroup);
+  add_sizing_options(*command, options->sizing, kGroup);
+  command->add_flag("--no-region-areas", options->no_region_areas, "Ignore the area bounds of the input's regions")
+      ->group(kGroup);
   command->add_option("--list", options->verify.max_listed, "Findings to print of each kind")->capture_default_str();
   command->add_flag("--quiet", options->quiet, "Print the verdict alone");
   command->footer(

@@ -1,26 +1,18 @@
 #include "app/mesh_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+
+#include "app/sizing_options.hpp"
+#include "app/validators.hpp"
 
 namespace driftmesh::app {
 namespace {
-
-std::string check_positive(const std::string& text) {
-  double value = 0;
-  if (CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)) return {};
-  return "'" + text + "' is not a positive number";
-}
 
 std::string check_angle(const std::string& text) {
   double value = 0;
   if (CLI::detail::lexical_cast(text, value) && value >= 0 && value <= kMaxAngle) return {};
   return "'" + text + "' is not an angle from 0 to " + std::to_string(static_cast<int>(kMaxAngle)) +
          " degrees; above that refinement need not come to an end";
-}
-
-CLI::Validator positive() {
-  return {check_positive, ""};
 }
 
 void add_quality_options(CLI::App& command, MeshOptions& options) {
@@ -38,31 +30,7 @@ void add_quality_options(CLI::App& command, MeshOptions& options) {
       ->capture_default_str()
       ->type_name("DEGREES")
       ->group(kGroup);
-  command
-      .add_option("--size", options.sizing.expression,
-                  "Edge length as an expression in x and y: \"0.1 + 0.02 * sqrt(x^2 + y^2)\"")
-      ->type_name("EXPR")
-      ->group(kGroup);
-  command
-      .add_option("--size-mesh", options.sizing.background,
-                  "Edge length from a background mesh: FILE.node with FILE.ele, the length as the first attribute of "
-                  "each point, or FILE.area with an area bound for each triangle")
-      ->type_name("FILE")
-      ->group(kGroup);
-  command
-      .add_option("--gradation", options.sizing.gradation,
-                  "How much the lengths of --size-mesh may grow per unit of distance; 0.2 to 0.3 grade well")
-      ->check(positive())
-      ->type_name("G")
-      ->group(kGroup);
-  command.add_option("--size-min", options.sizing.shortest, "Edge lengths asked for are at least this")
-      ->check(positive())
-      ->type_name("LENGTH")
-      ->group(kGroup);
-  command.add_option("--size-max", options.sizing.longest, "Edge lengths asked for are at most this")
-      ->check(positive())
-      ->type_name("LENGTH")
-      ->group(kGroup);
+  add_sizing_options(command, options.sizing, kGroup);
   command.add_flag("--no-region-areas", options.no_region_areas, "Ignore the area bounds of the input's regions")
       ->group(kGroup);
 }
@@ -131,12 +99,7 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
 
 void check_mesh_options(const MeshOptions& options) {
   if (options.input.empty()) throw CLI::RequiredError("INPUT.poly");
-  const SizingOptions& sizing = options.sizing;
-  if (sizing.gradation && sizing.background.empty())
-    throw CLI::ValidationError("--gradation", "limits the growth of --size-mesh, which is not given");
-  if (sizing.shortest > sizing.longest) throw CLI::ValidationError("--size-min", "is greater than --size-max");
-  if (sizing.shortest > 0 && sizing.expression.empty() && sizing.background.empty() && !std::isfinite(sizing.longest))
-    throw CLI::ValidationError("--size-min", "bounds --size, --size-mesh and --size-max, of which none is given");
+  check_sizing_options(options.sizing);
 }
 
 }  // namespace driftmesh::app

@@ -46,7 +46,7 @@ class DegreeBins {
  public:
   DegreeBins() {
     for (std::size_t d = 1; d < 180; ++d)
-      limits_[d - 1] = static_cast<double>(1 / std::tan(static_cast<long double>(d) / kDegrees));
+      limits_[d - 1] = d == 90 ? 0 : static_cast<double>(1 / std::tan(static_cast<long double>(d) / kDegrees));
   }
   /// The whole degrees of the angle.
   [[nodiscard]] std::size_t bin(double cotangent) const {
@@ -123,10 +123,25 @@ class QualityCheck {
       largest_twice_area_ = twice_area;
       quality_.largest_area_triangle = static_cast<std::int32_t>(t);
     }
-    double bound = bounds_.max_area;
+    const double bound = area_bound(t);
+    if (twice_area > 2 * bound) check_large_area(t, bound);
+  }
+
+  [[nodiscard]] double area_bound(std::size_t t) const {
+    double bound = bounds_.max_area > 0 ? bounds_.max_area : std::numeric_limits<double>::infinity();
     if (bounds_.region_area)
-      if (const double own = bounds_.region_area(t); own > 0) bound = bound > 0 ? std::min(bound, own) : own;
-    if (bound > 0 && twice_area > 2 * bound) check_large_area(t, bound);
+      if (const double own = bounds_.region_area(t); own > 0) bound = std::min(bound, own);
+    if (bounds_.size != nullptr) bound = std::min(bound, area_by_size(t));
+    return bound;
+  }
+
+  // The area of the equilateral triangle whose side is the shortest target at the corners and the centroid.
+  [[nodiscard]] double area_by_size(std::size_t t) const {
+    const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+    const Point centroid{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+    double h = bounds_.size->edge_length(centroid);
+    for (const Point* p : {&a, &b, &c}) h = std::min(h, bounds_.size->edge_length(*p));
+    return std::numbers::sqrt3 / 4 * h * h;
   }
 
   void check_large_area(std::size_t t, double bound) {

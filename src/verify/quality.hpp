@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/mesh_piece.hpp"
+#include "sizing/size_field.hpp"
 #include "verify/chains.hpp"
 #include "verify/findings.hpp"
 
@@ -48,6 +49,7 @@ struct CheckedBounds {
   double min_angle = 0;                                     ///< degrees; 0: no bound
   double max_area = 0;                                      ///< 0: no bound
   std::function<double(std::size_t triangle)> region_area;  ///< empty, or each triangle's own bound (<= 0: none)
+  const SizeField* size = nullptr;                          ///< or target edge lengths, see SizeField
   std::size_t max_listed = 5;                               ///< messages kept of each cause of an exception
 };
 

@@ -86,6 +86,7 @@ std::string what_was_checked(const VerifyReport& report, const VerifyOptions& op
   if (const auto n = report.quality.exception_count(); n != 0)
     text += fmt::format(" but for {} triangles at small angles of the input", grouped(n));
   if (options.max_area > 0) text += fmt::format(", areas of at most {}", options.max_area);
+  if (options.size != nullptr) text += ", sizes asked for";
   return text;
 }
 

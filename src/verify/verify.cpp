@@ -60,7 +60,7 @@ VerifyReport verify_against(const MeshPiece& mesh, const Pslg* input, const Veri
   const Chains chains(mesh, subsegments, [&](std::int32_t v) {
     return domain ? corner[static_cast<std::size_t>(v)] != 0 : bends_at(mesh, subsegments, v);
   });
-  CheckedBounds bounds{options.min_angle, options.max_area, {}, options.max_listed};
+  CheckedBounds bounds{options.min_angle, options.max_area, {}, options.size, options.max_listed};
   std::optional<DomainCheck> against;
   if (domain) {
     against.emplace(mesh, *domain, points, chains, findings);

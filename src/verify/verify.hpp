@@ -5,17 +5,19 @@
 
 #include "mesh/mesh_piece.hpp"
 #include "pslg/pslg.hpp"
+#include "sizing/size_field.hpp"
 #include "verify/findings.hpp"
 #include "verify/quality.hpp"
 
 namespace driftmesh {
 
 struct VerifyOptions {
-  double min_angle = 0;        ///< degrees; 0: no bound
-  double max_area = 0;         ///< 0: no bound beside those of the regions
-  bool region_areas = true;    ///< the input's regions bound the areas of their triangles
-  bool check_delaunay = true;  ///< false for meshes that only need to be conforming
-  std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
+  double min_angle = 0;             ///< degrees; 0: no bound
+  double max_area = 0;              ///< 0: no bound beside those of the regions
+  bool region_areas = true;         ///< the input's regions bound the areas of their triangles
+  const SizeField* size = nullptr;  ///< target edge lengths that bound areas, or null; not owned
+  bool check_delaunay = true;       ///< false for meshes that only need to be conforming
+  std::size_t max_listed = 5;       ///< messages kept of each kind of flaw and of each cause of an exception
 };
 
 /// Everything that was checked and measured.

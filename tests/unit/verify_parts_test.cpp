@@ -163,6 +163,7 @@ TEST_CASE("angles and areas of known triangles") {
     CHECK(report.quality.largest_angle == doctest::Approx(90).epsilon(1e-9));
     CHECK(report.quality.angles[static_cast<std::size_t>(degrees)] >= 1);
     CHECK(report.quality.angles[static_cast<std::size_t>(90 - degrees)] >= 1);
+    CHECK(report.quality.angles[90] == 1);
   }
 }
 
@@ -179,6 +180,27 @@ TEST_CASE("the bins of the histogram hold every angle") {
     CHECK(tens == 3);
     CHECK(report.quality.angles_by_ten()[static_cast<std::size_t>(d / 10)] >= 1);
   }
+}
+
+TEST_CASE("areas by a size field: its shortest length at the corners and the centroid") {
+  struct Field final : SizeField {
+    Point small_at;
+    explicit Field(Point p) : small_at(p) {}
+    double edge_length(const Point& p) const override {
+      return std::hypot(p.x - small_at.x, p.y - small_at.y) < 0.1 ? 1 : 3;
+    }
+  };
+  const MeshPiece mesh = one_triangle({0, 0}, {3, 0}, {0, 2});  // area 3; 0.433 and 3.9 are the bounds
+  for (const Point small_at : {Point{0, 0}, Point{3, 0}, Point{0, 2}, Point{1, 2.0 / 3}}) {
+    const Field field(small_at);
+    VerifyOptions options;
+    options.size = &field;
+    CHECK(verify(mesh, options).findings.count(Flaw::large_area) == 1);
+  }
+  const Field field({9, 9});
+  VerifyOptions options;
+  options.size = &field;
+  CHECK(verify(mesh, options).accepted());
 }
 
 TEST_CASE("a small angle is excused where the input has it, and nowhere else") {
