@@ -62,6 +62,7 @@ std::vector<Tick> logarithmic_ticks(double low, double high, int wanted) {
   const int first = static_cast<int>(std::floor(std::log10(low)));
   const int last = static_cast<int>(std::ceil(std::log10(high)));
   const double decades = std::log10(high / low);
+  if (decades < 1) return linear_ticks(low, high, wanted);
   const int stride = std::max(1, static_cast<int>(std::ceil(decades / std::max(wanted, 1))));
   std::vector<Tick> ticks;
   for (int exponent = first; exponent <= last; ++exponent)

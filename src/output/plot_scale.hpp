@@ -14,7 +14,7 @@ struct Tick {
 [[nodiscard]] std::vector<Tick> linear_ticks(double low, double high, int wanted);
 
 /// Powers of ten from low to high (every second, third, ... when there are many); 1, 2 and 5 times them when there are
-/// few.
+/// few; round values in equal steps within one decade.
 [[nodiscard]] std::vector<Tick> logarithmic_ticks(double low, double high, int wanted);
 
 /// 12345678 -> "12,345,678".

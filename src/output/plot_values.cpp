@@ -92,7 +92,7 @@ PlotValues area_values(const MeshPiece& mesh, const Box& shown) {
   const auto [low, high] = area_range(mesh, shown, result.of_triangle);
   set_bar_range(result, low, high);
   result.bar.title = "Area";
-  result.bar.unit = "logarithmic";
+  result.bar.unit = "log scale";
   result.bar.ticks = logarithmic_ticks(std::pow(10, low), std::pow(10, high), 7);
   for (Tick& tick : result.bar.ticks) tick.value = std::log10(tick.value);
   result.bar.histogram = histogram(mesh, shown, result.of_triangle, low, high);

@@ -135,6 +135,8 @@ TEST_CASE("ticks are round, in range and told apart by their labels") {
   CHECK(linear_ticks(0, 60, 6)[2].label == "20");
   CHECK(linear_ticks(1, 1, 5).empty());
   CHECK(logarithmic_ticks(0.5, 2000, 7).size() == 4);
+  CHECK(logarithmic_ticks(0.02, 3, 7).size() == 7);
+  CHECK(logarithmic_ticks(2100, 5300, 6).size() == 3);
   CHECK(logarithmic_ticks(-1, 2, 7).empty());
 }
 
