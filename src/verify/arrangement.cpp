@@ -6,7 +6,7 @@
 
 #include "geometry/predicates.hpp"
 #include "verify/arrangement_sweep.hpp"
-#include "verify/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 
 namespace driftmesh {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "mesh/mesh_piece.hpp"
 #include "verify/chains.hpp"
-#include "verify/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 #include "verify/domain.hpp"
 #include "verify/findings.hpp"
 #include "verify/point_index.hpp"

@@ -5,7 +5,7 @@
 
 #include "verify/chains.hpp"
 #include "verify/corner_table.hpp"
-#include "verify/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 #include "verify/domain.hpp"
 #include "verify/domain_check.hpp"
 #include "verify/local_check.hpp"

@@ -17,12 +17,14 @@ class DisjointSets {
     while (parent(i) != i) i = parent(i) = parent(parent(i));
     return i;
   }
-  /// The lower root becomes the root of both, which keeps trees flat enough when items are joined in index order.
-  void join(std::int32_t a, std::int32_t b) {
+  /// The lower root becomes the root of both, which keeps trees flat enough when items are joined in index order. False
+  /// if they were in one set.
+  bool join(std::int32_t a, std::int32_t b) {
     a = find(a);
     b = find(b);
     if (a > b) std::swap(a, b);
     parent(b) = a;
+    return a != b;
   }
 
  private:
