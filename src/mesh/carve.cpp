@@ -1,6 +1,7 @@
 #include "mesh/carve.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -112,6 +113,33 @@ void label_regions(Triangulation& mesh, const std::vector<TriangleId>& seeds) {
   throw Error("the hole points remove the whole domain: each of them must lie inside a closed ring of segments");
 }
 
+/// Everything that is not reached from an inner side is outside; those that are get the side's label.
+void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& sides, std::size_t first_root) {
+  Flood inside(mesh);
+  std::vector<std::uint16_t> label(mesh.triangles.size(), 0);
+  bool labelled = false;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const RootSegment& root = mesh.roots[first_root + i];
+    const auto& half = mesh.subsegments[id(root.tree)].half;
+    for (const auto& [edge, side] : {std::pair(half[0], sides[i].left), std::pair(half[1], sides[i].right)}) {
+      if (side == kNone || inside.reached(triangle_of(edge))) continue;
+      const std::size_t before = inside.triangles().size();
+      inside.add(triangle_of(edge));
+      for (std::size_t k = before; k < inside.triangles().size(); ++k)
+        label[id(inside.triangles()[k])] = narrow<std::uint16_t>(side, "region label");
+      labelled |= side != 0;
+    }
+  }
+  Flood outside(mesh);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.triangles[t].alive() && !inside.reached(static_cast<TriangleId>(t)))
+      outside.add(static_cast<TriangleId>(t));
+  remove_outside(mesh, outside);
+  if (!labelled) return;
+  mesh.region.resize(mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < label.size(); ++t) mesh.region[t] = label[t];
+}
+
 }  // namespace
 
 TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start) {
@@ -153,6 +181,11 @@ void carve(Triangulation& mesh, const Pslg& pslg) {
   remove_outside(mesh, outside);
   drop_unused_segments(mesh);
   label_regions(mesh, region_seeds);
+}
+
+void carve(Triangulation& mesh, const std::vector<SegmentSides>& sides, std::size_t first_root) {
+  keep_inner_sides(mesh, sides, first_root);
+  drop_unused_segments(mesh);
 }
 
 }  // namespace driftmesh

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "mesh/triangulation.hpp"
 #include "pslg/pslg.hpp"
 
@@ -13,5 +17,15 @@ namespace driftmesh {
 /// and its holes from a triangulation of a box around it, drops the segments that bound nothing any more, and labels
 /// the regions. Throws Error if nothing is left.
 void carve(Triangulation& mesh, const Pslg& pslg);
+
+/// What lies left and right of a segment, seen from its first point to its second: a region label, or kNone outside the
+/// domain.
+struct SegmentSides {
+  std::int32_t left = kNone;
+  std::int32_t right = kNone;
+};
+
+/// The same for a domain given by the sides of its segments, which are the roots from `first_root` on.
+void carve(Triangulation& mesh, const std::vector<SegmentSides>& sides, std::size_t first_root);
 
 }  // namespace driftmesh

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "base/error.hpp"
 #include "base/narrow.hpp"
 #include "geometry/hilbert.hpp"
@@ -236,9 +237,7 @@ void recover_segments(Triangulation& mesh, const std::vector<Pslg::Segment>& seg
   for (const Pslg::Segment& s : segments) recovery.recover(s.a, s.b, s.marker);
 }
 
-}  // namespace
-
-Triangulation triangulate(const Pslg& pslg) {
+Triangulation triangulate_box(const Pslg& pslg) {
   if (pslg.points.size() < 3) throw Error("a domain needs at least three points");
   Triangulation mesh;
   for (std::size_t i = 0; i < pslg.points.size(); ++i)
@@ -246,7 +245,22 @@ Triangulation triangulate(const Pslg& pslg) {
   add_box(mesh, pslg);
   insert_points(mesh, pslg);
   recover_segments(mesh, pslg.segments.empty() ? convex_hull(pslg.points) : pslg.segments);
+  return mesh;
+}
+
+}  // namespace
+
+Triangulation triangulate(const Pslg& pslg) {
+  Triangulation mesh = triangulate_box(pslg);
   carve(mesh, pslg);
+  renumber(mesh);
+  return mesh;
+}
+
+Triangulation triangulate(const Pslg& pslg, const std::vector<SegmentSides>& sides) {
+  DM_ASSERT(sides.size() == pslg.segments.size());
+  Triangulation mesh = triangulate_box(pslg);
+  carve(mesh, sides, mesh.roots.size() - sides.size());
   renumber(mesh);
   return mesh;
 }

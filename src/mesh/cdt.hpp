@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesh/carve.hpp"
 #include "mesh/triangulation.hpp"
 #include "pslg/pslg.hpp"
 
@@ -16,5 +17,11 @@ namespace driftmesh {
 /// Throws Error if the PSLG is not repaired, if its points are collinear, or if it encloses nothing (the message names
 /// the cause: an open boundary, or hole points that empty the domain).
 [[nodiscard]] Triangulation triangulate(const Pslg& pslg);
+
+/// The same for a domain that is known by the sides of its segments, one entry for each of pslg.segments, instead of by
+/// hole and region points: what lies on an inner side, and all that can be reached from there without crossing a
+/// segment, is the domain. Every segment needs an inner side. Region labels are those of the sides; the array is empty
+/// if all of them are equal to 0.
+[[nodiscard]] Triangulation triangulate(const Pslg& pslg, const std::vector<SegmentSides>& sides);
 
 }  // namespace driftmesh
