@@ -1,0 +1,76 @@
+// The figures of decompositions: time, angles, balance, separators against the length that compact subdomains need.
+//   driftmesh_bench_decompose [-n N]... FILE.poly ...      (default: -n 400 -n 4000)
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "decompose/check_decomposition.hpp"
+#include "decompose/decompose.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "pslg/poly_file.hpp"
+#include "pslg/repair.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The median of five.
+double time_decompose(const Triangulation& mesh, const DecomposeOptions& options, Decomposition& result) {
+  std::vector<double> times;
+  for (int i = 0; i < 5; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    result = decompose(mesh, options);
+    times.push_back(seconds_since(start));
+  }
+  std::sort(times.begin(), times.end());
+  return times[2];
+}
+
+void print_row(const std::string& file, const Triangulation& mesh, int n) {
+  DecomposeOptions options;
+  options.subdomains = n;
+  Decomposition d;
+  const double seconds = time_decompose(mesh, options, d);
+  const DecompositionReport r = check_decomposition(d);
+  const double expected = 2.06 * std::sqrt(r.area * n) - r.border_length / 2;
+  const auto name = file.substr(file.find_last_of('/') + 1);
+  std::printf("%-20s %6d %8.3f %8.1f %8.2f %8.2f %10.3f %10.3f %s\n", name.c_str(), n, seconds, r.smallest_angle,
+              r.largest_load, r.smallest_load, r.separator_length / r.border_length, r.separator_length / expected,
+              r.valid() ? "valid" : r.problems[0].c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<int> counts;
+  std::vector<std::string> files;
+  for (int i = 1; i < argc; ++i)
+    if (std::strcmp(argv[i], "-n") == 0 && i + 1 < argc)
+      counts.push_back(std::atoi(argv[++i]));
+    else
+      files.emplace_back(argv[i]);
+  if (counts.empty()) counts = {400, 4000};
+  std::printf("%-20s %6s %8s %8s %8s %8s %10s %10s\n", "input", "N", "seconds", "angle", "max/mean", "min/mean",
+              "sep/border", "expected");
+  for (const std::string& file : files) try {
+      Pslg pslg = read_poly(file);
+      repair(pslg, file);
+      Triangulation mesh = triangulate(pslg);
+      prepare_corners(mesh);
+      for (const int n : counts) print_row(file, mesh, n);
+    } catch (const Error& error) {
+      std::printf("%s: %s\n", file.c_str(), error.what());
+    }
+}

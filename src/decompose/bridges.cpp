@@ -1,0 +1,222 @@
+#include "decompose/bridges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/disjoint_sets.hpp"
+#include "base/error.hpp"
+#include "geometry/triangle_geometry.hpp"
+#include "mesh/cavity.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr auto id = &Triangulation::id;
+
+/// A triangulation whose walls are its constrained edges and those edges that have been declared bridges.
+struct WalledMesh {
+  Triangulation mesh;
+  std::vector<bool> bridge;  // of each half-edge
+
+  explicit WalledMesh(const Triangulation& from) : mesh(from) {}
+
+  [[nodiscard]] bool is_wall(HalfEdge h) const { return is_constrained(mesh.twin(h)) || bridge[id(h)]; }
+  /// The first wall that leaves the end of `h` when turning clockwise there, starting at `h`'s triangle.
+  [[nodiscard]] HalfEdge next_wall(HalfEdge h) const {
+    HalfEdge g = half_edge(triangle_of(h), next(index_of(h)));
+    while (!is_wall(g)) {
+      g = mesh.twin(g);
+      g = half_edge(triangle_of(g), next(index_of(g)));
+    }
+    return g;
+  }
+  [[nodiscard]] const Point& at(VertexId v) const { return mesh.points[id(v)]; }
+};
+
+DisjointSets connect_by_segments(const Triangulation& mesh) {
+  DisjointSets sets(mesh.points.size());
+  for (const RootSegment& root : mesh.roots) sets.join(root.vertex[0], root.vertex[1]);
+  return sets;
+}
+
+/// Whether some edge joins points that segments do not connect.
+bool needs_bridges(const Triangulation& mesh, DisjointSets& sets) {
+  for (const Triangle& t : mesh.triangles)
+    if (t.alive() &&
+        (sets.find(t.vertex[0]) != sets.find(t.vertex[1]) || sets.find(t.vertex[0]) != sets.find(t.vertex[2])))
+      return true;
+  return false;
+}
+
+/// Halves the leaves of straight segments until they are no longer than `spacing`.
+void refine_borders(Triangulation& mesh, double spacing) {
+  Cavity cavity(mesh);
+  for (SubsegmentId s = 0; id(s) < mesh.subsegments.size(); ++s) {
+    const Subsegment leaf = mesh.subsegments[id(s)];
+    if (!leaf.is_leaf() || mesh.roots[id(leaf.root)].shell != kNone) continue;
+    const Point &a = mesh.points[id(leaf.vertex[0])], &b = mesh.points[id(leaf.vertex[1])];
+    if (squared_distance(a, b) <= spacing * spacing) continue;
+    const Point m = midpoint(a, b);
+    if (cavity.gather_on(s, m) != Cavity::Found::kClear) continue;
+    const VertexId v = mesh.add_vertex(m, ~s);
+    const SubsegmentId first = mesh.halve(s, v);
+    cavity.fill_on(v, first, first + 1);
+  }
+}
+
+/// The angle from the edge to the first wall that follows around its start, on the side that opens less.
+double angle_at_start(const WalledMesh& walled, HalfEdge edge) {
+  const Triangulation& mesh = walled.mesh;
+  const VertexId u = mesh.edge_start(edge), v = mesh.edge_end(edge);
+  const auto opening = [&](VertexId w, double sign) {
+    const Point &o = walled.at(u), &p = walled.at(v), &q = walled.at(w);
+    return sign * orient2d(o, p, q) <= 0 ? std::numbers::pi : angle_at(p, o, q);
+  };
+  double smallest = std::numbers::pi;
+  for (HalfEdge h = edge;;) {  // counterclockwise
+    const HalfEdge into = half_edge(triangle_of(h), previous(index_of(h)));
+    if (walled.is_wall(into)) {
+      smallest = std::min(smallest, opening(mesh.edge_start(into), 1));
+      break;
+    }
+    h = mesh.twin(into);
+    if (h == edge) return smallest;  // an isolated point
+  }
+  const HalfEdge wall = walled.next_wall(mesh.twin(edge));
+  return std::min(smallest, opening(mesh.edge_end(wall), -1));
+}
+
+void choose_bridges(WalledMesh& walled, DisjointSets& sets, double angle) {
+  const Triangulation& mesh = walled.mesh;
+  struct Candidate {
+    double squared_length;
+    HalfEdge edge;
+  };
+  std::vector<Candidate> candidates;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!mesh.triangles[t].alive()) continue;
+    for (int i = 0; i < 3; ++i) {
+      const HalfEdge h = half_edge(static_cast<TriangleId>(t), i);
+      if (is_constrained(mesh.twin(h)) || mesh.twin(h) < h) continue;
+      const VertexId u = mesh.edge_start(h), v = mesh.edge_end(h);
+      if (sets.find(u) != sets.find(v)) candidates.push_back({squared_distance(walled.at(u), walled.at(v)), h});
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.squared_length != b.squared_length ? a.squared_length < b.squared_length : a.edge < b.edge;
+  });
+  for (const double bound : {angle, 0.75 * angle, 0.5 * angle, 0.0})
+    for (const Candidate& c : candidates) {
+      const VertexId u = mesh.edge_start(c.edge), v = mesh.edge_end(c.edge);
+      const HalfEdge back = mesh.twin(c.edge);
+      if (sets.find(u) == sets.find(v)) continue;
+      if (std::min(angle_at_start(walled, c.edge), angle_at_start(walled, back)) < bound) continue;
+      sets.join(u, v);
+      walled.bridge[id(c.edge)] = walled.bridge[id(back)] = true;
+    }
+}
+
+/// Turns the walls of a triangulation into a map. Points that were only put on segments for bridges to end at, and
+/// where none ends, are left out.
+class MapBuilder {
+ public:
+  MapBuilder(const WalledMesh& walled, std::size_t given_points)
+      : walled_(walled),
+        mesh_(walled.mesh),
+        map_id_(mesh_.points.size(), kNone),
+        side_of_(4 * mesh_.triangles.size(), kNone),
+        used_(mesh_.points.size(), false) {
+    for (std::size_t v = 0; v < given_points; ++v) used_[v] = true;
+    for (std::size_t h = 0; h < walled.bridge.size(); ++h)
+      if (walled.bridge[h]) used_[id(mesh_.edge_start(static_cast<HalfEdge>(h)))] = true;
+  }
+
+  PlanarMap build() {
+    for (std::size_t v = 0; v < used_.size(); ++v)
+      if (used_[v])
+        map_id_[v] = map_.add_point(mesh_.points[v], is_midpoint(mesh_.origin[v]) ? kNone : mesh_.origin[v]);
+    for (const RootSegment& root : mesh_.roots) add_root(root);
+    for (std::size_t h = 0; h < walled_.bridge.size(); ++h) add_bridge(static_cast<HalfEdge>(h));
+    for (std::size_t s = 0; s < tail_.size(); ++s)
+      if (tail_[s] != kNone) map_.link(static_cast<SideId>(s), side_of_[id(walled_.next_wall(tail_[s]))]);
+    return std::move(map_);
+  }
+
+ private:
+  void add_root(const RootSegment& root) {
+    leaves_.clear();
+    collect_leaves(root.tree);
+    const PlanarMap::Wall wall{root.marker, root.shell, PlanarMap::Kind::kInput};
+    for (std::size_t i = 0, j = 0; i < leaves_.size(); i = j) {
+      const Subsegment& first = mesh_.subsegments[id(leaves_[i])];
+      do ++j;
+      while (j < leaves_.size() && !used_[id(mesh_.subsegments[id(leaves_[j])].vertex[0])]);
+      const Subsegment& last = mesh_.subsegments[id(leaves_[j - 1])];
+      const SideId s = map_.add_wall(map_id_[id(first.vertex[0])], map_id_[id(last.vertex[1])], wall);
+      for (std::size_t k = i; k < j; ++k) {
+        const auto& half = mesh_.subsegments[id(leaves_[k])].half;
+        if (half[0] != kNone) side_of_[id(half[0])] = s;
+        if (half[1] != kNone) side_of_[id(half[1])] = s + 1;
+      }
+      set_tail(s, last.half[0]);
+      set_tail(s + 1, first.half[1]);
+    }
+  }
+
+  void collect_leaves(SubsegmentId s) {
+    const Subsegment& node = mesh_.subsegments[id(s)];
+    if (node.is_leaf()) {
+      leaves_.push_back(s);
+      return;
+    }
+    collect_leaves(node.child);
+    collect_leaves(node.child + 1);
+  }
+
+  void add_bridge(HalfEdge h) {
+    if (!walled_.bridge[id(h)] || side_of_[id(h)] != kNone) return;
+    const SideId s = map_.add_wall(map_id_[id(mesh_.edge_start(h))], map_id_[id(mesh_.edge_end(h))],
+                                   {0, kNone, PlanarMap::Kind::kBridge});
+    side_of_[id(h)] = s;
+    side_of_[id(mesh_.twin(h))] = s + 1;
+    set_tail(s, h);
+    set_tail(s + 1, mesh_.twin(h));
+  }
+
+  void set_tail(SideId s, HalfEdge h) {
+    tail_.resize(map_.sides.size(), kNone);
+    tail_[id(s)] = h;
+    if (h != kNone && !mesh_.region.empty()) map_.side(s).region = mesh_.region[id(triangle_of(h))];
+  }
+
+  const WalledMesh& walled_;
+  const Triangulation& mesh_;
+  PlanarMap map_;
+  std::vector<VertexId> map_id_;
+  std::vector<SideId> side_of_;
+  std::vector<bool> used_;
+  std::vector<HalfEdge> tail_;  // of each side: the triangle edge that it ends with
+  std::vector<SubsegmentId> leaves_;
+};
+
+}  // namespace
+
+PlanarMap connected_walls(const Triangulation& from, double spacing, double angle) {
+  for (const Subsegment& s : from.subsegments)
+    if (!s.is_leaf()) throw Error("cannot decompose a triangulation that has been refined");
+  DisjointSets sets = connect_by_segments(from);
+  WalledMesh walled(from);
+  const bool refine = needs_bridges(from, sets);
+  if (refine) {
+    refine_borders(walled.mesh, spacing);
+    sets = DisjointSets(walled.mesh.points.size());
+    for (const Subsegment& s : walled.mesh.subsegments)
+      if (s.is_leaf()) sets.join(s.vertex[0], s.vertex[1]);
+  }
+  walled.bridge.resize(4 * walled.mesh.triangles.size(), false);
+  if (refine) choose_bridges(walled, sets, angle);
+  return MapBuilder(walled, from.points.size()).build();
+}
+
+}  // namespace driftmesh

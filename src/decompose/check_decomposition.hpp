@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "decompose/decomposition.hpp"
+
+namespace driftmesh {
+
+/// What a decomposition is like, and what is wrong with it.
+struct DecompositionReport {
+  /// Broken invariants in words, at most kMaxProblems; empty if there are none.
+  std::vector<std::string> problems;
+  double smallest_angle = 180;        ///< degrees, between a separator and any root beside it, inside the domain
+  GlobalPointId smallest_at = kNone;  ///< where
+  std::vector<std::int32_t> angle_histogram;  ///< of those angles, in steps of 10 degrees: [0, 10), ..., [170, 180]
+  double area = 0;                            ///< of all subdomains
+  double border_length = 0;                   ///< of roots with the domain on one side
+  double separator_length = 0;
+  double largest_load = 0;  ///< predicted work of a subdomain over the mean
+  double smallest_load = 0;
+
+  static constexpr std::size_t kMaxProblems = 20;
+  [[nodiscard]] bool valid() const { return problems.empty(); }
+};
+
+/// Checks the invariants that Decomposition states, from the points and roots alone: indices in range, each root's
+/// direction, coordinates in range; around every point the roots agree about the subdomain and region between them;
+/// each subdomain has one outer border (it is connected) and the area that it claims; the lists match the roots; no two
+/// roots cross. Uses exact orientation; areas must agree to about 1e-9 of the domain.
+[[nodiscard]] DecompositionReport check_decomposition(const Decomposition& decomposition);
+
+}  // namespace driftmesh

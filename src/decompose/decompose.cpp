@@ -1,0 +1,192 @@
+#include "decompose/decompose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <queue>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "decompose/bridges.hpp"
+#include "decompose/cut_search.hpp"
+#include "decompose/pieces.hpp"
+#include "decompose/to_decomposition.hpp"
+
+namespace driftmesh {
+namespace {
+
+/// How hard a cut is searched for, the first way that gives a good one counts. Most pieces are done by the first.
+struct Effort {
+  double angle;    ///< of the asked minimum
+  double spacing;  ///< of stations, over the root of the piece's area
+  std::size_t max_stations;
+  double clearance;
+};
+constexpr Effort kEfforts[] = {{1, 1.0 / 11, 64, 0.2},    {1, 1.0 / 25, 128, 0.2},   {1, 1.0 / 60, 300, 0.1},
+                               {0.9, 1.0 / 25, 200, 0.1}, {0.7, 1.0 / 25, 200, 0.1}, {0.5, 1.0 / 25, 200, 0.05},
+                               {0.25, 1.0 / 25, 200, 0},  {0.05, 1.0 / 60, 400, 0}};
+/// A cut that leaves a finished subdomain with more than this much work over the mean asks for another effort, as long
+/// as the angle need not suffer.
+constexpr double kGoodLoad = 1.38;
+
+/// Cuts pieces until each is one subdomain.
+class Cutter {
+ public:
+  Cutter(PlanarMap& map, std::vector<Piece>& pieces, const DecomposeOptions& options)
+      : map_(map),
+        pieces_(pieces),
+        angle_(options.min_angle * std::numbers::pi / 180),
+        skew_(options.skew),
+        random_(options.seed) {
+    double work = 0;
+    for (const Piece& p : pieces) work += p.work;
+    mean_ = work / options.subdomains;
+  }
+
+  /// Returns how many parts could not be made.
+  std::int32_t run() {
+    for (std::size_t i = 0; i < pieces_.size(); ++i) enqueue(i);
+    while (!queue_.empty()) {
+      const std::size_t piece = queue_.top().second;
+      queue_.pop();
+      if (!cut(piece)) give_up(piece);
+    }
+    spend_spare_parts();
+    return spare_;
+  }
+
+ private:
+  void enqueue(std::size_t piece) {
+    if (pieces_[piece].parts >= 2) queue_.emplace(pieces_[piece].parts, piece);
+  }
+
+  void give_up(std::size_t piece) {
+    spare_ += pieces_[piece].parts - 1;
+    pieces_[piece].parts = 1;
+    solid_.resize(pieces_.size(), false);
+    solid_[piece] = true;
+  }
+
+  /// Parts that a piece could not be cut into go to the heaviest subdomains that can be cut.
+  void spend_spare_parts() {
+    while (spare_ > 0) {
+      solid_.resize(pieces_.size(), false);
+      std::size_t heaviest = pieces_.size();
+      for (std::size_t i = 0; i < pieces_.size(); ++i)
+        if (pieces_[i].parts == 1 && !solid_[i] &&
+            (heaviest == pieces_.size() || pieces_[i].work > pieces_[heaviest].work))
+          heaviest = i;
+      if (heaviest == pieces_.size()) return;
+      pieces_[heaviest].parts = 2;
+      --spare_;
+      if (!cut(heaviest)) give_up(heaviest);
+    }
+  }
+
+  Cut search(const Piece& piece) {
+    const PieceSize size = measure_piece(map_, piece.side);
+    CutGoal goal;
+    goal.parts = piece.parts;
+    goal.load = piece.work / piece.parts / mean_;
+    Cut best;
+    for (const Effort& effort : kEfforts) {
+      if (best && effort.angle < 1) break;
+      const double spacing =
+          std::max(std::sqrt(size.area) * effort.spacing, size.length / static_cast<double>(4 * effort.max_stations));
+      goal.angle = angle_ * effort.angle;
+      goal.clearance = effort.clearance;
+      goal.max_stations = effort.max_stations;
+      read_outline(map_, piece.side, spacing, goal.angle, outline_);
+      const Cut cut = search_.find(map_, outline_, goal);
+      if (!cut || (best && best.cost <= cut.cost)) continue;
+      best = cut;
+      chosen_[0] = outline_.stations[cut.first];
+      chosen_[1] = outline_.stations[cut.second];
+      if (heaviest_single(cut, goal) <= kGoodLoad) break;
+    }
+    return best;
+  }
+
+  static double heaviest_single(const Cut& cut, const CutGoal& goal) {
+    const std::int32_t rest = goal.parts - cut.parts_between;
+    double load = 0;
+    if (cut.parts_between == 1) load = goal.load * cut.share_between * goal.parts;
+    if (rest == 1) load = std::max(load, goal.load * (1 - cut.share_between) * goal.parts);
+    return load;
+  }
+
+  bool cut(std::size_t index) {
+    const Piece piece = pieces_[index];
+    const Cut found = search(piece);
+    if (!found) return false;
+    const SideId first = realize(map_, chosen_[0]);
+    const SideId second = realize(map_, chosen_[1]);
+    const SideId separator = map_.connect(first, second, PlanarMap::Kind::kSeparator);
+    Piece rest, between;
+    rest.side = separator;
+    between.side = PlanarMap::twin(separator);
+    between.area = measure_piece(map_, between.side).area;
+    rest.area = piece.area - between.area;
+    between.work = piece.work * found.share_between;
+    rest.work = piece.work - between.work;
+    between.parts = found.parts_between;
+    rest.parts = piece.parts - found.parts_between;
+    pieces_[index] = rest;
+    pieces_.push_back(between);
+    enqueue(index);
+    enqueue(pieces_.size() - 1);
+    return true;
+  }
+
+  PlanarMap& map_;
+  std::vector<Piece>& pieces_;
+  double angle_;
+  double mean_ = 0;
+  [[maybe_unused]] double skew_;
+  std::mt19937_64 random_;
+  std::priority_queue<std::pair<std::int32_t, std::size_t>> queue_;
+  std::vector<bool> solid_;  // pieces that no cut was found for
+  std::int32_t spare_ = 0;
+  Outline outline_;
+  Outline::Station chosen_[2];
+  CutSearch search_;
+};
+
+void check_options(const DecomposeOptions& o) {
+  if (o.subdomains < 1 || o.subdomains > kMaxSubdomains)
+    throw Error("the number of subdomains must be from 1 to " + std::to_string(kMaxSubdomains) + ", not " +
+                std::to_string(o.subdomains));
+  if (!(o.min_angle >= 0 && o.min_angle <= 80))
+    throw Error("the angle of separators must be from 0 to 80 degrees, not " + std::to_string(o.min_angle));
+  if (!(o.skew >= 0 && o.skew <= 1)) throw Error("the skew must be from 0 to 1, not " + std::to_string(o.skew));
+}
+
+double area_of(const Triangulation& mesh) {
+  double twice = 0;
+  for (const Triangle& t : mesh.triangles) {
+    if (!t.alive()) continue;
+    const Point &a = mesh.points[Triangulation::id(t.vertex[0])], &b = mesh.points[Triangulation::id(t.vertex[1])],
+                &c = mesh.points[Triangulation::id(t.vertex[2])];
+    twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  }
+  return twice / 2;
+}
+
+}  // namespace
+
+Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& options) {
+  check_options(options);
+  const double compact = std::sqrt(area_of(mesh) / options.subdomains);  // the width of a compact subdomain
+  PlanarMap map = connected_walls(mesh, compact / 4, options.min_angle * std::numbers::pi / 180);
+  std::vector<Piece> pieces = find_pieces(map, options.bounds);
+  allot_parts(map, pieces, options.subdomains);
+  const std::int32_t missing = Cutter(map, pieces, options).run();
+  if (missing > 0)
+    throw Error("the domain could be cut into " + std::to_string(options.subdomains - missing) + " of " +
+                std::to_string(options.subdomains) + " subdomains; ask for fewer, or allow smaller angles");
+  return to_decomposition(map, pieces, group_pieces(map, pieces, options.subdomains), options.subdomains);
+}
+
+}  // namespace driftmesh

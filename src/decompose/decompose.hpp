@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "decompose/decomposition.hpp"
+#include "mesh/bounds.hpp"
+#include "mesh/triangulation.hpp"
+
+namespace driftmesh {
+
+struct DecomposeOptions {
+  std::int32_t subdomains = 1;
+  double min_angle = 60;  ///< degrees, 0 to 80: that separators make with everything, where the domain allows it
+  /// What the mesh must meet: subdomains are balanced by the triangles it asks for. Without any bound on size, by area.
+  QualityBounds bounds;
+  /// 0: equal work. Above, up to 1: deliberately uneven, for experiments; each cut gives one side up to (1 + skew)
+  /// times its due, at random.
+  double skew = 0;
+  std::uint64_t seed = 1;  ///< of that randomness
+};
+
+inline constexpr std::int32_t kMaxSubdomains = 10'000'000;
+
+/// Cuts a triangulated domain (see triangulate and prepare_corners; not refined yet) into connected subdomains of about
+/// equal work, with short straight separators that keep an angle to everything. Deterministic: the same triangulation
+/// and options give the same decomposition.
+///
+/// After Linardakis and Chrisochoides, "Algorithm 870: A Static Geometric Medial Axis Domain Decomposition in 2D
+/// Euclidean Space" (2008), recursive bisection by separators between points of the border; the search for the best
+/// separator is our own (docs/architecture.md says how and why). Segments inside the domain are borders of subdomains
+/// where that suits the balance, else they stay inside one. Shell pieces of acute corners stay shell pieces.
+///
+/// Throws Error for options out of range, if the domain has more parts that do not touch than subdomains are wanted,
+/// and if it cannot be cut into so many pieces.
+[[nodiscard]] Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& options);
+
+}  // namespace driftmesh

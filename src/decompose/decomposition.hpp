@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/point.hpp"
+#include "mesh/triangulation.hpp"
+
+namespace driftmesh {
+
+using SubdomainId = std::int32_t;
+/// Index of a point of a Decomposition: the same on every rank.
+using GlobalPointId = std::int32_t;
+
+/// A domain cut into subdomains. Plain data in flat arrays: what is mapped to ranks, saved and loaded.
+///
+/// Invariants (check_decomposition tests them): subdomains are connected and cover the domain without overlap; their
+/// borders consist of roots alone; a root has one or two sides in the domain; roots meet only at their ends. An input
+/// segment is a root, or a chain of roots where separators end on it.
+struct Decomposition {
+  /// A segment that refinement cuts at dyadic points only, as both sides do alike.
+  struct Root {
+    GlobalPointId a = 0;  ///< a < b: the root's direction
+    GlobalPointId b = 0;
+    std::int32_t marker = 0;     ///< of the input segment; 0 for separators
+    std::int32_t shell = kNone;  ///< of a shell piece (see mesh/corners.hpp)
+    SubdomainId left = kNone;    ///< subdomain left of a -> b; kNone: not in the domain
+    SubdomainId right = kNone;
+    std::uint16_t left_region = 0;  ///< label of the region on that side (see mesh/cdt.hpp), 0 without a side
+    std::uint16_t right_region = 0;
+    bool separator = false;  ///< made here, not on any segment of the input
+    friend bool operator==(const Root&, const Root&) = default;
+  };
+  struct Subdomain {
+    double area = 0;
+    double predicted = 0;  ///< triangles after refinement, in the unit of the work measure it was made with
+    Point centroid;
+    std::uint16_t region = 0;  ///< the region label of most of its area
+    friend bool operator==(const Subdomain&, const Subdomain&) = default;
+  };
+
+  std::vector<Point> points;
+  /// Of each point: the index of an input point, a shell end (see triangulation.hpp), or kNone for a separator's end.
+  std::vector<VertexOrigin> origin;
+  std::vector<Root> roots;
+  std::vector<Subdomain> subdomains;
+  /// Roots of subdomain i, ascending: root_list[root_begin[i]] up to root_begin[i + 1]. A root inside the subdomain
+  /// (both sides) stands there once.
+  std::vector<std::int32_t> root_begin{0};
+  std::vector<RootId> root_list;
+  /// Points inside subdomain i that are on no root (isolated input points), the same way.
+  std::vector<std::int32_t> point_begin{0};
+  std::vector<GlobalPointId> point_list;
+
+  [[nodiscard]] std::size_t size() const { return subdomains.size(); }
+  [[nodiscard]] std::span<const RootId> roots_of(SubdomainId i) const { return slice(root_begin, root_list, i); }
+  [[nodiscard]] std::span<const GlobalPointId> inner_points_of(SubdomainId i) const {
+    return slice(point_begin, point_list, i);
+  }
+  friend bool operator==(const Decomposition&, const Decomposition&) = default;
+
+ private:
+  static std::span<const std::int32_t> slice(const std::vector<std::int32_t>& begin,
+                                             const std::vector<std::int32_t>& list, std::int32_t i) {
+    const auto at = static_cast<std::size_t>(i);
+    return std::span(list).subspan(static_cast<std::size_t>(begin[at]),
+                                   static_cast<std::size_t>(begin[at + 1] - begin[at]));
+  }
+};
+
+/// Sets root_begin and root_list from the sides of the roots.
+void list_roots(Decomposition& decomposition);
+
+/// Two subdomains that share roots.
+struct Interface {
+  SubdomainId first;  ///< first < second
+  SubdomainId second;
+  double length;  ///< of all roots they share
+};
+
+/// Every pair of subdomains with a common root once, in ascending order.
+[[nodiscard]] std::vector<Interface> interfaces(const Decomposition& decomposition);
+
+}  // namespace driftmesh

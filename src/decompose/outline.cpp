@@ -1,0 +1,154 @@
+#include "decompose/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/predicates.hpp"
+#include "geometry/triangle_geometry.hpp"
+
+namespace driftmesh {
+namespace {
+
+Point direction(const Point& from, const Point& to) {
+  const double length = std::sqrt(squared_distance(from, to));
+  return {(to.x - from.x) / length, (to.y - from.y) / length};
+}
+
+Point rotated(const Point& d, double cosine, double sine) {
+  return {d.x * cosine - d.y * sine, d.x * sine + d.y * cosine};
+}
+
+/// Counterclockwise from `forward` to `backward`: the angle inside the piece, in (0, 2 pi].
+double interior_angle(const Point& forward, const Point& backward) {
+  const double angle =
+      std::atan2(forward.x * backward.y - forward.y * backward.x, forward.x * backward.x + forward.y * backward.y);
+  return angle > 0 ? angle : angle + 2 * std::numbers::pi;
+}
+
+/// The sectors in which separators may leave stations.
+class Sectors {
+ public:
+  explicit Sectors(double angle) : angle_(angle), cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
+
+  void set(Outline::Station& s, double interior) const {
+    const double sector = interior - 2 * angle_;
+    s.usable = sector > 0;
+    s.reflex = sector >= std::numbers::pi;
+    s.first = rotated(s.forward, cosine_, sine_);
+    s.last = rotated(s.backward, cosine_, -sine_);
+  }
+
+ private:
+  double angle_, cosine_, sine_;
+};
+
+/// How many equal parts a wall is cut into by places.
+int parts_of(const PlanarMap::Wall& wall, double length, double spacing) {
+  const double parts = std::floor(length / spacing + 0.3);
+  if (parts < 2) return 1;
+  return wall.shell != kNone ? 2 : static_cast<int>(std::min(parts, 1e6));
+}
+
+SideId split_at(PlanarMap& map, SideId h, const Point& p, VertexOrigin what) {
+  return map.split(h, map.add_point(p, what));
+}
+
+/// Names of shells and shell ends above all that are in use.
+std::int32_t fresh_shell_name(const PlanarMap& map) {
+  std::int32_t name = 0;
+  for (const PlanarMap::Wall& w : map.walls) name = std::max(name, w.shell + 1);
+  for (const VertexOrigin o : map.origin)
+    if (is_shell_end(o)) name = std::max(name, o - kShellEnd + 1);
+  return name;
+}
+
+/// Halves every wall of a shell: the halves are two new shells, and their common ends lie on a new circle.
+void halve_shell(PlanarMap& map, std::int32_t shell) {
+  const std::int32_t name = fresh_shell_name(map);
+  const std::size_t walls = map.walls.size();
+  for (std::size_t w = 0; w < walls; ++w) {
+    if (map.walls[w].shell != shell) continue;
+    const auto h = static_cast<SideId>(2 * w);
+    const bool ascending = map.start(h) < map.end(h);
+    const SideId rest = split_at(map, h, midpoint(map.at(map.start(h)), map.at(map.end(h))), kShellEnd + name);
+    map.wall(h).shell = ascending ? name : name + 1;
+    map.wall(rest).shell = ascending ? name + 1 : name;
+  }
+}
+
+}  // namespace
+
+double Outline::twice_area_between(std::size_t i, std::size_t j) const {
+  const Point &o = stations[0].at, &a = stations[i].at, &b = stations[j].at;
+  const double closing = (b.x - o.x) * (a.y - o.y) - (b.y - o.y) * (a.x - o.x);
+  return stations[j].twice_area - stations[i].twice_area + closing;
+}
+
+PieceSize measure_piece(const PlanarMap& map, SideId side) {
+  const Point o = map.at(map.start(side));
+  double twice_area = 0, length = 0;
+  SideId h = side;
+  do {
+    const Point &a = map.at(map.start(h)), &b = map.at(map.end(h));
+    twice_area += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+    length += std::sqrt(squared_distance(a, b));
+    h = map.side(h).next;
+  } while (h != side);
+  return {twice_area / 2, length};
+}
+
+void read_outline(const PlanarMap& map, SideId side, double spacing, double angle, Outline& outline) {
+  const Sectors sectors(angle);
+  auto& stations = outline.stations;
+  stations.clear();
+  outline.spacing = spacing;
+  const Point o = map.at(map.start(side));
+  double length = 0, twice_area = 0;
+  Point backward = direction(o, map.at(map.start(map.side(side).previous)));
+  SideId h = side;
+  do {
+    const Point &a = map.at(map.start(h)), &b = map.at(map.end(h));
+    const double whole = std::sqrt(squared_distance(a, b));
+    const double swept = (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+    const Point forward{(b.x - a.x) / whole, (b.y - a.y) / whole};
+    const int parts = parts_of(map.wall(h), whole, spacing);
+    for (int k = 0; k < parts; ++k) {
+      const double t = static_cast<double>(k) / parts;
+      Outline::Station s;
+      s.at = k == 0 ? a : Point{snap_to_zero(a.x + t * (b.x - a.x)), snap_to_zero(a.y + t * (b.y - a.y))};
+      if (2 * k == parts) s.at = midpoint(a, b);
+      s.side = h;
+      s.corner = k == 0;
+      s.forward = forward;
+      s.backward = k == 0 ? backward : Point{-forward.x, -forward.y};
+      s.length = length + t * whole;
+      s.twice_area = twice_area + t * swept;
+      sectors.set(s, k == 0 ? interior_angle(forward, backward) : std::numbers::pi);
+      stations.push_back(s);
+    }
+    length += whole;
+    twice_area += swept;
+    backward = {-forward.x, -forward.y};
+    h = map.side(h).next;
+  } while (h != side);
+  outline.length = length;
+  outline.area = twice_area / 2;
+}
+
+SideId realize(PlanarMap& map, const Outline::Station& station) {
+  if (station.corner) return station.side;
+  // A shell of which both ends of a separator are places is halved by the first of them.
+  const auto found = [&] {
+    if (map.at(map.start(station.side)) == station.at) return station.side;
+    if (map.at(map.end(station.side)) == station.at) return map.side(station.side).next;
+    return kNone;
+  };
+  if (const SideId h = found(); h != kNone) return h;
+  const std::int32_t shell = map.wall(station.side).shell;
+  if (shell == kNone) return split_at(map, station.side, station.at, kNone);
+  halve_shell(map, shell);
+  return found();
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,189 @@
+#include "decompose/pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/disjoint_sets.hpp"
+#include "base/error.hpp"
+#include "decompose/outline.hpp"
+#include "decompose/work.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Pieces that touch along walls, by connected part of the domain.
+DisjointSets connected_parts(const PlanarMap& map, const std::vector<std::int32_t>& piece_of, std::size_t pieces) {
+  DisjointSets sets(pieces);
+  for (SideId h = 0; at(h) < map.sides.size(); h += 2)
+    if (piece_of[at(h)] != kNone && piece_of[at(h + 1)] != kNone) sets.join(piece_of[at(h)], piece_of[at(h + 1)]);
+  return sets;
+}
+
+/// Rounds shares of `total` (by weight) to integers of that sum, each at least `least`: largest remainders.
+std::vector<std::int32_t> round_shares(const std::vector<double>& weights, std::int32_t total, std::int32_t least) {
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<std::int32_t> shares;
+  std::vector<std::pair<double, std::size_t>> by_rest;  // most deserving first
+  std::int32_t dealt = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double due = total * (weights[i] / sum);
+    shares.push_back(std::max(least, static_cast<std::int32_t>(due)));
+    dealt += shares.back();
+    by_rest.emplace_back(shares.back() - due, i);
+  }
+  std::sort(by_rest.begin(), by_rest.end());
+  for (std::size_t k = 0; dealt < total; k = (k + 1) % by_rest.size(), ++dealt) ++shares[by_rest[k].second];
+  for (std::size_t k = by_rest.size(); dealt > total; k = k > 1 ? k - 1 : by_rest.size()) {
+    std::int32_t& share = shares[by_rest[k - 1].second];
+    if (share <= least) continue;
+    --share;
+    --dealt;
+  }
+  return shares;
+}
+
+/// Groups of pieces, the lightest first, with the groups that each touches.
+class Groups {
+ public:
+  Groups(const PlanarMap& map, const std::vector<Piece>& pieces)
+      : sets_(pieces.size()), work_(pieces.size()), touching_(pieces.size()) {
+    const std::vector<std::int32_t> piece_of = label_sides(map, pieces);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      work_[i] = pieces[i].work;
+      by_work_.emplace(work_[i], static_cast<std::int32_t>(i));
+    }
+    for (SideId h = 0; at(h) < map.sides.size(); h += 2) {
+      const std::int32_t left = piece_of[at(h)], right = piece_of[at(h + 1)];
+      if (left == kNone || right == kNone || left == right) continue;
+      touching_[at(left)].insert(right);
+      touching_[at(right)].insert(left);
+    }
+  }
+
+  [[nodiscard]] std::size_t count() const { return by_work_.size() + finished_; }
+
+  /// Joins the lightest group that has a neighbour with its lightest one. False if no two groups touch.
+  bool join_lightest() {
+    while (!by_work_.empty()) {
+      const std::int32_t group = by_work_.begin()->second;
+      by_work_.erase(by_work_.begin());
+      const std::int32_t other = lightest_neighbor(group);
+      if (other != kNone) {
+        join(group, other);
+        return true;
+      }
+      ++finished_;
+    }
+    return false;
+  }
+
+  std::int32_t group_of(std::int32_t piece) { return sets_.find(piece); }
+
+ private:
+  std::int32_t lightest_neighbor(std::int32_t group) {
+    std::int32_t best = kNone;
+    for (const std::int32_t n : touching_[at(group)])
+      if (best == kNone || work_[at(n)] < work_[at(best)]) best = n;
+    return best;
+  }
+
+  void join(std::int32_t group, std::int32_t other) {
+    by_work_.erase({work_[at(other)], other});
+    sets_.join(group, other);
+    const std::int32_t kept = sets_.find(group), gone = kept == group ? other : group;
+    work_[at(kept)] += work_[at(gone)];
+    for (const std::int32_t n : touching_[at(gone)]) {
+      touching_[at(n)].erase(gone);
+      if (n == kept) continue;
+      touching_[at(n)].insert(kept);
+      touching_[at(kept)].insert(n);
+    }
+    touching_[at(gone)].clear();
+    by_work_.emplace(work_[at(kept)], kept);
+  }
+
+  DisjointSets sets_;
+  std::vector<double> work_;
+  std::vector<std::set<std::int32_t>> touching_;
+  std::set<std::pair<double, std::int32_t>> by_work_;
+  std::size_t finished_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::int32_t> label_sides(const PlanarMap& map, const std::vector<Piece>& pieces) {
+  std::vector<std::int32_t> piece_of(map.sides.size(), kNone);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    SideId h = pieces[i].side;
+    do {
+      piece_of[at(h)] = static_cast<std::int32_t>(i);
+      h = map.side(h).next;
+    } while (h != pieces[i].side);
+  }
+  return piece_of;
+}
+
+std::vector<Piece> find_pieces(const PlanarMap& map, const QualityBounds& bounds) {
+  std::vector<Piece> pieces;
+  std::vector<bool> seen(map.sides.size(), false);
+  for (SideId first = 0; at(first) < map.sides.size(); ++first) {
+    if (seen[at(first)] || !map.side(first).in_domain()) continue;
+    for (SideId h = first; !seen[at(h)]; h = map.side(h).next) seen[at(h)] = true;
+    Piece piece;
+    piece.side = first;
+    piece.area = measure_piece(map, first).area;
+    piece.work = piece.area * work_density(bounds, map.side(first).region);
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+void allot_parts(const PlanarMap& map, std::vector<Piece>& pieces, std::int32_t parts) {
+  DisjointSets sets = connected_parts(map, label_sides(map, pieces), pieces.size());
+  std::vector<std::vector<std::size_t>> members(pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) members[at(sets.find(static_cast<std::int32_t>(i)))].push_back(i);
+  std::erase_if(members, [](const auto& m) { return m.empty(); });
+  if (members.size() > at(parts))
+    throw Error("the domain consists of " + std::to_string(members.size()) +
+                " parts that do not touch: it cannot become " + std::to_string(parts) +
+                " connected subdomains; ask for at least " + std::to_string(members.size()));
+  std::vector<double> work;
+  for (const auto& part : members) {
+    work.push_back(0);
+    for (const std::size_t i : part) work.back() += pieces[i].work;
+  }
+  const std::vector<std::int32_t> of_part = round_shares(work, parts, 1);
+  for (std::size_t p = 0; p < members.size(); ++p) {
+    work.clear();
+    for (const std::size_t i : members[p]) work.push_back(pieces[i].work);
+    const std::vector<std::int32_t> shares = round_shares(work, of_part[p], 0);
+    for (std::size_t k = 0; k < shares.size(); ++k) pieces[members[p][k]].parts = shares[k];
+  }
+}
+
+std::vector<std::int32_t> group_pieces(const PlanarMap& map, const std::vector<Piece>& pieces, std::int32_t count) {
+  std::vector<std::int32_t> group_of(pieces.size());
+  std::iota(group_of.begin(), group_of.end(), 0);
+  if (pieces.size() <= at(count)) return group_of;
+  Groups groups(map, pieces);
+  while (groups.count() > at(count) && groups.join_lightest()) {
+  }
+  std::vector<std::int32_t> number(pieces.size(), kNone);
+  std::int32_t numbers = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    std::int32_t& n = number[at(groups.group_of(static_cast<std::int32_t>(i)))];
+    if (n == kNone) n = numbers++;
+    group_of[i] = n;
+  }
+  return group_of;
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/point.hpp"
+#include "mesh/triangulation.hpp"
+
+namespace driftmesh {
+
+/// One side of a wall: the half-edge h and its twin h ^ 1 run along the same wall in opposite directions.
+using SideId = std::int32_t;
+
+/// The walls of a domain (its segments, and the separators made so far) as half-edges. Each side in the domain belongs
+/// to a loop with a piece of the domain on its left; a piece whose border is connected has one loop. A wall can have
+/// the same piece on both sides.
+class PlanarMap {
+ public:
+  enum class Kind : std::uint8_t { kInput, kBridge, kSeparator };
+  struct Wall {
+    std::int32_t marker = 0;
+    std::int32_t shell = kNone;
+    Kind kind = Kind::kInput;
+  };
+  struct Side {
+    VertexId origin = kNone;
+    SideId next = kNone;  ///< along the loop; kNone outside the domain
+    SideId previous = kNone;
+    std::uint16_t region = 0;
+    [[nodiscard]] bool in_domain() const { return next != kNone; }
+  };
+
+  std::vector<Point> points;
+  std::vector<VertexOrigin> origin;  ///< of each point: index of an input point, shell end, or kNone
+  std::vector<Wall> walls;
+  std::vector<Side> sides;  ///< two for each wall
+
+  static constexpr SideId twin(SideId h) { return h ^ 1; }
+  [[nodiscard]] Side& side(SideId h) { return sides[static_cast<std::size_t>(h)]; }
+  [[nodiscard]] const Side& side(SideId h) const { return sides[static_cast<std::size_t>(h)]; }
+  [[nodiscard]] Wall& wall(SideId h) { return walls[static_cast<std::size_t>(h / 2)]; }
+  [[nodiscard]] const Wall& wall(SideId h) const { return walls[static_cast<std::size_t>(h / 2)]; }
+  [[nodiscard]] VertexId start(SideId h) const { return side(h).origin; }
+  [[nodiscard]] VertexId end(SideId h) const { return side(twin(h)).origin; }
+  [[nodiscard]] const Point& at(VertexId v) const { return points[static_cast<std::size_t>(v)]; }
+
+  VertexId add_point(const Point& p, VertexOrigin what);
+  /// A wall with sides a -> b and b -> a, not linked to anything. Returns the first.
+  SideId add_wall(VertexId a, VertexId b, const Wall& wall);
+  void link(SideId first, SideId second);
+  /// Cuts the wall of `h` at point `m`. `h` keeps the part before m; returns the part behind it.
+  SideId split(SideId h, VertexId m);
+  /// Joins the corners where `u` and `v` start by a wall. If they are on one loop it becomes two, each with one side of
+  /// the new wall; two loops become one. Returns the side that leaves u's corner, which takes the place of u before v.
+  SideId connect(SideId u, SideId v, Kind kind);
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "decompose/decomposition.hpp"
+#include "decompose/pieces.hpp"
+#include "decompose/planar_map.hpp"
+
+namespace driftmesh {
+
+/// The finished value: piece i becomes part of subdomain group_of[i]. Separators and bridges inside one subdomain are
+/// dropped, with the points that only they used. Subdomains are renumbered along a Hilbert curve of their centroids.
+[[nodiscard]] Decomposition to_decomposition(const PlanarMap& map, const std::vector<Piece>& pieces,
+                                             const std::vector<std::int32_t>& group_of, std::int32_t count);
+
+}  // namespace driftmesh

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "decompose/subdomain_mesh.hpp"
+#include "mesh/refiner.hpp"
+
+namespace driftmesh::testing {
+
+/// Refines all subdomains of a decomposition in one place, as ranks would: each alone, then split points on shared
+/// roots are exchanged until nothing changes.
+struct RefinedTogether {
+  std::vector<SubdomainMesh> parts;
+  int rounds = 0;             ///< of exchanges that brought something new
+  std::size_t exchanged = 0;  ///< split points that one side had before the other
+  std::size_t refused = 0;    ///< split points that the other side could not take
+  std::vector<std::string> not_conforming;
+};
+
+/// The split points of each root of one mesh, with coordinates.
+inline std::map<RootId, std::map<dyadic::Path, Point>> split_points(const SubdomainMesh& part) {
+  std::map<RootId, std::map<dyadic::Path, Point>> points;
+  for (const Subsegment& s : part.mesh.subsegments)
+    if (!s.is_leaf()) {
+      const VertexId middle = part.mesh.subsegments[Triangulation::id(s.child)].vertex[1];
+      points[part.roots[Triangulation::id(s.root)]][s.path] = part.mesh.points[Triangulation::id(middle)];
+    }
+  return points;
+}
+
+inline RefinedTogether refine_together(const Decomposition& d, const QualityBounds& bounds, int most_rounds = 100) {
+  RefinedTogether result;
+  std::vector<std::unique_ptr<Refiner>> refiners;
+  for (std::size_t i = 0; i < d.size(); ++i)
+    result.parts.push_back(subdomain_triangulation(d, static_cast<SubdomainId>(i)));
+  for (SubdomainMesh& part : result.parts) {
+    refiners.push_back(std::make_unique<Refiner>(part.mesh, bounds));
+    refiners.back()->refine();
+  }
+  for (bool changed = true; changed && result.rounds < most_rounds;) {
+    changed = false;
+    std::map<RootId, std::set<dyadic::Path>> all;
+    std::vector<std::map<RootId, std::map<dyadic::Path, Point>>> own;
+    for (const SubdomainMesh& part : result.parts) {
+      own.push_back(split_points(part));
+      for (const auto& [root, points] : own.back())
+        for (const auto& point : points) all[root].insert(point.first);
+    }
+    for (std::size_t i = 0; i < d.size(); ++i)
+      for (std::size_t r = 0; r < result.parts[i].roots.size(); ++r)
+        for (const dyadic::Path path : all[result.parts[i].roots[r]]) {
+          if (own[i][result.parts[i].roots[r]].contains(path)) continue;
+          result.refused += !refiners[i]->add_split_point(static_cast<RootId>(r), path);
+          ++result.exchanged;
+          changed = true;
+        }
+    if (changed) ++result.rounds;
+    for (auto& refiner : refiners) refiner->refine();
+  }
+  std::map<RootId, std::map<dyadic::Path, Point>> first;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    auto own = split_points(result.parts[i]);
+    for (const RootId r : result.parts[i].roots) {
+      const auto [entry, is_new] = first.emplace(r, own[r]);
+      if (!is_new && entry->second != own[r])
+        result.not_conforming.push_back("root " + std::to_string(r) + " in subdomain " + std::to_string(i));
+    }
+  }
+  return result;
+}
+
+}  // namespace driftmesh::testing

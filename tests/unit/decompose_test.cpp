@@ -1,0 +1,302 @@
+#include "decompose/decompose.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "decompose/check_decomposition.hpp"
+#include "decompose/subdomain_mesh.hpp"
+#include "geometry/predicates.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "mesh/exceptions.hpp"
+#include "pslg/poly_file.hpp"
+#include "pslg/repair.hpp"
+#include "support/refine_together.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+void add_ring(Pslg& pslg, const std::vector<Point>& corners, int marker = 1) {
+  const auto first = static_cast<std::int32_t>(pslg.points.size());
+  const auto n = static_cast<std::int32_t>(corners.size());
+  for (std::int32_t i = 0; i < n; ++i) {
+    pslg.points.push_back(corners[static_cast<std::size_t>(i)]);
+    pslg.segments.push_back({first + i, first + (i + 1) % n, marker});
+  }
+}
+
+std::vector<Point> circle(Point center, double radius, int n) {
+  std::vector<Point> points;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    points.push_back({center.x + radius * std::cos(angle), center.y + radius * std::sin(angle)});
+  }
+  return points;
+}
+
+Pslg rectangle(double width, double height) {
+  Pslg pslg;
+  add_ring(pslg, {{0, 0}, {width, 0}, {width, height}, {0, height}});
+  return pslg;
+}
+
+Pslg with_holes() {
+  Pslg pslg = rectangle(3, 2);
+  for (const Point center : {Point{0.6, 0.6}, Point{1.5, 1.3}, Point{2.4, 0.7}}) {
+    add_ring(pslg, circle(center, 0.3, 24), 2);
+    pslg.holes.push_back(center);
+  }
+  return pslg;
+}
+
+Triangulation prepared(const Pslg& pslg) {
+  Triangulation mesh = triangulate(pslg);
+  prepare_corners(mesh);
+  return mesh;
+}
+
+double area_of(const Triangulation& mesh) {
+  return summarize_angles(mesh).total_area;
+}
+
+Decomposition decompose_into(const Triangulation& mesh, int n) {
+  DecomposeOptions options;
+  options.subdomains = n;
+  return decompose(mesh, options);
+}
+
+std::string first_problem(const DecompositionReport& report) {
+  return report.valid() ? "" : report.problems[0];
+}
+
+/// The invariants, the area, and that every subdomain has a triangulation of its area.
+DecompositionReport check_whole(const Decomposition& d, const Triangulation& mesh, std::size_t n) {
+  CHECK(d.size() == n);
+  const DecompositionReport report = check_decomposition(d);
+  CHECK(first_problem(report) == "");
+  CHECK(report.area == doctest::Approx(area_of(mesh)).epsilon(1e-12));
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const SubdomainMesh part = subdomain_triangulation(d, static_cast<SubdomainId>(i));
+    REQUIRE(area_of(part.mesh) == doctest::Approx(d.subdomains[i].area).epsilon(1e-9));
+    for (std::size_t r = 0; r < part.roots.size(); ++r) {
+      const Decomposition::Root& root = d.roots[static_cast<std::size_t>(part.roots[r])];
+      const RootSegment& local = part.mesh.roots[r];
+      REQUIRE(local.marker == root.marker);
+      REQUIRE(local.shell == root.shell);
+      REQUIRE(part.mesh.points[Triangulation::id(local.vertex[0])] == d.points[Triangulation::id(root.a)]);
+      REQUIRE(part.mesh.points[Triangulation::id(local.vertex[1])] == d.points[Triangulation::id(root.b)]);
+    }
+  }
+  return report;
+}
+
+}  // namespace
+
+TEST_CASE("one subdomain is the domain: no separators, no new points") {
+  const Triangulation mesh = prepared(with_holes());
+  const Decomposition d = decompose_into(mesh, 1);
+  const DecompositionReport report = check_whole(d, mesh, 1);
+  CHECK(d.points.size() == mesh.points.size());
+  CHECK(d.roots.size() == mesh.roots.size());
+  CHECK(report.separator_length == 0);
+  CHECK(report.smallest_angle == 180);
+}
+
+TEST_CASE("a square is cut into squares or nearly so") {
+  const Triangulation mesh = prepared(rectangle(1, 1));
+  for (const int n : {2, 4, 16, 64, 400}) {
+    CAPTURE(n);
+    const DecompositionReport report = check_whole(decompose_into(mesh, n), mesh, static_cast<std::size_t>(n));
+    CHECK(report.smallest_angle >= 60 - 1e-9);
+    CHECK(report.largest_load <= 1.3);
+    if (n >= 16) CHECK(report.separator_length <= 1.05 * (2.06 * std::sqrt(n) - 2));
+  }
+}
+
+TEST_CASE("holes: every number of subdomains works and keeps the angle") {
+  const Triangulation mesh = prepared(with_holes());
+  for (int n = 1; n <= 60; ++n) {
+    CAPTURE(n);
+    const DecompositionReport report = check_whole(decompose_into(mesh, n), mesh, static_cast<std::size_t>(n));
+    CHECK(report.smallest_angle >= 60 - 1e-9);
+    if (n >= 20) CHECK(report.largest_load <= 1.45);
+  }
+}
+
+TEST_CASE("the same input gives the same decomposition") {
+  const Triangulation mesh = prepared(with_holes());
+  CHECK(decompose_into(mesh, 77) == decompose_into(mesh, 77));
+}
+
+TEST_CASE("parts that do not touch get subdomains of their own") {
+  Pslg pslg = rectangle(1, 1);
+  add_ring(pslg, {{2, 0}, {4, 0}, {4, 2}, {2, 2}});
+  add_ring(pslg, {{2.5, 0.5}, {3.5, 0.5}, {3.5, 1.5}, {2.5, 1.5}});
+  add_ring(pslg, {{2.9, 0.9}, {3.1, 0.9}, {3.1, 1.1}, {2.9, 1.1}});
+  pslg.holes = {{2.6, 0.6}};
+  const Triangulation mesh = prepared(pslg);
+  for (const int n : {3, 4, 10, 50}) check_whole(decompose_into(mesh, n), mesh, static_cast<std::size_t>(n));
+  CHECK_THROWS_WITH_AS(decompose_into(mesh, 2), doctest::Contains("at least 3"), Error);
+}
+
+TEST_CASE("segments inside are borders or stay inside, and keep marker and regions") {
+  Pslg pslg = rectangle(4, 2);
+  add_ring(pslg, circle({1, 1}, 0.6, 20), 5);
+  add_ring(pslg, circle({3, 1}, 0.1, 8), 6);
+  pslg.points.push_back({2, 0.5});
+  pslg.points.push_back({2.2, 1.5});
+  pslg.segments.push_back({32, 33, 7});
+  pslg.points.push_back({2.6, 1.7});  // isolated
+  pslg.regions = {{{0.1, 0.1}, 1, 0}, {{1, 1}, 2, 0}, {{3, 1}, 3, 0}};
+  const Triangulation mesh = prepared(pslg);
+  for (const int n : {1, 2, 3, 5, 8, 20, 100}) {
+    CAPTURE(n);
+    const Decomposition d = decompose_into(mesh, n);
+    check_whole(d, mesh, static_cast<std::size_t>(n));
+    double by_marker[8] = {}, area_by_region[4] = {};
+    for (const auto& r : d.roots)
+      by_marker[r.marker] += std::hypot(d.points[Triangulation::id(r.a)].x - d.points[Triangulation::id(r.b)].x,
+                                        d.points[Triangulation::id(r.a)].y - d.points[Triangulation::id(r.b)].y);
+    CHECK(by_marker[5] == doctest::Approx(40 * 0.6 * std::sin(std::numbers::pi / 20)));
+    CHECK(by_marker[6] == doctest::Approx(16 * 0.1 * std::sin(std::numbers::pi / 8)));
+    CHECK(by_marker[7] == doctest::Approx(std::hypot(0.2, 1)));
+    std::size_t isolated = 0;
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const SubdomainMesh part = subdomain_triangulation(d, static_cast<SubdomainId>(i));
+      isolated +=
+          static_cast<std::size_t>(std::count(part.mesh.points.begin(), part.mesh.points.end(), Point{2.6, 1.7}));
+      for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
+        const auto k = static_cast<TriangleId>(t);
+        area_by_region[part.mesh.region[t]] +=
+            0.5 * orient2d(part.mesh.corner(k, 0), part.mesh.corner(k, 1), part.mesh.corner(k, 2));
+      }
+    }
+    CHECK(isolated >= 1);
+    CHECK(area_by_region[2] == doctest::Approx(20 * 0.18 * std::sin(std::numbers::pi / 10)));
+    CHECK(area_by_region[3] == doctest::Approx(8 * 0.005 * std::sin(std::numbers::pi / 4)));
+    CHECK(area_by_region[0] == 0);
+  }
+}
+
+TEST_CASE("many regions are grouped into few subdomains") {
+  Pslg pslg;
+  const int n = 12;
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x) {
+      pslg.points.push_back({double(x), double(y)});
+      const auto v = static_cast<std::int32_t>(pslg.points.size()) - 1;
+      if (x > 0) pslg.segments.push_back({v - 1, v, 1});
+      if (y > 0) pslg.segments.push_back({v - n - 1, v, 2});
+    }
+  const Triangulation mesh = prepared(pslg);
+  for (const int count : {1, 2, 7, 30, 144, 300})
+    check_whole(decompose_into(mesh, count), mesh, static_cast<std::size_t>(count));
+}
+
+TEST_CASE("work follows the bounds of regions") {
+  Pslg pslg = rectangle(2, 1);
+  pslg.points.push_back({1, 0});
+  pslg.points.push_back({1, 1});
+  pslg.segments = {{0, 4, 1}, {4, 1, 1}, {1, 2, 2}, {2, 5, 3}, {5, 3, 3}, {3, 0, 4}, {4, 5, 9}};
+  pslg.regions = {{{0.5, 0.5}, 1, 1e-3}, {{1.5, 0.5}, 2, 1e-2}};
+  DecomposeOptions options;
+  options.subdomains = 110;
+  options.bounds.region_max_area = {0, 1e-3, 1e-2};
+  const Decomposition d = decompose(prepared(pslg), options);
+  int fine = 0;
+  double predicted = 0;
+  for (const auto& s : d.subdomains) {
+    fine += s.centroid.x < 1;
+    predicted += s.predicted;
+  }
+  CHECK(fine == 100);
+  CHECK(predicted == doctest::Approx(1.55 * 1100));
+  CHECK(check_decomposition(d).largest_load < 1.4);
+}
+
+TEST_CASE("thin wedges are cut across, and shells stay aligned") {
+  for (const double height : {0.02, 0.1, 0.5}) {
+    CAPTURE(height);
+    Pslg pslg;
+    add_ring(pslg, {{0, 0}, {1, 0}, {1, height}});
+    const Triangulation mesh = prepared(pslg);
+    for (const int n : {2, 10, 100}) {
+      CAPTURE(n);
+      const Decomposition d = decompose_into(mesh, n);
+      const DecompositionReport report = check_whole(d, mesh, static_cast<std::size_t>(n));
+      CHECK(report.smallest_angle >= 54);
+      CHECK(report.largest_load <= 2);
+      QualityBounds bounds;
+      bounds.max_area = report.area / 3000;
+      const auto refined = testing::refine_together(d, bounds);
+      CHECK(refined.not_conforming.empty());
+      for (const SubdomainMesh& part : refined.parts)
+        for (const Exceptions::Item& item : find_exceptions(part.mesh, bounds).skinny)
+          CHECK((item.cause == ExceptionCause::kInputAngle || item.cause == ExceptionCause::kShell));
+    }
+  }
+}
+
+TEST_CASE("subdomains refined apart conform after exchanging split points") {
+  const Triangulation mesh = prepared(with_holes());
+  for (const double angle : {20.0, 30.0}) {
+    const Decomposition d = decompose_into(mesh, 23);
+    QualityBounds bounds;
+    bounds.min_angle = angle;
+    bounds.max_area = 1e-3;
+    const auto refined = testing::refine_together(d, bounds);
+    CHECK(refined.exchanged > 0);
+    CHECK(refined.refused == 0);
+    CHECK(refined.not_conforming.empty());
+    double area = 0;
+    for (const SubdomainMesh& part : refined.parts) {
+      const Exceptions exceptions = find_exceptions(part.mesh, bounds);
+      CHECK(exceptions.skinny.empty());
+      CHECK(exceptions.large.empty());
+      area += area_of(part.mesh);
+    }
+    CHECK(area == doctest::Approx(area_of(mesh)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("real inputs reach the figures") {
+  const std::filesystem::path data = std::filesystem::path(DRIFTMESH_SOURCE_DIR) / ".." / "shared" / "data";
+  for (const char* name : {"pipe", "cylinder_flow", "key", "A", "chesapeake"}) {
+    const auto file = data / (std::string(name) + ".poly");
+    if (!std::filesystem::exists(file)) {
+      MESSAGE(file.string() << " is not there: skipped");
+      continue;
+    }
+    CAPTURE(name);
+    Pslg pslg = read_poly(file.string());
+    repair(pslg, file.string());
+    const Triangulation mesh = prepared(pslg);
+    for (const int n : {20, 400, 4000}) {
+      CAPTURE(n);
+      const Decomposition d = decompose_into(mesh, n);
+      const DecompositionReport report = check_decomposition(d);
+      CHECK(first_problem(report) == "");
+      CHECK(report.smallest_angle >= 60 - 1e-9);
+      CHECK(report.largest_load <= 1.45);
+    }
+  }
+}
+
+TEST_CASE("options out of range are refused") {
+  const Triangulation mesh = prepared(rectangle(1, 1));
+  DecomposeOptions options;
+  options.subdomains = 0;
+  CHECK_THROWS_AS(decompose(mesh, options), Error);
+  options.subdomains = 2;
+  options.min_angle = 85;
+  CHECK_THROWS_AS(decompose(mesh, options), Error);
+  options.min_angle = 60;
+  options.skew = -1;
+  CHECK_THROWS_AS(decompose(mesh, options), Error);
+}
