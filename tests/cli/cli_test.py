@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+"""The program end to end: generate, mesh, check, plot, convert; and what it says when something is wrong.
+
+usage: cli_test.py DRIFTMESH [unittest options]
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = None
+MESHER_SECONDS = 120  # far more than any call here needs: a hang fails, a slow machine does not
+
+SQUARE = """4 2 0 0
+1 0 0
+2 4 0
+3 4 4
+4 0 4
+4 1
+1 1 2 1
+2 2 3 2
+3 3 4 3
+4 4 1 4
+0
+"""
+
+# Options that keep each kind of input small.
+KINDS = {
+    "pipe": [],
+    "cylinder-flow": [],
+    "bay": ["--resolution", "1000"],
+    "fan": ["--wedges", "12"],
+    "comb": ["--slits", "9"],
+    "holes": ["--columns", "4", "--rows", "3"],
+    "rectangle-hole": [],
+    "random-polygon": ["--vertices", "200"],
+    "random-points": ["--points", "300", "--segments", "60"],
+}
+
+
+class Cli(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              errors="replace", timeout=MESHER_SECONDS, check=False)
+
+    def succeed(self, *arguments):
+        result = self.run_program(*arguments)
+        self.assertEqual(result.returncode, 0, f"{arguments}\n{result.stdout}{result.stderr}")
+        return result.stdout
+
+    def refuse(self, *arguments, code=1, says=()):
+        """The call ends with `code` and an error of few lines that contains every word of `says`."""
+        result = self.run_program(*arguments)
+        self.assertEqual(result.returncode, code, f"{arguments}\n{result.stdout}{result.stderr}")
+        errors = [line for line in result.stderr.splitlines() if line]
+        self.assertTrue(1 <= len(errors) <= 12, result.stderr)
+        for word in says:
+            self.assertIn(word, result.stderr)
+        return result
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return name
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+
+class Pipeline(Cli):
+    def test_every_kind_of_input_gives_a_mesh_that_check_accepts(self):
+        for kind, options in KINDS.items():
+            with self.subTest(kind=kind):
+                self.succeed("generate", kind, *options, "-o", "in.poly")
+                self.succeed("mesh", "in.poly", "--angle", "20", "-o", "out.vtu")
+                self.assertIn("accepted", self.succeed("check", "out.vtu", "in.poly", "--angle", "20"))
+
+    def test_the_whole_way(self):
+        self.succeed("generate", "bay", "--resolution", "1000", "-o", "bay.poly")
+        self.succeed("mesh", "bay.poly", "--area", "500000", "--angle", "25", "-o", "bay.vtu", "-o", "bay.msh", "--json",
+                     "run.json")
+        json.loads((self.folder / "run.json").read_text())
+        bounds = ["--area", "500000", "--angle", "25"]
+        for mesh in ("bay.vtu", "bay.msh"):
+            self.succeed("check", mesh, "bay.poly", *bounds)
+        self.succeed("convert", "bay.vtu", "copy.ele")
+        self.succeed("check", "copy.ele", "bay.poly", *bounds)
+        self.succeed("convert", "copy.ele", "again.vtu")
+        self.succeed("check", "again.vtu", "bay.poly", *bounds)
+        for picture, magic in (("bay.png", b"\x89PNG"), ("bay.svg", b"<?xml")):
+            self.succeed("plot", "bay.vtu", "-o", picture)
+            self.assertTrue((self.folder / picture).read_bytes().startswith(magic))
+        self.succeed("plot", "bay.poly", "-o", "input.png")
+        self.assertFalse([name for name in self.files() if "tmp" in name])
+
+    def test_a_stricter_check_rejects_the_mesh(self):
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "square.poly", "--area", "0.5", "-o", "square.vtu")
+        self.succeed("check", "square.vtu", "square.poly", "--area", "0.5", "--angle", "20")
+        for bound in (["--area", "0.05"], ["--angle", "59"]):
+            result = self.run_program("check", "square.vtu", "square.poly", *bound)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("rejected", result.stdout)
+
+    def test_a_mesh_of_another_domain_is_rejected(self):
+        self.write("square.poly", SQUARE)
+        self.write("wide.poly", SQUARE.replace("2 4 0", "2 5 0").replace("3 4 4", "3 5 4"))
+        self.succeed("mesh", "square.poly", "--area", "0.5", "-o", "square.vtu")
+        self.assertEqual(self.run_program("check", "square.vtu", "wide.poly").returncode, 1)
+
+    def test_the_same_input_gives_the_same_file(self):
+        self.succeed("generate", "bay", "--resolution", "1000", "-o", "bay.poly")
+        for name in ("one.vtu", "two.vtu"):
+            self.succeed("mesh", "bay.poly", "--area", "400000", "-o", name)
+        self.assertEqual((self.folder / "one.vtu").read_bytes(), (self.folder / "two.vtu").read_bytes())
+
+    def test_carriage_returns_change_nothing(self):
+        self.write("unix.poly", SQUARE)
+        self.write("dos.poly", SQUARE.replace("\n", "\r\n"))
+        for name in ("unix", "dos"):
+            self.succeed("mesh", f"{name}.poly", "--area", "0.5", "-o", f"{name}.vtu")
+        self.assertEqual((self.folder / "unix.vtu").read_bytes(), (self.folder / "dos.vtu").read_bytes())
+
+    def test_vertices_in_a_file_of_their_own(self):
+        lines = SQUARE.splitlines(keepends=True)
+        self.write("square.node", "".join(lines[:5]))
+        self.write("square.poly", "0 2 0 0\n" + "".join(lines[5:]))
+        self.succeed("mesh", "square.poly", "--area", "0.5", "-o", "out.vtu")
+        self.succeed("check", "out.vtu", "square.poly", "--area", "0.5")
+
+
+class Errors(Cli):
+    def test_help(self):
+        for command in ([], ["mesh"], ["check"], ["generate"], ["generate", "bay"], ["plot"], ["convert"]):
+            self.assertIn("Usage", self.succeed(*command, "--help"))
+
+    def test_the_command_line(self):
+        self.write("square.poly", SQUARE)
+        for arguments in ([], ["mish"], ["mesh"], ["mesh", "square.poly", "--no-such-option"],
+                          ["mesh", "square.poly", "--angle", "many", "-o", "x.vtu"]):
+            with self.subTest(arguments=arguments):
+                result = self.run_program(*arguments)
+                self.assertNotIn(result.returncode, (0, -6, -11), result.stderr)
+                self.assertTrue(result.stderr.strip())
+
+    def test_bounds_out_of_range(self):
+        self.write("square.poly", SQUARE)
+        for bound in (["--angle", "50"], ["--angle", "-1"], ["--angle", "nan"], ["--area", "-1"], ["--area", "nan"]):
+            with self.subTest(bound=bound):
+                result = self.run_program("mesh", "square.poly", *bound, "-o", "x.vtu")
+                self.assertGreater(result.returncode, 0)
+                self.assertTrue(result.stderr.strip())
+                self.assertNotIn("x.vtu", self.files())
+
+    def test_missing_files(self):
+        self.refuse("mesh", "gone.poly", "-o", "x.vtu", says=["gone.poly", "No such file"])
+        self.refuse("check", "gone.vtu", code=2, says=["gone.vtu", "No such file"])
+        self.refuse("plot", "gone.vtu", "-o", "x.png", says=["gone.vtu", "No such file"])
+        self.refuse("convert", "gone.vtu", "x.msh", says=["gone.vtu", "No such file"])
+
+    def test_outputs_that_cannot_be_written(self):
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "square.poly", "-o", "square.vtu")
+        (self.folder / "folder.vtu").mkdir()
+        before = self.files()
+        self.refuse("mesh", "square.poly", "-o", "gone/x.vtu", says=["gone"])
+        self.refuse("mesh", "square.poly", "-o", "folder.vtu", says=["folder.vtu"])
+        self.refuse("mesh", "square.poly", "-o", "x.docx", says=["x.docx"])
+        self.refuse("plot", "square.vtu", "-o", "gone/x.png", says=["gone"])
+        self.refuse("plot", "square.vtu", "-o", "x.jpg", says=["x.jpg"])
+        self.refuse("convert", "square.vtu", "gone/x.msh", says=["gone"])
+        self.refuse("generate", "bay", "-o", "gone/x.poly", says=["gone"])
+        self.assertEqual(self.files(), before)
+
+    def test_inputs_that_are_wrong_are_named_with_their_line(self):
+        lines = SQUARE.splitlines(keepends=True)
+        cases = {
+            "empty": ("", ""),
+            "truncated": ("".join(lines[:7]), ""),
+            "nan": (SQUARE.replace("3 4 4", "3 nan 4"), ":4:"),
+            "huge": (SQUARE.replace("3 4 4", "3 1e300 4"), ""),
+            "word": (SQUARE.replace("3 4 4", "3 four 4"), ":4:"),
+            "no such vertex": (SQUARE.replace("3 3 4 3", "3 3 9 3"), ":9:"),
+            "binary": (bytes(range(256)) * 20, ""),
+            "many points announced": (SQUARE.replace("4 2 0 0", "4000000000 2 0 0", 1), ""),
+        }
+        for name, (text, place) in cases.items():
+            with self.subTest(name=name):
+                path = self.write(name.replace(" ", "_") + ".poly", text)
+                self.refuse("mesh", path, "-o", "x.vtu", says=[path + place])
+                self.assertNotIn("x.vtu", self.files())
+
+    def test_an_open_boundary_is_refused_with_its_cause(self):
+        self.write("open.poly", SQUARE.replace("4 1\n", "3 1\n", 1).replace("4 4 1 4\n", ""))
+        self.refuse("mesh", "open.poly", "-o", "x.vtu", says=["boundary is open", "close"])
+        self.assertNotIn("x.vtu", self.files())
+
+    def test_damaged_meshes(self):
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "square.poly", "--area", "0.5", "-o", "square.vtu")
+        whole = (self.folder / "square.vtu").read_bytes()
+        for size in (0, 10, len(whole) // 2, len(whole) - 200):
+            with self.subTest(size=size):
+                self.write("cut.vtu", whole[:size])
+                self.refuse("check", "cut.vtu", code=2, says=["cut.vtu"])
+                self.refuse("convert", "cut.vtu", "x.msh", says=["cut.vtu"])
+
+    def test_a_limit_stops_the_mesher_with_an_explanation(self):
+        self.write("square.poly", SQUARE)
+        limit = ["mesh", "square.poly", "--area", "0.0001", "--max-triangles", "1000", "-o", "x.vtu"]
+        self.refuse(*limit, says=["--max-triangles"])
+        self.assertNotIn("x.vtu", self.files())
+        self.refuse(*limit, "--keep-incomplete", code=3, says=["1,000"])
+        self.succeed("check", "x.vtu", "square.poly")
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
