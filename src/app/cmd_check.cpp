@@ -59,10 +59,13 @@ void add_check(CLI::App& program) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command = program.add_subcommand("check", "Verify a mesh from its file, independent of how it was made");
   command->add_option("mesh", options->mesh, "The mesh: .vtu, .msh, or any file of Triangle's .node/.ele set")
+      ->type_name("")
       ->required();
-  command->add_option("input", options->input,
-                      "The .poly that the mesh was made from; with it, the mesh must cover its domain and hold its "
-                      "segments, markers, points and regions");
+  command
+      ->add_option("input", options->input,
+                   "The .poly that the mesh was made from; with it, the mesh must cover its domain and hold its "
+                   "segments, markers, points and regions")
+      ->type_name("");
   constexpr const char* kGroup = "Bounds that the mesh must keep (as for driftmesh mesh)";
   command->add_option("-a,--area", options->verify.max_area, "No triangle is larger than this")
       ->check(positive())
@@ -77,13 +80,16 @@ void add_check(CLI::App& program) {
   add_sizing_options(*command, options->sizing, kGroup);
   command->add_flag("--no-region-areas", options->no_region_areas, "Ignore the area bounds of the input's regions")
       ->group(kGroup);
-  command->add_option("--list", options->verify.max_listed, "Findings to print of each kind")->capture_default_str();
+  command->add_option("--list", options->verify.max_listed, "Findings to print of each kind")
+      ->type_name("N")
+      ->capture_default_str();
   command->add_flag("--quiet", options->quiet, "Print the verdict alone");
   command->footer(
-      "Exit code: 0 accepted, 1 rejected, 2 a file could not be read.\n"
-      "Angles below the bound are allowed where the input has them, and in wedges between input segments that meet at\n"
-      "less than 60 degrees; the report lists them.\n"
-      "Example: driftmesh check bay.vtu bay.poly --angle 20 --area 5000");
+      "Angles below the bound are allowed where the input has them, and in wedges between input segments\n"
+      "that meet at less than 60 degrees; the report lists them.\n"
+      "Example:\n"
+      "  driftmesh check bay.vtu bay.poly --angle 20 --area 5000\n"
+      "Exit code: 0 accepted, 1 rejected, 2 a file could not be read, or wrong usage.");
   command->callback([options] {
     if (const int code = run_check(*options); code != 0) throw CLI::RuntimeError(code);
   });

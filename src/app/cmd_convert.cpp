@@ -30,9 +30,15 @@ void add_convert(CLI::App& program) {
   const auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = program.add_subcommand("convert", "Write a mesh in another format");
   command->add_option("input", options->input, "The mesh: .vtu, .msh, or any file of Triangle's .node/.ele set")
+      ->type_name("")
       ->required();
-  command->add_option("output", options->output, "The new file; its extension chooses the format")->required();
-  command->footer("Example: driftmesh convert bay.vtu bay.msh");
+  command->add_option("output", options->output, "The new file; its extension chooses the format")
+      ->type_name("")
+      ->required();
+  command->footer(
+      "Example:\n"
+      "  driftmesh convert bay.vtu bay.msh\n"
+      "Exit code: 0 done, 1 error, 2 wrong usage.");
   command->callback([options] {
     refuse_to_overwrite_input(*options);
     write_mesh(read_mesh(options->input), options->output);

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "app/commands.hpp"
 #include "pslg/generate.hpp"
@@ -35,7 +36,7 @@ void add_kind(CLI::App& generate, const std::string& kind, const std::string& wh
 
 template <class Value>
 void option(CLI::App& command, const char* name, Value& value, const char* what) {
-  command.add_option(name, value, what)->capture_default_str();
+  command.add_option(name, value, what)->capture_default_str()->type_name(std::is_integral_v<Value> ? "N" : "NUMBER");
 }
 
 void add_models(CLI::App& generate) {
@@ -120,8 +121,10 @@ void add_generate(CLI::App& program) {
   CLI::App* generate = program.add_subcommand("generate", "Make an input: a model with parameters, or a stress test");
   generate->require_subcommand(1);
   generate->footer(
-      "Example: driftmesh generate bay --seed 7 -o bay.poly\n"
-      "Options of a kind: driftmesh generate KIND --help");
+      "Options of a kind: driftmesh generate KIND --help\n"
+      "Example:\n"
+      "  driftmesh generate bay --seed 7 -o bay.poly\n"
+      "Exit code: 0 done, 1 error, 2 wrong usage.");
   add_models(*generate);
   add_stress_tests(*generate);
 }

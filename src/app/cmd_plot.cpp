@@ -71,9 +71,13 @@ void run_plot(PlotCommand& command) {
 void add_plot(CLI::App& program) {
   const auto options = std::make_shared<PlotCommand>();
   CLI::App* command = program.add_subcommand("plot", "Draw a mesh or an input as PNG, SVG or PDF");
-  command->add_option("input", options->input, "A mesh (.vtu, .msh, .ele, .node) or an input (.poly)")->required();
-  command->add_option("-o,--output", options->output,
-                      "The picture: .png, .svg or .pdf  [the input's name with .png, in this folder]");
+  command->add_option("input", options->input, "A mesh (.vtu, .msh, .ele, .node) or an input (.poly)")
+      ->type_name("")
+      ->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "The picture: .png, .svg or .pdf  [the input's name with .png, in this folder]")
+      ->type_name("FILE");
   command->add_option("--color", options->color, "What the triangles' colours show")
       ->check(CLI::IsMember(keys_of(kColors)))
       ->type_name("WHAT")
@@ -82,8 +86,9 @@ void add_plot(CLI::App& program) {
       ->check(CLI::IsMember(keys_of(kEdges)))
       ->type_name("WHEN")
       ->capture_default_str();
-  CLI::Option* const width =
-      command->add_option("--width", options->plot.width, "Width in pixels; the height follows")->capture_default_str();
+  CLI::Option* const width = command->add_option("--width", options->plot.width, "Width in pixels; the height follows")
+                                 ->type_name("PIXELS")
+                                 ->capture_default_str();
   command->add_option("--size", options->size, "Width and height in pixels, as 1600x900")
       ->check(check_size)
       ->type_name("WxH")
@@ -92,11 +97,14 @@ void add_plot(CLI::App& program) {
       ->delimiter(',')
       ->expected(4)
       ->type_name("X0,Y0,X1,Y1");
-  command->add_option("--title", options->plot.title, "The title  [the input's name]");
+  command->add_option("--title", options->plot.title, "The title  [the input's name]")->type_name("TEXT");
   command->footer(
-      "Where triangles are smaller than about two pixels, each pixel shows the worst angle, or the mean area, of the\n"
-      "triangles in it.\n"
-      "Example: driftmesh plot bay.vtu --color area --box 380000,4180000,420000,4210000 -o bay.svg");
+      "Where triangles are smaller than about two pixels, each pixel shows the worst angle, or the mean\n"
+      "area, of the triangles in it.\n"
+      "Examples:\n"
+      "  driftmesh plot bay.poly -o input.svg\n"
+      "  driftmesh plot bay.vtu --color area --box 380000,4180000,420000,4210000 -o bay.svg\n"
+      "Exit code: 0 done, 1 error, 2 wrong usage.");
   command->callback([options] { run_plot(*options); });
 }
 

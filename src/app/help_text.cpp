@@ -5,15 +5,29 @@
 
 namespace driftmesh::app {
 
-std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-  return wrapped(CLI::Formatter::make_option_desc(option), kColumns - kNameColumns);
+HelpFormatter::HelpFormatter() {
+  column_width(kNameColumns);
+  label("SUBCOMMAND", "COMMAND");
+  label("Positionals", "Arguments");
 }
 
-std::string HelpFormatter::make_group(std::string group, bool is_positional,
-                                      std::vector<const CLI::Option*> opts) const {
-  std::string text = CLI::Formatter::make_group(std::move(group), is_positional, std::move(opts));
-  while (text.ends_with("\n\n")) text.pop_back();
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+  std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+  for (std::size_t i; (i = text.find("\n\n\n")) != std::string::npos;) text.erase(i, 1);
+  if (const std::size_t i = text.find("Subcommands:"); i != std::string::npos) text.erase(i, 3).replace(i, 1, "C");
   return text;
+}
+
+// The name of the value and its default; what is required stands in the usage line.
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+  std::string text;
+  if (!option->get_type_name().empty()) text += " " + option->get_type_name();
+  if (!option->get_default_str().empty()) text += "=" + option->get_default_str();
+  return text;
+}
+
+std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
+  return wrapped(CLI::Formatter::make_option_desc(option), kColumns - kNameColumns);
 }
 
 std::string wrapped(const std::string& text, std::size_t columns) {

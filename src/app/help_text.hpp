@@ -5,12 +5,13 @@
 
 namespace driftmesh::app {
 
-/// Help as CLI11 prints it, with descriptions wrapped to 100 columns and without empty lines in rows.
+/// Help as CLI11 prints it, in at most 100 columns and without what only programmers want to know.
 class HelpFormatter final : public CLI::Formatter {
  public:
-  HelpFormatter() { column_width(kNameColumns); }
+  HelpFormatter();
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
+  std::string make_option_opts(const CLI::Option* option) const override;
   std::string make_option_desc(const CLI::Option* option) const override;
-  std::string make_group(std::string group, bool is_positional, std::vector<const CLI::Option*> opts) const override;
 
  private:
   static constexpr std::size_t kNameColumns = 30;

@@ -24,8 +24,8 @@ void add_quality_options(CLI::App& command, MeshOptions& options) {
   command
       .add_option("-q,--angle", options.angle,
                   "No angle is smaller than this, in degrees, from 0 to 34, but for those that small angles of the "
-                  "input force. Up to 20.7 termination is proven; up to about 33 it holds in practice, at the price of "
-                  "more triangles")
+                  "input force. Refinement is proven to end up to 25.6 degrees and does so in practice up to about 33, "
+                  "with more triangles")
       ->check(CLI::Validator(check_angle, ""))
       ->capture_default_str()
       ->type_name("DEGREES")
@@ -84,17 +84,17 @@ void add_output_options(CLI::App& command, MeshOptions& options) {
 
 void add_mesh_options(CLI::App& command, MeshOptions& options) {
   command.add_option("input", options.input, "The domain: Triangle's .poly (its .node beside it), or .node")
-      ->type_name("INPUT.poly");
+      ->type_name("");
   add_quality_options(command, options);
   add_limit_options(command, options);
   add_output_options(command, options);
   command.footer(
       "Examples:\n"
-      "  driftmesh mesh bay.poly --area 5000 --plot bay.png -o bay.vtu   areas up to 5000, angles from 20 degrees\n"
-      "  driftmesh mesh bay.poly --angle 30 -o bay.msh -o bay.ele   by angle alone, two formats\n"
+      "  driftmesh mesh bay.poly --area 5000 -o bay.vtu --plot bay.png\n"
+      "  driftmesh mesh bay.poly --angle 30 -o bay.msh -o bay.ele\n"
       "  driftmesh mesh bay.poly --size \"20 + 0.1*abs(x)\" --json run.json\n"
-      "Exit code: 0 done, 1 error, 2 wrong usage, 3 stopped by a limit.\n"
-      "Check a mesh with: driftmesh check bay.vtu bay.poly --angle 20 --area 5000");
+      "Check a mesh with: driftmesh check bay.vtu bay.poly --angle 20 --area 5000\n"
+      "Exit code: 0 done, 1 error, 2 wrong usage, 3 stopped by a limit.");
 }
 
 void check_mesh_options(const MeshOptions& options) {

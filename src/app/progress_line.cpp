@@ -24,17 +24,18 @@ std::size_t terminal_width() {
 
 }  // namespace
 
+// What matters most comes first: a narrow terminal shows the beginning.
 std::string refining_words(std::int64_t triangles, double forecast, double seconds) {
-  const double rate = seconds > 0 ? static_cast<double>(triangles) / seconds : 0;
-  std::string text = fmt::format("refining  {:>13} triangles", grouped(triangles));
-  if (forecast >= static_cast<double>(triangles) && forecast < 1e18)
-    text = fmt::format("refining  {:>13} of about {} triangles  {:2.0f} %", grouped(triangles),
-                       grouped(static_cast<std::int64_t>(forecast)),
-                       std::min(99.0, 100 * static_cast<double>(triangles) / forecast));
-  if (rate <= 0) return text;
-  text += fmt::format("  {}/s", rate_words(rate));
-  if (forecast > static_cast<double>(triangles))
-    text += fmt::format("  {:.0f} s left", (forecast - static_cast<double>(triangles)) / rate);
+  const double left = forecast - static_cast<double>(triangles), rate = static_cast<double>(triangles) / seconds;
+  const bool forecast_holds = left > 0 && forecast < 1e15;
+  std::string text = "refining";
+  if (forecast_holds)
+    text += fmt::format("  {:2.0f} %", std::min(99.0, 100 * static_cast<double>(triangles) / forecast));
+  if (forecast_holds && seconds > 0) text += fmt::format("  {} left", whole_seconds_words(left / rate));
+  text += "  " + grouped(triangles);
+  if (forecast_holds) text += " of about " + estimate_words(forecast);
+  text += " triangles";
+  if (seconds > 0) text += fmt::format("  {:.2f} million/s", rate / 1e6);
   return text;
 }
 

@@ -6,7 +6,7 @@
 
 namespace driftmesh::app {
 
-/// "refining    3,400,000 of about 10,900,000 triangles   31 %   5.31 million/s   1.4 s left"
+/// "refining  31 %  2 s left  3,400,000 of about 10,900,000 triangles  5.31 million/s"
 [[nodiscard]] std::string refining_words(std::int64_t triangles, double forecast, double seconds);
 
 /// One line on stderr that says what is going on, rewritten in place and erased at the end. Prints nothing when it is

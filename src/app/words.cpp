@@ -27,7 +27,13 @@ std::string duration_words(double seconds) {
   if (seconds < 0.0995) return fmt::format("{:.3f} s", seconds);
   if (seconds < 9.95) return fmt::format("{:.2f} s", seconds);
   if (seconds < 99.5) return fmt::format("{:.1f} s", seconds);
-  const auto whole = static_cast<std::int64_t>(std::llround(seconds));
+  return whole_seconds_words(std::round(seconds));
+}
+
+std::string whole_seconds_words(double seconds) {
+  if (!(seconds < 1e9)) return "ages";
+  const auto whole = static_cast<std::int64_t>(std::ceil(seconds));
+  if (whole < 100) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }

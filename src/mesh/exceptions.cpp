@@ -41,6 +41,21 @@ double area_bound(const Triangulation& mesh, const QualityBounds& bounds, Triang
   return std::min(bound, twice_area_of_edge(std::min(h, bounds.size->edge_length(centroid))) / 2);
 }
 
+/// Calls visit(triangle, corner points) for every live triangle, in their order. The corners of triangles to come are
+/// fetched ahead: most of the time would go into waiting for them.
+template <class Visit>
+void visit_triangles(const Triangulation& mesh, Visit&& visit) {
+  constexpr std::size_t kAhead = 16;
+  const std::size_t count = mesh.triangles.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + kAhead < count && mesh.triangles[i + kAhead].alive())
+      for (const VertexId v : mesh.triangles[i + kAhead].vertex) __builtin_prefetch(mesh.points.data() + v);
+    if (!mesh.triangles[i].alive()) continue;
+    const auto t = static_cast<TriangleId>(i);
+    visit(t, std::array<const Point*, 3>{&mesh.corner(t, 0), &mesh.corner(t, 1), &mesh.corner(t, 2)});
+  }
+}
+
 /// Signed squares of cosines order angles as cosines do, and cost no root.
 double signed_square(double x) {
   return x * std::abs(x);
@@ -95,10 +110,8 @@ ExceptionCause cause_of(const Triangulation& mesh, TriangleId t) {
 Exceptions find_exceptions(const Triangulation& mesh, const QualityBounds& bounds) {
   Exceptions found;
   const double sine = std::sin(bounds.min_angle / kDegrees);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!mesh.triangles[i].alive()) continue;
-    const auto t = static_cast<TriangleId>(i);
-    const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+  visit_triangles(mesh, [&](TriangleId t, const std::array<const Point*, 3>& corner) {
+    const Point &a = *corner[0], &b = *corner[1], &c = *corner[2];
     const double ab = squared_distance(a, b), bc = squared_distance(b, c), ca = squared_distance(c, a);
     const double twice_area = 2 * signed_area(a, b, c);
     // The sine of the smallest angle is twice the area over the product of the two longer edges.
@@ -108,7 +121,7 @@ Exceptions find_exceptions(const Triangulation& mesh, const QualityBounds& bound
                               angle_range(a, b, c).smallest * kDegrees});
     }
     if (twice_area > 2 * area_bound(mesh, bounds, t)) found.large.push_back(t);
-  }
+  });
   return found;
 }
 
@@ -117,15 +130,12 @@ AngleSummary summarize_angles(const Triangulation& mesh) {
   summary.smallest_area = kNoBound;
   const CosineBins bins;
   double least = 1, greatest = -1;  // signed squared cosines
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!mesh.triangles[i].alive()) continue;
-    const auto t = static_cast<TriangleId>(i);
-    const Point* p[3] = {&mesh.corner(t, 0), &mesh.corner(t, 1), &mesh.corner(t, 2)};
-    double squared[3];
-    for (int k = 0; k < 3; ++k) squared[k] = squared_distance(*p[next(k)], *p[previous(k)]);
+  visit_triangles(mesh, [&](TriangleId, const std::array<const Point*, 3>& p) {
+    std::array<double, 3> squared{};
+    for (int k = 0; k < 3; ++k) squared[at(k)] = squared_distance(*p[at(next(k))], *p[at(previous(k))]);
     for (int k = 0; k < 3; ++k) {
-      const double v = squared[next(k)], w = squared[previous(k)];
-      const double cosine = signed_square(v + w - squared[k]) / (4 * v * w);  // law of cosines
+      const double v = squared[at(next(k))], w = squared[at(previous(k))];
+      const double cosine = signed_square(v + w - squared[at(k)]) / (4 * v * w);  // law of cosines
       ++summary.bins[bins.bin(cosine)];
       least = std::min(least, cosine);
       greatest = std::max(greatest, cosine);
@@ -134,7 +144,7 @@ AngleSummary summarize_angles(const Triangulation& mesh) {
     summary.total_area += area;
     summary.smallest_area = std::min(summary.smallest_area, area);
     summary.largest_area = std::max(summary.largest_area, area);
-  }
+  });
   summary.smallest = degrees_of(greatest);
   summary.largest = degrees_of(least);
   return summary;

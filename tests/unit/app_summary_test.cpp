@@ -25,6 +25,7 @@ TEST_CASE("Numbers in words") {
   CHECK(duration_words(1.5) == "1.50 s");
   CHECK(duration_words(59.96) == "60.0 s");
   CHECK(duration_words(200) == "3 min 20 s");
+  CHECK(whole_seconds_words(2.1) == "3 s");
   CHECK(duration_words(7500) == "2 h 05 min");
   CHECK(rate_words(850'000) == "850 thousand");
   CHECK(rate_words(5'314'000) == "5.31 million");
@@ -69,9 +70,11 @@ TEST_CASE("The summary names exceptions, places and an incomplete mesh") {
 }
 
 TEST_CASE("Progress in words") {
-  CHECK(refining_words(1'000'000, 4'000'000, 0.5) ==
-        "refining      1,000,000 of about 4,000,000 triangles  25 %  2 million/s  2 s left");
-  CHECK(refining_words(5'000'000, 4'000'000, 1) == "refining      5,000,000 triangles  5 million/s");
+  CHECK(refining_words(1'000'000, 4'012'345, 0.4) ==
+        "refining  25 %  2 s left  1,000,000 of about 4,010,000 triangles  2.50 million/s");
+  CHECK(refining_words(5'000'000, 4'000'000, 1) == "refining  5,000,000 triangles  5.00 million/s");
+  CHECK(refining_words(12, 1e18, 0) == "refining  12 triangles");
+  CHECK(refining_words(100'000'000, 536'000'000, 40).find("triangles") < 70);
 }
 
 TEST_CASE("Help text is wrapped at spaces") {
