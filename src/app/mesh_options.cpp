@@ -24,8 +24,8 @@ void add_quality_options(CLI::App& command, MeshOptions& options) {
   command
       .add_option("-q,--angle", options.angle,
                   "No angle is smaller than this, in degrees, from 0 to 34, but for those that small angles of the "
-                  "input force. Refinement is proven to end up to 25.6 degrees and does so in practice up to about 33, "
-                  "with more triangles")
+                  "input force. Up to 25.6 refinement is proven to end; up to about 33 it does in practice, with more "
+                  "triangles")
       ->check(CLI::Validator(check_angle, ""))
       ->capture_default_str()
       ->type_name("DEGREES")
