@@ -74,10 +74,12 @@ void CutSearch::rank(std::size_t i, std::size_t j, std::vector<Cut>& ranked) con
   if (!Outline::allows(a, dx, dy) || !Outline::allows(b, -dx, -dy)) return;
   const double share = share_between(i, j);
   if (!(share > 0 && share < 1)) return;
+  const double fair =
+      share / (share + goal_.bias * (1 - share));  // the share in parts that deserves this share of work
   const auto n = goal_.parts;
-  const auto between = std::clamp(static_cast<std::int32_t>(std::lround(share * n)), 1, n - 1);
-  const double load_between = goal_.load * share * n / between;
-  const double load_rest = goal_.load * (1 - share) * n / (n - between);
+  const auto between = std::clamp(static_cast<std::int32_t>(std::lround(fair * n)), 1, n - 1);
+  const double load_between = goal_.load * fair * n / between;
+  const double load_rest = goal_.load * (1 - fair) * n / (n - between);
   const double length = std::sqrt(dx * dx + dy * dy);
   const double area_between = outline_->twice_area_between(i, j) / 2;
   const double border_between = b.length - a.length;

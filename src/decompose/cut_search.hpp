@@ -12,7 +12,7 @@ namespace driftmesh {
 struct CutGoal {
   std::int32_t parts = 2;  ///< subdomains that the piece is to become; >= 2
   double load = 1;         ///< work per part in this piece over that in the whole domain
-  double skew = 0;         ///< see DecomposeOptions
+  double bias = 1;         ///< how many times its due the side between the stations is to get; 1 is fair
   double angle = 0;        ///< that the outline was read with, radians
   double clearance = 0;    ///< distance to keep from other corners, in units of the shorter of spacing and separator
   std::size_t max_stations = 64;  ///< that are tried against each other; more are thinned out first

@@ -89,7 +89,8 @@ class Cutter {
     const PieceSize size = measure_piece(map_, piece.side);
     CutGoal goal;
     goal.parts = piece.parts;
-    goal.load = piece.work / piece.parts / mean_;
+    goal.load = skew_ > 0 ? 1 : piece.work / piece.parts / mean_;
+    goal.bias = random_bias();
     Cut best;
     for (const Effort& effort : kEfforts) {
       if (best && effort.angle < 1) break;
@@ -104,9 +105,21 @@ class Cutter {
       best = cut;
       chosen_[0] = outline_.stations[cut.first];
       chosen_[1] = outline_.stations[cut.second];
-      if (heaviest_single(cut, goal) <= kGoodLoad) break;
+      if (is_good(cut, goal)) break;
     }
     return best;
+  }
+
+  /// 1 without skew; else from 1 / (1 + skew) to 1 + skew.
+  double random_bias() {
+    if (skew_ == 0) return 1;
+    constexpr double kUnit = 0x1p-64;
+    const double bias = 1 + skew_ * kUnit * static_cast<double>(random_());
+    return random_() % 2 == 0 ? bias : 1 / bias;
+  }
+
+  [[nodiscard]] bool is_good(const Cut& cut, const CutGoal& goal) const {
+    return skew_ > 0 || heaviest_single(cut, goal) <= kGoodLoad;
   }
 
   static double heaviest_single(const Cut& cut, const CutGoal& goal) {
@@ -144,7 +157,7 @@ class Cutter {
   std::vector<Piece>& pieces_;
   double angle_;
   double mean_ = 0;
-  [[maybe_unused]] double skew_;
+  double skew_;
   std::mt19937_64 random_;
   std::priority_queue<std::pair<std::int32_t, std::size_t>> queue_;
   std::vector<bool> solid_;  // pieces that no cut was found for
@@ -160,7 +173,7 @@ void check_options(const DecomposeOptions& o) {
                 std::to_string(o.subdomains));
   if (!(o.min_angle >= 0 && o.min_angle <= 80))
     throw Error("the angle of separators must be from 0 to 80 degrees, not " + std::to_string(o.min_angle));
-  if (!(o.skew >= 0 && o.skew <= 1)) throw Error("the skew must be from 0 to 1, not " + std::to_string(o.skew));
+  if (!(o.skew >= 0 && o.skew <= 10)) throw Error("the skew must be from 0 to 10, not " + std::to_string(o.skew));
 }
 
 double area_of(const Triangulation& mesh) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 #include <string>
@@ -9,8 +10,10 @@
 
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
+#include "decompose/graph_partition.hpp"
 #include "decompose/outline.hpp"
 #include "decompose/work.hpp"
+#include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {
 namespace {
@@ -50,22 +53,40 @@ std::vector<std::int32_t> round_shares(const std::vector<double>& weights, std::
   return shares;
 }
 
+/// Pieces as vertices, weighted by work; edges weighted by the length of the walls between two pieces.
+WeightedGraph graph_of(const PlanarMap& map, const std::vector<Piece>& pieces) {
+  const std::vector<std::int32_t> piece_of = label_sides(map, pieces);
+  std::map<std::pair<std::int32_t, std::int32_t>, double> shared;
+  for (SideId h = 0; at(h) < map.sides.size(); ++h) {
+    const std::int32_t left = piece_of[at(h)], right = piece_of[at(PlanarMap::twin(h))];
+    if (left == kNone || right == kNone || left == right) continue;
+    shared[{left, right}] += std::sqrt(squared_distance(map.at(map.start(h)), map.at(map.end(h))));
+  }
+  WeightedGraph graph;
+  graph.begin.assign(pieces.size() + 1, 0);
+  for (const auto& [pair, length] : shared) {
+    ++graph.begin[at(pair.first) + 1];
+    graph.neighbor.push_back(pair.second);
+    graph.edge_weight.push_back(length);
+  }
+  std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
+  for (const Piece& p : pieces) graph.vertex_weight.push_back(p.work);
+  return graph;
+}
+
+template <class Visit>
+void for_each_edge(const WeightedGraph& graph, Visit&& visit) {
+  for (std::int32_t v = 0; at(v) < graph.size(); ++v)
+    for (auto k = at(graph.begin[at(v)]); k < at(graph.begin[at(v) + 1]); ++k) visit(v, graph.neighbor[k]);
+}
+
 /// Groups of pieces, the lightest first, with the groups that each touches.
 class Groups {
  public:
-  Groups(const PlanarMap& map, const std::vector<Piece>& pieces)
-      : sets_(pieces.size()), work_(pieces.size()), touching_(pieces.size()) {
-    const std::vector<std::int32_t> piece_of = label_sides(map, pieces);
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      work_[i] = pieces[i].work;
-      by_work_.emplace(work_[i], static_cast<std::int32_t>(i));
-    }
-    for (SideId h = 0; at(h) < map.sides.size(); h += 2) {
-      const std::int32_t left = piece_of[at(h)], right = piece_of[at(h + 1)];
-      if (left == kNone || right == kNone || left == right) continue;
-      touching_[at(left)].insert(right);
-      touching_[at(right)].insert(left);
-    }
+  explicit Groups(const WeightedGraph& graph)
+      : sets_(graph.size()), work_(graph.vertex_weight), touching_(graph.size()) {
+    for (std::size_t i = 0; i < graph.size(); ++i) by_work_.emplace(work_[i], static_cast<std::int32_t>(i));
+    for_each_edge(graph, [&](std::int32_t v, std::int32_t w) { touching_[at(v)].insert(w); });
   }
 
   [[nodiscard]] std::size_t count() const { return by_work_.size() + finished_; }
@@ -83,6 +104,14 @@ class Groups {
       ++finished_;
     }
     return false;
+  }
+
+  /// Joins the groups of two pieces that touch, if they are not one yet.
+  void join_pieces(std::int32_t piece, std::int32_t other) {
+    const std::int32_t group = sets_.find(piece), second = sets_.find(other);
+    if (group == second) return;
+    by_work_.erase({work_[at(group)], group});
+    join(group, second);
   }
 
   std::int32_t group_of(std::int32_t piece) { return sets_.find(piece); }
@@ -116,6 +145,20 @@ class Groups {
   std::set<std::pair<double, std::int32_t>> by_work_;
   std::size_t finished_ = 0;
 };
+
+/// Where there are many more pieces than groups, METIS says which belong together. Its parts need not be connected:
+/// their connected pieces become groups. Nothing is joined if it leaves parts empty.
+void join_by_partition(const WeightedGraph& graph, std::int32_t count, Groups& groups) {
+  const std::vector<std::int32_t> part = partition_graph(
+      graph, std::vector<double>(at(count), 1.0), count <= 8 ? PartitionMethod::kRecursive : PartitionMethod::kDirect);
+  DisjointSets sets(graph.size());
+  std::size_t left = graph.size();
+  for_each_edge(graph, [&](std::int32_t v, std::int32_t w) { left -= part[at(v)] == part[at(w)] && sets.join(v, w); });
+  if (left < at(count)) return;
+  for_each_edge(graph, [&](std::int32_t v, std::int32_t w) {
+    if (part[at(v)] == part[at(w)]) groups.join_pieces(v, w);
+  });
+}
 
 }  // namespace
 
@@ -173,7 +216,9 @@ std::vector<std::int32_t> group_pieces(const PlanarMap& map, const std::vector<P
   std::vector<std::int32_t> group_of(pieces.size());
   std::iota(group_of.begin(), group_of.end(), 0);
   if (pieces.size() <= at(count)) return group_of;
-  Groups groups(map, pieces);
+  const WeightedGraph graph = graph_of(map, pieces);
+  Groups groups(graph);
+  if (pieces.size() > 2 * at(count)) join_by_partition(graph, count, groups);
   while (groups.count() > at(count) && groups.join_lightest()) {
   }
   std::vector<std::int32_t> number(pieces.size(), kNone);

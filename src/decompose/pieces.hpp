@@ -26,8 +26,9 @@ void allot_parts(const PlanarMap& map, std::vector<Piece>& pieces, std::int32_t 
 /// For each side in the domain the index of the piece it belongs to, kNone for the others.
 [[nodiscard]] std::vector<std::int32_t> label_sides(const PlanarMap& map, const std::vector<Piece>& pieces);
 
-/// Groups pieces that touch into `count` subdomains: while there are more, the lightest is joined with the neighbour
-/// that is lightest itself. Returns the subdomain of each piece, numbered in the order of their first pieces.
+/// Groups pieces that touch into `count` subdomains: by a graph partition where there are many more of them; then,
+/// while there are more groups, the lightest is joined with the neighbour that is lightest itself. Returns the
+/// subdomain of each piece, numbered in the order of their first pieces.
 [[nodiscard]] std::vector<std::int32_t> group_pieces(const PlanarMap& map, const std::vector<Piece>& pieces,
                                                      std::int32_t count);
 

@@ -195,8 +195,11 @@ TEST_CASE("many regions are grouped into few subdomains") {
       if (y > 0) pslg.segments.push_back({v - n - 1, v, 2});
     }
   const Triangulation mesh = prepared(pslg);
-  for (const int count : {1, 2, 7, 30, 144, 300})
-    check_whole(decompose_into(mesh, count), mesh, static_cast<std::size_t>(count));
+  for (const int count : {1, 2, 7, 30, 144, 300}) {
+    CAPTURE(count);
+    const DecompositionReport report = check_whole(decompose_into(mesh, count), mesh, static_cast<std::size_t>(count));
+    CHECK(report.largest_load < (count <= 7 ? 1.2 : 1.7));
+  }
 }
 
 TEST_CASE("work follows the bounds of regions") {
@@ -286,6 +289,20 @@ TEST_CASE("real inputs reach the figures") {
       CHECK(report.largest_load <= 1.45);
     }
   }
+}
+
+TEST_CASE("a skewed decomposition is uneven, valid and follows its seed") {
+  const Triangulation mesh = prepared(with_holes());
+  DecomposeOptions options;
+  options.subdomains = 100;
+  options.skew = 0.8;
+  const Decomposition d = decompose(mesh, options);
+  const DecompositionReport report = check_whole(d, mesh, 100);
+  CHECK(report.smallest_angle >= 60 - 1e-9);
+  CHECK(report.largest_load > 2);
+  CHECK(d == decompose(mesh, options));
+  options.seed = 2;
+  CHECK(!(d == decompose(mesh, options)));
 }
 
 TEST_CASE("options out of range are refused") {

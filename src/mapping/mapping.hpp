@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "decompose/decomposition.hpp"
+
+namespace driftmesh {
+
+using RankId = std::int32_t;
+
+/// The rank of each subdomain.
+using Assignment = std::vector<RankId>;
+
+enum class MappingMethod {
+  kGraph,       ///< balanced work, short interfaces between ranks (METIS)
+  kBlock,       ///< consecutive subdomains, balanced work
+  kRoundRobin,  ///< subdomain i on rank i mod P: for experiments, the worst interfaces
+};
+
+/// "graph", "block" or "round-robin". Throws Error for any other name.
+[[nodiscard]] MappingMethod mapping_method(const std::string& name);
+
+struct MappingOptions {
+  std::int32_t ranks = 1;
+  /// Relative speed of each rank: work is dealt in proportion (round-robin ignores it). Empty: all equal.
+  std::vector<double> speeds;
+  MappingMethod method = MappingMethod::kGraph;
+};
+
+/// Maps subdomains to ranks by predicted work. Deterministic. A rank may be left without work when there are not many
+/// more subdomains than ranks. Throws Error for options out of range.
+[[nodiscard]] Assignment map_subdomains(const Decomposition& decomposition, const MappingOptions& options);
+
+/// What an assignment means for the ranks.
+struct MappingReport {
+  double largest_load = 0;         ///< work of a rank over its speed, in units of the mean: 1 is perfect
+  double interface_length = 0;     ///< of interfaces between ranks
+  double share_between_ranks = 0;  ///< of the length of all interfaces
+};
+[[nodiscard]] MappingReport report_mapping(const Decomposition& decomposition, const Assignment& assignment,
+                                           const MappingOptions& options);
+
+}  // namespace driftmesh

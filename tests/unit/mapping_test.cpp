@@ -1,0 +1,81 @@
+#include "mapping/mapping.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "decompose/decompose.hpp"
+#include "mesh/cdt.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+Decomposition square_in(int subdomains) {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
+  DecomposeOptions options;
+  options.subdomains = subdomains;
+  return decompose(triangulate(pslg), options);
+}
+
+}  // namespace
+
+TEST_CASE("graph mapping balances work and keeps interfaces between ranks short") {
+  const Decomposition d = square_in(800);
+  for (const int ranks : {1, 2, 3, 8, 9, 32}) {
+    CAPTURE(ranks);
+    MappingOptions options;
+    options.ranks = ranks;
+    const Assignment assignment = map_subdomains(d, options);
+    REQUIRE(assignment.size() == d.size());
+    const MappingReport report = report_mapping(d, assignment, options);
+    CHECK(report.largest_load < 1.12);
+    CHECK(report.interface_length <= 1.6 * (2 * std::sqrt(ranks) - 2) + 1e-9);  // a grid of squares has 2 sqrt(P) - 2
+    options.method = MappingMethod::kRoundRobin;
+    const MappingReport worst = report_mapping(d, map_subdomains(d, options), options);
+    if (ranks > 1) CHECK(worst.interface_length > 3 * report.interface_length);
+    CHECK(assignment == map_subdomains(d, {ranks, {}, MappingMethod::kGraph}));
+  }
+}
+
+TEST_CASE("work follows the speeds of the ranks") {
+  const Decomposition d = square_in(400);
+  for (const MappingMethod method : {MappingMethod::kGraph, MappingMethod::kBlock}) {
+    MappingOptions options{4, {1, 1, 2, 4}, method};
+    const Assignment assignment = map_subdomains(d, options);
+    CHECK(report_mapping(d, assignment, options).largest_load < 1.06);
+    double work[4] = {};
+    for (std::size_t i = 0; i < d.size(); ++i) work[assignment[i]] += d.subdomains[i].predicted;
+    CHECK(work[3] == doctest::Approx(0.5).epsilon(0.04));
+  }
+}
+
+TEST_CASE("blocks are consecutive and use every rank") {
+  const Decomposition d = square_in(100);
+  const Assignment assignment = map_subdomains(d, {7, {}, MappingMethod::kBlock});
+  CHECK(assignment.front() == 0);
+  CHECK(assignment.back() == 6);
+  for (std::size_t i = 1; i < assignment.size(); ++i) {
+    CHECK(assignment[i] >= assignment[i - 1]);
+    CHECK(assignment[i] <= assignment[i - 1] + 1);
+  }
+}
+
+TEST_CASE("more ranks than subdomains: one each") {
+  const Decomposition d = square_in(5);
+  const Assignment assignment = map_subdomains(d, {8, {}, MappingMethod::kGraph});
+  CHECK(assignment == Assignment{0, 1, 2, 3, 4});
+}
+
+TEST_CASE("mapping options out of range are refused") {
+  const Decomposition d = square_in(5);
+  CHECK_THROWS_AS(static_cast<void>(map_subdomains(d, {0, {}, MappingMethod::kGraph})), Error);
+  CHECK_THROWS_WITH_AS(static_cast<void>(map_subdomains(d, {3, {1, 2}, MappingMethod::kGraph})),
+                       doctest::Contains("2 speeds"), Error);
+  CHECK_THROWS_AS(static_cast<void>(map_subdomains(d, {2, {1, 0}, MappingMethod::kGraph})), Error);
+  CHECK_THROWS_WITH_AS(static_cast<void>(mapping_method("zigzag")), doctest::Contains("round-robin"), Error);
+  CHECK(mapping_method("block") == MappingMethod::kBlock);
+}
