@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -7,6 +9,7 @@
 #include "app/sizing_options.hpp"
 #include "app/validators.hpp"
 #include "base/error.hpp"
+#include "mesh/digest.hpp"
 #include "output/mesh_file.hpp"
 #include "pslg/poly_file.hpp"
 #include "pslg/repair.hpp"
@@ -30,6 +33,7 @@ struct CheckOptions {
 
 VerifyReport read_and_verify(const CheckOptions& options) {
   const MeshPiece mesh = read_mesh(options.mesh);
+  if (!options.quiet) std::cout << fmt::format("digest         {:016x}\n", mesh_digest(mesh));
   if (options.input.empty()) return verify(mesh, options.verify);
   Pslg input = read_poly(options.input);
   const RepairReport repairs = repair(input, options.input);

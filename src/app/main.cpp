@@ -6,11 +6,13 @@
 
 #include "app/commands.hpp"
 #include "app/help_text.hpp"
+#include "base/error.hpp"
 
 namespace {
 
 constexpr int kError = 1;
 constexpr int kUsage = 2;
+constexpr int kLimit = 3;
 
 void add_commands(CLI::App& program) {
   using namespace driftmesh::app;
@@ -48,6 +50,10 @@ int main(int argc, char** argv) {
     return parse_and_run(program, argc, argv);
   } catch (const std::bad_alloc&) {
     std::cerr << "driftmesh: out of memory; ask for larger triangles, or see --max-memory of driftmesh mesh\n";
+    return kLimit;
+  } catch (const driftmesh::LimitError& error) {
+    std::cerr << "driftmesh: " << error.what() << '\n';
+    return kLimit;
   } catch (const std::exception& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';
   }

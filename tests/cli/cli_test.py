@@ -7,6 +7,8 @@ usage: cli_test.py DRIFTMESH [unittest options]
 import json
 import os
 import pathlib
+import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -217,10 +219,134 @@ class Errors(Cli):
     def test_a_limit_stops_the_mesher_with_an_explanation(self):
         self.write("square.poly", SQUARE)
         limit = ["mesh", "square.poly", "--area", "0.0001", "--max-triangles", "1000", "-o", "x.vtu"]
-        self.refuse(*limit, says=["--max-triangles"])
+        self.refuse(*limit, code=3, says=["--max-triangles", "--keep-incomplete"])
         self.assertNotIn("x.vtu", self.files())
-        self.refuse(*limit, "--keep-incomplete", code=3, says=["1,000"])
+        result = self.refuse(*limit, "--keep-incomplete", code=3, says=["1,000"])
+        self.assertIn("INCOMPLETE: stopped by --max-triangles", result.stdout)
         self.succeed("check", "x.vtu", "square.poly")
+
+    def test_a_mesh_that_memory_does_not_allow_is_refused_at_once(self):
+        self.write("square.poly", SQUARE)
+        result = self.refuse("mesh", "square.poly", "--area", "1e-9", "--max-memory", "200M", "-o", "x.vtu", code=3,
+                             says=["--max-memory", "of memory"])
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(self.files(), ["square.poly"])
+
+    def test_the_input_is_not_written_over(self):
+        self.write("square.poly", SQUARE)
+        self.refuse("mesh", "square.poly", "-o", "square.ele", says=["square.poly", "input"])
+        self.refuse("mesh", "square.poly", "-o", "./square.node", says=["square.poly", "input"])
+        self.refuse("mesh", "square.poly", "-o", "a.vtu", "-o", "./a.vtu", says=["a.vtu", "twice"])
+        self.assertEqual((self.folder / "square.poly").read_text(), SQUARE)
+        self.assertEqual(self.files(), ["square.poly"])
+
+    def test_settings_files(self):
+        self.write("square.poly", SQUARE)
+        self.write("typo.yaml", "area: 0.5\nanlge: 25\n")
+        self.refuse("mesh", "square.poly", "--config", "typo.yaml", says=["typo.yaml:2:1:", "'anlge'", "'angle'"])
+        self.refuse("mesh", "square.poly", "--config", "gone.yaml", says=["gone.yaml", "No such file"])
+
+    def test_wrong_usage(self):
+        self.write("square.poly", SQUARE)
+        for arguments in (["mesh"], ["mesh", "square.poly", "--gradation", "0.2"], ["convert", "a.vtu"], ["generate"],
+                          ["mesh", "square.poly", "--size-max", "1", "--size-min", "2"], ["check"], ["plot"],
+                          ["mesh", "square.poly", "--max-memory", "much"]):
+            with self.subTest(arguments=arguments):
+                self.refuse(*arguments, code=2, says=["driftmesh: ", "--help"])
+
+
+class Mesh(Cli):
+    """What `driftmesh mesh` says and records."""
+
+    def digest(self, text):
+        return re.search(r"^digest +([0-9a-f]{16})$", text, re.MULTILINE).group(1)
+
+    def test_the_record_says_what_the_summary_says(self):
+        self.write("square.poly", SQUARE)
+        summary = self.succeed("mesh", "square.poly", "--area", "0.05", "-o", "out.vtu", "-o", "out.ele",
+                               "--plot", "out.png", "--json", "run.json")
+        record = json.loads((self.folder / "run.json").read_text())
+        self.assertEqual((record["format"], record["version"]), ("driftmesh run", 1))
+        mesh = record["mesh"]
+        self.assertTrue(mesh["complete"])
+        self.assertIn(f"mesh         {mesh['triangles']:,} triangles, {mesh['vertices']:,} vertices", summary)
+        self.assertEqual(mesh["digest"], self.digest(summary))
+        self.assertEqual(sum(mesh["angles_by_10_degrees"]), 3 * mesh["triangles"])
+        self.assertAlmostEqual(mesh["total_area"], 16)
+        self.assertLessEqual(mesh["largest_area"], 0.05)
+        written = {file["name"]: file["bytes"] for file in record["files"]}
+        self.assertEqual(sorted([*written, "run.json", "square.poly"]), self.files())
+        for name, size in written.items():
+            self.assertEqual((self.folder / name).stat().st_size, size)
+        # Vertices - edges + triangles is 1 for a disc.
+        edges = (3 * mesh["triangles"] + mesh["subsegments"]) // 2
+        self.assertEqual(mesh["vertices"] - edges + mesh["triangles"], 1)
+
+    def test_the_digest_survives_every_format(self):
+        self.succeed("generate", "pipe", "-o", "pipe.poly")
+        summary = self.succeed("mesh", "pipe.poly", "--angle", "30", "-o", "a.vtu", "-o", "b.msh", "-o", "c.ele")
+        for name in ("a.vtu", "b.msh", "c.ele"):
+            self.assertEqual(self.digest(self.succeed("check", name)), self.digest(summary))
+
+    def test_the_command_that_repeats_a_run_does(self):
+        self.write("my square.poly", SQUARE)
+        self.write("run.yaml", "input: my square.poly\narea: 0.01\nsize: 0.2 + 0.1 * x\noutput: [one.vtu]\n")
+        summary = self.succeed("mesh", "--config", "run.yaml", "--area", "0.02")
+        command = re.search(r"^repeat +driftmesh (.*)$", summary, re.MULTILINE).group(1)
+        self.assertIn("--area 0.02", command)
+        first = (self.folder / "one.vtu").read_bytes()
+        (self.folder / "one.vtu").unlink()
+        self.assertEqual(self.digest(self.succeed(*shlex.split(command))), self.digest(summary))
+        self.assertEqual((self.folder / "one.vtu").read_bytes(), first)
+
+    def test_exceptions_are_listed_with_cause_and_place(self):
+        self.succeed("generate", "fan", "--wedges", "12", "--angle", "5", "-o", "fan.poly")
+        summary = self.succeed("mesh", "fan.poly", "--json", "run.json")
+        self.assertIn("small angle of the input", summary)
+        causes = {item["cause"]: item for item in json.loads((self.folder / "run.json").read_text())["exceptions"]}
+        angle = causes["small angle of the input"]
+        self.assertGreaterEqual(angle["triangles"], 12)
+        self.assertAlmostEqual(angle["worst_angle"], 5, places=6)
+        self.assertEqual(len(angle["places"]), 3)
+
+    def test_attributes_of_added_points_are_interpolated(self):
+        lines = SQUARE.splitlines()
+        lines[0] = "4 2 1 0"
+        for i in range(1, 5):
+            _, x, y = lines[i].split()
+            lines[i] += f" {2 * float(x) - float(y)}"
+        self.write("square.poly", "\n".join(lines) + "\n")
+        self.succeed("mesh", "square.poly", "--area", "0.1", "-o", "out.ele")
+        points = [line.split() for line in (self.folder / "out.node").read_text().splitlines()[1:] if line[0] != "#"]
+        self.assertGreater(len(points), 100)
+        for _, x, y, value, *_ in points:
+            self.assertAlmostEqual(float(value), 2 * float(x) - float(y), places=12)
+
+    def test_repairs_are_reported_beside_the_summary(self):
+        text = SQUARE.replace("4 2 0 0", "5 2 0 0").replace("4 0 4\n", "4 0 4\n5 4 4\n", 1)
+        self.write("square.poly", text)
+        result = self.run_program("mesh", "square.poly")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("duplicate vertices merged: 1", result.stderr)
+        self.assertIn("after 1 repair", result.stdout)
+
+    def test_quiet_prints_nothing_and_no_progress_goes_to_a_file(self):
+        self.write("square.poly", SQUARE)
+        result = self.run_program("mesh", "square.poly", "--area", "0.00002", "--quiet")
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        result = self.run_program("mesh", "square.poly", "--area", "0.00002")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def test_the_summary_fits_a_terminal(self):
+        self.succeed("generate", "fan", "--wedges", "12", "--angle", "5", "-o", "fan.poly")
+        for line in self.succeed("mesh", "fan.poly", "--area", "0.001", "-o", "fan.vtu").splitlines():
+            self.assertLessEqual(len(line), 100, line)
+        for command in ([], ["mesh"], ["check"], ["convert"], ["plot"], ["generate"], ["generate", "bay"]):
+            for line in self.succeed(*command, "--help").splitlines():
+                self.assertLessEqual(len(line), 100, line)
+
+    def test_the_version(self):
+        self.assertRegex(self.succeed("--version"), r"^driftmesh \d+\.\d+\.\d+\n$")
 
 
 if __name__ == "__main__":
