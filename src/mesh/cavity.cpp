@@ -226,6 +226,34 @@ Cavity::Found Cavity::gather_from_afar(const Point& p, TriangleId t) {
   return check_star();
 }
 
+/// Whether the triangle behind half-edge `h` of a subsegment keeps its place when the subsegment is bent to the point:
+/// rounding has put the point beyond the subsegment as seen from there, and outside the circumcircle. Then a sliver
+/// between the straight and the bent subsegment is what the constrained Delaunay triangulation holds.
+bool Cavity::stays(HalfEdge h) const {
+  const auto point = [&](VertexId v) -> const Point& { return mesh_.points[Triangulation::id(v)]; };
+  const Point &a = point(mesh_.edge_start(h)), &b = point(mesh_.edge_end(h));
+  return orient2d(a, b, p_) < 0 && !(incircle(a, b, point(mesh_.apex(h)), p_) > 0);
+}
+
+/// One side of a split: the border from corner `from` to corner `to`, behind half-edge `h` of the subsegment.
+void Cavity::gather_side(HalfEdge h, int from, int to) {
+  if (stays(h)) {
+    const Corner &a = corners_[at(from)], &b = corners_[at(to)];
+    least_cross_ = std::min(least_cross_, cross(a, b));
+    largest_lifts_ = std::max(largest_lifts_, a.lift + b.lift);
+    border_[at(border_count_++)] = {cross(a, b), &a, &b, h};
+    return;
+  }
+  const int apex = corner_count_++;
+  corners_[at(apex)] = relative(mesh_.apex(h));
+  slots_[at(killed_count_++)] = triangle_of(h);
+  const Triangle& triangle = mesh_.triangles[Triangulation::id(triangle_of(h))];
+  const int i = index_of(h);
+  push(triangle.neighbor[at(previous(i))], apex, to, cross(corners_[at(apex)], corners_[at(to)]));
+  push(triangle.neighbor[at(next(i))], from, apex, cross(corners_[at(from)], corners_[at(apex)]));
+  expand<false>(0);
+}
+
 Cavity::Found Cavity::gather_on(SubsegmentId s, const Point& m) {
   start(m);
   const Subsegment& segment = mesh_.subsegments[Triangulation::id(s)];
@@ -234,21 +262,13 @@ Cavity::Found Cavity::gather_on(SubsegmentId s, const Point& m) {
   corner_count_ = 2;
   if (corners_[0].lift == 0 || corners_[1].lift == 0) return Found::kDegenerate;
   // Right side first: its border runs from the segment's start to its end, that of the left side back to the start.
-  for (const int side : {1, 0}) {
-    if (side == 0) first_left_ = border_count_;
-    const HalfEdge h = segment.half[at(side)];
-    if (h == kNone) continue;
-    const int from = side == 1 ? 0 : 1;  // corner where this side's border begins
-    const int to = 1 - from;
-    const int apex = corner_count_++;
-    corners_[at(apex)] = relative(mesh_.apex(h));
-    slots_[at(killed_count_++)] = triangle_of(h);
-    const Triangle& triangle = mesh_.triangles[Triangulation::id(triangle_of(h))];
-    const int i = index_of(h);
-    push(triangle.neighbor[at(previous(i))], apex, to, cross(corners_[at(apex)], corners_[at(to)]));
-    push(triangle.neighbor[at(next(i))], from, apex, cross(corners_[at(from)], corners_[at(apex)]));
-    expand<false>(0);
-  }
+  if (segment.half[1] != kNone) gather_side(segment.half[1], 0, 1);
+  first_left_ = border_count_;
+  if (segment.half[0] != kNone) gather_side(segment.half[0], 1, 0);
+  if (!mesh_.region.empty())
+    for (const std::size_t side : {0, 1})
+      if (segment.half[side] != kNone)
+        regions_[side] = mesh_.region[Triangulation::id(triangle_of(segment.half[side]))];
   return check_star();
 }
 
@@ -259,14 +279,13 @@ inline void Cavity::take_slots() {
   if (mesh_.region.empty()) [[likely]]
     return;
   // A cavity never crosses a constrained segment, so each side keeps its region.
-  const std::uint16_t right = mesh_.region[Triangulation::id(slots_[0])];
-  const std::uint16_t left = mesh_.region[Triangulation::id(slots_[at(killed_count_ - 1)])];
   for (int i = 0; i < border_count_; ++i)
-    mesh_.region[Triangulation::id(slots_[at(i)])] = i < first_left_ ? right : left;
+    mesh_.region[Triangulation::id(slots_[at(i)])] = regions_[i < first_left_ ? 1 : 0];
 }
 
 void Cavity::fill(VertexId v) {
   first_left_ = 0;
+  if (!mesh_.region.empty()) regions_[0] = mesh_.region[Triangulation::id(slots_[0])];
   take_slots();
   const int n = border_count_;
   Triangle* const triangles = mesh_.triangles.data();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -85,6 +86,8 @@ class Cavity {
   void load(TriangleId t);
   template <bool kMindLens>
   Found expand(double cos_squared);
+  bool stays(HalfEdge h) const;
+  void gather_side(HalfEdge h, int from, int to);
   Found check_star() const;
   void push(HalfEdge outer, int a, int b, double cross_ab);
   void take_slots();
@@ -111,10 +114,11 @@ class Cavity {
   int stack_count_ = 0;
   int border_count_ = 0;
   int killed_count_ = 0;
-  int first_left_ = 0;        // of a split: where the border passes from the right side of the segment to the left
-  TriangleId next_ = kNone;   // where the walk goes on
-  double least_cross_ = 0;    // of the border's edges
-  double largest_lifts_ = 0;  // sum of the squared distances of an edge's ends, of the border's edges
+  int first_left_ = 0;  // of a split: where the border passes from the right side of the segment to the left
+  std::array<std::uint16_t, 2> regions_{};  // left and right of a split; of a free point, left
+  TriangleId next_ = kNone;                 // where the walk goes on
+  double least_cross_ = 0;                  // of the border's edges
+  double largest_lifts_ = 0;                // sum of the squared distances of an edge's ends, of the border's edges
 };
 
 }  // namespace driftmesh
