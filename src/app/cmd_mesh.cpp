@@ -104,7 +104,7 @@ class MeshRun {
   }
 
   MeshResult mesh(const Pslg& pslg) {
-    limits_ = find_limits(options_);
+    limits_ = find_limits(options_, pslg);
     MeshRequest request{options_.angle, options_.area, !options_.no_region_areas, size_.get(), limits_.triangles};
     progress_.begin("triangulate");
     MeshResult result = mesh_domain(pslg, request, [&](std::int64_t triangles, double forecast) {

@@ -11,11 +11,19 @@
 namespace driftmesh::app {
 namespace {
 
-// Measured on meshes of 10 million triangles: the triangulation with its work lists, and with the flat arrays beside it
-// from which files are written.
+// Measured on meshes of 4 to 10 million triangles, rounded up: the triangulation with its work lists, and with the flat
+// arrays beside it from which files are written.
 constexpr std::uint64_t kBytesRefining = 44;
-constexpr std::uint64_t kBytesWriting = 72;
+constexpr std::uint64_t kBytesWriting = 64;
+constexpr std::uint64_t kBytesRegion = 10;
+constexpr std::uint64_t kBytesAttribute = 4;  // 8 bytes a vertex, of which there are half as many
 constexpr double kForecastError = 1.1;
+
+std::uint64_t bytes_per_triangle(const MeshOptions& options, const Pslg& pslg) {
+  if (options.outputs.empty() && options.picture.empty()) return kBytesRefining;
+  return kBytesWriting + (pslg.regions.empty() ? 0 : kBytesRegion) +
+         kBytesAttribute * static_cast<std::uint64_t>(pslg.attributes_per_point);
+}
 
 std::string advice(const Limits& limits) {
   return fmt::format("allow more with {}, or ask for larger triangles", limits.option());
@@ -29,9 +37,8 @@ std::string words_of(const Limits& limits) {
 
 }  // namespace
 
-Limits find_limits(const MeshOptions& options) {
-  Limits limits{options.max_triangles, false, options.max_memory,
-                options.outputs.empty() ? kBytesRefining : kBytesWriting};
+Limits find_limits(const MeshOptions& options, const Pslg& pslg) {
+  Limits limits{options.max_triangles, false, options.max_memory, bytes_per_triangle(options, pslg)};
   const std::uint64_t present = present_memory();
   if (limits.memory == 0)
     if (const std::uint64_t free = free_memory(); free != 0) limits.memory = present + free / 10 * 9;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/mesh_options.hpp"
+#include "pslg/pslg.hpp"
 
 namespace driftmesh::app {
 
@@ -18,8 +19,9 @@ struct Limits {
   [[nodiscard]] std::string option() const { return by_memory ? "--max-memory" : "--max-triangles"; }
 };
 
-/// The limits that the options and the machine set, at this moment: memory that the process has now counts as used.
-[[nodiscard]] Limits find_limits(const MeshOptions& options);
+/// The limits that the options and the machine set for meshing `pslg`, at this moment: memory that the process has now
+/// counts as used.
+[[nodiscard]] Limits find_limits(const MeshOptions& options, const Pslg& pslg);
 
 /// Throws LimitError when a forecast of the number of triangles is beyond the limit by more than forecasts err.
 void check_forecast(const Limits& limits, double forecast);
