@@ -11,10 +11,14 @@
 #include <deque>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "mesh/cdt.hpp"
+#include "mesh/to_piece.hpp"
 #include "oracles/mesh_oracle.hpp"
+#include "oracles/meshing.hpp"
 #include "oracles/random_pslg.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
@@ -37,7 +41,7 @@ Kernel::Point_2 cgal_point(const Point& p) {
   return {p.x, p.y};
 }
 
-Cdt triangulate(const Pslg& input) {
+Cdt cgal_triangulation(const Pslg& input) {
   Cdt cdt;
   std::vector<Cdt::Vertex_handle> vertices;
   for (const Point& p : input.points) vertices.push_back(cdt.insert(cgal_point(p)));
@@ -110,6 +114,35 @@ std::vector<bool> no_segment_outside(const Pslg& input) {
   return std::vector<bool>(input.segments.size(), false);
 }
 
+using Places = std::pair<std::pair<double, double>, std::pair<double, double>>;
+
+/// The edges of a mesh by the coordinates of their ends.
+std::set<Places> edges_by_place(const MeshPiece& mesh) {
+  std::set<Places> edges;
+  const auto place = [&](std::int32_t v) {
+    const Point& p = mesh.points[static_cast<std::size_t>(v)];
+    return std::pair(p.x, p.y);
+  };
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges.insert(std::minmax({place(t[k]), place(t[(k + 1) % 3])}));
+  return edges;
+}
+
+/// Whether some edge could as well be flipped: its two triangles lie on one circle.
+bool has_choice(const MeshPiece& mesh) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> opposite;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) opposite[{t[k], t[(k + 1) % 3]}] = t[(k + 2) % 3];
+  for (const auto& edge : mesh.edges) opposite.erase({edge.a, edge.b});
+  const auto at = [&](std::int32_t v) { return cgal_point(mesh.points[static_cast<std::size_t>(v)]); };
+  return std::any_of(opposite.begin(), opposite.end(), [&](const auto& entry) {
+    const auto& [ends, apex] = entry;
+    const auto other = opposite.find({ends.second, ends.first});
+    return other != opposite.end() && CGAL::side_of_oriented_circle(at(ends.first), at(ends.second), at(apex),
+                                                                    at(other->second)) == CGAL::ON_ORIENTED_BOUNDARY;
+  });
+}
+
 /// What each kind of damage does to a mesh; false if it found no place.
 bool flip_edge(MeshPiece& mesh, std::mt19937_64& random) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::size_t, std::size_t>> side;
@@ -175,7 +208,7 @@ TEST_CASE("CGAL's constrained Delaunay triangulations are accepted, and the orac
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     CAPTURE(seed);
     const auto random = oracles::make_random_pslg(seed, oracles::make_random_shape(seed));
-    Cdt cdt = triangulate(random.input);
+    Cdt cdt = cgal_triangulation(random.input);
     carve(cdt, random.input);
     const MeshPiece mesh = to_mesh(cdt, random.input);
     REQUIRE(!mesh.triangles.empty());
@@ -195,6 +228,53 @@ TEST_CASE("CGAL's constrained Delaunay triangulations are accepted, and the orac
   CHECK(with_points > 10);
 }
 
+TEST_CASE("our constrained Delaunay triangulation has CGAL's edges") {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    CAPTURE(seed);
+    oracles::RandomPslgShape shape = oracles::make_random_shape(seed);
+    if (seed % 3 == 0) {  // larger than the brute-force oracles could stand
+      shape.outer_points = 60;
+      shape.inner_points = 300;
+      shape.inner_segments = 40;
+      shape.holes = 6;
+    }
+    const auto random = oracles::make_random_pslg(seed, shape);
+    CAPTURE(oracles::poly_text(random.input));
+    Cdt cdt = cgal_triangulation(random.input);
+    carve(cdt, random.input);
+    const MeshPiece theirs = to_mesh(cdt, random.input);
+    const MeshPiece ours = to_piece(driftmesh::triangulate(random.input), random.input);
+    REQUIRE(accepted(ours, random.input));
+    if (has_choice(theirs)) continue;
+    ++compared;
+    CHECK(edges_by_place(ours) == edges_by_place(theirs));
+  }
+  CHECK(compared > 50);
+}
+
+TEST_CASE("where four points are cocircular both triangulations are valid") {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    CAPTURE(seed);
+    Pslg input;
+    std::mt19937_64 random(seed);
+    input.points = {{-1, -1}, {9, -1}, {9, 9}, {-1, 9}};
+    input.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
+    for (int i = 0; i < 40; ++i) {
+      const Point p{static_cast<double>(random() % 9), static_cast<double>(random() % 9)};
+      if (std::find(input.points.begin(), input.points.end(), p) == input.points.end()) input.points.push_back(p);
+    }
+    Cdt cdt = cgal_triangulation(input);
+    carve(cdt, input);
+    const MeshPiece theirs = to_mesh(cdt, input);
+    CHECK(has_choice(theirs));
+    CHECK(accepted(theirs, input));
+    const MeshPiece ours = to_piece(driftmesh::triangulate(input), input);
+    CHECK(accepted(ours, input));
+    CHECK(ours.triangles.size() == theirs.triangles.size());
+  }
+}
+
 TEST_CASE("random damage to CGAL's triangulations is found") {
   using Damage = bool (*)(MeshPiece&, std::mt19937_64&);
   const std::vector<std::pair<const char*, Damage>> damages = {
@@ -208,7 +288,7 @@ TEST_CASE("random damage to CGAL's triangulations is found") {
       CAPTURE(name);
       CAPTURE(seed);
       const auto random_input = oracles::make_random_pslg(seed, oracles::make_random_shape(seed));
-      Cdt cdt = triangulate(random_input.input);
+      Cdt cdt = cgal_triangulation(random_input.input);
       carve(cdt, random_input.input);
       MeshPiece mesh = to_mesh(cdt, random_input.input);
       std::mt19937_64 random(seed);
@@ -228,7 +308,7 @@ TEST_CASE("CGAL's refined meshes are accepted with the angle bound that they wer
     shape.scale = 1;
     shape.dangling_segments = shape.inner_segments = 0;  // no small angles
     const auto random = oracles::make_random_pslg(seed, shape);
-    Cdt cdt = triangulate(random.input);
+    Cdt cdt = cgal_triangulation(random.input);
     Mesher mesher(cdt, CGAL::Delaunay_mesh_size_criteria_2<Cdt>(0.125, 0.1));  // sin^2 of 20.7 degrees, edges of 0.1
     std::vector<Kernel::Point_2> holes;
     for (const Point& hole : random.input.holes) holes.push_back(cgal_point(hole));
