@@ -1,0 +1,21 @@
+// Bytes from another rank: refused with an error that names the sender, or understood whole, which shows in that their
+// message encodes to the same bytes.
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include "protocol/codec.hpp"
+
+using namespace driftmesh::protocol;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bytes bytes(size);
+  if (size != 0) std::memcpy(bytes.data(), data, size);
+  try {
+    if (encode(decode(3, bytes, {.ranks = 8, .subdomains = 1000, .edges = 100'000})) != bytes) std::abort();
+  } catch (const ProtocolError& error) {
+    if (!std::string_view(error.what()).starts_with("message from rank 3: ")) std::abort();
+  }
+  return 0;
+}
