@@ -1,0 +1,175 @@
+/* Termination detection with aggregation, forwarding and held messages, and the fence after it: a model of
+ * protocol/termination.cpp and of the rules in protocol/rank_protocol.hpp (docs/protocol.md has the argument in words).
+ * tests/models/check_model.cmake runs spin on it.
+ *
+ * What is left out: which subdomain a message is for. Whether a rank handles, forwards or holds back a message, and
+ * when it releases one, is left to chance, which allows more than the directory does. Work and control messages may
+ * overtake each other without limit. The token moves in no time: a delay of it changes nothing, because a rank that
+ * does not look at it yet is the same.
+ *
+ * MUTATION selects a wrong rule; each must violate an assertion (1, 2, 4, 5, 6, 7) or the formula `found` (3).
+ */
+#ifndef N
+#define N 3
+#endif
+#ifndef WORK
+#define WORK 3      /* messages that may be sent in all */
+#endif
+#ifndef FORWARDS
+#define FORWARDS 2  /* forwardings in all */
+#endif
+#ifndef CONTROL
+#define CONTROL 1   /* control messages in all */
+#endif
+#ifndef MUTATION
+#define MUTATION 0
+#endif
+
+/* The rules, and how each may be broken. */
+#if MUTATION == 1   /* counted when leaving the aggregator, which is not looked at */
+#define ENTERS 0
+#define LEAVES 1
+#define AGGREGATOR_EMPTY(i) true
+#else
+#define ENTERS 1
+#define LEAVES 0
+#define AGGREGATOR_EMPTY(i) (aggregated[i] == 0)
+#endif
+#if MUTATION == 2   /* the token is passed by a rank at work */
+#define IDLE(i) true
+#else
+#define IDLE(i) (!busy[i])
+#endif
+#if MUTATION == 3   /* forwarding counts as sending */
+#define FORWARDED 1
+#elif MUTATION == 7 /* forwarding counts as handling */
+#define FORWARDED -1
+#else
+#define FORWARDED 0
+#endif
+#if MUTATION == 4   /* handling does not blacken */
+#define BLACKENS false
+#else
+#define BLACKENS true
+#endif
+#if MUTATION == 5   /* what is held back counts as handled, and is not looked at */
+#define HELD 1
+#define NOTHING_HELD(i) true
+#else
+#define HELD 0
+#define NOTHING_HELD(i) (held[i] == 0)
+#endif
+#if MUTATION == 6   /* rank 0 does not ask for its own colour */
+#define RANK_0_WHITE true
+#else
+#define RANK_0_WHITE (!black[0])
+#endif
+
+#define PASSIVE(i) (IDLE(i) && AGGREGATOR_EMPTY(i) && NOTHING_HELD(i))
+
+bool busy[N];
+byte aggregated[N];     /* SPLITs in the aggregator of a rank */
+byte wire[N];           /* work messages under way to a rank */
+byte held[N];           /* messages at a rank that wait for their subdomain */
+byte work_left = WORK;
+byte forwards_left = FORWARDS;
+
+short count[N];         /* sent less handled */
+bool black[N];
+byte token_at;          /* rank 0 owns the token at the start */
+short token_count;
+bool token_black = true;
+
+byte control_wire[N];
+byte control_left = CONTROL;
+short control[N];       /* sent less received */
+bool draining[N];       /* knows that the work is over */
+short pass_control;     /* of the Terminate that is at token_at */
+byte finished;          /* ranks that have passed Finish on */
+
+#define NEXT(i) ((i + 1) % N)
+#define QUIET (!busy[0] && !busy[1] && !busy[2] && \
+               aggregated[0] + aggregated[1] + aggregated[2] + wire[0] + wire[1] + wire[2] + \
+               held[0] + held[1] + held[2] == 0)
+#define CONTROL_QUIET (control_wire[0] + control_wire[1] + control_wire[2] == 0)
+
+inline handle(i) {
+  count[i] = count[i] - (1 - HELD);
+  black[i] = black[i] || BLACKENS;
+  busy[i] = true
+}
+
+/* j: any rank but i */
+inline any_other(i, j) {
+  if
+  :: j = (i + 1) % N
+  :: j = (i + 2) % N
+  fi
+}
+
+proctype rank(byte me) {
+  byte other;
+end:
+  do
+  /* The program: a SPLIT is made; the work here is done for now. */
+  :: atomic { busy[me] && work_left > 0 ->
+       work_left--; aggregated[me]++; count[me] = count[me] + ENTERS }
+  :: atomic { busy[me] -> busy[me] = false }
+  /* The aggregator sends, when it is full or the rank idle: at any time. */
+  :: atomic { aggregated[me] > 0 ->
+       any_other(me, other); aggregated[me]--; wire[other]++; count[me] = count[me] + LEAVES; other = 0 }
+  /* A message arrives: its subdomain is here, has left, or is on its way here. */
+  :: atomic { wire[me] > 0 -> wire[me]--; count[me] = count[me] - HELD; handle(me) }
+  :: atomic { wire[me] > 0 && forwards_left > 0 ->
+       any_other(me, other); wire[me]--; forwards_left--; wire[other]++; count[me] = count[me] + FORWARDED; other = 0 }
+  :: atomic { wire[me] > 0 -> wire[me]--; held[me]++; count[me] = count[me] - HELD }
+  :: atomic { held[me] > 0 -> held[me]--; handle(me) }
+  /* Control messages. */
+  :: atomic { control_left > 0 && !draining[me] ->
+       any_other(me, other); control_left--; control[me]++; control_wire[other]++; other = 0 }
+  :: atomic { control_wire[me] > 0 -> control_wire[me]--; control[me]-- }
+  /* The token. */
+  :: atomic { token_at == me && me != 0 && !draining[0] && PASSIVE(me) ->
+       token_count = token_count + count[me];
+       token_black = token_black || black[me];
+       black[me] = false;
+       token_at = NEXT(me) }
+  :: atomic { token_at == me && me == 0 && !draining[0] && PASSIVE(0) ->
+       if
+       :: !token_black && RANK_0_WHITE && token_count + count[0] == 0 ->
+            assert(QUIET);
+            draining[0] = true;
+            pass_control = control[0]
+       :: else -> black[0] = false
+       fi;
+       token_count = 0;
+       token_black = false;
+       token_at = 1 }
+  /* The fence: passes around the ring until no control message is under way, then Finish. */
+  :: atomic { token_at == me && me != 0 && draining[0] && finished == 0 ->
+       assert(QUIET);
+       draining[me] = true;
+       pass_control = pass_control + control[me];
+       token_at = NEXT(me) }
+  :: atomic { token_at == 0 && me == 0 && draining[0] && finished == 0 ->
+       if
+       :: pass_control == 0 -> assert(CONTROL_QUIET); finished = 1
+       :: else -> pass_control = control[0]
+       fi;
+       token_at = 1 }
+  :: atomic { token_at == me && me != 0 && finished == me ->
+       assert(QUIET && CONTROL_QUIET); finished++; token_at = NEXT(me) }
+  :: finished > me -> break
+  od
+}
+
+init {
+  atomic {
+    byte i;
+    for (i : 0 .. N - 1) { busy[i] = true; run rank(i) }
+  }
+}
+
+/* Where nothing is left to be done or to arrive, the end is found. (Under weak fairness: each rank goes on. That messages
+ * arrive at last is the premise, because chance inside a rank is not fair.) */
+ltl found { (<> [] (QUIET && CONTROL_QUIET)) -> (<> (finished == N)) }
