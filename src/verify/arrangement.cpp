@@ -4,9 +4,9 @@
 #include <numeric>
 #include <utility>
 
+#include "base/disjoint_sets.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/arrangement_sweep.hpp"
-#include "base/disjoint_sets.hpp"
 
 namespace driftmesh {
 namespace {

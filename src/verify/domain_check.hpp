@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/disjoint_sets.hpp"
 #include "mesh/mesh_piece.hpp"
 #include "verify/chains.hpp"
-#include "base/disjoint_sets.hpp"
 #include "verify/domain.hpp"
 #include "verify/findings.hpp"
 #include "verify/point_index.hpp"

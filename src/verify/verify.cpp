@@ -3,9 +3,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/disjoint_sets.hpp"
 #include "verify/chains.hpp"
 #include "verify/corner_table.hpp"
-#include "base/disjoint_sets.hpp"
 #include "verify/domain.hpp"
 #include "verify/domain_check.hpp"
 #include "verify/local_check.hpp"

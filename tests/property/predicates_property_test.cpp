@@ -115,8 +115,7 @@ Quad longitude_latitude(Random& random) {
 }
 
 Quad near_collinear(Random& random) {
-  const Point a{uniform(random, -1, 1), uniform(random, -1, 1)},
-      b{uniform(random, -1, 1), uniform(random, -1, 1)};
+  const Point a{uniform(random, -1, 1), uniform(random, -1, 1)}, b{uniform(random, -1, 1), uniform(random, -1, 1)};
   Quad q{a, b};
   for (Point& p : q) {
     const double t = integer(random, 0, 2) ? uniform(random, -2, 2) : 0.25 * integer(random, -4, 4);
@@ -143,8 +142,7 @@ Quad grid(Random& random) {
   const double spacing = rounded ? 0.1 : std::scalbn(1.0, integer(random, -40, 40));
   const double offset = rounded ? integer(random, 0, 1000) : 0;
   Quad q;
-  for (Point& p : q)
-    p = {(offset + integer(random, -3, 3)) * spacing, (offset + integer(random, -3, 3)) * spacing};
+  for (Point& p : q) p = {(offset + integer(random, -3, 3)) * spacing, (offset + integer(random, -3, 3)) * spacing};
   return q;
 }
 
@@ -237,8 +235,7 @@ Tally check_signs(const char* name, const std::function<Quad(Random&)>& generate
        {&tally.zero_orient2d, &tally.zero_incircle, &tally.naive_wrong_orient2d, &tally.naive_wrong_incircle})
     *count /= static_cast<double>(cases);
   std::printf("  %lld cases, zero %.4f %.4f, plain doubles wrong %.4f %.4f\n", static_cast<long long>(cases),
-              tally.zero_orient2d, tally.zero_incircle, tally.naive_wrong_orient2d,
-              tally.naive_wrong_incircle);
+              tally.zero_orient2d, tally.zero_incircle, tally.naive_wrong_orient2d, tally.naive_wrong_incircle);
   return tally;
 }
 
