@@ -12,6 +12,7 @@ namespace driftmesh::app {
 void add_mesh(CLI::App& program);
 void add_check(CLI::App& program);
 void add_convert(CLI::App& program);
+void add_decompose(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_plot(CLI::App& program);
 

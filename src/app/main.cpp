@@ -19,6 +19,7 @@ void add_commands(CLI::App& program) {
   add_mesh(program);
   add_check(program);
   add_convert(program);
+  add_decompose(program);
   add_generate(program);
   add_plot(program);
 }

@@ -48,6 +48,7 @@ SubdomainMesh subdomain_triangulation(const Decomposition& d, SubdomainId i) {
   for (std::size_t r = 0; r < result.roots.size(); ++r) result.mesh.roots[r].shell = d.roots[id(result.roots[r])].shell;
   for (VertexOrigin& origin : result.mesh.origin) {
     const GlobalPointId v = points[id(origin)];
+    result.points.push_back(v);
     origin = is_shell_end(d.origin[id(v)]) ? d.origin[id(v)] : v;
   }
   return result;

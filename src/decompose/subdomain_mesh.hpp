@@ -9,11 +9,12 @@ namespace driftmesh {
 
 /// The initial triangulation of one subdomain.
 struct SubdomainMesh {
-  /// Root i of the mesh is root `roots[i]` of the decomposition, with the same direction and shell. The origin of a
-  /// vertex is its GlobalPointId, or its shell end as in the decomposition. Regions are labelled as in the whole
-  /// domain.
+  /// Root i of the mesh is root roots[i] of the decomposition, with the same direction and shell; vertex v is its point
+  /// points[v]. The origin of a vertex is that GlobalPointId, or the shell end that the decomposition names. Regions are
+  /// labelled as in the whole domain.
   Triangulation mesh;
   std::vector<RootId> roots;
+  std::vector<GlobalPointId> points;
 };
 
 /// The constrained Delaunay triangulation of subdomain `i`. Throws Error if the decomposition is broken there.

@@ -1,35 +1,11 @@
-#include <charconv>
 #include <string>
 
 #include "base/atomic_file.hpp"
+#include "base/line_writer.hpp"
 #include "pslg/poly_file.hpp"
 
 namespace driftmesh {
 namespace {
-
-/// One line of fields between single blanks.
-class LineWriter {
- public:
-  explicit LineWriter(AtomicFile& file) : file_(file) {}
-
-  template <class T>
-  LineWriter& field(T value) {
-    char text[32];  // the longest double, -1.2345678901234567e-123, has 24 characters
-    const auto result = std::to_chars(text, text + sizeof text, value);
-    if (!line_.empty()) line_ += ' ';
-    line_.append(text, result.ptr);
-    return *this;
-  }
-  void end() {
-    line_ += '\n';
-    file_.write(line_);
-    line_.clear();
-  }
-
- private:
-  AtomicFile& file_;
-  std::string line_;
-};
 
 void write_points(const Pslg& pslg, LineWriter& line) {
   const auto attributes = static_cast<std::size_t>(pslg.attributes_per_point);

@@ -1,0 +1,64 @@
+#include "app/decomposition_picture.hpp"
+
+#include <cstdint>
+#include <vector>
+
+#include "decompose/subdomain_mesh.hpp"
+#include "output/plot.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+/// Greedy colouring of the subdomain graph: the least used colour that no neighbour has.
+std::vector<int> color_subdomains(const Decomposition& d) {
+  std::vector<std::vector<SubdomainId>> neighbors(d.size());
+  for (const Interface& i : interfaces(d)) {
+    neighbors[static_cast<std::size_t>(i.first)].push_back(i.second);
+    neighbors[static_cast<std::size_t>(i.second)].push_back(i.first);
+  }
+  std::vector<int> color(d.size(), -1);
+  std::vector<std::size_t> uses(6, 0);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    std::vector<bool> taken(uses.size(), false);
+    for (const SubdomainId n : neighbors[i])
+      if (const int c = color[static_cast<std::size_t>(n)]; c >= 0) taken[static_cast<std::size_t>(c)] = true;
+    std::size_t best = uses.size();
+    for (std::size_t c = 0; c < uses.size(); ++c)
+      if (!taken[c] && (best == uses.size() || uses[c] < uses[best])) best = c;
+    if (best == uses.size()) uses.push_back(0);
+    color[i] = static_cast<int>(best);
+    ++uses[best];
+  }
+  return color;
+}
+
+}  // namespace
+
+MeshPiece colored_subdomains(const Decomposition& d) {
+  const std::vector<int> color = color_subdomains(d);
+  MeshPiece piece;
+  piece.points = d.points;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const SubdomainMesh part = subdomain_triangulation(d, static_cast<SubdomainId>(i));
+    for (const Triangle& t : part.mesh.triangles) {
+      if (!t.alive()) continue;
+      const auto global = [&](int k) {
+        return part.points[static_cast<std::size_t>(t.vertex[static_cast<std::size_t>(k)])];
+      };
+      piece.triangles.push_back({global(0), global(1), global(2)});
+      piece.regions.push_back(color[i] + 1);
+    }
+  }
+  for (const Decomposition::Root& r : d.roots) piece.edges.push_back({r.a, r.b, r.marker});
+  return piece;
+}
+
+void plot_decomposition(const Decomposition& d, const std::string& path, const std::string& title) {
+  PlotOptions options;
+  options.color = PlotColor::region;
+  options.edges = PlotEdges::off;
+  options.title = title;
+  plot_mesh(colored_subdomains(d), path, options);
+}
+
+}  // namespace driftmesh::app

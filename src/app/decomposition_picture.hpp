@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "decompose/decomposition.hpp"
+#include "mesh/mesh_piece.hpp"
+
+namespace driftmesh::app {
+
+/// The subdomains as a mesh whose regions are a few colours, no two neighbours alike; its edges are the roots.
+[[nodiscard]] MeshPiece colored_subdomains(const Decomposition& decomposition);
+
+/// Draws them. Throws as plot_mesh does.
+void plot_decomposition(const Decomposition& decomposition, const std::string& path, const std::string& title);
+
+}  // namespace driftmesh::app

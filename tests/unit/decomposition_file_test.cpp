@@ -1,0 +1,123 @@
+#include "decompose/decomposition_file.hpp"
+
+#include <doctest/doctest.h>
+
+#include <random>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/read_file.hpp"
+#include "decompose/decompose.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "temporary_folder.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+/// With a hole, a crack, an isolated point, regions, markers and an acute corner.
+Pslg sample_input() {
+  Pslg pslg;
+  pslg.points = {{0, 0},     {4, 0},   {4, 1.5},   {0.2, 2},   {1, 0.5},    {1.5, 0.5},
+                 {1.5, 1.0}, {1, 1.0}, {2.5, 0.4}, {2.9, 1.1}, {3.3, 0.31}, {3.5, 0}};
+  pslg.segments = {{0, 11, 1}, {11, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}, {4, 5, 5},
+                   {5, 6, 5},  {6, 7, 5},  {7, 4, 5}, {8, 9, 6}, {11, 9, 7}};
+  pslg.holes = {{1.2, 0.7}};
+  pslg.regions = {{{0.1, 0.1}, 1, 0}};
+  return pslg;
+}
+
+Decomposition sample() {
+  Triangulation mesh = triangulate(sample_input());
+  prepare_corners(mesh);
+  DecomposeOptions options;
+  options.subdomains = 5;
+  return decompose(mesh, options);
+}
+
+std::string sample_text() {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "sample").string();
+  write_decomposition(sample(), path);
+  return read_file(path);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+Decomposition parse(const std::string& text) {
+  return parse_decomposition("f", text);
+}
+
+}  // namespace
+
+TEST_CASE("a decomposition is read back as it was written") {
+  const Decomposition d = sample();
+  const Decomposition back = parse(sample_text());
+  CHECK(back == d);
+  CHECK(!d.point_list.empty());
+  require_same_input(back, sample_input(), "f");
+}
+
+TEST_CASE("what is not a decomposition is refused with file and line") {
+  const std::string text = sample_text();
+  CHECK_THROWS_WITH_AS(parse(""), doctest::Contains("f:1: this is not a decomposition"), InputError);
+  CHECK_THROWS_WITH_AS(parse(replaced(text, "decomposition 1", "decomposition 2")), doctest::Contains("f:1:"),
+                       InputError);
+  CHECK_THROWS_WITH_AS(parse(text.substr(0, text.size() / 2)), doctest::Contains("f:"), InputError);
+  CHECK_THROWS_WITH_AS(parse(text + "1 2\n"), doctest::Contains("more than"), InputError);
+  CHECK_THROWS_WITH_AS(parse(replaced(text, "separator\n", "separator\n-1 5 ")), doctest::Contains("first point"),
+                       InputError);
+  CHECK_THROWS_WITH_AS(parse(replaced(text, "separator\n", "separator\n999999 5 ")),
+                       doctest::Contains("is 999999; expected 0 to"), InputError);
+}
+
+TEST_CASE("a broken decomposition is refused with what is broken") {
+  Decomposition d = sample();
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "broken").string();
+  const auto refused = [&](const Decomposition& broken, const char* why) {
+    write_decomposition(broken, path);
+    CHECK_THROWS_WITH_AS(static_cast<void>(read_decomposition(path)), doctest::Contains(why), InputError);
+  };
+  Decomposition broken = d;
+  broken.points[broken.points.size() / 2].x += 100;
+  refused(broken, "broken");
+  broken = d;
+  broken.subdomains[3].area *= 1.5;
+  refused(broken, "claims area");
+  broken = d;
+  for (auto& root : broken.roots)
+    if (root.separator) {
+      std::swap(root.left, root.right);
+      break;
+    }
+  refused(broken, "disagree about the subdomain");
+}
+
+TEST_CASE("damaged files are refused or read, never worse") {
+  const std::string text = sample_text();
+  std::mt19937 random(7);
+  std::size_t refused = 0;
+  for (int i = 0; i < 400; ++i) {
+    std::string damaged = text;
+    for (int k = 0; k < 3; ++k) damaged[random() % damaged.size()] = "0123456789-. \nx"[random() % 15];
+    try {
+      const Decomposition d = parse(damaged);
+      CHECK(d.size() >= 1);
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  CHECK(refused > 100);
+}
+
+TEST_CASE("a decomposition of another input is recognized") {
+  Pslg other = sample_input();
+  other.points[2].y = 1.6;
+  CHECK_THROWS_WITH_AS(require_same_input(sample(), other, "f"), doctest::Contains("another input"), InputError);
+}
