@@ -50,6 +50,12 @@ std::string check_box(const std::vector<double>& box) {
   return "--box needs x0,y0,x1,y1 with x0 < x1 and y0 < y1";
 }
 
+// A .node file without an .ele beside it is points alone.
+bool holds_input(const std::filesystem::path& path) {
+  if (path.extension() != ".node") return path.extension() == ".poly";
+  return !std::filesystem::exists(std::filesystem::path(path).replace_extension(".ele"));
+}
+
 void run_plot(PlotCommand& command) {
   if (const std::string problem = check_box(command.box); !problem.empty()) throw CLI::ValidationError(problem);
   command.plot.color = kColors.at(command.color);
@@ -60,7 +66,7 @@ void run_plot(PlotCommand& command) {
   const std::filesystem::path input(command.input);
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
   if (command.plot.title.empty()) command.plot.title = input.filename().string();
-  if (input.extension() == ".poly")
+  if (holds_input(input))
     plot_pslg(read_poly(command.input), command.output, command.plot);
   else
     plot_mesh(read_mesh(command.input), command.output, command.plot);

@@ -104,6 +104,25 @@ class Pipeline(Cli):
         self.succeed("plot", "bay.poly", "-o", "input.png")
         self.assertFalse([name for name in self.files() if "tmp" in name])
 
+    def test_pictures_by_option(self):
+        self.write("square.poly", SQUARE)
+        self.write("points.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n")
+        self.succeed("mesh", "square.poly", "--area", "0.01", "-o", "square.msh")
+        self.succeed("plot", "square.msh")
+        self.succeed("plot", "square.msh", "-o", "a.svg", "--color", "region", "--edges", "on", "--size", "640x480",
+                     "--title", "A square")
+        self.succeed("plot", "square.msh", "-o", "a.pdf", "--color", "area", "--box", "0.2,0.2,0.4,0.4")
+        self.succeed("plot", "points.node", "--color", "none", "--edges", "off")
+        for picture, start in (("square.png", b"\x89PNG"), ("a.pdf", b"%PDF"), ("points.png", b"\x89PNG")):
+            self.assertTrue((self.folder / picture).read_bytes().startswith(start), picture)
+        self.assertIn('width="640', (self.folder / "a.svg").read_text())
+        before = self.files()
+        for options, word in ((["--color", "blue"], "blue"), (["--size", "640"], "WIDTHxHEIGHT"),
+                              (["--box", "1,1,0,0"], "x0 < x1")):
+            self.refuse("plot", "square.msh", "-o", "b.png", *options, code=2, says=[word])
+        self.refuse("plot", "square.msh", "-o", "b.png", "--width", "20", says=["each side may have"])
+        self.assertEqual(self.files(), before)
+
     def test_a_stricter_check_rejects_the_mesh(self):
         self.write("square.poly", SQUARE)
         self.succeed("mesh", "square.poly", "--area", "0.5", "-o", "square.vtu")
@@ -239,6 +258,13 @@ class Errors(Cli):
         self.refuse("mesh", "square.poly", "-o", "a.vtu", "-o", "./a.vtu", says=["a.vtu", "twice"])
         self.assertEqual((self.folder / "square.poly").read_text(), SQUARE)
         self.assertEqual(self.files(), ["square.poly"])
+
+    def test_convert_does_not_write_over_what_it_reads(self):
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "square.poly", "-o", "mesh.ele")
+        before = {name: (self.folder / name).read_bytes() for name in self.files()}
+        self.refuse("convert", "mesh.ele", "./mesh.node", says=["is the input itself"])
+        self.assertEqual({name: (self.folder / name).read_bytes() for name in self.files()}, before)
 
     def test_settings_files(self):
         self.write("square.poly", SQUARE)
