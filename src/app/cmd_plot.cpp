@@ -77,7 +77,9 @@ void run_plot(PlotCommand& command) {
 void add_plot(CLI::App& program) {
   const auto options = std::make_shared<PlotCommand>();
   CLI::App* command = program.add_subcommand("plot", "Draw a mesh or an input as PNG, SVG or PDF");
-  command->add_option("input", options->input, "A mesh (.vtu, .msh, .ele, .node) or an input (.poly)")
+  command
+      ->add_option("input", options->input,
+                   "A mesh (.vtu, .msh, .ele, .node) or an input (.poly, or a .node without .ele)")
       ->type_name("")
       ->required();
   command
