@@ -58,7 +58,7 @@ std::vector<Measurement> against_cgal(const std::vector<Model>& models, const Op
   for (const Model& model : models) {
     const Bounds bounds{model.area / kComparedCells, options.degrees};
     result.push_back(refine("cgal", model, kDriftmesh, bounds, options.repetitions));
-    result.push_back(refine("cgal", model, kCgal, bounds, 1));
+    result.push_back(refine("cgal", model, kCgal, bounds, options.repetitions));
   }
   return result;
 }
