@@ -13,10 +13,13 @@ namespace driftmesh {
 /// are powers of two (Ruppert's shells). Here they are cut once, before refinement: at a power of two that is at most a
 /// third of the cluster's shortest segment. The piece between apex and circle becomes a root segment of its own (a
 /// shell piece, directed away from the apex). From then on plain midpoint splits stay on common circles, and whether
-/// two vertices lie on the same one is a comparison of their dyadic paths. A sharp cluster, one with an angle below 20
-/// degrees, is cut on every further power of two as well, as far as each segment reaches: two segments that diverge
-/// that slowly would otherwise be refined to the distance between them. Returns the number of clusters. Call once,
-/// after triangulate and before refinement.
+/// two vertices lie on the same one is a comparison of their dyadic paths.
+///
+/// A sharp cluster, one with an angle below 20 degrees, is cut on every further power of two as well, as far as each
+/// segment reaches; and where neighbours diverge by less than 0.01 radians, the longer one is also cut where the
+/// shorter one ends. Pieces that do not line up there would be refined to the distance between the segments.
+///
+/// Returns the number of clusters. Call once, after triangulate and before refinement.
 std::int32_t prepare_corners(Triangulation& mesh);
 
 /// Whether both vertices lie on two segments of one acute corner, at the same distance from its apex: the edge between

@@ -14,8 +14,9 @@
 namespace driftmesh {
 namespace {
 
-constexpr double kSlack = 1e-9;         // relative, for rounding
-constexpr double kSameDistance = 1e-6;  // relative: two vertices count as equally far from their apex
+constexpr double kSlack = 1e-9;  // relative, for rounding
+constexpr double kSameDistance =
+    0.3;  // two vertices count as equally far from their apex up to this share of their edge
 constexpr long double kDegrees = 180 / std::numbers::pi_v<long double>;
 
 std::size_t index(std::int32_t i) {
@@ -196,7 +197,8 @@ class QualityCheck {
       const long double op = std::sqrt(dot_extended(o, at_p, at_p)), oq = std::sqrt(dot_extended(o, at_q, at_q));
       const long double rounding =
           64 * 0x1p-52L * std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(at_p.x), std::fabs(at_p.y)});
-      if (angle_at(o, at_p, at_q) < 60 && std::fabs(op - oq) <= kSameDistance * op + rounding) return true;
+      const long double across = std::sqrt(dot_extended(at_p, at_q, at_q));
+      if (angle_at(o, at_p, at_q) < 60 && std::fabs(op - oq) <= kSameDistance * across + rounding) return true;
     }
     return false;
   }

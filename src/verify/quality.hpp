@@ -16,8 +16,9 @@ namespace driftmesh {
 /// Why an angle below the bound is allowed.
 enum class SmallAngleCause : std::uint8_t {
   input_angle,  ///< the angle is one of the input: both of its sides are subsegments
-  small_wedge,  ///< the shortest edge joins, at the same distance from their common end, two input segments that meet
-                ///< at less than 60 degrees (a "seditious" edge: Shewchuk and Si 2014; Miller, Pav, Walkington 2003)
+  small_wedge,  ///< the shortest edge joins, at nearly the same distance from their common end, two input segments that
+                ///< meet at less than 60 degrees (a "seditious" edge: Shewchuk and Si 2014; Miller, Pav, Walkington
+                ///< 2003)
 };
 inline constexpr std::size_t kSmallAngleCauseCount = 2;
 [[nodiscard]] const char* cause_name(SmallAngleCause cause);

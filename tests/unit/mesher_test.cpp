@@ -202,6 +202,23 @@ TEST_CASE("small angles of the input end, and are the only exceptions") {
       }
 }
 
+TEST_CASE("a narrow wedge costs the logarithm of its angle, not its inverse") {
+  std::size_t before = 0;
+  for (const double angle : {1e-3, 1e-5, 1e-7}) {
+    Pslg pslg;
+    pslg.points = {{0, 0}, {0.8, 0}, {0.5 * std::cos(angle), 0.5 * std::sin(angle)}, {-1, -1}, {1, -1},
+                   {1, 1}, {-1, 1}};
+    pslg.segments = {{0, 1, 1}, {0, 2, 2}, {3, 4, 0}, {4, 5, 0}, {5, 6, 0}, {6, 3, 0}};
+    const MeshResult result = mesh_domain(pslg, {});
+    check_valid(result.mesh);
+    for (const Exceptions::Item& item : find_exceptions(result.mesh, result.bounds).skinny)
+      CHECK(item.cause != ExceptionCause::kPrecision);
+    CHECK(result.mesh.live_triangles() < 500);
+    CHECK(result.mesh.live_triangles() > before);
+    before = result.mesh.live_triangles();
+  }
+}
+
 TEST_CASE("region bounds hold, also where regions touch") {
   Pslg pslg = rectangle(2, 1);
   pslg.points.push_back({1, 0});

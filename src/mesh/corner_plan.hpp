@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/triangulation.hpp"
+
+namespace driftmesh {
+
+/// One end of a root segment that is still whole: 2 * root + (0: start, 1: end).
+using SegmentEnd = std::int32_t;
+
+[[nodiscard]] constexpr RootId root_of(SegmentEnd e) {
+  return e / 2;
+}
+
+/// Where to cut the segments that meet at acute corners, and which pieces then lie between the same two circles around
+/// an apex (a shell). See corners.hpp.
+struct CornerPlan {
+  struct Cut {
+    SegmentEnd end;       ///< of the segment, at the apex
+    Point at;             ///< on the segment
+    std::int32_t shell;   ///< of the piece between this cut and the one before it, or the apex
+    std::int32_t circle;  ///< names the new vertex: shared with those that it forms a seditious pair with
+  };
+  std::vector<Cut> cuts;  ///< those of one end nearest to the apex first
+
+  /// The outermost piece of a segment whose far end lies on a circle that other segments are cut at, too.
+  struct TipPiece {
+    SegmentEnd end;
+    std::int32_t shell;
+  };
+  std::vector<TipPiece> tips;
+  std::int32_t clusters = 0;
+};
+
+[[nodiscard]] CornerPlan plan_corners(const Triangulation& mesh);
+
+}  // namespace driftmesh
