@@ -29,10 +29,6 @@ double imbalance_cost(double load) {
 
 }  // namespace
 
-double CutSearch::share_between(std::size_t i, std::size_t j) const {
-  return outline_->twice_area_between(i, j) / (2 * outline_->area);
-}
-
 /// Every usable station, or of every stretch of the border the one that offers the widest sector.
 void CutSearch::select_stations() {
   selected_.clear();
@@ -72,7 +68,7 @@ void CutSearch::rank(std::size_t i, std::size_t j, std::vector<Cut>& ranked) con
   const auto &a = stations[i], &b = stations[j];
   const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y;
   if (!Outline::allows(a, dx, dy) || !Outline::allows(b, -dx, -dy)) return;
-  const double share = share_between(i, j);
+  const double share = outline_->share_between(i, j);
   if (!(share > 0 && share < 1)) return;
   const double fair =
       share / (share + goal_.bias * (1 - share));  // the share in parts that deserves this share of work

@@ -35,7 +35,6 @@ class CutSearch {
   Cut find(const PlanarMap& map, const Outline& outline, const CutGoal& goal);
 
  private:
-  [[nodiscard]] double share_between(std::size_t i, std::size_t j) const;
   void select_stations();
   void rank_pairs();
   void rank(std::size_t i, std::size_t j, std::vector<Cut>& ranked) const;

@@ -13,6 +13,7 @@
 #include "decompose/cut_search.hpp"
 #include "decompose/pieces.hpp"
 #include "decompose/to_decomposition.hpp"
+#include "decompose/work_samples.hpp"
 
 namespace driftmesh {
 namespace {
@@ -30,13 +31,46 @@ constexpr Effort kEfforts[] = {{1, 1.0 / 11, 64, 0.2},    {1, 1.0 / 25, 128, 0.2
 /// A cut that leaves a finished subdomain with more than this much work over the mean asks for another effort, as long
 /// as the angle need not suffer.
 constexpr double kGoodLoad = 1.38;
+/// Samples of work for each subdomain, and as many as a search looks at.
+constexpr double kSamplesPerSubdomain = 60;
+constexpr std::size_t kMostSamples = 250;
+
+std::vector<Point> border_of(const PlanarMap& map, SideId side) {
+  std::vector<Point> border;
+  SideId h = side;
+  do {
+    border.push_back(map.at(map.start(h)));
+    h = map.side(h).next;
+  } while (h != side);
+  return border;
+}
+
+double work_of(const WorkSamples& samples) {
+  double work = 0;
+  for (const WorkSample& s : samples) work += s.work;
+  return work;
+}
+
+/// Samples of the work in each piece, which then is the piece's work; none without a size field.
+std::vector<WorkSamples> sample_pieces(const PlanarMap& map, std::vector<Piece>& pieces, const Triangulation& mesh,
+                                       const DecomposeOptions& options) {
+  std::vector<WorkSamples> samples(pieces.size());
+  if (options.bounds.size == nullptr) return samples;
+  WorkSamples all = sample_work(mesh, options.bounds, kSamplesPerSubdomain * options.subdomains);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    samples[i] = take_inside(all, border_of(map, pieces[i].side));
+    pieces[i].work = std::max(1.0, work_of(samples[i]));
+  }
+  return samples;
+}
 
 /// Cuts pieces until each is one subdomain.
 class Cutter {
  public:
-  Cutter(PlanarMap& map, std::vector<Piece>& pieces, const DecomposeOptions& options)
+  Cutter(PlanarMap& map, std::vector<Piece>& pieces, std::vector<WorkSamples>& samples, const DecomposeOptions& options)
       : map_(map),
         pieces_(pieces),
+        samples_(samples),
         angle_(options.min_angle * std::numbers::pi / 180),
         skew_(options.skew),
         random_(options.seed) {
@@ -85,7 +119,7 @@ class Cutter {
     }
   }
 
-  Cut search(const Piece& piece) {
+  Cut search(const Piece& piece, const WorkSamples& samples) {
     const PieceSize size = measure_piece(map_, piece.side);
     CutGoal goal;
     goal.parts = piece.parts;
@@ -100,6 +134,7 @@ class Cutter {
       goal.clearance = effort.clearance;
       goal.max_stations = effort.max_stations;
       read_outline(map_, piece.side, spacing, goal.angle, outline_);
+      set_samples(outline_, thinned(samples, kMostSamples));
       const Cut cut = search_.find(map_, outline_, goal);
       if (!cut || (best && best.cost <= cut.cost)) continue;
       best = cut;
@@ -132,7 +167,7 @@ class Cutter {
 
   bool cut(std::size_t index) {
     const Piece piece = pieces_[index];
-    const Cut found = search(piece);
+    const Cut found = search(piece, samples_[index]);
     if (!found) return false;
     const SideId first = realize(map_, chosen_[0]);
     const SideId second = realize(map_, chosen_[1]);
@@ -148,13 +183,30 @@ class Cutter {
     rest.parts = piece.parts - found.parts_between;
     pieces_[index] = rest;
     pieces_.push_back(between);
+    samples_.emplace_back();
+    if (!samples_[index].empty()) share_samples(index, pieces_.size() - 1);
     enqueue(index);
     enqueue(pieces_.size() - 1);
     return true;
   }
 
+  /// The search works with some of the samples; all of them say what each side has become, and deserves.
+  void share_samples(std::size_t rest, std::size_t between) {
+    samples_[between] = take_inside(samples_[rest], border_of(map_, pieces_[between].side));
+    const double work = pieces_[rest].work + pieces_[between].work;
+    if (samples_[between].empty() || samples_[rest].empty()) return;
+    pieces_[between].work = work_of(samples_[between]);
+    pieces_[rest].work = work - pieces_[between].work;
+    if (skew_ > 0) return;
+    const std::int32_t parts = pieces_[rest].parts + pieces_[between].parts;
+    const auto due = static_cast<std::int32_t>(std::lround(parts * pieces_[between].work / work));
+    pieces_[between].parts = std::clamp(due, 1, parts - 1);
+    pieces_[rest].parts = parts - pieces_[between].parts;
+  }
+
   PlanarMap& map_;
   std::vector<Piece>& pieces_;
+  std::vector<WorkSamples>& samples_;  // of each piece, all empty where work is in proportion to area
   double angle_;
   double mean_ = 0;
   double skew_;
@@ -194,8 +246,9 @@ Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& optio
   const double compact = std::sqrt(area_of(mesh) / options.subdomains);  // the width of a compact subdomain
   PlanarMap map = connected_walls(mesh, compact / 4, options.min_angle * std::numbers::pi / 180);
   std::vector<Piece> pieces = find_pieces(map, options.bounds);
+  std::vector<WorkSamples> samples = sample_pieces(map, pieces, mesh, options);
   allot_parts(map, pieces, options.subdomains);
-  const std::int32_t missing = Cutter(map, pieces, options).run();
+  const std::int32_t missing = Cutter(map, pieces, samples, options).run();
   if (missing > 0)
     throw Error("the domain could be cut into " + std::to_string(options.subdomains - missing) + " of " +
                 std::to_string(options.subdomains) + " subdomains; ask for fewer, or allow smaller angles");

@@ -85,6 +85,24 @@ double Outline::twice_area_between(std::size_t i, std::size_t j) const {
   return stations[j].twice_area - stations[i].twice_area + closing;
 }
 
+double Outline::share_between(std::size_t i, std::size_t j) const {
+  if (samples.empty()) return twice_area_between(i, j) / (2 * area);
+  const double crossed = stations[j].crossed_work - stations[i].crossed_work;
+  return (crossed + crossing_work(samples, stations[j].at, stations[i].at)) / work;
+}
+
+void set_samples(Outline& outline, WorkSamples samples) {
+  outline.samples = std::move(samples);
+  outline.work = 0;
+  for (const WorkSample& s : outline.samples) outline.work += s.work;
+  double crossed = 0;
+  auto& stations = outline.stations;
+  for (std::size_t i = 0; i < stations.size() && !outline.samples.empty(); ++i) {
+    stations[i].crossed_work = crossed;
+    crossed += crossing_work(outline.samples, stations[i].at, stations[i + 1 < stations.size() ? i + 1 : 0].at);
+  }
+}
+
 PieceSize measure_piece(const PlanarMap& map, SideId side) {
   const Point o = map.at(map.start(side));
   double twice_area = 0, length = 0;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "decompose/planar_map.hpp"
+#include "decompose/work_samples.hpp"
 
 namespace driftmesh {
 
@@ -23,15 +24,20 @@ struct Outline {
     /// Up to this station, from station 0: of the border's length, and of twice the area swept around station 0's
     /// point.
     double length, twice_area;
+    double crossed_work = 0;  ///< likewise, crossing_work of the border; only if there are samples
   };
 
   std::vector<Station> stations;
+  WorkSamples samples;  ///< of the work inside; empty where work is in proportion to area
   double length = 0;
   double area = 0;
   double spacing = 0;
+  double work = 0;  ///< of the samples
 
   /// Twice the area of what the separator from station i to j (i < j) has on its right: border from i to j and back.
   [[nodiscard]] double twice_area_between(std::size_t i, std::size_t j) const;
+  /// The share of the work there.
+  [[nodiscard]] double share_between(std::size_t i, std::size_t j) const;
   /// Whether a separator may leave station i in direction `d` (any length).
   [[nodiscard]] static bool allows(const Station& s, double dx, double dy) {
     if (s.reflex) return !(s.last.x * dy - s.last.y * dx > 0 && dx * s.first.y - dy * s.first.x > 0);
@@ -50,6 +56,9 @@ struct PieceSize {
 /// Reads the loop of `side`, with places at most `spacing` apart (lengths) on straight walls. Shell pieces offer their
 /// midpoint alone. `angle`: radians.
 void read_outline(const PlanarMap& map, SideId side, double spacing, double angle, Outline& outline);
+
+/// Gives the outline samples of the work inside (none: work is in proportion to area).
+void set_samples(Outline& outline, WorkSamples samples);
 
 /// The side that starts at a station. Splits the wall if the station is a place (all walls of its shell, if it has one,
 /// so that midpoints of a cluster stay on common circles).

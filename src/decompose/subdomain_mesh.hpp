@@ -10,8 +10,8 @@ namespace driftmesh {
 /// The initial triangulation of one subdomain.
 struct SubdomainMesh {
   /// Root i of the mesh is root roots[i] of the decomposition, with the same direction and shell; vertex v is its point
-  /// points[v]. The origin of a vertex is that GlobalPointId, or the shell end that the decomposition names. Regions are
-  /// labelled as in the whole domain.
+  /// points[v]. The origin of a vertex is that GlobalPointId, or the shell end that the decomposition names. Regions
+  /// are labelled as in the whole domain.
   Triangulation mesh;
   std::vector<RootId> roots;
   std::vector<GlobalPointId> points;

@@ -3,22 +3,20 @@
 #include <algorithm>
 
 namespace driftmesh {
-namespace {
 
-double area_bound(const QualityBounds& bounds, std::size_t region) {
+double area_bound(const QualityBounds& bounds, std::uint16_t region) {
   double bound = bounds.max_area > 0 ? bounds.max_area : kNoBound;
   if (region < bounds.region_max_area.size() && bounds.region_max_area[region] > 0)
     bound = std::min(bound, bounds.region_max_area[region]);
   return bound;
 }
 
-}  // namespace
-
 double work_density(const QualityBounds& bounds, std::uint16_t region) {
   if (const double bound = area_bound(bounds, region); bound < kNoBound) return kTrianglesPerBound / bound;
   double largest = 0;
   for (std::size_t r = 0; r < bounds.region_max_area.size(); ++r)
-    if (const double bound = area_bound(bounds, r); bound < kNoBound) largest = std::max(largest, bound);
+    if (const double b = area_bound(bounds, static_cast<std::uint16_t>(r)); b < kNoBound)
+      largest = std::max(largest, b);
   return largest > 0 ? 0.1 * kTrianglesPerBound / largest : 1;
 }
 

@@ -16,6 +16,7 @@
 #include "mesh/exceptions.hpp"
 #include "pslg/poly_file.hpp"
 #include "pslg/repair.hpp"
+#include "sizing/make_size_field.hpp"
 #include "support/refine_together.hpp"
 
 using namespace driftmesh;
@@ -221,6 +222,33 @@ TEST_CASE("work follows the bounds of regions") {
   CHECK(fine == 100);
   CHECK(predicted == doctest::Approx(1.55 * 1100));
   CHECK(check_decomposition(d).largest_load < 1.4);
+}
+
+TEST_CASE("work follows a sizing function, as refinement shows") {
+  SizingOptions sizing;
+  sizing.expression = "0.004 + 0.05 * sqrt((x - 1)^2 + (y - 1)^2)";
+  const auto size = make_size_field(sizing);
+  const Triangulation mesh = prepared(with_holes());
+  DecomposeOptions options;
+  options.subdomains = 40;
+  options.bounds.size = size.get();
+  const Decomposition d = decompose(mesh, options);
+  const DecompositionReport report = check_whole(d, mesh, 40);
+  CHECK(report.smallest_angle >= 60 - 1e-9);
+  CHECK(report.largest_load <= 1.45);
+  double predicted = 0, most = 0, all = 0, largest_area = 0;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    SubdomainMesh part = subdomain_triangulation(d, static_cast<SubdomainId>(i));
+    Refiner(part.mesh, options.bounds).refine();
+    const auto triangles = static_cast<double>(part.mesh.live_triangles());
+    most = std::max(most, triangles);
+    all += triangles;
+    predicted += d.subdomains[i].predicted;
+    largest_area = std::max(largest_area, d.subdomains[i].area);
+  }
+  CHECK(predicted == doctest::Approx(all).epsilon(0.1));
+  CHECK(most <= 1.6 * all / 40);
+  CHECK(largest_area > 4 * report.area / 40);  // the sizes differ: the field was used
 }
 
 TEST_CASE("thin wedges are cut across, and shells stay aligned") {

@@ -1,0 +1,121 @@
+#include "decompose/work_samples.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "decompose/work.hpp"
+#include "geometry/predicates.hpp"
+#include "mesh/refiner.hpp"
+
+namespace driftmesh {
+namespace {
+
+/// A field of lengths made longer.
+class ScaledField final : public SizeField {
+ public:
+  ScaledField(const SizeField& field, double factor) : field_(field), factor_(factor) {}
+  [[nodiscard]] double edge_length(const Point& p) const override { return factor_ * field_.edge_length(p); }
+
+ private:
+  const SizeField& field_;
+  double factor_;
+};
+
+/// Area bounds `factor` times as large.
+QualityBounds coarser(const QualityBounds& bounds, double factor, const SizeField* size) {
+  QualityBounds coarse = bounds;
+  coarse.max_area *= factor;
+  for (double& area : coarse.region_max_area) area *= factor;
+  coarse.size = size;
+  return coarse;
+}
+
+/// Triangles in a triangle of the coarse mesh: the density, averaged over it.
+double work_in(const Triangulation& mesh, TriangleId t, const QualityBounds& bounds) {
+  const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+  const double area = orient2d(a, b, c) / 2;
+  const std::uint16_t region = mesh.region.empty() ? std::uint16_t{0} : mesh.region[Triangulation::id(t)];
+  const double least = kTrianglesPerBound / area_bound(bounds, region);
+  double density = 0;
+  for (const auto& [u, v, w] : {std::array<double, 3>{4, 1, 1}, {1, 4, 1}, {1, 1, 4}}) {
+    const Point p{(u * a.x + v * b.x + w * c.x) / 6, (u * a.y + v * b.y + w * c.y) / 6};
+    density += std::max(least, 2 * kTrianglesPerBound / twice_area_of_edge(bounds.size->edge_length(p)));
+  }
+  return std::max(1.0, area * density / 3);
+}
+
+/// The samples whose ray to the right can meet an edge between two heights.
+std::span<const WorkSample> between(std::span<const WorkSample> samples, double low, double high) {
+  const auto below = [](const WorkSample& s, double y) { return s.at.y < y; };
+  const auto first = std::lower_bound(samples.begin(), samples.end(), low, below);
+  const auto last = std::lower_bound(first, samples.end(), high, below);
+  return {first, last};
+}
+
+template <class Visit>
+void for_each_crossing(std::span<const WorkSample> samples, const Point& a, const Point& b, Visit&& visit) {
+  const bool up = a.y < b.y;
+  const Point &low = up ? a : b, &high = up ? b : a;
+  const double dx = high.x - low.x, dy = high.y - low.y;
+  for (const WorkSample& s : between(samples, low.y, high.y))
+    if (dx * (s.at.y - low.y) > (s.at.x - low.x) * dy) visit(s, up);
+}
+
+}  // namespace
+
+WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double count) {
+  Triangulation coarse = mesh;
+  const double final_size = Refiner(coarse, bounds).predict_triangles();
+  const double factor = std::max(1.0, final_size / count);
+  const ScaledField field(*bounds.size, std::sqrt(factor));
+  Refiner refiner(coarse, coarser(bounds, factor, &field));
+  refiner.limit_triangles(static_cast<std::int64_t>(20 * count + 10 * static_cast<double>(mesh.live_triangles())));
+  refiner.refine();
+  WorkSamples samples;
+  for (std::size_t i = 0; i < coarse.triangles.size(); ++i) {
+    if (!coarse.triangles[i].alive()) continue;
+    const auto t = static_cast<TriangleId>(i);
+    const Point &a = coarse.corner(t, 0), &b = coarse.corner(t, 1), &c = coarse.corner(t, 2);
+    samples.push_back({{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}, work_in(coarse, t, bounds)});
+  }
+  std::sort(samples.begin(), samples.end(), [](const WorkSample& p, const WorkSample& q) {
+    return p.at.y != q.at.y ? p.at.y < q.at.y : p.at.x < q.at.x;
+  });
+  return samples;
+}
+
+double crossing_work(std::span<const WorkSample> samples, const Point& a, const Point& b) {
+  double work = 0;
+  for_each_crossing(samples, a, b, [&](const WorkSample& s, bool up) { work += up ? s.work : -s.work; });
+  return work;
+}
+
+WorkSamples take_inside(WorkSamples& samples, std::span<const Point> border) {
+  std::vector<char> inside(samples.size(), 0);
+  for (std::size_t i = 0; i < border.size(); ++i)
+    for_each_crossing(samples, border[i], border[i + 1 < border.size() ? i + 1 : 0],
+                      [&](const WorkSample& s, bool) { inside[static_cast<std::size_t>(&s - samples.data())] ^= 1; });
+  WorkSamples taken;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (inside[i] != 0)
+      taken.push_back(samples[i]);
+    else
+      samples[kept++] = samples[i];
+  samples.resize(kept);
+  return taken;
+}
+
+WorkSamples thinned(const WorkSamples& samples, std::size_t most) {
+  const std::size_t stride = (samples.size() + most - 1) / most;
+  if (stride <= 1) return samples;
+  WorkSamples some;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i % stride == stride / 2) some.push_back({samples[i].at, 0});
+    if (!some.empty()) some.back().work += samples[i].work;
+  }
+  return some;
+}
+
+}  // namespace driftmesh
