@@ -14,9 +14,12 @@
 namespace driftmesh {
 namespace {
 
-constexpr double kSlack = 1e-9;  // relative, for rounding
-constexpr double kSameDistance =
-    0.3;  // two vertices count as equally far from their apex up to this share of their edge
+constexpr double kSlack = 1e-9;         // relative, for rounding
+constexpr double kSameDistance = 1e-6;  // relative: two vertices count as equally far from their apex
+// In a wedge narrower than this, in degrees, distances count as equal up to a share of the wedge's width: segments that
+// hardly diverge and end almost beside each other need no points to tell their ends apart.
+constexpr double kNarrow = 1;
+constexpr double kShareOfWidth = 0.3;
 constexpr long double kDegrees = 180 / std::numbers::pi_v<long double>;
 
 std::size_t index(std::int32_t i) {
@@ -197,8 +200,10 @@ class QualityCheck {
       const long double op = std::sqrt(dot_extended(o, at_p, at_p)), oq = std::sqrt(dot_extended(o, at_q, at_q));
       const long double rounding =
           64 * 0x1p-52L * std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(at_p.x), std::fabs(at_p.y)});
-      const long double across = std::sqrt(dot_extended(at_p, at_q, at_q));
-      if (angle_at(o, at_p, at_q) < 60 && std::fabs(op - oq) <= kSameDistance * across + rounding) return true;
+      const double angle = angle_at(o, at_p, at_q);
+      const long double same =
+          angle < kNarrow ? kShareOfWidth * std::sqrt(dot_extended(at_p, at_q, at_q)) : kSameDistance * op;
+      if (angle < 60 && std::fabs(op - oq) <= same + rounding) return true;
     }
     return false;
   }
