@@ -3,6 +3,8 @@
 #include <iostream>
 #include <memory>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/help_text.hpp"
@@ -24,6 +26,21 @@ void add_commands(CLI::App& program) {
   add_plot(program);
 }
 
+/// What is wrong with the command line, and where to look: in the help of the command that was meant.
+std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
+  std::string what = error.what();
+  const std::vector<std::string> unknown = program.remaining(true);
+  if (!unknown.empty()) what = "unexpected: " + CLI::detail::join(unknown, " ");
+  const CLI::App* command = &program;
+  std::string call = "driftmesh";
+  for (; !command->get_subcommands().empty(); call += " " + command->get_name())
+    command = command->get_subcommands().front();
+  if (unknown.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
+      command->get_require_subcommand_min() > 0)
+    what = "a command is missing";
+  return what + "; see " + call + " --help";
+}
+
 int parse_and_run(CLI::App& program, int argc, char** argv) {
   try {
     program.parse(argc, argv);
@@ -33,7 +50,7 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return program.exit(help);
   } catch (const CLI::ParseError& error) {
-    std::cerr << "driftmesh: " << error.what() << "; see --help\n";
+    std::cerr << "driftmesh: " << usage_message(program, error) << '\n';
     return kUsage;
   }
 }

@@ -40,14 +40,13 @@ void add_limit_options(CLI::App& command, MeshOptions& options) {
   command
       .add_option("--max-triangles", options.max_triangles,
                   "Stop at this many triangles, or at once when more are to be expected; 50M is 50 million")
-      ->transform(CLI::AsSizeValue(true).description(""))
-      ->check(CLI::Range(std::int64_t{1}, MeshRequest{}.max_triangles).description(""))
+      ->transform(size_value(1000, static_cast<double>(MeshRequest{}.max_triangles)))
       ->type_name("N")
       ->group(kGroup);
   command
       .add_option("--max-memory", options.max_memory,
                   "Likewise for memory: 6G is 6 GiB  [90 % of what the machine has free]")
-      ->transform(CLI::AsSizeValue(false).description(""))
+      ->transform(size_value(1024, 1e18))
       ->type_name("SIZE")
       ->group(kGroup);
   command.add_flag("--keep-incomplete", options.keep_incomplete, "Write what was made when a limit stops the work")
@@ -61,8 +60,7 @@ void add_output_options(CLI::App& command, MeshOptions& options) {
           "-o,--output", options.outputs,
           "Mesh file, by extension: .vtu (ParaView), .msh (Gmsh 4.1), or .node, .ele, .poly, .edge, .neigh (any "
           "of them writes Triangle's whole set). Can be given several times; without it, the summary alone")
-      ->expected(1)
-      ->take_all()
+      ->allow_extra_args(false)  // one a time: what follows may be the input
       ->type_name("FILE")
       ->group(kGroup);
   command

@@ -1,19 +1,15 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <string>
 
 namespace driftmesh::app {
 
 /// Accepts finite numbers above zero.
-inline CLI::Validator positive() {
-  return {[](const std::string& text) -> std::string {
-            double value = 0;
-            if (CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)) return {};
-            return "'" + text + "' is not a positive number";
-          },
-          ""};
-}
+[[nodiscard]] CLI::Validator positive();
+
+/// Turns a number from 1 to `largest` with an optional unit k, M, G or T, of `thousand` to the power 1 to 4, into a
+/// plain whole number: "50M", "1.5G", "2e6". A B or iB behind the unit changes nothing.
+[[nodiscard]] CLI::Validator size_value(double thousand, double largest);
 
 }  // namespace driftmesh::app

@@ -6,6 +6,8 @@
 namespace driftmesh {
 namespace {
 
+constexpr std::size_t kMaxWarnings = 10;
+
 using NamedItem = std::pair<const RepairItem*, const char*>;
 
 std::array<NamedItem, 9> items_of(const RepairReport& r) {
@@ -36,7 +38,9 @@ std::string RepairReport::summary() const {
     for (const std::string& example : item->examples) text += "  " + example + "\n";
     if (item->count > static_cast<std::int64_t>(item->examples.size())) text += "  ...\n";
   }
-  for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
+  const std::size_t listed = warnings.size() <= kMaxWarnings + 1 ? warnings.size() : kMaxWarnings;
+  for (std::size_t i = 0; i < listed; ++i) text += "warning: " + warnings[i] + "\n";
+  if (listed < warnings.size()) text += "and " + std::to_string(warnings.size() - listed) + " more such warnings\n";
   return text;
 }
 

@@ -31,8 +31,8 @@ struct RepairReport {
 
   /// Whether repair() changed anything.
   [[nodiscard]] bool changed() const;
-  /// A line for each kind of repair that was made, with its examples, and one for each warning; empty when there is
-  /// none.
+  /// A line for each kind of repair that was made, with its examples, and one for each of the first warnings; empty
+  /// when there is none.
   [[nodiscard]] std::string summary() const;
 };
 

@@ -123,6 +123,11 @@ class Pipeline(Cli):
         self.refuse("plot", "square.msh", "-o", "b.png", "--width", "20", says=["each side may have"])
         self.assertEqual(self.files(), before)
 
+    def test_options_may_stand_before_the_input(self):
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "-o", "a.vtu", "-o", "b.vtu", "square.poly")
+        self.assertEqual(self.files(), ["a.vtu", "b.vtu", "square.poly"])
+
     def test_a_stricter_check_rejects_the_mesh(self):
         self.write("square.poly", SQUARE)
         self.succeed("mesh", "square.poly", "--area", "0.5", "-o", "square.vtu")
@@ -276,7 +281,8 @@ class Errors(Cli):
         self.write("square.poly", SQUARE)
         for arguments in (["mesh"], ["mesh", "square.poly", "--gradation", "0.2"], ["convert", "a.vtu"], ["generate"],
                           ["mesh", "square.poly", "--size-max", "1", "--size-min", "2"], ["check"], ["plot"],
-                          ["mesh", "square.poly", "--max-memory", "much"]):
+                          ["mesh", "square.poly", "--max-memory", "much"], [], ["mish"],
+                          ["mesh", "square.poly", "--max-memory", "-1"], ["mesh", "square.poly", "more"]):
             with self.subTest(arguments=arguments):
                 self.refuse(*arguments, code=2, says=["driftmesh: ", "--help"])
 

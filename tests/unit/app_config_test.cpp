@@ -13,6 +13,19 @@ using namespace driftmesh::app;
 
 namespace {
 
+/// The number that --max-memory makes of it, or 0 where it refuses.
+std::uint64_t memory_of(const std::string& text) {
+  CLI::App program;
+  MeshOptions options;
+  add_mesh_options(program, options);
+  try {
+    program.parse(std::vector<std::string>{"--max-memory=" + text});
+  } catch (const CLI::ParseError&) {
+    return 0;
+  }
+  return options.max_memory;
+}
+
 /// The options of `driftmesh mesh ARGUMENTS` with a settings file of this text.
 class Parsed {
  public:
@@ -88,4 +101,15 @@ TEST_CASE("Errors in a settings file name the place and what to do") {
   CHECK(message_for("quiet: maybe\n").starts_with("run.yaml:1:8: 'quiet' is maybe"));
   CHECK(message_for("- area\n").starts_with("run.yaml:1:1: "));
   CHECK(message_for("area: [1\n").starts_with("run.yaml:"));
+}
+
+TEST_CASE("Sizes have units") {
+  CHECK(memory_of("1") == 1);
+  CHECK(memory_of("2e6") == 2'000'000);
+  CHECK(memory_of("1.5k") == 1536);
+  CHECK(memory_of("3M") == 3 << 20);
+  CHECK(memory_of("6GiB") == std::uint64_t{6} << 30);
+  CHECK(memory_of("1tb") == std::uint64_t{1} << 40);
+  for (const std::string bad : {"", "0", "-1", "-1G", "much", "1X", "1 GG", "G", "nan", "1e30", "1.2.3"})
+    CHECK_MESSAGE(memory_of(bad) == 0, bad);
 }
