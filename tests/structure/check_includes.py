@@ -5,6 +5,7 @@ usage: check_includes.py PROJECT_FOLDER
 
 Each driftmesh_library(NAME ... DEPENDS a b) is one box: the sources in its folder may include the headers of that folder
 and of the folders of a and b, no others. What they depend on in turn is not theirs to include. The graph has no cycle.
+Some outside libraries are kept behind one file or folder each, so that they can be exchanged there.
 """
 
 import pathlib
@@ -13,6 +14,17 @@ import sys
 
 # What lies in no box, and sees all of them: the program, its tests and its benchmarks.
 OPEN_FOLDERS = ("src/app", "tests", "bench")
+
+# Outside headers, by how their names begin, and the only place that may include them.
+BEHIND = {
+    "mpi.h": "protocol/mpi_transport.cpp",
+    "metis.h": "src/decompose/graph_partition.cpp",
+    "muParser.h": "src/sizing/expression_field.cpp",
+    "cairo": "src/output/plot_",
+    "CLI/": "src/app/",
+    "yaml-cpp/": "src/app/config_file.cpp",
+    "CGAL/": "tests and bench alone",
+}
 
 
 def declared_boxes(root):
@@ -74,6 +86,17 @@ def foreign_includes(root, boxes):
                     yield f"{place}: includes {header}, which the DEPENDS of its box does not name"
 
 
+def misplaced_libraries(root):
+    """A message for each outside header that is included where it should not be."""
+    for source in sorted(path for top in ("src", "protocol") for path in (root / top).rglob("*.[ch]pp")):
+        name = str(source.relative_to(root))
+        for number, line in enumerate(source.read_text().splitlines(), 1):
+            match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+            for header, place in BEHIND.items():
+                if match and match.group(1).startswith(header) and not name.startswith(place):
+                    yield f"{name}:{number}: includes {match.group(1)}, which belongs to {place}"
+
+
 def undeclared_folders(root, boxes):
     """A message for each folder of sources that no box owns."""
     owned = {folder for folder, _ in boxes.values()}
@@ -91,6 +114,7 @@ def main():
     if cycle:
         problems.append("cycle: " + " -> ".join(cycle))
     problems += foreign_includes(root, boxes)
+    problems += misplaced_libraries(root)
     problems += undeclared_folders(root, boxes)
     for problem in problems:
         print(problem)

@@ -65,6 +65,15 @@ class CheckIncludes(unittest.TestCase):
         self.write("src/stray/stray.cpp", "")
         self.expect("src/stray: no driftmesh_library")
 
+    def test_library_outside_its_place(self):
+        self.write("src/low/low.cpp", "#include <mpi.h>\n")
+        self.expect("src/low/low.cpp:1: includes mpi.h, which belongs to protocol/mpi_transport.cpp")
+
+    def test_library_in_its_place(self):
+        self.write("src/output/CMakeLists.txt", "driftmesh_library(output)")
+        self.write("src/output/plot_canvas.cpp", "#include <cairo.h>\n")
+        self.assertEqual(self.check().returncode, 0)
+
     def test_empty_tree(self):
         with tempfile.TemporaryDirectory() as empty:
             self.root = pathlib.Path(empty)
