@@ -2,7 +2,7 @@
 
 #include <map>
 #include <optional>
-#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -71,6 +71,8 @@ class BasicRankProtocol {
   [[nodiscard]] const ProtocolCounters& counters() const { return counters_; }
   [[nodiscard]] std::size_t aggregated() const { return aggregator_.size(); }
   [[nodiscard]] std::size_t held_groups() const;
+  /// One line for a person who wants to know why nothing goes on: what this rank waits for, and what waits here.
+  [[nodiscard]] std::string describe() const;
 
   /// A point was put on an edge shared with subdomain `to`, which is not held here (what is needs no message).
   void send_split(SubdomainId to, const SplitEntry& entry);
@@ -137,6 +139,19 @@ std::size_t BasicRankProtocol<Rules>::held_groups() const {
   std::size_t groups = 0;
   for (const auto& [s, waiting] : held_) groups += waiting.size();
   return groups;
+}
+
+template <class Rules>
+std::string BasicRankProtocol<Rules>::describe() const {
+  static constexpr const char* kPhases[] = {"working", "draining", "finished"};
+  std::string text = "rank " + std::to_string(self_) + ": " + kPhases[static_cast<int>(phase())] + ", probe " +
+                     std::to_string(termination_.rounds()) + (termination_.has_token() ? " with" : " without") +
+                     " the token, SPLITs and hand-offs sent less handled " +
+                     std::to_string(termination_.work_balance()) + ", " + std::to_string(aggregator_.size()) +
+                     " SPLITs in the aggregator";
+  for (const auto& [s, waiting] : held_)
+    text += ", " + std::to_string(waiting.size()) + " groups held for subdomain " + std::to_string(s);
+  return text;
 }
 
 template <class Rules>

@@ -32,7 +32,8 @@ class Termination {
   Termination(Rank self, Rank ranks) : self_(self), ranks_(ranks) {}
 
   [[nodiscard]] Phase phase() const { return phase_; }
-  [[nodiscard]] std::uint64_t rounds() const { return round_; }      ///< probes that this rank has passed on or started
+  [[nodiscard]] std::uint64_t rounds() const { return round_; }  ///< probes that this rank has passed on or started
+  [[nodiscard]] bool has_token() const { return token_.has_value(); }
   [[nodiscard]] std::int64_t work_balance() const { return work_; }  ///< sent less handled
 
   /// `count` SPLITs or hand-offs started their way: from here on they are somebody's future work.

@@ -19,7 +19,7 @@ run(${COMPILER} -x c -O1 -w -DNFAIR=4 -o pan pan.c)
 if(PROPERTY STREQUAL "formula")
   run(./pan -m100000 -a -f)
 else()
-  run(./pan -m100000 -noclaim)
+  run(./pan -m100000 -noclaim)  # which a model without a formula ignores
 endif()
 
 if(output MATCHES "max search depth too small" OR NOT output MATCHES "errors: ([0-9]+)[^0-9].* ([0-9]+) states, stored")
