@@ -31,6 +31,8 @@ constexpr Effort kEfforts[] = {{1, 1.0 / 11, 64, 0.2},    {1, 1.0 / 25, 128, 0.2
 /// A cut that leaves a finished subdomain with more than this much work over the mean asks for another effort, as long
 /// as the angle need not suffer.
 constexpr double kGoodLoad = 1.38;
+/// A decomposition with a larger load than this is tried again by grouping smaller pieces.
+constexpr double kFairLoad = 1.45;
 /// Samples of work for each subdomain, and as many as a search looks at.
 constexpr double kSamplesPerSubdomain = 60;
 constexpr std::size_t kMostSamples = 250;
@@ -67,7 +69,8 @@ std::vector<WorkSamples> sample_pieces(const PlanarMap& map, std::vector<Piece>&
 /// Cuts pieces until each is one subdomain.
 class Cutter {
  public:
-  Cutter(PlanarMap& map, std::vector<Piece>& pieces, std::vector<WorkSamples>& samples, const DecomposeOptions& options)
+  Cutter(PlanarMap& map, std::vector<Piece>& pieces, std::vector<WorkSamples>& samples, const DecomposeOptions& options,
+         std::int32_t parts)
       : map_(map),
         pieces_(pieces),
         samples_(samples),
@@ -76,7 +79,7 @@ class Cutter {
         random_(options.seed) {
     double work = 0;
     for (const Piece& p : pieces) work += p.work;
-    mean_ = work / options.subdomains;
+    mean_ = work / parts;
   }
 
   /// Returns how many parts could not be made.
@@ -239,20 +242,57 @@ double area_of(const Triangulation& mesh) {
   return twice / 2;
 }
 
+/// The domain before its first cut.
+struct Domain {
+  PlanarMap map;
+  std::vector<Piece> pieces;
+  std::vector<WorkSamples> samples;
+};
+
+Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options) {
+  const double compact = std::sqrt(area_of(mesh) / options.subdomains);  // the width of a compact subdomain
+  Domain domain;
+  domain.map = connected_walls(mesh, compact / 4, options.min_angle * std::numbers::pi / 180);
+  domain.pieces = find_pieces(domain.map, options.bounds);
+  domain.samples = sample_pieces(domain.map, domain.pieces, mesh, options);
+  return domain;
+}
+
+/// Cuts into `finer` times as many pieces as subdomains are wanted, and groups them. Bridges leave few ways to cut a
+/// domain with many holes into a few subdomains; groups of smaller pieces are not bound to them.
+Decomposition cut_domain(Domain domain, const DecomposeOptions& options, std::int32_t finer) {
+  const std::int32_t parts = finer * options.subdomains;
+  allot_parts(domain.map, domain.pieces, parts);
+  const std::int32_t missing = Cutter(domain.map, domain.pieces, domain.samples, options, parts).run();
+  if (missing > 0 && parts - missing < options.subdomains)
+    throw Error("the domain could be cut into " + std::to_string(parts - missing) + " of " +
+                std::to_string(options.subdomains) + " subdomains; ask for fewer, or allow smaller angles");
+  return to_decomposition(domain.map, domain.pieces, group_pieces(domain.map, domain.pieces, options.subdomains),
+                          options.subdomains);
+}
+
+double largest_load(const Decomposition& d) {
+  double work = 0, most = 0;
+  for (const Decomposition::Subdomain& s : d.subdomains) {
+    work += s.predicted;
+    most = std::max(most, s.predicted);
+  }
+  return most * static_cast<double>(d.size()) / work;
+}
+
 }  // namespace
 
 Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& options) {
   check_options(options);
-  const double compact = std::sqrt(area_of(mesh) / options.subdomains);  // the width of a compact subdomain
-  PlanarMap map = connected_walls(mesh, compact / 4, options.min_angle * std::numbers::pi / 180);
-  std::vector<Piece> pieces = find_pieces(map, options.bounds);
-  std::vector<WorkSamples> samples = sample_pieces(map, pieces, mesh, options);
-  allot_parts(map, pieces, options.subdomains);
-  const std::int32_t missing = Cutter(map, pieces, samples, options).run();
-  if (missing > 0)
-    throw Error("the domain could be cut into " + std::to_string(options.subdomains - missing) + " of " +
-                std::to_string(options.subdomains) + " subdomains; ask for fewer, or allow smaller angles");
-  return to_decomposition(map, pieces, group_pieces(map, pieces, options.subdomains), options.subdomains);
+  const Domain domain = prepare_domain(mesh, options);
+  Decomposition result = cut_domain(domain, options, 1);
+  if (options.skew > 0) return result;
+  for (const std::int32_t finer : {4, 8}) {
+    if (largest_load(result) <= kFairLoad) break;
+    Decomposition grouped = cut_domain(domain, options, finer);
+    if (largest_load(grouped) < largest_load(result)) result = std::move(grouped);
+  }
+  return result;
 }
 
 }  // namespace driftmesh
