@@ -226,31 +226,11 @@ Cavity::Found Cavity::gather_from_afar(const Point& p, TriangleId t) {
   return check_star();
 }
 
-/// Whether the triangle behind half-edge `h` of a subsegment keeps its place when the subsegment is bent to the point:
-/// rounding has put the point beyond the subsegment as seen from there, and outside the circumcircle. Then a sliver
-/// between the straight and the bent subsegment is what the constrained Delaunay triangulation holds.
-bool Cavity::stays(HalfEdge h) const {
-  const auto point = [&](VertexId v) -> const Point& { return mesh_.points[Triangulation::id(v)]; };
-  const Point &a = point(mesh_.edge_start(h)), &b = point(mesh_.edge_end(h));
-  return orient2d(a, b, p_) < 0 && !(incircle(a, b, point(mesh_.apex(h)), p_) > 0);
-}
-
-/// One side of a split: the border from corner `from` to corner `to`, behind half-edge `h` of the subsegment.
+/// One side of a split: the border from corner `from` to corner `to`, behind half-edge `h` of the subsegment. The
+/// triangle there is asked like any other whether it stays: it does where rounding has put the point beyond the
+/// subsegment and outside its circumcircle, and a sliver between the straight and the bent subsegment is then Delaunay.
 void Cavity::gather_side(HalfEdge h, int from, int to) {
-  if (stays(h)) {
-    const Corner &a = corners_[at(from)], &b = corners_[at(to)];
-    least_cross_ = std::min(least_cross_, cross(a, b));
-    largest_lifts_ = std::max(largest_lifts_, a.lift + b.lift);
-    border_[at(border_count_++)] = {cross(a, b), &a, &b, h};
-    return;
-  }
-  const int apex = corner_count_++;
-  corners_[at(apex)] = relative(mesh_.apex(h));
-  slots_[at(killed_count_++)] = triangle_of(h);
-  const Triangle& triangle = mesh_.triangles[Triangulation::id(triangle_of(h))];
-  const int i = index_of(h);
-  push(triangle.neighbor[at(previous(i))], apex, to, cross(corners_[at(apex)], corners_[at(to)]));
-  push(triangle.neighbor[at(next(i))], from, apex, cross(corners_[at(from)], corners_[at(apex)]));
+  push(h, from, to, cross(corners_[at(from)], corners_[at(to)]));
   expand<false>(0);
 }
 

@@ -86,7 +86,6 @@ class Cavity {
   void load(TriangleId t);
   template <bool kMindLens>
   Found expand(double cos_squared);
-  bool stays(HalfEdge h) const;
   void gather_side(HalfEdge h, int from, int to);
   Found check_star() const;
   void push(HalfEdge outer, int a, int b, double cross_ab);

@@ -302,11 +302,15 @@ void Refiner::clear_diametral_circle(SubsegmentId s) {
 
 /// Splits leaf s at its midpoint. False if depth or precision does not allow it.
 bool Refiner::split(SubsegmentId s) {
-  if (dyadic::depth(mesh_.subsegments[id(s)].path) >= dyadic::kMaxDepth) return false;
+  if (dyadic::depth(mesh_.subsegments[id(s)].path) >= dyadic::kMaxDepth || unsplittable_.contains(s)) return false;
   clear_diametral_circle(s);
   const auto [a, b] = mesh_.subsegments[id(s)].vertex;
   const Point m = midpoint(mesh_.points[id(a)], mesh_.points[id(b)]);
-  if (cavity_.gather_on(s, m) != Cavity::Found::kClear) return false;
+  if (cavity_.gather_on(s, m) != Cavity::Found::kClear) {
+    // Not tried again: the vertices deleted for it would come back and be deleted for ever.
+    unsplittable_.insert(s);
+    return false;
+  }
   const VertexId v = add_vertex(m, ~s);
   const SubsegmentId child = mesh_.halve(s, v);
   cavity_.fill_on(v, child, child + 1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <unordered_set>
 #include <vector>
 
 #include "mesh/bounds.hpp"
@@ -115,6 +116,7 @@ class Refiner {
   SkinnyBuckets skinny_;
   std::vector<TriangleId> deferred_;
   std::vector<TriangleId> changed_;
+  std::unordered_set<SubsegmentId> unsplittable_;  // coordinates have no room for their midpoints
   Counters counters_;
 };
 
