@@ -9,6 +9,7 @@
 #include "bench/cgal_mesher.hpp"
 #include "bench/child_process.hpp"
 #include "bench/driftmesh_mesher.hpp"
+#include "pslg/generate.hpp"
 
 namespace driftmesh::bench {
 namespace {
@@ -84,7 +85,8 @@ std::vector<Measurement> growth(const std::vector<Model>& models, const Options&
 }
 
 std::vector<Measurement> cdt(const std::vector<Model>& /*models*/, const Options& options) {
-  const Model model{"1,000,000 points, 100,000 segments", points_with_chains(1'000'000, 100'000, 1), 1};
+  const Model model{"1,000,000 random points, 100,000 segments",
+                    generate_random_points({.points = 1'000'000, .segments = 100'000}), 1};
   std::vector<Measurement> result;
   for (const Mesher* mesher : {&kDriftmesh, &kCgal})
     result.push_back(repeat({"cdt", model.name, mesher->name, 0, {}}, {}, options.repetitions,
