@@ -17,12 +17,24 @@ namespace driftmesh::protocol {
 /// The decisions that the proofs in docs/protocol.md rest on, in one place so that tests can replace each by a wrong
 /// one and see that it is noticed.
 struct SoundRules {
-  /// The stations of a SPLIT on its way to the subdomain that it is for.
-  enum class Station { kEntersAggregator, kLeavesAggregator, kForwarded, kHeld, kReachesSubdomain };
-  /// A SPLIT counts as sent once, and from the first moment: nothing that waits anywhere is unknown to the counts.
-  static constexpr bool counts_as_sent(Station station) { return station == Station::kEntersAggregator; }
-  /// It counts as handled once, and not before its subdomain has it: what is held back is still under way.
-  static constexpr bool counts_as_handled(Station station) { return station == Station::kReachesSubdomain; }
+  /// The stations of a SPLIT on its way to the subdomain that it is for, and of a subdomain on its way to a rank.
+  enum class Station {
+    kEntersAggregator,
+    kLeavesAggregator,
+    kForwarded,
+    kHeld,
+    kReachesSubdomain,
+    kGivenAway,
+    kArrives
+  };
+  /// Each counts as sent once, and from the first moment: nothing that waits anywhere is unknown to the counts.
+  static constexpr bool counts_as_sent(Station station) {
+    return station == Station::kEntersAggregator || station == Station::kGivenAway;
+  }
+  /// Each counts as handled once, and not before it is where it belongs: what is held back is still under way.
+  static constexpr bool counts_as_handled(Station station) {
+    return station == Station::kReachesSubdomain || station == Station::kArrives;
+  }
   /// A rank with nothing to do does not let others wait for what it has collected.
   static constexpr bool flushes_when_idle() { return true; }
   /// A rank passes the token only when nothing that it holds could become work.
@@ -66,6 +78,7 @@ class BasicRankProtocol {
   [[nodiscard]] bool holds(SubdomainId s) const { return directory_.holds(s); }
   [[nodiscard]] Location where(SubdomainId s) const { return directory_.where(s); }
   [[nodiscard]] Termination::Phase phase() const { return termination_.phase(); }
+  /// Nothing will arrive any more; the rank leaves once it has sent what take_outgoing() holds.
   [[nodiscard]] bool finished() const { return phase() == Termination::Phase::kFinished; }
   [[nodiscard]] const Termination& termination() const { return termination_; }
   [[nodiscard]] const ProtocolCounters& counters() const { return counters_; }
@@ -175,7 +188,7 @@ template <class Rules>
 void BasicRankProtocol<Rules>::hand_off(SubdomainId s, Rank destination, Bytes packed) {
   if (destination == self_) throw Error("subdomain " + std::to_string(s) + " is handed to the rank that holds it");
   const Location next = directory_.depart(s, destination);
-  termination_.work_sent(1);
+  count_sent(Station::kGivenAway, 1);
   ++counters_.hand_offs;
   counters_.hand_off_bytes += static_cast<std::int64_t>(packed.size());
   outgoing_.push_back({destination, HandOff{s, next.epoch, std::move(packed)}});
@@ -247,7 +260,7 @@ void BasicRankProtocol<Rules>::take(Rank source, HandOff&& arrival, Delivery& de
   if (!directory_.arrive(arrival.subdomain, arrival.epoch))
     throw ProtocolError(source, "hands over subdomain " + std::to_string(arrival.subdomain) + " with epoch " +
                                     std::to_string(arrival.epoch) + ", which is here or was here before");
-  termination_.work_handled(1);
+  count_handled(Station::kArrives, 1);
   ++counters_.arrivals;
   if (auto waiting = held_.extract(arrival.subdomain))
     for (SplitGroup& group : waiting.mapped()) handle(std::move(group), delivery);

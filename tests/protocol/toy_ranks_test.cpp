@@ -176,7 +176,9 @@ TEST_CASE("random work among adversarial ranks: nothing lost, and the end is fou
 
 TEST_CASE("mutation: an aggregator that is not flushed counts as passive") {
   struct Rules : SoundRules {
-    static constexpr bool counts_as_sent(Station station) { return station == Station::kLeavesAggregator; }
+    static constexpr bool counts_as_sent(Station station) {
+      return station == Station::kLeavesAggregator || station == Station::kGivenAway;
+    }
     static constexpr bool flushes_when_idle() { return false; }
     static constexpr bool passive(bool program_is_passive, bool, bool nothing_held) {
       return program_is_passive && nothing_held;
@@ -196,26 +198,33 @@ TEST_CASE("mutation: the token is passed by a rank that is active") {
   struct Rules : SoundRules {
     static constexpr bool passive(bool, bool, bool) { return true; }
   };
-  must_be_caught<Rules>(200, "");
+  must_be_caught<Rules>(200, "sends work although it was passive");
 }
 
 TEST_CASE("mutation: forwarding counts as sending") {
   struct Rules : SoundRules {
     static constexpr bool counts_as_sent(Station station) {
-      return station == Station::kEntersAggregator || station == Station::kForwarded;
+      return station == Station::kForwarded || SoundRules::counts_as_sent(station);
     }
   };
-  must_be_caught<Rules>(200, "");
+  must_be_caught<Rules>(200, "sends work although it was passive");
 }
 
-TEST_CASE("mutation: what is held back counts as handled") {
+TEST_CASE("mutation: what is held back counts as handled, and again when it is") {
   struct Rules : SoundRules {
-    static constexpr bool counts_as_handled(Station station) { return station == Station::kHeld; }
-    static constexpr bool passive(bool program_is_passive, bool aggregator_empty, bool) {
-      return program_is_passive && aggregator_empty;
+    static constexpr bool counts_as_handled(Station station) {
+      return station == Station::kHeld || SoundRules::counts_as_handled(station);
     }
   };
-  must_be_caught<Rules>(200, "");
+  must_be_caught<Rules>(50, "terminated too late");
+}
+
+TEST_CASE("mutation: hand-offs are not counted") {
+  struct Rules : SoundRules {
+    static constexpr bool counts_as_sent(Station station) { return station == Station::kEntersAggregator; }
+    static constexpr bool counts_as_handled(Station station) { return station == Station::kReachesSubdomain; }
+  };
+  must_be_caught<Rules>(50, "");
 }
 
 TEST_CASE("mutation: location records without epochs") {
