@@ -73,7 +73,6 @@ class MeshRun {
     if (result.complete || options_.keep_incomplete) write(std::move(result), pslg);
     finish();
     if (result.complete) return 0;
-    progress_.erase();
     std::cerr << "driftmesh: " << stopped_message(limits_, run_.triangles, options_.keep_incomplete) << '\n';
     return kStoppedByLimit;
   }
@@ -99,8 +98,7 @@ class MeshRun {
     run_.input_segments = static_cast<std::int64_t>(pslg.segments.size());
     run_.input_holes = static_cast<std::int64_t>(pslg.holes.size());
     run_.input_regions = static_cast<std::int64_t>(pslg.regions.size());
-    progress_.erase();
-    if (!options_.quiet) std::cerr << run_.repairs.summary();
+    if (!options_.quiet) progress_.write(run_.repairs.summary());
   }
 
   MeshResult mesh(const Pslg& pslg) {
@@ -143,7 +141,7 @@ class MeshRun {
   void finish() {
     run_.seconds = seconds_since(start_);
     run_.peak = peak_memory();
-    progress_.erase();
+    progress_.end();
     if (!options_.quiet) std::cout << summary_text(run_) << std::flush;
     if (options_.json.empty()) return;
     AtomicFile file(options_.json);

@@ -35,7 +35,7 @@ std::string refining_words(std::int64_t triangles, double forecast, double secon
   text += "  " + grouped(triangles);
   if (forecast_holds) text += " of about " + estimate_words(forecast);
   text += " triangles";
-  if (seconds > 0) text += fmt::format("  {:.2f} million/s", rate / 1e6);
+  if (seconds > 0) text += fmt::format("  {:.2f} M/s", rate / 1e6);
   return text;
 }
 
@@ -44,25 +44,57 @@ bool ProgressLine::possible() {
   return isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
 }
 
+ProgressLine::ProgressLine(bool enabled) {
+  if (enabled) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
 void ProgressLine::begin(const std::string& stage) {
-  if (enabled_) show(stage, Clock::now());
+  const std::lock_guard lock(mutex_);
+  stage_ = stage;
+  since_ = Clock::now();
+  refining_ = false;
 }
 
 void ProgressLine::refining(std::int64_t triangles, double forecast) {
-  if (!enabled_) return;
-  const Clock::time_point now = Clock::now();
-  if (!refining_) refining_since_ = now;
+  const std::lock_guard lock(mutex_);
+  if (!refining_) since_ = Clock::now();
   refining_ = true;
-  if (now - last_ < kEvery) return;
-  show(refining_words(triangles, forecast, std::chrono::duration<double>(now - refining_since_).count()), now);
+  triangles_ = triangles;
+  forecast_ = forecast;
 }
 
-void ProgressLine::show(const std::string& text, Clock::time_point now) {
-  if (now - start_ < kFirstAfter) return;
+void ProgressLine::write(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  erase();
+  std::fputs(text.c_str(), stderr);
+}
+
+void ProgressLine::end() {
+  if (!thread_.joinable()) return;
+  thread_.request_stop();
+  thread_.join();
+  erase();
+}
+
+void ProgressLine::run(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  wake_.wait_for(lock, stop, kFirstAfter, [] { return false; });
+  while (!stop.stop_requested()) {
+    show();
+    wake_.wait_for(lock, stop, kEvery, [] { return false; });
+  }
+}
+
+void ProgressLine::show() {
+  const double seconds = std::chrono::duration<double>(Clock::now() - since_).count();
+  std::string text = stage_;
+  if (refining_)
+    text = refining_words(triangles_, forecast_, seconds);
+  else if (seconds >= 1)
+    text += fmt::format("  {:.0f} s", seconds);
   std::fprintf(stderr, "\r%s\033[K", text.substr(0, terminal_width() - 1).c_str());
   std::fflush(stderr);
   shown_ = true;
-  last_ = now;
 }
 
 void ProgressLine::erase() {

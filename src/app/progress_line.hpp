@@ -1,20 +1,23 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace driftmesh::app {
 
-/// "refining  31 %  2 s left  3,400,000 of about 10,900,000 triangles  5.31 million/s"
+/// "refining  31 %  2 s left  3,400,000 of about 10,900,000 triangles  5.31 M/s"
 [[nodiscard]] std::string refining_words(std::int64_t triangles, double forecast, double seconds);
 
-/// One line on stderr that says what is going on, rewritten in place and erased at the end. Prints nothing when it is
-/// not enabled, and nothing for work that takes less than half a second.
+/// One line on stderr that says what is going on and for how long, rewritten in place by a thread of its own, so that
+/// it shows also what reports nothing. The first half second passes in silence. Does nothing when it is not enabled.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool enabled) : enabled_(enabled) {}
-  ~ProgressLine() { erase(); }
+  explicit ProgressLine(bool enabled);
+  ~ProgressLine() { end(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
@@ -22,20 +25,29 @@ class ProgressLine {
   void begin(const std::string& stage);
   /// How far refinement is; the first call starts its clock.
   void refining(std::int64_t triangles, double forecast);
-  void erase();
+  /// Writes `text`, whole lines, to stderr without mixing the two.
+  void write(const std::string& text);
+  /// Erases the line for good.
+  void end();
 
   /// Whether stderr is a terminal that can rewrite a line.
   [[nodiscard]] static bool possible();
 
  private:
   using Clock = std::chrono::steady_clock;
-  void show(const std::string& text, Clock::time_point now);
+  void run(const std::stop_token& stop);
+  void show();
+  void erase();
 
-  bool enabled_;
-  bool shown_ = false;
+  std::mutex mutex_;  // guards what follows, and stderr while the thread runs
+  std::condition_variable_any wake_;
+  std::string stage_;
+  Clock::time_point since_ = Clock::now();
   bool refining_ = false;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point refining_since_, last_;
+  std::int64_t triangles_ = 0;
+  double forecast_ = 0;
+  bool shown_ = false;
+  std::jthread thread_;
 };
 
 }  // namespace driftmesh::app

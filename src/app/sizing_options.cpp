@@ -9,8 +9,7 @@ namespace driftmesh::app {
 
 void add_sizing_options(CLI::App& command, SizingOptions& sizing, const char* group) {
   command
-      .add_option("--size", sizing.expression,
-                  "Edge length as an expression in x and y: \"0.1 + 0.02 * sqrt(x^2 + y^2)\"")
+      .add_option("--size", sizing.expression, "Edge length as an expression in x and y: \"0.1+0.02*sqrt(x^2+y^2)\"")
       ->type_name("EXPR")
       ->group(group);
   command

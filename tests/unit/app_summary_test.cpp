@@ -71,8 +71,8 @@ TEST_CASE("The summary names exceptions, places and an incomplete mesh") {
 
 TEST_CASE("Progress in words") {
   CHECK(refining_words(1'000'000, 4'012'345, 0.4) ==
-        "refining  25 %  2 s left  1,000,000 of about 4,010,000 triangles  2.50 million/s");
-  CHECK(refining_words(5'000'000, 4'000'000, 1) == "refining  5,000,000 triangles  5.00 million/s");
+        "refining  25 %  2 s left  1,000,000 of about 4,010,000 triangles  2.50 M/s");
+  CHECK(refining_words(5'000'000, 4'000'000, 1) == "refining  5,000,000 triangles  5.00 M/s");
   CHECK(refining_words(12, 1e18, 0) == "refining  12 triangles");
   CHECK(refining_words(100'000'000, 536'000'000, 40).find("triangles") < 70);
 }
