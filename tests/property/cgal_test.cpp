@@ -282,7 +282,8 @@ TEST_CASE("random damage to CGAL's triangulations is found") {
       {"drop a triangle", drop_triangle},    {"drop a subsegment", drop_subsegment},
       {"change a marker", change_marker},    {"move a point", move_point},
       {"redirect a corner", redirect_corner}};
-  for (const auto& [name, damage] : damages) {
+  for (const auto& [kind, damage] : damages) {
+    const std::string name = kind;
     int found = 0;
     for (std::uint64_t seed = 1; seed <= 25; ++seed) {
       CAPTURE(name);
