@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
@@ -49,6 +51,15 @@ bool needs_bridges(const Triangulation& mesh, DisjointSets& sets) {
   return false;
 }
 
+/// Cuts leaf `s` at `m`. Nothing happens if rounding leaves no room.
+bool cut_leaf(Triangulation& mesh, Cavity& cavity, SubsegmentId s, const Point& m) {
+  if (cavity.gather_on(s, m) != Cavity::Found::kClear) return false;
+  const VertexId v = mesh.add_vertex(m, ~s);
+  const SubsegmentId first = mesh.halve(s, v);
+  cavity.fill_on(v, first, first + 1);
+  return true;
+}
+
 /// Halves the leaves of straight segments until they are no longer than `spacing`.
 void refine_borders(Triangulation& mesh, double spacing) {
   Cavity cavity(mesh);
@@ -57,12 +68,32 @@ void refine_borders(Triangulation& mesh, double spacing) {
     if (!leaf.is_leaf() || mesh.roots[id(leaf.root)].shell != kNone) continue;
     const Point &a = mesh.points[id(leaf.vertex[0])], &b = mesh.points[id(leaf.vertex[1])];
     if (squared_distance(a, b) <= spacing * spacing) continue;
-    const Point m = midpoint(a, b);
-    if (cavity.gather_on(s, m) != Cavity::Found::kClear) continue;
-    const VertexId v = mesh.add_vertex(m, ~s);
-    const SubsegmentId first = mesh.halve(s, v);
-    cavity.fill_on(v, first, first + 1);
+    cut_leaf(mesh, cavity, s, midpoint(a, b));
   }
+}
+
+/// Cuts segments at the feet of perpendiculars from points that no bridge connects with them yet: the shortest way
+/// between two parts of the border ends at a foot or at a corner that bulges. Returns whether there were any.
+bool add_feet(Triangulation& mesh, DisjointSets& sets) {
+  std::map<SubsegmentId, std::pair<double, Point>> nearest;  // of each leaf: the foot that is least far from its point
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int i = 0; i < 3 && mesh.triangles[t].alive(); ++i) {
+      const HalfEdge h = half_edge(static_cast<TriangleId>(t), i);
+      if (!is_constrained(mesh.twin(h)) || sets.find(mesh.apex(h)) == sets.find(mesh.edge_start(h))) continue;
+      const SubsegmentId s = subsegment_of(mesh.twin(h));
+      const Point &a = mesh.points[id(mesh.edge_start(h))], &b = mesh.points[id(mesh.edge_end(h))];
+      const Point& w = mesh.points[id(mesh.apex(h))];
+      const double along = ((w.x - a.x) * (b.x - a.x) + (w.y - a.y) * (b.y - a.y)) / squared_distance(a, b);
+      if (!(along > 0.02 && along < 0.98) || mesh.roots[id(mesh.subsegments[id(s)].root)].shell != kNone) continue;
+      const Point foot{snap_to_zero(a.x + along * (b.x - a.x)), snap_to_zero(a.y + along * (b.y - a.y))};
+      const double distance = squared_distance(w, foot);
+      const auto [entry, is_new] = nearest.try_emplace(s, distance, foot);
+      if (!is_new && distance < entry->second.first) entry->second = {distance, foot};
+    }
+  Cavity cavity(mesh);
+  bool any = false;
+  for (const auto& [s, foot] : nearest) any |= cut_leaf(mesh, cavity, s, foot.second);
+  return any;
 }
 
 /// The angle from the edge to the first wall that follows around its start, on the side that opens less.
@@ -87,7 +118,8 @@ double angle_at_start(const WalledMesh& walled, HalfEdge edge) {
   return std::min(smallest, opening(mesh.edge_end(wall), -1));
 }
 
-void choose_bridges(WalledMesh& walled, DisjointSets& sets, double angle) {
+/// Adds bridges, the shortest first, that keep an angle of at least `bound`.
+void choose_bridges(WalledMesh& walled, DisjointSets& sets, double bound) {
   const Triangulation& mesh = walled.mesh;
   struct Candidate {
     double squared_length;
@@ -106,15 +138,31 @@ void choose_bridges(WalledMesh& walled, DisjointSets& sets, double angle) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.squared_length != b.squared_length ? a.squared_length < b.squared_length : a.edge < b.edge;
   });
-  for (const double bound : {angle, 0.75 * angle, 0.5 * angle, 0.0})
-    for (const Candidate& c : candidates) {
-      const VertexId u = mesh.edge_start(c.edge), v = mesh.edge_end(c.edge);
-      const HalfEdge back = mesh.twin(c.edge);
-      if (sets.find(u) == sets.find(v)) continue;
-      if (std::min(angle_at_start(walled, c.edge), angle_at_start(walled, back)) < bound) continue;
-      sets.join(u, v);
-      walled.bridge[id(c.edge)] = walled.bridge[id(back)] = true;
-    }
+  for (const Candidate& c : candidates) {
+    const VertexId u = mesh.edge_start(c.edge), v = mesh.edge_end(c.edge);
+    const HalfEdge back = mesh.twin(c.edge);
+    if (sets.find(u) == sets.find(v)) continue;
+    if (std::min(angle_at_start(walled, c.edge), angle_at_start(walled, back)) < bound) continue;
+    sets.join(u, v);
+    walled.bridge[id(c.edge)] = walled.bridge[id(back)] = true;
+  }
+}
+
+/// Bridges until everything is connected. Where none keeps the angle, the border is refined further; smaller angles
+/// come last.
+void build_bridges(WalledMesh& walled, double angle) {
+  constexpr int kRounds = 4;
+  DisjointSets sets(0);
+  for (int round = 0; round < kRounds; ++round) {
+    sets = DisjointSets(walled.mesh.points.size());
+    for (const Subsegment& s : walled.mesh.subsegments)
+      if (s.is_leaf()) sets.join(s.vertex[0], s.vertex[1]);
+    walled.bridge.assign(4 * walled.mesh.triangles.size(), false);
+    choose_bridges(walled, sets, angle);
+    if (!needs_bridges(walled.mesh, sets)) return;
+    if (round + 1 < kRounds && !add_feet(walled.mesh, sets)) break;
+  }
+  for (const double part : {0.9, 0.75, 0.5, 0.0}) choose_bridges(walled, sets, part * angle);
 }
 
 /// Turns the walls of a triangulation into a map. Points that were only put on segments for bridges to end at, and
@@ -207,15 +255,12 @@ PlanarMap connected_walls(const Triangulation& from, double spacing, double angl
     if (!s.is_leaf()) throw Error("cannot decompose a triangulation that has been refined");
   DisjointSets sets = connect_by_segments(from);
   WalledMesh walled(from);
-  const bool refine = needs_bridges(from, sets);
-  if (refine) {
+  if (needs_bridges(from, sets)) {
     refine_borders(walled.mesh, spacing);
-    sets = DisjointSets(walled.mesh.points.size());
-    for (const Subsegment& s : walled.mesh.subsegments)
-      if (s.is_leaf()) sets.join(s.vertex[0], s.vertex[1]);
+    build_bridges(walled, angle);
+  } else {
+    walled.bridge.resize(4 * walled.mesh.triangles.size(), false);
   }
-  walled.bridge.resize(4 * walled.mesh.triangles.size(), false);
-  if (refine) choose_bridges(walled, sets, angle);
   return MapBuilder(walled, from.points.size()).build();
 }
 

@@ -25,9 +25,10 @@ struct Effort {
   std::size_t max_stations;
   double clearance;
 };
-constexpr Effort kEfforts[] = {{1, 1.0 / 11, 64, 0.2},    {1, 1.0 / 25, 128, 0.2},   {1, 1.0 / 60, 300, 0.1},
-                               {0.9, 1.0 / 25, 200, 0.1}, {0.7, 1.0 / 25, 200, 0.1}, {0.5, 1.0 / 25, 200, 0.05},
-                               {0.25, 1.0 / 25, 200, 0},  {0.05, 1.0 / 60, 400, 0}};
+/// No cut makes an angle below half the asked one: under 30 degrees refinement could split its two sides by turns.
+constexpr Effort kEfforts[] = {{1, 1.0 / 11, 64, 0.2},     {1, 1.0 / 25, 128, 0.2},    {1, 1.0 / 60, 300, 0.1},
+                               {0.9, 1.0 / 60, 300, 0.1},  {0.75, 1.0 / 60, 300, 0.1}, {0.6, 1.0 / 60, 300, 0.05},
+                               {0.5, 1.0 / 100, 400, 0.02}};
 /// A cut that leaves a finished subdomain with more than this much work over the mean asks for another effort, as long
 /// as the angle need not suffer.
 constexpr double kGoodLoad = 1.38;
