@@ -1,5 +1,6 @@
 #include "bench/child_process.hpp"
 
+#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -47,6 +48,7 @@ class SharedBuffer {
 void run_in_child(const std::function<void(void*)>& fill, void* result, std::size_t size) {
   const SharedBuffer buffer(size);
   std::cout.flush();
+  malloc_trim(0);  // what the parent has freed shall not count as the child's memory
   const pid_t child = fork();
   if (child < 0) throw Error("cannot fork a process for a run");
   if (child == 0) be_child(fill, buffer.data());
