@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "geometry/triangle_geometry.hpp"
 #include "mesh/digest.hpp"
 
 namespace driftmesh::app {
@@ -16,7 +17,7 @@ const char* cause_words(ExceptionCause cause, bool complete) {
     case ExceptionCause::kInputAngle:
       return "small angle of the input";
     case ExceptionCause::kShell:
-      return "beside a small angle of the input";
+      return "wedge between input segments";
     case ExceptionCause::kPrecision:
     case ExceptionCause::kUnexplained:
       break;
@@ -29,6 +30,21 @@ Point centroid(const Triangulation& mesh, TriangleId t) {
   return {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
 }
 
+/// The corner with the smallest angle: the one opposite to the shortest edge.
+const Point& sharpest_corner(const Triangulation& mesh, TriangleId t) {
+  std::array<double, 3> opposite{};
+  for (int i = 0; i < 3; ++i)
+    opposite[static_cast<std::size_t>(i)] = squared_distance(mesh.corner(t, next(i)), mesh.corner(t, previous(i)));
+  return mesh.corner(t, static_cast<int>(std::min_element(opposite.begin(), opposite.end()) - opposite.begin()));
+}
+
+/// Notes the place unless it is there already, or enough are.
+void add_place(RunRecord::ExceptionGroup& group, const Point& place) {
+  if (group.places.size() < RunRecord::ExceptionGroup::kMaxPlaces &&
+      std::find(group.places.begin(), group.places.end(), place) == group.places.end())
+    group.places.push_back(place);
+}
+
 void add_skinny(RunRecord& run, const Triangulation& mesh, std::vector<Exceptions::Item> skinny) {
   std::stable_sort(skinny.begin(), skinny.end(),
                    [](const auto& a, const auto& b) { return a.smallest_angle < b.smallest_angle; });
@@ -38,7 +54,7 @@ void add_skinny(RunRecord& run, const Triangulation& mesh, std::vector<Exception
       if (item.cause != cause) continue;
       ++group.count;
       group.worst_angle = std::min(group.worst_angle, item.smallest_angle);
-      if (group.places.size() < group.kMaxPlaces) group.places.push_back(centroid(mesh, item.triangle));
+      add_place(group, sharpest_corner(mesh, item.triangle));
     }
     if (group.count > 0) run.exceptions.push_back(std::move(group));
   }
@@ -47,8 +63,7 @@ void add_skinny(RunRecord& run, const Triangulation& mesh, std::vector<Exception
 void add_large(RunRecord& run, const Triangulation& mesh, const std::vector<TriangleId>& large) {
   if (large.empty()) return;
   RunRecord::ExceptionGroup group{"area or size bound missed", static_cast<std::int64_t>(large.size()), 180, {}};
-  for (std::size_t i = 0; i < std::min(large.size(), group.kMaxPlaces); ++i)
-    group.places.push_back(centroid(mesh, large[i]));
+  for (std::size_t i = 0; i < std::min(large.size(), group.kMaxPlaces); ++i) add_place(group, centroid(mesh, large[i]));
   run.exceptions.push_back(std::move(group));
 }
 

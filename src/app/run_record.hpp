@@ -37,7 +37,7 @@ struct RunRecord {
     std::string cause;
     std::int64_t count = 0;
     double worst_angle = 180;   ///< of those below the angle bound
-    std::vector<Point> places;  ///< where the worst are
+    std::vector<Point> places;  ///< of the worst: the corners with the small angles, each once
   };
   std::vector<ExceptionGroup> exceptions;
 

@@ -58,7 +58,9 @@ void add_exceptions(const RunRecord& run, Text out) {
     if (group.worst_angle < 180) fmt::format_to(out, ", from {:.4f} degrees", group.worst_angle);
     fmt::format_to(out, "\n             at");
     for (const Point& p : group.places) fmt::format_to(out, " ({:.9g}, {:.9g})", p.x, p.y);
-    fmt::format_to(out, "{}\n", group.count > static_cast<std::int64_t>(group.places.size()) ? " ..." : "");
+    const bool all_listed =
+        group.places.size() < group.kMaxPlaces || group.count == static_cast<std::int64_t>(group.kMaxPlaces);
+    fmt::format_to(out, "{}\n", all_listed ? "" : " ...");
     label = "";
   }
 }

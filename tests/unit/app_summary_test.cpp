@@ -58,14 +58,15 @@ TEST_CASE("The summary names exceptions, places and an incomplete mesh") {
   run.command = "driftmesh mesh bay.poly";
   run.input_file = "bay.poly";
   run.triangles = 1234;
-  run.exceptions.push_back({"small angle of the input", 12, 10.66, {{1, 2}, {3.5, 4}}});
+  run.exceptions.push_back({"small angle of the input", 12, 10.66, {{1, 2}, {3.5, 4}, {5, 6}}});
+  run.exceptions.push_back({"wedge", 7, 12, {{7, 8}}});
   run.complete = false;
   run.stopped_by = "--max-triangles";
   run.digest = 0xABCDEF;
   const std::string text = summary_text(run);
-  for (const char* expected :
-       {"1,234 triangles", "12 triangles, small angle of the input, from 10.6600 degrees", "(1, 2) (3.5, 4) ...",
-        "INCOMPLETE: stopped by --max-triangles", "0000000000abcdef", "driftmesh mesh bay.poly"})
+  for (const char* expected : {"1,234 triangles", "12 triangles, small angle of the input, from 10.6600 degrees",
+                               "(1, 2) (3.5, 4) (5, 6) ...\n", "(7, 8)\n", "INCOMPLETE: stopped by --max-triangles",
+                               "0000000000abcdef", "driftmesh mesh bay.poly"})
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
 }
 
