@@ -1,5 +1,5 @@
 // The figures of decompositions: time, angles, balance, separators against the length that compact subdomains need.
-//   driftmesh_bench_decompose [-n N]... FILE.poly ...      (default: -n 400 -n 4000)
+//   driftmesh_bench_decompose [-n N]... [FILE.poly ...]      (default: -n 400 -n 4000, and generated inputs)
 
 #include <algorithm>
 #include <chrono>
@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -15,6 +16,7 @@
 #include "decompose/decompose.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
+#include "pslg/generate.hpp"
 #include "pslg/poly_file.hpp"
 #include "pslg/repair.hpp"
 
@@ -38,14 +40,13 @@ double time_decompose(const Triangulation& mesh, const DecomposeOptions& options
   return times[2];
 }
 
-void print_row(const std::string& file, const Triangulation& mesh, int n) {
+void print_row(const std::string& name, const Triangulation& mesh, int n) {
   DecomposeOptions options;
   options.subdomains = n;
   Decomposition d;
   const double seconds = time_decompose(mesh, options, d);
   const DecompositionReport r = check_decomposition(d);
   const double expected = 2.06 * std::sqrt(r.area * n) - r.border_length / 2;
-  const auto name = file.substr(file.find_last_of('/') + 1);
   std::printf("%-20s %6d %8.3f %8.1f %8.2f %8.2f %10.3f %10.3f %s\n", name.c_str(), n, seconds, r.smallest_angle,
               r.largest_load, r.smallest_load, r.separator_length / r.border_length, r.separator_length / expected,
               r.valid() ? "valid" : r.problems[0].c_str());
@@ -64,13 +65,21 @@ int main(int argc, char** argv) {
   if (counts.empty()) counts = {400, 4000};
   std::printf("%-20s %6s %8s %8s %8s %8s %10s %10s\n", "input", "N", "seconds", "angle", "max/mean", "min/mean",
               "sep/border", "expected");
-  for (const std::string& file : files) try {
-      Pslg pslg = read_poly(file);
-      repair(pslg, file);
+  std::vector<std::pair<std::string, Pslg>> inputs;
+  try {
+    for (const std::string& file : files) inputs.emplace_back(file.substr(file.find_last_of('/') + 1), read_poly(file));
+    if (files.empty())
+      inputs = {{"generated pipe", generate_pipe({})},
+                {"generated flow", generate_cylinder_flow({})},
+                {"generated bay", generate_bay({})}};
+    for (auto& [name, pslg] : inputs) {
+      repair(pslg, name);
       Triangulation mesh = triangulate(pslg);
       prepare_corners(mesh);
-      for (const int n : counts) print_row(file, mesh, n);
-    } catch (const Error& error) {
-      std::printf("%s: %s\n", file.c_str(), error.what());
+      for (const int n : counts) print_row(name, mesh, n);
     }
+  } catch (const Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }

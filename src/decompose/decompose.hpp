@@ -27,7 +27,7 @@ inline constexpr std::int32_t kMaxSubdomains = 10'000'000;
 ///
 /// After Linardakis and Chrisochoides, "Algorithm 870: A Static Geometric Medial Axis Domain Decomposition in 2D
 /// Euclidean Space" (2008), recursive bisection by separators between points of the border; the search for the best
-/// separator is our own (docs/architecture.md says how and why). Segments inside the domain are borders of subdomains
+/// separator is our own (docs/decomposition.md says how and why). Segments inside the domain are borders of subdomains
 /// where that suits the balance, else they stay inside one. Shell pieces of acute corners stay shell pieces.
 ///
 /// Throws Error for options out of range, if the domain has more parts that do not touch than subdomains are wanted,

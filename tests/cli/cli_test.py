@@ -104,6 +104,30 @@ class Pipeline(Cli):
         self.succeed("plot", "bay.poly", "-o", "input.png")
         self.assertFalse([name for name in self.files() if "tmp" in name])
 
+    def test_decompositions(self):
+        for kind, options in KINDS.items():
+            if kind == "random-points":
+                continue  # its segments need not enclose anything
+            with self.subTest(kind=kind):
+                self.succeed("generate", kind, *options, "-o", "in.poly")
+                said = self.succeed("decompose", "in.poly", "-n", "12", "-o", "out.parts")
+                self.assertIn("12, ", said)
+                self.assertTrue((self.folder / "out.parts").read_text().startswith("# driftmesh decomposition 1\n"))
+        first = (self.folder / "out.parts").read_bytes()
+        self.succeed("decompose", "in.poly", "-n", "12", "-o", "again.parts", "--quiet")
+        self.assertEqual(first, (self.folder / "again.parts").read_bytes())
+        self.succeed("decompose", "in.poly", "-n", "12", "--size", "0.1 + 0.01 * x", "--split-skew", "0.5", "--seed", "3",
+                     "--plot", "out.png")
+        self.assertTrue((self.folder / "out.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_decompositions_that_are_refused(self):
+        self.write("square.poly", SQUARE)
+        self.refuse("decompose", "square.poly", "-n", "0", "-o", "a", code=2, says=["--subdomains"])
+        self.refuse("decompose", "square.poly", "-o", "a", code=2, says=["--subdomains"])
+        self.refuse("decompose", "none.poly", "-n", "2", "-o", "a", says=["none.poly"])
+        self.refuse("decompose", "square.poly", "-n", "2", "-o", "no/folder/a", says=["no/folder/a"])
+        self.assertEqual(self.files(), ["square.poly"])
+
     def test_pictures_by_option(self):
         self.write("square.poly", SQUARE)
         self.write("points.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n")
