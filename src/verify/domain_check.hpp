@@ -44,7 +44,6 @@ class DomainCheck {
                                                       const PointIndex& mesh_points);
 
  private:
-  [[nodiscard]] const Domain::Segment* segment_of(const Chains::Chain& chain) const;
   void check_chain(const Chains::Chain& chain, const Domain::Segment& segment, bool reversed);
   void check_straight(const Chains::Chain& chain);
   void check_side(std::int32_t subsegment, std::int32_t triangle, std::int32_t face);

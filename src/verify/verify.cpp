@@ -1,7 +1,9 @@
 #include "verify/verify.hpp"
 
+#include <functional>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/disjoint_sets.hpp"
 #include "verify/chains.hpp"
@@ -15,84 +17,117 @@
 namespace driftmesh {
 namespace {
 
-VerifyReport verify_against(const MeshPiece& mesh, const Pslg* input, const VerifyOptions& options) {
-  VerifyReport report;
-  Findings findings(options.max_listed);
-  report.points = mesh.points.size();
-  report.triangles = mesh.triangles.size();
-  report.subsegments = mesh.edges.size();
-  report.subsegments_listed = !mesh.edges.empty() || mesh.triangles.empty();
-  if (!check_arrays(mesh, findings)) {
-    report.findings = std::move(findings);
-    return report;
+/// One verification: its phases in their order, and what later ones need of earlier ones.
+class Verification {
+ public:
+  Verification(const MeshPiece& mesh, const Pslg* input, const VerifyOptions& options)
+      : mesh_(mesh), input_(input), options_(options), findings_(options.max_listed), points_(mesh.points) {}
+
+  VerifyReport run() {
+    count();
+    if (check_arrays(mesh_, findings_) && check_coordinates()) {
+      find_domain();
+      check_triangulation();
+      check_against_domain();
+    }
+    report_.findings = std::move(findings_);
+    return std::move(report_);
   }
 
-  const CornerTable corners(mesh);
-  PointIndex points(mesh.points);
-  const std::size_t used = check_points(mesh, corners, points, findings);
-  report.unused_points = mesh.points.size() - used;
-  if (findings.count(Flaw::bad_coordinate) != 0) {
-    report.findings = std::move(findings);
-    return report;
+ private:
+  void count() {
+    report_.points = mesh_.points.size();
+    report_.triangles = mesh_.triangles.size();
+    report_.subsegments = mesh_.edges.size();
+    report_.subsegments_listed = !mesh_.edges.empty() || mesh_.triangles.empty();
   }
 
-  std::optional<Domain> domain;
-  if (input != nullptr) {
-    domain.emplace(*input);
-    if (domain->conflict()) {
-      findings.add(Flaw::input_not_planar, [&] { return *domain->conflict(); });
-      domain.reset();
+  /// False if there are coordinates that nothing can be computed from.
+  bool check_coordinates() {
+    corners_.emplace(mesh_);
+    used_points_ = check_points(mesh_, *corners_, points_, findings_);
+    report_.unused_points = mesh_.points.size() - used_points_;
+    return findings_.count(Flaw::bad_coordinate) == 0;
+  }
+
+  void find_domain() {
+    if (input_ == nullptr) return;
+    domain_.emplace(*input_);
+    if (domain_->conflict()) {
+      findings_.add(Flaw::input_not_planar, [&] { return *domain_->conflict(); });
+      domain_.reset();
+    } else if (domain_->has_regions()) {
+      parts_.emplace(mesh_.triangles.size());
     }
   }
 
-  Subsegments subsegments(mesh.points.size(), report.subsegments_listed ? mesh.edges : boundary_edges(mesh, corners));
-  std::optional<DisjointSets> parts;
-  if (domain && domain->has_regions()) parts.emplace(mesh.triangles.size());
-  LocalCheck local(mesh, corners, subsegments, findings);
-  local.check_orientations();
-  local.check_vertices(parts ? &*parts : nullptr, options.check_delaunay);
-  check_subsegments(mesh, subsegments, findings);
-  report.boundary_edges = local.boundary().size();
-  check_embedding(mesh, local.boundary(), findings);
+  void check_triangulation() {
+    subsegments_.emplace(mesh_.points.size(),
+                         report_.subsegments_listed ? mesh_.edges : boundary_edges(mesh_, *corners_));
+    LocalCheck local(mesh_, *corners_, *subsegments_, findings_);
+    local.check_orientations();
+    local.check_vertices(parts_ ? &*parts_ : nullptr, options_.check_delaunay);
+    check_subsegments(mesh_, *subsegments_, findings_);
+    check_embedding(mesh_, local.boundary(), findings_);
+    report_.boundary_edges = local.boundary().size();
+    corners_.reset();
+  }
 
-  std::vector<char> corner;
-  if (domain) corner = DomainCheck::find_corners(mesh, *domain, points);
-  const Chains chains(mesh, subsegments, [&](std::int32_t v) {
-    return domain ? corner[static_cast<std::size_t>(v)] != 0 : bends_at(mesh, subsegments, v);
-  });
-  CheckedBounds bounds{options.min_angle, options.max_area, {}, options.size, options.max_listed};
-  std::optional<DomainCheck> against;
-  if (domain) {
-    against.emplace(mesh, *domain, points, chains, findings);
-    against->check_points();
-    against->check_chains();
-    against->check_euler(static_cast<std::int64_t>(used), static_cast<std::int64_t>(report.boundary_edges));
-    if (parts) {
-      against->find_faces(*parts);
-      report.regions_listed = !mesh.regions.empty() || mesh.triangles.empty();
-      if (report.regions_listed) against->check_regions();
-      if (options.region_areas) bounds.region_area = [&](std::size_t t) { return against->region_area(t); };
-    }
+  void check_against_domain() {
+    const Chains chains = make_chains();
+    if (!domain_) return take_quality(chains, {});
+    DomainCheck against(mesh_, *domain_, points_, chains, findings_);
+    against.check_points();
+    against.check_chains();
+    against.check_euler(static_cast<std::int64_t>(used_points_), static_cast<std::int64_t>(report_.boundary_edges));
+    if (parts_) check_regions(against);
+    const bool by_region = parts_ && options_.region_areas;
+    take_quality(chains, by_region ? RegionArea([&](std::size_t t) { return against.region_area(t); }) : RegionArea());
+    against.check_area(report_.area);
+    report_.against_input = true;
+    report_.input_area = domain_->area();
   }
-  report.quality = check_quality(mesh, chains, bounds, findings);
-  report.area = report.quality.total_area;
-  if (domain) {
-    against->check_area(report.area);
-    report.against_input = true;
-    report.input_area = domain->area();
+
+  [[nodiscard]] Chains make_chains() const {
+    if (!domain_) return {mesh_, *subsegments_, [&](std::int32_t v) { return bends_at(mesh_, *subsegments_, v); }};
+    const std::vector<char> corner = DomainCheck::find_corners(mesh_, *domain_, points_);
+    return {mesh_, *subsegments_, [&](std::int32_t v) { return corner[static_cast<std::size_t>(v)] != 0; }};
   }
-  report.findings = std::move(findings);
-  return report;
-}
+
+  void check_regions(DomainCheck& against) {
+    against.find_faces(*parts_);
+    report_.regions_listed = !mesh_.regions.empty() || mesh_.triangles.empty();
+    if (report_.regions_listed) against.check_regions();
+  }
+
+  using RegionArea = std::function<double(std::size_t)>;
+  void take_quality(const Chains& chains, const RegionArea& region_area) {
+    const CheckedBounds bounds{options_.min_angle, options_.max_area, region_area, options_.size, options_.max_listed};
+    report_.quality = check_quality(mesh_, chains, bounds, findings_);
+    report_.area = report_.quality.total_area;
+  }
+
+  const MeshPiece& mesh_;
+  const Pslg* input_;
+  const VerifyOptions& options_;
+  VerifyReport report_;
+  Findings findings_;
+  PointIndex points_;  // of the mesh, by coordinates
+  std::size_t used_points_ = 0;
+  std::optional<CornerTable> corners_;
+  std::optional<Domain> domain_;
+  std::optional<DisjointSets> parts_;  // triangles that subsegments do not separate, if there are regions
+  std::optional<Subsegments> subsegments_;
+};
 
 }  // namespace
 
 VerifyReport verify(const MeshPiece& mesh, const VerifyOptions& options) {
-  return verify_against(mesh, nullptr, options);
+  return Verification(mesh, nullptr, options).run();
 }
 
 VerifyReport verify(const MeshPiece& mesh, const Pslg& input, const VerifyOptions& options) {
-  return verify_against(mesh, &input, options);
+  return Verification(mesh, &input, options).run();
 }
 
 }  // namespace driftmesh
