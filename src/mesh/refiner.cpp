@@ -18,7 +18,7 @@ namespace {
 /// Triangles of the finished mesh that come from one triangle of the coarse stage, and of one block of them. A block
 /// with its vertices (32 bytes a triangle) stays in a second-level cache.
 constexpr double kFinePerCoarse = 256;
-constexpr double kFinePerBlock = 8192;
+constexpr double kFinePerBlock = 65536;
 /// Measured for area-bounded refinement: the mean area of the triangles, relative to the bound.
 constexpr double kMeanArea = 0.645;
 
