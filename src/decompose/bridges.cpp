@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
@@ -72,10 +73,43 @@ void refine_borders(Triangulation& mesh, double spacing) {
   }
 }
 
-/// Cuts segments at the feet of perpendiculars from points that no bridge connects with them yet: the shortest way
-/// between two parts of the border ends at a foot or at a corner that bulges. Returns whether there were any.
-bool add_feet(Triangulation& mesh, DisjointSets& sets) {
-  std::map<SubsegmentId, std::pair<double, Point>> nearest;  // of each leaf: the foot that is least far from its point
+/// Names of shells and shell ends above all that are in use.
+std::int32_t fresh_shell_name(const Triangulation& mesh) {
+  std::int32_t name = 0;
+  for (const RootSegment& root : mesh.roots) name = std::max(name, root.shell + 1);
+  for (const VertexOrigin o : mesh.origin)
+    if (is_shell_end(o)) name = std::max(name, o - kShellEnd + 1);
+  return name;
+}
+
+/// Halves all roots of a shell: the halves are two new shells, which meet on a new circle.
+bool halve_shell(Triangulation& mesh, Cavity& cavity, std::int32_t shell) {
+  const std::int32_t name = fresh_shell_name(mesh);
+  bool any = false;
+  for (std::size_t r = 0, roots = mesh.roots.size(); r < roots; ++r) {
+    if (mesh.roots[r].shell != shell) continue;
+    const SubsegmentId s = mesh.roots[r].tree;
+    const auto [u, v] = mesh.roots[r].vertex;
+    const Point m = midpoint(mesh.points[id(u)], mesh.points[id(v)]);
+    if (cavity.gather_on(s, m) != Cavity::Found::kClear) continue;
+    const VertexId middle = mesh.add_vertex(m, kShellEnd + name);
+    const RootId outer = mesh.add_root(middle, v, mesh.roots[r].marker, name + 1);
+    mesh.roots[r].vertex = mesh.subsegments[id(s)].vertex = {u, middle};
+    mesh.roots[r].shell = name;
+    cavity.fill_on(middle, s, mesh.roots[id(outer)].tree);
+    any = true;
+  }
+  return any;
+}
+
+/// Where segments lie beside points that no bridge connects with them yet.
+struct Unreached {
+  std::map<SubsegmentId, std::pair<double, Point>> feet;  ///< of each leaf: squared distance and foot of the nearest
+  std::set<std::int32_t> shells;                          ///< of segments that cannot be cut at a foot
+};
+
+Unreached find_unreached(const Triangulation& mesh, DisjointSets& sets) {
+  Unreached found;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int i = 0; i < 3 && mesh.triangles[t].alive(); ++i) {
       const HalfEdge h = half_edge(static_cast<TriangleId>(t), i);
@@ -84,15 +118,27 @@ bool add_feet(Triangulation& mesh, DisjointSets& sets) {
       const Point &a = mesh.points[id(mesh.edge_start(h))], &b = mesh.points[id(mesh.edge_end(h))];
       const Point& w = mesh.points[id(mesh.apex(h))];
       const double along = ((w.x - a.x) * (b.x - a.x) + (w.y - a.y) * (b.y - a.y)) / squared_distance(a, b);
-      if (!(along > 0.02 && along < 0.98) || mesh.roots[id(mesh.subsegments[id(s)].root)].shell != kNone) continue;
+      if (!(along > 0.02 && along < 0.98)) continue;
+      const std::int32_t shell = mesh.roots[id(mesh.subsegments[id(s)].root)].shell;
+      if (shell != kNone) found.shells.insert(shell);
+      if (shell != kNone) continue;
       const Point foot{snap_to_zero(a.x + along * (b.x - a.x)), snap_to_zero(a.y + along * (b.y - a.y))};
       const double distance = squared_distance(w, foot);
-      const auto [entry, is_new] = nearest.try_emplace(s, distance, foot);
+      const auto [entry, is_new] = found.feet.try_emplace(s, distance, foot);
       if (!is_new && distance < entry->second.first) entry->second = {distance, foot};
     }
+  return found;
+}
+
+/// Cuts segments at the feet of perpendiculars from points that no bridge connects with them yet: the shortest way
+/// between two parts of the border ends at a foot or at a corner that bulges. Shell pieces are halved instead. Returns
+/// whether there were any.
+bool refine_unreached(Triangulation& mesh, DisjointSets& sets) {
+  const Unreached found = find_unreached(mesh, sets);
   Cavity cavity(mesh);
   bool any = false;
-  for (const auto& [s, foot] : nearest) any |= cut_leaf(mesh, cavity, s, foot.second);
+  for (const auto& [s, foot] : found.feet) any |= cut_leaf(mesh, cavity, s, foot.second);
+  for (const std::int32_t shell : found.shells) any |= halve_shell(mesh, cavity, shell);
   return any;
 }
 
@@ -151,7 +197,7 @@ void choose_bridges(WalledMesh& walled, DisjointSets& sets, double bound) {
 /// Bridges until everything is connected. Where none keeps the angle, the border is refined further; smaller angles
 /// come last.
 void build_bridges(WalledMesh& walled, double angle) {
-  constexpr int kRounds = 4;
+  constexpr int kRounds = 8;
   DisjointSets sets(0);
   for (int round = 0; round < kRounds; ++round) {
     sets = DisjointSets(walled.mesh.points.size());
@@ -160,7 +206,7 @@ void build_bridges(WalledMesh& walled, double angle) {
     walled.bridge.assign(4 * walled.mesh.triangles.size(), false);
     choose_bridges(walled, sets, angle);
     if (!needs_bridges(walled.mesh, sets)) return;
-    if (round + 1 < kRounds && !add_feet(walled.mesh, sets)) break;
+    if (round + 1 < kRounds && !refine_unreached(walled.mesh, sets)) break;
   }
   for (const double part : {0.9, 0.75, 0.5, 0.0}) choose_bridges(walled, sets, part * angle);
 }
@@ -175,7 +221,7 @@ class MapBuilder {
         map_id_(mesh_.points.size(), kNone),
         side_of_(4 * mesh_.triangles.size(), kNone),
         used_(mesh_.points.size(), false) {
-    for (std::size_t v = 0; v < given_points; ++v) used_[v] = true;
+    for (std::size_t v = 0; v < used_.size(); ++v) used_[v] = v < given_points || is_shell_end(mesh_.origin[v]);
     for (std::size_t h = 0; h < walled.bridge.size(); ++h)
       if (walled.bridge[h]) used_[id(mesh_.edge_start(static_cast<HalfEdge>(h)))] = true;
   }
