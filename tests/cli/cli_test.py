@@ -388,7 +388,7 @@ class Mesh(Cli):
 
     def test_quiet_prints_nothing_and_no_progress_goes_to_a_file(self):
         self.write("square.poly", SQUARE)
-        result = self.run_program("mesh", "square.poly", "--area", "0.00002", "--quiet")
+        result = self.run_program("mesh", "square.poly", "--area", "0.01", "--quiet")
         self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
         result = self.run_program("mesh", "square.poly", "--area", "0.00002")
         self.assertEqual((result.returncode, result.stderr), (0, ""))
