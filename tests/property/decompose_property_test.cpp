@@ -123,7 +123,8 @@ TEST_CASE("generated inputs: combs, fans and plates with many holes") {
 
 TEST_CASE("random domains, refined apart, conform after exchanging split points") {
   std::size_t exchanged = 0, triangles = 0;
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::case_count(60)); ++seed) {
+  const auto cases = static_cast<std::uint64_t>(testing::case_count(60));
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     CAPTURE(seed);
     const RandomPslg random = make_random_pslg(seed, make_random_shape(seed));
     CAPTURE(poly_text(random.input));
@@ -150,5 +151,5 @@ TEST_CASE("random domains, refined apart, conform after exchanging split points"
     exchanged += refined.exchanged;
   }
   MESSAGE(triangles << " triangles, " << exchanged << " split points exchanged");
-  CHECK(exchanged > 100);
+  CHECK(exchanged > 2 * cases);  // else nothing was tested
 }
