@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/stopwatch.hpp"
 #include "bench/child_process.hpp"
 #include "bench/shape.hpp"
-#include "bench/stopwatch.hpp"
 
 namespace driftmesh::bench {
 namespace {

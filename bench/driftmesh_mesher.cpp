@@ -3,10 +3,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/stopwatch.hpp"
 #include "bench/child_process.hpp"
 #include "bench/cut.hpp"
 #include "bench/shape.hpp"
-#include "bench/stopwatch.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/mesher.hpp"
 #include "mesh/to_piece.hpp"

@@ -18,6 +18,14 @@ struct Box {
             {std::max(a.x, b.x) + margin, std::max(a.y, b.y) + margin}};
   }
 
+  /// The smallest box that holds all of `points`, a range of Point.
+  template <class Points>
+  [[nodiscard]] static Box of(const Points& points) {
+    Box box;
+    for (const Point& p : points) box.extend(p);
+    return box;
+  }
+
   void extend(const Point& p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};

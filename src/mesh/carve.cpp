@@ -13,13 +13,6 @@ namespace {
 
 constexpr auto id = &Triangulation::id;
 
-HalfEdge across(const Triangulation& mesh, HalfEdge h) {
-  const HalfEdge g = mesh.twin(h);
-  if (!is_constrained(g)) return g;
-  const auto& half = mesh.subsegments[id(subsegment_of(g))].half;
-  return half[0] == h ? half[1] : half[0];
-}
-
 bool holds(const Triangulation& mesh, TriangleId t, const Point& p) {
   for (int i = 0; i < 3; ++i)
     if (orient2d(mesh.corner(t, next(i)), mesh.corner(t, previous(i)), p) < 0) return false;
@@ -154,7 +147,7 @@ TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start) {
       const int i = static_cast<int>((static_cast<unsigned>(k) + (turn >> 16)) % 3);
       if (orient2d(mesh.corner(t, next(i)), mesh.corner(t, previous(i)), p) >= 0) continue;
       inside = false;
-      out = across(mesh, half_edge(t, i));
+      out = mesh.across(half_edge(t, i));
     }
     if (inside) return t;
     if (out == kNone) break;

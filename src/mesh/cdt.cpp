@@ -9,6 +9,7 @@
 #include "base/assert.hpp"
 #include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "geometry/box.hpp"
 #include "geometry/hilbert.hpp"
 #include "geometry/predicates.hpp"
 #include "mesh/carve.hpp"
@@ -25,11 +26,7 @@ constexpr auto id = &Triangulation::id;
 /// Four corners of a box around everything. Constrained segments will hide them from the inside of the domain, so they
 /// can be at any distance without spoiling a Delaunay property that lasts.
 void add_box(Triangulation& mesh, const Pslg& pslg) {
-  Point low = pslg.points[0], high = low;
-  for (const Point& p : pslg.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
+  const auto [low, high] = Box::of(pslg.points);
   const double margin = 4 * std::max({high.x - low.x, high.y - low.y, std::ldexp(std::abs(low.x), -40),
                                       std::ldexp(std::abs(low.y), -40), kSmallestInputCoordinate});
   const VertexId a = mesh.add_vertex({low.x - margin, low.y - margin}, kFrame);
@@ -50,12 +47,8 @@ void add_box(Triangulation& mesh, const Pslg& pslg) {
 }
 
 std::vector<VertexId> in_hilbert_order(const std::vector<Point>& points) {
-  Point low = points[0], high = low;
-  for (const Point& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const HilbertOrder order(low, high);
+  const Box box = Box::of(points);
+  const HilbertOrder order(box.low, box.high);
   std::vector<std::pair<std::uint64_t, VertexId>> keyed;
   keyed.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) keyed.emplace_back(order.index(points[i]), static_cast<VertexId>(i));
@@ -112,14 +105,6 @@ class SegmentRecovery {
 
   const Point& at(VertexId v) const { return mesh_.points[id(v)]; }
 
-  /// The half-edge on the other side of `h`, also across a constrained one.
-  HalfEdge across(HalfEdge h) const {
-    const HalfEdge g = mesh_.twin(h);
-    if (!is_constrained(g)) return g;
-    const auto& half = mesh_.subsegments[id(subsegment_of(g))].half;
-    return half[0] == h ? half[1] : half[0];
-  }
-
   [[noreturn]] void not_repaired(VertexId a, VertexId b, const std::string& what) const {
     throw Error("the segment from " + describe(mesh_, a) + " to " + describe(mesh_, b) + " " + what +
                 "; repair the input first");
@@ -138,7 +123,7 @@ class SegmentRecovery {
       const bool ahead = (at(s).x - at(a).x) * (at(b).x - at(a).x) + (at(s).y - at(a).y) * (at(b).y - at(a).y) > 0;
       if (right == 0 && ahead) not_repaired(a, b, "passes through " + describe(mesh_, s));
       if (e != b && right > 0 && orient2d(at(a), at(b), at(e)) > 0) return half_edge(t, i);
-      t = triangle_of(across(half_edge(t, next(i))));
+      t = triangle_of(mesh_.across(half_edge(t, next(i))));
     } while (t != first);
     not_repaired(a, b, "leaves the triangulation");
   }
@@ -165,9 +150,9 @@ class SegmentRecovery {
   /// The triangle after `t` counterclockwise around u. The fan around a corner of the box is open: from its last
   /// triangle to its first.
   TriangleId turn(TriangleId t, VertexId u) const {
-    HalfEdge h = across(half_edge(t, next(corner_of(t, u))));
+    HalfEdge h = mesh_.across(half_edge(t, next(corner_of(t, u))));
     if (h != kNone) return triangle_of(h);
-    while ((h = across(half_edge(t, previous(corner_of(t, u))))) != kNone) t = triangle_of(h);
+    while ((h = mesh_.across(half_edge(t, previous(corner_of(t, u))))) != kNone) t = triangle_of(h);
     return t;
   }
 

@@ -1,22 +1,11 @@
 #include "mesh/mesher.hpp"
 
-#include <chrono>
-
+#include "base/stopwatch.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 
 namespace driftmesh {
 namespace {
-
-/// Seconds since its construction.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 QualityBounds bounds_of(const Pslg& pslg, const MeshRequest& request) {
   QualityBounds bounds{request.min_angle, request.max_area, {}, request.size};

@@ -205,7 +205,7 @@ bool Refiner::step_segments() {
     const double cosine = -std::sqrt(lens_.cos_squared);
     for (const HalfEdge h : s.half)
       if (h != kNone && in_diametral_lens(mesh_.points[id(mesh_.apex(h))], a, b, cosine)) {
-        split(next_segment_);
+        split_and_tell(next_segment_);
         break;
       }
   }
@@ -273,7 +273,7 @@ inline Refiner::Progress Refiner::improve(TriangleId t, const Point& p) {
       return Progress::kChanged;
     case Cavity::Found::kEncroached:
       ++counters_.encroaching;
-      return split(cavity_.encroached()) ? Progress::kChanged : Progress::kStuck;
+      return split_and_tell(cavity_.encroached()) ? Progress::kChanged : Progress::kStuck;
     default:
       return Progress::kStuck;
   }
@@ -316,6 +316,13 @@ bool Refiner::split(SubsegmentId s) {
   cavity_.fill_on(v, child, child + 1);
   ++counters_.segment_points;
   note_fresh();
+  return true;
+}
+
+bool Refiner::split_and_tell(SubsegmentId s) {
+  const SplitPoint point{mesh_.subsegments[id(s)].root, mesh_.subsegments[id(s)].path};
+  if (!split(s)) return false;
+  made_.push_back(point);
   return true;
 }
 

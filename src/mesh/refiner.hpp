@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "mesh/bounds.hpp"
@@ -50,6 +51,10 @@ class Refiner {
   /// happens if it is there. Returns false if the depth or the precision of coordinates does not allow it.
   bool add_split_point(RootId root, dyadic::Path path);
 
+  /// The points that refinement itself has put on segments since the last call, in the order in which it did, each
+  /// after its ancestors; none that add_split_point put there.
+  [[nodiscard]] std::vector<SplitPoint> take_split_points() { return std::exchange(made_, {}); }
+
   struct Counters {
     std::int64_t free_points = 0;     ///< circumcenters and off-centers inserted
     std::int64_t segment_points = 0;  ///< midpoints inserted
@@ -93,6 +98,7 @@ class Refiner {
 
   Progress improve(TriangleId t, const Point& p);
   bool split(SubsegmentId s);
+  bool split_and_tell(SubsegmentId s);
   void clear_diametral_circle(SubsegmentId s);
   void note_fresh();
   void note(TriangleId t, const Shape& s);
@@ -117,6 +123,7 @@ class Refiner {
   std::vector<TriangleId> deferred_;
   std::vector<TriangleId> changed_;
   std::unordered_set<SubsegmentId> unsplittable_;  // coordinates have no room for their midpoints
+  std::vector<SplitPoint> made_;                   // that nobody has been told of yet
   Counters counters_;
 };
 

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "geometry/hilbert.hpp"
 
 namespace driftmesh {
@@ -20,13 +21,8 @@ std::vector<TriangleId> live_triangles(const Triangulation& mesh) {
 }
 
 HilbertOrder hilbert_order(const Triangulation& mesh) {
-  Point low{0, 0}, high{0, 0};
-  if (!mesh.points.empty()) low = high = mesh.points[0];
-  for (const Point& p : mesh.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return HilbertOrder(low, high);
+  const Box box = Box::of(mesh.points);
+  return HilbertOrder(box.low, box.high);
 }
 
 void sort_by_hilbert(const Triangulation& mesh, std::vector<TriangleId>& triangles) {

@@ -124,6 +124,14 @@ struct Triangulation {
   }
   [[nodiscard]] HalfEdge twin(HalfEdge h) const { return triangles[id(triangle_of(h))].neighbor[index_of(h)]; }
 
+  /// The half-edge on the other side of `h`, also of a constrained one; kNone where the domain ends.
+  [[nodiscard]] HalfEdge across(HalfEdge h) const {
+    const HalfEdge g = twin(h);
+    if (!is_constrained(g)) return g;
+    const auto& half = subsegments[id(subsegment_of(g))].half;
+    return half[0] == h ? half[1] : half[0];
+  }
+
   /// A new vertex at `p`, in a free slot if there is one.
   VertexId add_vertex(const Point& p, VertexOrigin what);
   void remove_vertex(VertexId v);

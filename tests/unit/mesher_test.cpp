@@ -275,6 +275,34 @@ TEST_CASE("split points from outside are inserted with their ancestors at any ti
   }
 }
 
+TEST_CASE("the refiner tells which points it has put on segments, ancestors first, and not what it was told") {
+  Triangulation mesh = triangulate(fan(11, 5));
+  std::vector<std::vector<dyadic::Path>> known(mesh.roots.size());
+  Refiner refiner(mesh, QualityBounds{20, 0.01, {}, nullptr});
+  const auto take_in = [&](RootId root, dyadic::Path path) {
+    auto& paths = known[id(root)];
+    REQUIRE(std::find(paths.begin(), paths.end(), path) == paths.end());
+    REQUIRE((path == 1 || std::find(paths.begin(), paths.end(), dyadic::parent(path)) != paths.end()));
+    paths.push_back(path);
+  };
+  for (auto status = Refiner::Status::kBudget; status == Refiner::Status::kBudget;) {
+    status = refiner.refine(7);
+    for (const SplitPoint& p : refiner.take_split_points()) take_in(p.root, p.path);
+  }
+  CHECK(refiner.take_split_points().empty());
+  REQUIRE(std::find(known[0].begin(), known[0].end(), 19) == known[0].end());
+  CHECK(refiner.add_split_point(0, 19));
+  CHECK(refiner.take_split_points().empty());
+  for (const dyadic::Path path : {1, 2, 4, 9, 19})
+    if (std::find(known[0].begin(), known[0].end(), path) == known[0].end()) known[0].push_back(path);
+  refiner.refine();
+  for (const SplitPoint& p : refiner.take_split_points()) take_in(p.root, p.path);
+  std::size_t inner = 0, told = 0;
+  for (const Subsegment& s : mesh.subsegments) inner += !s.is_leaf();
+  for (const auto& paths : known) told += paths.size();
+  CHECK(inner == told);
+}
+
 TEST_CASE("a limit on triangles stops refinement with a valid mesh") {
   MeshRequest request;
   request.max_area = 1e-6;
