@@ -2,7 +2,6 @@
 //   driftmesh_bench_decompose [-n N]... [FILE.poly ...]      (default: -n 400 -n 4000, and generated inputs)
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
 #include "mesh/cdt.hpp"
@@ -24,17 +24,13 @@ using namespace driftmesh;
 
 namespace {
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// The median of five.
 double time_decompose(const Triangulation& mesh, const DecomposeOptions& options, Decomposition& result) {
   std::vector<double> times;
   for (int i = 0; i < 5; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     result = decompose(mesh, options);
-    times.push_back(seconds_since(start));
+    times.push_back(watch.seconds());
   }
   std::sort(times.begin(), times.end());
   return times[2];

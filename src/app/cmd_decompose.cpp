@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "app/sizing_options.hpp"
 #include "app/validators.hpp"
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
@@ -69,9 +69,9 @@ void run_decompose(DecomposeCommand& command) {
   const Triangulation mesh = prepare_input(command, command.options.bounds);
   const std::unique_ptr<SizeField> size = make_size_field(command.sizing);
   command.options.bounds.size = size.get();
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Decomposition d = decompose(mesh, command.options);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = watch.seconds();
   const DecompositionReport report = check_decomposition(d);
   if (!report.valid()) throw Error("the decomposition is broken (please report this): " + report.problems[0]);
   const QualityBounds& bounds = command.options.bounds;

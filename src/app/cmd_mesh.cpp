@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -20,6 +19,7 @@
 #include "app/summary.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "mesh/interpolate_attributes.hpp"
 #include "mesh/mesher.hpp"
 #include "mesh/to_piece.hpp"
@@ -32,12 +32,6 @@ namespace driftmesh::app {
 namespace {
 
 constexpr int kStoppedByLimit = 3;
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string sizing_words(const SizingOptions& sizing) {
   std::string words;
@@ -81,13 +75,12 @@ class MeshRun {
   template <class Work>
   std::invoke_result_t<Work> timed(const char* stage, Work&& work) {
     progress_.begin(stage);
-    const Clock::time_point start = Clock::now();
     struct Note {  // also when work returns a value
       MeshRun& run;
       const char* stage;
-      Clock::time_point start;
-      ~Note() { run.note(stage, seconds_since(start)); }
-    } note{*this, stage, start};
+      Stopwatch watch{};
+      ~Note() { run.note(stage, watch.seconds()); }
+    } note{*this, stage};
     return work();
   }
   void note(const char* stage, double seconds) { run_.stages.push_back({stage, seconds}); }
@@ -139,7 +132,7 @@ class MeshRun {
   }
 
   void finish() {
-    run_.seconds = seconds_since(start_);
+    run_.seconds = watch_.seconds();
     run_.peak = peak_memory();
     progress_.end();
     if (!options_.quiet) std::cout << summary_text(run_) << std::flush;
@@ -154,7 +147,7 @@ class MeshRun {
   RunRecord run_;
   std::unique_ptr<SizeField> size_;
   Limits limits_;
-  Clock::time_point start_ = Clock::now();
+  Stopwatch watch_;
 };
 
 int run_mesh(CLI::App& command, MeshOptions& options) {
