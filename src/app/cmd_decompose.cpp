@@ -16,6 +16,7 @@
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
+#include "decompose/presplit.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "pslg/poly_file.hpp"
@@ -74,11 +75,7 @@ void run_decompose(DecomposeCommand& command) {
   const double seconds = watch.seconds();
   const DecompositionReport report = check_decomposition(d);
   if (!report.valid()) throw Error("the decomposition is broken (please report this): " + report.problems[0]);
-  const QualityBounds& bounds = command.options.bounds;
-  const bool predicts =
-      bounds.max_area > 0 || bounds.size != nullptr ||
-      std::any_of(bounds.region_max_area.begin(), bounds.region_max_area.end(), [](double area) { return area > 0; });
-  if (!command.quiet) print_summary(d, report, predicts, seconds);
+  if (!command.quiet) print_summary(d, report, bounds_size(command.options.bounds), seconds);
   if (!command.output.empty()) write_decomposition(d, command.output);
   if (!command.picture.empty())
     plot_decomposition(

@@ -32,6 +32,10 @@ struct Decomposition {
     std::uint16_t left_region = 0;  ///< label of the region on that side (see mesh/cdt.hpp), 0 without a side
     std::uint16_t right_region = 0;
     bool separator = false;  ///< made here, not on any segment of the input
+    /// Whether two subdomains share it.
+    [[nodiscard]] bool is_interface() const { return left != kNone && right != kNone && left != right; }
+    /// The subdomain on the other side of an interface.
+    [[nodiscard]] SubdomainId across_from(SubdomainId one) const { return left == one ? right : left; }
     friend bool operator==(const Root&, const Root&) = default;
   };
   struct Subdomain {

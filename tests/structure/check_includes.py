@@ -12,6 +12,9 @@ import pathlib
 import re
 import sys
 
+# Where boxes lie.
+TOPS = ("src", "protocol", "migration", "balancer")
+
 # What lies in no box, and sees all of them: the program, its tests and its benchmarks.
 OPEN_FOLDERS = ("src/app", "tests", "bench")
 
@@ -28,9 +31,9 @@ BEHIND = {
 
 
 def declared_boxes(root):
-    """{box: (folder, [boxes it depends on])} from every CMakeLists.txt under src and protocol."""
+    """{box: (folder, [boxes it depends on])} from every CMakeLists.txt under the folders of boxes."""
     boxes = {}
-    for path in [*root.glob("src/**/CMakeLists.txt"), *root.glob("protocol/**/CMakeLists.txt")]:
+    for path in (path for top in TOPS for path in root.glob(f"{top}/**/CMakeLists.txt")):
         text = re.sub(r"#.*", "", path.read_text())
         for call in re.findall(r"driftmesh_library\(([^)]*)\)", text):
             name, *words = call.split()
@@ -88,7 +91,7 @@ def foreign_includes(root, boxes):
 
 def misplaced_libraries(root):
     """A message for each outside header that is included where it should not be."""
-    for source in sorted(path for top in ("src", "protocol") for path in (root / top).rglob("*.[ch]pp")):
+    for source in sorted(path for top in TOPS for path in (root / top).rglob("*.[ch]pp")):
         name = str(source.relative_to(root))
         for number, line in enumerate(source.read_text().splitlines(), 1):
             match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
@@ -100,7 +103,7 @@ def misplaced_libraries(root):
 def undeclared_folders(root, boxes):
     """A message for each folder of sources that no box owns."""
     owned = {folder for folder, _ in boxes.values()}
-    for folder in sorted({path.parent for top in ("src", "protocol") for path in (root / top).rglob("*.[ch]pp")}):
+    for folder in sorted({path.parent for top in TOPS for path in (root / top).rglob("*.[ch]pp")}):
         if folder not in owned and not str(folder.relative_to(root)).startswith(OPEN_FOLDERS):
             yield f"{folder.relative_to(root)}: no driftmesh_library declares this folder"
 

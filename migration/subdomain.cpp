@@ -1,0 +1,84 @@
+#include "migration/subdomain.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "decompose/presplit.hpp"
+
+namespace driftmesh {
+namespace {
+
+std::int64_t points_made(const Refiner::Counters& c) {
+  return c.free_points + c.segment_points;
+}
+
+}  // namespace
+
+double Subdomain::remaining() const {
+  if (!active()) return 0;
+  const double forecast =
+      body_ ? body_->forecast : context_->decomposition->subdomains[static_cast<std::size_t>(id_)].predicted;
+  // What is left of a subdomain that has outgrown its forecast, or met its bounds before, is a matter of single points.
+  return std::max(forecast - static_cast<double>(triangles()), 1 + static_cast<double>(pending_.size()));
+}
+
+std::int64_t Subdomain::triangles() const {
+  return body_ ? static_cast<std::int64_t>(body_->part.mesh.live_triangles()) : 0;
+}
+
+SliceWork Subdomain::work(std::int64_t insertions, std::vector<protocol::SplitEntry>& said) {
+  SliceWork done;
+  if (!body_) {
+    make_body();
+    done.prepared = triangles();
+  }
+  const std::int64_t points_before = points_made(counters()), triangles_before = triangles();
+  for (const protocol::SplitEntry& entry : std::exchange(pending_, {})) take_in(entry);
+  switch (body_->refiner.refine(insertions)) {
+    case Refiner::Status::kDone:
+      refined_ = true;
+      break;
+    case Refiner::Status::kBudget:
+      refined_ = false;
+      break;
+    case Refiner::Status::kFull:
+      throw LimitError("subdomain " + std::to_string(id_) +
+                       " has more triangles than can be numbered; cut the domain into more subdomains");
+  }
+  say_new_points(said);
+  done.points = points_made(counters()) - points_before;
+  done.triangles = triangles() - triangles_before;
+  return done;
+}
+
+void Subdomain::make_body() {
+  const Decomposition& d = *context_->decomposition;
+  body_ = std::make_unique<Body>(subdomain_triangulation(d, id_), context_->bounds);
+  if (!context_->presplit) return;
+  for (const RootId root : body_->part.roots)
+    for (const dyadic::Path path : presplit_paths(d, root, context_->bounds)) take_in({root, path});
+}
+
+void Subdomain::take_in(const protocol::SplitEntry& entry) {
+  const std::vector<RootId>& roots = body_->part.roots;
+  const auto place = std::lower_bound(roots.begin(), roots.end(), entry.edge);
+  if (place == roots.end() || *place != entry.edge)
+    throw Error("subdomain " + std::to_string(id_) + " is told of a point on edge " + std::to_string(entry.edge) +
+                ", which is not on its border");
+  if (!body_->refiner.add_split_point(static_cast<RootId>(place - roots.begin()), entry.path))
+    throw Error("edge " + std::to_string(entry.edge) + " of the decomposition, between subdomain " +
+                std::to_string(id_) + " and a neighbour, cannot be split at depth " +
+                std::to_string(dyadic::depth(entry.path)) +
+                ": coordinates have no room for the point; ask for larger triangles or a smaller angle there");
+}
+
+void Subdomain::say_new_points(std::vector<protocol::SplitEntry>& said) {
+  for (const SplitPoint& p : body_->refiner.take_split_points()) {
+    const RootId root = body_->part.roots[static_cast<std::size_t>(p.root)];
+    if (context_->decomposition->roots[static_cast<std::size_t>(root)].is_interface()) said.push_back({root, p.path});
+  }
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "decompose/decomposition.hpp"
+#include "decompose/subdomain_mesh.hpp"
+#include "mesh/bounds.hpp"
+#include "mesh/refiner.hpp"
+#include "protocol/ids.hpp"
+#include "protocol/messages.hpp"
+
+namespace driftmesh {
+
+/// What all subdomains of a run share, on every rank alike. Not owned; outlives them.
+struct SubdomainContext {
+  const Decomposition* decomposition = nullptr;
+  QualityBounds bounds;
+  bool presplit = false;  ///< cut interfaces to the bounds' size before refinement (see decompose/presplit.hpp)
+};
+
+/// What a slice of work came to.
+struct SliceWork {
+  std::int64_t points = 0;     ///< inserted
+  std::int64_t triangles = 0;  ///< more than before
+  std::int64_t prepared = 0;   ///< triangles of the initial triangulation, if it was made in this slice
+};
+
+/// One subdomain: it refines itself, says which points it puts on the edges that it shares, and takes in those of its
+/// neighbours. Its mesh is made when it first works; until then it is a number and what it has been told.
+///
+/// A split point from a neighbour is queued and inserted in the next slice, with its ancestors, in any order of arrival
+/// and any number of times: the points on a shared edge are a set that only grows (docs/protocol.md).
+class Subdomain {
+ public:
+  Subdomain(SubdomainId id, const SubdomainContext& context) : id_(id), context_(&context) {}
+
+  [[nodiscard]] SubdomainId id() const { return id_; }
+  /// Whether there is something to do: bounds not met yet, or points to take in.
+  [[nodiscard]] bool active() const { return !refined_ || !pending_.empty(); }
+  /// Whether it has met all bounds once. Points that it is told of later may make more work.
+  [[nodiscard]] bool refined() const { return refined_; }
+  /// Points that it was told of and has not taken in.
+  [[nodiscard]] std::size_t backlog() const { return pending_.size(); }
+  /// A forecast of the triangles still to be made; 0 when it is not active.
+  [[nodiscard]] double remaining() const;
+  /// Triangles that there are now.
+  [[nodiscard]] std::int64_t triangles() const;
+
+  /// A neighbour has put a point on a shared edge.
+  void tell(const protocol::SplitEntry& entry) { pending_.push_back(entry); }
+
+  /// Works for about so many insertions. Points put on shared edges are appended to `said`, each after its ancestors.
+  /// Throws Error when a shared edge cannot be split where the neighbour has split it, LimitError at the limit of what
+  /// handles can name.
+  SliceWork work(std::int64_t insertions, std::vector<protocol::SplitEntry>& said);
+
+  /// The mesh as it is now. Only after work() was called once.
+  [[nodiscard]] const SubdomainMesh& mesh() const { return body_->part; }
+  [[nodiscard]] bool started() const { return body_ != nullptr; }
+  [[nodiscard]] const Refiner::Counters& counters() const { return body_->refiner.counters(); }
+
+ private:
+  struct Body {
+    Body(SubdomainMesh&& made, const QualityBounds& bounds)
+        : part(std::move(made)), refiner(part.mesh, bounds), forecast(refiner.predict_triangles()) {}
+    SubdomainMesh part;
+    Refiner refiner;
+    double forecast;  // of triangles, when all bounds are met
+  };
+
+  void make_body();
+  void take_in(const protocol::SplitEntry& entry);
+  void say_new_points(std::vector<protocol::SplitEntry>& said);
+
+  SubdomainId id_;
+  const SubdomainContext* context_;
+  bool refined_ = false;
+  std::vector<protocol::SplitEntry> pending_;
+  std::unique_ptr<Body> body_;
+};
+
+}  // namespace driftmesh

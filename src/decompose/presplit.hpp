@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "decompose/decomposition.hpp"
+#include "mesh/bounds.hpp"
+#include "protocol/dyadic.hpp"
+
+namespace driftmesh {
+
+/// Subsegments of an interface at most this many times the square root of the area bound are never split for a
+/// triangle's size: a triangle above its bound has a circumradius above 0.877 sqrt(bound), and a point at that distance
+/// from all others is in the diametral lens of a segment only if it is longer than this, the edge of the equilateral
+/// triangle whose area is the bound.
+inline constexpr double kPresplitSpacing = 1.52;
+
+/// The split points that a root gets before refinement starts, each after its ancestors, so that its subsegments are
+/// at most kPresplitSpacing times the square root of the area bound there: of the smaller bound of its two sides, and
+/// of the size field at the ends and the middle of each subsegment. A function of the root and the bounds alone: both
+/// sides come to the same points without a word. Empty for roots that are no interface, and without bounds on size.
+///
+/// With a uniform area bound, refinement then splits interfaces only where features or small angles ask for more; after
+/// Linardakis and Chrisochoides (2006), who decouple subdomains by discretizing interfaces beforehand.
+[[nodiscard]] std::vector<dyadic::Path> presplit_paths(const Decomposition& decomposition, RootId root,
+                                                       const QualityBounds& bounds);
+
+/// Whether the bounds say anything about size, without which presplitting has nothing to go by.
+[[nodiscard]] bool bounds_size(const QualityBounds& bounds);
+
+}  // namespace driftmesh

@@ -1,0 +1,43 @@
+#include "runtime/agenda.hpp"
+
+#include "base/error.hpp"
+
+namespace driftmesh {
+
+WorkOrder work_order(const std::string& name) {
+  if (name == "given") return WorkOrder::kGiven;
+  if (name == "largest") return WorkOrder::kLargest;
+  if (name == "backlog") return WorkOrder::kBacklog;
+  throw Error("unknown order of work '" + name + "'; use given, largest or backlog");
+}
+
+void Agenda::put(const Item& item) {
+  remove(item.id);
+  const auto at = static_cast<std::size_t>(item.id);
+  if (at >= place_.size()) place_.resize(at + 1);
+  place_[at] = place_of(item);
+  queue_.insert(*place_[at]);
+}
+
+void Agenda::remove(protocol::SubdomainId id) {
+  const auto at = static_cast<std::size_t>(id);
+  if (at >= place_.size() || !place_[at]) return;
+  queue_.erase(*place_[at]);
+  place_[at].reset();
+}
+
+std::optional<protocol::SubdomainId> Agenda::first() const {
+  if (queue_.empty()) return std::nullopt;
+  return queue_.begin()->id;
+}
+
+Agenda::Place Agenda::place_of(const Item& item) const {
+  if (item.begun) return {0, 0, item.id};
+  const double urgency = order_ == WorkOrder::kLargest   ? item.remaining
+                         : order_ == WorkOrder::kBacklog ? static_cast<double>(item.backlog)
+                                                         : 0;
+  if (item.refined) return {2, static_cast<double>(item.backlog), item.id};
+  return {1, urgency, item.id};
+}
+
+}  // namespace driftmesh

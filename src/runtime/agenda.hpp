@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "protocol/ids.hpp"
+
+namespace driftmesh {
+
+/// Which of a rank's subdomains works next.
+enum class WorkOrder {
+  kGiven,    ///< in the order of their numbers, which is one of neighbourhood: neighbours finish together
+  kLargest,  ///< most triangles to be made first: what may be moved later is small
+  kBacklog,  ///< most points waiting first: answers to neighbours leave early
+};
+/// "given", "largest" or "backlog". Throws Error for any other name.
+[[nodiscard]] WorkOrder work_order(const std::string& name);
+
+/// The subdomains of a rank that have something to do, in the order of a policy. Whatever the policy: what is begun is
+/// finished first, since its mesh is in the cache; and subdomains that have met their bounds once, and were told of
+/// points since, come last, since more points may be on their way to them.
+class Agenda {
+ public:
+  explicit Agenda(WorkOrder order) : order_(order) {}
+
+  struct Item {
+    protocol::SubdomainId id = 0;
+    bool begun = false;       ///< has worked, and has not met its bounds yet
+    bool refined = false;     ///< has met its bounds before
+    double remaining = 0;     ///< triangles to be made
+    std::size_t backlog = 0;  ///< points to take in
+  };
+  /// Enters a subdomain, or changes its place.
+  void put(const Item& item);
+  void remove(protocol::SubdomainId id);
+  /// The subdomain to work on next.
+  [[nodiscard]] std::optional<protocol::SubdomainId> first() const;
+  [[nodiscard]] bool empty() const { return queue_.empty(); }
+  [[nodiscard]] std::size_t size() const { return queue_.size(); }
+
+ private:
+  struct Place {
+    int tier;
+    double urgency;  // more is earlier
+    protocol::SubdomainId id;
+    friend bool operator<(const Place& a, const Place& b) {
+      if (a.tier != b.tier) return a.tier < b.tier;
+      if (a.urgency != b.urgency) return a.urgency > b.urgency;
+      return a.id < b.id;
+    }
+  };
+  [[nodiscard]] Place place_of(const Item& item) const;
+
+  WorkOrder order_;
+  std::set<Place> queue_;
+  std::vector<std::optional<Place>> place_;  // by subdomain
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "protocol/ids.hpp"
+#include "runtime/run_plan.hpp"
+
+namespace driftmesh {
+
+/// A plan as bytes, for ranks of the same program on machines of the same kind (the arrays lie in it as they lie in
+/// memory). The size field is not in it: each rank makes its own.
+[[nodiscard]] protocol::Bytes plan_to_bytes(const RunPlan& plan);
+
+/// The plan that plan_to_bytes was given, without its size field. Throws Error if the bytes are not such a plan.
+[[nodiscard]] RunPlan plan_from_bytes(std::span<const std::byte> bytes);
+
+}  // namespace driftmesh

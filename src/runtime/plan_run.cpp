@@ -1,0 +1,64 @@
+#include "runtime/plan_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "decompose/presplit.hpp"
+#include "decompose/work.hpp"
+#include "geometry/triangle_geometry.hpp"
+#include "mesh/refiner.hpp"
+
+namespace driftmesh {
+namespace {
+
+/// With its vertices 36 bytes each: less than half a megabyte, and what refinement is fastest with
+/// (docs/benchmarks.md).
+constexpr double kTrianglesPerSubdomain = 11'000;
+constexpr std::int32_t kSubdomainsPerRank = 20;
+
+}  // namespace
+
+Presplit presplit_mode(const std::string& name) {
+  if (name == "auto") return Presplit::kAuto;
+  if (name == "on") return Presplit::kOn;
+  if (name == "off") return Presplit::kOff;
+  throw Error("unknown presplit mode '" + name + "'; use auto, on or off");
+}
+
+std::int32_t default_subdomains(double triangles, std::int32_t ranks) {
+  const double for_cache = std::min(std::ceil(triangles / kTrianglesPerSubdomain), 1e6);
+  return std::max(kSubdomainsPerRank * ranks, static_cast<std::int32_t>(for_cache));
+}
+
+Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options, std::int32_t ranks) {
+  if (options.subdomains != 0) return decompose(mesh, options);
+  Triangulation copy = mesh;
+  options.subdomains = default_subdomains(Refiner(copy, options.bounds).predict_triangles(), ranks);
+  for (;; options.subdomains /= 2) {
+    try {
+      return decompose(mesh, options);
+    } catch (const Error&) {
+      if (options.subdomains <= 1) throw;  // fewer than the default will do, but not none
+    }
+  }
+}
+
+RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options) {
+  if (options.slice < 1) throw Error("a slice must be at least one insertion");
+  const bool sized = bounds_size(bounds);
+  if (options.presplit == Presplit::kOn && !sized)
+    throw Error("nothing to presplit interfaces to: presplit on needs a bound on area or size");
+  RunPlan plan;
+  plan.owners = map_subdomains(decomposition, options.mapping);
+  plan.decomposition = std::move(decomposition);
+  plan.bounds = bounds;
+  plan.presplit = options.presplit != Presplit::kOff && sized;
+  plan.aggregation = options.aggregation;
+  plan.slice = options.slice;
+  plan.order = options.order;
+  return plan;
+}
+
+}  // namespace driftmesh

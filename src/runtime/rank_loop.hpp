@@ -1,0 +1,177 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "migration/subdomain.hpp"
+#include "protocol/codec.hpp"
+#include "protocol/rank_protocol.hpp"
+#include "protocol/rank_step.hpp"
+#include "protocol/transport.hpp"
+#include "runtime/agenda.hpp"
+#include "runtime/rank_times.hpp"
+#include "runtime/run_plan.hpp"
+#include "runtime/watchdog.hpp"
+
+namespace driftmesh {
+
+/// The loop of one rank: poll the transport, dispatch what arrived, refine one subdomain for a slice, send. It runs on
+/// one thread, on real ranks and on simulated ones alike; it waits for nobody and prints nothing.
+///
+/// `Rules` are the protocol's; tests put broken ones in.
+template <class Rules>
+class BasicRankLoop {
+ public:
+  /// What the loop tells its surroundings; each may be empty.
+  struct Observers {
+    std::function<void(const BasicRankLoop&)> after_slice;  ///< work was done
+    /// Nothing has moved for a minute: what this rank waits for, and what waits here.
+    std::function<void(const std::string&)> stalled;
+  };
+
+  /// `transport` and `plan` must outlive the loop.
+  BasicRankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs = {},
+                Observers observers = {})
+      : transport_(transport),
+        plan_(plan),
+        context_{&plan.decomposition, plan.bounds, plan.presplit},
+        costs_(costs),
+        observers_(std::move(observers)),
+        protocol_(transport.rank(), transport.ranks(), plan.owners, plan.aggregation),
+        limits_{transport.ranks(), static_cast<protocol::SubdomainId>(plan.owners.size()),
+                static_cast<protocol::EdgeId>(plan.decomposition.roots.size())},
+        agenda_(plan.order),
+        clock_(transport.now()) {
+    for (std::size_t s = 0; s < plan.owners.size(); ++s)
+      if (plan.owners[s] == transport.rank()) put(Subdomain(static_cast<SubdomainId>(s), context_));
+  }
+  BasicRankLoop(const BasicRankLoop&) = delete;
+  BasicRankLoop& operator=(const BasicRankLoop&) = delete;
+
+  /// One round. What it throws ends the run on all ranks.
+  protocol::StepResult step() {
+    charge(&RankTimes::idle);
+    const bool heard = poll();
+    charge(agenda_.empty() && !heard ? &RankTimes::idle : &RankTimes::polling);
+    const bool worked = work();
+    charge(worked ? &RankTimes::computing : &RankTimes::idle);
+    if (!worked) protocol_.rest(true);
+    const bool sent = send();
+    charge(sent || worked ? &RankTimes::sending : &RankTimes::idle);
+    watch(heard || worked || sent);
+    if (protocol_.finished()) return protocol::StepResult::kFinished;
+    return heard || worked ? protocol::StepResult::kBusy : protocol::StepResult::kIdle;
+  }
+
+  [[nodiscard]] const protocol::BasicRankProtocol<Rules>& protocol() const { return protocol_; }
+  [[nodiscard]] const std::map<SubdomainId, Subdomain>& subdomains() const { return subdomains_; }
+  [[nodiscard]] const RankTimes& times() const { return times_; }
+  [[nodiscard]] std::int64_t triangles() const { return triangles_; }  ///< of all subdomains here
+  /// Whether something here is work, or will become some.
+  [[nodiscard]] bool at_work() const {
+    return !agenda_.empty() || protocol_.aggregated() > 0 || protocol_.held_groups() > 0;
+  }
+
+ private:
+  void put(Subdomain&& subdomain) {
+    const SubdomainId id = subdomain.id();
+    triangles_ += subdomain.triangles();
+    const auto [place, is_new] = subdomains_.insert_or_assign(id, std::move(subdomain));
+    reschedule(place->second);
+  }
+
+  void reschedule(const Subdomain& s) {
+    if (s.active())
+      agenda_.put({s.id(), s.started() && !s.refined(), s.refined(), s.remaining(), s.backlog()});
+    else
+      agenda_.remove(s.id());
+  }
+
+  bool poll() {
+    bool heard = false;
+    while (const auto received = transport_.poll()) {
+      heard = true;
+      auto delivery = protocol_.receive(received->source, protocol::decode(received->source, received->bytes, limits_));
+      for (const protocol::SplitGroup& group : delivery.splits) {
+        Subdomain& subdomain = subdomains_.at(group.to);
+        for (const protocol::SplitEntry& entry : group.entries) subdomain.tell(entry);
+        reschedule(subdomain);
+      }
+    }
+    return heard;
+  }
+
+  /// A slice of the subdomain whose turn it is. False if none has anything to do.
+  bool work() {
+    const auto id = agenda_.first();
+    if (!id) return false;
+    Subdomain& subdomain = subdomains_.at(*id);
+    said_.clear();
+    const std::int64_t before = subdomain.triangles();
+    const SliceWork done = subdomain.work(plan_.slice, said_);
+    triangles_ += subdomain.triangles() - before;
+    if (triangles_ > plan_.max_triangles)
+      throw LimitError("rank " + std::to_string(transport_.rank()) + " has more than " +
+                       std::to_string(plan_.max_triangles) + " triangles");
+    transport_.spend(static_cast<double>(done.points) * costs_.point +
+                     (done.prepared > 0 ? costs_.start + static_cast<double>(done.prepared) * costs_.prepared : 0));
+    reschedule(subdomain);
+    for (const protocol::SplitEntry& entry : said_) tell_across(*id, entry);
+    if (observers_.after_slice) observers_.after_slice(*this);
+    return true;
+  }
+
+  void tell_across(SubdomainId from, const protocol::SplitEntry& entry) {
+    const SubdomainId to = plan_.decomposition.roots[static_cast<std::size_t>(entry.edge)].across_from(from);
+    if (!protocol_.holds(to)) return protocol_.send_split(to, entry);
+    Subdomain& neighbor = subdomains_.at(to);
+    neighbor.tell(entry);
+    reschedule(neighbor);
+  }
+
+  bool send() {
+    const auto outgoing = protocol_.take_outgoing();
+    for (const protocol::Outgoing& o : outgoing) transport_.send(o.destination, protocol::encode(o.message));
+    return !outgoing.empty();
+  }
+
+  /// Adds the time since the last call to one kind.
+  void charge(double RankTimes::*kind) {
+    const double now = transport_.now();
+    times_.*kind += now - std::exchange(clock_, now);
+  }
+
+  void watch(bool moved) {
+    if (moved)
+      watchdog_.moved(clock_);
+    else if (watchdog_.barks(clock_) && observers_.stalled)
+      observers_.stalled("nothing has moved for " + std::to_string(static_cast<int>(watchdog_.quiet(clock_))) + " s; " +
+                         protocol_.describe());
+  }
+
+  static constexpr double kWatchdogSeconds = 60;
+
+  protocol::Transport& transport_;
+  const RunPlan& plan_;
+  SubdomainContext context_;
+  CostModel costs_;
+  Observers observers_;
+  protocol::BasicRankProtocol<Rules> protocol_;
+  protocol::WireLimits limits_;
+  std::map<SubdomainId, Subdomain> subdomains_;
+  Agenda agenda_;
+  std::vector<protocol::SplitEntry> said_;
+  std::int64_t triangles_ = 0;
+  RankTimes times_;
+  double clock_;  // when time was charged last
+  Watchdog watchdog_{kWatchdogSeconds};
+};
+
+using RankLoop = BasicRankLoop<protocol::SoundRules>;
+
+}  // namespace driftmesh

@@ -1,0 +1,192 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/error.hpp"
+#include "decompose/presplit.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "mesh/digest.hpp"
+#include "mesh/exceptions.hpp"
+#include "protocol/adversarial_network.hpp"
+#include "protocol/virtual_network.hpp"
+#include "runtime/plan_bytes.hpp"
+#include "runtime/plan_run.hpp"
+#include "support/simulated_run.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+
+namespace {
+
+/// An L with a square hole.
+Pslg ell() {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}, {0.3, 0.3}, {0.6, 0.3}, {0.6, 0.6}, {0.3, 0.6}};
+  for (std::int32_t i = 0; i < 6; ++i) pslg.segments.push_back({i, (i + 1) % 6, 1});
+  for (std::int32_t i = 0; i < 4; ++i) pslg.segments.push_back({6 + i, 6 + (i + 1) % 4, 2});
+  pslg.holes = {{0.45, 0.45}};
+  return pslg;
+}
+
+RunPlan plan_of(const Pslg& pslg, const QualityBounds& bounds, std::int32_t ranks, std::int32_t subdomains,
+                Presplit presplit) {
+  Triangulation mesh = triangulate(pslg);
+  prepare_corners(mesh);
+  DecomposeOptions cutting;
+  cutting.subdomains = subdomains;
+  cutting.bounds = bounds;
+  PlanOptions options;
+  options.mapping.ranks = ranks;
+  options.presplit = presplit;
+  options.slice = 50;
+  return plan_run(decompose_for(mesh, cutting, ranks), bounds, options);
+}
+
+std::uint64_t digest_of(const std::vector<const Subdomain*>& subdomains) {
+  std::uint64_t sum = 0;
+  for (const Subdomain* s : subdomains) sum += mesh_digest(s->mesh().mesh);
+  return sum;
+}
+
+void check_mesh(const RunPlan& plan, const std::vector<const Subdomain*>& subdomains) {
+  const auto problems = conformity_problems(plan.decomposition, subdomains);
+  CHECK_MESSAGE(problems.empty(), (problems.empty() ? "" : problems[0]));
+  for (const Subdomain* s : subdomains) {
+    const Exceptions exceptions = find_exceptions(s->mesh().mesh, plan.bounds);
+    CHECK(exceptions.large.empty());
+    CHECK(exceptions.skinny.empty());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("ranks on an adversarial network make one conforming mesh") {
+  for (const protocol::Rank ranks : {1, 2, 5})
+    for (const Presplit presplit : {Presplit::kOn, Presplit::kOff})
+      for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        CAPTURE(ranks);
+        CAPTURE(seed);
+        const RunPlan plan = plan_of(ell(), {20, 2e-3, {}, nullptr}, ranks, 12, presplit);
+        protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
+        SimulatedRanks<> run(network, ranks, plan);
+        REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
+        CHECK(network.in_flight() == 0);
+        check_mesh(plan, run.subdomains());
+      }
+}
+
+TEST_CASE("with presplit interfaces a uniform bound needs no SPLIT, and the mesh depends on the decomposition alone") {
+  std::uint64_t digest = 0;
+  for (const protocol::Rank ranks : {1, 2, 3, 7})
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, ranks, 20, Presplit::kAuto);
+      protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
+      SimulatedRanks<> run(network, ranks, plan);
+      REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
+      for (const auto& loop : run.loops) CHECK(loop->protocol().counters().splits_sent == 0);
+      if (digest == 0) digest = digest_of(run.subdomains());
+      CHECK(digest_of(run.subdomains()) == digest);
+    }
+}
+
+TEST_CASE("in virtual time two ranks take about half as long as one") {
+  const QualityBounds bounds{20, 3e-5, {}, nullptr};
+  double seconds[2] = {};
+  for (const protocol::Rank ranks : {1, 2}) {
+    const RunPlan plan = plan_of(ell(), bounds, ranks, 40, Presplit::kOff);
+    protocol::VirtualNetwork network({std::vector<double>(static_cast<std::size_t>(ranks), 1.0), {}, 1e-6, 1e-6});
+    SimulatedRanks<> run(network, ranks, plan);
+    REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
+    check_mesh(plan, run.subdomains());
+    seconds[ranks - 1] = network.makespan();
+    for (const auto& loop : run.loops) {
+      CHECK(loop->times().computing > 0.7 * network.makespan());
+      CHECK(loop->times().total() <= doctest::Approx(network.makespan()));
+    }
+  }
+  CHECK(seconds[1] < 0.6 * seconds[0]);
+  CHECK(seconds[1] > 0.45 * seconds[0]);
+}
+
+TEST_CASE("presplit points are in order, symmetric, and end at the spacing") {
+  const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 1, 6, Presplit::kOn);
+  std::size_t interfaces = 0;
+  for (std::size_t r = 0; r < plan.decomposition.roots.size(); ++r) {
+    const auto& root = plan.decomposition.roots[r];
+    const auto paths = presplit_paths(plan.decomposition, static_cast<RootId>(r), plan.bounds);
+    if (!root.is_interface()) {
+      CHECK(paths.empty());
+      continue;
+    }
+    ++interfaces;
+    const Point &a = plan.decomposition.points[static_cast<std::size_t>(root.a)],
+                &b = plan.decomposition.points[static_cast<std::size_t>(root.b)];
+    const double longest = kPresplitSpacing * std::sqrt(1e-3);
+    int depth = -1;
+    for (const dyadic::Path path : paths) depth = std::max(depth, dyadic::depth(path));
+    const double length = std::hypot(a.x - b.x, a.y - b.y);
+    CHECK(length / std::exp2(depth + 1) <= longest * (1 + 1e-12));
+    if (depth >= 0) CHECK(length / std::exp2(depth) > longest * (1 - 1e-12));
+  }
+  CHECK(interfaces > 4);
+}
+
+TEST_CASE("a plan survives its way through bytes, and a damaged one is refused") {
+  RunPlan plan = plan_of(ell(), {25, 1e-3, {0, 0.5}, nullptr}, 3, 9, Presplit::kOff);
+  plan.aggregation = 17;
+  plan.max_triangles = 12345;
+  const protocol::Bytes bytes = plan_to_bytes(plan);
+  const RunPlan copy = plan_from_bytes(bytes);
+  CHECK(copy.decomposition == plan.decomposition);
+  CHECK(copy.owners == plan.owners);
+  CHECK(copy.bounds.min_angle == 25);
+  CHECK(copy.bounds.region_max_area == plan.bounds.region_max_area);
+  CHECK(!copy.presplit);
+  CHECK(copy.aggregation == 17);
+  CHECK(copy.max_triangles == 12345);
+  CHECK_THROWS_AS(plan_from_bytes(std::span(bytes).first(bytes.size() - 1)), Error);
+  protocol::Bytes longer = bytes;
+  longer.push_back({});
+  CHECK_THROWS_AS(plan_from_bytes(longer), Error);
+}
+
+TEST_CASE("the agenda finishes what is begun, and comes to refined subdomains last") {
+  Agenda agenda(WorkOrder::kLargest);
+  CHECK(!agenda.first());
+  agenda.put({1, false, false, 10, 0});
+  agenda.put({2, false, false, 30, 0});
+  agenda.put({3, false, true, 99, 5});
+  agenda.put({4, true, false, 1, 0});
+  CHECK(agenda.first() == 4);
+  agenda.remove(4);
+  CHECK(agenda.first() == 2);
+  agenda.put({1, false, false, 40, 0});
+  CHECK(agenda.first() == 1);
+  agenda.remove(1);
+  agenda.remove(2);
+  CHECK(agenda.first() == 3);
+  agenda.put({5, false, true, 1, 6});
+  CHECK(agenda.first() == 5);
+  CHECK(agenda.size() == 2);
+}
+
+TEST_CASE("the watchdog barks once a patience") {
+  Watchdog dog(60);
+  CHECK(!dog.barks(1000));
+  CHECK(!dog.barks(1059));
+  CHECK(dog.barks(1060));
+  CHECK(!dog.barks(1061));
+  CHECK(dog.barks(1120));
+  CHECK(dog.quiet(1120) == 120);
+  dog.moved(1121);
+  CHECK(!dog.barks(1180));
+}
+
+TEST_CASE("wrong names and settings of a run are refused") {
+  CHECK_THROWS_AS(static_cast<void>(work_order("newest")), Error);
+  CHECK_THROWS_AS(static_cast<void>(presplit_mode("maybe")), Error);
+  CHECK_THROWS_AS(plan_of(ell(), {20, 0, {}, nullptr}, 1, 4, Presplit::kOn), Error);
+  CHECK(!plan_of(ell(), {20, 0, {}, nullptr}, 1, 4, Presplit::kAuto).presplit);
+}
