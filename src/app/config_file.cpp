@@ -5,11 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/nearest_name.hpp"
 #include "base/read_file.hpp"
 
 namespace driftmesh::app {
@@ -29,21 +29,6 @@ std::vector<CLI::Option*> settable_options(CLI::App& command) {
     const std::string key = key_of(*option);
     return !key.empty() && key != "help" && key != "config";
   });
-}
-
-/// The number of letters to insert, remove or replace to get from one word to the other.
-std::size_t edit_distance(const std::string& from, const std::string& to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
 }
 
 /// Reads one file of settings.
@@ -79,10 +64,8 @@ class Config {
       if (key_of(*option) == name) return option;
       known.push_back(key_of(*option));
     }
-    const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-      return edit_distance(name, a) < edit_distance(name, b);
-    });
-    fail(key.Mark(), fmt::format("unknown option '{}'", name), fmt::format("the nearest one is '{}'", *nearest));
+    fail(key.Mark(), fmt::format("unknown option '{}'", name),
+         fmt::format("the nearest one is '{}'", nearest_name(name, known)));
   }
 
   std::vector<std::string> values_of(const YAML::Node& value, const YAML::Node& key) const {

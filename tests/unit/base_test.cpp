@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "base/nearest_name.hpp"
 
 using namespace driftmesh;
 
@@ -25,4 +26,13 @@ TEST_CASE("narrow refuses what does not fit") {
   CHECK(narrow<std::int32_t>(std::size_t{2147483647}, "count") == 2147483647);
   CHECK_THROWS_AS((void)narrow<std::int32_t>(std::size_t{2147483648}, "count"), LimitError);
   CHECK_THROWS_AS((void)narrow<std::uint32_t>(-1, "count"), LimitError);
+}
+
+TEST_CASE("the nearest name is the one that takes the fewest changes") {
+  const std::vector<std::string> known{"none", "zoltan", "diffusion", "IMBALANCE_TOL"};
+  CHECK(nearest_name("soltan", known) == "zoltan");
+  CHECK(nearest_name("diffuse", known) == "diffusion");
+  CHECK(nearest_name("imbalance", known) == "IMBALANCE_TOL");
+  CHECK(nearest_name("none", known) == "none");
+  CHECK(nearest_name("x", {}) == "");
 }

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace driftmesh {
+
+/// The one of `known` that `name` was probably meant to be: the fewest letters to insert, remove or replace, whatever
+/// their case. The first of several; "" when none is known.
+[[nodiscard]] std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
+
+}  // namespace driftmesh
