@@ -45,13 +45,15 @@ void fields(auto& archive, Is<LocationUpdate> auto& m) {
 }
 void fields(auto& archive, Is<SubdomainLoad> auto& m) {
   archive.subdomain(m.subdomain);
+  archive.number(m.epoch);
   archive.amount(m.remaining);
   archive.number(m.bytes);
 }
 void fields(auto& archive, Is<LoadReport> auto& m) {
   archive.number(m.round);
+  archive.number(m.plan);
   archive.amount(m.speed);
-  archive.list(m.loads, 20);
+  archive.list(m.loads, 24);
 }
 void fields(auto& archive, Is<PlannedMove> auto& m) {
   archive.subdomain(m.subdomain);
@@ -60,6 +62,21 @@ void fields(auto& archive, Is<PlannedMove> auto& m) {
 void fields(auto& archive, Is<Plan> auto& m) {
   archive.number(m.round);
   archive.list(m.moves, 8);
+}
+void fields(auto& archive, Is<RankLoad> auto& m) {
+  archive.rank(m.rank);
+  archive.amount(m.remaining);
+  archive.amount(m.speed);
+  archive.amount(m.age);
+}
+void fields(auto& archive, Is<WorkRequest> auto& m) {
+  archive.number(m.round);
+  archive.list(m.news, 28);
+}
+void fields(auto& archive, Is<WorkAnswer> auto& m) {
+  archive.number(m.round);
+  archive.list(m.moves, 8);
+  archive.list(m.news, 28);
 }
 void fields(auto& archive, Is<Token> auto& m) {
   archive.number(m.round);

@@ -54,6 +54,7 @@ struct LocationUpdate {
 
 struct SubdomainLoad {
   SubdomainId subdomain = 0;
+  Epoch epoch = 0;          ///< with the sender as owner
   double remaining = 0;     ///< triangles still to be made, predicted
   std::uint64_t bytes = 0;  ///< of the packed form, estimated
   friend bool operator==(const SubdomainLoad&, const SubdomainLoad&) = default;
@@ -61,9 +62,10 @@ struct SubdomainLoad {
 
 /// What the sender has to do, and how fast it is.
 struct LoadReport {
-  std::uint32_t round = 0;
-  double speed = 0;  ///< triangles a second, a running average
-  std::vector<SubdomainLoad> loads;
+  std::uint32_t round = 0;           ///< of the sender's reports, from 1: an older one says nothing new
+  std::uint32_t plan = 0;            ///< the round of the last Plan that the sender has acted on; 0: none
+  double speed = 0;                  ///< triangles a second, a running average; 0: not known yet
+  std::vector<SubdomainLoad> loads;  ///< of its subdomains that are not finished
   friend bool operator==(const LoadReport&, const LoadReport&) = default;
 };
 
@@ -78,6 +80,30 @@ struct Plan {
   std::uint32_t round = 0;
   std::vector<PlannedMove> moves;
   friend bool operator==(const Plan&, const Plan&) = default;
+};
+
+/// What one rank has to do altogether, as the sender of this knew it.
+struct RankLoad {
+  Rank rank = 0;
+  double remaining = 0;  ///< triangles still to be made, predicted
+  double speed = 0;      ///< triangles a second; 0: not known
+  double age = 0;        ///< seconds since that rank said so
+  friend bool operator==(const RankLoad&, const RankLoad&) = default;
+};
+
+/// The sender will soon have nothing to do. The receiver answers, once, whatever it can give.
+struct WorkRequest {
+  std::uint32_t round = 0;     ///< of the sender's requests
+  std::vector<RankLoad> news;  ///< of the sender itself, and of others
+  friend bool operator==(const WorkRequest&, const WorkRequest&) = default;
+};
+
+/// The answer to a WorkRequest: what is on its way to the receiver, or nothing.
+struct WorkAnswer {
+  std::uint32_t round = 0;  ///< of the request
+  std::vector<PlannedMove> moves;
+  std::vector<RankLoad> news;  ///< of the sender itself, after these moves, and of others
+  friend bool operator==(const WorkAnswer&, const WorkAnswer&) = default;
 };
 
 // ---- Detection: how the end is found; each of these travels along the ring of ranks ------------------------------
@@ -103,7 +129,8 @@ struct Finish {
   friend bool operator==(const Finish&, const Finish&) = default;
 };
 
-using Message = std::variant<SplitBatch, HandOff, LocationUpdate, LoadReport, Plan, Token, Terminate, Finish>;
+using Message = std::variant<SplitBatch, HandOff, LocationUpdate, LoadReport, Plan, Token, Terminate, Finish,
+                             WorkRequest, WorkAnswer>;
 
 enum class Traffic { kWork, kControl, kDetection };
 [[nodiscard]] Traffic traffic_of(const Message& message);

@@ -49,7 +49,7 @@ struct SoundRules {
 struct Delivery {
   std::optional<HandOff> arrival;  ///< a subdomain that now lives here; unpack it before looking at the splits
   std::vector<SplitGroup> splits;  ///< for subdomains that live here
-  std::optional<Message> advice;   ///< a LoadReport or Plan
+  std::optional<Message> advice;   ///< a LoadReport, Plan, WorkRequest or WorkAnswer
 };
 
 /// How often things happened on one rank.
@@ -94,7 +94,8 @@ class BasicRankProtocol {
   /// rank is the caller's no-op: throws Error.
   void hand_off(SubdomainId s, Rank destination, Bytes packed);
 
-  /// Sends advice: a LoadReport, Plan or LocationUpdate. Returns false, and sends nothing, once the work is over.
+  /// Sends advice: a LoadReport, Plan, WorkRequest, WorkAnswer or LocationUpdate. Returns false, and sends nothing,
+  /// once the work is over.
   bool advise(Rank destination, Message advice);
 
   /// Takes in a message. What it brings to the program is returned; the program queues it as work of its subdomains
@@ -127,6 +128,10 @@ class BasicRankProtocol {
   void take(Rank source, LocationUpdate&& update, Delivery& delivery);
   void take(Rank source, LoadReport&& report, Delivery& delivery) { take_advice(source, std::move(report), delivery); }
   void take(Rank source, Plan&& plan, Delivery& delivery) { take_advice(source, std::move(plan), delivery); }
+  void take(Rank source, WorkRequest&& request, Delivery& delivery) {
+    take_advice(source, std::move(request), delivery);
+  }
+  void take(Rank source, WorkAnswer&& answer, Delivery& delivery) { take_advice(source, std::move(answer), delivery); }
   void take(Rank source, Token&& token, Delivery&) { termination_.receive(source, token); }
   void take(Rank source, Terminate&& terminate, Delivery&) { termination_.receive(source, terminate); }
   void take(Rank source, Finish&& finish, Delivery&) { termination_.receive(source, finish); }

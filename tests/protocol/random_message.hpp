@@ -31,21 +31,22 @@ class RandomMessage {
       case 2:
         return LocationUpdate{subdomain(), rank(), epoch()};
       case 3: {
-        LoadReport report{epoch(), amount(), {}};
-        for (auto n = below(5); n > 0; --n) report.loads.push_back({subdomain(), amount(), random_()});
+        LoadReport report{epoch(), epoch(), amount(), {}};
+        for (auto n = below(5); n > 0; --n) report.loads.push_back({subdomain(), epoch(), amount(), random_()});
         return report;
       }
-      case 4: {
-        Plan plan{epoch(), {}};
-        for (auto n = below(5); n > 0; --n) plan.moves.push_back({subdomain(), rank()});
-        return plan;
-      }
+      case 4:
+        return Plan{epoch(), moves()};
       case 5:
         return Token{random_(), static_cast<std::int64_t>(random_()), below(2) == 1};
       case 6:
         return Terminate{random_(), static_cast<std::int64_t>(random_()), static_cast<std::int64_t>(random_())};
-      default:
+      case 7:
         return Finish{};
+      case 8:
+        return WorkRequest{epoch(), news()};
+      default:
+        return WorkAnswer{epoch(), moves(), news()};
     }
   }
 
@@ -55,6 +56,16 @@ class RandomMessage {
   SubdomainId subdomain() { return static_cast<SubdomainId>(below(static_cast<std::uint64_t>(kLimits.subdomains))); }
   Epoch epoch() { return static_cast<Epoch>(random_()); }
   double amount() { return static_cast<double>(random_()) / 3; }
+  std::vector<PlannedMove> moves() {
+    std::vector<PlannedMove> result;
+    for (auto n = below(5); n > 0; --n) result.push_back({subdomain(), rank()});
+    return result;
+  }
+  std::vector<RankLoad> news() {
+    std::vector<RankLoad> result;
+    for (auto n = below(5); n > 0; --n) result.push_back({rank(), amount(), amount(), amount()});
+    return result;
+  }
   SplitGroup group() {
     SplitGroup result{subdomain(), epoch(), rank(), {}};
     for (auto n = below(6); n > 0; --n) {
