@@ -125,7 +125,7 @@ TEST_CASE("points without segments get their hull, which is no change") {
 
 TEST_CASE("the hull is led through points within rounding error of it, and that is reported") {
   Pslg pslg;
-  pslg.points = {{0, 0}, {1.5, 0}, {1.5, 1.1}, {0.5, 1.3}, {0, 1.4}};
+  pslg.points = {{0, 0}, {1.5, 0}, {1.5, 1.1}, {0.5, 1.3}, {0, 1.4000000000000001}};
   const RepairReport report = repair(pslg);
   CHECK(pslg.segments == Segments{{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 4, 1}, {4, 0, 1}});
   CHECK(report.points_close_segments.count == 1);
