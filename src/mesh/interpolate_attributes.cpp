@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "mesh/cdt.hpp"
-#include "sizing/background_mesh.hpp"
 
 namespace driftmesh {
 namespace {
@@ -25,22 +24,29 @@ std::vector<BackgroundMesh::Triangle> input_triangles(const Triangulation& initi
 
 }  // namespace
 
+AttributeField::AttributeField(const Pslg& pslg) : AttributeField(pslg, triangulate(pslg)) {}
+
+AttributeField::AttributeField(const Pslg& pslg, const Triangulation& initial)
+    : pslg_(pslg),
+      used_points_(static_cast<std::size_t>(std::count_if(initial.origin.begin(), initial.origin.end(), is_input))),
+      background_(pslg.points, input_triangles(initial)) {}
+
+void AttributeField::evaluate(const Point& p, std::span<double> values) const {
+  const BackgroundMesh::Place place = background_.locate(p);
+  const BackgroundMesh::Triangle& corners = background_.triangles()[id(place.triangle)];
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    values[k] = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      values[k] += place.weight[i] * pslg_.attributes[id(corners[i]) * values.size() + k];
+  }
+}
+
 void interpolate_attributes(const Pslg& pslg, MeshPiece& piece) {
   if (pslg.attributes_per_point == 0) return;
   const auto width = static_cast<std::size_t>(pslg.attributes_per_point);
-  const Triangulation initial = triangulate(pslg);
-  const auto input_points =
-      static_cast<std::size_t>(std::count_if(initial.origin.begin(), initial.origin.end(), is_input));
-  const BackgroundMesh background(pslg.points, input_triangles(initial));
-  for (std::size_t v = input_points; v < piece.points.size(); ++v) {
-    const BackgroundMesh::Place place = background.locate(piece.points[v]);
-    const BackgroundMesh::Triangle& corners = background.triangles()[id(place.triangle)];
-    for (std::size_t k = 0; k < width; ++k) {
-      double& value = piece.attributes[v * width + k];
-      value = 0;
-      for (std::size_t i = 0; i < 3; ++i) value += place.weight[i] * pslg.attributes[id(corners[i]) * width + k];
-    }
-  }
+  const AttributeField field(pslg);
+  for (std::size_t v = field.used_points(); v < piece.points.size(); ++v)
+    field.evaluate(piece.points[v], std::span(piece.attributes).subspan(v * width, width));
 }
 
 }  // namespace driftmesh

@@ -1,9 +1,32 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include "mesh/mesh_piece.hpp"
+#include "mesh/triangulation.hpp"
 #include "pslg/pslg.hpp"
+#include "sizing/background_mesh.hpp"
 
 namespace driftmesh {
+
+/// The point attributes of an input as functions of position: linear interpolation in its constrained Delaunay
+/// triangulation.
+class AttributeField {
+ public:
+  /// `pslg`, a repaired input, outlives the field.
+  explicit AttributeField(const Pslg& pslg);
+  /// Sets the attributes_per_point values at `p`. They depend on the input and `p` alone.
+  void evaluate(const Point& p, std::span<double> values) const;
+  /// How many points of the input its triangulation uses.
+  [[nodiscard]] std::size_t used_points() const { return used_points_; }
+
+ private:
+  AttributeField(const Pslg& pslg, const Triangulation& initial);
+  const Pslg& pslg_;
+  std::size_t used_points_;
+  BackgroundMesh background_;
+};
 
 /// Gives every added point of `piece` attributes: linear interpolation in the constrained Delaunay triangulation of
 /// `pslg`, the repaired input that the piece was made from. Points on a segment of the input so get a mix of its ends;
