@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "app/sizing_options.hpp"
@@ -31,14 +33,32 @@ struct CheckOptions {
   bool quiet = false;
 };
 
-VerifyReport read_and_verify(const CheckOptions& options) {
-  const MeshPiece mesh = read_mesh(options.mesh);
-  if (!options.quiet) std::cout << fmt::format("digest         {:016x}\n", mesh_digest(mesh));
-  if (options.input.empty()) return verify(mesh, options.verify);
+/// Every piece for itself: the digest of the whole is the sum.
+std::vector<MeshPiece> read_and_digest(const CheckOptions& options) {
+  std::vector<MeshPiece> pieces;
+  if (is_in_pieces(options.mesh))
+    pieces = read_pieces(options.mesh);
+  else
+    pieces.push_back(read_mesh(options.mesh));
+  std::uint64_t digest = 0;
+  for (const MeshPiece& piece : pieces) digest += mesh_digest(piece);
+  if (!options.quiet) std::cout << fmt::format("digest         {:016x}\n", digest);
+  return pieces;
+}
+
+std::optional<Pslg> read_and_repair(const CheckOptions& options) {
+  if (options.input.empty()) return std::nullopt;
   Pslg input = read_poly(options.input);
   const RepairReport repairs = repair(input, options.input);
   if (!options.quiet) std::cout << repairs.summary();
-  return verify(mesh, input, options.verify);
+  return input;
+}
+
+VerifyReport read_and_verify(const CheckOptions& options) {
+  const std::vector<MeshPiece> pieces = read_and_digest(options);
+  const std::optional<Pslg> input = read_and_repair(options);
+  if (is_in_pieces(options.mesh)) return verify_pieces(pieces, input ? &*input : nullptr, options.verify);
+  return input ? verify(pieces[0], *input, options.verify) : verify(pieces[0], options.verify);
 }
 
 int run_check(CheckOptions& options) {
@@ -62,7 +82,7 @@ int run_check(CheckOptions& options) {
 void add_check(CLI::App& program) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command = program.add_subcommand("check", "Verify a mesh from its file, independent of how it was made");
-  command->add_option("mesh", options->mesh, "The mesh: .vtu, .msh, or any file of Triangle's .node/.ele set")
+  command->add_option("mesh", options->mesh, "The mesh: .vtu, .pvtu, .msh, or any file of Triangle's .node/.ele set")
       ->type_name("")
       ->required();
   command

@@ -29,7 +29,7 @@ void refuse_to_overwrite_input(const ConvertOptions& options) {
 void add_convert(CLI::App& program) {
   const auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = program.add_subcommand("convert", "Write a mesh in another format");
-  command->add_option("input", options->input, "The mesh: .vtu, .msh, or any file of Triangle's .node/.ele set")
+  command->add_option("input", options->input, "The mesh: .vtu, .pvtu, .msh, or any file of Triangle's .node/.ele set")
       ->type_name("")
       ->required();
   command->add_option("output", options->output, "The new file; its extension chooses the format")

@@ -79,7 +79,7 @@ void add_plot(CLI::App& program) {
   CLI::App* command = program.add_subcommand("plot", "Draw a mesh or an input as PNG, SVG or PDF");
   command
       ->add_option("input", options->input,
-                   "A mesh (.vtu, .msh, .ele, .node) or an input (.poly, or a .node without .ele)")
+                   "A mesh (.vtu, .pvtu, .msh, .ele, .node) or an input (.poly, or a .node without .ele)")
       ->type_name("")
       ->required();
   command

@@ -26,6 +26,11 @@ struct MeshPiece {
   std::vector<double> attributes;                      ///< attributes_per_point values for each point, point by point
   std::int32_t attributes_per_point = 0;
   std::vector<double> regions;  ///< empty, or the region attribute of each triangle
+
+  // Of a mesh that was made in subdomains, or of a rank's piece of it; empty otherwise.
+  std::vector<std::int64_t> numbers;     ///< of each point of a piece: its number in the whole mesh, from 0
+  std::vector<std::int32_t> subdomains;  ///< of each triangle: the subdomain that it was made in
+  std::vector<std::int32_t> ranks;       ///< of each triangle: the rank that held that subdomain in the end
 };
 
 }  // namespace driftmesh

@@ -4,22 +4,24 @@
 
 #include "base/error.hpp"
 #include "output/msh_format.hpp"
+#include "output/pvtu_format.hpp"
 #include "output/triangle_format.hpp"
 #include "output/vtu_format.hpp"
 
 namespace driftmesh {
 namespace {
 
-enum class Format { kTriangle, kVtu, kMsh };
+enum class Format { kTriangle, kVtu, kPvtu, kMsh };
 
 Format format_of(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".vtu") return Format::kVtu;
+  if (extension == ".pvtu") return Format::kPvtu;
   if (extension == ".msh") return Format::kMsh;
   for (const char* of_triangle : {".node", ".ele", ".poly", ".edge", ".neigh"})
     if (extension == of_triangle) return Format::kTriangle;
   throw InputError({path, 0}, extension.empty() ? "has no extension" : "has an unknown extension '" + extension + "'",
-                   "mesh files end in .vtu, in .msh, or in .node, .ele, .poly, .edge, .neigh");
+                   "mesh files end in .vtu, .pvtu, .msh, or in .node, .ele, .poly, .edge, .neigh");
 }
 
 std::string without_extension(const std::string& path) {
@@ -32,6 +34,8 @@ void write_mesh(const MeshPiece& mesh, const std::string& path, const WriteOptio
   switch (format_of(path)) {
     case Format::kVtu:
       return write_vtu(mesh, path);
+    case Format::kPvtu:
+      throw InputError({path, 0}, "is for a mesh in pieces", "this mesh is one: write a .vtu");
     case Format::kMsh:
       return write_msh(mesh, path);
     case Format::kTriangle:
@@ -43,12 +47,18 @@ MeshPiece read_mesh(const std::string& path) {
   switch (format_of(path)) {
     case Format::kVtu:
       return read_vtu(path);
+    case Format::kPvtu:
+      return read_pvtu(path);
     case Format::kMsh:
       return read_msh(path);
     case Format::kTriangle:
       return read_triangle_format(without_extension(path));
   }
   return {};
+}
+
+bool is_in_pieces(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".pvtu";
 }
 
 std::vector<std::string> mesh_files(const std::string& path) {

@@ -17,11 +17,16 @@ struct WriteOptions {
 /// docs/file-formats.md says what each format holds. Errors: InputError for an unknown extension, FileError.
 void write_mesh(const MeshPiece& mesh, const std::string& path, const WriteOptions& options = {});
 
-/// Reads a mesh back, from any of these formats. Nothing in the file is believed before it is checked: indices are
-/// in range and counts fit the file. Triangles come as the file lists them, so a check sees what the file holds;
-/// only a file whose area is negative as a whole is turned over.
-/// Errors: InputError naming file and place, FileError.
+/// Reads a mesh back, from any of these formats, or from the pieces that a .pvtu names. Nothing in the file is believed
+/// before it is checked: indices are in range and counts fit the file. Triangles come as the file lists them, so a
+/// check sees what the file holds; only a file whose area is negative as a whole is turned over. Errors: InputError
+/// naming file and place, FileError.
 [[nodiscard]] MeshPiece read_mesh(const std::string& path);
+
+/// Whether the extension is that of a mesh in pieces: .pvtu.
+[[nodiscard]] bool is_in_pieces(const std::string& path);
+/// The pieces of a mesh as they are, with the numbers of their points, for a check. Errors: as of read_mesh.
+[[nodiscard]] std::vector<MeshPiece> read_pieces(const std::string& path);
 
 /// The files that write_mesh would replace. Error: InputError for an unknown extension.
 [[nodiscard]] std::vector<std::string> mesh_files(const std::string& path);

@@ -10,6 +10,9 @@ namespace driftmesh {
 
 /// The name of the one surface group of a mesh without regions.
 inline constexpr std::string_view kDomainName = "domain";
+// The names of the views that say which subdomain and which rank a triangle was made in.
+inline constexpr std::string_view kSubdomainView = "subdomain";
+inline constexpr std::string_view kRankView = "rank";
 
 // The names of physical groups hold the exact value: a tag cannot, being a positive integer.
 [[nodiscard]] std::string marker_group_name(std::int32_t marker);

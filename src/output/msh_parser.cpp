@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "output/byte_cursor.hpp"
+#include "output/msh_groups.hpp"
 #include "output/msh_input.hpp"
 
 namespace driftmesh {
@@ -50,6 +51,7 @@ class MshParser {
     if (name == "Nodes") parse_nodes(input);
     if (name == "Elements") parse_elements(input);
     if (name == "NodeData") parse_node_data(input);
+    if (name == "ElementData") parse_element_data(input);
     if (name == "DriftmeshPointMarkers") parse_point_markers();
   }
 
@@ -187,30 +189,56 @@ class MshParser {
          is_second_order ? "save the mesh in first order" : "only triangle meshes are read");
   }
 
-  // Views that are not attributes of ours are passed over.
-  template <class Input>
-  void parse_node_data(Input& input) {
+  struct View {
+    std::string_view name;
+    std::int32_t values = 0;  // 0 for views of more than one component
+  };
+  View parse_view_header(const char* section) {
     TextMshInput text(path_, cursor_);
-    std::string name;
+    View view;
     for (std::uint64_t left = text.size(); left > 0; --left) {
       cursor_.skip_blanks();
       const std::string_view line = cursor_.take_line();
-      if (name.empty()) name = line;
-      if (cursor_.remaining() == 0) fail("ends within $NodeData", kDamaged);
+      if (view.name.empty()) view.name = line;
+      if (cursor_.remaining() == 0) fail(std::string("ends within ") + section, kDamaged);
     }
     for (std::uint64_t left = text.size(); left > 0; --left) (void)text.real();
     std::vector<std::int32_t> integers;
     for (std::uint64_t left = text.size(); left > 0; --left) integers.push_back(text.integer());
     (void)cursor_.take_line();
+    if (integers.size() >= 3 && integers[1] == 1) view.values = integers[2];
+    return view;
+  }
+
+  // Views that are not attributes of ours are passed over.
+  template <class Input>
+  void parse_node_data(Input& input) {
+    const View view = parse_view_header("$NodeData");
     const std::string expected = "\"attribute " + std::to_string(raw_.attributes.size() + 1) + "\"";
-    if (name != expected || integers.size() < 3 || integers[1] != 1) return;
+    if (view.name != expected) return;
     if (raw_.attributes.size() == kMaxAttributes) fail("has more than 1000 attributes", kDamaged);
     RawMsh::Attribute& attribute = raw_.attributes.emplace_back();
-    for (std::int32_t left = integers[2]; left > 0; --left) {
+    for (std::int32_t left = view.values; left > 0; --left) {
       attribute.nodes.push_back(input.integer());
       attribute.values.push_back(input.real());
     }
   }
+
+  template <class Input>
+  void parse_element_data(Input& input) {
+    const View view = parse_view_header("$ElementData");
+    std::vector<RawMsh::ElementValue>* const values = view.name == quoted(kSubdomainView) ? &raw_.subdomains
+                                                      : view.name == quoted(kRankView)    ? &raw_.ranks
+                                                                                          : nullptr;
+    if (values == nullptr) return;
+    for (std::int32_t left = view.values; left > 0; --left) {
+      const auto element = static_cast<std::uint64_t>(input.integer());
+      const double value = input.real();
+      if (!(value >= 0 && value <= INT32_MAX)) fail("has a " + std::string(view.name) + " out of range", kDamaged);
+      values->push_back({element, static_cast<std::int32_t>(value)});
+    }
+  }
+  static std::string quoted(std::string_view name) { return '"' + std::string(name) + '"'; }
 
   void parse_point_markers() {
     TextMshInput input(path_, cursor_);

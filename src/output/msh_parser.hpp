@@ -26,6 +26,10 @@ struct RawMsh {
     std::vector<std::int32_t> nodes;
     std::vector<double> values;
   };
+  struct ElementValue {
+    std::uint64_t element = 0;
+    std::int32_t value = 0;
+  };
   struct Marker {
     std::uint64_t node = 0;
     std::int32_t marker = 0;
@@ -38,6 +42,8 @@ struct RawMsh {
   Elements<2> lines;
   Elements<3> triangles;
   std::vector<Attribute> attributes;
+  std::vector<ElementValue> subdomains;
+  std::vector<ElementValue> ranks;
   std::optional<std::vector<Marker>> point_markers;
 };
 

@@ -30,6 +30,8 @@ class MshAssembler {
     place_points();
     place_edges();
     place_triangles();
+    mesh_.subdomains = values_of_triangles(raw_.subdomains);
+    mesh_.ranks = values_of_triangles(raw_.ranks);
     place_attributes();
     place_point_markers();
     return std::move(mesh_);
@@ -77,6 +79,19 @@ class MshAssembler {
       mesh_.triangles.push_back({node(a, "a triangle"), node(b, "a triangle"), node(c, "a triangle")});
       if (has_regions) mesh_.regions.push_back(regions.at(raw_.triangles.entities[i]));
     }
+  }
+
+  // Only if each triangle has one; values of lines are passed over.
+  [[nodiscard]] std::vector<std::int32_t> values_of_triangles(const std::vector<RawMsh::ElementValue>& values) const {
+    std::vector<std::uint64_t> tags = raw_.triangles.tags;
+    std::sort(tags.begin(), tags.end());
+    std::vector<std::int32_t> result(tags.size(), -1);
+    for (const RawMsh::ElementValue& v : values) {
+      const auto found = std::lower_bound(tags.begin(), tags.end(), v.element);
+      if (found != tags.end() && *found == v.element) result[static_cast<std::size_t>(found - tags.begin())] = v.value;
+    }
+    if (std::find(result.begin(), result.end(), -1) != result.end()) result.clear();
+    return result;
   }
 
   // The marker or region of each entity that is used: what the name of its group says, otherwise the group's tag.

@@ -288,6 +288,22 @@ void write_attribute(FileSink& sink, const MeshPiece& mesh, std::size_t k) {
   end_of_binary_section(sink, "EndNodeData");
 }
 
+// Who made the triangles, as a view on them: what physical groups cannot say without changing what solvers load.
+void write_triangle_data(FileSink& sink, const MeshPiece& mesh, std::string_view name,
+                         const std::vector<std::int32_t>& values) {
+  section(sink, "ElementData");
+  sink.text("1\n\"");
+  sink.text(name);
+  sink.text("\"\n1\n0\n3\n0\n1\n");  // as above
+  sink.number(values.size());
+  sink.character('\n');
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    sink.raw(static_cast<std::int32_t>(mesh.edges.size() + t + 1));
+    sink.raw(static_cast<double>(values[t]));
+  }
+  end_of_binary_section(sink, "EndElementData");
+}
+
 // Text, also in a binary file: readers that do not know the section look for its end line by line.
 void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& markers) {
   section(sink, "DriftmeshPointMarkers");
@@ -306,7 +322,7 @@ void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& marker
 }  // namespace
 
 void write_msh(const MeshPiece& mesh, const std::string& path) {
-  (void)narrow<std::int32_t>(mesh.triangles.size(), "triangles of a .msh file");
+  (void)narrow<std::int32_t>(mesh.edges.size() + mesh.triangles.size(), "elements of a .msh file");
   FileSink sink(path);
   const Classification classes(mesh);
   write_format(sink);
@@ -315,6 +331,8 @@ void write_msh(const MeshPiece& mesh, const std::string& path) {
   write_nodes(sink, mesh, classes);
   write_elements(sink, mesh, classes);
   for (std::size_t k = 0; k < at(mesh.attributes_per_point); ++k) write_attribute(sink, mesh, k);
+  if (!mesh.subdomains.empty()) write_triangle_data(sink, mesh, kSubdomainView, mesh.subdomains);
+  if (!mesh.ranks.empty()) write_triangle_data(sink, mesh, kRankView, mesh.ranks);
   if (!mesh.point_markers.empty()) write_point_markers(sink, mesh.point_markers);
   sink.commit();
 }

@@ -60,6 +60,9 @@ void check_length(std::size_t length, std::size_t expected, const char* what, co
 void check_lengths(const MeshPiece& mesh, const std::string& path) {
   if (!mesh.point_markers.empty()) check_length(mesh.point_markers.size(), mesh.points.size(), "point markers", path);
   if (!mesh.regions.empty()) check_length(mesh.regions.size(), mesh.triangles.size(), "regions", path);
+  if (!mesh.numbers.empty()) check_length(mesh.numbers.size(), mesh.points.size(), "point numbers", path);
+  if (!mesh.subdomains.empty()) check_length(mesh.subdomains.size(), mesh.triangles.size(), "subdomains", path);
+  if (!mesh.ranks.empty()) check_length(mesh.ranks.size(), mesh.triangles.size(), "ranks", path);
   check_length(mesh.attributes.size(), static_cast<std::size_t>(mesh.attributes_per_point) * mesh.points.size(),
                "point attributes", path);
 }

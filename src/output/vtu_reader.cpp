@@ -266,6 +266,8 @@ void read_point_data(MeshPiece& mesh, const ArrayReader& arrays, std::uint64_t c
     mesh.attributes = arrays.load<double>(*attribute, count);
     mesh.attributes_per_point = static_cast<std::int32_t>(std::min<std::uint64_t>(attribute->components, 1 << 20));
   }
+  if (const DataArray* const number = arrays.find("PointData", "global_number"))
+    mesh.numbers = arrays.load<std::int64_t>(*number, count);
 }
 
 void read_cells(MeshPiece& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
@@ -275,10 +277,16 @@ void read_cells(MeshPiece& mesh, const std::string& path, const ArrayReader& arr
     const std::vector<std::int32_t> markers = arrays.load<std::int32_t>(*marker, count);
     for (std::size_t e = 0; e < mesh.edges.size(); ++e) mesh.edges[e].marker = markers[cells.line_cells[e]];
   }
-  if (const DataArray* const region = arrays.find("CellData", "region")) {
-    const std::vector<double> regions = arrays.load<double>(*region, count);
-    for (std::size_t cell : cells.triangle_cells) mesh.regions.push_back(regions[cell]);
-  }
+  const auto load_of_triangles = [&]<class T>(const char* name, std::vector<T>& values) {
+    const DataArray* const array = arrays.find("CellData", name);
+    if (array == nullptr) return;
+    const std::vector<T> of_cells = arrays.load<T>(*array, count);
+    values.reserve(cells.triangle_cells.size());
+    for (std::size_t cell : cells.triangle_cells) values.push_back(of_cells[cell]);
+  };
+  load_of_triangles("region", mesh.regions);
+  load_of_triangles("subdomain", mesh.subdomains);
+  load_of_triangles("rank", mesh.ranks);
 }
 
 }  // namespace

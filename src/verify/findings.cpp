@@ -12,6 +12,8 @@ const char* flaw_name(Flaw flaw) {
       return "bad coordinate";
     case Flaw::duplicate_point:
       return "duplicate point";
+    case Flaw::pieces_disagree:
+      return "pieces disagree";
     case Flaw::not_counterclockwise:
       return "not counterclockwise";
     case Flaw::duplicate_triangle:

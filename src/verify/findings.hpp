@@ -15,6 +15,7 @@ enum class Flaw : std::uint8_t {
   bad_index,        ///< a triangle or subsegment names a point that does not exist, or one point twice
   bad_coordinate,   ///< a used point is not finite or outside the range of the exact predicates
   duplicate_point,  ///< two used points have the same coordinates
+  pieces_disagree,  ///< a point has other coordinates, marker or attributes in another piece, or its number is missing
   // The triangulation.
   not_counterclockwise,  ///< a triangle is inverted or flat (exact)
   duplicate_triangle,    ///< two triangles have the same corners

@@ -31,6 +31,9 @@ bool check_arrays(const MeshPiece& mesh, Findings& findings) {
   const std::size_t n = mesh.points.size();
   if (!mesh.point_markers.empty()) check_length(mesh.point_markers.size(), n, "the array of point markers", findings);
   if (!mesh.regions.empty()) check_length(mesh.regions.size(), mesh.triangles.size(), "the array of regions", findings);
+  if (!mesh.subdomains.empty())
+    check_length(mesh.subdomains.size(), mesh.triangles.size(), "the array of subdomains", findings);
+  if (!mesh.ranks.empty()) check_length(mesh.ranks.size(), mesh.triangles.size(), "the array of ranks", findings);
   check_length(mesh.attributes.size(), n * static_cast<std::size_t>(std::max(0, mesh.attributes_per_point)),
                "the array of point attributes", findings);
   const auto valid = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < n; };
@@ -167,17 +170,32 @@ void LocalCheck::check_edge(std::int32_t u, std::int32_t v, const Spoke* left, c
              ", and is no subsegment: two triangles are expected";
     });
   } else {
-    if (delaunay_) check_delaunay(u, v, *left, *right);
+    if (is_interface(*left, *right))
+      note_interface(u, v, *left, *right);
+    else if (delaunay_)
+      check_delaunay(u, v, *left, *right);
     if (parts_ != nullptr) parts_->join(left->triangle, right->triangle);
   }
 }
 
+void LocalCheck::note_interface(std::int32_t u, std::int32_t v, const Spoke& left, const Spoke& right) {
+  const auto one = static_cast<std::size_t>(left.triangle), other = static_cast<std::size_t>(right.triangle);
+  ++interfaces_.edges;
+  interfaces_.not_delaunay += is_delaunay(u, v, left, right) ? 0 : 1;
+  if (!mesh_.ranks.empty()) interfaces_.between_ranks += mesh_.ranks[one] != mesh_.ranks[other] ? 1 : 0;
+  const auto [low, high] = std::minmax(mesh_.subdomains[one], mesh_.subdomains[other]);
+  interfaces_.subdomains.emplace(low, high);
+}
+
 // The circumcircle test says nothing about an inverted triangle, which is a flaw of its own.
-void LocalCheck::check_delaunay(std::int32_t u, std::int32_t v, const Spoke& left, const Spoke& right) {
+bool LocalCheck::is_delaunay(std::int32_t u, std::int32_t v, const Spoke& left, const Spoke& right) const {
   const Point &p = at(left.prev), &q = at(right.next);
-  const double inside = incircle(at(u), at(v), p, q);
-  if (!(inside > 0)) return;
-  if (!(orient2d(at(u), at(v), p) > 0) || !(orient2d(at(v), at(u), q) > 0)) return;
+  return !(incircle(at(u), at(v), p, q) > 0) || !(orient2d(at(u), at(v), p) > 0) || !(orient2d(at(v), at(u), q) > 0);
+}
+
+void LocalCheck::check_delaunay(std::int32_t u, std::int32_t v, const Spoke& left, const Spoke& right) {
+  if (is_delaunay(u, v, left, right)) return;
+  const double inside = incircle(at(u), at(v), at(left.prev), at(right.next));
   findings_.add(Flaw::not_delaunay, [&] {
     return edge_words(mesh_, u, v) +
            fmt::format(" between {} and {}: ", triangle_words(mesh_, static_cast<std::size_t>(left.triangle)),

@@ -22,7 +22,19 @@ std::string grouped(std::uint64_t n) {
   return text;
 }
 
+void add_interfaces(const VerifyReport& report, Text out) {
+  if (report.pieces != 0) fmt::format_to(out, "pieces         {}\n", grouped(report.pieces));
+  if (report.subdomains == 0) return;
+  fmt::format_to(out, "subdomains     {}, {} interfaces between them of {} edges, {} of these between ranks\n",
+                 grouped(report.subdomains), grouped(report.interfaces), grouped(report.interface_edges),
+                 grouped(report.rank_interface_edges));
+  if (report.interface_edges_not_delaunay != 0)
+    fmt::format_to(out, "               {} of them are Delaunay only because interfaces count as constrained\n",
+                   grouped(report.interface_edges_not_delaunay));
+}
+
 void add_counts(const VerifyReport& report, Text out) {
+  add_interfaces(report, out);
   fmt::format_to(out, "points         {}", grouped(report.points));
   if (report.unused_points != 0) fmt::format_to(out, ", {} of them in no triangle", grouped(report.unused_points));
   fmt::format_to(out, "\ntriangles      {}\nsubsegments    {}, {} on the boundary\n", grouped(report.triangles),
@@ -81,6 +93,7 @@ void add_flaws(const Findings& findings, Text out) {
 
 std::string what_was_checked(const VerifyReport& report, const VerifyOptions& options) {
   std::string text = report.subsegments_listed ? "constrained Delaunay" : "Delaunay inside its boundary";
+  if (report.interfaces != 0) text += fmt::format(", conforming at {} interfaces", grouped(report.interfaces));
   if (report.against_input) text += ", covers the input";
   if (options.min_angle > 0) text += fmt::format(", angles of at least {} degrees", options.min_angle);
   if (const auto n = report.quality.exception_count(); n != 0)

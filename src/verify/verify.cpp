@@ -1,11 +1,14 @@
 #include "verify/verify.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "base/disjoint_sets.hpp"
+#include "mesh/merge_pieces.hpp"
 #include "verify/chains.hpp"
 #include "verify/corner_table.hpp"
 #include "verify/domain.hpp"
@@ -70,7 +73,18 @@ class Verification {
     check_subsegments(mesh_, *subsegments_, findings_);
     check_embedding(mesh_, local.boundary(), findings_);
     report_.boundary_edges = local.boundary().size();
+    note_interfaces(local.interfaces());
     corners_.reset();
+  }
+
+  void note_interfaces(const Interfaces& interfaces) {
+    std::vector<std::int32_t> subdomains = mesh_.subdomains;
+    subdomains.erase(std::unique(subdomains.begin(), subdomains.end()), subdomains.end());
+    report_.subdomains = std::set(subdomains.begin(), subdomains.end()).size();
+    report_.interfaces = interfaces.subdomains.size();
+    report_.interface_edges = interfaces.edges;
+    report_.interface_edges_not_delaunay = interfaces.not_delaunay;
+    report_.rank_interface_edges = interfaces.between_ranks;
   }
 
   void check_against_domain() {
@@ -128,6 +142,16 @@ VerifyReport verify(const MeshPiece& mesh, const VerifyOptions& options) {
 
 VerifyReport verify(const MeshPiece& mesh, const Pslg& input, const VerifyOptions& options) {
   return Verification(mesh, &input, options).run();
+}
+
+VerifyReport verify_pieces(std::span<const MeshPiece> pieces, const Pslg* input, const VerifyOptions& options) {
+  MergeFaults faults;
+  const MeshPiece whole = merge_pieces(pieces, faults);
+  VerifyReport report = Verification(whole, input, options).run();
+  report.pieces = pieces.size();
+  for (std::size_t i = 0; i < faults.count; ++i)
+    report.findings.add(Flaw::pieces_disagree, [&] { return i < faults.first.size() ? faults.first[i] : "..."; });
+  return report;
 }
 
 }  // namespace driftmesh

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "mesh/mesh_piece.hpp"
 #include "pslg/pslg.hpp"
@@ -29,6 +30,12 @@ struct VerifyReport {
   std::size_t boundary_edges = 0;
   bool subsegments_listed = true;  ///< false: the piece lists none, and its boundary was taken as constrained
   bool regions_listed = true;      ///< false: the input has regions, and the piece does not say which triangle is where
+  std::size_t pieces = 0;          ///< that the mesh came in; 0: one file
+  std::size_t subdomains = 0;      ///< 0: not told by the mesh
+  std::size_t interfaces = 0;      ///< pairs of subdomains with a common edge that is no subsegment
+  std::size_t interface_edges = 0;  ///< these edges: they need not be Delaunay
+  std::size_t interface_edges_not_delaunay = 0;
+  std::size_t rank_interface_edges = 0;  ///< of these edges: between different ranks
   double area = 0;
   bool against_input = false;
   double input_area = 0;  ///< of the domain that the input describes, if against_input
@@ -44,6 +51,7 @@ struct VerifyReport {
 ///   twice: the number of triangles over a point is the winding number of the boundary around it.
 /// - it is constrained Delaunay: no point opposite an unconstrained edge lies inside the circumcircle. Local Delaunay
 ///   at every such edge implies it everywhere (Chew 1989).
+///   Edges between triangles of different subdomains (MeshPiece::subdomains) count as constrained for that.
 /// - with bounds given, areas and angles keep them; see Quality for the exceptions near small input angles.
 /// About 55 bytes a triangle beside the mesh. Throws LimitError above 1.4 billion triangles.
 [[nodiscard]] VerifyReport verify(const MeshPiece& mesh, const VerifyOptions& options);
@@ -56,5 +64,13 @@ struct VerifyReport {
 /// - every input point in the domain is a vertex; area, Euler number and region attributes (if listed) agree.
 /// An input without segments describes the convex hull of its points, with marker 1 all around.
 [[nodiscard]] VerifyReport verify(const MeshPiece& mesh, const Pslg& input, const VerifyOptions& options);
+
+/// The same of a mesh in pieces, and that the pieces fit: points with the same number have the same coordinates, marker
+/// and attributes to the last bit wherever they are, and all numbers from 0 on are there. Both sides of every interface
+/// then have the same points and edges if the whole passes the checks above, where points of the same place with
+/// different numbers and edges with one triangle are flaws. `input` may be null. Throws Error if pieces have no
+/// numbers.
+[[nodiscard]] VerifyReport verify_pieces(std::span<const MeshPiece> pieces, const Pslg* input,
+                                         const VerifyOptions& options);
 
 }  // namespace driftmesh

@@ -15,6 +15,9 @@ inline void check_same_mesh(const MeshPiece& actual, const MeshPiece& expected) 
   CHECK(actual.attributes_per_point == expected.attributes_per_point);
   CHECK(actual.attributes == expected.attributes);
   CHECK(actual.regions == expected.regions);
+  CHECK(actual.numbers == expected.numbers);
+  CHECK(actual.subdomains == expected.subdomains);
+  CHECK(actual.ranks == expected.ranks);
 }
 
 }  // namespace driftmesh::test

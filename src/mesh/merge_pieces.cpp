@@ -1,0 +1,215 @@
+#include "mesh/merge_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <tuple>
+
+#include "base/error.hpp"
+#include "base/narrow.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// To the last bit; also NaN, and -0 against 0.
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+class Merger {
+ public:
+  Merger(std::span<const MeshPiece> pieces, MergeFaults& faults) : pieces_(pieces), faults_(faults) {}
+
+  MeshPiece merge() {
+    count_points();
+    choose_arrays();
+    for (std::size_t k = 0; k < pieces_.size(); ++k) take_points(k);
+    report_gaps();
+    take_triangles();
+    take_edges();
+    return std::move(whole_);
+  }
+
+ private:
+  static constexpr std::int32_t kNobody = -1;
+
+  /// Numbers go up to the number of all points at most, so a damaged one costs no memory.
+  void count_points() {
+    std::size_t sum = 0;
+    std::int64_t largest = -1;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const MeshPiece& piece = pieces_[k];
+      sum += piece.points.size();
+      if (piece.numbers.size() != piece.points.size())
+        throw Error("piece " + std::to_string(k) + " does not tell the numbers of its points in the whole mesh");
+      for (const std::int64_t number : piece.numbers) {
+        if (number < 0) throw Error("piece " + std::to_string(k) + " has a point of number " + std::to_string(number));
+        largest = std::max(largest, number);
+      }
+    }
+    if (largest >= static_cast<std::int64_t>(sum))
+      throw Error("a point has number " + std::to_string(largest) + ", but all pieces together have " +
+                  std::to_string(sum) + " points: pieces are missing, or the numbers are damaged");
+    (void)narrow<std::int32_t>(largest + 1, "points of the merged mesh");
+    whole_.points.resize(at(largest + 1));
+    holder_.assign(whole_.points.size(), {kNobody, 0});
+  }
+
+  /// An array is merged if every piece that has something to tell does.
+  void choose_arrays() {
+    const auto all = [&](auto tells) { return std::all_of(pieces_.begin(), pieces_.end(), tells); };
+    const bool markers = all([](const MeshPiece& p) { return p.point_markers.size() == p.points.size(); });
+    if (markers) whole_.point_markers.assign(whole_.points.size(), 0);
+    for (const MeshPiece& p : pieces_)
+      whole_.attributes_per_point = std::max(whole_.attributes_per_point, p.attributes_per_point);
+    if (!all([&](const MeshPiece& p) {
+          return p.points.empty() || p.attributes_per_point == whole_.attributes_per_point;
+        })) {
+      faults_.add([] { return std::string("pieces have different numbers of attributes at a point"); });
+      whole_.attributes_per_point = 0;
+    }
+    whole_.attributes.assign(whole_.points.size() * at(whole_.attributes_per_point), 0);
+    has_regions_ = all([](const MeshPiece& p) { return p.regions.size() == p.triangles.size(); });
+    has_subdomains_ = all([](const MeshPiece& p) { return p.subdomains.size() == p.triangles.size(); });
+    has_ranks_ = all([](const MeshPiece& p) { return p.ranks.size() == p.triangles.size(); });
+  }
+
+  void take_points(std::size_t k) {
+    const MeshPiece& piece = pieces_[k];
+    for (std::size_t v = 0; v < piece.points.size(); ++v) {
+      const std::int64_t number = piece.numbers[v];
+      Holder& holder = holder_[at(number)];
+      if (holder.piece == kNobody) {
+        holder = {static_cast<std::int32_t>(k), static_cast<std::int32_t>(v)};
+        take_point(piece, v, at(number));
+      } else if (holder.piece == static_cast<std::int32_t>(k)) {
+        faults_.add([&] { return point_words(number) + " is twice in piece " + std::to_string(k); });
+      } else {
+        compare(holder, k, v);
+      }
+    }
+  }
+
+  void take_point(const MeshPiece& piece, std::size_t v, std::size_t number) {
+    whole_.points[number] = piece.points[v];
+    if (!whole_.point_markers.empty()) whole_.point_markers[number] = piece.point_markers[v];
+    const std::size_t width = at(whole_.attributes_per_point);
+    for (std::size_t i = 0; i < width; ++i) whole_.attributes[number * width + i] = piece.attributes[v * width + i];
+  }
+
+  struct Holder {
+    std::int32_t piece;  // the first that has the point
+    std::int32_t point;
+  };
+
+  void compare(const Holder& first, std::size_t k, std::size_t v) {
+    const MeshPiece &one = pieces_[at(first.piece)], &other = pieces_[k];
+    const std::size_t u = at(first.point);
+    const Point &p = one.points[u], &q = other.points[v];
+    const auto say = [&](const char* what) {
+      faults_.add([&] {
+        return point_words(other.numbers[v]) + " has other " + what + " in piece " + std::to_string(first.piece) +
+               " than in piece " + std::to_string(k);
+      });
+    };
+    if (!same_bits(p.x, q.x) || !same_bits(p.y, q.y)) say("coordinates");
+    if (!whole_.point_markers.empty() && one.point_markers[u] != other.point_markers[v]) say("marker");
+    const std::size_t width = at(whole_.attributes_per_point);
+    for (std::size_t i = 0; i < width; ++i)
+      if (!same_bits(one.attributes[u * width + i], other.attributes[v * width + i])) return say("attributes");
+  }
+
+  void report_gaps() {
+    for (std::size_t number = 0; number < holder_.size(); ++number)
+      if (holder_[number].piece == kNobody)
+        faults_.add([&] { return point_words(static_cast<std::int64_t>(number)) + " is in no piece"; });
+  }
+
+  static std::string point_words(std::int64_t number) { return "point " + std::to_string(number); }
+
+  /// Triangles of one piece with one subdomain, next to each other.
+  struct Run {
+    std::int32_t subdomain;
+    std::size_t piece;
+    std::size_t begin;
+    std::size_t end;
+  };
+
+  void take_triangles() {
+    std::vector<Run> runs;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const MeshPiece& piece = pieces_[k];
+      count += piece.triangles.size();
+      for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
+        const std::int32_t subdomain = has_subdomains_ ? piece.subdomains[t] : 0;
+        if (t == 0 || subdomain != runs.back().subdomain)
+          runs.push_back({subdomain, k, t, t + 1});
+        else
+          ++runs.back().end;
+      }
+    }
+    (void)narrow<std::int32_t>(count, "triangles of the merged mesh");
+    std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.subdomain < b.subdomain; });
+    whole_.triangles.reserve(count);
+    for (const Run& run : runs) take_run(run);
+  }
+
+  void take_run(const Run& run) {
+    const MeshPiece& piece = pieces_[run.piece];
+    for (std::size_t t = run.begin; t < run.end; ++t) {
+      const auto& [a, b, c] = piece.triangles[t];
+      whole_.triangles.push_back({number(piece, a), number(piece, b), number(piece, c)});
+    }
+    const auto append = [&](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(run.begin),
+                from.begin() + static_cast<std::ptrdiff_t>(run.end));
+    };
+    if (has_regions_) append(whole_.regions, piece.regions);
+    if (has_subdomains_) append(whole_.subdomains, piece.subdomains);
+    if (has_ranks_) append(whole_.ranks, piece.ranks);
+  }
+
+  static std::int32_t number(const MeshPiece& piece, std::int32_t v) {
+    return static_cast<std::int32_t>(piece.numbers[at(v)]);
+  }
+
+  /// Sorted, so that copies follow each other. One that is twice in one piece stays so, for a check to find.
+  void take_edges() {
+    struct Entry {
+      MeshPiece::Edge edge;
+      std::size_t piece;
+      [[nodiscard]] auto key() const {
+        return std::tuple(std::min(edge.a, edge.b), std::max(edge.a, edge.b), edge.marker);
+      }
+    };
+    std::vector<Entry> all;
+    for (std::size_t k = 0; k < pieces_.size(); ++k)
+      for (const MeshPiece::Edge& e : pieces_[k].edges)
+        all.push_back({{number(pieces_[k], e.a), number(pieces_[k], e.b), e.marker}, k});
+    std::stable_sort(all.begin(), all.end(), [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (i == 0 || all[i].key() != all[i - 1].key() || all[i].piece == all[i - 1].piece)
+        whole_.edges.push_back(all[i].edge);
+  }
+
+  std::span<const MeshPiece> pieces_;
+  MergeFaults& faults_;
+  MeshPiece whole_;
+  std::vector<Holder> holder_;  // of each number
+  bool has_regions_ = false;
+  bool has_subdomains_ = false;
+  bool has_ranks_ = false;
+};
+
+}  // namespace
+
+MeshPiece merge_pieces(std::span<const MeshPiece> pieces, MergeFaults& faults) {
+  return Merger(pieces, faults).merge();
+}
+
+}  // namespace driftmesh
