@@ -1,0 +1,206 @@
+#include "distributed/assembly.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "distributed/piece_builder.hpp"
+#include "distributed/wire.hpp"
+
+namespace driftmesh {
+
+using protocol::Rank;
+
+namespace {
+
+constexpr auto id = &Triangulation::id;
+
+struct HeldEntry {
+  SubdomainId subdomain = 0;
+  Rank rank = 0;
+  std::int64_t points = 0;
+  std::int64_t triangles = 0;
+};
+
+std::vector<HeldEntry> read_announcement(const Mail& mail) {
+  WireReader reader(mail.rank, mail.bytes);
+  std::vector<HeldEntry> entries;
+  for (auto left = reader.value<std::uint32_t>(); left > 0; --left) {
+    HeldEntry& entry = entries.emplace_back();
+    entry.rank = mail.rank;
+    entry.subdomain = reader.value<SubdomainId>();
+    entry.points = reader.value<std::int64_t>();
+    entry.triangles = reader.value<std::int64_t>();
+  }
+  reader.finish();
+  return entries;
+}
+
+[[noreturn]] void wrong_holders(std::size_t subdomain, const std::vector<HeldEntry>& entries) {
+  std::string ranks;
+  for (const HeldEntry& entry : entries)
+    if (id(entry.subdomain) == subdomain) ranks += (ranks.empty() ? "" : " and ") + std::to_string(entry.rank);
+  throw Error("subdomain " + std::to_string(subdomain) + " is held by " +
+              (ranks.empty() ? "no rank" : "ranks " + ranks) + ": migration lost or copied it");
+}
+
+std::string root_words(const Decomposition& d, RootId r) {
+  const Decomposition::Root& root = d.roots[id(r)];
+  return "root " + std::to_string(r) + " between subdomains " + std::to_string(root.left) + " and " +
+         std::to_string(root.right);
+}
+
+std::string holds_words(Rank rank, const protocol::SplitDigest& splits) {
+  return "rank " + std::to_string(rank) + " has " + std::to_string(splits.count) + " points on it";
+}
+
+[[noreturn]] void do_not_conform(const Decomposition& d, RootId r, Rank one, const protocol::SplitDigest& of_one,
+                                 Rank other, const protocol::SplitDigest& of_other) {
+  throw Error("the mesh does not conform at " + root_words(d, r) + ": " + holds_words(one, of_one) + ", " +
+              holds_words(other, of_other) +
+              (of_one.count == of_other.count ? ", not the same: SPLITs were lost" : ": SPLITs were lost"));
+}
+
+}  // namespace
+
+PieceAssembly::PieceAssembly(Rank rank, Rank ranks, const Decomposition& decomposition, HeldSubdomains held)
+    : rank_(rank),
+      ranks_(ranks),
+      decomposition_(decomposition),
+      held_(std::move(held)),
+      census_(take_census(decomposition, held_)) {
+  for (const SubdomainCensus& census : census_)
+    for (const SubdomainCensus::Root& root : census.roots) roots_.push_back({root.root, root.splits, -1});
+  const auto by_root = [](const NumberedRoot& a, const NumberedRoot& b) { return a.root < b.root; };
+  std::sort(roots_.begin(), roots_.end(), by_root);
+  const auto same = [](const NumberedRoot& a, const NumberedRoot& b) { return a.root == b.root; };
+  compare_own_sides();
+  roots_.erase(std::unique(roots_.begin(), roots_.end(), same), roots_.end());
+}
+
+/// Both sides of a root lie next to each other in roots_.
+void PieceAssembly::compare_own_sides() const {
+  for (std::size_t k = 1; k < roots_.size(); ++k) {
+    const NumberedRoot &one = roots_[k - 1], &other = roots_[k];
+    if (one.root == other.root && !(one.splits == other.splits))
+      do_not_conform(decomposition_, one.root, rank_, one.splits, rank_, other.splits);
+  }
+}
+
+std::vector<Mail> PieceAssembly::send(int round) {
+  return round == 0 ? announce() : describe_roots();
+}
+
+std::vector<Rank> PieceAssembly::senders(int round) const {
+  if (round != 0) return neighbors_;
+  std::vector<Rank> all(static_cast<std::size_t>(ranks_));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+void PieceAssembly::receive(int round, std::vector<Mail> mail) {
+  if (round == 0) {
+    learn_subdomains(mail);
+    number_owned_roots();
+  } else {
+    for (const Mail& message : mail) learn_roots(message);
+  }
+}
+
+std::vector<Mail> PieceAssembly::announce() const {
+  WireWriter writer;
+  writer.value(static_cast<std::uint32_t>(census_.size()));
+  for (const SubdomainCensus& census : census_) {
+    writer.value(census.id);
+    writer.value(owned_points(decomposition_, census));
+    writer.value(census.triangles);
+  }
+  const protocol::Bytes message = writer.take();
+  std::vector<Mail> mail;
+  for (Rank to = 0; to < ranks_; ++to) mail.push_back({to, message});
+  return mail;
+}
+
+void PieceAssembly::learn_subdomains(const std::vector<Mail>& mail) {
+  std::vector<HeldEntry> entries;
+  for (const Mail& message : mail)
+    for (const HeldEntry& entry : read_announcement(message)) entries.push_back(entry);
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const auto& a, const auto& b) { return a.subdomain < b.subdomain; });
+  const std::size_t count = decomposition_.size();
+  for (std::size_t i = 0; i < std::max(count, entries.size()); ++i)
+    if (i >= entries.size() || id(entries[i].subdomain) != i)
+      wrong_holders(i < entries.size() ? std::min(i, id(entries[i].subdomain)) : i, entries);
+
+  subdomains_.points = static_cast<std::int64_t>(decomposition_.points.size());
+  for (const HeldEntry& entry : entries) {
+    subdomains_.rank.push_back(entry.rank);
+    subdomains_.first_number.push_back(subdomains_.points);
+    subdomains_.points += entry.points;
+    subdomains_.triangles += entry.triangles;
+  }
+}
+
+void PieceAssembly::number_owned_roots() {
+  for (const SubdomainCensus& census : census_) {
+    std::int64_t next = subdomains_.first_number[id(census.id)];
+    for (const SubdomainCensus::Root& r : census.roots) {
+      if (owner_of(decomposition_.roots[id(r.root)]) != census.id) continue;
+      find_root(roots_, r.root)->first_number = next;
+      next += static_cast<std::int64_t>(r.splits.count);
+    }
+  }
+}
+
+std::vector<Mail> PieceAssembly::describe_roots() {
+  std::map<Rank, std::vector<const NumberedRoot*>> shared;
+  for (const NumberedRoot& r : roots_) {
+    const Decomposition::Root& root = decomposition_.roots[id(r.root)];
+    for (const SubdomainId side : {root.left, root.right})
+      if (side != kNone && holder(side) != rank_) shared[holder(side)].push_back(&r);
+  }
+  std::vector<Mail> mail;
+  for (const auto& [to, roots] : shared) {
+    neighbors_.push_back(to);
+    WireWriter writer;
+    writer.value(static_cast<std::uint32_t>(roots.size()));
+    for (const NumberedRoot* r : roots) {
+      writer.value(r->root);
+      writer.value(r->splits.count);
+      writer.value(r->splits.sum);
+      writer.value(r->splits.toggle);
+      writer.value(r->first_number);
+    }
+    mail.push_back({to, writer.take()});
+  }
+  return mail;
+}
+
+void PieceAssembly::learn_roots(const Mail& mail) {
+  WireReader reader(mail.rank, mail.bytes);
+  for (auto left = reader.value<std::uint32_t>(); left > 0; --left) {
+    const auto r = reader.value<RootId>();
+    NumberedRoot* const own = find_root(roots_, r);
+    if (own == nullptr)
+      reader.fail("describes root " + std::to_string(r) + ", which rank " + std::to_string(rank_) +
+                  " does not have; start all ranks with the same decomposition");
+    protocol::SplitDigest splits;
+    splits.count = reader.value<std::uint64_t>();
+    splits.sum = reader.value<std::uint64_t>();
+    splits.toggle = reader.value<std::uint64_t>();
+    const auto first_number = reader.value<std::int64_t>();
+    if (!(splits == own->splits)) do_not_conform(decomposition_, r, rank_, own->splits, mail.rank, splits);
+    if (own->first_number < 0) own->first_number = first_number;
+  }
+  reader.finish();
+}
+
+DistributedPiece PieceAssembly::piece(const Pslg& pslg) const {
+  DistributedPiece piece = PieceBuilder(rank_, decomposition_, subdomains_, roots_, census_).build(held_, pslg);
+  piece.ranks = ranks_;
+  return piece;
+}
+
+}  // namespace driftmesh

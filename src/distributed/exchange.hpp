@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "protocol/ids.hpp"
+#include "protocol/rank_step.hpp"
+#include "protocol/transport.hpp"
+
+namespace driftmesh {
+
+/// A message and the rank at its other end: the one that it goes to, or the one that it came from.
+struct Mail {
+  protocol::Rank rank = 0;
+  protocol::Bytes bytes;
+};
+
+/// One rank's part of a conversation in rounds: in each, ranks send at most one message to each rank (themselves
+/// included), then take in what was sent to them. What is said is decided here, how it travels elsewhere: by a
+/// Transport, or directly between ranks of one process.
+class Exchange {
+ public:
+  virtual ~Exchange() = default;
+  Exchange(const Exchange&) = delete;
+  Exchange& operator=(const Exchange&) = delete;
+
+  [[nodiscard]] virtual int rounds() const = 0;
+  /// What this rank sends in a round. Rounds come in ascending order, each after the one before was received.
+  [[nodiscard]] virtual std::vector<Mail> send(int round) = 0;
+  /// The ranks whose messages of this round come here, ascending. Asked after send(round).
+  [[nodiscard]] virtual std::vector<protocol::Rank> senders(int round) const = 0;
+  /// `mail` is ascending by rank and has one message from each sender. Throws Error for what must not come.
+  virtual void receive(int round, std::vector<Mail> mail) = 0;
+
+ protected:
+  Exchange() = default;
+};
+
+/// A rank that talks over a Transport, in one conversation after another. Rounds are numbered through, so a message of
+/// a rank that is ahead waits for its turn. Nothing else may use the transport meanwhile: on MPI, make one for this.
+class ExchangeRunner {
+ public:
+  explicit ExchangeRunner(protocol::Transport& transport) : transport_(transport) {}
+
+  /// The whole conversation. Every rank makes the same sequence of calls. Throws ProtocolError for a message that is
+  /// none of a conversation or that was not due.
+  void run(Exchange& exchange);
+  /// One step of it, for simulated ranks: kFinished when the conversation is over.
+  protocol::StepResult step(Exchange& exchange);
+
+ private:
+  void begin_round(Exchange& exchange);
+  bool end_round(Exchange& exchange);
+  void keep(protocol::Received message);
+
+  protocol::Transport& transport_;
+  int round_ = 0;  // of the present conversation
+  bool sent_ = false;
+  std::vector<protocol::Rank> senders_;
+  std::uint32_t serial_ = 0;  // of the present round, over all conversations
+  std::map<std::uint32_t, std::map<protocol::Rank, protocol::Bytes>> arrived_;  // by round and sender
+};
+
+/// The whole conversation between ranks of this process, ranks[r] being rank r.
+void exchange_directly(std::span<Exchange* const> ranks);
+
+}  // namespace driftmesh

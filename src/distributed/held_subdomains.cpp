@@ -1,0 +1,32 @@
+#include "distributed/held_subdomains.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace driftmesh {
+namespace {
+
+constexpr auto id = &Triangulation::id;
+
+void visit_below(const Triangulation& mesh, SubsegmentId s, const std::function<void(dyadic::Path, VertexId)>& visit) {
+  const Subsegment& node = mesh.subsegments[id(s)];
+  if (node.is_leaf()) return;
+  visit_below(mesh, node.child, visit);
+  visit(node.path, mesh.subsegments[id(node.child)].vertex[1]);
+  visit_below(mesh, node.child + 1, visit);
+}
+
+}  // namespace
+
+HeldSubdomains held_in_memory(std::vector<HeldSubdomain> held) {
+  std::sort(held.begin(), held.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return [held = std::move(held)](const ShowSubdomain& show) {
+    for (const HeldSubdomain& subdomain : held) show(subdomain.id, *subdomain.mesh);
+  };
+}
+
+void visit_splits(const Triangulation& mesh, RootId root, const std::function<void(dyadic::Path, VertexId)>& visit) {
+  visit_below(mesh, mesh.roots[id(root)].tree, visit);
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "decompose/subdomain_mesh.hpp"
+
+namespace driftmesh {
+
+/// Shows the subdomains that a rank holds to a function, one at a time and in ascending order, so that no more than
+/// one has to be unpacked. It is called more than once and shows the same each time.
+using ShowSubdomain = std::function<void(SubdomainId, const SubdomainMesh&)>;
+using HeldSubdomains = std::function<void(const ShowSubdomain&)>;
+
+struct HeldSubdomain {
+  SubdomainId id = 0;
+  const SubdomainMesh* mesh = nullptr;  ///< not owned
+};
+/// Subdomains that lie in memory, given in any order.
+[[nodiscard]] HeldSubdomains held_in_memory(std::vector<HeldSubdomain> held);
+
+/// The points that refinement put on root `root` of a mesh, in the order of their positions on it: calls
+/// visit(path, vertex) for each.
+void visit_splits(const Triangulation& mesh, RootId root, const std::function<void(dyadic::Path, VertexId)>& visit);
+
+/// The subdomain whose rank numbers the points on a root: the left one if there is one.
+[[nodiscard]] inline SubdomainId owner_of(const Decomposition::Root& root) {
+  return root.left != kNone ? root.left : root.right;
+}
+
+}  // namespace driftmesh

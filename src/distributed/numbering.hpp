@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "decompose/decomposition.hpp"
+#include "protocol/ids.hpp"
+#include "protocol/split_set.hpp"
+
+namespace driftmesh {
+
+/// What all ranks know of all subdomains. Vertices of the whole mesh are numbered: first the points of the
+/// decomposition; then, subdomain by subdomain, the points on the roots that it owns (root by root, in order of
+/// position), and those inside it.
+struct SubdomainTable {
+  std::vector<protocol::Rank> rank;        ///< that holds it
+  std::vector<std::int64_t> first_number;  ///< of its own vertices
+  std::int64_t points = 0;                 ///< of the whole mesh
+  std::int64_t triangles = 0;              ///< of the whole mesh
+};
+
+/// The points on a root, as the rank at one or both of its sides has them.
+struct NumberedRoot {
+  RootId root = 0;
+  protocol::SplitDigest splits;
+  std::int64_t first_number = -1;  ///< of the points, in order of position; -1 while it is not known
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,152 @@
+#include <doctest/doctest.h>
+
+#include <map>
+#include <set>
+
+#include "mesh/digest.hpp"
+#include "mesh/merge_pieces.hpp"
+#include "oracles/meshing.hpp"
+#include "property/cases.hpp"
+#include "protocol/adversarial_network.hpp"
+#include "support/distributed_case.hpp"
+#include "support/mesh_equality.hpp"
+#include "verify/report_text.hpp"
+#include "verify/verify.hpp"
+
+// Random domains, decomposed, refined, and dealt to ranks at random: what the ranks make of them is one mesh.
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+using protocol::Rank;
+
+namespace {
+
+using Place = std::pair<double, double>;
+
+std::set<Place> places_of(const MeshPiece& mesh) {
+  std::set<Place> places;
+  for (const Point& p : mesh.points) places.emplace(p.x, p.y);
+  return places;
+}
+
+/// Numbers are 0 .. V - 1 over all pieces, one for each place; ascending and owned in each.
+void check_numbers(const std::vector<DistributedPiece>& pieces) {
+  std::map<std::int64_t, Place> place_of_number;
+  std::map<Place, std::int64_t> number_of_place;
+  std::map<std::int64_t, Rank> owner_of_number;
+  std::int64_t triangles = 0;
+  for (const DistributedPiece& piece : pieces) {
+    const MeshPiece& mesh = piece.mesh;
+    triangles += static_cast<std::int64_t>(mesh.triangles.size());
+    REQUIRE(mesh.numbers.size() == mesh.points.size());
+    REQUIRE(piece.owners.size() == mesh.points.size());
+    CHECK(std::is_sorted(mesh.numbers.begin(), mesh.numbers.end()));
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+      const Place place{mesh.points[v].x, mesh.points[v].y};
+      CHECK(place_of_number.emplace(mesh.numbers[v], place).first->second == place);
+      CHECK(number_of_place.emplace(place, mesh.numbers[v]).first->second == mesh.numbers[v]);
+      CHECK(owner_of_number.emplace(mesh.numbers[v], piece.owners[v]).first->second == piece.owners[v]);
+    }
+  }
+  const auto count = static_cast<std::int64_t>(place_of_number.size());
+  CHECK(place_of_number.begin()->first == 0);
+  CHECK(place_of_number.rbegin()->first == count - 1);
+  for (const DistributedPiece& piece : pieces) {
+    CHECK(piece.total_points == count);
+    CHECK(piece.total_triangles == triangles);
+  }
+}
+
+/// The interface lists are what a search by coordinates finds, and the owner of a shared vertex has it.
+void check_interfaces(const std::vector<DistributedPiece>& pieces) {
+  std::vector<std::set<Place>> places;
+  for (const DistributedPiece& piece : pieces) places.push_back(places_of(piece.mesh));
+  for (const DistributedPiece& piece : pieces) {
+    for (std::size_t v = 0; v < piece.mesh.points.size(); ++v)
+      CHECK(
+          places[static_cast<std::size_t>(piece.owners[v])].contains({piece.mesh.points[v].x, piece.mesh.points[v].y}));
+    std::map<Rank, std::vector<std::int32_t>> expected;
+    for (std::size_t other = 0; other < pieces.size(); ++other) {
+      if (pieces[other].rank == piece.rank) continue;
+      for (std::size_t v = 0; v < piece.mesh.points.size(); ++v)
+        if (places[other].contains({piece.mesh.points[v].x, piece.mesh.points[v].y}))
+          expected[static_cast<Rank>(other)].push_back(static_cast<std::int32_t>(v));
+    }
+    std::map<Rank, std::vector<std::int32_t>> actual;
+    for (const auto& neighbor : piece.neighbors) actual[neighbor.rank] = neighbor.shared;
+    CHECK(actual == expected);
+    CHECK(actual.size() == piece.neighbors.size());
+  }
+}
+
+void check_whole(const DistributedCase& c, const std::vector<DistributedPiece>& pieces, const MeshPiece& whole) {
+  std::uint64_t digest_of_parts = 0, digest_of_pieces = 0;
+  for (const SubdomainMesh& part : c.parts) digest_of_parts += mesh_digest(part.mesh);
+  for (const DistributedPiece& piece : pieces) digest_of_pieces += mesh_digest(piece.mesh);
+  CHECK(digest_of_pieces == digest_of_parts);
+  CHECK(mesh_digest(whole) == digest_of_parts);
+  VerifyOptions options;
+  options.min_angle = c.bounds.min_angle;
+  options.max_area = c.bounds.max_area;
+  options.region_areas = false;
+  const VerifyReport report = verify_pieces(meshes_of(pieces), &c.input, options);
+  const std::string text = verdict_text(report, options) + "\n" + report_text(report, options);
+  INFO(text);
+  CHECK(report.accepted());
+}
+
+}  // namespace
+
+TEST_CASE("random domains, dealt to random ranks, are one mesh") {
+  std::size_t shared = 0, empty = 0, not_delaunay = 0;
+  const auto cases = static_cast<std::uint64_t>(case_count(60));
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    CAPTURE(seed);
+    const DistributedCase c = random_distributed_case(seed);
+    CAPTURE(oracles::poly_text(c.input));
+    MergeFaults faults;
+    const MeshPiece alone = merge_pieces(meshes_of(c.pieces(1, std::vector<Rank>(c.parts.size(), 0))), faults);
+    for (const Rank ranks : {1, 2, 3, 7}) {
+      CAPTURE(ranks);
+      const auto pieces = c.pieces(ranks, random_owners(c.parts.size(), ranks, seed));
+      check_numbers(pieces);
+      check_interfaces(pieces);
+      MeshPiece whole = merge_pieces(meshes_of(pieces), faults);
+      check_whole(c, pieces, whole);
+      whole.ranks = alone.ranks;
+      test::check_same_mesh(whole, alone);  // whoever held what
+      for (const DistributedPiece& piece : pieces) {
+        empty += piece.mesh.triangles.empty();
+        for (const auto& neighbor : piece.neighbors) shared += neighbor.shared.size();
+      }
+    }
+    CHECK(faults.count == 0);
+    not_delaunay += verify(alone, {}).interface_edges_not_delaunay;
+  }
+  MESSAGE(shared << " shared vertices, " << empty << " empty ranks, " << not_delaunay << " edges not Delaunay");
+  CHECK(shared > 100 * cases);
+  CHECK(empty > cases / 10);
+  CHECK(not_delaunay > 0);
+}
+
+TEST_CASE("messages may come in any order") {
+  std::uint64_t reordered = 0;
+  const auto cases = static_cast<std::uint64_t>(case_count(40));
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    CAPTURE(seed);
+    const DistributedCase c = random_distributed_case(seed % 5 + 1);
+    const auto ranks = static_cast<Rank>(2 + seed % 6);
+    const std::vector<Rank> owners = random_owners(c.parts.size(), ranks, seed);
+    const auto all = c.assemblies(ranks, owners);
+    protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
+    std::vector<ExchangeRunner> runners;
+    for (Rank r = 0; r < ranks; ++r) runners.emplace_back(network.transport(r));
+    std::vector<protocol::RankStep> steps;
+    for (std::size_t r = 0; r < all.size(); ++r) steps.push_back([&, r] { return runners[r].step(*all[r]); });
+    REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);
+    const auto expected = c.pieces(ranks, owners);
+    for (std::size_t r = 0; r < all.size(); ++r) test::check_same_mesh(all[r]->piece(c.input).mesh, expected[r].mesh);
+    reordered += network.counters().reordered;
+  }
+  CHECK(reordered > 0);
+}
