@@ -14,9 +14,9 @@
 #include "geometry/predicates.hpp"
 #include "mesh/carve.hpp"
 #include "mesh/cavity.hpp"
-#include "mesh/convex_hull.hpp"
 #include "mesh/flips.hpp"
 #include "mesh/renumber.hpp"
+#include "pslg/convex_hull.hpp"
 
 namespace driftmesh {
 namespace {
@@ -222,6 +222,14 @@ void recover_segments(Triangulation& mesh, const std::vector<Pslg::Segment>& seg
   for (const Pslg::Segment& s : segments) recovery.recover(s.a, s.b, s.marker);
 }
 
+/// The segments; those of the hull if there are none, as repair() has it.
+std::vector<Pslg::Segment> segments_or_hull(const Pslg& pslg) {
+  if (!pslg.segments.empty()) return pslg.segments;
+  std::vector<Pslg::Segment> hull = convex_hull(pslg.points);
+  if (hull.empty()) throw Error("all points lie on one line");
+  return hull;
+}
+
 Triangulation triangulate_box(const Pslg& pslg) {
   if (pslg.points.size() < 3) throw Error("a domain needs at least three points");
   Triangulation mesh;
@@ -229,7 +237,7 @@ Triangulation triangulate_box(const Pslg& pslg) {
     mesh.add_vertex(pslg.points[i], narrow<VertexOrigin>(i, "number of points"));
   add_box(mesh, pslg);
   insert_points(mesh, pslg);
-  recover_segments(mesh, pslg.segments.empty() ? convex_hull(pslg.points) : pslg.segments);
+  recover_segments(mesh, segments_or_hull(pslg));
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/assert.hpp"
 #include "base/error.hpp"
@@ -56,9 +57,20 @@ double integrate_size(const SizeField& field, double twice_area_bound, const std
   return sum;
 }
 
+Refiner::State initial_state(const Triangulation& mesh, const QualityBounds& bounds) {
+  Refiner::State state;
+  if (bounds.size != nullptr)
+    for (const Point& p : mesh.points) state.size.push_back(bounds.size->edge_length(p));
+  return state;
+}
+
 }  // namespace
 
-Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds) : mesh_(mesh), bounds_(bounds), cavity_(mesh) {
+Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds)
+    : Refiner(mesh, bounds, initial_state(mesh, bounds)) {}
+
+Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, State state)
+    : mesh_(mesh), bounds_(bounds), cavity_(mesh), state_(std::move(state)) {
   if (!(bounds.min_angle >= 0 && bounds.min_angle <= kMaxAngle))
     throw Error("the angle bound must lie between 0 and " + std::to_string(static_cast<int>(kMaxAngle)) +
                 " degrees: beyond, refinement need not end");
@@ -73,8 +85,9 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds) : mesh_(mesh)
   twice_area_bounds_.push_back(twice(bounds.max_area));
   for (std::size_t r = 1; r < bounds.region_max_area.size(); ++r)
     twice_area_bounds_.push_back(std::min(twice(bounds.max_area), twice(bounds.region_max_area[r])));
-  if (bounds.size != nullptr)
-    for (const Point& p : mesh.points) size_.push_back(bounds.size->edge_length(p));
+  if (const std::string fault = state_.fault(mesh, bounds); !fault.empty())
+    throw Error("the state of refinement does not fit its mesh: " + fault);
+  coarsening_ = state_.stage == Stage::kCoarse ? kFinePerCoarse : 1;
 }
 
 // ---- Shapes and bounds ----
@@ -107,7 +120,7 @@ inline double Refiner::twice_area_bound(TriangleId t) const {
 double Refiner::sized_bound(TriangleId t) const {
   const auto& v = mesh_.triangles[id(t)].vertex;
   const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-  const double h = std::min({size_[id(v[0])], size_[id(v[1])], size_[id(v[2])],
+  const double h = std::min({state_.size[id(v[0])], state_.size[id(v[1])], state_.size[id(v[2])],
                              bounds_.size->edge_length({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3})});
   return twice_area_of_edge(h);
 }
@@ -129,11 +142,11 @@ double Refiner::predict_triangles() const {
 // ---- The order of work ----
 
 Refiner::Status Refiner::refine(std::int64_t insertions) {
-  const auto inserted = [this] { return counters_.free_points + counters_.segment_points; };
+  const auto inserted = [this] { return state_.counters.free_points + state_.counters.segment_points; };
   const std::int64_t stop = insertions > INT64_MAX - inserted() ? INT64_MAX : inserted() + insertions;
   while (inserted() < stop) {
-    if (static_cast<std::int64_t>(mesh_.triangles.size()) >= max_triangles_ &&
-        static_cast<std::int64_t>(mesh_.live_triangles()) >= max_triangles_)
+    if (static_cast<std::int64_t>(mesh_.triangles.size()) >= state_.max_triangles &&
+        static_cast<std::int64_t>(mesh_.live_triangles()) >= state_.max_triangles)
       return Status::kFull;
     if (!step()) return Status::kDone;
   }
@@ -142,18 +155,18 @@ Refiner::Status Refiner::refine(std::int64_t insertions) {
 
 /// One attempt at one triangle or segment; false when all is done.
 bool Refiner::step() {
-  switch (stage_) {
+  switch (state_.stage) {
     case Stage::kSegments:
       if (!step_segments()) enter(wants_coarse_stage() ? Stage::kCoarse : Stage::kFine);
       return true;
     case Stage::kCoarse:
-      if (!step_large() && !sweep_.next_block()) enter(Stage::kFine);
+      if (!step_large() && !state_.sweep.next_block()) enter(Stage::kFine);
       return true;
     case Stage::kFine:
-      if (!step_large() && !step_skinny() && !sweep_.next_block()) enter(Stage::kRest);
+      if (!step_large() && !step_skinny() && !state_.sweep.next_block()) enter(Stage::kRest);
       return true;
     case Stage::kRest:
-      if (!step_large() && !step_skinny()) stage_ = Stage::kDone;
+      if (!step_large() && !step_skinny()) state_.stage = Stage::kDone;
       return true;
     case Stage::kDone:
       break;
@@ -163,26 +176,27 @@ bool Refiner::step() {
 
 void Refiner::enter(Stage stage) {
   const auto size = [this] { return static_cast<TriangleId>(mesh_.triangles.size()); };
-  stage_ = stage;
+  state_.stage = stage;
   switch (stage) {
     case Stage::kCoarse:
       coarsening_ = kFinePerCoarse;
-      sweep_.start(size(), size());
+      state_.sweep.start(size(), size());
       break;
     case Stage::kFine: {
       const bool after_coarse = coarsening_ != 1;
       coarsening_ = 1;
       if (after_coarse) renumber(mesh_);
       if (after_coarse && bounds_.size != nullptr)
-        for (std::size_t v = 0; v < mesh_.points.size(); ++v) size_[v] = bounds_.size->edge_length(mesh_.points[v]);
-      sweep_.start(size(), after_coarse ? static_cast<TriangleId>(kFinePerBlock / kFinePerCoarse) : size());
-      skinny_.clear();
+        for (std::size_t v = 0; v < mesh_.points.size(); ++v)
+          state_.size[v] = bounds_.size->edge_length(mesh_.points[v]);
+      state_.sweep.start(size(), after_coarse ? static_cast<TriangleId>(kFinePerBlock / kFinePerCoarse) : size());
+      state_.skinny.clear();
       break;
     }
     case Stage::kRest:
-      for (const TriangleId t : deferred_)
+      for (const TriangleId t : state_.deferred)
         if (mesh_.triangles[id(t)].alive()) note(t, shape_of(t));
-      deferred_.clear();
+      state_.deferred.clear();
       break;
     default:
       break;
@@ -198,56 +212,56 @@ bool Refiner::wants_coarse_stage() const {
 
 /// Splits given segments whose lens holds a vertex from the start.
 bool Refiner::step_segments() {
-  if (next_segment_ == static_cast<SubsegmentId>(mesh_.subsegments.size())) return false;
-  const Subsegment& s = mesh_.subsegments[id(next_segment_)];
+  if (state_.next_segment == static_cast<SubsegmentId>(mesh_.subsegments.size())) return false;
+  const Subsegment& s = mesh_.subsegments[id(state_.next_segment)];
   if (s.is_leaf()) {
     const Point &a = mesh_.points[id(s.vertex[0])], &b = mesh_.points[id(s.vertex[1])];
     const double cosine = -std::sqrt(lens_.cos_squared);
     for (const HalfEdge h : s.half)
       if (h != kNone && in_diametral_lens(mesh_.points[id(mesh_.apex(h))], a, b, cosine)) {
-        split_and_tell(next_segment_);
+        split_and_tell(state_.next_segment);
         break;
       }
   }
-  ++next_segment_;
+  ++state_.next_segment;
   return true;
 }
 
 /// Sweeps on to the next triangle that is too large, and inserts its circumcenter. False at the end of the block.
 bool Refiner::step_large() {
   for (;;) {
-    const TriangleId t = sweep_.current(static_cast<TriangleId>(mesh_.triangles.size()));
+    const TriangleId t = state_.sweep.current(static_cast<TriangleId>(mesh_.triangles.size()));
     if (t == kNone) return false;
     if (mesh_.triangles[id(t)].alive()) [[likely]] {
       const double bound = twice_area_bound(t);
       if (twice_area(t) > bound) {
         if (improve(t, circumcenter(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2))) == Progress::kChanged)
           return true;
-        ++counters_.given_up;
-      } else if (stage_ != Stage::kCoarse) {
+        ++state_.counters.given_up;
+      } else if (state_.stage != Stage::kCoarse) {
         const Shape s = shape_of(t);
         if (is_skinny(s)) note_skinny(t, s, bound);
       }
     }
-    sweep_.done_with(t);
+    state_.sweep.done_with(t);
   }
 }
 
 bool Refiner::step_skinny() {
-  const SkinnyBuckets::Entry entry = skinny_.take();
+  const SkinnyBuckets::Entry entry = state_.skinny.take();
   const TriangleId t = entry.triangle;
   if (t == kNone) return false;
   if (!mesh_.triangles[id(t)].alive()) return true;
   const Shape s = shape_of(t);
   if (!is_skinny(s) || !entry.fits(s.shortest)) return true;
   if (cause_of(mesh_, t) != ExceptionCause::kUnexplained) return true;
-  const std::int64_t before = counters_.free_points;
+  const std::int64_t before = state_.counters.free_points;
   const Point p =
       off_center_of_triangle(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), off_center_factor_);
   if (improve(t, p) == Progress::kStuck)
-    ++counters_.given_up;
-  else if (counters_.free_points == before)
-    skinny_.add(t, entry.bucket);  // a segment was split instead: the triangle may still be there
+    ++state_.counters.given_up;
+  else if (state_.counters.free_points == before)
+    state_.skinny.add(t, entry.bucket);  // a segment was split instead: the triangle may still be there
   return true;
 }
 
@@ -256,8 +270,8 @@ bool Refiner::step_skinny() {
 VertexId Refiner::add_vertex(const Point& p, VertexOrigin origin) {
   const VertexId v = mesh_.add_vertex(p, origin);
   if (bounds_.size != nullptr) {
-    if (id(v) >= size_.size()) size_.resize_uninitialized(id(v) + 1);
-    size_[id(v)] = bounds_.size->edge_length(p);
+    if (id(v) >= state_.size.size()) state_.size.resize_uninitialized(id(v) + 1);
+    state_.size[id(v)] = bounds_.size->edge_length(p);
   }
   return v;
 }
@@ -268,11 +282,11 @@ inline Refiner::Progress Refiner::improve(TriangleId t, const Point& p) {
   switch (cavity_.gather(p, t, lens_)) {
     case Cavity::Found::kClear:
       cavity_.fill(add_vertex(p, kFree));
-      ++counters_.free_points;
+      ++state_.counters.free_points;
       note_fresh();
       return Progress::kChanged;
     case Cavity::Found::kEncroached:
-      ++counters_.encroaching;
+      ++state_.counters.encroaching;
       return split_and_tell(cavity_.encroached()) ? Progress::kChanged : Progress::kStuck;
     default:
       return Progress::kStuck;
@@ -293,7 +307,7 @@ void Refiner::clear_diametral_circle(SubsegmentId s) {
         break;
       changed_.clear();
       if (!remove_vertex(mesh_, h, changed_)) break;
-      ++counters_.deleted_points;
+      ++state_.counters.deleted_points;
       for (const TriangleId t : changed_)
         if (mesh_.triangles[id(t)].alive()) note(t, shape_of(t));
     }
@@ -302,19 +316,20 @@ void Refiner::clear_diametral_circle(SubsegmentId s) {
 
 /// Splits leaf s at its midpoint. False if depth or precision does not allow it.
 bool Refiner::split(SubsegmentId s) {
-  if (dyadic::depth(mesh_.subsegments[id(s)].path) >= dyadic::kMaxDepth || unsplittable_.contains(s)) return false;
+  if (dyadic::depth(mesh_.subsegments[id(s)].path) >= dyadic::kMaxDepth || state_.unsplittable.contains(s))
+    return false;
   clear_diametral_circle(s);
   const auto [a, b] = mesh_.subsegments[id(s)].vertex;
   const Point m = midpoint(mesh_.points[id(a)], mesh_.points[id(b)]);
   if (cavity_.gather_on(s, m) != Cavity::Found::kClear) {
     // Not tried again: the vertices deleted for it would come back and be deleted for ever.
-    unsplittable_.insert(s);
+    state_.unsplittable.insert(s);
     return false;
   }
   const VertexId v = add_vertex(m, ~s);
   const SubsegmentId child = mesh_.halve(s, v);
   cavity_.fill_on(v, child, child + 1);
-  ++counters_.segment_points;
+  ++state_.counters.segment_points;
   note_fresh();
   return true;
 }
@@ -322,7 +337,7 @@ bool Refiner::split(SubsegmentId s) {
 bool Refiner::split_and_tell(SubsegmentId s) {
   const SplitPoint point{mesh_.subsegments[id(s)].root, mesh_.subsegments[id(s)].path};
   if (!split(s)) return false;
-  made_.push_back(point);
+  state_.made.push_back(point);
   return true;
 }
 
@@ -330,7 +345,7 @@ bool Refiner::add_split_point(RootId root, dyadic::Path path) {
   for (;;) {
     const SubsegmentId s = mesh_.descend(root, path);
     if (!mesh_.subsegments[id(s)].is_leaf()) return true;
-    if (stage_ == Stage::kDone) enter(Stage::kRest);
+    if (state_.stage == Stage::kDone) enter(Stage::kRest);
     if (!split(s)) return false;
   }
 }
@@ -338,7 +353,7 @@ bool Refiner::add_split_point(RootId root, dyadic::Path path) {
 inline void Refiner::note_fresh() {
   const int n = cavity_.fresh_count();
   for (int i = 0; i < n; ++i) {
-    if (sweep_.will_visit(cavity_.fresh_triangle(i))) continue;
+    if (state_.sweep.will_visit(cavity_.fresh_triangle(i))) continue;
     const Cavity::Fresh f = cavity_.fresh(i);
     note(f.triangle, shape(f.twice_area, f.ab, f.bc, f.ca));
   }
@@ -346,21 +361,21 @@ inline void Refiner::note_fresh() {
 
 /// Queues a triangle that needs work, unless the sweep will come to it anyway.
 inline void Refiner::note(TriangleId t, const Shape& s) {
-  if (sweep_.will_visit(t)) return;
+  if (state_.sweep.will_visit(t)) return;
   const double bound = twice_area_bound(t);
   if (s.twice_area > bound)
-    sweep_.visit_again(t);
-  else if (stage_ != Stage::kCoarse && is_skinny(s))
+    state_.sweep.visit_again(t);
+  else if (state_.stage != Stage::kCoarse && is_skinny(s))
     note_skinny(t, s, bound);
 }
 
 /// A long skinny triangle at the edge of a block in work leads into a block still coarse, whose turn will do away with
 /// it: it waits for the end.
 inline void Refiner::note_skinny(TriangleId t, const Shape& s, double bound) {
-  if (stage_ == Stage::kFine && s.longest > 8 * bound)
-    deferred_.push_back(t);
+  if (state_.stage == Stage::kFine && s.longest > 8 * bound)
+    state_.deferred.push_back(t);
   else
-    skinny_.add(t, SkinnyBuckets::bucket_of(s.shortest));
+    state_.skinny.add(t, SkinnyBuckets::bucket_of(s.shortest));
 }
 
 }  // namespace driftmesh

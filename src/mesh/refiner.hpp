@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -45,7 +46,7 @@ class Refiner {
   Status refine() { return refine(INT64_MAX); }
 
   /// Stop at this many live triangles (kFull). Default: what the handles can name.
-  void limit_triangles(std::int64_t most) { max_triangles_ = std::min(most, kMaxTriangles - 64); }
+  void limit_triangles(std::int64_t most) { state_.max_triangles = std::min(most, kMaxTriangles - 64); }
 
   /// Puts point `path` of `root` into the mesh, with the points that must exist before it (its ancestors). Nothing
   /// happens if it is there. Returns false if the depth or the precision of coordinates does not allow it.
@@ -53,7 +54,7 @@ class Refiner {
 
   /// The points that refinement itself has put on segments since the last call, in the order in which it did, each
   /// after its ancestors; none that add_split_point put there.
-  [[nodiscard]] std::vector<SplitPoint> take_split_points() { return std::exchange(made_, {}); }
+  [[nodiscard]] std::vector<SplitPoint> take_split_points() { return std::exchange(state_.made, {}); }
 
   struct Counters {
     std::int64_t free_points = 0;     ///< circumcenters and off-centers inserted
@@ -62,14 +63,37 @@ class Refiner {
     std::int64_t encroaching = 0;     ///< points rejected because they encroached
     std::int64_t given_up = 0;        ///< triangles left as they are because coordinates have no room for a point
   };
-  [[nodiscard]] const Counters& counters() const { return counters_; }
+  [[nodiscard]] const Counters& counters() const { return state_.counters; }
+
+  enum class Stage : std::uint8_t { kSegments, kCoarse, kFine, kRest, kDone };
+
+  /// All that a refiner knows besides its mesh and its bounds. A refiner made from a copy of the mesh, the same bounds
+  /// and a copy of the state goes on exactly as the first one would: the same points in the same order.
+  struct State {
+    Stage stage = Stage::kSegments;
+    SubsegmentId next_segment = 0;  ///< of kSegments
+    Sweep sweep;
+    SkinnyBuckets skinny;
+    std::vector<TriangleId> deferred;               ///< skinny ones, until kRest
+    std::unordered_set<SubsegmentId> unsplittable;  ///< coordinates have no room for their midpoints
+    std::vector<SplitPoint> made;                   ///< that nobody has been told of yet
+    GrowingArray<double> size;                      ///< the size field at each vertex; empty without one
+    std::int64_t max_triangles = kMaxTriangles - 64;
+    Counters counters;
+
+    /// Whether a refiner of this mesh and these bounds can be in this state as far as memory is concerned: handles
+    /// exist, arrays have their lengths. Otherwise what is wrong; empty if all is well.
+    [[nodiscard]] std::string fault(const Triangulation& mesh, const QualityBounds& bounds) const;
+  };
+  [[nodiscard]] const State& state() const { return state_; }
+  /// Goes on from a state. Throws Error like the other, and if the state has a fault.
+  Refiner(Triangulation& mesh, const QualityBounds& bounds, State state);
 
   /// A forecast of the number of triangles at the end, from the present mesh and the bounds on area and size (the angle
   /// bound adds to it only where no area bound is active). Within a few percent for area-bounded refinement.
   [[nodiscard]] double predict_triangles() const;
 
  private:
-  enum class Stage { kSegments, kCoarse, kFine, kRest, kDone };
   enum class Progress { kChanged, kStuck };
   struct Shape {
     double twice_area;
@@ -113,18 +137,8 @@ class Refiner {
   double off_center_factor_ = 0;
   double coarsening_ = 1;                  // all area bounds are this much larger at the moment
   std::vector<double> twice_area_bounds_;  // by region label
-  GrowingArray<double> size_;              // of each vertex, if there is a size field
-  std::int64_t max_triangles_ = kMaxTriangles - 64;
-
-  Stage stage_ = Stage::kSegments;
-  SubsegmentId next_segment_ = 0;
-  Sweep sweep_;
-  SkinnyBuckets skinny_;
-  std::vector<TriangleId> deferred_;
   std::vector<TriangleId> changed_;
-  std::unordered_set<SubsegmentId> unsplittable_;  // coordinates have no room for their midpoints
-  std::vector<SplitPoint> made_;                   // that nobody has been told of yet
-  Counters counters_;
+  State state_;
 };
 
 }  // namespace driftmesh

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "mesh/triangulation.hpp"
@@ -50,6 +51,21 @@ class Sweep {
     return true;
   }
 
+  /// The whole state, to be stored and set again: five numbers and the stack.
+  struct Places {
+    TriangleId cursor, block_end, given, added, block;
+  };
+  [[nodiscard]] Places places() const { return {cursor_, block_end_, given_, added_, block_}; }
+  [[nodiscard]] const std::vector<TriangleId>& again() const { return again_; }
+  Sweep() = default;
+  Sweep(const Places& p, std::vector<TriangleId> again)
+      : cursor_(p.cursor),
+        block_end_(p.block_end),
+        given_(p.given),
+        added_(p.added),
+        block_(p.block),
+        again_(std::move(again)) {}
+
  private:
   TriangleId cursor_ = 0;     // given slots before it are done
   TriangleId block_end_ = 0;  // of the given slots in work
@@ -92,6 +108,13 @@ class SkinnyBuckets {
   void clear() {
     for (auto& bucket : buckets_) bucket.clear();
     lowest_ = 2048;
+  }
+  /// All entries: added in this order to empty buckets, they come out as they would from these.
+  [[nodiscard]] std::vector<Entry> entries() const {
+    std::vector<Entry> all;
+    for (int b = lowest_; b < 2048; ++b)
+      for (const TriangleId t : buckets_[static_cast<std::size_t>(b)]) all.push_back({t, b});
+    return all;
   }
 
  private:

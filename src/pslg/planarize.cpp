@@ -9,12 +9,16 @@
 #include "base/narrow.hpp"
 #include "geometry/box_tree.hpp"
 #include "pslg/closeness.hpp"
+#include "pslg/convex_hull.hpp"
 #include "pslg/describe.hpp"
 #include "pslg/point_welder.hpp"
 #include "pslg/repair.hpp"
 
 namespace driftmesh {
 namespace {
+
+// Of a piece that comes from no segment of the input.
+constexpr std::int32_t kHullEdge = -1, kDropped = -2;
 
 std::size_t at(std::int32_t index) {
   return static_cast<std::size_t>(index);
@@ -61,6 +65,7 @@ class Planarizer {
   void run() {
     weld_points();
     start_segments();
+    if (pieces_.empty()) start_hull();
     for (int round = 0; fresh_exists_; ++round) {
       if (round == kMaxRounds) fail_to_end();
       find_splits();
@@ -73,7 +78,7 @@ class Planarizer {
   /// A segment on its way: the pieces of segment `origin` of the input.
   struct Piece {
     Pslg::Segment segment;
-    std::int32_t origin = 0;
+    std::int32_t origin = 0;  // kHullEdge: an edge of the hull
     bool fresh = true;
   };
   /// Segment `piece` passes through `vertex`, at this place along it.
@@ -95,6 +100,7 @@ class Planarizer {
 
   void weld_points();
   void start_segments();
+  void start_hull();
   void keep_once(RepairItem& item);
   void find_splits();
   std::size_t points_in_trees() const { return point_trees_.empty() ? 0 : point_trees_.back().last; }
@@ -114,7 +120,7 @@ class Planarizer {
   [[noreturn]] void fail_to_end() const;
 
   std::string name(std::int32_t vertex) const;
-  std::string name(const Piece& piece) const { return segment_name(pslg_, piece.origin); }
+  std::string name(const Piece& piece) const;
 
   Pslg& pslg_;
   const std::string& file_;
@@ -132,6 +138,10 @@ class Planarizer {
 
 std::string Planarizer::name(std::int32_t vertex) const {
   return vertex_name(pslg_, report_.original_point[at(vertex)], point(vertex));
+}
+
+std::string Planarizer::name(const Piece& piece) const {
+  return piece.origin == kHullEdge ? "an edge of the hull" : segment_name(pslg_, piece.origin);
 }
 
 void Planarizer::weld_points() {
@@ -186,6 +196,12 @@ void Planarizer::start_segments() {
   fresh_exists_ = !pieces_.empty();
 }
 
+// Points without segments mean their hull. A point may lie within rounding error of its edges, as of any other.
+void Planarizer::start_hull() {
+  for (const Pslg::Segment& s : convex_hull(points())) pieces_.push_back({s, kHullEdge, true});
+  fresh_exists_ = !pieces_.empty();
+}
+
 // Of pieces that join the same two points the first stays.
 void Planarizer::keep_once(RepairItem& item) {
   struct Key {
@@ -216,8 +232,8 @@ void Planarizer::keep_once(RepairItem& item) {
       note(report_.marker_conflicts, [&] { return name(other) + " and " + name(pieces_[at(kept)]); });
   }
   if (dropped.empty()) return;
-  for (const std::int32_t i : dropped) pieces_[at(i)].origin = -1;
-  std::erase_if(pieces_, [](const Piece& piece) { return piece.origin < 0; });
+  for (const std::int32_t i : dropped) pieces_[at(i)].origin = kDropped;
+  std::erase_if(pieces_, [](const Piece& piece) { return piece.origin == kDropped; });
 }
 
 // The points that are new since the last tree.

@@ -70,7 +70,6 @@ class SeedCheck {
   /// A point deep in an inlet of the outside may escape it.
   [[nodiscard]] bool certainly_outside(const Point& p) const {
     if (!bounds_.contains(p)) return true;
-    if (pslg_.segments.empty()) return false;  // the domain is the convex hull
     return sees_nothing(p, {bounds_.high.x, p.y}) || sees_nothing(p, {bounds_.low.x, p.y}) ||
            sees_nothing(p, {p.x, bounds_.high.y}) || sees_nothing(p, {p.x, bounds_.low.y});
   }

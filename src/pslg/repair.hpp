@@ -12,9 +12,10 @@ namespace driftmesh {
 /// - no segment has length zero, no two join the same points;
 /// - no point lies in the interior of a segment, or within rounding error of it;
 /// - no two segments meet except at a point that is an end of both.
-/// A Pslg that has these properties is left as it is; so repairing twice changes nothing the second time. Points,
-/// holes and regions keep their order, and segments (cut into pieces) theirs. New points lie where segments crossed;
-/// their attributes are interpolated along the first of them, their marker is its marker.
+/// Points without segments get the edges of their convex hull as segments with marker 1, which counts as no change.
+/// Any other Pslg that has these properties is left as it is; so repairing twice changes nothing the second time.
+/// Points, holes and regions keep their order, and segments (cut into pieces) theirs. New points lie where segments
+/// crossed; their attributes are interpolated along the first of them, their marker is its marker.
 ///
 /// Holes and regions whose seed is certainly outside are reported as warnings. Throws InputError, naming `file`, for
 /// what has no clear intent: indices or coordinates out of range, less than three points or all on one line, a seed on

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
 #include "mesh/to_piece.hpp"
 
 using namespace driftmesh;
@@ -250,6 +251,61 @@ TEST_CASE("a mesh can be made in slices, and comes out the same") {
   for (std::size_t t = 0; t < whole.triangles.size(); ++t)
     REQUIRE(whole.triangles[t].vertex == sliced.triangles[t].vertex);
   for (std::size_t v = 0; v < whole.points.size(); ++v) REQUIRE(whole.points[v] == sliced.points[v]);
+}
+
+TEST_CASE("a refiner made from a copy of mesh and state goes on as the first one does") {
+  const Pslg pslg = fan(7, 9);
+  QualityBounds bounds;
+  bounds.max_area = 1e-3;
+  for (const std::int64_t before : {0, 1, 5, 40, 300, 1500, 100000}) {
+    CAPTURE(before);
+    Triangulation mesh = triangulate(pslg);
+    prepare_corners(mesh);
+    Refiner refiner(mesh, bounds);
+    refiner.refine(before);
+    Triangulation copy = mesh;
+    Refiner again(copy, bounds, refiner.state());
+    for (Refiner* r : {&refiner, &again}) {
+      CHECK(r->add_split_point(1, 37));
+      CHECK(r->refine() == Refiner::Status::kDone);
+    }
+    CHECK(refiner.counters().free_points == again.counters().free_points);
+    CHECK(refiner.counters().encroaching == again.counters().encroaching);
+    REQUIRE(mesh.triangles.size() == copy.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      REQUIRE(mesh.triangles[t].vertex == copy.triangles[t].vertex);
+  }
+}
+
+TEST_CASE("a state that leaves its mesh is refused") {
+  Triangulation mesh = triangulate(fan(7, 9));
+  const QualityBounds bounds;
+  const auto refused = [&](Refiner::State state, const std::string& why) {
+    CHECK_THROWS_WITH_AS(Refiner(mesh, bounds, std::move(state)), doctest::Contains(why.c_str()), Error);
+  };
+  const auto triangles = static_cast<TriangleId>(mesh.triangles.size());
+  const auto subsegments = static_cast<SubsegmentId>(mesh.subsegments.size());
+  CHECK_NOTHROW(Refiner(mesh, bounds, Refiner::State{}));
+  Refiner::State state;
+  state.deferred = {triangles};
+  refused(state, "deferred");
+  state = {};
+  state.skinny.add(-1, 5);
+  refused(state, "skinny");
+  state = {};
+  state.sweep = Sweep({0, 0, 0, triangles + 1, 1}, {});
+  refused(state, "sweep");
+  state.sweep = Sweep({0, 0, 0, 0, 1}, {triangles});
+  refused(state, "sweep");
+  state = {};
+  state.next_segment = subsegments + 1;
+  refused(state, "segment");
+  state = {};
+  state.unsplittable = {subsegments};
+  refused(state, "unsplittable");
+  state = {};
+  state.made = {{-1, 1}};
+  refused(state, "split point");
 }
 
 TEST_CASE("split points from outside are inserted with their ancestors at any time") {

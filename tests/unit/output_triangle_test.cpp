@@ -10,6 +10,7 @@
 #include "support/damage.hpp"
 #include "support/mesh_equality.hpp"
 #include "support/random_mesh.hpp"
+#include "support/round_trip.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;
@@ -47,16 +48,7 @@ std::map<VertexPair, std::vector<std::size_t>> triangles_by_edge(const MeshPiece
 }  // namespace
 
 TEST_CASE("Triangle's files read back as the mesh that was written") {
-  const TemporaryFolder folder;
-  const std::string path = folder.path() / "mesh.ele";
-  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
-    CAPTURE(seed);
-    const RandomMeshParts parts{seed % 2 == 0, seed % 3 == 0, seed % 5 != 0, static_cast<std::int32_t>(seed % 4)};
-    const RandomMesh random(seed, 1 + static_cast<std::int32_t>(seed % 9), 1 + static_cast<std::int32_t>(seed % 7),
-                            parts, seed % 2 == 0 ? 1e-3 : 1e6);
-    write_mesh(random.mesh(), path);
-    check_same_mesh(read_mesh(path), random.mesh());
-  }
+  check_random_meshes_read_back(".ele");
 }
 
 TEST_CASE("the .neigh file names the triangle across each edge") {

@@ -9,6 +9,7 @@
 #include "support/damage.hpp"
 #include "support/mesh_equality.hpp"
 #include "support/random_mesh.hpp"
+#include "support/round_trip.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;
@@ -89,27 +90,11 @@ std::string message_of(const std::string& path) {
 }  // namespace
 
 TEST_CASE("a .vtu reads back as the mesh that was written") {
-  const TemporaryFolder folder;
-  const std::string path = folder.path() / "mesh.vtu";
-  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
-    CAPTURE(seed);
-    const RandomMeshParts parts{seed % 2 == 0, seed % 3 == 0, seed % 5 != 0, static_cast<std::int32_t>(seed % 4)};
-    const RandomMesh random(seed, 1 + static_cast<std::int32_t>(seed % 9), 1 + static_cast<std::int32_t>(seed % 7),
-                            parts, seed % 2 == 0 ? 1e-3 : 1e6);
-    write_mesh(random.mesh(), path);
-    check_same_mesh(read_mesh(path), random.mesh());
-  }
+  check_random_meshes_read_back(".vtu");
 }
 
 TEST_CASE("an empty mesh and points alone survive in .vtu") {
-  const TemporaryFolder folder;
-  const std::string path = folder.path() / "mesh.vtu";
-  MeshPiece mesh;
-  write_mesh(mesh, path);
-  check_same_mesh(read_mesh(path), mesh);
-  mesh.points = {{1, 2}, {3, 4}};
-  write_mesh(mesh, path);
-  check_same_mesh(read_mesh(path), mesh);
+  check_meshes_without_triangles_read_back(".vtu");
 }
 
 TEST_CASE("a .vtu holds the arrays that VTK expects, where its header says") {

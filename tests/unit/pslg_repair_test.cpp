@@ -112,6 +112,27 @@ TEST_CASE("a segment that misses a point by rounding is led through it") {
   CHECK(pslg.segments == Segments{{0, 2, 0}, {2, 1, 0}, {2, 3, 0}});
 }
 
+TEST_CASE("points without segments get their hull, which is no change") {
+  Pslg pslg = square();
+  pslg.segments.clear();
+  pslg.points.push_back({2, 0});
+  pslg.points.push_back({1, 1});
+  const RepairReport report = repair(pslg);
+  CHECK(pslg.segments == Segments{{0, 4, 1}, {4, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}});
+  CHECK_FALSE(report.changed());
+  CHECK(report.summary().empty());
+}
+
+TEST_CASE("the hull is led through points within rounding error of it, and that is reported") {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {1.5, 0}, {1.5, 1.1}, {0.5, 1.3}, {0, 1.4000000000000001}};
+  const RepairReport report = repair(pslg);
+  CHECK(pslg.segments == Segments{{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 4, 1}, {4, 0, 1}});
+  CHECK(report.points_close_segments.count == 1);
+  CHECK(report.summary().find("vertex 4 (0.5, 1.3) on an edge of the hull") != std::string::npos);
+  CHECK_FALSE(repair(pslg).changed());
+}
+
 TEST_CASE("overlapping collinear segments become pieces that do not overlap") {
   Pslg pslg = square();
   pslg.points.push_back({1, 0});

@@ -1,9 +1,8 @@
-#include "mesh/convex_hull.hpp"
+#include "pslg/convex_hull.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "base/error.hpp"
 #include "geometry/predicates.hpp"
 
 namespace driftmesh {
@@ -24,6 +23,7 @@ std::vector<std::int32_t> lower_border(const std::vector<Point>& points, const s
 }  // namespace
 
 std::vector<Pslg::Segment> convex_hull(const std::vector<Point>& points) {
+  if (points.size() < 3) return {};
   std::vector<std::int32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
@@ -33,7 +33,7 @@ std::vector<Pslg::Segment> convex_hull(const std::vector<Point>& points) {
   std::vector<std::int32_t> ring = lower_border(points, order);
   std::reverse(order.begin(), order.end());
   const std::vector<std::int32_t> upper = lower_border(points, order);
-  if (ring.size() == points.size() && upper.size() == points.size()) throw Error("all points lie on one line");
+  if (ring.size() == points.size() && upper.size() == points.size()) return {};
   ring.insert(ring.end(), upper.begin() + 1, upper.end() - 1);
 
   std::vector<Pslg::Segment> hull;

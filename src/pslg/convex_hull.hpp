@@ -7,7 +7,7 @@
 namespace driftmesh {
 
 /// The border of the convex hull of distinct points as segments with marker 1, through every point that lies on it.
-/// Exact (Andrew's monotone chain). Throws Error if all points are collinear.
+/// Exact (Andrew's monotone chain). Empty if all points are collinear.
 [[nodiscard]] std::vector<Pslg::Segment> convex_hull(const std::vector<Point>& points);
 
 }  // namespace driftmesh

@@ -1,0 +1,74 @@
+#include "balancer/load_snapshot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace driftmesh::balancer {
+namespace {
+
+bool is_speed(double speed) {
+  return speed > 0 && std::isfinite(speed);
+}
+
+RankState& rank_of(LoadSnapshot& snapshot, Rank rank) {
+  return snapshot.ranks[static_cast<std::size_t>(rank)];
+}
+
+}  // namespace
+
+void sum_up(LoadSnapshot& snapshot) {
+  for (RankState& rank : snapshot.ranks) rank.remaining = 0;
+  for (const SubdomainState& s : snapshot.subdomains) rank_of(snapshot, s.owner).remaining += s.remaining;
+}
+
+const SubdomainState* find(const LoadSnapshot& snapshot, SubdomainId id) {
+  const auto& all = snapshot.subdomains;
+  const auto place =
+      std::lower_bound(all.begin(), all.end(), id, [](const auto& s, SubdomainId i) { return s.id < i; });
+  return place == all.end() || place->id != id ? nullptr : &*place;
+}
+
+std::vector<double> assumed_speeds(std::span<const RankState> ranks) {
+  double sum = 0;
+  int known = 0;
+  for (const RankState& rank : ranks)
+    if (is_speed(rank.speed)) sum += rank.speed, ++known;
+  std::vector<double> speeds;
+  for (const RankState& rank : ranks) speeds.push_back(is_speed(rank.speed) ? rank.speed : known > 0 ? sum / known : 1);
+  return speeds;
+}
+
+double finishing_time(const LoadSnapshot& snapshot) {
+  const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
+  double last = 0;
+  for (std::size_t r = 0; r < speeds.size(); ++r) last = std::max(last, snapshot.ranks[r].remaining / speeds[r]);
+  return last;
+}
+
+double ideal_time(const LoadSnapshot& snapshot) {
+  double work = 0, speed = 0;
+  for (const RankState& rank : snapshot.ranks) work += rank.remaining;
+  for (const double s : assumed_speeds(snapshot.ranks)) speed += s;
+  return speed > 0 ? work / speed : 0;
+}
+
+LoadSnapshot after(LoadSnapshot snapshot, std::span<const Move> moves) {
+  for (const Move& move : moves) {
+    SubdomainState& s =
+        snapshot.subdomains[static_cast<std::size_t>(find(snapshot, move.subdomain) - snapshot.subdomains.data())];
+    rank_of(snapshot, s.owner).remaining -= s.remaining;
+    s.owner = move.destination;
+    rank_of(snapshot, s.owner).remaining += s.remaining;
+  }
+  return snapshot;
+}
+
+std::vector<Move> moves_between(const LoadSnapshot& from, const LoadSnapshot& to) {
+  std::vector<Move> moves;
+  for (std::size_t i = 0; i < from.subdomains.size(); ++i)
+    if (from.subdomains[i].owner != to.subdomains[i].owner)
+      moves.push_back({from.subdomains[i].id, to.subdomains[i].owner});
+  return moves;
+}
+
+}  // namespace driftmesh::balancer

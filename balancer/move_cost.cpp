@@ -1,0 +1,97 @@
+#include "balancer/move_cost.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace driftmesh::balancer {
+namespace {
+
+std::size_t index(Rank rank) {
+  return static_cast<std::size_t>(rank);
+}
+
+/// A move, and what it does to the two ranks' finishing times.
+struct Candidate {
+  Move move;
+  Rank from = 0;
+  double giver_saves = 0;  // seconds
+  double taker_spends = 0;
+  double price = 0;  // cost over work, in seconds a second
+  bool kept = true;
+};
+
+class Selection {
+ public:
+  Selection(const LoadSnapshot& snapshot, const MoveCost& cost)
+      : snapshot_(snapshot), cost_(cost), speeds_(assumed_speeds(snapshot.ranks)) {
+    for (std::size_t r = 0; r < speeds_.size(); ++r) times_.push_back(snapshot.ranks[r].remaining / speeds_[r]);
+  }
+
+  void consider(const Move& move) {
+    const SubdomainState* const s = find(snapshot_, move.subdomain);
+    const bool possible = s && move.destination >= 0 && index(move.destination) < speeds_.size() &&
+                          move.destination != s->owner && !taken_twice(move.subdomain);
+    if (!possible) return;
+    const double spent = cost_.for_giver(s->bytes);
+    const double saved = s->remaining / speeds_[index(s->owner)] - spent;
+    const double received = s->remaining / speeds_[index(move.destination)] + cost_.for_taker(s->bytes);
+    if (saved <= 0) return;
+    candidates_.push_back({move, s->owner, saved, received, (spent + cost_.for_taker(s->bytes)) / s->remaining, true});
+    times_[index(s->owner)] -= saved;
+    times_[index(move.destination)] += received;
+  }
+
+  [[nodiscard]] double finish() const { return times_.empty() ? 0 : *std::max_element(times_.begin(), times_.end()); }
+
+  /// Takes back what nobody needs to finish by `time`.
+  void drop_needless(double time) {
+    std::vector<Candidate*> dearest_first;
+    for (Candidate& c : candidates_) dearest_first.push_back(&c);
+    std::sort(dearest_first.begin(), dearest_first.end(), [](const Candidate* a, const Candidate* b) {
+      return std::tuple(-a->price, a->move.subdomain) < std::tuple(-b->price, b->move.subdomain);
+    });
+    for (Candidate* c : dearest_first) {
+      if (times_[index(c->from)] + c->giver_saves > time) continue;
+      times_[index(c->from)] += c->giver_saves;
+      times_[index(c->move.destination)] -= c->taker_spends;
+      c->kept = false;
+    }
+  }
+
+  [[nodiscard]] std::vector<Move> kept() const {
+    std::vector<Move> moves;
+    for (const Candidate& c : candidates_)
+      if (c.kept) moves.push_back(c.move);
+    return moves;
+  }
+
+ private:
+  bool taken_twice(SubdomainId id) {
+    const auto place = std::lower_bound(taken_.begin(), taken_.end(), id);
+    if (place != taken_.end() && *place == id) return true;
+    taken_.insert(place, id);
+    return false;
+  }
+
+  const LoadSnapshot& snapshot_;
+  const MoveCost& cost_;
+  std::vector<double> speeds_;
+  std::vector<double> times_;  // finishing times with the moves that are kept
+  std::vector<Candidate> candidates_;
+  std::vector<SubdomainId> taken_;  // ascending
+};
+
+}  // namespace
+
+std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost,
+                               const Worth& worth) {
+  Selection selection(snapshot, cost);
+  const double before = selection.finish();
+  for (const Move& move : moves) selection.consider(move);
+  selection.drop_needless(std::max(selection.finish(), ideal_time(snapshot) * (1 + worth.slack)));
+  const double saved = before - selection.finish();
+  if (saved <= 0 || saved < worth.gain * before || saved < worth.seconds) return {};
+  return selection.kept();
+}
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "balancer/load_snapshot.hpp"
+
+namespace driftmesh::balancer {
+
+/// What moving a subdomain costs the two ranks, in seconds of their time.
+struct MoveCost {
+  double latency = 1e-3;        ///< of any move, until the new owner can begin
+  double bandwidth = 1e9;       ///< bytes a second between two ranks
+  double pack_bandwidth = 5e8;  ///< bytes a second that one rank packs or unpacks
+
+  [[nodiscard]] double for_giver(std::uint64_t bytes) const { return static_cast<double>(bytes) / pack_bandwidth; }
+  [[nodiscard]] double for_taker(std::uint64_t bytes) const {
+    return latency + static_cast<double>(bytes) / bandwidth + static_cast<double>(bytes) / pack_bandwidth;
+  }
+};
+
+/// How much better a plan must be before anything moves.
+struct Worth {
+  double gain = 0.02;     ///< of the finishing time, saved
+  double seconds = 2e-3;  ///< saved
+  double slack = 0.01;    ///< of the ideal time, given away for fewer moves
+};
+
+/// Those of `moves` that are worth making, in their order. The finishing time with their costs is below the present one
+/// by what `worth` asks for; otherwise none is left. Left out are moves that are not valid (unknown subdomain or rank,
+/// to the owner, a second one of a subdomain), that cost more than the work they move, and those without which the
+/// finishing time is no later, or within the slack of the ideal one: the ones that cost most for their work first.
+[[nodiscard]] std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves,
+                                             const MoveCost& cost, const Worth& worth = {});
+
+}  // namespace driftmesh::balancer

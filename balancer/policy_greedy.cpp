@@ -1,0 +1,30 @@
+#include <memory>
+
+#include "balancer/parameters.hpp"
+#include "balancer/policy.hpp"
+#include "balancer/surplus.hpp"
+
+namespace driftmesh::balancer {
+namespace {
+
+/// Deals what ranks have too much of to those that would finish it first. Looks at work and speed, not at borders.
+class Greedy final : public Policy {
+ public:
+  explicit Greedy(double tolerance) : tolerance_(tolerance) {}
+
+  [[nodiscard]] Placement placement() const override { return Placement::kLeader; }
+  [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override {
+    return moves_between(snapshot, deal_surplus(snapshot, tolerance_));
+  }
+
+ private:
+  double tolerance_;
+};
+
+}  // namespace
+
+std::unique_ptr<Policy> make_greedy(Parameters& parameters) {
+  return std::make_unique<Greedy>(parameters.number("tolerance", 0.02, 0, 10));
+}
+
+}  // namespace driftmesh::balancer

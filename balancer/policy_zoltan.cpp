@@ -1,0 +1,63 @@
+#include <memory>
+#include <utility>
+
+#include "balancer/parameters.hpp"
+#include "balancer/policy.hpp"
+#include "balancer/remap_parts.hpp"
+#include "balancer/surplus.hpp"
+#include "balancer/zoltan_partition.hpp"
+
+namespace driftmesh::balancer {
+namespace {
+
+/// Parts by Zoltan, as large as the ranks are fast: compact, and where the approach is repartition or refine, near to
+/// what there is.
+class ZoltanPolicy final : public Policy {
+ public:
+  ZoltanPolicy(ZoltanParameters parameters, bool polish, double tolerance)
+      : parameters_(std::move(parameters)), polish_(polish), tolerance_(tolerance) {}
+
+  [[nodiscard]] Placement placement() const override { return Placement::kLeader; }
+
+  [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override {
+    if (snapshot.subdomains.empty() || snapshot.ranks.size() < 2) return {};
+    const auto owners = remap_parts(snapshot, zoltan_partition(snapshot, parameters_), tolerance_);
+    LoadSnapshot planned = snapshot;
+    for (std::size_t i = 0; i < owners.size(); ++i) planned.subdomains[i].owner = owners[i];
+    sum_up(planned);
+    return moves_between(snapshot, polish_ ? deal_surplus(planned, tolerance_) : planned);
+  }
+
+ private:
+  ZoltanParameters parameters_;
+  bool polish_;
+  double tolerance_;
+};
+
+std::string upper_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return text;
+}
+
+}  // namespace
+
+std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
+  ZoltanParameters all{
+      {"LB_METHOD", upper_case(parameters.choice("method", {"graph", "rcb", "hsfc", "hypergraph"}))},
+      {"LB_APPROACH", upper_case(parameters.choice("approach", {"repartition", "partition", "refine"}))},
+      {"IMBALANCE_TOL", "1.03"},
+      // Edges that hold much of a small graph are not left out: nothing would be left.
+      {"PHG_EDGE_SIZE_THRESHOLD", "1.0"},
+      {"SEED", std::to_string(parameters.integer("seed", 1, 0, INT32_MAX))}};
+  // Graphs by Zoltan's own partitioner, which is in every build of it.
+  if (all["LB_METHOD"] == "GRAPH") all["GRAPH_PACKAGE"] = "PHG";
+  for (const auto& [name, value] : parameters.any_of(zoltan_parameter_names())) {
+    if (!zoltan_accepts(name, value)) parameters.fail(name, value, "Zoltan's user guide says what it takes");
+    all[name] = value;
+  }
+  return std::make_unique<ZoltanPolicy>(std::move(all), parameters.flag("polish", true),
+                                        parameters.number("tolerance", 0.02, 0, 10));
+}
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,88 @@
+#include "balancer/surplus.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace driftmesh::balancer {
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+/// Of each rank, the indices of its subdomains, those first that are cheap to move, and of these the largest.
+std::vector<Indices> by_owner(const LoadSnapshot& snapshot) {
+  std::vector<Indices> lists(snapshot.ranks.size());
+  for (std::size_t i = 0; i < snapshot.subdomains.size(); ++i)
+    lists[static_cast<std::size_t>(snapshot.subdomains[i].owner)].push_back(i);
+  for (Indices& list : lists)
+    std::sort(list.begin(), list.end(), [&](std::size_t a, std::size_t b) {
+      const auto& one = snapshot.subdomains[a];
+      const auto& other = snapshot.subdomains[b];
+      return std::tuple(one.bytes, -one.remaining, one.id) < std::tuple(other.bytes, -other.remaining, other.id);
+    });
+  return lists;
+}
+
+class Dealer {
+ public:
+  Dealer(const LoadSnapshot& snapshot, double tolerance)
+      : snapshot_(snapshot),
+        tolerance_(tolerance),
+        ideal_(ideal_time(snapshot)),
+        speeds_(assumed_speeds(snapshot.ranks)) {}
+
+  LoadSnapshot deal() {
+    Indices pool = collect();
+    std::sort(pool.begin(), pool.end(), [&](std::size_t a, std::size_t b) {
+      const auto& one = snapshot_.subdomains[a];
+      const auto& other = snapshot_.subdomains[b];
+      return std::tuple(-one.remaining, one.id) < std::tuple(-other.remaining, other.id);
+    });
+    for (const std::size_t i : pool) place(i);
+    return std::move(snapshot_);
+  }
+
+ private:
+  double& load(std::size_t rank) { return snapshot_.ranks[rank].remaining; }
+
+  Indices collect() {
+    Indices pool;
+    const std::vector<Indices> lists = by_owner(snapshot_);
+    for (std::size_t r = 0; r < lists.size(); ++r) {
+      const double share = ideal_ * speeds_[r];
+      if (load(r) <= share * (1 + tolerance_)) continue;
+      for (const std::size_t i : lists[r]) {
+        if (load(r) <= share) break;
+        load(r) -= snapshot_.subdomains[i].remaining;
+        pool.push_back(i);
+      }
+    }
+    return pool;
+  }
+
+  // Equal finishing times go to the owner, so that nothing moves without a reason.
+  void place(std::size_t i) {
+    SubdomainState& s = snapshot_.subdomains[i];
+    auto best = static_cast<std::size_t>(s.owner);
+    double earliest = (load(best) + s.remaining) / speeds_[best];
+    for (std::size_t r = 0; r < speeds_.size(); ++r) {
+      const double finished = (load(r) + s.remaining) / speeds_[r];
+      if (finished < earliest) best = r, earliest = finished;
+    }
+    s.owner = static_cast<Rank>(best);
+    load(best) += s.remaining;
+  }
+
+  LoadSnapshot snapshot_;
+  double tolerance_;
+  double ideal_;
+  std::vector<double> speeds_;
+};
+
+}  // namespace
+
+LoadSnapshot deal_surplus(const LoadSnapshot& snapshot, double tolerance) {
+  LoadSnapshot dealt = Dealer(snapshot, tolerance).deal();
+  return finishing_time(dealt) < finishing_time(snapshot) ? dealt : snapshot;
+}
+
+}  // namespace driftmesh::balancer

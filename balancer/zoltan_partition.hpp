@@ -1,0 +1,26 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "balancer/load_snapshot.hpp"
+
+/// The only part of the project that knows Zoltan.
+namespace driftmesh::balancer {
+
+/// Zoltan's parameters by their names, LB_METHOD and the like.
+using ZoltanParameters = std::map<std::string, std::string>;
+
+/// The names of the parameters that Zoltan's partitioners read, but for those that zoltan_partition sets itself.
+[[nodiscard]] const std::vector<std::string>& zoltan_parameter_names();
+
+/// Whether Zoltan takes this parameter with this value. Some values it looks at only when it partitions.
+[[nodiscard]] bool zoltan_accepts(const std::string& name, const std::string& value);
+
+/// The part, 0 .. ranks - 1, of each listed subdomain: parts are as large as the ranks' speeds relative to each other,
+/// measured in remaining work. It runs within this process and the same arguments give the same parts. Parts may be
+/// empty. Initializes MPI if nobody has. Throws Error if Zoltan fails.
+[[nodiscard]] std::vector<Rank> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters);
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,151 @@
+// Random loads, and every policy on each.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "balancer/move_cost.hpp"
+#include "balancer/policy_factory.hpp"
+#include "property/cases.hpp"
+#include "support/load_snapshots.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+using driftmesh::testing::random_snapshot;
+using driftmesh::testing::time_with;
+
+namespace {
+
+void check_valid(const LoadSnapshot& snapshot, const std::vector<Move>& moves) {
+  std::set<SubdomainId> moved;
+  for (const Move& move : moves) {
+    CAPTURE(move.subdomain);
+    const SubdomainState* const s = find(snapshot, move.subdomain);
+    REQUIRE(s != nullptr);
+    REQUIRE(move.destination != s->owner);
+    REQUIRE(move.destination >= 0);
+    REQUIRE(static_cast<std::size_t>(move.destination) < snapshot.ranks.size());
+    REQUIRE(moved.insert(move.subdomain).second);
+  }
+}
+
+// What all ranks together would do with a policy that plans at every rank.
+std::vector<Move> plan_of_all(const Policy& policy, const LoadSnapshot& snapshot) {
+  if (policy.placement() != Placement::kNeighbours) return policy.plan(snapshot, 0);
+  std::vector<Move> moves;
+  for (std::size_t r = 0; r < snapshot.ranks.size(); ++r)
+    for (const Move& move : policy.plan(snapshot, static_cast<Rank>(r))) {
+      REQUIRE(find(snapshot, move.subdomain)->owner == static_cast<Rank>(r));
+      moves.push_back(move);
+    }
+  return moves;
+}
+
+// Longest processing time first, from nothing.
+double time_dealt_anew(const LoadSnapshot& snapshot) {
+  const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
+  std::vector<double> work, load(speeds.size(), 0.0);
+  for (const auto& s : snapshot.subdomains) work.push_back(s.remaining);
+  std::sort(work.begin(), work.end(), std::greater<>());
+  double last = 0;
+  for (const double w : work) {
+    std::size_t best = 0;
+    for (std::size_t r = 1; r < speeds.size(); ++r)
+      if ((load[r] + w) / speeds[r] < (load[best] + w) / speeds[best]) best = r;
+    load[best] += w;
+    last = std::max(last, load[best] / speeds[best]);
+  }
+  return last;
+}
+
+struct Named {
+  std::string name;
+  std::unique_ptr<Policy> policy;
+};
+
+std::vector<Named> planners() {
+  std::vector<Named> list;
+  for (const std::string name : {"none", "greedy", "diffusion"}) list.push_back({name, make_policy(name)});
+  for (const std::string method : {"rcb", "hsfc", "graph", "hypergraph"})
+    list.push_back({"zoltan " + method, make_policy("zoltan", {{"method", method}})});
+  list.push_back({"zoltan raw", make_policy("zoltan", {{"approach", "partition"}, {"polish", "false"}})});
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("plans are valid, repeatable, and what is worth making of them finishes no later") {
+  auto random = testing::seeded_generator("plans");
+  const auto policies = planners();
+  int moved = 0, gained = 0;
+  for (std::int64_t i = testing::case_count(300); i > 0; --i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 one(seed);
+    const LoadSnapshot snapshot = random_snapshot(one);
+    const double before = time_with(snapshot, {});
+    for (const auto& [name, policy] : policies) {
+      CAPTURE(name);
+      const auto plan = plan_of_all(*policy, snapshot);
+      check_valid(snapshot, plan);
+      REQUIRE(plan_of_all(*policy, snapshot) == plan);
+      if (name == "greedy" || name == "diffusion") REQUIRE(time_with(snapshot, plan) <= before * (1 + 1e-12));
+
+      const auto worth = worth_moving(snapshot, plan, {});
+      check_valid(snapshot, worth);
+      REQUIRE(worth.size() <= plan.size());
+      if (!worth.empty()) REQUIRE(time_with(snapshot, worth) < before);
+      moved += !plan.empty();
+      gained += !worth.empty();
+    }
+  }
+  CHECK(moved > 0);
+  CHECK(gained > 0);
+}
+
+TEST_CASE("greedy plans take at most three times as long as dealing everything anew, largest first") {
+  // A rank keeps at most its share of the ideal time, and what is dealt can be bounded as for list scheduling: with o
+  // the best possible time, the last subdomain dealt and all before it run within o on ranks fast enough for them, so
+  // these ranks are busy until the end less o, with at most ideal + o of work. The end is thus at most ideal + 2 o <= 3
+  // o.
+  auto random = testing::seeded_generator("greedy");
+  const auto policy = make_policy("greedy", {{"tolerance", "0"}});
+  for (std::int64_t i = testing::case_count(1000); i > 0; --i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 one(seed);
+    const LoadSnapshot snapshot = random_snapshot(one);
+    REQUIRE(time_with(snapshot, policy->plan(snapshot, 0)) <= 3 * time_dealt_anew(snapshot) * (1 + 1e-12));
+  }
+}
+
+TEST_CASE("gifts make the pair finish earlier, and thieves ask somebody else") {
+  auto random = testing::seeded_generator("gifts");
+  const auto policy = make_policy("stealing");
+  int given = 0, asked = 0;
+  for (std::int64_t i = testing::case_count(2000); i > 0; --i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 one(seed);
+    const LoadSnapshot snapshot = random_snapshot(one);
+    const auto ranks = snapshot.ranks.size();
+    const Rank self = static_cast<Rank>(one() % ranks), other = static_cast<Rank>(one() % ranks);
+    std::vector<bool> willing(ranks);
+    for (std::size_t r = 0; r < ranks; ++r) willing[r] = one() % 2 == 0;
+    if (const auto victim = policy->ask(snapshot, self, willing)) {
+      ++asked;
+      REQUIRE(*victim != self);
+      REQUIRE(willing[static_cast<std::size_t>(*victim)]);
+    }
+    if (other == self) continue;
+    const auto moves = policy->give(snapshot, self, other);
+    check_valid(snapshot, moves);
+    LoadSnapshot pair = snapshot;
+    std::erase_if(pair.subdomains, [&](const auto& s) { return s.owner != self && s.owner != other; });
+    if (!moves.empty()) REQUIRE(time_with(pair, moves) < time_with(pair, {}));
+    given += !moves.empty();
+  }
+  CHECK(given > 0);
+  CHECK(asked > 0);
+}

@@ -1,0 +1,196 @@
+#include <doctest/doctest.h>
+
+#include <set>
+
+#include "balancer/policy_factory.hpp"
+#include "base/error.hpp"
+#include "support/load_snapshots.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+using driftmesh::testing::grid_layout;
+using driftmesh::testing::initial_snapshot;
+using driftmesh::testing::time_with;
+
+namespace {
+
+std::string error_of(const std::string& name, const Parameters::Values& values = {}) {
+  try {
+    static_cast<void>(make_policy(name, values));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+double cut_length(const LoadSnapshot& snapshot) {
+  double length = 0;
+  for (const SubdomainState& s : snapshot.subdomains)
+    for (const Neighbour& n : (*snapshot.layout)[s.id].neighbours)
+      if (find(snapshot, n.subdomain)->owner != s.owner) length += n.length / 2;
+  return length;
+}
+
+}  // namespace
+
+TEST_CASE("wrong names, parameters and values are errors that say what was meant") {
+  CHECK(error_of("soltan") == "unknown policy 'soltan'; the nearest one is 'zoltan'");
+  CHECK(error_of("none", {{"method", "rcb"}}) == "policy none: unknown parameter 'method'; it has none");
+  CHECK(error_of("greedy", {{"tolerence", "1"}}) ==
+        "policy greedy: unknown parameter 'tolerence'; the nearest one is 'tolerance'");
+  CHECK(error_of("greedy", {{"tolerance", "much"}}) ==
+        "policy greedy: tolerance: 'much' cannot be used; it is a number from 0 to 10");
+  CHECK(error_of("greedy", {{"tolerance", "nan"}}) ==
+        "policy greedy: tolerance: 'nan' cannot be used; it is a number from 0 to 10");
+  CHECK(error_of("stealing", {{"low-water", "-1"}}) ==
+        "policy stealing: low-water: '-1' cannot be used; it is a number from 1e-06 to 1e+06");
+  CHECK(error_of("zoltan", {{"method", "hypergraf"}}) ==
+        "policy zoltan: method: 'hypergraf' cannot be used; the nearest choice is 'hypergraph'");
+  CHECK(error_of("zoltan", {{"polish", "yes"}}) ==
+        "policy zoltan: polish: 'yes' cannot be used; it is either true or false");
+  CHECK(error_of("zoltan", {{"seed", "1.5"}}) ==
+        "policy zoltan: seed: '1.5' cannot be used; it is a whole number from 0 to 2147483647");
+  CHECK(error_of("zoltan", {{"PHG_REPART_MULTIPLYER", "10"}}) ==
+        "policy zoltan: unknown parameter 'PHG_REPART_MULTIPLYER'; the nearest one is 'PHG_REPART_MULTIPLIER'");
+  CHECK(error_of("zoltan", {{"IMBALANCE_TOL", "tight"}}) ==
+        "policy zoltan: IMBALANCE_TOL: 'tight' cannot be used; Zoltan's user guide says what it takes");
+  for (const std::string& name : policy_names()) CHECK(error_of(name) == "");
+}
+
+TEST_CASE("none leaves everything where it is") {
+  const auto policy = make_policy("none");
+  CHECK(policy->placement() == Placement::kNobody);
+  const LoadSnapshot s = initial_snapshot(grid_layout(6, 6, 2), {1, 100});
+  CHECK(policy->plan(s, 0).empty());
+  CHECK(!policy->ask(s, 1, {true, true}));
+  CHECK(policy->give(s, 0, 1).empty());
+}
+
+TEST_CASE("greedy moves no more than it must") {
+  const auto policy = make_policy("greedy");
+  CHECK(policy->placement() == Placement::kLeader);
+  const LoadSnapshot s = initial_snapshot(grid_layout(10, 10, 4), {100, 100, 100, 200});
+  const auto moves = policy->plan(s, 0);
+  CHECK(moves.size() == 15);
+  for (const Move& move : moves) CHECK(move.destination == 3);
+  CHECK(time_with(s, moves) == 200);
+}
+
+TEST_CASE("zoltan balances work over speed with every method and approach") {
+  const std::vector<double> speeds{110, 110, 92, 186, 186, 110, 186, 92};
+  const LoadSnapshot s = initial_snapshot(grid_layout(16, 14, 8), speeds);
+  for (const char* method : {"rcb", "hsfc", "graph", "hypergraph"})
+    for (const char* approach : {"partition", "repartition", "refine"}) {
+      CAPTURE(method);
+      CAPTURE(approach);
+      const auto policy = make_policy("zoltan", {{"method", method}, {"approach", approach}});
+      CHECK(policy->placement() == Placement::kLeader);
+      const auto moves = policy->plan(s, 0);
+      CHECK(time_with(s, moves) < 1.06 * ideal_time(s));
+      CHECK(policy->plan(s, 0) == moves);  // a pure function
+    }
+}
+
+TEST_CASE("zoltan's graphs keep borders between ranks short, and repartition moves less than partition") {
+  const LoadSnapshot s = initial_snapshot(grid_layout(40, 40, 8), {1, 1, 1, 1, 2, 2, 2, 2});
+  const auto moves_of = [&](const char* approach) {
+    return make_policy("zoltan", {{"method", "graph"}, {"approach", approach}})->plan(s, 0);
+  };
+  const auto moves = moves_of("partition");
+  LoadSnapshot scattered = s;
+  for (auto& subdomain : scattered.subdomains) subdomain.owner = subdomain.id % 8;
+  CHECK(cut_length(after(s, moves)) < 0.15 * cut_length(scattered));
+  CHECK(moves_of("repartition").size() < moves.size());
+}
+
+TEST_CASE("zoltan takes its own parameters") {
+  const LoadSnapshot s = initial_snapshot(grid_layout(20, 20, 4), {1, 1, 1, 3});
+  const auto strict = make_policy("zoltan", {{"polish", "false"}, {"IMBALANCE_TOL", "1.01"}})->plan(s, 0);
+  const auto loose = make_policy("zoltan", {{"polish", "false"}, {"IMBALANCE_TOL", "1.5"}})->plan(s, 0);
+  CHECK(time_with(s, strict) < time_with(s, loose));
+}
+
+TEST_CASE("zoltan copes with fewer subdomains than ranks, none, and one rank") {
+  for (const char* method : {"rcb", "hsfc", "graph", "hypergraph"}) {
+    CAPTURE(method);
+    const auto policy = make_policy("zoltan", {{"method", method}});
+    LoadSnapshot few = initial_snapshot(grid_layout(3, 1, 12), std::vector<double>(12, 1.0));
+    for (auto& subdomain : few.subdomains) subdomain.owner = 5;
+    sum_up(few);
+    CHECK(time_with(few, policy->plan(few, 0)) <= finishing_time(few));
+    few.subdomains.clear();
+    sum_up(few);
+    CHECK(policy->plan(few, 0).empty());
+    CHECK(policy->plan(initial_snapshot(grid_layout(4, 4, 1), {1}), 0).empty());
+  }
+}
+
+TEST_CASE("diffusion sends work to the neighbours that finish earlier") {
+  const auto policy = make_policy("diffusion");
+  CHECK(policy->placement() == Placement::kNeighbours);
+  // Three ranks in a row, the first one ten times as fast as the others.
+  const LoadSnapshot s = initial_snapshot(grid_layout(90, 10, 3), {1000, 100, 100});
+  CHECK(policy->plan(s, 0).empty());
+  const auto moves = policy->plan(s, 1);
+  CHECK(!moves.empty());
+  std::set<SubdomainId> first_row;
+  for (const Move& move : moves) {
+    CHECK(move.destination == 0);
+    CHECK(find(s, move.subdomain)->owner == 1);
+  }
+  CHECK(policy->plan(s, 2).empty());  // rank 0 is not its neighbour, and rank 1 has as much as it has
+}
+
+TEST_CASE("repeated diffusion evens out a chain of ranks") {
+  const auto policy = make_policy("diffusion");
+  LoadSnapshot s = initial_snapshot(grid_layout(60, 60, 6), {1, 2, 3, 4, 5, 6});
+  const double before = finishing_time(s) / ideal_time(s);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<Move> moves;
+    for (Rank r = 0; r < 6; ++r)
+      for (const Move& move : policy->plan(s, r)) moves.push_back(move);
+    s = after(s, moves);
+  }
+  CHECK(before > 3);
+  CHECK(finishing_time(s) / ideal_time(s) < 1.1);
+}
+
+TEST_CASE("a rank asks the one that will finish last when it will soon be idle") {
+  const auto policy = make_policy("stealing", {{"low-water", "0.5"}});
+  CHECK(policy->placement() == Placement::kRequests);
+  LoadSnapshot s = initial_snapshot(grid_layout(12, 1, 4), {1000, 1000, 1000, 1000});
+  const std::vector<bool> all(4, true);
+  CHECK(!policy->ask(s, 1, all));  // 3 s left
+  s.ranks[1].remaining = 400;
+  s.ranks[3].remaining = 9000;
+  CHECK(policy->ask(s, 1, all) == 3);
+  CHECK(policy->ask(s, 1, {true, true, true, false}) == 2);
+  s.ranks[0].remaining = s.ranks[2].remaining = 800;
+  CHECK(!policy->ask(s, 1, {true, true, true, false}));  // they will not finish much later
+  s.ranks[1].remaining = 0;
+  s.ranks[3].speed = 1e6;
+  CHECK(policy->ask(s, 1, all) == 2);  // rank 3 is so fast that it needs no help
+}
+
+TEST_CASE("ranks that look the same are not all asked by everybody") {
+  const auto policy = make_policy("stealing");
+  LoadSnapshot s = initial_snapshot(grid_layout(80, 1, 8), std::vector<double>(8, 1000.0));
+  std::set<Rank> asked;
+  for (Rank thief = 0; thief < 8; ++thief) {
+    LoadSnapshot idle = s;
+    idle.ranks[static_cast<std::size_t>(thief)].remaining = 0;
+    asked.insert(policy->ask(idle, thief, std::vector<bool>(8, true)).value());
+  }
+  CHECK(asked.size() == 8);
+}
+
+TEST_CASE("a rank gives as long as the other one finishes that earlier") {
+  const auto policy = make_policy("stealing");
+  LoadSnapshot s = initial_snapshot(grid_layout(20, 1, 2), {100, 300});
+  s.ranks[1].remaining = 0;
+  const auto moves = policy->give(s, 0, 1);
+  CHECK(moves.size() == 8);  // of 10: 20 s against 26.7 s; with a ninth it would be 10 s against 30 s
+  for (const Move& move : moves) CHECK(move.destination == 1);
+  s.ranks[1].remaining = 1e6;
+  CHECK(policy->give(s, 0, 1).empty());
+}
