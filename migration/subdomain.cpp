@@ -14,6 +14,27 @@ std::int64_t points_made(const Refiner::Counters& c) {
   return c.free_points + c.segment_points;
 }
 
+/// Why an unpacked subdomain is none of this decomposition; empty if it is one.
+std::string misfit(const SubdomainState& state, const Decomposition& d) {
+  if (static_cast<std::size_t>(state.id) >= d.size()) return "there are only " + std::to_string(d.size());
+  for (const protocol::SplitEntry& entry : state.pending)
+    if (static_cast<std::size_t>(entry.edge) >= d.roots.size()) return "a point waits for an edge that does not exist";
+  if (!state.body) return "";
+  const SubdomainMesh& part = state.body->part;
+  if (!std::ranges::equal(part.roots, d.roots_of(state.id))) return "its border is another";
+  std::uint16_t last_label = 0;
+  for (const RootId r : part.roots) {
+    const Decomposition::Root& root = d.roots[static_cast<std::size_t>(r)];
+    last_label = std::max({last_label, root.left_region, root.right_region});
+  }
+  if (std::any_of(part.mesh.region.begin(), part.mesh.region.end(), [&](auto label) { return label > last_label; }))
+    return "it has a region that is not there";
+  if (std::any_of(part.points.begin(), part.points.end(),
+                  [&](GlobalPointId v) { return static_cast<std::size_t>(v) >= d.points.size(); }))
+    return "it has a point that is not there";
+  return "";
+}
+
 }  // namespace
 
 double Subdomain::remaining() const {
@@ -51,6 +72,24 @@ SliceWork Subdomain::work(std::int64_t insertions, std::vector<protocol::SplitEn
   done.points = points_made(counters()) - points_before;
   done.triangles = triangles() - triangles_before;
   return done;
+}
+
+protocol::Bytes Subdomain::pack() const {
+  SubdomainView view{id_, refined_, pending_, {}};
+  if (body_) view.body.emplace(body_->part, body_->refiner.state(), body_->forecast);
+  return driftmesh::pack(view);
+}
+
+Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainContext& context) {
+  SubdomainState state = driftmesh::unpack(bytes);
+  if (const std::string fault = misfit(state, *context.decomposition); !fault.empty())
+    throw Error("the packed form of subdomain " + std::to_string(state.id) + " is not of this decomposition: " + fault +
+                "; use the one that it was packed with");
+  Subdomain subdomain(state.id, context);
+  subdomain.refined_ = state.refined;
+  subdomain.pending_ = std::move(state.pending);
+  if (state.body) subdomain.body_ = std::make_unique<Body>(std::move(*state.body), context.bounds);
+  return subdomain;
 }
 
 void Subdomain::make_body() {

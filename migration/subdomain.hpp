@@ -2,12 +2,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "decompose/decomposition.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/refiner.hpp"
+#include "migration/packed_form.hpp"
 #include "protocol/ids.hpp"
 #include "protocol/messages.hpp"
 
@@ -56,6 +59,12 @@ class Subdomain {
   /// handles can name.
   SliceWork work(std::int64_t insertions, std::vector<protocol::SplitEntry>& said);
 
+  /// Everything as bytes (see packed_form.hpp), little more than none before the first work(); the subdomain that
+  /// unpack makes of them goes on exactly as this one would.
+  [[nodiscard]] protocol::Bytes pack() const;
+  /// Throws Error, naming the subdomain, for bytes that are not the packed form of a subdomain of this context.
+  [[nodiscard]] static Subdomain unpack(std::span<const std::byte> bytes, const SubdomainContext& context);
+
   /// The mesh as it is now. Only after work() was called once.
   [[nodiscard]] const SubdomainMesh& mesh() const { return body_->part; }
   [[nodiscard]] bool started() const { return body_ != nullptr; }
@@ -65,6 +74,10 @@ class Subdomain {
   struct Body {
     Body(SubdomainMesh&& made, const QualityBounds& bounds)
         : part(std::move(made)), refiner(part.mesh, bounds), forecast(refiner.predict_triangles()) {}
+    Body(SubdomainState::Body&& packed, const QualityBounds& bounds)
+        : part(std::move(packed.part)),
+          refiner(part.mesh, bounds, std::move(packed.refiner)),
+          forecast(packed.forecast) {}
     SubdomainMesh part;
     Refiner refiner;
     double forecast;  // of triangles, when all bounds are met

@@ -8,7 +8,8 @@ set -euo pipefail
 packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev \
-      libmuparser-dev libyaml-cpp-dev libcairo2-dev libmetis-dev libtrilinos-zoltan-dev libopenmpi-dev openmpi-bin ;;
+      libmuparser-dev libyaml-cpp-dev libcairo2-dev libmetis-dev libtrilinos-zoltan-dev \
+      libboost-serialization-dev libopenmpi-dev openmpi-bin ;;
     test) echo doctest-dev libboost-dev libcgal-dev clang-format gmsh python3 spin ;;
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;

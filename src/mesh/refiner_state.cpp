@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "mesh/refiner.hpp"
 
@@ -14,6 +15,13 @@ bool is_sound(const Sweep& sweep, std::size_t triangles) {
   const auto [cursor, block_end, given, added, block] = sweep.places();
   return 0 <= cursor && cursor <= block_end && block_end <= given && given <= added &&
          static_cast<std::size_t>(added) <= triangles && block >= 1 && are_below(sweep.again(), triangles);
+}
+
+/// Counting on overflows nothing.
+bool is_sound(const Refiner::Counters& c) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 60;
+  const std::array<std::int64_t, 5> all{c.free_points, c.segment_points, c.deleted_points, c.encroaching, c.given_up};
+  return std::all_of(all.begin(), all.end(), [](std::int64_t n) { return n >= 0 && n < kMost; });
 }
 
 bool is_sound(const SkinnyBuckets& skinny, std::size_t triangles) {
@@ -38,6 +46,8 @@ std::string Refiner::State::fault(const Triangulation& mesh, const QualityBounds
     if (p.root < 0 || static_cast<std::size_t>(p.root) >= mesh.roots.size() || p.path == 0 ||
         dyadic::depth(p.path) > dyadic::kMaxDepth)
       return "a split point is on no root";
+  if (!is_sound(counters)) return "a counter is negative or beyond all counting";
+  if (max_triangles > kMaxTriangles - 64) return "the limit on triangles is above what handles can name";
   if (bounds.size != nullptr && size.size() < mesh.points.size()) return "the size field is missing at some vertex";
   const std::size_t labels = bounds.region_max_area.size();
   if (labels > 1 && std::any_of(mesh.region.begin(), mesh.region.end(), [&](auto label) { return label >= labels; }))

@@ -80,10 +80,11 @@ class Sweep {
 /// triangle in it still belongs there is asked when it is taken out.
 class SkinnyBuckets {
  public:
-  SkinnyBuckets() : buckets_(2048) {}
+  static constexpr int kBuckets = 2048;
+  SkinnyBuckets() : buckets_(kBuckets) {}
   /// The bucket of a squared length: its binary exponent.
   static int bucket_of(double squared_length) {
-    return static_cast<int>(std::bit_cast<std::uint64_t>(squared_length) >> 52) & 2047;
+    return static_cast<int>(std::bit_cast<std::uint64_t>(squared_length) >> 52) & (kBuckets - 1);
   }
   void add(TriangleId t, int bucket) {
     buckets_[static_cast<std::size_t>(bucket)].push_back(t);
@@ -98,8 +99,8 @@ class SkinnyBuckets {
   };
   /// Takes out an entry of the lowest bucket; triangle kNone if all are empty.
   Entry take() {
-    while (lowest_ < 2048 && buckets_[static_cast<std::size_t>(lowest_)].empty()) ++lowest_;
-    if (lowest_ == 2048) return {kNone, 0};
+    while (lowest_ < kBuckets && buckets_[static_cast<std::size_t>(lowest_)].empty()) ++lowest_;
+    if (lowest_ == kBuckets) return {kNone, 0};
     auto& bucket = buckets_[static_cast<std::size_t>(lowest_)];
     const TriangleId t = bucket.back();
     bucket.pop_back();
@@ -107,19 +108,19 @@ class SkinnyBuckets {
   }
   void clear() {
     for (auto& bucket : buckets_) bucket.clear();
-    lowest_ = 2048;
+    lowest_ = kBuckets;
   }
   /// All entries: added in this order to empty buckets, they come out as they would from these.
   [[nodiscard]] std::vector<Entry> entries() const {
     std::vector<Entry> all;
-    for (int b = lowest_; b < 2048; ++b)
+    for (int b = lowest_; b < kBuckets; ++b)
       for (const TriangleId t : buckets_[static_cast<std::size_t>(b)]) all.push_back({t, b});
     return all;
   }
 
  private:
   std::vector<std::vector<TriangleId>> buckets_;
-  int lowest_ = 2048;
+  int lowest_ = kBuckets;
 };
 
 }  // namespace driftmesh

@@ -21,6 +21,7 @@ OPEN_FOLDERS = ("src/app", "tests", "bench")
 # Outside headers, by how their names begin, and the only place that may include them.
 BEHIND = {
     "mpi.h": "protocol/mpi_transport.cpp",
+    "boost/": "migration/archive.hpp",
     "metis.h": "src/decompose/graph_partition.cpp",
     "muParser.h": "src/sizing/expression_field.cpp",
     "cairo": "src/output/plot_",

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <boost/archive/archive_exception.hpp>
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/array_wrapper.hpp>
+#include <boost/serialization/is_bitwise_serializable.hpp>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <streambuf>
+#include <string>
+#include <type_traits>
+
+#include "base/error.hpp"
+#include "migration/packed_bytes.hpp"
+
+// Boost's binary archives on bytes in memory, for values and flat arrays of values that are bytes already. An array
+// goes as one block.
+
+namespace driftmesh {
+
+inline constexpr unsigned kArchiveFlags = boost::archive::no_header | boost::archive::no_codecvt;
+
+template <class T>
+inline constexpr bool kIsFlat =
+    std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> &&
+    (std::is_arithmetic_v<T> || std::is_enum_v<T> || boost::serialization::is_bitwise_serializable<T>::value);
+
+/// A stream that appends to sealed bytes.
+class ByteSink : public std::streambuf {
+ public:
+  explicit ByteSink(SealedBytes& bytes) : bytes_(bytes) {}
+
+ protected:
+  std::streamsize xsputn(const char* data, std::streamsize size) override {
+    bytes_.append(data, static_cast<std::size_t>(size));
+    return size;
+  }
+  int_type overflow(int_type c) override {
+    const char byte = traits_type::to_char_type(c);
+    bytes_.append(&byte, 1);
+    return c;
+  }
+
+ private:
+  SealedBytes& bytes_;
+};
+
+/// A stream that reads a span of bytes and knows how many are left.
+class ByteSource : public std::streambuf {
+ public:
+  explicit ByteSource(std::span<const std::byte> bytes) {
+    char* first = const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));  // streambuf's interface; only read
+    setg(first, first, first + bytes.size());
+  }
+  [[nodiscard]] std::size_t left() const { return static_cast<std::size_t>(egptr() - gptr()); }
+};
+
+/// Saves values and arrays; an ArchiveReader takes them out in the same order.
+class ArchiveWriter {
+ public:
+  explicit ArchiveWriter(SealedBytes& bytes) : sink_(bytes), archive_(sink_, kArchiveFlags) {}
+
+  template <class T>
+  void value(const T& v) {
+    static_assert(kIsFlat<T>);
+    archive_.save_binary(&v, sizeof v);
+  }
+  template <class Array>
+  void array(const Array& values) {
+    using T = std::remove_cvref_t<decltype(*values.data())>;
+    static_assert(kIsFlat<T>);
+    value(static_cast<std::uint64_t>(values.size()));
+    if (!values.empty()) archive_ << boost::serialization::make_array(values.data(), values.size());
+  }
+
+ private:
+  ByteSink sink_;
+  boost::archive::binary_oarchive archive_;
+};
+
+/// Throws Error when there are fewer bytes than an array or value needs, before memory is asked for.
+class ArchiveReader {
+ public:
+  explicit ArchiveReader(std::span<const std::byte> bytes) : source_(bytes), archive_(source_, kArchiveFlags) {}
+
+  template <class T>
+  void value(T& v) {
+    static_assert(kIsFlat<T>);
+    expect(1, sizeof v);
+    archive_.load_binary(&v, sizeof v);
+  }
+  template <class Array>
+  void array(Array& values) {
+    using T = std::remove_cvref_t<decltype(*values.data())>;
+    static_assert(kIsFlat<T>);
+    std::uint64_t count = 0;
+    value(count);
+    expect(count, sizeof(T));
+    if constexpr (requires { values.resize_uninitialized(count); })
+      values.resize_uninitialized(count);
+    else
+      values.resize(count);
+    if (count != 0) archive_ >> boost::serialization::make_array(values.data(), count);
+  }
+  [[nodiscard]] bool at_end() const { return source_.left() == 0; }
+
+ private:
+  void expect(std::uint64_t count, std::size_t size) const {
+    if (count > source_.left() / size) throw Error("an array is longer than the bytes that are left");
+  }
+  ByteSource source_;
+  boost::archive::binary_iarchive archive_;
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,230 @@
+#include "migration/packed_form.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "mesh/triangulation_fault.hpp"
+#include "migration/archive.hpp"
+#include "migration/packed_bytes.hpp"
+
+// What lies in an archive as it lies in memory. No padding: the same state gives the same bytes.
+static_assert(std::has_unique_object_representations_v<driftmesh::Triangle>);
+static_assert(std::has_unique_object_representations_v<driftmesh::Subsegment>);
+static_assert(std::has_unique_object_representations_v<driftmesh::RootSegment>);
+static_assert(std::has_unique_object_representations_v<driftmesh::Sweep::Places>);
+static_assert(std::has_unique_object_representations_v<driftmesh::Refiner::Counters>);
+static_assert(sizeof(driftmesh::Point) == 2 * sizeof(double));
+BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Triangle)
+BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Subsegment)
+BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::RootSegment)
+BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Sweep::Places)
+BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Refiner::Counters)
+BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Point)
+
+namespace driftmesh {
+namespace {
+
+enum class Content : std::uint8_t { kNotStarted, kMesh };
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw Error(why);
+}
+void require(bool condition, const char* why) {
+  if (!condition) refuse(why);
+}
+
+bool is_path(dyadic::Path path) {
+  return path >= dyadic::kWhole && dyadic::depth(path) <= dyadic::kMaxDepth;
+}
+
+// ---- Points on edges: numbers and paths apart, since a struct of both has holes ----
+
+template <class T, class Edge>
+void save_points(ArchiveWriter& out, const std::vector<T>& points, Edge T::*edge) {
+  std::vector<std::int32_t> edges;
+  std::vector<dyadic::Path> paths;
+  for (const T& p : points) {
+    edges.push_back(p.*edge);
+    paths.push_back(p.path);
+  }
+  out.array(edges);
+  out.array(paths);
+}
+
+template <class T, class Edge>
+void load_points(ArchiveReader& in, std::vector<T>& points, Edge T::*edge) {
+  std::vector<std::int32_t> edges;
+  std::vector<dyadic::Path> paths;
+  in.array(edges);
+  in.array(paths);
+  require(edges.size() == paths.size(), "split points without edges");
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    require(edges[i] >= 0 && is_path(paths[i]), "a split point has no place");
+    points.push_back({});
+    points.back().*edge = edges[i];
+    points.back().path = paths[i];
+  }
+}
+
+// ---- The mesh: the fields in one order for both directions ----
+
+template <class Archive, class Part>
+void transfer_mesh(Archive& archive, Part& part) {
+  auto& mesh = part.mesh;
+  archive.array(mesh.triangles);
+  archive.array(mesh.points);
+  archive.array(mesh.origin);
+  archive.array(mesh.region);
+  archive.array(mesh.subsegments);
+  archive.array(mesh.roots);
+  archive.array(mesh.free_triangles);
+  archive.array(mesh.free_vertices);
+  archive.array(part.roots);
+  archive.array(part.points);
+}
+
+void check_part(const SubdomainMesh& part) {
+  if (const std::string fault = triangulation_fault(part.mesh); !fault.empty()) refuse(fault);
+  require(part.roots.size() == part.mesh.roots.size(), "roots without numbers");
+  require(std::is_sorted(part.roots.begin(), part.roots.end(), std::less_equal<>()), "roots out of order");
+  require(part.roots.empty() || part.roots.front() >= 0, "a root has no number");
+  require(std::all_of(part.points.begin(), part.points.end(), [](GlobalPointId v) { return v >= 0; }),
+          "a point has no number");
+}
+
+// ---- The refiner ----
+
+void save_skinny(ArchiveWriter& out, const SkinnyBuckets& skinny) {
+  std::vector<TriangleId> triangles;
+  std::vector<std::uint16_t> buckets;
+  for (const SkinnyBuckets::Entry& e : skinny.entries()) {
+    triangles.push_back(e.triangle);
+    buckets.push_back(static_cast<std::uint16_t>(e.bucket));
+  }
+  out.array(triangles);
+  out.array(buckets);
+}
+
+void load_skinny(ArchiveReader& in, SkinnyBuckets& skinny) {
+  std::vector<TriangleId> triangles;
+  std::vector<std::uint16_t> buckets;
+  in.array(triangles);
+  in.array(buckets);
+  require(triangles.size() == buckets.size(), "skinny triangles without lengths");
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    require(buckets[i] < SkinnyBuckets::kBuckets, "a skinny triangle of impossible length");
+    skinny.add(triangles[i], buckets[i]);
+  }
+}
+
+void save_refiner(ArchiveWriter& out, const Refiner::State& state, std::size_t vertices) {
+  out.value(state.stage);
+  out.value(state.next_segment);
+  out.value(state.sweep.places());
+  out.array(state.sweep.again());
+  save_skinny(out, state.skinny);
+  out.array(state.deferred);
+  std::vector<SubsegmentId> unsplittable(state.unsplittable.begin(), state.unsplittable.end());
+  std::sort(unsplittable.begin(), unsplittable.end());
+  out.array(unsplittable);
+  save_points(out, state.made, &SplitPoint::root);
+  out.array(std::span(state.size.data(), std::min(vertices, state.size.size())));
+  out.value(state.max_triangles);
+  out.value(state.counters);
+}
+
+Refiner::State load_refiner(ArchiveReader& in) {
+  Refiner::State state;
+  in.value(state.stage);
+  in.value(state.next_segment);
+  Sweep::Places places{};
+  std::vector<TriangleId> again;
+  in.value(places);
+  in.array(again);
+  state.sweep = Sweep(places, std::move(again));
+  load_skinny(in, state.skinny);
+  in.array(state.deferred);
+  std::vector<SubsegmentId> unsplittable;
+  in.array(unsplittable);
+  require(std::is_sorted(unsplittable.begin(), unsplittable.end(), std::less_equal<>()), "subsegments out of order");
+  state.unsplittable.insert(unsplittable.begin(), unsplittable.end());
+  load_points(in, state.made, &SplitPoint::root);
+  in.array(state.size);
+  in.value(state.max_triangles);
+  in.value(state.counters);
+  return state;
+}
+
+// ---- The whole ----
+
+SubdomainState::Body load_body(ArchiveReader& in) {
+  SubdomainState::Body body;
+  in.value(body.forecast);
+  require(std::isfinite(body.forecast), "the forecast is not a number");
+  transfer_mesh(in, body.part);
+  check_part(body.part);
+  body.refiner = load_refiner(in);
+  return body;
+}
+
+void load_rest(ArchiveReader& in, SubdomainState& subdomain) {
+  require(subdomain.id >= 0, "it has no number");
+  std::uint8_t refined = 0;
+  Content content{};
+  in.value(refined);
+  in.value(content);
+  require(refined <= 1 && content <= Content::kMesh, "it says what cannot be");
+  subdomain.refined = refined != 0;
+  load_points(in, subdomain.pending, &protocol::SplitEntry::edge);
+  if (content == Content::kMesh) subdomain.body = load_body(in);
+  require(in.at_end(), "bytes are left over");
+  require(!subdomain.refined || (subdomain.body && subdomain.body->refiner.stage == Refiner::Stage::kDone),
+          "it is refined and is not");
+}
+
+std::size_t mesh_bytes(const Triangulation& mesh) {
+  return mesh.triangles.size() * sizeof(Triangle) + mesh.points.size() * (sizeof(Point) + sizeof(VertexOrigin)) +
+         mesh.region.size() * sizeof(std::uint16_t) + mesh.subsegments.size() * sizeof(Subsegment);
+}
+
+}  // namespace
+
+protocol::Bytes pack(const SubdomainView& subdomain) {
+  constexpr std::size_t kSmallArrays = 4096;
+  SealedBytes bytes(kSmallArrays + (subdomain.body ? mesh_bytes(subdomain.body->part.mesh) : 0));
+  {
+    ArchiveWriter out(bytes);
+    out.value(subdomain.id);
+    out.value(static_cast<std::uint8_t>(subdomain.refined));
+    out.value(subdomain.body ? Content::kMesh : Content::kNotStarted);
+    save_points(out, subdomain.pending, &protocol::SplitEntry::edge);
+    if (subdomain.body) {
+      out.value(subdomain.body->forecast);
+      transfer_mesh(out, subdomain.body->part);
+      save_refiner(out, subdomain.body->refiner, subdomain.body->part.mesh.points.size());
+    }
+  }
+  return bytes.take();
+}
+
+SubdomainState unpack(std::span<const std::byte> bytes) {
+  const auto payload = open_sealed(bytes, "the packed form of a subdomain");
+  SubdomainState subdomain;
+  try {
+    ArchiveReader in(payload);
+    in.value(subdomain.id);
+    load_rest(in, subdomain);
+  } catch (const boost::archive::archive_exception& error) {
+    throw Error("the packed form of subdomain " + std::to_string(subdomain.id) + " is damaged: " + error.what());
+  } catch (const Error& error) {
+    throw Error("the packed form of subdomain " + std::to_string(subdomain.id) + " is damaged: " + error.what());
+  }
+  return subdomain;
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "decompose/subdomain_mesh.hpp"
+#include "mesh/refiner.hpp"
+#include "protocol/ids.hpp"
+#include "protocol/messages.hpp"
+
+namespace driftmesh {
+
+/// A subdomain without what all subdomains of a run share.
+struct SubdomainState {
+  SubdomainId id = 0;
+  bool refined = false;                       ///< it has met all bounds once
+  std::vector<protocol::SplitEntry> pending;  ///< points that it was told of and has not taken in
+  struct Body {
+    SubdomainMesh part;
+    Refiner::State refiner;
+    double forecast = 0;  ///< of triangles, when all bounds are met
+  };
+  std::optional<Body> body;  ///< absent until it first works
+};
+
+/// A view of the same, to pack without copying.
+struct SubdomainView {
+  SubdomainId id;
+  bool refined;
+  const std::vector<protocol::SplitEntry>& pending;
+  struct Body {
+    const SubdomainMesh& part;
+    const Refiner::State& refiner;
+    double forecast;
+  };
+  std::optional<Body> body;
+};
+
+/// The packed form: the bytes that migrate, and that a checkpoint holds (layout in docs/file-formats.md). For ranks of
+/// one version of the program on machines of one kind. The same state gives the same bytes.
+[[nodiscard]] protocol::Bytes pack(const SubdomainView& subdomain);
+
+/// The subdomain that was packed. A refiner made from what comes out goes on exactly as the one packed would have.
+///
+/// Nothing is believed before it is checked: length and checksum first, each array's length against the bytes that are
+/// there before memory is asked for, then that the mesh is a triangulation (triangulation_fault) whose roots and points
+/// go with the subdomain. Throws Error that says what is wrong with "the packed form of subdomain N" (or of a
+/// subdomain, as long as N is not known). That the refiner's state fits the mesh and the bounds is for its constructor
+/// to check.
+[[nodiscard]] SubdomainState unpack(std::span<const std::byte> bytes);
+
+}  // namespace driftmesh

@@ -1,0 +1,163 @@
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/digest.hpp"
+#include "migration/packed_form.hpp"
+#include "property/cases.hpp"
+#include "pslg/generate.hpp"
+#include "support/random_subdomains.hpp"
+
+// Subdomains that are packed and unpacked at random moments, against twins that stay where they are: both must come to
+// the same mesh, by the same steps, with the same bytes at every moment.
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+
+namespace {
+
+using Move = std::function<Subdomain(const Subdomain&, const SubdomainContext&)>;
+
+Subdomain move_honestly(const Subdomain& subdomain, const SubdomainContext& context) {
+  return Subdomain::unpack(subdomain.pack(), context);
+}
+
+/// What a pack that forgets the points to be taken in would do.
+Subdomain move_without_pending(const Subdomain& subdomain, const SubdomainContext& context) {
+  SubdomainState state = unpack(subdomain.pack());
+  state.pending.clear();
+  SubdomainView view{state.id, state.refined, state.pending, {}};
+  if (state.body) view.body.emplace(state.body->part, state.body->refiner, state.body->forecast);
+  return Subdomain::unpack(pack(view), context);
+}
+
+struct Outcome {
+  std::string difference;  ///< the first between the twins, in words
+  int moves = 0;
+  std::multiset<Refiner::Stage> stages;  ///< at the moves
+  int before_start = 0, with_pending = 0, after_end = 0;
+};
+
+void note_moment(const Subdomain& subdomain, Outcome& outcome) {
+  ++outcome.moves;
+  const SubdomainState state = unpack(subdomain.pack());
+  if (state.body)
+    outcome.stages.insert(state.body->refiner.stage);
+  else
+    ++outcome.before_start;
+  outcome.with_pending += !state.pending.empty();
+  outcome.after_end += !subdomain.active();
+}
+
+bool same_counters(const Subdomain& a, const Subdomain& b) {
+  const Refiner::Counters &c = a.counters(), &d = b.counters();
+  return c.free_points == d.free_points && c.segment_points == d.segment_points &&
+         c.deleted_points == d.deleted_points && c.encroaching == d.encroaching && c.given_up == d.given_up;
+}
+
+/// One life of one subdomain, in slices, with split points from outside, and its twin's.
+Outcome live_and_move(RandomSubdomains& world, SubdomainId id, const Move& move) {
+  Outcome outcome;
+  Subdomain stays(id, world.context()), moves(id, world.context());
+  std::vector<protocol::SplitEntry> said_by_one, said_by_other;
+  auto& random = world.random();
+  for (int quiet = 0; quiet < 3;) {
+    for (auto points = random() % 3; points > 1 && quiet == 0; --points) {
+      const protocol::SplitEntry entry = world.split_of(id, 5);
+      stays.tell(entry);
+      moves.tell(entry);
+    }
+    for (auto times = random() % 4; times > 1; --times) {
+      note_moment(moves, outcome);
+      moves = move(moves, world.context());
+    }
+    if (stays.active()) {
+      const auto slice = static_cast<std::int64_t>(1 + random() % (random() % 4 == 0 ? 200 : 8));
+      stays.work(slice, said_by_one);
+      if (!moves.active()) outcome.difference = "only one is active";
+      moves.work(slice, said_by_other);
+    }
+    if (stays.pack() != moves.pack()) outcome.difference = "packed forms";
+    if (said_by_one != said_by_other) outcome.difference = "points said";
+    if (!outcome.difference.empty()) return outcome;
+    if (!stays.active()) ++quiet;  // split points wake it once or twice
+    if (quiet == 1 && random() % 2 == 0) {
+      const protocol::SplitEntry entry = world.split_of(id, 7);
+      stays.tell(entry);
+      moves.tell(entry);
+    }
+  }
+  if (mesh_digest(stays.mesh().mesh) != mesh_digest(moves.mesh().mesh)) outcome.difference = "digests";
+  if (!same_counters(stays, moves)) outcome.difference = "counters";
+  return outcome;
+}
+
+}  // namespace
+
+TEST_CASE("a subdomain that moves at any moment, any number of times, comes out as one that stays") {
+  auto seeds = seeded_generator("moving subdomains");
+  Outcome all;
+  for (std::int64_t i = case_count(150); i > 0; --i) {
+    const std::uint64_t seed = seeds() % 100'000;
+    CAPTURE(seed);
+    RandomSubdomains world(seed, static_cast<int>(1 + seed % 6), 600);
+    const auto id = static_cast<SubdomainId>(world.random()() % static_cast<std::uint64_t>(world.size()));
+    const Outcome outcome = live_and_move(world, id, move_honestly);
+    CHECK(outcome.difference == "");
+    all.moves += outcome.moves;
+    all.stages.insert(outcome.stages.begin(), outcome.stages.end());
+    all.before_start += outcome.before_start;
+    all.with_pending += outcome.with_pending;
+    all.after_end += outcome.after_end;
+  }
+  MESSAGE(all.moves << " moves: " << all.before_start << " before the start, " << all.with_pending
+                    << " with points to take in, " << all.after_end << " after the end");
+  for (const auto stage :
+       {Refiner::Stage::kSegments, Refiner::Stage::kFine, Refiner::Stage::kRest, Refiner::Stage::kDone})
+    CHECK(all.stages.count(stage) > 0);
+  CHECK(all.before_start > 0);
+  CHECK(all.with_pending > 10);
+  CHECK(all.after_end > 10);
+}
+
+TEST_CASE("a pack that forgets the points to be taken in is found out") {
+  int found = 0, lives = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed, ++lives) {
+    RandomSubdomains world(seed, 3, 300);
+    found += !live_and_move(world, 0, move_without_pending).difference.empty();
+  }
+  CHECK(found > lives / 2);
+}
+
+TEST_CASE("large subdomains, in the stage of blocks, come out the same") {
+  Triangulation mesh = triangulate(generate_pipe({}));
+  prepare_corners(mesh);
+  DecomposeOptions options;
+  options.subdomains = 1;
+  const Decomposition d = decompose(mesh, options);
+  const RadialField field(d.points[0], 1e-3, 1e-3);
+  for (const bool sized : {false, true}) {
+    CAPTURE(sized);
+    SubdomainContext context{&d, {}, false};
+    context.bounds.max_area = d.subdomains[0].area / 280'000;
+    if (sized) context.bounds.size = &field;
+    Subdomain stays(0, context), moves(0, context);
+    std::vector<protocol::SplitEntry> said;
+    std::set<Refiner::Stage> stages;
+    for (const std::int64_t slice : {1, 40, 200, 600, 1000, 1000, 1000, 50'000, 50'000}) {
+      stays.work(slice, said);
+      moves.work(slice, said);
+      const SubdomainState state = unpack(moves.pack());
+      stages.insert(state.body->refiner.stage);
+      moves = Subdomain::unpack(moves.pack(), context);
+    }
+    CHECK(stays.pack() == moves.pack());
+    CHECK(stages.contains(Refiner::Stage::kCoarse));
+    CHECK(stages.contains(Refiner::Stage::kFine));
+  }
+}
