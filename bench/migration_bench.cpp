@@ -1,0 +1,95 @@
+// What moving a subdomain costs against refining it.
+//   driftmesh_bench_migration [TRIANGLES ...]      (a subdomain; default: 2700 20000 100000)
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "base/keep_memory.hpp"
+#include "base/stopwatch.hpp"
+#include "decompose/decompose.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "mesh/digest.hpp"
+#include "migration/subdomain.hpp"
+#include "pslg/generate.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+struct Costs {
+  std::vector<double> refine, pack, unpack;  // seconds a subdomain, one entry a round
+  double triangles = 0;                      // mean of the subdomains
+  double bytes = 0;
+  bool same = true;
+};
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+/// Refines every subdomain, and packs and unpacks it while it lies in the cache as it does when a rank has worked on
+/// it.
+Costs measure(const SubdomainContext& context, int rounds) {
+  Costs costs;
+  const auto n = static_cast<SubdomainId>(context.decomposition->size());
+  std::vector<protocol::SplitEntry> said;
+  for (int round = 0; round < rounds; ++round) {
+    double refine = 0, pack = 0, unpack = 0, triangles = 0, bytes = 0;
+    for (SubdomainId i = 0; i < n; ++i) {
+      Subdomain subdomain(i, context);
+      said.clear();
+      Stopwatch watch;
+      subdomain.work(INT64_MAX, said);
+      refine += watch.seconds();
+      watch = Stopwatch();
+      const protocol::Bytes packed = subdomain.pack();
+      pack += watch.seconds();
+      watch = Stopwatch();
+      const Subdomain again = Subdomain::unpack(packed, context);
+      unpack += watch.seconds();
+      triangles += static_cast<double>(again.triangles());
+      bytes += static_cast<double>(packed.size());
+      if (round == 0) costs.same &= mesh_digest(again.mesh().mesh) == mesh_digest(subdomain.mesh().mesh);
+    }
+    costs.refine.push_back(refine / n);
+    costs.pack.push_back(pack / n);
+    costs.unpack.push_back(unpack / n);
+    costs.triangles = triangles / n;
+    costs.bytes = bytes / n;
+  }
+  return costs;
+}
+
+void print_row(double wanted) {
+  constexpr std::int32_t kSubdomains = 16;
+  Triangulation mesh = triangulate(generate_pipe({}));
+  prepare_corners(mesh);
+  DecomposeOptions options;
+  options.subdomains = kSubdomains;
+  const Decomposition d = decompose(mesh, options);
+  double area = 0;
+  for (const auto& s : d.subdomains) area += s.area;
+  SubdomainContext context{&d, {}, true};
+  context.bounds.max_area = area / (0.645 * wanted * kSubdomains);
+  const Costs c = measure(context, 15);
+  const double refine = median(c.refine), pack = median(c.pack), unpack = median(c.unpack);
+  std::printf("| %.0f | %.2f | %.4f | %.4f | %.2f %% | %.1f | %s |\n", c.triangles, 1e3 * refine, 1e3 * pack,
+              1e3 * unpack, 100 * (pack + unpack) / refine, c.bytes / c.triangles, c.same ? "yes" : "NO");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  keep_freed_memory();
+  std::vector<double> sizes;
+  for (int i = 1; i < argc; ++i) sizes.push_back(std::atof(argv[i]));
+  if (sizes.empty()) sizes = {2700, 20000, 100000};
+  std::printf("| triangles | refine ms | pack ms | unpack ms | pack + unpack | bytes/triangle | same mesh |\n");
+  std::printf("| --- | --- | --- | --- | --- | --- | --- |\n");
+  for (const double size : sizes) print_row(size);
+}
