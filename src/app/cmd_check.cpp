@@ -97,7 +97,7 @@ void add_check(CLI::App& program) {
       ->group(kGroup);
   command
       ->add_option("-q,--angle", options->verify.min_angle,
-                   "No angle is smaller than this, in degrees, but for those that small angles of the input force")
+                   "No angle is smaller than this, in degrees, but for those that the input forces")
       ->check(CLI::Range(0.0, 60.0).description(""))
       ->type_name("DEGREES")
       ->group(kGroup);

@@ -41,7 +41,7 @@ enum class Flaw : std::uint8_t {
   wrong_euler,         ///< counts of triangles, vertices and boundary edges do not fit the domain's topology
   wrong_region,        ///< a triangle carries another region attribute than the region it lies in
   // Quality.
-  small_angle,  ///< an angle below the bound, without a small angle of the input as its cause
+  small_angle,  ///< an angle below the bound, that nothing in the input excuses
   large_area,   ///< an area above the bound
 };
 inline constexpr std::size_t kFlawCount = static_cast<std::size_t>(Flaw::large_area) + 1;

@@ -7,8 +7,10 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "verify/extended.hpp"
+#include "verify/room.hpp"
 #include "verify/words.hpp"
 
 namespace driftmesh {
@@ -151,10 +153,14 @@ class QualityCheck {
   void check_large_area(std::size_t t, double bound) {
     const long double area = cross_extended(corner(t, 0), corner(t, 1), corner(t, 2)) / 2;
     if (area <= bound * (1 + static_cast<long double>(kSlack))) return;
-    findings_.add(Flaw::large_area, [&] {
+    const auto describe = [&] {
       return triangle_words(mesh_, t) +
              fmt::format(" has area {:.9g}, at most {:.9g} is allowed", static_cast<double>(area), bound);
-    });
+    };
+    if (room().none_for_area(t))
+      except(ExceptionReason::no_room, describe);
+    else
+      findings_.add(Flaw::large_area, describe);
   }
 
   // Circumradius / shortest edge = 1 / (2 sin of the smallest angle); R = abc / (4 area).
@@ -178,9 +184,11 @@ class QualityCheck {
                                             static_cast<double>(max_ratio_));
     };
     if (is_subsegment(v, p) && is_subsegment(v, q))
-      except(SmallAngleCause::input_angle, describe);
+      except(ExceptionReason::input_angle, describe);
     else if (is_seditious(p, q))
-      except(SmallAngleCause::small_wedge, describe);
+      except(ExceptionReason::small_wedge, describe);
+    else if (room().none_for_angle(t, bounds_.min_angle))
+      except(ExceptionReason::no_room, describe);
     else
       findings_.add(Flaw::small_angle, describe);
   }
@@ -208,9 +216,15 @@ class QualityCheck {
     return false;
   }
 
+  /// Most meshes never ask for it.
+  const Room& room() {
+    if (!room_) room_.emplace(mesh_, chains_.subsegments());
+    return *room_;
+  }
+
   template <class Describe>
-  void except(SmallAngleCause cause, const Describe& describe) {
-    Quality::Exceptions& list = quality_.exceptions[static_cast<std::size_t>(cause)];
+  void except(ExceptionReason reason, const Describe& describe) {
+    Quality::Exceptions& list = quality_.exceptions[static_cast<std::size_t>(reason)];
     if (list.count++ < bounds_.max_listed) list.messages.push_back(describe());
   }
 
@@ -218,6 +232,7 @@ class QualityCheck {
   const Chains& chains_;
   const CheckedBounds& bounds_;
   Findings& findings_;
+  std::optional<Room> room_;
   const DegreeBins bins_;
   Quality quality_;
   CompensatedSum area_sum_;
@@ -231,8 +246,15 @@ class QualityCheck {
 
 }  // namespace
 
-const char* cause_name(SmallAngleCause cause) {
-  return cause == SmallAngleCause::input_angle ? "small angle of the input" : "wedge between input segments";
+const char* reason_name(ExceptionReason reason) {
+  switch (reason) {
+    case ExceptionReason::input_angle:
+      return "small angle of the input";
+    case ExceptionReason::small_wedge:
+      return "wedge between input segments";
+    default:
+      return "no room between coordinates";
+  }
 }
 
 std::array<std::uint64_t, 18> Quality::angles_by_ten() const {

@@ -13,15 +13,16 @@
 
 namespace driftmesh {
 
-/// Why an angle below the bound is allowed.
-enum class SmallAngleCause : std::uint8_t {
+/// Why a triangle may miss a bound: its angle, or in the last case its area too.
+enum class ExceptionReason : std::uint8_t {
   input_angle,  ///< the angle is one of the input: both of its sides are subsegments
   small_wedge,  ///< the shortest edge joins, at nearly the same distance from their common end, two input segments that
                 ///< meet at less than 60 degrees (a "seditious" edge: Shewchuk and Si 2014; Miller, Pav, Walkington
                 ///< 2003)
+  no_room,      ///< no doubles are left for a point that would help; see Room
 };
-inline constexpr std::size_t kSmallAngleCauseCount = 2;
-[[nodiscard]] const char* cause_name(SmallAngleCause cause);
+inline constexpr std::size_t kExceptionReasonCount = 3;
+[[nodiscard]] const char* reason_name(ExceptionReason reason);
 
 /// Shape and size of the triangles of a mesh.
 struct Quality {
@@ -39,7 +40,7 @@ struct Quality {
   std::int32_t largest_angle_triangle = -1;
   std::int32_t largest_area_triangle = -1;
   std::array<std::uint64_t, 180> angles{};  ///< [d]: angles from d up to d + 1 degrees
-  std::array<Exceptions, kSmallAngleCauseCount> exceptions;
+  std::array<Exceptions, kExceptionReasonCount> exceptions;
 
   /// The histogram in 18 bins of ten degrees.
   [[nodiscard]] std::array<std::uint64_t, 18> angles_by_ten() const;

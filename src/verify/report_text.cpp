@@ -68,16 +68,15 @@ void add_list(const std::vector<std::string>& messages, std::uint64_t count, Tex
 
 void add_exceptions(const Quality& quality, double min_angle, Text out) {
   if (quality.exception_count() == 0) return;
-  fmt::format_to(out,
-                 "exceptions     {} triangles with an angle below {} degrees that small angles of the input explain\n",
-                 grouped(quality.exception_count()), min_angle);
+  fmt::format_to(out, "exceptions     {} triangles that miss a bound, as the input explains\n",
+                 grouped(quality.exception_count()));
   for (std::size_t degree = 0; degree < 180 && static_cast<double>(degree) < min_angle; ++degree)
     if (quality.angles[degree] != 0)
       fmt::format_to(out, "  {:>3} - {:>3}  {:>13}\n", degree, degree + 1, grouped(quality.angles[degree]));
-  for (std::size_t c = 0; c < kSmallAngleCauseCount; ++c) {
+  for (std::size_t c = 0; c < kExceptionReasonCount; ++c) {
     const auto& list = quality.exceptions[c];
     if (list.count == 0) continue;
-    fmt::format_to(out, "  {}: {}\n", cause_name(static_cast<SmallAngleCause>(c)), grouped(list.count));
+    fmt::format_to(out, "  {}: {}\n", reason_name(static_cast<ExceptionReason>(c)), grouped(list.count));
     add_list(list.messages, list.count, out);
   }
 }
@@ -97,7 +96,7 @@ std::string what_was_checked(const VerifyReport& report, const VerifyOptions& op
   if (report.against_input) text += ", covers the input";
   if (options.min_angle > 0) text += fmt::format(", angles of at least {} degrees", options.min_angle);
   if (const auto n = report.quality.exception_count(); n != 0)
-    text += fmt::format(" but for {} triangles at small angles of the input", grouped(n));
+    text += fmt::format(" but for {} triangles that the input explains", grouped(n));
   if (options.max_area > 0) text += fmt::format(", areas of at most {}", options.max_area);
   if (options.size != nullptr) text += ", sizes asked for";
   return text;

@@ -52,7 +52,7 @@ struct VerifyReport {
 /// - it is constrained Delaunay: no point opposite an unconstrained edge lies inside the circumcircle. Local Delaunay
 ///   at every such edge implies it everywhere (Chew 1989).
 ///   Edges between triangles of different subdomains (MeshPiece::subdomains) count as constrained for that.
-/// - with bounds given, areas and angles keep them; see Quality for the exceptions near small input angles.
+/// - with bounds given, areas and angles keep them; see ExceptionReason for those that may not.
 /// About 55 bytes a triangle beside the mesh. Throws LimitError above 1.4 billion triangles.
 [[nodiscard]] VerifyReport verify(const MeshPiece& mesh, const VerifyOptions& options);
 

@@ -209,7 +209,7 @@ TEST_CASE("a small angle is excused where the input has it, and nowhere else") {
   MeshPiece wedge = one_triangle({0, 0}, {4, 0}, {4, 1});  // 14 degrees
   VerifyReport report = verify(wedge, options);
   CHECK(report.accepted());
-  CHECK(report.quality.exceptions[static_cast<std::size_t>(SmallAngleCause::input_angle)].count == 1);
+  CHECK(report.quality.exceptions[static_cast<std::size_t>(ExceptionReason::input_angle)].count == 1);
 
   // The same corner cut by a vertex: its two angles of 7 degrees are no angles of the input.
   MeshPiece cut;
@@ -235,7 +235,7 @@ TEST_CASE("a skinny triangle on a seditious edge is excused when its ends are eq
   options.check_delaunay = false;
   VerifyReport report = verify(mesh(1), options);
   CHECK(report.accepted());
-  CHECK(report.quality.exceptions[static_cast<std::size_t>(SmallAngleCause::small_wedge)].count == 1);
+  CHECK(report.quality.exceptions[static_cast<std::size_t>(ExceptionReason::small_wedge)].count == 1);
   CHECK(report.quality.exception_count() == 1);
   report = verify(mesh(1.01), options);
   CHECK(report.findings.count(Flaw::small_angle) == 1);
@@ -267,12 +267,33 @@ TEST_CASE("the report names counts, exceptions and flaws, and ends in a verdict 
   const VerifyReport report =
       verify(one_triangle({0, 0}, {4, 0}, {4, 1}), options);  // area 2, smallest angle 14 degrees
   const std::string text = report_text(report, options);
-  CHECK(text.find("exceptions     1 triangles with an angle below 20 degrees") != std::string::npos);
+  CHECK(text.find("exceptions     1 triangles that miss a bound, as the input explains") != std::string::npos);
   CHECK(text.find("small angle of the input: 1") != std::string::npos);
   CHECK(text.find("large area: 1\n    triangle 0 (0 1 2) has area 2, at most 1 is allowed") != std::string::npos);
   CHECK(verdict_text(report, options) == "rejected: large area (1)");
   options.max_area = 0;
-  CHECK(
-      verdict_text(verify(one_triangle({0, 0}, {4, 0}, {4, 1}), options), options) ==
-      "accepted: constrained Delaunay, angles of at least 20 degrees but for 1 triangles at small angles of the input");
+  CHECK(verdict_text(verify(one_triangle({0, 0}, {4, 0}, {4, 1}), options), options) ==
+        "accepted: constrained Delaunay, angles of at least 20 degrees but for 1 triangles that the input explains");
+}
+
+TEST_CASE("a skinny triangle is excused beside a segment that doubles have no room to split, and nowhere else") {
+  // From 2 on the spacing of doubles is e. The segment ab has c on one side, `gap` spacings off, and on the other the
+  // triangle abq with an angle of 5.6 degrees at b, whose off-center lies in the diametral circle of ab.
+  const double e = 0x1p-51;
+  const auto excused = [&](double gap, bool c_on_segments) {
+    const auto at = [&](double x, double y) { return Point{2 + x * e, 1 + y * e}; };
+    MeshPiece m;
+    m.points = {at(0, 0), at(0, 1024), at(-100, 0), at(gap, 512), at(-1024, 512)};  // a, b, q, c
+    m.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 4, 2}};
+    m.edges = {{0, 1, 1}, {1, 4, 1}, {4, 2, 1}, {2, 0, 1}};
+    if (c_on_segments) m.edges.insert(m.edges.end(), {{0, 3, 1}, {3, 1, 1}});
+    VerifyOptions options;
+    options.min_angle = 20;
+    options.check_delaunay = false;
+    return verify(m, options).quality.exceptions[static_cast<std::size_t>(ExceptionReason::no_room)].count;
+  };
+  CHECK(excused(1, true) == 1);
+  CHECK(excused(1, false) == 0);
+  CHECK(excused(4, true) == 0);
+  CHECK(excused(600, true) == 0);
 }

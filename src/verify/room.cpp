@@ -1,0 +1,115 @@
+#include "verify/room.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "geometry/predicates.hpp"
+#include "verify/extended.hpp"
+
+namespace driftmesh {
+namespace {
+
+// In spacings of doubles at the place:
+constexpr double kNeighbours = 2;  // no edge longer: nothing between the corners
+constexpr double kNarrow = 2;      // rounding moves a midpoint, and moved the ends, by up to 0.71 each
+constexpr double kShort = 256;     // of a subsegment: what refinement needs to turn around in beside a vertex
+
+std::size_t index(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Between doubles of the size of the larger coordinate.
+double spacing_at(const Point& p) {
+  const double size = std::max(std::fabs(p.x), std::fabs(p.y));
+  return std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
+}
+
+long double distance(const Point& a, const Point& b) {
+  return std::sqrt(dot_extended(a, b, b));
+}
+
+/// The diametral circle's.
+Box box_around(const Point& a, const Point& b) {
+  const Point m = midpoint(a, b);
+  return Box::around(m, m, static_cast<double>(distance(a, b) / 2) * (1 + 1e-9) + 2 * spacing_at(m));
+}
+
+bool in_diametral_circle(const Point& p, const Point& a, const Point& b) {
+  return dot_extended(p, a, b) <= 0;
+}
+
+bool cross(const Point& p, const Point& q, const Point& a, const Point& b) {
+  const auto apart = [](long double u, long double v) { return (u < 0 && v > 0) || (u > 0 && v < 0); };
+  return apart(cross_extended(a, b, p), cross_extended(a, b, q)) &&
+         apart(cross_extended(p, q, a), cross_extended(p, q, b));
+}
+
+}  // namespace
+
+Room::Room(const MeshPiece& mesh, const Subsegments& subsegments) : mesh_(mesh), subsegments_(subsegments) {
+  std::vector<Box> boxes;
+  for (std::int32_t s = 0; index(s) < subsegments.size(); ++s) {
+    if (!is_stuck(s)) continue;
+    stuck_.push_back({mesh.points[index(subsegments[s].a)], mesh.points[index(subsegments[s].b)]});
+    boxes.push_back(box_around(stuck_.back().a, stuck_.back().b));
+  }
+  tree_ = BoxTree(boxes);
+}
+
+const Point& Room::corner(std::size_t t, std::size_t k) const {
+  return mesh_.points[index(mesh_.triangles[t][k])];
+}
+
+bool Room::is_stuck(std::int32_t subsegment) const {
+  const MeshPiece::Edge& edge = subsegments_[subsegment];
+  const Point &a = mesh_.points[index(edge.a)], &b = mesh_.points[index(edge.b)], m = midpoint(a, b);
+  if (m == a || m == b) return true;
+  for (const std::int32_t t : {subsegments_.left(subsegment, edge.a), subsegments_.right(subsegment, edge.a)}) {
+    if (t == Subsegments::kNone) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t apex = mesh_.triangles[index(t)][k];
+      if (apex == edge.a || apex == edge.b ||
+          (distance(a, b) > kShort * spacing_at(m) && subsegments_.at(apex).empty()))
+        continue;
+      const Point& c = mesh_.points[index(apex)];
+      if (std::fabs(cross_extended(a, b, c)) <= kNarrow * spacing_at(c) * distance(a, b)) return true;
+    }
+  }
+  return false;
+}
+
+bool Room::none_for_angle(std::size_t t, double min_angle) const {
+  return none_for(t, 0.5 / std::tan(min_angle * (std::numbers::pi / 360)));
+}
+
+bool Room::none_for_area(std::size_t t) const {
+  return none_for(t, std::numeric_limits<double>::infinity());
+}
+
+// The point that helps lies on the bisector of the shortest edge, at the circumcenter but no farther off than the given
+// multiple of the edge.
+bool Room::none_for(std::size_t t, double most_height) const {
+  std::array<long double, 3> opposite{};
+  for (std::size_t k = 0; k < 3; ++k) opposite[k] = distance(corner(t, (k + 1) % 3), corner(t, (k + 2) % 3));
+  const auto apex = static_cast<std::size_t>(std::min_element(opposite.begin(), opposite.end()) - opposite.begin());
+  const Point &a = corner(t, (apex + 1) % 3), &b = corner(t, (apex + 2) % 3), &c = corner(t, apex);
+  if (*std::max_element(opposite.begin(), opposite.end()) <= kNeighbours * spacing_at(c)) return true;
+  const auto height = std::min(static_cast<double>(dot_extended(c, a, b) / (2 * cross_extended(c, a, b))), most_height);
+  const double ex = b.x - a.x, ey = b.y - a.y;
+  const Point p{a.x + (0.5 * ex - height * ey), a.y + (0.5 * ey + height * ex)};
+  if (!std::isfinite(p.x) || !std::isfinite(p.y)) return false;
+  bool none = false;
+  const Box way = Box::of(std::array{a, b, c, p});
+  tree_.search([&](const Box& box) { return box.overlaps(way); },
+               [&](std::int32_t i) {
+                 const Segment& s = stuck_[index(i)];
+                 none = none || in_diametral_circle(p, s.a, s.b) || cross(a, p, s.a, s.b) || cross(b, p, s.a, s.b) ||
+                        cross(c, p, s.a, s.b);
+               });
+  return none;
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/box_tree.hpp"
+#include "mesh/mesh_piece.hpp"
+#include "verify/subsegments.hpp"
+
+namespace driftmesh {
+
+/// Where doubles leave no room for another point, judged by the mesh alone.
+///
+/// Refinement that may not insert a point because it would encroach upon a subsegment has to split that one instead. A
+/// subsegment is stuck, so that this can fail, if its rounded midpoint is one of its ends, or if the third corner of a
+/// triangle beside it is within two spacings of doubles of its line: rounding may put the midpoint beyond it. That
+/// corner must be on a segment itself, where it cannot be left out, unless the subsegment is shorter than 256 spacings.
+///
+/// A triangle cannot be helped if none of its edges is longer than two spacings, or if the point that would help it
+/// lies in the diametral circle of a stuck subsegment or beyond it, as seen from one of the triangle's corners.
+class Room {
+ public:
+  Room(const MeshPiece& mesh, const Subsegments& subsegments);
+
+  /// Whether nothing can be done about an angle of triangle t below `min_angle` degrees: for its off-center.
+  [[nodiscard]] bool none_for_angle(std::size_t t, double min_angle) const;
+  /// Whether nothing can be done about the area of triangle t: for its circumcenter.
+  [[nodiscard]] bool none_for_area(std::size_t t) const;
+
+ private:
+  struct Segment {
+    Point a, b;
+  };
+
+  [[nodiscard]] bool is_stuck(std::int32_t subsegment) const;
+  [[nodiscard]] bool none_for(std::size_t t, double most_height) const;
+  [[nodiscard]] const Point& corner(std::size_t t, std::size_t k) const;
+
+  const MeshPiece& mesh_;
+  const Subsegments& subsegments_;
+  std::vector<Segment> stuck_;
+  BoxTree tree_;  // of the diametral circles of stuck_
+};
+
+}  // namespace driftmesh
