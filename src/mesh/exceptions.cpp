@@ -115,7 +115,7 @@ Exceptions find_exceptions(const Triangulation& mesh, const QualityBounds& bound
     const double ab = squared_distance(a, b), bc = squared_distance(b, c), ca = squared_distance(c, a);
     const double twice_area = 2 * signed_area(a, b, c);
     // The sine of the smallest angle is twice the area over the product of the two longer edges.
-    if (twice_area * twice_area * std::min({ab, bc, ca}) < sine * sine * (ab * bc * ca)) {
+    if (twice_area * twice_area < sine * sine * std::max({ab * bc, bc * ca, ca * ab})) {
       const ExceptionCause cause = cause_of(mesh, t);
       found.skinny.push_back({t, cause == ExceptionCause::kUnexplained ? ExceptionCause::kPrecision : cause,
                               angle_range(a, b, c).smallest * kDegrees});

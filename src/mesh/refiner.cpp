@@ -93,7 +93,8 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, State state)
 // ---- Shapes and bounds ----
 
 inline Refiner::Shape Refiner::shape(double twice_area, double ab, double bc, double ca) {
-  return {twice_area, std::min(ab, std::min(bc, ca)), std::max(ab, std::max(bc, ca)), ab * bc * ca};
+  return {twice_area, std::min(ab, std::min(bc, ca)), std::max(ab, std::max(bc, ca)),
+          std::max(ab * bc, std::max(bc * ca, ca * ab))};
 }
 
 inline double Refiner::twice_area(TriangleId t) const {
