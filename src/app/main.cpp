@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/help_text.hpp"
 #include "base/error.hpp"
+#include "base/temporary_files.hpp"
 
 namespace {
 
@@ -58,6 +59,7 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  driftmesh::remove_temporaries_on_signals();
   CLI::App program{"driftmesh: quality Delaunay meshes of planar domains", "driftmesh"};
   program.formatter(std::make_shared<driftmesh::app::HelpFormatter>());
   program.set_version_flag("--version", "driftmesh " DRIFTMESH_VERSION);

@@ -48,8 +48,12 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(follow_li
     stream_ = std::fopen(target_.c_str(), "wb");
   } else {
     temporary_ = temporary_name(target_);
+    noted_.emplace(temporary_);
     stream_ = std::fopen(temporary_.c_str(), "wbx");
-    if (stream_ == nullptr) temporary_.clear();
+    if (stream_ == nullptr) {  // it may be somebody else's
+      noted_.reset();
+      temporary_.clear();
+    }
   }
   if (stream_ == nullptr) fail("cannot write");
   buffer_ = std::make_unique<char[]>(kBufferBytes);
@@ -74,6 +78,7 @@ void AtomicFile::commit() {
   if (std::fclose(stream) != 0) fail("cannot write");
   if (!temporary_.empty() && std::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot rename to");
   temporary_.clear();
+  noted_.reset();
 }
 
 void AtomicFile::fail(const char* what) {
@@ -88,6 +93,7 @@ void AtomicFile::close_and_remove() noexcept {
   stream_ = nullptr;
   if (!temporary_.empty()) std::remove(temporary_.c_str());
   temporary_.clear();
+  noted_.reset();
 }
 
 }  // namespace driftmesh

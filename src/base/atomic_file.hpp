@@ -4,16 +4,19 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "base/temporary_files.hpp"
 
 namespace driftmesh {
 
 /// A file that appears under its name only when it is complete. Bytes go to a temporary file in the same
 /// folder; commit() renames it over `path`. Destroyed without commit, it removes the temporary and leaves
-/// `path` as it was. A link is followed; what is not a regular file (a pipe, /dev/stdout, /dev/null) is
-/// written to directly. Every operation throws FileError that names `path` and the system's reason (disk
-/// full, no permission, ...).
+/// `path` as it was; so does a signal that ends the process (see temporary_files.hpp). A link is followed; what is not
+/// a regular file (a pipe, /dev/stdout, /dev/null) is written to directly. Every operation throws FileError that names
+/// `path` and the system's reason (disk full, no permission, ...).
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
@@ -36,6 +39,7 @@ class AtomicFile {
   std::string path_;       // as the user named it, for messages
   std::string target_;     // after following links
   std::string temporary_;  // empty when writing directly
+  std::optional<NotedTemporary> noted_;
   std::unique_ptr<char[]> buffer_;
   std::FILE* stream_ = nullptr;
   std::uint64_t size_ = 0;

@@ -4,14 +4,17 @@
 usage: cli_test.py DRIFTMESH [unittest options]
 """
 
+import functools
 import json
 import os
 import pathlib
 import re
 import shlex
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM = None
@@ -294,6 +297,26 @@ class Errors(Cli):
         before = {name: (self.folder / name).read_bytes() for name in self.files()}
         self.refuse("convert", "mesh.ele", "./mesh.node", says=["is the input itself"])
         self.assertEqual({name: (self.folder / name).read_bytes() for name in self.files()}, before)
+
+    def test_a_signal_leaves_no_files_behind(self):
+        self.write("square.poly", SQUARE)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number):
+                # The last of Triangle's files to be opened is a pipe that nobody reads: the program waits there.
+                os.mkfifo(self.folder / "out.neigh")
+                # Background jobs of a shell ignore some signals, and so would the program.
+                heed = functools.partial(signal.signal, number, signal.SIG_DFL)
+                with subprocess.Popen([PROGRAM, "mesh", "square.poly", "-o", "out.ele"], cwd=self.folder,
+                                      preexec_fn=heed, stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.DEVNULL) as program:
+                    end = time.monotonic() + MESHER_SECONDS
+                    while sum("tmp" in name for name in self.files()) < 4 and time.monotonic() < end:
+                        time.sleep(0.01)
+                    self.assertEqual(sum("tmp" in name for name in self.files()), 4)
+                    program.send_signal(number)
+                    self.assertEqual(program.wait(MESHER_SECONDS), -number)
+                self.assertEqual(self.files(), ["out.neigh", "square.poly"])
+                (self.folder / "out.neigh").unlink()
 
     def test_settings_files(self):
         self.write("square.poly", SQUARE)
