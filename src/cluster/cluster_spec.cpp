@@ -1,0 +1,42 @@
+#include "cluster/cluster_spec.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace driftmesh {
+
+double reference_speed(const CostModel& costs) {
+  return 2 / costs.point;
+}
+
+std::int32_t ranks_of(const ClusterSpec& cluster) {
+  std::int32_t ranks = 0;
+  for (const RankGroup& group : cluster.groups) ranks += group.ranks;
+  return ranks;
+}
+
+std::vector<double> speeds_of(const ClusterSpec& cluster, const CostModel& costs) {
+  std::vector<double> speeds;
+  for (const RankGroup& group : cluster.groups) {
+    if (group.ranks < 1)
+      throw Error("group '" + group.name + "' of the cluster has " + std::to_string(group.ranks) +
+                  " ranks; give it at least one");
+    if (!(group.speed >= 0 && std::isfinite(group.speed)))
+      throw Error("group '" + group.name + "' of the cluster has a speed of " + std::to_string(group.speed) +
+                  " triangles a second; give one above 0, or 0 for the speed of this machine");
+    speeds.insert(speeds.end(), static_cast<std::size_t>(group.ranks),
+                  group.speed > 0 ? group.speed : reference_speed(costs));
+  }
+  if (speeds.empty()) throw Error("a cluster needs at least one rank");
+  return speeds;
+}
+
+std::vector<std::size_t> groups_of(const ClusterSpec& cluster) {
+  std::vector<std::size_t> groups;
+  for (std::size_t g = 0; g < cluster.groups.size(); ++g)
+    groups.insert(groups.end(), static_cast<std::size_t>(cluster.groups[g].ranks), g);
+  return groups;
+}
+
+}  // namespace driftmesh

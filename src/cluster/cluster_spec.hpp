@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/run_plan.hpp"
+
+namespace driftmesh {
+
+/// Ranks of one kind.
+struct RankGroup {
+  std::string name;
+  std::int32_t ranks = 1;
+  double speed = 0;  ///< triangles a second that one of them refines; 0: like this machine (see reference_speed)
+};
+
+/// A cluster to simulate. Its ranks are numbered through the groups. Every rank has a line of its own to all others.
+struct ClusterSpec {
+  std::vector<RankGroup> groups;
+  double latency = 50e-6;          ///< seconds from the end of sending to arrival
+  double bandwidth = 1e9;          ///< bytes a second that leave a rank
+  double message_overhead = 1e-6;  ///< seconds of a rank of this machine's speed, for each message sent or received
+};
+
+/// Triangles a second that a rank with these costs refines: a point makes two triangles.
+[[nodiscard]] double reference_speed(const CostModel& costs);
+
+[[nodiscard]] std::int32_t ranks_of(const ClusterSpec& cluster);
+/// Triangles a second of each rank. Throws Error for a cluster without ranks, a group without ranks or speeds below 0.
+[[nodiscard]] std::vector<double> speeds_of(const ClusterSpec& cluster, const CostModel& costs);
+/// The group of each rank.
+[[nodiscard]] std::vector<std::size_t> groups_of(const ClusterSpec& cluster);
+
+}  // namespace driftmesh

@@ -1,0 +1,138 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "cluster/simulate.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "pslg/generate.hpp"
+#include "runtime/plan_run.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+constexpr double kPipeArea = 190'000;
+
+/// The pipe in about so many triangles.
+RunPlan pipe_plan(double triangles, std::int32_t ranks, std::int32_t subdomains, Presplit presplit) {
+  Triangulation mesh = triangulate(generate_pipe({}));
+  prepare_corners(mesh);
+  const QualityBounds bounds{20, 1.55 * kPipeArea / triangles, {}, nullptr};
+  DecomposeOptions cutting;
+  cutting.subdomains = subdomains;
+  cutting.bounds = bounds;
+  PlanOptions options;
+  options.mapping.ranks = ranks;
+  options.presplit = presplit;
+  return plan_run(decompose_for(mesh, cutting, ranks), bounds, options);
+}
+
+ClusterSpec equal_ranks(std::int32_t ranks) {
+  ClusterSpec cluster;
+  cluster.groups = {{"all", ranks, 0}};
+  return cluster;
+}
+
+}  // namespace
+
+TEST_CASE("speeds and groups follow the numbers of the ranks") {
+  ClusterSpec cluster;
+  cluster.groups = {{"slow", 2, 100e3}, {"as here", 1, 0}};
+  const CostModel costs;
+  CHECK(ranks_of(cluster) == 3);
+  CHECK(speeds_of(cluster, costs) == std::vector<double>{100e3, 100e3, reference_speed(costs)});
+  CHECK(groups_of(cluster) == std::vector<std::size_t>{0, 0, 1});
+  CHECK_THROWS_AS(static_cast<void>(speeds_of({}, costs)), Error);
+  cluster.groups[0].ranks = 0;
+  CHECK_THROWS_AS(static_cast<void>(speeds_of(cluster, costs)), Error);
+  cluster.groups[0] = {"backwards", 1, -1};
+  CHECK_THROWS_AS(static_cast<void>(speeds_of(cluster, costs)), Error);
+}
+
+TEST_CASE("a simulated run is the same each time, and its figures belong together") {
+  const RunPlan plan = pipe_plan(60e3, 6, 60, Presplit::kOff);
+  std::int64_t triangles = 0, last_progress = 0;
+  std::size_t finished = 0;
+  SimulationObservers observers;
+  observers.progress = [&](std::int64_t now) { last_progress = now; };
+  observers.finished = [&](const Subdomain& s) {
+    ++finished;
+    triangles += s.triangles();
+  };
+  const SimulatedRun run = simulate(plan, equal_ranks(6), {}, observers);
+  CHECK(finished == plan.decomposition.size());
+  CHECK(run.triangles() == triangles);
+  CHECK(last_progress == triangles);
+  CHECK(run.owners == plan.owners);
+  std::int64_t sent = 0, handled = 0;
+  for (std::size_t r = 0; r < run.ranks.size(); ++r) {
+    const RankOutcome& rank = run.ranks[r];
+    sent += rank.counters.splits_sent;
+    handled += rank.counters.splits_handled;
+    CHECK(rank.times.total() <= run.makespan * (1 + 1e-9));
+    CHECK(rank.times.total() > 0.99 * run.makespan - 1e-3);
+    CHECK(rank.subdomains == std::count(plan.owners.begin(), plan.owners.end(), static_cast<protocol::Rank>(r)));
+  }
+  CHECK(sent > 0);
+  CHECK(sent == handled);
+  const SimulatedRun again = simulate(plan, equal_ranks(6));
+  CHECK(again.makespan == run.makespan);
+  CHECK(again.steps == run.steps);
+  CHECK(again.bytes == run.bytes);
+}
+
+TEST_CASE("samples show the load of each rank go from its forecast to nothing") {
+  const RunPlan plan = pipe_plan(40e3, 4, 40, Presplit::kOn);
+  const SimulatedRun run = simulate(plan, equal_ranks(4));
+  std::map<protocol::Rank, LoadSample> first, last;
+  double time = 0;
+  for (const LoadSample& s : run.samples) {
+    CHECK(s.time >= time);
+    time = s.time;
+    first.emplace(s.rank, s);
+    last[s.rank] = s;
+  }
+  REQUIRE(last.size() == 4);
+  for (const auto& [rank, sample] : last) {
+    double forecast = 0;
+    for (std::size_t s = 0; s < plan.owners.size(); ++s)
+      if (plan.owners[s] == rank) forecast += plan.decomposition.subdomains[s].predicted;
+    CHECK(first[rank].remaining == doctest::Approx(forecast));
+    CHECK(first[rank].triangles == 0);
+    CHECK(sample.remaining == 0);
+    CHECK(sample.triangles == run.ranks[static_cast<std::size_t>(rank)].triangles);
+  }
+}
+
+TEST_CASE("a rank of half the speed computes twice as long") {
+  const RunPlan plan = pipe_plan(40e3, 2, 40, Presplit::kOn);
+  ClusterSpec cluster = equal_ranks(2);
+  const SimulatedRun equal = simulate(plan, cluster);
+  const double speed = reference_speed({});
+  cluster.groups = {{"fast", 1, speed}, {"slow", 1, speed / 2}};
+  const SimulatedRun unequal = simulate(plan, cluster);
+  CHECK(unequal.ranks[0].times.computing == doctest::Approx(equal.ranks[0].times.computing));
+  CHECK(unequal.ranks[1].times.computing == doctest::Approx(2 * equal.ranks[1].times.computing));
+  CHECK(unequal.makespan == doctest::Approx(2 * equal.makespan).epsilon(0.1));
+  CHECK(ideal_seconds(unequal, {2, 1}) == doctest::Approx(4.0 / 3 * equal.makespan).epsilon(0.1));
+}
+
+TEST_CASE("a slower network and dearer messages make the run longer") {
+  const RunPlan plan = pipe_plan(40e3, 4, 40, Presplit::kOff);
+  ClusterSpec cluster = equal_ranks(4);
+  const double fast = simulate(plan, cluster).makespan;
+  cluster.message_overhead = 1e-3;
+  CHECK(simulate(plan, cluster).makespan > fast + 1e-3);
+  cluster = equal_ranks(4);
+  cluster.latency = 0.1;
+  CHECK(simulate(plan, cluster).makespan > fast + 0.1);
+}
+
+TEST_CASE("a plan for more ranks than the cluster has is refused") {
+  const RunPlan plan = pipe_plan(5e3, 4, 12, Presplit::kOn);
+  CHECK_THROWS_AS(static_cast<void>(simulate(plan, equal_ranks(3))), Error);
+}
