@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -22,6 +23,8 @@ constexpr int kTag = 0;  // of all messages: the communicator is ours alone
 constexpr int kPatience = 2000;
 constexpr std::chrono::microseconds kNap{20};
 
+constexpr std::size_t kBroadcastPart = std::size_t{1} << 30;  // MPI counts with an int
+
 }  // namespace
 
 MpiSession::MpiSession(int& argc, char**& argv) {
@@ -35,6 +38,22 @@ MpiSession::~MpiSession() {
 
 int MpiSession::world() {
   return MPI_Comm_c2f(MPI_COMM_WORLD);
+}
+
+std::optional<Rank> MpiSession::launched_as() {
+  // Open MPI, MPICH and its kin, Slurm.
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"})
+    if (const char* rank = std::getenv(name)) return std::atoi(rank);
+  return std::nullopt;
+}
+
+int MpiSession::ranks_on_this_machine() {
+  MPI_Comm machine = MPI_COMM_NULL;
+  int ranks = 1;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  MPI_Comm_size(machine, &ranks);
+  MPI_Comm_free(&machine);
+  return ranks;
 }
 
 void MpiSession::abort(const std::string& message) {
@@ -85,6 +104,35 @@ class MpiTransport::Impl {
       std::this_thread::yield();
     else
       std::this_thread::sleep_for(kNap);
+  }
+
+  Bytes broadcast(Bytes bytes) {
+    auto size = static_cast<std::uint64_t>(bytes.size());
+    MPI_Bcast(&size, 1, MPI_UINT64_T, 0, communicator_);
+    bytes.resize(size);
+    for (std::size_t done = 0; done < size; done += kBroadcastPart) {
+      const auto part = static_cast<int>(std::min<std::size_t>(kBroadcastPart, size - done));
+      MPI_Bcast(bytes.data() + done, part, MPI_BYTE, 0, communicator_);
+    }
+    return bytes;
+  }
+
+  std::vector<Bytes> gather(const Bytes& bytes) {
+    const int size = narrow<int>(bytes.size(), "bytes of a report");
+    std::vector<int> sizes(rank_ == 0 ? static_cast<std::size_t>(ranks_) : 0);
+    MPI_Gather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, 0, communicator_);
+    std::vector<int> begin(sizes.size());
+    std::size_t total = 0;
+    for (std::size_t r = 0; r < sizes.size(); ++r) {
+      begin[r] = narrow<int>(total, "bytes of all reports");
+      total += static_cast<std::size_t>(sizes[r]);
+    }
+    Bytes all(total);
+    MPI_Gatherv(bytes.data(), size, MPI_BYTE, all.data(), sizes.data(), begin.data(), MPI_BYTE, 0, communicator_);
+    std::vector<Bytes> parts;
+    for (std::size_t r = 0; r < sizes.size(); ++r)
+      parts.emplace_back(all.begin() + begin[r], all.begin() + begin[r] + sizes[r]);
+    return parts;
   }
 
   void close() {
@@ -199,6 +247,12 @@ void MpiTransport::idle() {
 }
 double MpiTransport::now() const {
   return MPI_Wtime();
+}
+Bytes MpiTransport::broadcast(Bytes bytes) {
+  return impl_->broadcast(std::move(bytes));
+}
+std::vector<Bytes> MpiTransport::gather(const Bytes& bytes) {
+  return impl_->gather(bytes);
 }
 void MpiTransport::close() {
   impl_->close();

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "protocol/transport.hpp"
 
@@ -19,6 +21,10 @@ class MpiSession {
   MpiSession& operator=(const MpiSession&) = delete;
 
   [[nodiscard]] static int world();  ///< MPI_COMM_WORLD
+  /// The rank as which mpirun or its like has started this process, if they did; known before MPI is initialized.
+  [[nodiscard]] static std::optional<Rank> launched_as();
+  /// Ranks that share this machine's memory. All ranks call it together.
+  [[nodiscard]] static int ranks_on_this_machine();
 
   /// Prints `message` on stderr and stops all ranks; mpiexec exits with a code other than 0. Works, as an exit of this
   /// process alone, without MPI too.
@@ -40,6 +46,12 @@ class MpiTransport final : public Transport {
   std::optional<Received> poll() override;
   void idle() override;
   [[nodiscard]] double now() const override;
+
+  /// The `bytes` of rank 0, on every rank. All ranks of the communicator call it together.
+  [[nodiscard]] Bytes broadcast(Bytes bytes);
+  /// On rank 0 the bytes of every rank; nothing elsewhere. All ranks call it together. Throws LimitError for more than
+  /// 2 GiB in all: for reports, not for meshes.
+  [[nodiscard]] std::vector<Bytes> gather(const Bytes& bytes);
 
   /// Ends it in good order: waits until all that was sent has been received. Throws ProtocolError if a message has
   /// arrived that nobody polled.

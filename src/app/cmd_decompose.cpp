@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/commands.hpp"
+#include "app/cutting_options.hpp"
 #include "app/decomposition_picture.hpp"
 #include "app/sizing_options.hpp"
 #include "app/validators.hpp"
@@ -19,6 +20,7 @@
 #include "decompose/presplit.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
+#include "mesh/mesher.hpp"
 #include "pslg/poly_file.hpp"
 #include "pslg/repair.hpp"
 
@@ -40,11 +42,7 @@ Triangulation prepare_input(const DecomposeCommand& command, QualityBounds& boun
   Pslg pslg = read_poly(command.input);
   const RepairReport repairs = repair(pslg, command.input);
   if (!command.quiet) std::cerr << repairs.summary();
-  bounds.max_area = command.area;
-  if (!command.no_region_areas) {
-    bounds.region_max_area = {0};  // label 0: outside all regions
-    for (const Pslg::Region& r : pslg.regions) bounds.region_max_area.push_back(r.max_area);
-  }
+  bounds = bounds_of(pslg, {.max_area = command.area, .region_areas = !command.no_region_areas});
   Triangulation mesh = triangulate(pslg);
   prepare_corners(mesh);
   return mesh;
@@ -98,18 +96,8 @@ void add_decompose(CLI::App& program) {
   command->add_option("-o,--output", options->output, "Write the decomposition (text; docs/file-formats.md)")
       ->type_name("FILE");
   command->add_option("--plot", options->picture, "Picture in colours: .png, .svg or .pdf")->type_name("FILE");
-  command
-      ->add_option("--separator-angle", options->options.min_angle,
-                   "Separators keep this angle, in degrees, to everything where the domain allows it")
-      ->check(CLI::Range(0.0, 80.0).description(""))
-      ->capture_default_str()
-      ->type_name("DEGREES");
-  command
-      ->add_option("--split-skew", options->options.skew,
-                   "Deliberately uneven, for experiments: each cut gives one side up to 1 + S times its due")
-      ->check(CLI::Range(0.0, 10.0).description(""))
-      ->type_name("S");
-  command->add_option("--seed", options->options.seed, "Of the unevenness")->capture_default_str()->type_name("N");
+  add_cutting_options(*command, {&options->options.min_angle, &options->options.skew, &options->options.seed},
+                      "Options");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   constexpr const char* kGroup = "Triangles that the subdomains shall get equal numbers of (as for driftmesh mesh)";
   command->add_option("-a,--area", options->area, "No triangle is larger than this")

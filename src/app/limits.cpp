@@ -37,11 +37,12 @@ std::string words_of(const Limits& limits) {
 
 }  // namespace
 
-Limits find_limits(const MeshOptions& options, const Pslg& pslg) {
+Limits find_limits(const MeshOptions& options, const Pslg& pslg, int ranks_on_machine) {
   Limits limits{options.max_triangles, false, options.max_memory, bytes_per_triangle(options, pslg)};
   const std::uint64_t present = present_memory();
   if (limits.memory == 0)
-    if (const std::uint64_t free = free_memory(); free != 0) limits.memory = present + free / 10 * 9;
+    if (const std::uint64_t free = free_memory(); free != 0)
+      limits.memory = present + free / 10 * 9 / static_cast<std::uint64_t>(ranks_on_machine);
   if (limits.memory == 0) return limits;
   const std::uint64_t room = limits.memory > present ? limits.memory - present : 0;
   const auto fit = static_cast<std::int64_t>(std::min<std::uint64_t>(room / limits.bytes_per_triangle, INT64_MAX));

@@ -20,8 +20,8 @@ struct Limits {
 };
 
 /// The limits that the options and the machine set for meshing `pslg`, at this moment: memory that the process has now
-/// counts as used.
-[[nodiscard]] Limits find_limits(const MeshOptions& options, const Pslg& pslg);
+/// counts as used. Free memory is shared with the other ranks on this machine; --max-memory is that of each.
+[[nodiscard]] Limits find_limits(const MeshOptions& options, const Pslg& pslg, int ranks_on_machine = 1);
 
 /// Throws LimitError when a forecast of the number of triangles is beyond the limit by more than forecasts err.
 void check_forecast(const Limits& limits, double forecast);

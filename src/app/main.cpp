@@ -10,6 +10,7 @@
 #include "app/help_text.hpp"
 #include "base/error.hpp"
 #include "base/temporary_files.hpp"
+#include "protocol/mpi_transport.hpp"
 
 namespace {
 
@@ -56,10 +57,17 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
   }
 }
 
-}  // namespace
+/// Whether rank 0 does what there is to do, and this process is another one: errors of the command line are said once,
+/// and only `mesh` works on many ranks.
+bool leaves_it_to_rank_0(int argc, char** argv) {
+  const auto rank = driftmesh::protocol::MpiSession::launched_as();
+  if (!rank || *rank == 0) return false;
+  std::cerr.rdbuf(nullptr);
+  std::cout.rdbuf(nullptr);
+  return argc < 2 || std::string(argv[1]) != "mesh";
+}
 
-int main(int argc, char** argv) {
-  driftmesh::remove_temporaries_on_signals();
+int run_program(int argc, char** argv) {
   CLI::App program{"driftmesh: quality Delaunay meshes of planar domains", "driftmesh"};
   program.formatter(std::make_shared<driftmesh::app::HelpFormatter>());
   program.set_version_flag("--version", "driftmesh " DRIFTMESH_VERSION);
@@ -78,4 +86,14 @@ int main(int argc, char** argv) {
     std::cerr << "driftmesh: " << error.what() << '\n';
   }
   return kError;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  driftmesh::remove_temporaries_on_signals();
+  if (leaves_it_to_rank_0(argc, argv)) return 0;
+  const int code = run_program(argc, argv);
+  // A rank that says nothing must not have mpirun stop rank 0 before it has said what is wrong.
+  return driftmesh::protocol::MpiSession::launched_as().value_or(0) == 0 ? code : 0;
 }

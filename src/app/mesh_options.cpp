@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cutting_options.hpp"
 #include "app/sizing_options.hpp"
 #include "app/validators.hpp"
+#include "decompose/decompose.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -53,6 +55,60 @@ void add_limit_options(CLI::App& command, MeshOptions& options) {
       ->group(kGroup);
 }
 
+void add_parts_options(CLI::App& command, MeshOptions::Parts& parts) {
+  constexpr const char* kGroup = "Many ranks and subdomains (mpirun -n P driftmesh mesh ...)";
+  CLI::Option* const count =
+      command
+          .add_option("-n,--subdomains", parts.subdomains,
+                      "Cut the domain into so many subdomains, far more than ranks; works without mpirun, too  [20 a "
+                      "rank, or what keeps a subdomain in cache]")
+          ->check(CLI::Range(1, kMaxSubdomains).description(""))
+          ->type_name("N")
+          ->group(kGroup);
+  command
+      .add_option("--decomposition", parts.decomposition, "Take the subdomains from this file of driftmesh decompose")
+      ->check(CLI::ExistingFile.description(""))
+      ->excludes(count)
+      ->type_name("FILE")
+      ->group(kGroup);
+  add_cutting_options(command, {&parts.separator_angle, &parts.skew, &parts.seed}, kGroup);
+  command
+      .add_option("--mapping", parts.mapping,
+                  "How subdomains are dealt to ranks at the start: graph (balanced, short interfaces), block or "
+                  "round-robin")
+      ->check(CLI::IsMember({"graph", "block", "round-robin"}).description(""))
+      ->capture_default_str()
+      ->type_name("HOW")
+      ->group(kGroup);
+  command
+      .add_option("--speeds", parts.speeds,
+                  "Relative speed of each rank, where known: work is dealt in proportion, as in --speeds 1,1,2.5")
+      ->delimiter(',')
+      ->check(positive())
+      ->type_name("S,S,...")
+      ->group(kGroup);
+  command
+      .add_option("--presplit", parts.presplit,
+                  "Cut interfaces to size before refinement: off is the protocol in full, auto is on wherever a bound "
+                  "on area or size says what size. On, the mesh depends on the subdomains alone under a uniform bound")
+      ->check(CLI::IsMember({"auto", "on", "off"}).description(""))
+      ->capture_default_str()
+      ->type_name("MODE")
+      ->group(kGroup);
+  command.add_option("--aggregation", parts.aggregation, "Split points that travel together at most")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000}).description(""))
+      ->capture_default_str()
+      ->type_name("K")
+      ->group(kGroup);
+  command
+      .add_option("--order", parts.order,
+                  "Which subdomain a rank refines next: given (neighbours together), largest or backlog")
+      ->check(CLI::IsMember({"given", "largest", "backlog"}).description(""))
+      ->capture_default_str()
+      ->type_name("ORDER")
+      ->group(kGroup);
+}
+
 void add_output_options(CLI::App& command, MeshOptions& options) {
   constexpr const char* kGroup = "Output";
   command
@@ -85,12 +141,14 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
       ->type_name("");
   add_quality_options(command, options);
   add_limit_options(command, options);
+  add_parts_options(command, options.parts);
   add_output_options(command, options);
   command.footer(
       "Examples:\n"
       "  driftmesh mesh bay.poly --area 5000 -o bay.vtu --plot bay.png\n"
       "  driftmesh mesh bay.poly --angle 30 -o bay.msh -o bay.ele\n"
       "  driftmesh mesh bay.poly --size \"20 + 0.1*abs(x)\" --json run.json\n"
+      "  mpirun -n 4 driftmesh mesh bay.poly --area 50 -o bay.pvtu\n"
       "Check a mesh with: driftmesh check bay.vtu bay.poly --angle 20 --area 5000\n"
       "Exit code: 0 done, 1 error, 2 wrong usage, 3 stopped by a limit.");
 }

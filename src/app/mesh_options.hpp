@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/mesher.hpp"
+#include "protocol/aggregator.hpp"
 #include "sizing/make_size_field.hpp"
 
 namespace CLI {
@@ -24,6 +25,21 @@ struct MeshOptions {
   std::int64_t max_triangles = MeshRequest{}.max_triangles;
   std::uint64_t max_memory = 0;  ///< bytes; 0: 90 % of what the machine has free
   bool keep_incomplete = false;
+
+  /// For a mesh in parts; ask for them with any of the first three, or start with mpirun.
+  struct Parts {
+    std::int32_t subdomains = 0;  ///< 0: as many as suit
+    std::string decomposition;    ///< a file to take it from, instead
+    double separator_angle = 60;
+    double skew = 0;
+    std::uint64_t seed = 1;
+    std::string mapping = "graph";
+    std::vector<double> speeds;
+    std::string presplit = "auto";
+    std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;
+    std::string order = "given";
+    [[nodiscard]] bool wanted() const { return subdomains > 0 || !decomposition.empty(); }
+  } parts;
 
   std::vector<std::string> outputs;
   std::string picture;

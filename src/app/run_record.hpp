@@ -4,15 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "mesh/exceptions.hpp"
+#include "app/mesh_facts.hpp"
 #include "mesh/mesher.hpp"
+#include "protocol/rank_protocol.hpp"
 #include "pslg/repair_report.hpp"
+#include "runtime/rank_times.hpp"
 
 namespace driftmesh::app {
 
 /// What is known of one run of `driftmesh mesh`: what its summary and its JSON file say. Times are in seconds, memory
 /// in bytes, angles in degrees.
-struct RunRecord {
+struct RunRecord : MeshFacts {
   std::string command;  ///< a command line that makes the same mesh
   std::string input_file;
   std::int64_t input_points = 0, input_segments = 0, input_holes = 0, input_regions = 0;  ///< after repair
@@ -24,22 +26,8 @@ struct RunRecord {
 
   bool complete = true;
   std::string stopped_by;  ///< the limit that stopped the work, if it is not complete
-  std::int64_t triangles = 0, vertices = 0, subsegments = 0;
   std::int32_t acute_corners = 0;
   double forecast = 0;  ///< of triangles, before refinement
-  Refiner::Counters counters;
-  AngleSummary shape;
-  std::uint64_t digest = 0;
-
-  /// Triangles that miss a bound for the same reason.
-  struct ExceptionGroup {
-    static constexpr std::size_t kMaxPlaces = 3;
-    std::string cause;
-    std::int64_t count = 0;
-    double worst_angle = 180;   ///< of those below the angle bound
-    std::vector<Point> places;  ///< of the worst: the corners with the small angles, each once
-  };
-  std::vector<ExceptionGroup> exceptions;
 
   struct Stage {
     std::string name;
@@ -55,6 +43,18 @@ struct RunRecord {
     std::uint64_t bytes;
   };
   std::vector<File> files;
+
+  /// One rank of a parallel run.
+  struct Rank {
+    std::int64_t triangles = 0;
+    std::int32_t subdomains = 0;  ///< at the end
+    protocol::ProtocolCounters protocol;
+    RankTimes times;
+    std::uint64_t peak = 0;
+  };
+  std::vector<Rank> ranks;  ///< empty if there were none
+  std::int32_t subdomains = 0;
+  bool presplit = false;
 
   [[nodiscard]] double triangles_per_second() const {
     return seconds_refine > 0 ? static_cast<double>(triangles) / seconds_refine : 0;

@@ -54,7 +54,7 @@ Json exceptions_json(const RunRecord& run) {
   Json list = Json::array();
   for (const RunRecord::ExceptionGroup& group : run.exceptions) {
     Json places = Json::array();
-    for (const Point& p : group.places) places.push_back({p.x, p.y});
+    for (const auto& p : group.places) places.push_back({p.at.x, p.at.y});
     Json item = {{"cause", group.cause}, {"triangles", group.count}, {"places", places}};
     if (group.worst_angle < 180) item["worst_angle"] = group.worst_angle;
     list.push_back(item);
@@ -73,6 +73,29 @@ Json work_json(const RunRecord& run) {
           {"peak_bytes", run.peak}};
 }
 
+Json parts_json(const RunRecord& run) {
+  Json ranks = Json::array();
+  for (const RunRecord::Rank& r : run.ranks)
+    ranks.push_back({{"triangles", r.triangles},
+                     {"subdomains", r.subdomains},
+                     {"seconds",
+                      {{"computing", r.times.computing},
+                       {"sending", r.times.sending},
+                       {"polling", r.times.polling},
+                       {"balancing", r.times.balancing},
+                       {"idle", r.times.idle}}},
+                     {"splits_sent", r.protocol.splits_sent},
+                     {"splits_handled", r.protocol.splits_handled},
+                     {"split_messages_sent", r.protocol.batches_sent},
+                     {"hand_offs", r.protocol.hand_offs},
+                     {"hand_off_bytes", r.protocol.hand_off_bytes},
+                     {"arrivals", r.protocol.arrivals},
+                     {"forwarded", r.protocol.forwarded},
+                     {"held", r.protocol.held},
+                     {"peak_bytes", r.peak}});
+  return {{"subdomains", run.subdomains}, {"presplit", run.presplit}, {"ranks", ranks}};
+}
+
 Json files_json(const RunRecord& run) {
   Json list = Json::array();
   for (const RunRecord::File& file : run.files) list.push_back({{"name", file.name}, {"bytes", file.bytes}});
@@ -82,17 +105,17 @@ Json files_json(const RunRecord& run) {
 }  // namespace
 
 std::string summary_json(const RunRecord& run) {
-  const Json record = {
-      {"format", "driftmesh run"},
-      {"version", kVersion},
-      {"program", DRIFTMESH_VERSION},
-      {"command", run.command},
-      {"input", input_json(run)},
-      {"bounds", {{"min_angle", run.min_angle}, {"max_area", run.max_area}, {"edge_length", run.sizing}}},
-      {"mesh", mesh_json(run)},
-      {"exceptions", exceptions_json(run)},
-      {"work", work_json(run)},
-      {"files", files_json(run)}};
+  Json record = {{"format", "driftmesh run"},
+                 {"version", kVersion},
+                 {"program", DRIFTMESH_VERSION},
+                 {"command", run.command},
+                 {"input", input_json(run)},
+                 {"bounds", {{"min_angle", run.min_angle}, {"max_area", run.max_area}, {"edge_length", run.sizing}}},
+                 {"mesh", mesh_json(run)},
+                 {"exceptions", exceptions_json(run)},
+                 {"work", work_json(run)},
+                 {"files", files_json(run)}};
+  if (!run.ranks.empty()) record["parts"] = parts_json(run);
   // A file name need not be UTF-8.
   return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -57,7 +57,7 @@ void add_exceptions(const RunRecord& run, Text out) {
     fmt::format_to(out, "{:<12} {}, {}", label, counted(group.count, "triangle"), group.cause);
     if (group.worst_angle < 180) fmt::format_to(out, ", from {:.4f} degrees", group.worst_angle);
     fmt::format_to(out, "\n             at");
-    for (const Point& p : group.places) fmt::format_to(out, " ({:.9g}, {:.9g})", p.x, p.y);
+    for (const auto& p : group.places) fmt::format_to(out, " ({:.9g}, {:.9g})", p.at.x, p.at.y);
     const bool all_listed =
         group.places.size() < group.kMaxPlaces || group.count == static_cast<std::int64_t>(group.kMaxPlaces);
     fmt::format_to(out, "{}\n", all_listed ? "" : " ...");
@@ -84,6 +84,47 @@ void add_work(const RunRecord& run, Text out) {
     fmt::format_to(out, "; {:.1f} and {:.1f} bytes a triangle", per_triangle(run.peak),
                    per_triangle(run.peak_refining));
   fmt::format_to(out, "\n");
+}
+
+/// One row a rank, or where there are many the extremes of each column.
+void add_rank_table(const RunRecord& run, Text out) {
+  constexpr std::size_t kMostRows = 16;
+  fmt::format_to(out, "  {:>8} {:>14} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "rank", "triangles", "subdomains",
+                 "computing", "sending", "polling", "balancing", "idle");
+  const auto row = [&](const std::string& name, const RunRecord::Rank& r) {
+    fmt::format_to(out, "  {:>8} {:>14} {:>10} {:>8.3f} s {:>8.3f} s {:>8.3f} s {:>8.3f} s {:>8.3f} s\n", name,
+                   grouped(r.triangles), r.subdomains, r.times.computing, r.times.sending, r.times.polling,
+                   r.times.balancing, r.times.idle);
+  };
+  if (run.ranks.size() <= kMostRows) {
+    for (std::size_t i = 0; i < run.ranks.size(); ++i) row(std::to_string(i), run.ranks[i]);
+    return;
+  }
+  const auto by = [&](auto value, const char* what) {
+    const auto [least, most] = std::minmax_element(run.ranks.begin(), run.ranks.end(),
+                                                   [&](const auto& a, const auto& b) { return value(a) < value(b); });
+    row(std::to_string(least - run.ranks.begin()), *least);
+    row(std::to_string(most - run.ranks.begin()), *most);
+    fmt::format_to(out, "           (least and most {})\n", what);
+  };
+  by([](const RunRecord::Rank& r) { return r.triangles; }, "triangles");
+  by([](const RunRecord::Rank& r) { return r.times.computing; }, "computing");
+}
+
+void add_ranks(const RunRecord& run, Text out) {
+  if (run.ranks.empty()) return;
+  protocol::ProtocolCounters sum;
+  for (const RunRecord::Rank& r : run.ranks) {
+    sum.splits_sent += r.protocol.splits_sent;
+    sum.batches_sent += r.protocol.batches_sent;
+  }
+  fmt::format_to(out, "parts        {} on {}; interfaces {} before refinement\n", counted(run.subdomains, "subdomain"),
+                 counted(static_cast<std::int64_t>(run.ranks.size()), "rank"),
+                 run.presplit ? "cut to size" : "not cut");
+  if (run.ranks.size() > 1)
+    fmt::format_to(out, "             {} sent between ranks, in {}\n", counted(sum.splits_sent, "split point"),
+                   counted(sum.batches_sent, "message"));
+  add_rank_table(run, out);
 }
 
 void add_files(const RunRecord& run, Text out) {
@@ -123,6 +164,7 @@ std::string summary_text(const RunRecord& run) {
   text += histogram_text(run.shape);
   add_exceptions(run, out);
   add_work(run, out);
+  add_ranks(run, out);
   add_files(run, out);
   return text;
 }

@@ -7,6 +7,11 @@
 namespace driftmesh {
 namespace {
 
+/// Insertions between two reports: some tens of milliseconds.
+constexpr std::int64_t kReportEvery = 100'000;
+
+}  // namespace
+
 QualityBounds bounds_of(const Pslg& pslg, const MeshRequest& request) {
   QualityBounds bounds{request.min_angle, request.max_area, {}, request.size};
   if (!request.region_areas) return bounds;
@@ -14,11 +19,6 @@ QualityBounds bounds_of(const Pslg& pslg, const MeshRequest& request) {
   for (const Pslg::Region& r : pslg.regions) bounds.region_max_area.push_back(r.max_area);
   return bounds;
 }
-
-/// Insertions between two reports: some tens of milliseconds.
-constexpr std::int64_t kReportEvery = 100'000;
-
-}  // namespace
 
 MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshProgress& progress) {
   MeshResult result;

@@ -31,6 +31,9 @@ struct MeshResult {
   double seconds_refine = 0;
 };
 
+/// The bounds that a request sets on the mesh of `pslg`, whose region labels index them.
+[[nodiscard]] QualityBounds bounds_of(const Pslg& pslg, const MeshRequest& request);
+
 /// Called before refinement and now and then during it, with the present and the forecast number of triangles. What it
 /// throws ends the work and passes through.
 using MeshProgress = std::function<void(std::int64_t triangles, double forecast)>;

@@ -167,7 +167,7 @@ bool Refiner::step() {
       if (!step_large() && !step_skinny() && !state_.sweep.next_block()) enter(Stage::kRest);
       return true;
     case Stage::kRest:
-      if (!step_large() && !step_skinny()) state_.stage = Stage::kDone;
+      if (!step_large() && !step_skinny()) enter(Stage::kDone);
       return true;
     case Stage::kDone:
       break;
@@ -199,7 +199,11 @@ void Refiner::enter(Stage stage) {
         if (mesh_.triangles[id(t)].alive()) note(t, shape_of(t));
       state_.deferred.clear();
       break;
-    default:
+    case Stage::kDone:  // most refiners of a run are done for most of it, and small
+      state_.skinny.clear();
+      changed_ = {};
+      break;
+    case Stage::kSegments:
       break;
   }
 }

@@ -81,13 +81,14 @@ class Sweep {
 class SkinnyBuckets {
  public:
   static constexpr int kBuckets = 2048;
-  SkinnyBuckets() : buckets_(kBuckets) {}
   /// The bucket of a squared length: its binary exponent.
   static int bucket_of(double squared_length) {
     return static_cast<int>(std::bit_cast<std::uint64_t>(squared_length) >> 52) & (kBuckets - 1);
   }
   void add(TriangleId t, int bucket) {
-    buckets_[static_cast<std::size_t>(bucket)].push_back(t);
+    if (bucket < first_ || bucket >= end()) [[unlikely]]
+      make_room(bucket);
+    at(bucket).push_back(t);
     lowest_ = std::min(lowest_, bucket);
   }
   struct Entry {
@@ -99,28 +100,39 @@ class SkinnyBuckets {
   };
   /// Takes out an entry of the lowest bucket; triangle kNone if all are empty.
   Entry take() {
-    while (lowest_ < kBuckets && buckets_[static_cast<std::size_t>(lowest_)].empty()) ++lowest_;
-    if (lowest_ == kBuckets) return {kNone, 0};
-    auto& bucket = buckets_[static_cast<std::size_t>(lowest_)];
+    while (lowest_ < end() && at(lowest_).empty()) ++lowest_;
+    if (lowest_ >= end()) return {kNone, 0};
+    auto& bucket = at(lowest_);
     const TriangleId t = bucket.back();
     bucket.pop_back();
     return {t, lowest_};
   }
-  void clear() {
-    for (auto& bucket : buckets_) bucket.clear();
-    lowest_ = kBuckets;
-  }
+  /// Empties the buckets and gives their memory back.
+  void clear() { *this = {}; }
   /// All entries: added in this order to empty buckets, they come out as they would from these.
   [[nodiscard]] std::vector<Entry> entries() const {
     std::vector<Entry> all;
-    for (int b = lowest_; b < kBuckets; ++b)
-      for (const TriangleId t : buckets_[static_cast<std::size_t>(b)]) all.push_back({t, b});
+    for (int b = lowest_; b < end(); ++b)
+      for (const TriangleId t : buckets_[static_cast<std::size_t>(b - first_)]) all.push_back({t, b});
     return all;
   }
 
  private:
-  std::vector<std::vector<TriangleId>> buckets_;
-  int lowest_ = kBuckets;
+  [[nodiscard]] int end() const { return first_ + static_cast<int>(buckets_.size()); }
+  std::vector<TriangleId>& at(int bucket) { return buckets_[static_cast<std::size_t>(bucket - first_)]; }
+  /// Few exponents occur in one mesh, so only the range of those that did has buckets.
+  void make_room(int bucket) {
+    if (buckets_.empty()) first_ = bucket;
+    if (bucket < first_) {
+      buckets_.insert(buckets_.begin(), static_cast<std::size_t>(first_ - bucket), {});
+      first_ = bucket;
+    }
+    if (bucket >= end()) buckets_.resize(static_cast<std::size_t>(bucket - first_ + 1));
+  }
+
+  std::vector<std::vector<TriangleId>> buckets_;  // from bucket first_ on
+  int first_ = 0;
+  int lowest_ = kBuckets;  // none before it has entries
 };
 
 }  // namespace driftmesh

@@ -6,9 +6,10 @@
 namespace driftmesh {
 namespace {
 
-/// The fields in one order for both directions: `stream` is a ByteWriter with a const plan, or a ByteReader.
+// The fields in one order for both directions: `stream` is a ByteWriter with a const value, or a ByteReader.
+
 template <class Stream, class Plan>
-void transfer(Stream& stream, Plan& plan) {
+void transfer_plan(Stream& stream, Plan& plan) {
   auto& d = plan.decomposition;
   stream.array(d.points);
   stream.array(d.origin);
@@ -29,19 +30,49 @@ void transfer(Stream& stream, Plan& plan) {
   stream.value(plan.max_triangles);
 }
 
+template <class Stream, class Input>
+void transfer_pslg(Stream& stream, Input& pslg) {
+  stream.array(pslg.points);
+  stream.array(pslg.point_markers);
+  stream.array(pslg.attributes);
+  stream.value(pslg.attributes_per_point);
+  stream.array(pslg.segments);
+  stream.array(pslg.holes);
+  stream.array(pslg.regions);
+  stream.value(pslg.first_number);
+}
+
+void require_end(const ByteReader& reader) {
+  if (!reader.at_end()) throw Error("a message from another rank is too long: are all of one version?");
+}
+
 }  // namespace
+
+protocol::Bytes pslg_to_bytes(const Pslg& pslg) {
+  ByteWriter writer;
+  transfer_pslg(writer, pslg);
+  return writer.take();
+}
+
+Pslg pslg_from_bytes(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  Pslg pslg;
+  transfer_pslg(reader, pslg);
+  require_end(reader);
+  return pslg;
+}
 
 protocol::Bytes plan_to_bytes(const RunPlan& plan) {
   ByteWriter writer;
-  transfer(writer, plan);
+  transfer_plan(writer, plan);
   return writer.take();
 }
 
 RunPlan plan_from_bytes(std::span<const std::byte> bytes) {
   ByteReader reader(bytes);
   RunPlan plan;
-  transfer(reader, plan);
-  if (!reader.at_end()) throw Error("a plan from another rank is too long: are all of one version?");
+  transfer_plan(reader, plan);
+  require_end(reader);
   return plan;
 }
 

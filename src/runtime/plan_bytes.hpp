@@ -3,6 +3,7 @@
 #include <span>
 
 #include "protocol/ids.hpp"
+#include "pslg/pslg.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh {
@@ -13,5 +14,9 @@ namespace driftmesh {
 
 /// The plan that plan_to_bytes was given, without its size field. Throws Error if the bytes are not such a plan.
 [[nodiscard]] RunPlan plan_from_bytes(std::span<const std::byte> bytes);
+
+/// The same for the input of a run.
+[[nodiscard]] protocol::Bytes pslg_to_bytes(const Pslg& pslg);
+[[nodiscard]] Pslg pslg_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace driftmesh

@@ -13,9 +13,9 @@
 namespace driftmesh {
 namespace {
 
-/// With its vertices 36 bytes each: less than half a megabyte, and what refinement is fastest with
+/// With their vertices three quarters of a megabyte: what refinement is fastest with
 /// (docs/benchmarks.md).
-constexpr double kTrianglesPerSubdomain = 11'000;
+constexpr double kTrianglesPerSubdomain = 20'000;
 constexpr std::int32_t kSubdomainsPerRank = 20;
 
 }  // namespace

@@ -47,6 +47,11 @@ KINDS = {
 }
 
 
+# More ranks than cores, and root in a container, must be allowed by name. Open MPI also leaks on purpose.
+RANKS_ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                         OMPI_MCA_rmaps_base_oversubscribe="1", ASAN_OPTIONS="detect_leaks=0")
+
+
 class Cli(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -387,6 +392,49 @@ class Mesh(Cli):
         self.assertGreaterEqual(angle["triangles"], 12)
         self.assertAlmostEqual(angle["worst_angle"], 5, places=6)
         self.assertEqual(angle["places"], [[0.5, 0.5]])
+
+    def on_ranks(self, ranks, *arguments):
+        return subprocess.run(["mpiexec", "-n", str(ranks), PROGRAM, *map(str, arguments)], cwd=self.folder,
+                              capture_output=True, text=True, errors="replace", timeout=MESHER_SECONDS, check=False,
+                              env=RANKS_ENVIRONMENT)
+
+    def test_a_mesh_in_parts_is_the_same_on_any_number_of_ranks(self):
+        self.succeed("generate", "bay", "--resolution", "1000", "-o", "bay.poly")
+        digests = set()
+        for ranks in 1, 2, 3, 4:
+            result = self.on_ranks(ranks, "mesh", "bay.poly", "--area", "20000", "-n", "30", "-o", f"{ranks}.pvtu",
+                                   "--json", "run.json")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            run = json.loads((self.folder / "run.json").read_text())
+            digests.add(run["mesh"]["digest"])
+            self.assertEqual(len(run["parts"]["ranks"]), ranks)
+            self.assertEqual(sum(r["triangles"] for r in run["parts"]["ranks"]), run["mesh"]["triangles"])
+            self.assertEqual(sum(r["subdomains"] for r in run["parts"]["ranks"]), 30)
+            self.assertIn(f"digest         {run['mesh']['digest']}",
+                          self.succeed("check", f"{ranks}.pvtu", "bay.poly", "--area", "20000", "--angle", "20"))
+        self.assertEqual(len(digests), 1)
+
+    def test_the_protocol_in_full_makes_a_mesh_that_check_accepts(self):
+        self.succeed("generate", "holes", *KINDS["holes"], "-o", "holes.poly")
+        self.succeed("decompose", "holes.poly", "-n", "12", "-o", "holes.decomposition")
+        for options in ["--presplit", "off"], ["--presplit", "off", "--aggregation", "1", "--order", "backlog"]:
+            result = self.on_ranks(3, "mesh", "holes.poly", "--area", "0.01", "--decomposition", "holes.decomposition",
+                                   *options, "-o", "holes.pvtu", "-o", "holes.msh", "--json", "run.json")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            run = json.loads((self.folder / "run.json").read_text())
+            self.assertGreater(sum(r["splits_sent"] for r in run["parts"]["ranks"]), 0)
+            for mesh in "holes.pvtu", "holes.msh":
+                self.succeed("check", mesh, "holes.poly", "--area", "0.01", "--angle", "20")
+
+    def test_errors_on_many_ranks_are_said_once(self):
+        for arguments, code, message in ((["mesh", "nothing.poly"], 1, "nothing.poly: cannot open"),
+                                         (["mesh", "--such"], 2, "unexpected: --such"),
+                                         (["mesh", "square.poly", "--speeds", "1,2,3"], 1, "speed")):
+            (self.folder / "square.poly").write_text(SQUARE)
+            result = self.on_ranks(2, *arguments)
+            self.assertEqual(result.returncode, code, result.stderr)
+            self.assertEqual(result.stderr.count("driftmesh: "), 1, result.stderr)
+            self.assertIn(message, result.stderr)
 
     def test_attributes_of_added_points_are_interpolated(self):
         lines = SQUARE.splitlines()

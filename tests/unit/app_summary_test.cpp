@@ -58,8 +58,8 @@ TEST_CASE("The summary names exceptions, places and an incomplete mesh") {
   run.command = "driftmesh mesh bay.poly";
   run.input_file = "bay.poly";
   run.triangles = 1234;
-  run.exceptions.push_back({"small angle of the input", 12, 10.66, {{1, 2}, {3.5, 4}, {5, 6}}});
-  run.exceptions.push_back({"wedge", 7, 12, {{7, 8}}});
+  run.exceptions.push_back({"small angle of the input", 12, 10.66, {{{1, 2}}, {{3.5, 4}}, {{5, 6}}}});
+  run.exceptions.push_back({"wedge", 7, 12, {{{7, 8}}}});
   run.complete = false;
   run.stopped_by = "--max-triangles";
   run.digest = 0xABCDEF;
@@ -68,6 +68,58 @@ TEST_CASE("The summary names exceptions, places and an incomplete mesh") {
                                "(1, 2) (3.5, 4) (5, 6) ...\n", "(7, 8)\n", "INCOMPLETE: stopped by --max-triangles",
                                "0000000000abcdef", "driftmesh mesh bay.poly"})
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
+}
+
+TEST_CASE("The summary of a run on ranks has a row a rank, or the extremes of many") {
+  RunRecord run;
+  run.subdomains = 40;
+  run.ranks.resize(2);
+  run.ranks[1].triangles = 7654321;
+  run.ranks[1].protocol.splits_sent = 12;
+  run.ranks[1].protocol.batches_sent = 1;
+  std::string text = summary_text(run);
+  for (const char* expected :
+       {"40 subdomains on 2 ranks", "12 split points sent between ranks, in 1 message", "7,654,321"})
+    CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
+  run.ranks.resize(100);
+  run.ranks[77].times.computing = 12.5;
+  text = summary_text(run);
+  CHECK(text.find("12.500") != std::string::npos);
+  CHECK(std::count(text.begin(), text.end(), '\n') < 50);
+}
+
+TEST_CASE("The facts of parts add up to those of the whole, also through bytes") {
+  MeshFacts a, b;
+  a.triangles = 10;
+  a.digest = 7;
+  a.shape.smallest = 20;
+  a.shape.smallest_area = 3;
+  a.exceptions.push_back({"wedge", 2, 15, {{{1, 2}, 15}, {{3, 4}, 16}}});
+  b.triangles = 5;
+  b.digest = 8;
+  b.shape.smallest = 25;
+  b.shape.smallest_area = 1;
+  b.exceptions.push_back({"wedge", 3, 14, {{{5, 6}, 14}, {{1, 2}, 15}, {{7, 8}, 18}}});
+  b.exceptions.push_back({"small angle of the input", 1, 3, {{{9, 9}, 3}}});
+  ByteWriter writer;
+  write_facts(writer, b);
+  const auto bytes = writer.take();
+  ByteReader reader(bytes);
+  MeshFacts sum;
+  add_facts(sum, a);
+  add_facts(sum, read_facts(reader));
+  CHECK(reader.at_end());
+  CHECK(sum.triangles == 15);
+  CHECK(sum.digest == 15);
+  CHECK(sum.shape.smallest == 20);
+  CHECK(sum.shape.smallest_area == 1);
+  REQUIRE(sum.exceptions.size() == 2);
+  CHECK(sum.exceptions[0].count == 5);
+  CHECK(sum.exceptions[0].worst_angle == 14);
+  REQUIRE(sum.exceptions[0].places.size() == 3);
+  CHECK(sum.exceptions[0].places[0].at == Point{5, 6});
+  CHECK(sum.exceptions[0].places[1].at == Point{1, 2});
+  CHECK(sum.exceptions[0].places[2].at == Point{3, 4});
 }
 
 TEST_CASE("Progress in words") {

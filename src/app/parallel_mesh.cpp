@@ -1,0 +1,295 @@
+#include "app/parallel_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/limits.hpp"
+#include "app/memory.hpp"
+#include "app/mesh_facts.hpp"
+#include "app/output_files.hpp"
+#include "app/run_notes.hpp"
+#include "base/byte_stream.hpp"
+#include "base/error.hpp"
+#include "decompose/decomposition_file.hpp"
+#include "distributed/assembly.hpp"
+#include "distributed/write_distributed.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "mesh/mesher.hpp"
+#include "output/mesh_file.hpp"
+#include "output/plot.hpp"
+#include "output/pvtu_format.hpp"
+#include "protocol/mpi_transport.hpp"
+#include "pslg/poly_file.hpp"
+#include "runtime/plan_bytes.hpp"
+#include "runtime/plan_run.hpp"
+#include "runtime/rank_loop.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+using protocol::Bytes;
+
+/// What rank 0 gives to all before the work begins.
+struct Start {
+  bool failed = false;  ///< rank 0 has an error to report; all others leave
+  Bytes plan;
+  Bytes pslg;
+
+  [[nodiscard]] Bytes pack() const {
+    ByteWriter writer;
+    writer.value(failed);
+    writer.array(plan);
+    writer.array(pslg);
+    return writer.take();
+  }
+  static Start unpack(const Bytes& bytes) {
+    ByteReader reader(bytes);
+    Start start;
+    reader.value(start.failed);
+    reader.array(start.plan);
+    reader.array(start.pslg);
+    return start;
+  }
+};
+
+/// What a rank reports to rank 0 at the end.
+struct RankReport {
+  RunRecord::Rank rank;
+  MeshFacts facts;
+
+  [[nodiscard]] Bytes pack() const {
+    ByteWriter writer;
+    writer.value(rank);
+    write_facts(writer, facts);
+    return writer.take();
+  }
+  static RankReport unpack(const Bytes& bytes) {
+    ByteReader reader(bytes);
+    RankReport report;
+    reader.value(report.rank);
+    report.facts = read_facts(reader);
+    return report;
+  }
+};
+
+/// Subsegments of the input on roots whose points this subdomain numbers.
+std::int64_t owned_subsegments(const Decomposition& d, const SubdomainCensus& census) {
+  std::int64_t count = 0;
+  for (const SubdomainCensus::Root& r : census.roots) {
+    const Decomposition::Root& root = d.roots[static_cast<std::size_t>(r.root)];
+    if (!root.separator && owner_of(root) == census.id) count += static_cast<std::int64_t>(r.splits.count) + 1;
+  }
+  return count;
+}
+
+/// The files that writing to `output` made.
+std::vector<std::string> files_of(const std::string& output, protocol::Rank ranks) {
+  if (!is_in_pieces(output)) return mesh_files(output);
+  std::vector<std::string> files{output};
+  for (protocol::Rank r = 0; r < ranks; ++r) files.push_back(pvtu_piece_path(output, r));
+  return files;
+}
+
+class ParallelMesh {
+ public:
+  ParallelMesh(const MeshOptions& options, const std::string& command, protocol::MpiTransport& transport)
+      : options_(options),
+        transport_(transport),
+        leader_(transport.rank() == 0),
+        notes_(options, command, !leader_),
+        run_(notes_.run) {}
+
+  int go() {
+    if (!begin()) return 0;  // rank 0 has the error and the code for it
+    try {
+      size_ = make_size_field(options_.sizing);
+      plan_.bounds.size = size_.get();
+      refine();
+      report();
+      if (!options_.outputs.empty() || !options_.picture.empty()) write();
+    } catch (const std::exception& error) {
+      if (transport_.ranks() == 1) throw;
+      protocol::MpiSession::abort(fmt::format("driftmesh: rank {}: {}", transport_.rank(), error.what()));
+    }
+    if (leader_) notes_.finish();
+    return 0;
+  }
+
+ private:
+  /// Everything up to the moment when all ranks know the plan. False on ranks that leave because rank 0 has failed.
+  bool begin() {
+    Start start;
+    if (leader_) {
+      try {
+        start = plan();
+      } catch (...) {
+        start.failed = true;
+        static_cast<void>(transport_.broadcast(start.pack()));
+        throw;
+      }
+    }
+    notes_.timed("share", [&] { start = Start::unpack(transport_.broadcast(start.pack())); });
+    if (start.failed) return false;
+    plan_ = plan_from_bytes(start.plan);
+    pslg_ = pslg_from_bytes(start.pslg);
+    return true;
+  }
+
+  Start plan() {
+    check_outputs(options_.outputs, options_.picture, options_.json, options_.input);
+    Pslg pslg = notes_.timed("read", [&] { return read_poly(options_.input); });
+    notes_.timed("repair", [&] { notes_.repair_input(pslg); });
+    const auto size = notes_.timed("size", [&] { return make_size_field(options_.sizing); });
+    const MeshRequest request{options_.angle, options_.area, !options_.no_region_areas, size.get(),
+                              options_.max_triangles};
+    const QualityBounds bounds = bounds_of(pslg, request);
+    Decomposition cut = options_.parts.decomposition.empty() ? decompose_input(pslg, bounds) : load(pslg);
+    for (const Decomposition::Subdomain& s : cut.subdomains) run_.forecast += s.predicted;
+    RunPlan plan = notes_.timed("map", [&] { return plan_run(std::move(cut), bounds, plan_options()); });
+    return {false, plan_to_bytes(plan), pslg_to_bytes(pslg)};
+  }
+
+  Decomposition decompose_input(const Pslg& pslg, const QualityBounds& bounds) {
+    const Triangulation mesh = notes_.timed("triangulate", [&] {
+      Triangulation made = triangulate(pslg);
+      run_.acute_corners = prepare_corners(made);
+      return made;
+    });
+    const MeshOptions::Parts& parts = options_.parts;
+    const DecomposeOptions cutting{parts.subdomains, parts.separator_angle, bounds, parts.skew, parts.seed};
+    return notes_.timed("decompose", [&] { return decompose_for(mesh, cutting, transport_.ranks()); });
+  }
+
+  Decomposition load(const Pslg& pslg) {
+    return notes_.timed("load", [&] {
+      Decomposition loaded = read_decomposition(options_.parts.decomposition);
+      require_same_input(loaded, pslg, options_.parts.decomposition);
+      return loaded;
+    });
+  }
+
+  [[nodiscard]] PlanOptions plan_options() const {
+    const MeshOptions::Parts& parts = options_.parts;
+    PlanOptions plan;
+    plan.mapping = {transport_.ranks(), parts.speeds, mapping_method(parts.mapping)};
+    plan.presplit = presplit_mode(parts.presplit);
+    plan.aggregation = parts.aggregation;
+    plan.order = work_order(parts.order);
+    return plan;
+  }
+
+  void refine() {
+    limits_ = find_limits(options_, pslg_, protocol::MpiSession::ranks_on_this_machine());
+    plan_.max_triangles = limits_.triangles;
+    double forecast = 0;
+    for (std::size_t s = 0; s < plan_.owners.size(); ++s)
+      if (plan_.owners[s] == transport_.rank()) forecast += plan_.decomposition.subdomains[s].predicted;
+    RankLoop::Observers observers;
+    observers.stalled = [](const std::string& why) { fmt::print(stderr, "driftmesh: {}\n", why); };
+    if (leader_)
+      observers.after_slice = [&](const RankLoop& loop) { notes_.progress.refining(loop.triangles(), forecast); };
+    notes_.timed("refine", [&] {
+      loop_.emplace(transport_, plan_, CostModel{}, observers);
+      protocol::run_rank(transport_, [&] { return loop_->step(); });
+    });
+  }
+
+  void report() {
+    RankReport own;
+    own.rank.triangles = loop_->triangles();
+    own.rank.subdomains = static_cast<std::int32_t>(loop_->subdomains().size());
+    own.rank.protocol = loop_->protocol().counters();
+    own.rank.times = loop_->times();
+    own.rank.peak = peak_memory();
+    notes_.timed("inspect", [&] {
+      for (const auto& [id, subdomain] : loop_->subdomains()) {
+        add_part(own.facts, subdomain.mesh().mesh, plan_.bounds, true);
+        add_counters(own.facts, subdomain.counters());
+      }
+      own.facts.vertices = own.facts.subsegments = 0;  // shared ones count where they are owned
+      for (const SubdomainCensus& census : take_census(plan_.decomposition, held())) {
+        own.facts.vertices += owned_points(plan_.decomposition, census);
+        own.facts.subsegments += owned_subsegments(plan_.decomposition, census);
+      }
+    });
+    for (const Bytes& bytes : transport_.gather(own.pack())) add_report(RankReport::unpack(bytes));
+    run_.vertices += static_cast<std::int64_t>(plan_.decomposition.points.size());
+    run_.subdomains = static_cast<std::int32_t>(plan_.decomposition.size());
+    run_.presplit = plan_.presplit;
+  }
+
+  void add_report(const RankReport& report) {
+    add_facts(run_, report.facts);
+    run_.ranks.push_back(report.rank);
+    run_.seconds_refine = std::max(run_.seconds_refine, report.rank.times.total());
+    run_.peak += report.rank.peak;
+    run_.peak_refining = run_.peak;
+  }
+
+  [[nodiscard]] HeldSubdomains held() const {
+    std::vector<HeldSubdomain> all;
+    for (const auto& [id, subdomain] : loop_->subdomains()) all.push_back({id, &subdomain.mesh()});
+    return held_in_memory(std::move(all));
+  }
+
+  void write() {
+    protocol::MpiTransport transport(protocol::MpiSession::world());
+    ExchangeRunner ranks(transport);
+    const DistributedPiece piece = notes_.timed("assemble", [&] {
+      PieceAssembly assembly(transport.rank(), transport.ranks(), plan_.decomposition, held());
+      ranks.run(assembly);
+      return assembly.piece(pslg_);
+    });
+    loop_.reset();
+    notes_.timed("write", [&] {
+      for (const std::string& output : options_.outputs) write_distributed(ranks, piece, output, {pslg_.holes});
+    });
+    if (!options_.picture.empty()) plot(ranks, piece);
+    transport.close();
+    if (!leader_) return;
+    for (const std::string& output : options_.outputs)
+      for (const std::string& file : files_of(output, transport_.ranks())) notes_.note_file(file);
+    if (!options_.picture.empty()) notes_.note_file(options_.picture);
+  }
+
+  void plot(ExchangeRunner& ranks, const DistributedPiece& piece) {
+    notes_.timed("plot", [&] {
+      GatherPieces gathering(piece);
+      ranks.run(gathering);
+      const std::string title = std::filesystem::path(options_.input).filename().string();
+      if (leader_) plot_mesh(gathering.whole(), options_.picture, {.title = title});
+    });
+  }
+
+  const MeshOptions& options_;
+  protocol::MpiTransport& transport_;
+  bool leader_;
+  RunNotes notes_;
+  RunRecord& run_;
+  std::unique_ptr<SizeField> size_;
+  Limits limits_;
+  RunPlan plan_;
+  Pslg pslg_;
+  std::optional<RankLoop> loop_;
+};
+
+}  // namespace
+
+int mesh_in_parts(const MeshOptions& options, const std::string& command) {
+  int argc = 0;
+  char** argv = nullptr;
+  const protocol::MpiSession session(argc, argv);
+  protocol::MpiTransport transport(protocol::MpiSession::world());
+  const int code = ParallelMesh(options, command, transport).go();
+  if (code == 0) transport.close();
+  return code;
+}
+
+}  // namespace driftmesh::app
