@@ -21,8 +21,8 @@ using namespace driftmesh;
 namespace {
 
 struct Costs {
-  std::vector<double> refine, pack, unpack;  // seconds a subdomain, one entry a round
-  double triangles = 0;                      // mean of the subdomains
+  std::vector<double> refine, pack, unpack, unpack_all;  // seconds a subdomain, one entry a round
+  double triangles = 0;                                  // mean of the subdomains
   double bytes = 0;
   bool same = true;
 };
@@ -39,7 +39,7 @@ Costs measure(const SubdomainContext& context, int rounds) {
   const auto n = static_cast<SubdomainId>(context.decomposition->size());
   std::vector<protocol::SplitEntry> said;
   for (int round = 0; round < rounds; ++round) {
-    double refine = 0, pack = 0, unpack = 0, triangles = 0, bytes = 0;
+    double refine = 0, pack = 0, unpack = 0, unpack_all = 0, triangles = 0, bytes = 0;
     for (SubdomainId i = 0; i < n; ++i) {
       Subdomain subdomain(i, context);
       said.clear();
@@ -49,16 +49,18 @@ Costs measure(const SubdomainContext& context, int rounds) {
       watch = Stopwatch();
       const protocol::Bytes packed = subdomain.pack();
       pack += watch.seconds();
+      const bool check_all = round % 2 != 0;
       watch = Stopwatch();
-      const Subdomain again = Subdomain::unpack(packed, context);
-      unpack += watch.seconds();
+      const Subdomain again = Subdomain::unpack(packed, context, check_all ? Source::kUnknown : Source::kThisRun);
+      (check_all ? unpack_all : unpack) += watch.seconds();
       triangles += static_cast<double>(again.triangles());
       bytes += static_cast<double>(packed.size());
       if (round == 0) costs.same &= mesh_digest(again.mesh().mesh) == mesh_digest(subdomain.mesh().mesh);
     }
     costs.refine.push_back(refine / n);
     costs.pack.push_back(pack / n);
-    costs.unpack.push_back(unpack / n);
+    if (unpack > 0) costs.unpack.push_back(unpack / n);
+    if (unpack_all > 0) costs.unpack_all.push_back(unpack_all / n);
     costs.triangles = triangles / n;
     costs.bytes = bytes / n;
   }
@@ -76,10 +78,12 @@ void print_row(double wanted) {
   for (const auto& s : d.subdomains) area += s.area;
   SubdomainContext context{&d, {}, true};
   context.bounds.max_area = area / (0.645 * wanted * kSubdomains);
-  const Costs c = measure(context, 15);
-  const double refine = median(c.refine), pack = median(c.pack), unpack = median(c.unpack);
-  std::printf("| %.0f | %.2f | %.4f | %.4f | %.2f %% | %.1f | %s |\n", c.triangles, 1e3 * refine, 1e3 * pack,
-              1e3 * unpack, 100 * (pack + unpack) / refine, c.bytes / c.triangles, c.same ? "yes" : "NO");
+  const Costs c = measure(context, 20);
+  const double refine = median(c.refine), pack = median(c.pack), unpack = median(c.unpack),
+               unpack_all = median(c.unpack_all);
+  std::printf("| %.0f | %.2f | %.3f | %.3f | %.1f %% | %.3f | %.1f | %s |\n", c.triangles, 1e3 * refine, 1e3 * pack,
+              1e3 * unpack, 100 * (pack + unpack) / refine, 1e3 * unpack_all, c.bytes / c.triangles,
+              c.same ? "yes" : "NO");
 }
 
 }  // namespace
@@ -89,7 +93,9 @@ int main(int argc, char** argv) {
   std::vector<double> sizes;
   for (int i = 1; i < argc; ++i) sizes.push_back(std::atof(argv[i]));
   if (sizes.empty()) sizes = {2700, 20000, 100000};
-  std::printf("| triangles | refine ms | pack ms | unpack ms | pack + unpack | bytes/triangle | same mesh |\n");
-  std::printf("| --- | --- | --- | --- | --- | --- | --- |\n");
+  std::printf(
+      "| triangles | refine ms | pack ms | unpack ms | pack + unpack | unpack, all checks, ms | bytes/triangle | same "
+      "mesh |\n");
+  std::printf("| --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const double size : sizes) print_row(size);
 }

@@ -9,6 +9,17 @@
 namespace driftmesh {
 namespace {
 
+/// Two lanes in a register that every x86-64 and AArch64 has (gcc's and clang's extension). With wider vectors, or
+/// arrays of words, compilers put the sums into memory between the additions, at half the speed.
+using Pair [[gnu::vector_size(16)]] = std::uint64_t;
+
+template <class From>
+Pair load(const From* from) {
+  Pair pair;
+  std::memcpy(&pair, from, sizeof pair);
+  return pair;
+}
+
 constexpr std::uint64_t mix(std::uint64_t z) {  // of splitmix64
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
@@ -17,32 +28,31 @@ constexpr std::uint64_t mix(std::uint64_t z) {  // of splitmix64
 
 }  // namespace
 
-inline void Checksum::add(const Words& words, Words& sum, Words& sum_of_sums) {
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    sum[k] += words[k];
-    sum_of_sums[k] += sum[k];
-  }
-}
-
 void Checksum::catch_up(std::span<const std::byte> bytes) {
-  Words words, sum = sum_, sum_of_sums = sum_of_sums_;
+  Pair a = load(&sum_[0]), b = load(&sum_[2]), c = load(&sum_[4]), d = load(&sum_[6]);
+  Pair aa = load(&sum_of_sums_[0]), bb = load(&sum_of_sums_[2]), cc = load(&sum_of_sums_[4]),
+       dd = load(&sum_of_sums_[6]);
   std::size_t i = taken_in_;
-  for (; i + sizeof words <= bytes.size(); i += sizeof words) {
-    std::memcpy(words.data(), bytes.data() + i, sizeof words);
-    add(words, sum, sum_of_sums);
+  for (; i + sizeof(Words) <= bytes.size(); i += sizeof(Words)) {
+    const std::byte* const block = bytes.data() + i;
+    aa += a += load(block);
+    bb += b += load(block + 16);
+    cc += c += load(block + 32);
+    dd += d += load(block + 48);
   }
   taken_in_ = i;
-  sum_ = sum;
-  sum_of_sums_ = sum_of_sums;
+  const Pair sums[] = {a, b, c, d}, sums_of_sums[] = {aa, bb, cc, dd};
+  std::memcpy(sum_.data(), sums, sizeof sums);
+  std::memcpy(sum_of_sums_.data(), sums_of_sums, sizeof sums_of_sums);
 }
 
 std::uint64_t Checksum::of(std::span<const std::byte> bytes) {
   catch_up(bytes);
-  Words last{}, sum = sum_, sum_of_sums = sum_of_sums_;
+  Words last{};
   if (taken_in_ < bytes.size()) std::memcpy(last.data(), bytes.data() + taken_in_, bytes.size() - taken_in_);
-  add(last, sum, sum_of_sums);
   std::uint64_t result = bytes.size();
-  for (std::size_t k = 0; k < kLanes; ++k) result = mix(mix(result + sum[k]) + sum_of_sums[k]);
+  for (std::size_t k = 0; k < kLanes; ++k)
+    result = mix(mix(result + sum_[k] + last[k]) + sum_of_sums_[k] + sum_[k] + last[k]);
   return result;
 }
 

@@ -34,7 +34,6 @@ class Checksum {
  private:
   static constexpr std::size_t kLanes = 8;
   using Words = std::array<std::uint64_t, kLanes>;
-  static void add(const Words& words, Words& sum, Words& sum_of_sums);
 
   std::size_t taken_in_ = 0;  // bytes
   Words sum_{}, sum_of_sums_{};

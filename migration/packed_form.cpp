@@ -88,8 +88,16 @@ void transfer_mesh(Archive& archive, Part& part) {
   archive.array(part.points);
 }
 
-void check_part(const SubdomainMesh& part) {
-  if (const std::string fault = triangulation_fault(part.mesh); !fault.empty()) refuse(fault);
+#ifdef DRIFTMESH_CHECKED
+constexpr bool kCheckAll = true;
+#else
+constexpr bool kCheckAll = false;
+#endif
+
+void check_part(const SubdomainMesh& part, Source source) {
+  const bool whole = kCheckAll || source == Source::kUnknown;
+  if (const std::string fault = whole ? triangulation_fault(part.mesh) : handle_fault(part.mesh); !fault.empty())
+    refuse(fault);
   require(part.roots.size() == part.mesh.roots.size(), "roots without numbers");
   require(std::is_sorted(part.roots.begin(), part.roots.end(), std::less_equal<>()), "roots out of order");
   require(part.roots.empty() || part.roots.front() >= 0, "a root has no number");
@@ -116,6 +124,7 @@ void load_skinny(ArchiveReader& in, SkinnyBuckets& skinny) {
   in.array(triangles);
   in.array(buckets);
   require(triangles.size() == buckets.size(), "skinny triangles without lengths");
+  require(std::is_sorted(buckets.begin(), buckets.end()), "skinny triangles out of order");
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     require(buckets[i] < SkinnyBuckets::kBuckets, "a skinny triangle of impossible length");
     skinny.add(triangles[i], buckets[i]);
@@ -162,17 +171,19 @@ Refiner::State load_refiner(ArchiveReader& in) {
 
 // ---- The whole ----
 
-SubdomainState::Body load_body(ArchiveReader& in) {
+SubdomainState::Body load_body(ArchiveReader& in, Source source) {
   SubdomainState::Body body;
   in.value(body.forecast);
   require(std::isfinite(body.forecast), "the forecast is not a number");
   transfer_mesh(in, body.part);
-  check_part(body.part);
+  check_part(body.part, source);
   body.refiner = load_refiner(in);
+  require(body.refiner.size.empty() || body.refiner.size.size() == body.part.mesh.points.size(),
+          "the size field is not known at each vertex");
   return body;
 }
 
-void load_rest(ArchiveReader& in, SubdomainState& subdomain) {
+void load_rest(ArchiveReader& in, SubdomainState& subdomain, Source source) {
   require(subdomain.id >= 0, "it has no number");
   std::uint8_t refined = 0;
   Content content{};
@@ -181,7 +192,7 @@ void load_rest(ArchiveReader& in, SubdomainState& subdomain) {
   require(refined <= 1 && content <= Content::kMesh, "it says what cannot be");
   subdomain.refined = refined != 0;
   load_points(in, subdomain.pending, &protocol::SplitEntry::edge);
-  if (content == Content::kMesh) subdomain.body = load_body(in);
+  if (content == Content::kMesh) subdomain.body = load_body(in, source);
   require(in.at_end(), "bytes are left over");
   require(!subdomain.refined || (subdomain.body && subdomain.body->refiner.stage == Refiner::Stage::kDone),
           "it is refined and is not");
@@ -212,13 +223,13 @@ protocol::Bytes pack(const SubdomainView& subdomain) {
   return bytes.take();
 }
 
-SubdomainState unpack(std::span<const std::byte> bytes) {
+SubdomainState unpack(std::span<const std::byte> bytes, Source source) {
   const auto payload = open_sealed(bytes, "the packed form of a subdomain");
   SubdomainState subdomain;
   try {
     ArchiveReader in(payload);
     in.value(subdomain.id);
-    load_rest(in, subdomain);
+    load_rest(in, subdomain, source);
   } catch (const boost::archive::archive_exception& error) {
     throw Error("the packed form of subdomain " + std::to_string(subdomain.id) + " is damaged: " + error.what());
   } catch (const Error& error) {

@@ -80,15 +80,20 @@ protocol::Bytes Subdomain::pack() const {
   return driftmesh::pack(view);
 }
 
-Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainContext& context) {
-  SubdomainState state = driftmesh::unpack(bytes);
+Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainContext& context, Source source) {
+  SubdomainState state = driftmesh::unpack(bytes, source);
   if (const std::string fault = misfit(state, *context.decomposition); !fault.empty())
     throw Error("the packed form of subdomain " + std::to_string(state.id) + " is not of this decomposition: " + fault +
                 "; use the one that it was packed with");
   Subdomain subdomain(state.id, context);
   subdomain.refined_ = state.refined;
   subdomain.pending_ = std::move(state.pending);
-  if (state.body) subdomain.body_ = std::make_unique<Body>(std::move(*state.body), context.bounds);
+  if (!state.body) return subdomain;
+  try {
+    subdomain.body_ = std::make_unique<Body>(std::move(*state.body), context.bounds);
+  } catch (const Error& error) {
+    throw Error("the packed form of subdomain " + std::to_string(state.id) + " is damaged: " + error.what());
+  }
   return subdomain;
 }
 

@@ -63,7 +63,8 @@ class Subdomain {
   /// unpack makes of them goes on exactly as this one would.
   [[nodiscard]] protocol::Bytes pack() const;
   /// Throws Error, naming the subdomain, for bytes that are not the packed form of a subdomain of this context.
-  [[nodiscard]] static Subdomain unpack(std::span<const std::byte> bytes, const SubdomainContext& context);
+  [[nodiscard]] static Subdomain unpack(std::span<const std::byte> bytes, const SubdomainContext& context,
+                                        Source source = Source::kUnknown);
 
   /// The mesh as it is now. Only after work() was called once.
   [[nodiscard]] const SubdomainMesh& mesh() const { return body_->part; }

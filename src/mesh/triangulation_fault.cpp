@@ -51,7 +51,6 @@ bool lists_once(const std::vector<std::int32_t>& list, std::size_t free_count, s
 
 std::string vertex_fault(const Triangulation& mesh) {
   if (mesh.origin.size() != mesh.points.size()) return "points and origins differ in number";
-  if (!is_in_range(mesh.points)) return "a coordinate is out of range";
   const auto lowest = -static_cast<std::int64_t>(mesh.subsegments.size());  // ~s of the last subsegment
   std::size_t deleted = 0;
   bool exist = true;
@@ -76,21 +75,48 @@ bool knows(const Triangulation& mesh, SubsegmentId s, HalfEdge h) {
                                (segment.half[1] == h && segment.vertex[1] == a && segment.vertex[0] == b));
 }
 
-/// All of it without a branch that depends on the order of the triangles: it runs over every half-edge.
-std::string triangle_fault(const Triangulation& mesh) {
-  const std::size_t count = mesh.triangles.size(), vertices = mesh.points.size();
-  if (static_cast<std::int64_t>(count) > kMaxTriangles) return "too many triangles";
-  if (!mesh.region.empty() && mesh.region.size() != count) return "triangles and their regions differ in number";
-  const Triangle* const triangles = mesh.triangles.data();
-  std::size_t dead = 0;
-  for (std::size_t t = 0; t < count; ++t) {
-    const Triangle& own = triangles[t];
-    if (!own.alive()) {
+/// Whether all corners and neighbours are in range. Signs and bits are collected, and looked at once in the end.
+/// `dead` receives the number of free slots.
+bool handles_exist(const Triangulation& mesh, std::size_t& dead) {
+  const auto edges = static_cast<std::uint32_t>(4 * mesh.triangles.size());
+  const auto last_vertex = static_cast<std::int32_t>(mesh.points.size()) - 1;
+  std::int32_t out_of_range = 0, low_bits = 0;
+  for (const Triangle& triangle : mesh.triangles) {
+    const auto [a, b, c] = triangle.vertex;
+    if (a == kNone) [[unlikely]] {
       ++dead;
       continue;
     }
+    out_of_range |= a | b | c | (last_vertex - a) | (last_vertex - b) | (last_vertex - c);
+    for (const HalfEdge g : triangle.neighbor) {
+      if (static_cast<std::uint32_t>(g) >= edges) [[unlikely]] {
+        if (!is_constrained(g) || !names(subsegment_of(g), mesh.subsegments.size())) return false;
+      } else {
+        low_bits |= g & (g + g);  // bit 1 if both low bits of g are set: edge 3
+      }
+    }
+  }
+  return out_of_range >= 0 && (low_bits & 2) == 0;
+}
+
+std::string array_fault(const Triangulation& mesh) {
+  if (static_cast<std::int64_t>(mesh.triangles.size()) > kMaxTriangles) return "too many triangles";
+  if (!mesh.region.empty() && mesh.region.size() != mesh.triangles.size())
+    return "triangles and their regions differ in number";
+  std::size_t dead = 0;
+  if (!handles_exist(mesh, dead)) return "a corner or neighbour of a triangle does not exist";
+  const auto is_free = [&](std::size_t t) { return !mesh.triangles[t].alive(); };
+  if (!lists_once(mesh.free_triangles, dead, mesh.triangles.size(), is_free))
+    return "the free triangles are not listed";
+  return "";
+}
+
+/// Without a branch that depends on the order of the triangles: it runs over every half-edge.
+std::string triangle_fault(const Triangulation& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& own = mesh.triangles[t];
+    if (!own.alive()) continue;
     const auto& v = own.vertex;
-    if (!names(v[0], vertices) || !names(v[1], vertices) || !names(v[2], vertices)) return "a corner does not exist";
     if (!(orient2d(mesh.points[id(v[0])], mesh.points[id(v[1])], mesh.points[id(v[2])]) > 0))
       return "a triangle is not counterclockwise";
     std::int32_t differences = 0;
@@ -101,15 +127,13 @@ std::string triangle_fault(const Triangulation& mesh) {
         continue;
       }
       const int j = index_of(g);
-      if (!names(triangle_of(g), count) || j == 3) return "a neighbour does not exist";
-      const Triangle& other = triangles[triangle_of(g)];
+      const Triangle& other = mesh.triangles[id(triangle_of(g))];
       differences |= (other.neighbor[at(j)] ^ h) | (other.vertex[next_of_any(j)] ^ v[at(previous(i))]) |
                      (other.vertex[previous_of_any(j)] ^ v[at(next(i))]) | (other.alive() ? 0 : 1);
+      differences |= mesh.origin[id(v[at(i)])] == kDeleted ? 1 : 0;
     }
     if (differences != 0) return "neighbours do not know each other";
   }
-  const auto is_free = [&](std::size_t t) { return !triangles[t].alive(); };
-  if (!lists_once(mesh.free_triangles, dead, count, is_free)) return "the free triangles are not listed";
   return "";
 }
 
@@ -170,10 +194,16 @@ std::string subsegment_fault(const Triangulation& mesh) {
 
 }  // namespace
 
-std::string triangulation_fault(const Triangulation& mesh) {
+std::string handle_fault(const Triangulation& mesh) {
   if (std::string fault = vertex_fault(mesh); !fault.empty()) return fault;
-  if (std::string fault = triangle_fault(mesh); !fault.empty()) return fault;
+  if (std::string fault = array_fault(mesh); !fault.empty()) return fault;
   return subsegment_fault(mesh);
+}
+
+std::string triangulation_fault(const Triangulation& mesh) {
+  if (std::string fault = handle_fault(mesh); !fault.empty()) return fault;
+  if (!is_in_range(mesh.points)) return "a coordinate is out of range";
+  return triangle_fault(mesh);
 }
 
 }  // namespace driftmesh

@@ -1,0 +1,180 @@
+#include "migration/packed_form.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <random>
+#include <string>
+
+#include "base/error.hpp"
+#include "mesh/digest.hpp"
+#include "mesh/triangulation_fault.hpp"
+#include "migration/packed_bytes.hpp"
+#include "migration/subdomain.hpp"
+#include "property/cases.hpp"
+#include "support/random_subdomains.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+using protocol::Bytes;
+
+namespace {
+
+std::string refusal_of(const Bytes& bytes, const SubdomainContext& context, Source source = Source::kUnknown) {
+  try {
+    static_cast<void>(Subdomain::unpack(bytes, context, source));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The same payload under a new header: what lies within is tested, not the checksum.
+Bytes sealed_again(const Bytes& bytes) {
+  SealedBytes sealed(bytes.size());
+  sealed.append(bytes.data() + sizeof(PackedHeader), bytes.size() - sizeof(PackedHeader));
+  return sealed.take();
+}
+
+Subdomain half_refined(RandomSubdomains& world, SubdomainId id) {
+  Subdomain subdomain(id, world.context());
+  std::vector<protocol::SplitEntry> said;
+  subdomain.tell(world.split_of(id, 4));
+  subdomain.work(40, said);
+  subdomain.tell(world.split_of(id, 4));
+  return subdomain;
+}
+
+/// Reads all arrays by all handles, under the eyes of a sanitizer where there is one.
+void look_at_everything(const Subdomain& subdomain) {
+  if (!subdomain.started()) return;
+  const Triangulation& mesh = subdomain.mesh().mesh;
+  CHECK(mesh_digest(mesh) != 1);
+  CHECK(subdomain.remaining() >= 0);
+  for (const Subsegment& s : mesh.subsegments) CHECK(mesh.descend(s.root, s.path) >= 0);
+}
+
+}  // namespace
+
+TEST_CASE("a subdomain that has not worked packs to its number and what it was told") {
+  RandomSubdomains world(3, 4, 500);
+  Subdomain subdomain(2, world.context());
+  CHECK(subdomain.pack().size() < 80);
+  subdomain.tell({world.split_of(2, 3).edge, 5});
+  CHECK(subdomain.pack().size() < 92);
+  const Subdomain again = Subdomain::unpack(subdomain.pack(), world.context());
+  CHECK(again.id() == 2);
+  CHECK(again.backlog() == 1);
+  CHECK(!again.started());
+  CHECK(again.active());
+}
+
+TEST_CASE("bytes that are cut off, prolonged, changed or foreign are refused in words") {
+  RandomSubdomains world(11, 3, 300);
+  const Bytes whole = half_refined(world, 1).pack();
+  REQUIRE(refusal_of(whole, world.context()) == "");
+  for (std::size_t size = 0; size < whole.size(); size += 1 + size / 20) {
+    const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    REQUIRE(refusal_of(cut, world.context()).find("the packed form of a subdomain") == 0);
+    if (size < sizeof(PackedHeader)) continue;
+    REQUIRE(refusal_of(sealed_again(cut), world.context()).find("the packed form of subdomain") == 0);
+  }
+  Bytes longer = whole;
+  longer.push_back(std::byte{0});
+  CHECK(refusal_of(longer, world.context()).find("bytes instead of") != std::string::npos);
+  CHECK(refusal_of(sealed_again(longer), world.context()).find("left over") != std::string::npos);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    Bytes changed = whole;
+    changed[i] ^= std::byte{4};
+    REQUIRE(refusal_of(changed, world.context()) != "");
+  }
+  Bytes later = whole;
+  later[offsetof(PackedHeader, version)] = std::byte{9};
+  CHECK(refusal_of(later, world.context()).find("version 9") != std::string::npos);
+}
+
+TEST_CASE("the packed form of another decomposition is refused") {
+  RandomSubdomains one(11, 5, 300), other(12, 3, 300);
+  CHECK(refusal_of(half_refined(one, 1).pack(), other.context()).find("not of this decomposition") !=
+        std::string::npos);
+  CHECK(refusal_of(Subdomain(4, one.context()).pack(), other.context()).find("only 3") != std::string::npos);
+}
+
+TEST_CASE("damage under a right checksum is refused, or leaves a mesh that keeps to its arrays") {
+  auto random = seeded_generator("damaged packed forms");
+  int accepted = 0, refused = 0;
+  for (std::int64_t i = case_count(20); i > 0; --i) {
+    RandomSubdomains world(random() % 1000, 3, 200);
+    const Bytes whole = half_refined(world, 0).pack();
+    for (int k = 0; k < 300; ++k) {
+      Bytes changed = whole;
+      for (auto flips = 1 + random() % 3; flips > 0; --flips) {
+        const std::size_t at = sizeof(PackedHeader) + random() % (whole.size() - sizeof(PackedHeader));
+        // Small numbers, since lengths and handles are made of them; and any others.
+        changed[at] = static_cast<std::byte>(random() % 2 == 0 ? random() % 4 : random());
+      }
+      changed = sealed_again(changed);
+      for (const Source source : {Source::kUnknown, Source::kThisRun}) {
+        const std::string refusal = refusal_of(changed, world.context(), source);
+        if (!refusal.empty()) {
+          ++refused;
+          continue;
+        }
+        ++accepted;
+        const Subdomain subdomain = Subdomain::unpack(changed, world.context(), source);
+        look_at_everything(subdomain);
+        REQUIRE(subdomain.pack() == changed);
+      }
+    }
+  }
+  MESSAGE(refused << " refused, " << accepted << " accepted");
+  CHECK(refused > accepted);
+  CHECK(accepted > 0);  // low bits of coordinates, forecasts, counters: nobody can tell
+}
+
+TEST_CASE("each invariant of a triangulation is looked at") {
+  RandomSubdomains world(21, 2, 400);
+  const Triangulation sound = half_refined(world, 0).mesh().mesh;
+  REQUIRE(triangulation_fault(sound) == "");
+  const auto fault = [&](auto&& break_it) {
+    Triangulation mesh = sound;
+    break_it(mesh);
+    return triangulation_fault(mesh);
+  };
+  const auto inner = [](const Triangulation& mesh) {  // a leaf with two sides or one, and an inner node
+    std::size_t s = 0;
+    while (mesh.subsegments[s].is_leaf()) ++s;
+    return s;
+  };
+  std::size_t live = 0;
+  while (!sound.triangles[live].alive() || is_constrained(sound.triangles[live].neighbor[0])) ++live;
+  const auto other = static_cast<std::size_t>(triangle_of(sound.triangles[live].neighbor[0]));
+  std::size_t free = 0;
+  while (sound.origin[free] != kFree) ++free;
+  const auto all = static_cast<std::int32_t>(sound.triangles.size());
+  CHECK(fault([&](Triangulation& m) { m.points[free].x = NAN; }) == "a coordinate is out of range");
+  CHECK(fault([&](Triangulation& m) { m.points[free].x = 1e90; }) == "a coordinate is out of range");
+  CHECK(fault([](Triangulation& m) { m.origin.push_back(kFree); }) == "points and origins differ in number");
+  CHECK(fault([](Triangulation& m) { m.origin[0] = -1'000'000; }) != "");
+  CHECK(fault([](Triangulation& m) { m.free_vertices.push_back(0); }) == "the free vertices are not listed");
+  CHECK(fault([](Triangulation& m) { m.free_triangles.push_back(0); }) == "the free triangles are not listed");
+  CHECK(fault([&](Triangulation& m) { m.triangles[live].vertex[1] = -1; }) != "");
+  CHECK(fault([&](Triangulation& m) { m.triangles[live].vertex[2] = 1'000'000; }) != "");
+  CHECK(fault([&](Triangulation& m) { m.triangles[live].neighbor[0] = 4 * all; }) != "");
+  CHECK(fault([&](Triangulation& m) { m.triangles[live].neighbor[0] |= 3; }) != "");
+  CHECK(fault([&](Triangulation& m) { m.triangles[live].neighbor[0] = constrained(1'000'000); }) != "");
+  CHECK(fault([&](Triangulation& m) { std::swap(m.triangles[live].vertex[0], m.triangles[live].vertex[1]); }) ==
+        "a triangle is not counterclockwise");
+  CHECK(fault([&](Triangulation& m) { std::swap(m.triangles[live].neighbor[1], m.triangles[other].neighbor[1]); }) !=
+        "");
+  CHECK(fault([&](Triangulation& m) {
+          Triangle& t = m.triangles[live];  // turned, but not its neighbours' views of it
+          t = {{t.vertex[1], t.vertex[2], t.vertex[0]}, {t.neighbor[1], t.neighbor[2], t.neighbor[0]}};
+        }) != "");
+  CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].path = 0; }) != "");
+  CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = 0; }) == "a subsegment is cut wrongly");
+  CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = kNone; }) != "");
+  CHECK(fault([](Triangulation& m) { m.roots[0].tree = 1; }) != "");
+  CHECK(fault([](Triangulation& m) { m.subsegments.push_back(m.subsegments.back()); }) != "");
+  CHECK(fault([](Triangulation& m) { m.region.resize(3, 0); }) != "");
+}
