@@ -12,8 +12,10 @@
 #include "app/output_files.hpp"
 #include "app/parallel_mesh.hpp"
 #include "app/run_notes.hpp"
+#include "mesh/cdt.hpp"
 #include "mesh/interpolate_attributes.hpp"
 #include "mesh/mesher.hpp"
+#include "mesh/narrow_place.hpp"
 #include "mesh/to_piece.hpp"
 #include "output/mesh_file.hpp"
 #include "output/plot.hpp"
@@ -41,7 +43,8 @@ class MeshRun {
     if (result.complete || options_.keep_incomplete) write(std::move(result), pslg);
     notes_.finish();
     if (run_.complete) return 0;
-    std::cerr << "driftmesh: " << stopped_message(limits_, run_.triangles, options_.keep_incomplete) << '\n';
+    const auto narrow = find_narrow_place(triangulate(pslg));
+    std::cerr << "driftmesh: " << stopped_message(limits_, run_.triangles, options_.keep_incomplete, narrow) << '\n';
     return kStoppedByLimit;
   }
 

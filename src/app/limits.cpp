@@ -18,6 +18,7 @@ constexpr std::uint64_t kBytesWriting = 64;
 constexpr std::uint64_t kBytesRegion = 10;
 constexpr std::uint64_t kBytesAttribute = 4;  // 8 bytes a vertex, of which there are half as many
 constexpr double kForecastError = 1.1;
+constexpr double kGoodPart = 0.1;  // of the triangles at which a mesh was stopped
 
 std::uint64_t bytes_per_triangle(const MeshOptions& options, const Pslg& pslg) {
   if (options.outputs.empty() && options.picture.empty()) return kBytesRefining;
@@ -27,6 +28,16 @@ std::uint64_t bytes_per_triangle(const MeshOptions& options, const Pslg& pslg) {
 
 std::string advice(const Limits& limits) {
   return fmt::format("allow more with {}, or ask for larger triangles", limits.option());
+}
+
+/// Good angles take triangles as small as the gap, all along it.
+std::string narrow_words(const NarrowPlace& narrow, const Limits& limits) {
+  return fmt::format(
+      "near ({:.10g}, {:.10g}) two segments of the input that do not touch are {:.3g} apart and run side by side for "
+      "{:.3g}, which alone takes about {} triangles at any area bound; join them or move them apart there, or allow "
+      "more "
+      "with {}",
+      narrow.at.x, narrow.at.y, narrow.width, narrow.length, estimate_words(narrow.triangles), limits.option());
 }
 
 std::string words_of(const Limits& limits) {
@@ -59,9 +70,11 @@ void check_forecast(const Limits& limits, double forecast) {
                   estimate_words(forecast), words_of(limits), advice(limits)));
 }
 
-std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept) {
+std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept,
+                            const std::optional<NarrowPlace>& narrow) {
+  const bool by_narrowness = narrow && narrow->triangles > kGoodPart * static_cast<double>(triangles);
   return fmt::format("stopped at {} triangles, {}, before all bounds were met; {}{}", grouped(triangles),
-                     words_of(limits), advice(limits),
+                     words_of(limits), by_narrowness ? narrow_words(*narrow, limits) : advice(limits),
                      kept ? "" : ". No mesh was written; --keep-incomplete writes what was made");
 }
 

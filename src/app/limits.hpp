@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "app/mesh_options.hpp"
+#include "mesh/narrow_place.hpp"
 #include "pslg/pslg.hpp"
 
 namespace driftmesh::app {
@@ -26,7 +28,9 @@ struct Limits {
 /// Throws LimitError when a forecast of the number of triangles is beyond the limit by more than forecasts err.
 void check_forecast(const Limits& limits, double forecast);
 
-/// What to tell the user whose mesh hit the limit.
-[[nodiscard]] std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept);
+/// What to tell the user whose mesh hit the limit. `narrow` is the place of the input that needs the most triangles for
+/// being narrow; it is named if it accounts for a good part of them.
+[[nodiscard]] std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept,
+                                          const std::optional<NarrowPlace>& narrow = {});
 
 }  // namespace driftmesh::app

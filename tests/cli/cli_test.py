@@ -281,6 +281,15 @@ class Errors(Cli):
         self.assertIn("INCOMPLETE: stopped by --max-triangles", result.stdout)
         self.succeed("check", "x.vtu", "square.poly")
 
+    def test_a_narrow_slit_stops_the_mesher_with_its_place(self):
+        text = SQUARE.replace("4 2 0 0", "8 2 0 0").replace("4 0 4\n4 1\n", "4 0 4\n5 1 2\n6 3 2\n7 1 2.000001\n"
+                                                            "8 3 2.000001\n6 1\n").replace("\n0\n", "\n5 5 6 1\n6 7 8 1\n0\n")
+        self.write("slit.poly", text)
+        self.refuse("mesh", "slit.poly", "--max-triangles", "20000", "-o", "x.vtu", code=3,
+                    says=["two segments of the input that do not touch are 1e-06 apart", "side by side for 2,", "near (1, 2",
+                          "about 6,000,000 triangles", "--max-triangles"])
+        self.assertEqual(self.files(), ["slit.poly"])
+
     def test_a_mesh_that_memory_does_not_allow_is_refused_at_once(self):
         self.write("square.poly", SQUARE)
         result = self.refuse("mesh", "square.poly", "--area", "1e-9", "--max-memory", "200M", "-o", "x.vtu", code=3,

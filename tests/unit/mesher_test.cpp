@@ -10,6 +10,7 @@
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
+#include "mesh/narrow_place.hpp"
 #include "mesh/to_piece.hpp"
 
 using namespace driftmesh;
@@ -183,6 +184,35 @@ TEST_CASE("refinement meets the bounds on area and angle") {
     CHECK(result.complete);
     CHECK(summarize_angles(result.mesh).smallest >= angle);
   }
+}
+
+TEST_CASE("the narrowest place between two segments is found, with about the triangles that it takes") {
+  const auto slit = [](double x0, double x1, double width, double rise) {
+    Pslg pslg;
+    pslg.points = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-0.5, 0}, {0.5, 0}, {x0, width}, {x1, width + rise}};
+    pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}, {4, 5, 2}, {6, 7, 2}};
+    return pslg;
+  };
+  for (const Pslg& pslg : {slit(-0.5, 0.5, 1e-3, 0), slit(-0.3, 0.6, 1e-4, 0), slit(-0.3, 0.7, 1e-3, 1e-3)}) {
+    const auto place = find_narrow_place(triangulate(pslg));
+    REQUIRE(place);
+    const double width = pslg.points[6].y;
+    CHECK(place->width == doctest::Approx(width).epsilon(1e-9));
+    CHECK(place->length == doctest::Approx(0.5 - pslg.points[6].x));
+    MeshRequest request;
+    request.min_angle = 20;
+    const auto triangles = static_cast<double>(mesh_domain(pslg, request).mesh.live_triangles());
+    CHECK(place->triangles > triangles / 2);
+    CHECK(place->triangles < triangles * 2);
+  }
+  // A point near a segment, or segments that meet, are no such place.
+  Pslg point = slit(0.1, 0.1, 1e-6, 0.5);
+  CHECK(find_narrow_place(triangulate(point))->triangles < 100);
+  Pslg wedge = slit(0, 0, 0, 0);
+  wedge.points.resize(7);
+  wedge.points[6] = {0.3, 1e-6};
+  wedge.segments.back() = {4, 6, 2};
+  CHECK(find_narrow_place(triangulate(wedge))->triangles < 100);
 }
 
 TEST_CASE("small angles of the input end, and are the only exceptions") {
