@@ -53,6 +53,21 @@ class BasicRankLoop {
   BasicRankLoop(const BasicRankLoop&) = delete;
   BasicRankLoop& operator=(const BasicRankLoop&) = delete;
 
+  /// Subdomain `id` goes to rank `to`, packed, with everything it was told. Between steps only, and not once this rank
+  /// has nothing to do: then it may make no work for others (docs/protocol.md, rule 6). False, and nothing happens, if
+  /// the subdomain is not here, is finished, or would stay.
+  bool hand_over(SubdomainId id, protocol::Rank to) {
+    const auto place = subdomains_.find(id);
+    if (to == transport_.rank() || place == subdomains_.end() || !place->second.active()) return false;
+    triangles_ -= place->second.triangles();
+    protocol::Bytes packed = place->second.pack();
+    transport_.spend(static_cast<double>(packed.size()) * costs_.packed_byte);
+    agenda_.remove(id);
+    subdomains_.erase(place);
+    protocol_.hand_off(id, to, std::move(packed));
+    return true;
+  }
+
   /// One round. What it throws ends the run on all ranks.
   protocol::StepResult step() {
     charge(&RankTimes::idle);
@@ -97,6 +112,7 @@ class BasicRankLoop {
     while (const auto received = transport_.poll()) {
       heard = true;
       auto delivery = protocol_.receive(received->source, protocol::decode(received->source, received->bytes, limits_));
+      if (delivery.arrival) settle(*delivery.arrival);
       for (const protocol::SplitGroup& group : delivery.splits) {
         Subdomain& subdomain = subdomains_.at(group.to);
         for (const protocol::SplitEntry& entry : group.entries) subdomain.tell(entry);
@@ -104,6 +120,13 @@ class BasicRankLoop {
       }
     }
     return heard;
+  }
+
+  void settle(const protocol::HandOff& arrival) {
+    charge(&RankTimes::polling);
+    put(Subdomain::unpack(arrival.packed, context_));
+    transport_.spend(static_cast<double>(arrival.packed.size()) * costs_.packed_byte);
+    charge(&RankTimes::balancing);
   }
 
   /// A slice of the subdomain whose turn it is. False if none has anything to do.

@@ -27,9 +27,10 @@ struct RunPlan {
 /// What a rank of the reference machine needs for its work, in seconds: simulated time passes by it. Measured with
 /// `driftmesh_bench_costs` (docs/benchmarks.md).
 struct CostModel {
-  double start = 29e-6;       ///< of the initial triangulation of a subdomain
-  double prepared = 0.17e-6;  ///< more for each of its triangles
-  double point = 0.229e-6;    ///< a point inserted by refinement
+  double start = 29e-6;         ///< of the initial triangulation of a subdomain
+  double prepared = 0.17e-6;    ///< more for each of its triangles
+  double point = 0.229e-6;      ///< a point inserted by refinement
+  double packed_byte = 0.4e-9;  ///< of a subdomain that is packed or unpacked
 };
 
 }  // namespace driftmesh

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 
 #include "base/error.hpp"
@@ -89,6 +90,41 @@ TEST_CASE("with presplit interfaces a uniform bound needs no SPLIT, and the mesh
       if (digest == 0) digest = digest_of(run.subdomains());
       CHECK(digest_of(run.subdomains()) == digest);
     }
+}
+
+TEST_CASE("subdomains that move while they refine make the same mesh as those that stay") {
+  std::uint64_t digest = 0;
+  std::int64_t moves = 0, forwarded = 0, held = 0;
+  for (const Presplit presplit : {Presplit::kOn, Presplit::kOff})
+    for (const protocol::Rank ranks : {2, 3, 6})
+      for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        CAPTURE(ranks);
+        CAPTURE(seed);
+        const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, ranks, 20, presplit);
+        protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
+        SimulatedRanks<> run(network, ranks, plan);
+        std::mt19937_64 random(seed);
+        const auto move_something = [&](protocol::Rank r) {
+          auto& loop = *run.loops[static_cast<std::size_t>(r)];
+          if (loop.subdomains().empty() || random() % 2 == 0) return;
+          auto chosen = loop.subdomains().begin();
+          std::advance(chosen, static_cast<std::ptrdiff_t>(random() % loop.subdomains().size()));
+          loop.hand_over(chosen->first, static_cast<protocol::Rank>(random() % static_cast<std::uint64_t>(ranks)));
+        };
+        REQUIRE(network.run(run.steps, move_something).end == protocol::RunEnd::kFinished);
+        check_mesh(plan, run.subdomains());
+        for (const auto& loop : run.loops) {
+          moves += loop->protocol().counters().hand_offs;
+          forwarded += loop->protocol().counters().forwarded;
+          held += loop->protocol().counters().held;
+        }
+        if (presplit == Presplit::kOff) continue;
+        if (digest == 0) digest = digest_of(run.subdomains());
+        CHECK(digest_of(run.subdomains()) == digest);
+      }
+  CHECK(moves > 400);
+  CHECK(forwarded > 50);
+  CHECK(held > 10);
 }
 
 TEST_CASE("in virtual time two ranks take about half as long as one") {
