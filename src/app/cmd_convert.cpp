@@ -15,10 +15,11 @@ struct ConvertOptions {
   std::string output;
 };
 
-// Triangle's set of files has five names; writing one must not replace another that is being read.
+// Triangle's set of files has five names, a mesh in pieces has some too; writing one must not replace another that is
+// being read.
 void refuse_to_overwrite_input(const ConvertOptions& options) {
   std::error_code ignored;
-  for (const std::string& read : mesh_files(options.input))
+  for (const std::string& read : files_to_read(options.input))
     for (const std::string& written : mesh_files(options.output))
       if (std::filesystem::equivalent(read, written, ignored))
         throw InputError({written, 0}, "is the input itself", "choose another name for the output");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "base/error.hpp"
 #include "output/mesh_file.hpp"
 #include "output/plot.hpp"
 #include "pslg/poly_file.hpp"
@@ -14,8 +15,9 @@
 namespace driftmesh::app {
 namespace {
 
-const std::map<std::string, PlotColor> kColors = {
-    {"angle", PlotColor::angle}, {"area", PlotColor::area}, {"region", PlotColor::region}, {"none", PlotColor::none}};
+const std::map<std::string, PlotColor> kColors = {{"angle", PlotColor::angle},   {"area", PlotColor::area},
+                                                  {"region", PlotColor::region}, {"subdomain", PlotColor::subdomain},
+                                                  {"rank", PlotColor::rank},     {"none", PlotColor::none}};
 const std::map<std::string, PlotEdges> kEdges = {
     {"auto", PlotEdges::automatic}, {"on", PlotEdges::on}, {"off", PlotEdges::off}};
 
@@ -56,6 +58,14 @@ bool holds_input(const std::filesystem::path& path) {
   return !std::filesystem::exists(std::filesystem::path(path).replace_extension(".ele"));
 }
 
+void check_color(const PlotCommand& command, const MeshPiece& mesh) {
+  const bool tells = (command.plot.color != PlotColor::subdomain || !mesh.subdomains.empty()) &&
+                     (command.plot.color != PlotColor::rank || !mesh.ranks.empty());
+  if (!tells)
+    throw InputError({command.input, 0}, "does not tell the " + command.color + " of its triangles",
+                     "only .pvtu, .vtu and .msh files of distributed meshes do; choose another --color");
+}
+
 void run_plot(PlotCommand& command) {
   if (const std::string problem = check_box(command.box); !problem.empty()) throw CLI::ValidationError(problem);
   command.plot.color = kColors.at(command.color);
@@ -66,10 +76,10 @@ void run_plot(PlotCommand& command) {
   const std::filesystem::path input(command.input);
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
   if (command.plot.title.empty()) command.plot.title = input.filename().string();
-  if (holds_input(input))
-    plot_pslg(read_poly(command.input), command.output, command.plot);
-  else
-    plot_mesh(read_mesh(command.input), command.output, command.plot);
+  if (holds_input(input)) return plot_pslg(read_poly(command.input), command.output, command.plot);
+  const MeshPiece mesh = read_mesh(command.input);
+  check_color(command, mesh);
+  plot_mesh(mesh, command.output, command.plot);
 }
 
 }  // namespace

@@ -37,7 +37,6 @@ class Merger {
  private:
   static constexpr std::int32_t kNobody = -1;
 
-  /// Numbers go up to the number of all points at most, so a damaged one costs no memory.
   void count_points() {
     std::size_t sum = 0;
     std::int64_t largest = -1;
@@ -51,12 +50,28 @@ class Merger {
         largest = std::max(largest, number);
       }
     }
-    if (largest >= static_cast<std::int64_t>(sum))
-      throw Error("a point has number " + std::to_string(largest) + ", but all pieces together have " +
-                  std::to_string(sum) + " points: pieces are missing, or the numbers are damaged");
-    (void)narrow<std::int32_t>(largest + 1, "points of the merged mesh");
-    whole_.points.resize(at(largest + 1));
-    holder_.assign(whole_.points.size(), {kNobody, 0});
+    if (largest >= static_cast<std::int64_t>(sum)) close_ranks(largest);
+    const std::size_t count = numbers_.empty() ? at(largest + 1) : numbers_.size();
+    (void)narrow<std::int32_t>(count, "points of the merged mesh");
+    whole_.points.resize(count);
+    holder_.assign(count, {kNobody, 0});
+  }
+
+  /// Numbers that go further than there are points, as when a piece is missing, cost no memory: gaps are left out.
+  void close_ranks(std::int64_t largest) {
+    for (const MeshPiece& piece : pieces_) numbers_.insert(numbers_.end(), piece.numbers.begin(), piece.numbers.end());
+    std::sort(numbers_.begin(), numbers_.end());
+    numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+    faults_.add([&] {
+      return "numbers go up to " + std::to_string(largest) + ", but all pieces together have " +
+             std::to_string(numbers_.size()) + " points: pieces are missing";
+    });
+  }
+
+  /// The place of a point in the whole: its number, unless there are gaps.
+  [[nodiscard]] std::size_t place_of(std::int64_t number) const {
+    if (numbers_.empty()) return at(number);
+    return static_cast<std::size_t>(std::lower_bound(numbers_.begin(), numbers_.end(), number) - numbers_.begin());
   }
 
   /// An array is merged if every piece that has something to tell does.
@@ -82,10 +97,10 @@ class Merger {
     const MeshPiece& piece = pieces_[k];
     for (std::size_t v = 0; v < piece.points.size(); ++v) {
       const std::int64_t number = piece.numbers[v];
-      Holder& holder = holder_[at(number)];
+      Holder& holder = holder_[place_of(number)];
       if (holder.piece == kNobody) {
         holder = {static_cast<std::int32_t>(k), static_cast<std::int32_t>(v)};
-        take_point(piece, v, at(number));
+        take_point(piece, v, place_of(number));
       } else if (holder.piece == static_cast<std::int32_t>(k)) {
         faults_.add([&] { return point_words(number) + " is twice in piece " + std::to_string(k); });
       } else {
@@ -94,11 +109,11 @@ class Merger {
     }
   }
 
-  void take_point(const MeshPiece& piece, std::size_t v, std::size_t number) {
-    whole_.points[number] = piece.points[v];
-    if (!whole_.point_markers.empty()) whole_.point_markers[number] = piece.point_markers[v];
+  void take_point(const MeshPiece& piece, std::size_t v, std::size_t place) {
+    whole_.points[place] = piece.points[v];
+    if (!whole_.point_markers.empty()) whole_.point_markers[place] = piece.point_markers[v];
     const std::size_t width = at(whole_.attributes_per_point);
-    for (std::size_t i = 0; i < width; ++i) whole_.attributes[number * width + i] = piece.attributes[v * width + i];
+    for (std::size_t i = 0; i < width; ++i) whole_.attributes[place * width + i] = piece.attributes[v * width + i];
   }
 
   struct Holder {
@@ -124,7 +139,7 @@ class Merger {
   }
 
   void report_gaps() {
-    for (std::size_t number = 0; number < holder_.size(); ++number)
+    for (std::size_t number = 0; number < holder_.size(); ++number)  // none after close_ranks
       if (holder_[number].piece == kNobody)
         faults_.add([&] { return point_words(static_cast<std::int64_t>(number)) + " is in no piece"; });
   }
@@ -163,7 +178,7 @@ class Merger {
     const MeshPiece& piece = pieces_[run.piece];
     for (std::size_t t = run.begin; t < run.end; ++t) {
       const auto& [a, b, c] = piece.triangles[t];
-      whole_.triangles.push_back({number(piece, a), number(piece, b), number(piece, c)});
+      whole_.triangles.push_back({place(piece, a), place(piece, b), place(piece, c)});
     }
     const auto append = [&](auto& to, const auto& from) {
       to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(run.begin),
@@ -174,8 +189,8 @@ class Merger {
     if (has_ranks_) append(whole_.ranks, piece.ranks);
   }
 
-  static std::int32_t number(const MeshPiece& piece, std::int32_t v) {
-    return static_cast<std::int32_t>(piece.numbers[at(v)]);
+  [[nodiscard]] std::int32_t place(const MeshPiece& piece, std::int32_t v) const {
+    return static_cast<std::int32_t>(place_of(piece.numbers[at(v)]));
   }
 
   /// Sorted, so that copies follow each other. One that is twice in one piece stays so, for a check to find.
@@ -190,7 +205,7 @@ class Merger {
     std::vector<Entry> all;
     for (std::size_t k = 0; k < pieces_.size(); ++k)
       for (const MeshPiece::Edge& e : pieces_[k].edges)
-        all.push_back({{number(pieces_[k], e.a), number(pieces_[k], e.b), e.marker}, k});
+        all.push_back({{place(pieces_[k], e.a), place(pieces_[k], e.b), e.marker}, k});
     std::stable_sort(all.begin(), all.end(), [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
     for (std::size_t i = 0; i < all.size(); ++i)
       if (i == 0 || all[i].key() != all[i - 1].key() || all[i].piece == all[i - 1].piece)
@@ -200,7 +215,8 @@ class Merger {
   std::span<const MeshPiece> pieces_;
   MergeFaults& faults_;
   MeshPiece whole_;
-  std::vector<Holder> holder_;  // of each number
+  std::vector<std::int64_t> numbers_;  // ascending, if there are too many gaps to leave them open
+  std::vector<Holder> holder_;         // of each point
   bool has_regions_ = false;
   bool has_subdomains_ = false;
   bool has_ranks_ = false;

@@ -27,7 +27,8 @@ struct MergeFaults {
 ///
 /// Where pieces contradict each other the first one holds, and `faults` says so: a point with other coordinates, marker
 /// or attributes in another piece, a number twice in one piece, numbers below the largest that no piece has (such a
-/// point is in no triangle). Throws Error if a piece has no numbers, or numbers that cannot be.
+/// point is in no triangle; where they are many, points move up into the gaps). Throws Error if a piece has no numbers,
+/// or negative ones.
 [[nodiscard]] MeshPiece merge_pieces(std::span<const MeshPiece> pieces, MergeFaults& faults);
 
 }  // namespace driftmesh

@@ -67,4 +67,11 @@ std::vector<std::string> mesh_files(const std::string& path) {
   return {stem + ".node", stem + ".ele", stem + ".poly", stem + ".edge", stem + ".neigh"};
 }
 
+std::vector<std::string> files_to_read(const std::string& path) {
+  std::vector<std::string> files = mesh_files(path);
+  if (is_in_pieces(path))
+    for (const std::string& piece : pvtu_pieces(path)) files.push_back(piece);
+  return files;
+}
+
 }  // namespace driftmesh

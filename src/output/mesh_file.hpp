@@ -30,5 +30,7 @@ void write_mesh(const MeshPiece& mesh, const std::string& path, const WriteOptio
 
 /// The files that write_mesh would replace. Error: InputError for an unknown extension.
 [[nodiscard]] std::vector<std::string> mesh_files(const std::string& path);
+/// The files that read_mesh would look at. Errors: as of read_mesh.
+[[nodiscard]] std::vector<std::string> files_to_read(const std::string& path);
 
 }  // namespace driftmesh

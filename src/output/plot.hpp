@@ -11,10 +11,12 @@ namespace driftmesh {
 
 /// What a triangle's colour says.
 enum class PlotColor {
-  angle,   ///< its smallest angle, 0 to 60 degrees
-  area,    ///< its area, on a logarithmic scale
-  region,  ///< its region attribute
-  none     ///< nothing: all have one light colour
+  angle,      ///< its smallest angle, 0 to 60 degrees
+  area,       ///< its area, on a logarithmic scale
+  region,     ///< its region attribute
+  subdomain,  ///< the subdomain that it was made in, where the mesh tells it
+  rank,       ///< the rank that made it, where the mesh tells it
+  none        ///< nothing: all have one light colour
 };
 
 enum class PlotEdges {

@@ -67,6 +67,11 @@ class MeshPlot {
     return frame_.to_pixels(mesh_.points[static_cast<std::size_t>(vertex)]);
   }
 
+  /// Whether colours say how much; else they say which.
+  [[nodiscard]] bool is_range() const {
+    return options_.color == PlotColor::angle || options_.color == PlotColor::area;
+  }
+
   [[nodiscard]] std::string subtitle() const {
     std::string text =
         grouped_digits(mesh_.triangles.size()) + " triangles   " + grouped_digits(mesh_.points.size()) + " points";
@@ -89,9 +94,8 @@ class MeshPlot {
   // between polygons that share an edge.
   void draw_polygons() {
     std::map<int, std::vector<std::size_t>> triangles_of_shade;
-    const bool is_range = options_.color == PlotColor::angle || options_.color == PlotColor::area;
-    const double to_shade = is_range ? 64 / (values_.bar.high - values_.bar.low) : 1;
-    const double low = is_range ? values_.bar.low : 0;
+    const double to_shade = is_range() ? 64 / (values_.bar.high - values_.bar.low) : 1;
+    const double low = is_range() ? values_.bar.low : 0;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
       if (is_shown(mesh_, t, frame_.shown()))
         triangles_of_shade[static_cast<int>((values_.of_triangle[t] - low) * to_shade)].push_back(t);
@@ -99,7 +103,7 @@ class MeshPlot {
     cairo_set_line_width(cairo, 0.4);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     for (const auto& [shade, triangles] : triangles_of_shade) {
-      canvas_.set_color(values_.color_of(is_range ? low + (shade + 0.5) / to_shade : shade));
+      canvas_.set_color(values_.color_of(is_range() ? low + (shade + 0.5) / to_shade : shade));
       for (std::size_t t : triangles) add_polygon(mesh_.triangles[t]);
       cairo_fill_preserve(cairo);
       cairo_stroke(cairo);
@@ -117,8 +121,7 @@ class MeshPlot {
   }
 
   [[nodiscard]] ValueRaster::Keep what_a_pixel_keeps() const {
-    if (!is_dense_ || options_.color == PlotColor::region || options_.color == PlotColor::none)
-      return ValueRaster::Keep::last;
+    if (!is_dense_ || !is_range()) return ValueRaster::Keep::last;
     return options_.color == PlotColor::angle ? ValueRaster::Keep::minimum : ValueRaster::Keep::mean;
   }
 
@@ -201,10 +204,7 @@ class MeshPlot {
 
   void draw_legend() {
     if (options_.color == PlotColor::none) return;
-    if (options_.color == PlotColor::region) {
-      draw_swatches(canvas_, frame_, "Region (triangles)", values_.swatches);
-      return;
-    }
+    if (!is_range()) return draw_swatches(canvas_, frame_, values_.title, values_.swatches);
     ColorBar bar = values_.bar;
     if (is_dense_) bar.unit += options_.color == PlotColor::angle ? ", worst of each pixel" : ", mean of each pixel";
     draw_color_bar(canvas_, frame_, bar);

@@ -99,22 +99,24 @@ PlotValues area_values(const MeshPiece& mesh, const Box& shown) {
   return result;
 }
 
-PlotValues region_values(const MeshPiece& mesh) {
+/// Of values without an order; one class 0 if there are none.
+template <class Value>
+PlotValues class_values(const MeshPiece& mesh, const std::vector<Value>& of_triangle, const char* title) {
   PlotValues result;
-  std::map<double, std::size_t> triangles_of_region;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    ++triangles_of_region[mesh.regions.empty() ? 0 : mesh.regions[t]];
-  std::map<double, float> number;
-  for (const auto& [region, count] : triangles_of_region) {
+  result.title = title;
+  const auto value = [&](std::size_t t) { return of_triangle.empty() ? Value{0} : of_triangle[t]; };
+  std::map<Value, std::size_t> triangles_of;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) ++triangles_of[value(t)];
+  std::map<Value, float> number;
+  for (const auto& [name, count] : triangles_of) {
     const std::size_t index = number.size();
-    number[region] = static_cast<float>(index);
+    number[name] = static_cast<float>(index);
     result.swatches.push_back(
-        {category_color(index), friendly_number(region, 6) + "  (" + grouped_digits(count) + ")"});
+        {category_color(index), friendly_number(static_cast<double>(name), 6) + "  (" + grouped_digits(count) + ")"});
   }
   result.of_triangle.reserve(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    result.of_triangle.push_back(mesh.regions.empty() ? 0 : number[mesh.regions[t]]);
-  result.color_of = [](double value) { return category_color(static_cast<std::size_t>(value)); };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) result.of_triangle.push_back(number[value(t)]);
+  result.color_of = [](double index) { return category_color(static_cast<std::size_t>(index)); };
   return result;
 }
 
@@ -148,7 +150,11 @@ PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown)
     case PlotColor::area:
       return area_values(mesh, shown);
     case PlotColor::region:
-      return region_values(mesh);
+      return class_values(mesh, mesh.regions, "Region (triangles)");
+    case PlotColor::subdomain:
+      return class_values(mesh, mesh.subdomains, "Subdomain (triangles)");
+    case PlotColor::rank:
+      return class_values(mesh, mesh.ranks, "Rank (triangles)");
     case PlotColor::none:
       break;
   }

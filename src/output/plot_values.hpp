@@ -14,10 +14,11 @@ namespace driftmesh {
 
 /// What the triangles' colours are made of, and what the legend says about them.
 struct PlotValues {
-  std::vector<float> of_triangle;       ///< degrees, log10(area), or number of the region
+  std::vector<float> of_triangle;       ///< degrees, log10(area), or number of the class
   std::function<Rgb(double)> color_of;  ///< of a value
   ColorBar bar;                         ///< for angle and area
-  std::vector<Swatch> swatches;         ///< for region
+  std::string title;                    ///< of the swatches
+  std::vector<Swatch> swatches;         ///< for region, subdomain and rank
 };
 
 /// Angles of the whole mesh, and how much of it a part of the plane shows.
@@ -33,7 +34,8 @@ struct PlotSummary {
 
 [[nodiscard]] PlotSummary summarize(const MeshPiece& mesh, const Box& shown);
 
-/// The histogram and the range of areas are those of the triangles that are shown. A mesh without regions has region 0.
+/// The histogram and the range of areas are those of the triangles that are shown. A mesh without regions has region 0,
+/// one that does not tell subdomains or ranks has subdomain or rank 0.
 [[nodiscard]] PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown);
 
 }  // namespace driftmesh

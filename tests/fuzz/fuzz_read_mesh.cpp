@@ -1,4 +1,4 @@
-// Bytes to the readers of VTU and .msh: what is accepted must be a mesh whose indices and lengths fit.
+// Bytes to the readers of VTU, PVTU and .msh: what is accepted must be a mesh whose indices and lengths fit.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "output/msh_format.hpp"
+#include "output/pvtu_format.hpp"
 #include "output/vtu_format.hpp"
 
 namespace {
@@ -24,6 +25,9 @@ void require_consistent(const MeshPiece& mesh) {
   for (const auto& edge : mesh.edges) require(exists(edge.a) && exists(edge.b));
   require(mesh.regions.empty() || mesh.regions.size() == mesh.triangles.size());
   require(mesh.point_markers.empty() || mesh.point_markers.size() == mesh.points.size());
+  require(mesh.numbers.empty() || mesh.numbers.size() == mesh.points.size());
+  require(mesh.subdomains.empty() || mesh.subdomains.size() == mesh.triangles.size());
+  require(mesh.ranks.empty() || mesh.ranks.size() == mesh.triangles.size());
   require(mesh.attributes.size() == mesh.points.size() * static_cast<std::size_t>(mesh.attributes_per_point));
 }
 
@@ -43,5 +47,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   parse_and_check(parse_vtu, bytes);
   parse_and_check(parse_msh, bytes);
+  try {
+    (void)parse_pvtu("fuzz", bytes);
+  } catch (const Error&) {
+  }
   return 0;
 }

@@ -127,6 +127,41 @@ TEST_CASE("Gmsh finds every element in its physical group") {
   }
 }
 
+TEST_CASE("Gmsh shows who made the triangles") {
+  if (!gmsh_is_installed()) return;
+  const TemporaryFolder folder;
+  MeshPiece mesh = RandomMesh(23, 6, 5).mesh();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    mesh.subdomains.push_back(static_cast<std::int32_t>(t % 11));
+    mesh.ranks.push_back(static_cast<std::int32_t>(t % 11 / 4));
+  }
+  const std::string written = folder.path() / "mesh.msh";
+  const std::string script = folder.path() / "views.geo";
+  write_mesh(mesh, written);
+  // Views are loaded with the mesh; Gmsh writes each as text: one line for each element, its value last.
+  replace_file(script, "Merge \"" + written + "\";\nFor i In {0 : PostProcessing.NbViews - 1}\n" +
+                           "  Save View[i] Sprintf(\"" + (folder.path() / "view%g.pos").string() + "\", i);\nEndFor\n");
+  // Errors alone are said: for each view it warns that it has higher orders, which do not go into text.
+  run_gmsh("-v 1 '" + script + "' -0 -o '" + (folder.path() / "ignored.msh").string() + "'", folder.path());
+  for (const auto& [values, name] : {std::pair(&mesh.subdomains, "subdomain"), {&mesh.ranks, "rank"}}) {
+    CAPTURE(name);
+    std::map<int, int> expected, actual;
+    for (const std::int32_t value : *values) ++expected[value];
+    bool found = false;
+    for (std::size_t view = 0; std::filesystem::exists(folder.path() / ("view" + std::to_string(view) + ".pos"));
+         ++view) {
+      const std::string text = file_bytes(folder.path() / ("view" + std::to_string(view) + ".pos"));
+      if (text.find(std::string("\"") + name + "\"") == std::string::npos) continue;
+      found = true;
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("ST(")) ++actual[std::stoi(line.substr(line.find('{') + 1))];
+    }
+    CHECK(found);
+    CHECK(actual == expected);
+  }
+}
+
 TEST_CASE("what Gmsh writes is read with all markers and regions") {
   if (!gmsh_is_installed()) return;
   const TemporaryFolder folder;

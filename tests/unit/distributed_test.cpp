@@ -1,0 +1,333 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "distributed/wire.hpp"
+#include "distributed/write_distributed.hpp"
+#include "mesh/digest.hpp"
+#include "mesh/merge_pieces.hpp"
+#include "output/pvtu_format.hpp"
+#include "protocol/adversarial_network.hpp"
+#include "pslg/generate.hpp"
+#include "support/damage.hpp"
+#include "support/distributed_case.hpp"
+#include "support/mesh_equality.hpp"
+#include "temporary_folder.hpp"
+#include "verify/verify.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+using namespace driftmesh::test;
+using protocol::Rank;
+
+namespace {
+
+/// Two unit squares side by side, a subdomain each, as a person would write it down.
+Decomposition two_squares() {
+  Decomposition d;
+  d.points = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}};
+  d.origin = {0, kNone, 1, 2, kNone, 3};
+  d.roots = {{0, 1, 5, kNone, 0, kNone, 0, 0, false}, {1, 2, 5, kNone, 1, kNone, 0, 0, false},
+             {0, 3, 8, kNone, kNone, 0, 0, 0, false}, {2, 5, 6, kNone, 1, kNone, 0, 0, false},
+             {3, 4, 7, kNone, kNone, 0, 0, 0, false}, {4, 5, 7, kNone, kNone, 1, 0, 0, false},
+             {1, 4, 0, kNone, 0, 1, 0, 0, true}};
+  d.subdomains.resize(2);
+  list_roots(d);
+  d.point_begin = {0, 0, 0};
+  return d;
+}
+
+Pslg two_squares_input() {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {2, 0}, {0, 1}, {2, 1}};
+  pslg.segments = {{0, 1, 5}, {1, 3, 6}, {3, 2, 7}, {2, 0, 8}};
+  return pslg;
+}
+
+void split(SubdomainMesh& part, RootId global, std::initializer_list<dyadic::Path> paths) {
+  Refiner refiner(part.mesh, {});
+  const auto local = std::find(part.roots.begin(), part.roots.end(), global) - part.roots.begin();
+  for (const dyadic::Path path : paths) REQUIRE(refiner.add_split_point(static_cast<RootId>(local), path));
+}
+
+constexpr RootId kSeparator = 6;
+
+/// Both squares with their separator split alike, and no other point.
+struct TwoSquares {
+  Decomposition d = two_squares();
+  std::vector<SubdomainMesh> parts{subdomain_triangulation(d, 0), subdomain_triangulation(d, 1)};
+
+  HeldSubdomains held(std::initializer_list<SubdomainId> ids) {
+    std::vector<HeldSubdomain> list;
+    for (const SubdomainId i : ids) list.push_back({i, &parts[static_cast<std::size_t>(i)]});
+    return held_in_memory(list);
+  }
+};
+
+void talk(std::vector<Exchange*> ranks) {
+  exchange_directly(ranks);
+}
+
+template <class Run>
+std::string message_of(Run run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+bool mentions(const std::string& text, std::initializer_list<const char*> words) {
+  return std::all_of(words.begin(), words.end(),
+                     [&](const char* word) { return text.find(word) != std::string::npos; });
+}
+
+DistributedCase plate(std::int32_t subdomains) {
+  QualityBounds bounds;
+  bounds.min_angle = 20;
+  bounds.max_area = 0.05;
+  return {generate_holes({.columns = 3, .rows = 2}), subdomains, bounds};
+}
+
+/// What happens when all ranks write: each message that one of them throws, or "".
+std::vector<std::string> write_all(std::vector<Exchange*> ranks) {
+  protocol::AdversarialNetwork network(static_cast<Rank>(ranks.size()), protocol::Adversary::from_seed(3));
+  std::vector<ExchangeRunner> runners;
+  for (std::size_t r = 0; r < ranks.size(); ++r) runners.emplace_back(network.transport(static_cast<Rank>(r)));
+  std::vector<std::string> messages(ranks.size());
+  std::vector<protocol::RankStep> steps;
+  for (std::size_t r = 0; r < ranks.size(); ++r)
+    steps.push_back([&, r] {
+      try {
+        return runners[r].step(*ranks[r]);
+      } catch (const Error& error) {
+        messages[r] = error.what();
+        return protocol::StepResult::kFinished;
+      }
+    });
+  CHECK(network.run(steps).end == protocol::RunEnd::kFinished);
+  return messages;
+}
+
+std::vector<std::string> files_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// The ranks of the plate on three ranks, each about to write its piece.
+struct ThreeWriters {
+  explicit ThreeWriters(const std::string& path) {
+    for (const DistributedPiece& piece : pieces) writers.push_back(std::make_unique<WritePieces>(piece, path));
+    for (const auto& writer : writers) exchanges.push_back(writer.get());
+  }
+  DistributedCase c = plate(9);
+  std::vector<DistributedPiece> pieces = c.pieces(3, random_owners(c.parts.size(), 3, 5));
+  std::vector<std::unique_ptr<WritePieces>> writers;
+  std::vector<Exchange*> exchanges;
+};
+
+}  // namespace
+
+TEST_CASE("two squares on two ranks: numbers, owners, what is shared") {
+  TwoSquares squares;
+  for (SubdomainMesh& part : squares.parts) split(part, kSeparator, {1, 2});
+  PieceAssembly one(0, 2, squares.d, squares.held({1})), other(1, 2, squares.d, squares.held({0}));
+  talk({&one, &other});
+  const DistributedPiece right = one.piece(two_squares_input()), left = other.piece(two_squares_input());
+
+  // Points of the decomposition keep their numbers; those on the separator follow, from its lower end up.
+  CHECK(left.mesh.numbers == std::vector<std::int64_t>{0, 1, 3, 4, 6, 7});
+  CHECK(right.mesh.numbers == std::vector<std::int64_t>{1, 2, 4, 5, 6, 7});
+  CHECK(left.mesh.points[4] == Point{1, 0.25});
+  CHECK(left.mesh.points[5] == Point{1, 0.5});
+  // Subdomain 0 is left of the separator and lower at its ends: its rank owns all that is shared.
+  CHECK(left.owners == std::vector<Rank>{1, 1, 1, 1, 1, 1});
+  CHECK(right.owners == std::vector<Rank>{1, 0, 1, 0, 1, 1});
+  REQUIRE(left.neighbors.size() == 1);
+  REQUIRE(right.neighbors.size() == 1);
+  CHECK(left.neighbors[0].rank == 0);
+  CHECK(right.neighbors[0].rank == 1);
+  CHECK(left.neighbors[0].shared == std::vector<std::int32_t>{1, 3, 4, 5});
+  CHECK(right.neighbors[0].shared == std::vector<std::int32_t>{0, 2, 4, 5});
+  CHECK(left.total_points == 8);
+  CHECK(left.total_triangles == 8);
+  CHECK(left.mesh.subdomains == std::vector<std::int32_t>(4, 0));
+  CHECK(left.mesh.ranks == std::vector<std::int32_t>(4, 1));
+  // The separator is no subsegment of the input.
+  CHECK(left.mesh.edges == std::vector<MeshPiece::Edge>{{0, 1, 5}, {0, 2, 8}, {2, 3, 7}});
+  CHECK(left.mesh.point_markers == std::vector<std::int32_t>{5, 5, 8, 7, 0, 0});
+}
+
+TEST_CASE("sides of a root with different points are an error that names it and both ranks") {
+  TwoSquares squares;
+  split(squares.parts[0], kSeparator, {1, 2});
+  split(squares.parts[1], kSeparator, {1});
+  const std::string apart = message_of([&] {
+    PieceAssembly one(0, 2, squares.d, squares.held({1})), other(1, 2, squares.d, squares.held({0}));
+    talk({&one, &other});
+  });
+  CAPTURE(apart);
+  CHECK(mentions(apart, {"root 6", "rank 0 has 1 points", "rank 1 has 2 points"}));
+  const std::string together = message_of([&] { PieceAssembly(0, 1, squares.d, squares.held({0, 1})); });
+  CAPTURE(together);
+  CHECK(mentions(together, {"root 6", "rank 0 has 2 points", "rank 0 has 1 points"}));
+
+  split(squares.parts[1], kSeparator, {3});  // as many, but others
+  const std::string same_count = message_of([&] {
+    PieceAssembly one(0, 2, squares.d, squares.held({1})), other(1, 2, squares.d, squares.held({0}));
+    talk({&one, &other});
+  });
+  CAPTURE(same_count);
+  CHECK(mentions(same_count, {"root 6", "2 points on it, not the same"}));
+}
+
+TEST_CASE("a subdomain that nobody or that two ranks hold is an error that says so") {
+  TwoSquares squares;
+  const auto on_two_ranks = [&](std::initializer_list<SubdomainId> one, std::initializer_list<SubdomainId> other) {
+    return message_of([&] {
+      PieceAssembly a(0, 2, squares.d, squares.held(one)), b(1, 2, squares.d, squares.held(other));
+      talk({&a, &b});
+    });
+  };
+  CHECK(mentions(on_two_ranks({}, {1}), {"subdomain 0 is held by no rank"}));
+  CHECK(mentions(on_two_ranks({0}, {}), {"subdomain 1 is held by no rank"}));
+  CHECK(mentions(on_two_ranks({0, 1}, {1}), {"subdomain 1 is held by ranks 0 and 1"}));
+  CHECK(mentions(on_two_ranks({0}, {0, 1}), {"subdomain 0 is held by ranks 0 and 1"}));
+}
+
+TEST_CASE("a coordinate that differs in its last bit between subdomains of a rank is an error") {
+  TwoSquares squares;
+  for (SubdomainMesh& part : squares.parts) split(part, kSeparator, {1});
+  Point& last = squares.parts[1].mesh.points[squares.parts[1].mesh.points.size() - 1];
+  REQUIRE(last == Point{1, 0.5});
+  last.y = std::nextafter(last.y, 1);
+  PieceAssembly one(0, 1, squares.d, squares.held({0, 1}));
+  talk({&one});
+  CHECK(mentions(message_of([&] { (void)one.piece(two_squares_input()); }), {"point 6", "subdomain 1"}));
+}
+
+TEST_CASE("messages that do not belong into an exchange are errors that name the sender") {
+  const auto send_to_rank_0 = [](const protocol::Bytes& bytes) {
+    protocol::AdversarialNetwork network(2, protocol::Adversary::from_seed(1));
+    TwoSquares squares;
+    PieceAssembly assembly(0, 2, squares.d, squares.held({0}));
+    ExchangeRunner runner(network.transport(0));
+    network.transport(1).send(0, bytes);
+    return message_of([&] {
+      for (int k = 0; k < 100; ++k) (void)runner.step(assembly);
+    });
+  };
+  const auto message = [](std::uint32_t mark, std::uint32_t round, std::vector<std::uint32_t> content) {
+    WireWriter writer;
+    writer.value(mark);
+    writer.value(round);
+    for (const std::uint32_t word : content) writer.value(word);
+    return writer.take();
+  };
+  constexpr std::uint32_t kMark = 0x31584d44;
+  CHECK(send_to_rank_0(message(kMark, 0, {})).find("message from rank 1: ends too early") == 0);
+  CHECK(send_to_rank_0(message(kMark, 0, {4'000'000'000})).find("message from rank 1: ends too early") == 0);
+  CHECK(send_to_rank_0(message(kMark, 0, {0, 7})).find("message from rank 1: goes on after its end") == 0);
+  CHECK(send_to_rank_0(message(7, 0, {0})).find("message from rank 1: is not of an exchange") == 0);
+  CHECK(send_to_rank_0({}).find("message from rank 1: ends too early") == 0);
+  CHECK(send_to_rank_0(message(kMark, 5, {0})) == "no error");  // of a rank that is ahead: it waits
+}
+
+TEST_CASE("pieces are written, read, and are the mesh again") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "plate.pvtu";
+  ThreeWriters three(path);
+  CHECK(write_all(three.exchanges) == std::vector<std::string>(3));
+  CHECK(files_in(folder.path()) == std::vector<std::string>{"plate.pvtu", "plate_0.vtu", "plate_1.vtu", "plate_2.vtu"});
+  const std::vector<MeshPiece> read = read_pieces(path);
+  REQUIRE(read.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) check_same_mesh(read[k], three.pieces[k].mesh);
+  MergeFaults faults;
+  check_same_mesh(read_mesh(path), merge_pieces(meshes_of(three.pieces), faults));
+}
+
+TEST_CASE("a .pvtu names what its pieces hold, in their order") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "a & b.pvtu";
+  ThreeWriters three(path);
+  CHECK(write_all(three.exchanges) == std::vector<std::string>(3));
+  const std::string whole = file_bytes(path), piece = file_bytes(folder.path() / "a & b_1.vtu");
+  // The arrays with types and components, by line, of one file.
+  const auto arrays = [](const std::string& text) {
+    std::vector<std::string> found;
+    std::istringstream lines(text.substr(0, text.find("<AppendedData")));
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t type = line.find("DataArray type=");
+      if (type == std::string::npos || line.find("connectivity") != std::string::npos ||
+          line.find("offsets") != std::string::npos || line.find("types") != std::string::npos)
+        continue;
+      line = line.substr(type, line.find_first_of("/>", type) - type);
+      found.push_back(line.substr(0, line.find(" format=")));
+    }
+    return found;
+  };
+  CHECK(arrays(whole) == arrays(piece));
+  CHECK(arrays(whole).size() == 6);
+  CHECK(whole.find("<Piece Source=\"a &amp; b_2.vtu\"/>") != std::string::npos);
+  CHECK(piece.find("GlobalIds=\"global_number\"") != std::string::npos);
+}
+
+TEST_CASE("an empty rank writes a piece with the same arrays") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "plate.pvtu";
+  const DistributedCase c = plate(2);
+  const auto pieces = c.pieces(3, {0, 2});
+  std::vector<std::unique_ptr<WritePieces>> writers;
+  std::vector<Exchange*> exchanges;
+  for (const DistributedPiece& piece : pieces) writers.push_back(std::make_unique<WritePieces>(piece, path));
+  for (const auto& writer : writers) exchanges.push_back(writer.get());
+  CHECK(write_all(exchanges) == std::vector<std::string>(3));
+  CHECK(read_pieces(path)[1].points.empty());
+  CHECK(verify_pieces(read_pieces(path), &c.input, {}).accepted());
+  CHECK(file_bytes(folder.path() / "plate_1.vtu").find("Name=\"subdomain\"") != std::string::npos);
+}
+
+TEST_CASE("if one rank cannot write, no file appears and every rank says why") {
+  const TemporaryFolder folder;
+  ThreeWriters three(folder.path() / "plate.pvtu");
+  std::filesystem::create_directory(folder.path() / "plate_1.vtu");  // where a file should go
+  for (const std::string& message : write_all(three.exchanges)) {
+    CAPTURE(message);
+    CHECK(mentions(message, {"rank 1: ", "plate_1.vtu"}));
+  }
+  three.exchanges.clear();
+  three.writers.clear();
+  CHECK(files_in(folder.path()) == std::vector<std::string>{"plate_1.vtu"});
+}
+
+TEST_CASE("rank 0 writes the whole, and what goes wrong is known to all") {
+  const TemporaryFolder folder;
+  const DistributedCase c = plate(9);
+  const auto pieces = c.pieces(3, random_owners(c.parts.size(), 3, 5));
+  std::vector<GatherPieces> gathers(pieces.begin(), pieces.end());
+  CHECK(write_all({&gathers[0], &gathers[1], &gathers[2]}) == std::vector<std::string>(3));
+  CHECK(gathers[1].whole().points.empty());
+  MergeFaults faults;
+  check_same_mesh(gathers[0].whole(), merge_pieces(meshes_of(pieces), faults));
+
+  const auto write = [&](const std::string& name) {
+    std::vector<std::unique_ptr<WriteWhole>> writers;
+    for (std::size_t r = 0; r < 3; ++r)
+      writers.push_back(std::make_unique<WriteWhole>(pieces[r], gathers[r].whole(), folder.path() / name));
+    return write_all({writers[0].get(), writers[1].get(), writers[2].get()});
+  };
+  for (const char* name : {"plate.vtu", "plate.msh", "plate.ele"}) {
+    CAPTURE(name);
+    CHECK(write(name) == std::vector<std::string>(3));
+    CHECK(mesh_digest(read_mesh(folder.path() / name)) == mesh_digest(gathers[0].whole()));
+  }
+  CHECK(verify(read_mesh(folder.path() / "plate.msh"), c.input, {}).accepted());
+  for (const std::string& message : write("no-such-folder/plate.vtu"))
+    CHECK(mentions(message, {"rank 0: ", "no-such"}));
+}

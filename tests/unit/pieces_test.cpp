@@ -1,0 +1,211 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "mesh/merge_pieces.hpp"
+#include "output/mesh_file.hpp"
+#include "output/pvtu_format.hpp"
+#include "support/damage.hpp"
+#include "support/mesh_equality.hpp"
+#include "temporary_folder.hpp"
+#include "verify/verify.hpp"
+
+// Pieces written down by hand: two unit squares side by side that share the points 1, 4 and, halfway, 6.
+
+using namespace driftmesh;
+using namespace driftmesh::test;
+
+namespace {
+
+MeshPiece left_square() {
+  MeshPiece mesh;
+  mesh.points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {1, 0.5}};
+  mesh.numbers = {0, 1, 3, 4, 6};
+  mesh.triangles = {{0, 1, 4}, {0, 4, 2}, {2, 4, 3}};
+  mesh.edges = {{0, 1, 5}, {3, 2, 7}, {2, 0, 8}};
+  mesh.subdomains = {0, 0, 0};
+  mesh.ranks = {0, 0, 0};
+  return mesh;
+}
+
+MeshPiece right_square() {
+  MeshPiece mesh;
+  mesh.points = {{1, 0}, {2, 0}, {1, 1}, {2, 1}, {1, 0.5}};
+  mesh.numbers = {1, 2, 4, 5, 6};
+  mesh.triangles = {{0, 1, 4}, {1, 3, 4}, {4, 3, 2}};
+  mesh.edges = {{0, 1, 5}, {1, 3, 6}, {3, 2, 7}};
+  mesh.subdomains = {1, 1, 1};
+  mesh.ranks = {1, 1, 1};
+  return mesh;
+}
+
+Pslg outline() {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
+  pslg.segments = {{0, 1, 5}, {1, 2, 5}, {2, 3, 6}, {3, 4, 7}, {4, 5, 7}, {5, 0, 8}};
+  return pslg;
+}
+
+VerifyReport check(const std::vector<MeshPiece>& pieces) {
+  const Pslg input = outline();
+  return verify_pieces(pieces, &input, {});
+}
+
+void write_two(const std::string& path) {
+  write_mesh(left_square(), pvtu_piece_path(path, 0));
+  write_mesh(right_square(), pvtu_piece_path(path, 1));
+  write_pvtu(path, 2, arrays_of(left_square()));
+}
+
+}  // namespace
+
+TEST_CASE("two pieces that fit are one mesh") {
+  const VerifyReport report = check({left_square(), right_square()});
+  CHECK(report.accepted());
+  CHECK(report.pieces == 2);
+  CHECK(report.subdomains == 2);
+  CHECK(report.interfaces == 1);
+  CHECK(report.interface_edges == 2);
+  CHECK(report.rank_interface_edges == 2);
+  CHECK(report.points == 7);
+}
+
+TEST_CASE("a split point that one side lacks is found") {
+  MeshPiece right = right_square();
+  right.points.pop_back();
+  right.numbers.pop_back();
+  right.triangles = {{0, 1, 3}, {0, 3, 2}};
+  right.subdomains.pop_back();
+  right.ranks.pop_back();
+  const VerifyReport report = check({left_square(), right});
+  CHECK(!report.accepted());
+  CHECK(report.findings.count(Flaw::open_edge) == 3);
+  CHECK(report.findings.count(Flaw::pieces_disagree) == 0);
+}
+
+TEST_CASE("a coordinate that differs in its last bit is found") {
+  MeshPiece right = right_square();
+  right.points[4].y = std::nextafter(0.5, 1);
+  const VerifyReport report = check({left_square(), right});
+  CHECK(report.findings.count(Flaw::pieces_disagree) == 1);
+  CHECK(report.findings.messages(Flaw::pieces_disagree)[0] ==
+        "point 6 has other coordinates in piece 0 than in piece 1");
+}
+
+TEST_CASE("other markers and attributes of the same point are found") {
+  MeshPiece left = left_square(), right = right_square();
+  for (MeshPiece* piece : {&left, &right}) {
+    piece->point_markers = {1, 1, 1, 1, 1};
+    piece->attributes_per_point = 2;
+    piece->attributes.assign(10, 0.25);
+  }
+  CHECK(check({left, right}).findings.count(Flaw::pieces_disagree) == 0);
+  right.point_markers[2] = 3;
+  right.attributes[9] = 0.5;
+  const VerifyReport report = check({left, right});
+  CHECK(report.findings.count(Flaw::pieces_disagree) == 2);
+  CHECK(report.findings.messages(Flaw::pieces_disagree)[0] == "point 4 has other marker in piece 0 than in piece 1");
+  CHECK(report.findings.messages(Flaw::pieces_disagree)[1] ==
+        "point 6 has other attributes in piece 0 than in piece 1");
+}
+
+TEST_CASE("points of different numbers at one place of an interface are found") {
+  MeshPiece right = right_square();
+  right.numbers[4] = 7;
+  const VerifyReport report = check({left_square(), right});
+  CHECK(report.findings.count(Flaw::duplicate_point) == 1);
+  CHECK(report.findings.count(Flaw::open_edge) == 4);
+}
+
+TEST_CASE("a missing piece is found") {
+  const VerifyReport report = check({left_square(), MeshPiece{}});
+  CHECK(report.findings.messages(Flaw::pieces_disagree)[0] ==
+        "numbers go up to 6, but all pieces together have 5 points: pieces are missing");
+  CHECK(report.findings.count(Flaw::open_edge) == 2);
+  MeshPiece more = left_square();  // with points that no triangle uses: one number is missing, not most of them
+  more.points.insert(more.points.end(), {{5, 5}, {6, 6}, {7, 7}});
+  more.numbers.insert(more.numbers.end(), {2, 7, 8});
+  CHECK(check({more, MeshPiece{}, left_square()}).findings.messages(Flaw::pieces_disagree)[0] ==
+        "point 5 is in no piece");
+  MeshPiece far = left_square();
+  far.numbers[0] = 700'000'000'000;
+  CHECK(check({far, right_square()})
+            .findings.messages(Flaw::pieces_disagree)[0]
+            .starts_with("numbers go up to 700000000000"));
+  far.numbers[0] = -1;
+  CHECK_THROWS_WITH_AS(check({far, right_square()}), doctest::Contains("number -1"), Error);
+  far.numbers.clear();
+  CHECK_THROWS_WITH_AS(check({far, right_square()}), doctest::Contains("piece 0 does not tell"), Error);
+}
+
+TEST_CASE("a piece that is there twice is found") {
+  const VerifyReport report = check({left_square(), right_square(), right_square()});
+  CHECK(report.findings.count(Flaw::duplicate_triangle) == 3);
+}
+
+TEST_CASE("a number twice in one piece is found") {
+  MeshPiece left = left_square();
+  left.numbers[4] = 0;
+  CHECK(check({left, right_square()}).findings.messages(Flaw::pieces_disagree)[0] == "point 0 is twice in piece 0");
+}
+
+TEST_CASE("a subsegment between two pieces is one; with another marker it is two") {
+  MeshPiece left = left_square(), right = right_square();
+  left.edges.push_back({1, 4, 9});
+  left.edges.push_back({4, 3, 9});
+  right.edges.push_back({2, 4, 9});
+  right.edges.push_back({0, 4, 9});
+  CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).accepted());
+  CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).subsegments == 8);
+  right.edges.back().marker = 3;
+  CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).findings.count(Flaw::duplicate_subsegment) == 1);
+  left.edges.push_back({4, 3, 9});
+  CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).findings.count(Flaw::duplicate_subsegment) == 2);
+}
+
+TEST_CASE("an edge that is not Delaunay is a flaw inside a subdomain, and counted between two") {
+  MeshPiece mesh;
+  mesh.points = {{0, 0}, {2, 0}, {1, 0.5}, {1, -0.5}};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+  mesh.edges = {{1, 2, 1}, {2, 0, 1}, {0, 3, 1}, {3, 1, 1}};
+  CHECK(verify(mesh, {}).findings.count(Flaw::not_delaunay) == 1);
+  mesh.subdomains = {4, 4};
+  CHECK(verify(mesh, {}).findings.count(Flaw::not_delaunay) == 1);
+  mesh.subdomains = {4, 9};
+  const VerifyReport report = verify(mesh, {});
+  CHECK(report.accepted());
+  CHECK(report.interface_edges_not_delaunay == 1);
+}
+
+TEST_CASE("files of pieces: what is missing, cut off or damaged is refused by name") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "two.pvtu", piece = folder.path() / "two_1.vtu";
+  write_two(path);
+  MergeFaults faults;
+  const std::vector<MeshPiece> pieces{left_square(), right_square()};
+  check_same_mesh(read_mesh(path), merge_pieces(pieces, faults));
+
+  const DamageCount cut = read_truncated(path, [&] { (void)read_mesh(path); });
+  CHECK(cut.accepted <= 1);  // the end of the last line
+  const DamageCount cut_piece = read_truncated(piece, [&] { (void)read_mesh(path); });
+  CHECK(cut_piece.accepted <= static_cast<int>(std::strlen("\n  </AppendedData>\n</VTKFile>\n")));
+  (void)read_flipped(path, 300, 5, [&] { (void)read_mesh(path); });
+  (void)read_flipped(piece, 1000, 6, [&] { (void)read_mesh(path); });
+  std::filesystem::remove(piece);
+  CHECK_THROWS_WITH_AS((void)read_mesh(path), doctest::Contains("two_1.vtu"), Error);
+  CHECK_THROWS_WITH_AS(write_mesh(left_square(), path), doctest::Contains("mesh in pieces"), InputError);
+}
+
+TEST_CASE("pieces that do not fit together are read for a check, and else refused") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "two.pvtu";
+  write_two(path);
+  MeshPiece right = right_square();
+  right.points[4].y = std::nextafter(0.5, 1);
+  write_mesh(right, pvtu_piece_path(path, 1));
+  CHECK(check(read_pieces(path)).findings.count(Flaw::pieces_disagree) == 1);
+  CHECK_THROWS_WITH_AS((void)read_mesh(path), doctest::Contains("point 6 has other coordinates"), InputError);
+}
