@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""Measures driftmesh on real ranks, and prints tables in Markdown for docs/benchmarks.md.
+
+Each run is an mpirun of its own; what is printed are medians over repetitions, in which the compared cases take turns,
+so that a busy moment of the machine hits all of them.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                   OMPI_MCA_rmaps_base_oversubscribe="1")
+PROJECT = pathlib.Path(__file__).resolve().parent.parent
+AREAS = {"pipe": 187530.34, "cylinder_flow": 1399.60745, "chesapeake": 36722004389.78}
+CELLS = 7.04e6  # the area bound is the domain's area over this: about 10.9 million triangles
+# From the input in memory to the distributed mesh in memory.
+MESHING_STAGES = ("triangulate", "decompose", "map", "share", "refine", "assemble")
+
+
+class Bench:
+    def __init__(self, options, folder):
+        self.options = options
+        self.folder = pathlib.Path(folder)
+
+    def input_of(self, model):
+        path = pathlib.Path(self.options.data) / f"{model}.poly"
+        if path.exists():
+            return path
+        kind = {"pipe": "pipe", "cylinder_flow": "cylinder-flow", "chesapeake": "bay"}[model]
+        path = self.folder / f"{model}.poly"
+        if not path.exists():
+            subprocess.run([self.options.program, "generate", kind, "-o", path], check=True)
+        return path
+
+    def area_of(self, model, cells):
+        if (pathlib.Path(self.options.data) / f"{model}.poly").exists():
+            return AREAS[model] / cells
+        first = self.mesh(1, model, None)
+        return first["mesh"]["total_area"] / cells
+
+    def mesh(self, ranks, model, area, *arguments, output=False):
+        record = self.folder / "run.json"
+        command = ["mpirun", "-n", str(ranks), self.options.program, "mesh", self.input_of(model), "--quiet", "--json",
+                   record, *arguments]
+        if area:
+            command += ["--area", repr(area)]
+        if output:
+            command += ["-o", self.folder / "mesh.pvtu"]
+        subprocess.run(list(map(str, command)), check=True, env=ENVIRONMENT)
+        return json.loads(record.read_text())
+
+    def take_turns(self, cases):
+        """The records of each case, a list a case; cases are functions that make one run."""
+        records = [[] for _ in cases]
+        for _ in range(self.options.repetitions):
+            for case, list_of_case in zip(cases, records):
+                list_of_case.append(case())
+        return records
+
+
+def seconds_of_refinement(run):
+    return max(sum(rank["seconds"].values()) for rank in run["parts"]["ranks"])
+
+
+def rate(run):
+    return run["mesh"]["triangles"] / seconds_of_refinement(run) / 1e6
+
+
+def meshing(run):
+    return sum(run["work"]["seconds_by_stage"].get(stage, 0) for stage in MESHING_STAGES)
+
+
+def share_of(kinds, run):
+    """Of the ranks' time, in per cent."""
+    spent = sum(rank["seconds"][kind] for rank in run["parts"]["ranks"] for kind in kinds)
+    return 100 * spent / sum(sum(rank["seconds"].values()) for rank in run["parts"]["ranks"])
+
+
+def total(run, counter):
+    return sum(rank[counter] for rank in run["parts"]["ranks"])
+
+
+def median(runs, figure):
+    return statistics.median(figure(run) for run in runs)
+
+
+def print_table(title, columns, rows):
+    print(f"{title}\n\n| {' | '.join(columns)} |\n|{'---|' * len(columns)}")
+    for row in rows:
+        print(f"| {' | '.join(map(str, row))} |")
+    print(flush=True)
+
+
+def models(bench):
+    rows = []
+    for model in AREAS:
+        area = bench.area_of(model, bench.options.cells)
+        ranks = bench.options.ranks
+        records = bench.take_turns([lambda n=n: bench.mesh(n, model, area, output=True) for n in ranks])
+        alone = median(records[0], rate)
+        for n, runs in zip(ranks, records):
+            digests = {run["mesh"]["digest"] for run in runs}
+            rows.append([model, n, runs[0]["parts"]["subdomains"], f"{runs[0]['mesh']['triangles']:,}",
+                         f"{median(runs, rate):.1f}", f"{median(runs, rate) / alone * ranks[0] / n:.2f}",
+                         f"{median(runs, lambda r: r['work']['seconds_by_stage'].get('decompose', 0)):.3f}",
+                         f"{median(runs, lambda r: r['work']['seconds_by_stage']['assemble']):.3f}",
+                         f"{median(runs, meshing):.2f}", total(runs[0], "splits_sent"),
+                         digests.pop() if len(digests) == 1 else f"{len(digests)} different"])
+    print_table("Real ranks, interfaces cut to size beforehand (`models`); the times are rank 0's, in seconds:",
+                ["input", "ranks", "subdomains", "triangles", "million triangles/s", "efficiency", "decompose",
+                 "assemble", "input to distributed mesh", "SPLITs", "digest"], rows)
+
+
+def aggregation(bench):
+    thresholds = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024]
+    area = bench.area_of("pipe", bench.options.cells)
+    records = bench.take_turns([lambda k=k: bench.mesh(2, "pipe", area, "-n", 4000, "--presplit", "off",
+                                                       "--mapping", bench.options.mapping, "--aggregation", k)
+                                for k in thresholds])
+    rows = [[k, total(runs[0], "splits_sent"), total(runs[0], "split_messages_sent"), f"{median(runs, rate):.1f}",
+             f"{median(runs, lambda r: share_of(('sending', 'polling'), r)):.2f} %",
+             f"{median(runs, lambda r: share_of(('idle',), r)):.2f} %"] for k, runs in zip(thresholds, records)]
+    print_table("Aggregation: pipe in 4,000 subdomains on 2 ranks, the protocol in full (`aggregation`; the paper's "
+                f"Figure 7), mapping {bench.options.mapping}:",
+                ["SPLITs a message at most", "SPLITs", "messages", "million triangles/s", "sending and polling", "idle"],
+                rows)
+
+
+def breakdown(bench):
+    rows = []
+    for model in AREAS:
+        area = bench.area_of(model, bench.options.cells)
+        runs = [bench.mesh(2, model, area, "-n", 4000, "--presplit", "off") for _ in range(bench.options.repetitions)]
+        run = sorted(runs, key=seconds_of_refinement)[len(runs) // 2]
+        for rank, figures in enumerate(run["parts"]["ranks"]):
+            rows.append([model, rank, f"{figures['triangles']:,}", figures["splits_sent"],
+                         *(f"{seconds:.3f}" for seconds in figures["seconds"].values())])
+    print_table("Where the time of each rank goes, in seconds: 4,000 subdomains, the protocol in full, the median run "
+                "(`breakdown`; the paper's Figure 11):",
+                ["input", "rank", "triangles", "SPLITs sent", "computing", "sending", "polling", "balancing", "idle"],
+                rows)
+
+
+def size(bench):
+    rows = []
+    for million in bench.options.sizes:
+        for presplit in "on", "off":
+            run = bench.mesh(2, "pipe", bench.area_of("pipe", CELLS * million / 10.93), "--presplit", presplit)
+            rows.append([f"{run['mesh']['triangles']:,}", presplit, run["parts"]["subdomains"],
+                         total(run, "splits_sent"), f"{rate(run):.1f}", f"{seconds_of_refinement(run):.1f}",
+                         f"{run['work']['peak_bytes_refining'] / run['mesh']['triangles']:.1f}"])
+    print_table("Size: pipe on 2 ranks, one run each (`size`):",
+                ["triangles", "presplit", "subdomains", "SPLITs", "million triangles/s", "refinement s",
+                 "peak bytes/triangle"], rows)
+
+
+def machine():
+    name = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo", encoding="ascii")
+                 if line.startswith("model name")), "unknown processor")
+    return f"{name}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}"
+
+
+def main():
+    suites = {suite.__name__: suite for suite in (models, aggregation, breakdown, size)}
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("suite", nargs="*", help=f"of {', '.join(suites)}; all when absent")
+    parser.add_argument("--program", default=PROJECT / "build/release/driftmesh")
+    parser.add_argument("--data", default=PROJECT.parent / "shared/data",
+                        help="folder of the models; generated inputs stand in for missing ones")
+    parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2], help="models: numbers of ranks")
+    parser.add_argument("--cells", type=float, default=CELLS, help="models: area bound = area of the domain over this")
+    parser.add_argument("--mapping", default="graph", help="aggregation: round-robin makes every interface a border")
+    parser.add_argument("--sizes", type=float, nargs="+", default=[43, 200], help="size: millions of triangles")
+    options = parser.parse_args()
+    if unknown := set(options.suite) - set(suites):
+        parser.error(f"no suite {', '.join(sorted(unknown))}")
+    print(f"{machine()}\n", flush=True)
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(options, folder)
+        for name, suite in suites.items():
+            if not options.suite or name in options.suite:
+                suite(bench)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
