@@ -205,6 +205,7 @@ class ParallelMesh {
     RankReport own;
     own.rank.triangles = loop_->triangles();
     own.rank.subdomains = static_cast<std::int32_t>(loop_->subdomains().size());
+    own.rank.interface_splits = loop_->interface_splits();
     own.rank.protocol = loop_->protocol().counters();
     own.rank.times = loop_->times();
     own.rank.peak = peak_memory();

@@ -48,6 +48,7 @@ struct RunRecord : MeshFacts {
   struct Rank {
     std::int64_t triangles = 0;
     std::int32_t subdomains = 0;  ///< at the end
+    std::int64_t interface_splits = 0;  ///< points that refinement put on interfaces
     protocol::ProtocolCounters protocol;
     RankTimes times;
     std::uint64_t peak = 0;

@@ -84,6 +84,7 @@ Json parts_json(const RunRecord& run) {
                        {"polling", r.times.polling},
                        {"balancing", r.times.balancing},
                        {"idle", r.times.idle}}},
+                     {"interface_splits", r.interface_splits},
                      {"splits_sent", r.protocol.splits_sent},
                      {"splits_handled", r.protocol.splits_handled},
                      {"split_messages_sent", r.protocol.batches_sent},

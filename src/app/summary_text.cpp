@@ -114,16 +114,17 @@ void add_rank_table(const RunRecord& run, Text out) {
 void add_ranks(const RunRecord& run, Text out) {
   if (run.ranks.empty()) return;
   protocol::ProtocolCounters sum;
+  std::int64_t splits = 0;
   for (const RunRecord::Rank& r : run.ranks) {
+    splits += r.interface_splits;
     sum.splits_sent += r.protocol.splits_sent;
     sum.batches_sent += r.protocol.batches_sent;
   }
   fmt::format_to(out, "parts        {} on {}; interfaces {} before refinement\n", counted(run.subdomains, "subdomain"),
                  counted(static_cast<std::int64_t>(run.ranks.size()), "rank"),
                  run.presplit ? "cut to size" : "not cut");
-  if (run.ranks.size() > 1)
-    fmt::format_to(out, "             {} sent between ranks, in {}\n", counted(sum.splits_sent, "split point"),
-                   counted(sum.batches_sent, "message"));
+  fmt::format_to(out, "             {} put on interfaces by refinement, {} sent between ranks in {}\n",
+                 counted(splits, "split point"), grouped(sum.splits_sent), counted(sum.batches_sent, "message"));
   add_rank_table(run, out);
 }
 

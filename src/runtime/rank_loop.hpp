@@ -87,6 +87,8 @@ class BasicRankLoop {
   [[nodiscard]] const std::map<SubdomainId, Subdomain>& subdomains() const { return subdomains_; }
   [[nodiscard]] const RankTimes& times() const { return times_; }
   [[nodiscard]] std::int64_t triangles() const { return triangles_; }  ///< of all subdomains here
+  /// Points that refinement put on interfaces here, whoever holds the other side.
+  [[nodiscard]] std::int64_t interface_splits() const { return interface_splits_; }
   /// Whether something here is work, or will become some.
   [[nodiscard]] bool at_work() const {
     return !agenda_.empty() || protocol_.aggregated() > 0 || protocol_.held_groups() > 0;
@@ -144,6 +146,7 @@ class BasicRankLoop {
     transport_.spend(static_cast<double>(done.points) * costs_.point +
                      (done.prepared > 0 ? costs_.start + static_cast<double>(done.prepared) * costs_.prepared : 0));
     reschedule(subdomain);
+    interface_splits_ += static_cast<std::int64_t>(said_.size());
     for (const protocol::SplitEntry& entry : said_) tell_across(*id, entry);
     if (observers_.after_slice) observers_.after_slice(*this);
     return true;
@@ -190,6 +193,7 @@ class BasicRankLoop {
   Agenda agenda_;
   std::vector<protocol::SplitEntry> said_;
   std::int64_t triangles_ = 0;
+  std::int64_t interface_splits_ = 0;
   RankTimes times_;
   double clock_;  // when time was charged last
   Watchdog watchdog_{kWatchdogSeconds};

@@ -417,6 +417,7 @@ class Mesh(Cli):
             run = json.loads((self.folder / "run.json").read_text())
             digests.add(run["mesh"]["digest"])
             self.assertEqual(len(run["parts"]["ranks"]), ranks)
+            self.assertEqual(sum(r["interface_splits"] for r in run["parts"]["ranks"]), 0)
             self.assertEqual(sum(r["triangles"] for r in run["parts"]["ranks"]), run["mesh"]["triangles"])
             self.assertEqual(sum(r["subdomains"] for r in run["parts"]["ranks"]), 30)
             self.assertIn(f"digest         {run['mesh']['digest']}",

@@ -75,11 +75,13 @@ TEST_CASE("The summary of a run on ranks has a row a rank, or the extremes of ma
   run.subdomains = 40;
   run.ranks.resize(2);
   run.ranks[1].triangles = 7654321;
+  run.ranks[0].interface_splits = 30;
   run.ranks[1].protocol.splits_sent = 12;
   run.ranks[1].protocol.batches_sent = 1;
   std::string text = summary_text(run);
   for (const char* expected :
-       {"40 subdomains on 2 ranks", "12 split points sent between ranks, in 1 message", "7,654,321"})
+       {"40 subdomains on 2 ranks",
+        "30 split points put on interfaces by refinement, 12 sent between ranks in 1 message", "7,654,321"})
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
   run.ranks.resize(100);
   run.ranks[77].times.computing = 12.5;
