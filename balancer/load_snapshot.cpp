@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace driftmesh::balancer {
 namespace {
@@ -15,6 +16,11 @@ RankState& rank_of(LoadSnapshot& snapshot, Rank rank) {
 }
 
 }  // namespace
+
+bool leaves_before(const SubdomainState& a, const SubdomainState& b) {
+  return std::tuple(weight_class(a), -a.turn, -a.remaining, a.id) <
+         std::tuple(weight_class(b), -b.turn, -b.remaining, b.id);
+}
 
 void sum_up(LoadSnapshot& snapshot) {
   for (RankState& rank : snapshot.ranks) rank.remaining = 0;

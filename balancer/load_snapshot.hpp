@@ -40,7 +40,17 @@ struct SubdomainState {
   Rank owner = 0;
   double remaining = 0;     ///< triangles still to be made, predicted
   std::uint64_t bytes = 0;  ///< to move it
+  std::int32_t turn =
+      0;  ///< its place in the owner's order of work: 0 is being worked on, the last will be there longest
 };
+
+/// Its bytes in units of 64 KiB: below that, one is as easily moved as the other.
+[[nodiscard]] inline std::uint64_t weight_class(const SubdomainState& s) {
+  return s.bytes >> 16;
+}
+
+/// Whether `a` leaves its rank more easily than `b`: what is light, and of this what will be worked on last.
+[[nodiscard]] bool leaves_before(const SubdomainState& a, const SubdomainState& b);
 
 struct RankState {
   double speed = 0;      ///< triangles a second, measured; 0: not known

@@ -6,7 +6,11 @@ std::vector<Move> Policy::plan(const LoadSnapshot&, Rank) const {
   return {};
 }
 
-std::optional<Rank> Policy::ask(const LoadSnapshot&, Rank, const std::vector<bool>&) const {
+bool Policy::runs_low(double) const {
+  return false;
+}
+
+std::optional<Rank> Policy::victim(const LoadSnapshot&, Rank, const std::vector<bool>&) const {
   return std::nullopt;
 }
 

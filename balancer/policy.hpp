@@ -12,7 +12,7 @@ enum class Placement {
   kNobody,      ///< nothing is reported, nothing moves
   kLeader,      ///< all report to rank 0, which plans for all
   kNeighbours,  ///< ranks whose subdomains touch report to each other; each plans for what it owns
-  kRequests,    ///< a rank that will soon be idle asks another one for work
+  kRequests,    ///< a rank that will soon be idle asks for work; rank 0 finds it a rank that has much
 };
 
 /// Decides who should work on what. Its functions depend on their arguments alone: the same snapshot yields the same
@@ -29,10 +29,12 @@ class Policy {
   /// to another rank than its owner.
   [[nodiscard]] virtual std::vector<Move> plan(const LoadSnapshot& snapshot, Rank self) const;
 
-  /// kRequests: the rank that `self` should ask for work now, if any. `willing` says of each rank whether it may be
-  /// asked (it has not just refused).
-  [[nodiscard]] virtual std::optional<Rank> ask(const LoadSnapshot& snapshot, Rank self,
-                                                const std::vector<bool>& willing) const;
+  /// kRequests: whether a rank with so many seconds of work left should ask for more.
+  [[nodiscard]] virtual bool runs_low(double seconds) const;
+  /// kRequests: the rank that `thief` should get work from, if any. `able` says of each rank whether it has something
+  /// to give. The snapshot lists no subdomains.
+  [[nodiscard]] virtual std::optional<Rank> victim(const LoadSnapshot& snapshot, Rank thief,
+                                                   const std::vector<bool>& able) const;
   /// kRequests: what `self` gives to a rank that has asked; of what the snapshot lists as its own.
   [[nodiscard]] virtual std::vector<Move> give(const LoadSnapshot& snapshot, Rank self, Rank to) const;
 

@@ -2,7 +2,6 @@
 #include <map>
 #include <memory>
 #include <set>
-#include <tuple>
 
 #include "balancer/parameters.hpp"
 #include "balancer/policy.hpp"
@@ -32,56 +31,96 @@ std::vector<std::set<Rank>> touching_ranks(const LoadSnapshot& snapshot) {
   return touching;
 }
 
+/// One rank's part of one round of diffusion.
+class Round {
+ public:
+  Round(const LoadSnapshot& snapshot, Rank self, double rate)
+      : snapshot_(snapshot),
+        self_(self),
+        rate_(rate),
+        touching_(touching_ranks(snapshot)),
+        speeds_(assumed_speeds(snapshot.ranks)),
+        remaining_(snapshot.ranks[index(self)].remaining) {}
+
+  std::vector<Move> moves() {
+    for (const Rank other : touching_[index(self_)]) send_to(other);
+    return moves_;
+  }
+
+ private:
+  [[nodiscard]] double time(Rank r) const { return snapshot_.ranks[index(r)].remaining / speeds_[index(r)]; }
+
+  // What flows in this round, in triangles: so little that a rank to which all its neighbours send does not get more
+  // than evens it out.
+  [[nodiscard]] double flow(Rank from, Rank to) const {
+    const auto degree = std::max(touching_[index(from)].size(), touching_[index(to)].size());
+    return rate_ * std::max(0.0, time(from) - time(to)) * std::min(speeds_[index(from)], speeds_[index(to)]) /
+           static_cast<double>(degree + 1);
+  }
+
+  void send_to(Rank other) {
+    const double wanted = flow(self_, other);
+    if (wanted <= 0) return;
+    double sent = 0;
+    double from_others = 0;
+    for (const Rank r : touching_[index(other)])
+      if (r != self_) from_others += flow(r, other);
+    for (const SubdomainState& s : easiest_first(other)) {
+      // A flow that is smaller than any subdomain is rounded up if that still evens out, whatever the others send.
+      const double then = time(other) + (from_others + sent + s.remaining) / speeds_[index(other)];
+      const bool rounded_up = sent == 0 && then < (remaining_ - s.remaining) / speeds_[index(self_)];
+      if (sent + s.remaining > wanted && !rounded_up) continue;
+      sent += s.remaining;
+      remaining_ -= s.remaining;
+      gone_.insert(s.id);
+      moves_.push_back({s.id, other});
+    }
+  }
+
+  // All that is here but what is worked on now: what is light; of this what has most of its border with `other` and
+  // least with what stays.
+  [[nodiscard]] std::vector<SubdomainState> easiest_first(Rank other) const {
+    std::map<SubdomainId, double> attachment;
+    std::vector<SubdomainState> own;
+    for (const SubdomainState& s : snapshot_.subdomains) {
+      if (s.owner != self_ || s.turn == 0 || gone_.contains(s.id)) continue;
+      own.push_back(s);
+      for (const Neighbour& n : (*snapshot_.layout)[s.id].neighbours) {
+        const Rank owner = owner_of(snapshot_, n.subdomain);
+        attachment[s.id] += owner == other ? n.length : owner == self_ ? -n.length : 0;
+      }
+    }
+    std::sort(own.begin(), own.end(), [&](const SubdomainState& a, const SubdomainState& b) {
+      const double one = attachment[a.id], other_one = attachment[b.id];
+      if (one == other_one || weight_class(a) != weight_class(b)) return leaves_before(a, b);
+      return one > other_one;
+    });
+    return own;
+  }
+
+  const LoadSnapshot& snapshot_;
+  Rank self_;
+  double rate_;
+  std::vector<std::set<Rank>> touching_;
+  std::vector<double> speeds_;
+  double remaining_;  // here, after moves_
+  std::set<SubdomainId> gone_;
+  std::vector<Move> moves_;
+};
+
 /// Work flows from a rank to the ranks that its subdomains touch and that would finish earlier, in proportion to the
 /// difference (first-order diffusion, Cybenko 1989, for ranks of different speeds as by Elsaesser, Monien and Preis
-/// 2002). The shares are small enough that no rank can receive more than evens it out, whatever its other neighbours
-/// do; so differences below some subdomains' worth remain.
+/// 2002). Differences below some subdomains' worth remain.
 class Diffusion final : public Policy {
  public:
   explicit Diffusion(double rate) : rate_(rate) {}
 
   [[nodiscard]] Placement placement() const override { return Placement::kNeighbours; }
-
   [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank self) const override {
-    const auto touching = touching_ranks(snapshot);
-    const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
-    std::vector<Move> moves;
-    std::set<SubdomainId> gone;
-    for (const Rank other : touching[index(self)]) {
-      const double ahead = snapshot.ranks[index(self)].remaining / speeds[index(self)] -
-                           snapshot.ranks[index(other)].remaining / speeds[index(other)];
-      const auto degree = std::max(touching[index(self)].size(), touching[index(other)].size());
-      double flow =
-          rate_ * ahead * std::min(speeds[index(self)], speeds[index(other)]) / static_cast<double>(degree + 1);
-      for (const SubdomainState& s : most_attached_first(snapshot, self, other)) {
-        if (s.remaining > flow || !gone.insert(s.id).second) continue;
-        flow -= s.remaining;
-        moves.push_back({s.id, other});
-      }
-    }
-    return moves;
+    return Round(snapshot, self, rate_).moves();
   }
 
  private:
-  // What has most of its border with `other` and least with what stays.
-  static std::vector<SubdomainState> most_attached_first(const LoadSnapshot& snapshot, Rank self, Rank other) {
-    std::map<SubdomainId, double> attachment;
-    std::vector<SubdomainState> own;
-    for (const SubdomainState& s : snapshot.subdomains) {
-      if (s.owner != self) continue;
-      own.push_back(s);
-      double& length = attachment[s.id];
-      for (const Neighbour& n : (*snapshot.layout)[s.id].neighbours) {
-        const Rank owner = owner_of(snapshot, n.subdomain);
-        length += owner == other ? n.length : owner == self ? -n.length : 0;
-      }
-    }
-    std::sort(own.begin(), own.end(), [&](const SubdomainState& a, const SubdomainState& b) {
-      return std::tuple(-attachment[a.id], a.bytes, a.id) < std::tuple(-attachment[b.id], b.bytes, b.id);
-    });
-    return own;
-  }
-
   double rate_;
 };
 

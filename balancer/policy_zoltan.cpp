@@ -11,27 +11,33 @@ namespace driftmesh::balancer {
 namespace {
 
 /// Parts by Zoltan, as large as the ranks are fast: compact, and where the approach is repartition or refine, near to
-/// what there is.
+/// what there is. Where only little is out of balance, single subdomains are dealt instead of new parts.
 class ZoltanPolicy final : public Policy {
  public:
-  ZoltanPolicy(ZoltanParameters parameters, bool polish, double tolerance)
-      : parameters_(std::move(parameters)), polish_(polish), tolerance_(tolerance) {}
+  struct Dealing {
+    bool polish = true;       ///< parts that are not even are evened out
+    double tolerance = 0.02;  ///< of a rank's share
+    double touch_up = 0.1;    ///< of the ideal time: below, no new parts are made
+  };
+  ZoltanPolicy(ZoltanParameters parameters, const Dealing& dealing)
+      : parameters_(std::move(parameters)), dealing_(dealing) {}
 
   [[nodiscard]] Placement placement() const override { return Placement::kLeader; }
 
   [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override {
     if (snapshot.subdomains.empty() || snapshot.ranks.size() < 2) return {};
-    const auto owners = remap_parts(snapshot, zoltan_partition(snapshot, parameters_), tolerance_);
+    if (finishing_time(snapshot) <= (1 + dealing_.touch_up) * ideal_time(snapshot))
+      return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
+    const auto owners = remap_parts(snapshot, zoltan_partition(snapshot, parameters_), dealing_.tolerance);
     LoadSnapshot planned = snapshot;
     for (std::size_t i = 0; i < owners.size(); ++i) planned.subdomains[i].owner = owners[i];
     sum_up(planned);
-    return moves_between(snapshot, polish_ ? deal_surplus(planned, tolerance_) : planned);
+    return moves_between(snapshot, dealing_.polish ? deal_surplus(planned, dealing_.tolerance) : planned);
   }
 
  private:
   ZoltanParameters parameters_;
-  bool polish_;
-  double tolerance_;
+  Dealing dealing_;
 };
 
 std::string upper_case(std::string text) {
@@ -56,8 +62,11 @@ std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
     if (!zoltan_accepts(name, value)) parameters.fail(name, value, "Zoltan's user guide says what it takes");
     all[name] = value;
   }
-  return std::make_unique<ZoltanPolicy>(std::move(all), parameters.flag("polish", true),
-                                        parameters.number("tolerance", 0.02, 0, 10));
+  ZoltanPolicy::Dealing dealing;
+  dealing.polish = parameters.flag("polish", dealing.polish);
+  dealing.tolerance = parameters.number("tolerance", dealing.tolerance, 0, 10);
+  dealing.touch_up = parameters.number("touch-up", dealing.touch_up, 0, 10);
+  return std::make_unique<ZoltanPolicy>(std::move(all), dealing);
 }
 
 }  // namespace driftmesh::balancer

@@ -8,16 +8,14 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-/// Of each rank, the indices of its subdomains, those first that are cheap to move, and of these the largest.
+/// Of each rank, the indices of its subdomains, those first that leave most easily.
 std::vector<Indices> by_owner(const LoadSnapshot& snapshot) {
   std::vector<Indices> lists(snapshot.ranks.size());
   for (std::size_t i = 0; i < snapshot.subdomains.size(); ++i)
     lists[static_cast<std::size_t>(snapshot.subdomains[i].owner)].push_back(i);
   for (Indices& list : lists)
     std::sort(list.begin(), list.end(), [&](std::size_t a, std::size_t b) {
-      const auto& one = snapshot.subdomains[a];
-      const auto& other = snapshot.subdomains[b];
-      return std::tuple(one.bytes, -one.remaining, one.id) < std::tuple(other.bytes, -other.remaining, other.id);
+      return leaves_before(snapshot.subdomains[a], snapshot.subdomains[b]);
     });
   return lists;
 }

@@ -63,20 +63,22 @@ void fields(auto& archive, Is<Plan> auto& m) {
   archive.number(m.round);
   archive.list(m.moves, 8);
 }
-void fields(auto& archive, Is<RankLoad> auto& m) {
-  archive.rank(m.rank);
+void fields(auto& archive, Is<LoadNews> auto& m) {
+  archive.number(m.round);
   archive.amount(m.remaining);
+  archive.amount(m.spare);
   archive.amount(m.speed);
-  archive.amount(m.age);
 }
 void fields(auto& archive, Is<WorkRequest> auto& m) {
+  archive.rank(m.thief);
   archive.number(m.round);
-  archive.list(m.news, 28);
+  archive.amount(m.remaining);
+  archive.amount(m.speed);
+  archive.number(m.rivals);
 }
 void fields(auto& archive, Is<WorkAnswer> auto& m) {
   archive.number(m.round);
   archive.list(m.moves, 8);
-  archive.list(m.news, 28);
 }
 void fields(auto& archive, Is<Token> auto& m) {
   archive.number(m.round);

@@ -82,19 +82,23 @@ struct Plan {
   friend bool operator==(const Plan&, const Plan&) = default;
 };
 
-/// What one rank has to do altogether, as the sender of this knew it.
-struct RankLoad {
-  Rank rank = 0;
-  double remaining = 0;  ///< triangles still to be made, predicted
-  double speed = 0;      ///< triangles a second; 0: not known
-  double age = 0;        ///< seconds since that rank said so
-  friend bool operator==(const RankLoad&, const RankLoad&) = default;
+/// What the sender has to do altogether.
+struct LoadNews {
+  std::uint32_t round = 0;  ///< of the sender's news, from 1: older ones say nothing new
+  double remaining = 0;     ///< triangles still to be made, predicted
+  double spare = 0;         ///< of these, in subdomains that it could give away
+  double speed = 0;         ///< triangles a second, a running average; 0: not known yet
+  friend bool operator==(const LoadNews&, const LoadNews&) = default;
 };
 
-/// The sender will soon have nothing to do. The receiver answers, once, whatever it can give.
+/// `thief` will soon have nothing to do. It asks rank 0, which passes the request on to a rank that has much. The thief
+/// gets one answer, from whoever has the request in the end.
 struct WorkRequest {
-  std::uint32_t round = 0;     ///< of the sender's requests
-  std::vector<RankLoad> news;  ///< of the sender itself, and of others
+  Rank thief = 0;
+  std::uint32_t round = 0;  ///< of the thief's requests, from 1; 0: the thief has not asked, and waits for nothing
+  double remaining = 0;     ///< what the thief has still to do
+  double speed = 0;
+  std::uint32_t rivals = 0;  ///< idle ranks that will want their share of what the giver has
   friend bool operator==(const WorkRequest&, const WorkRequest&) = default;
 };
 
@@ -102,7 +106,6 @@ struct WorkRequest {
 struct WorkAnswer {
   std::uint32_t round = 0;  ///< of the request
   std::vector<PlannedMove> moves;
-  std::vector<RankLoad> news;  ///< of the sender itself, after these moves, and of others
   friend bool operator==(const WorkAnswer&, const WorkAnswer&) = default;
 };
 
@@ -130,7 +133,7 @@ struct Finish {
 };
 
 using Message = std::variant<SplitBatch, HandOff, LocationUpdate, LoadReport, Plan, Token, Terminate, Finish,
-                             WorkRequest, WorkAnswer>;
+                             WorkRequest, WorkAnswer, LoadNews>;
 
 enum class Traffic { kWork, kControl, kDetection };
 [[nodiscard]] Traffic traffic_of(const Message& message);

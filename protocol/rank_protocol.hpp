@@ -49,7 +49,7 @@ struct SoundRules {
 struct Delivery {
   std::optional<HandOff> arrival;  ///< a subdomain that now lives here; unpack it before looking at the splits
   std::vector<SplitGroup> splits;  ///< for subdomains that live here
-  std::optional<Message> advice;   ///< a LoadReport, Plan, WorkRequest or WorkAnswer
+  std::optional<Message> advice;   ///< what the sender said by advise(), but a LocationUpdate
 };
 
 /// How often things happened on one rank.
@@ -94,7 +94,7 @@ class BasicRankProtocol {
   /// rank is the caller's no-op: throws Error.
   void hand_off(SubdomainId s, Rank destination, Bytes packed);
 
-  /// Sends advice: a LoadReport, Plan, WorkRequest, WorkAnswer or LocationUpdate. Returns false, and sends nothing,
+  /// Sends advice: a message of control traffic. Returns false, and sends nothing,
   /// once the work is over.
   bool advise(Rank destination, Message advice);
 
@@ -132,6 +132,7 @@ class BasicRankProtocol {
     take_advice(source, std::move(request), delivery);
   }
   void take(Rank source, WorkAnswer&& answer, Delivery& delivery) { take_advice(source, std::move(answer), delivery); }
+  void take(Rank source, LoadNews&& news, Delivery& delivery) { take_advice(source, std::move(news), delivery); }
   void take(Rank source, Token&& token, Delivery&) { termination_.receive(source, token); }
   void take(Rank source, Terminate&& terminate, Delivery&) { termination_.receive(source, terminate); }
   void take(Rank source, Finish&& finish, Delivery&) { termination_.receive(source, finish); }

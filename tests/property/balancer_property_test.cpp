@@ -120,7 +120,7 @@ TEST_CASE("greedy plans take at most three times as long as dealing everything a
   }
 }
 
-TEST_CASE("gifts make the pair finish earlier, and thieves ask somebody else") {
+TEST_CASE("gifts make the pair finish earlier, and thieves get work from others") {
   auto random = testing::seeded_generator("gifts");
   const auto policy = make_policy("stealing");
   int given = 0, asked = 0;
@@ -131,12 +131,12 @@ TEST_CASE("gifts make the pair finish earlier, and thieves ask somebody else") {
     const LoadSnapshot snapshot = random_snapshot(one);
     const auto ranks = snapshot.ranks.size();
     const Rank self = static_cast<Rank>(one() % ranks), other = static_cast<Rank>(one() % ranks);
-    std::vector<bool> willing(ranks);
-    for (std::size_t r = 0; r < ranks; ++r) willing[r] = one() % 2 == 0;
-    if (const auto victim = policy->ask(snapshot, self, willing)) {
+    std::vector<bool> able(ranks);
+    for (std::size_t r = 0; r < ranks; ++r) able[r] = one() % 2 == 0;
+    if (const auto victim = policy->victim(snapshot, self, able)) {
       ++asked;
       REQUIRE(*victim != self);
-      REQUIRE(willing[static_cast<std::size_t>(*victim)]);
+      REQUIRE(able[static_cast<std::size_t>(*victim)]);
     }
     if (other == self) continue;
     const auto moves = policy->give(snapshot, self, other);

@@ -44,9 +44,11 @@ class RandomMessage {
       case 7:
         return Finish{};
       case 8:
-        return WorkRequest{epoch(), news()};
+        return WorkRequest{rank(), epoch(), amount(), amount(), epoch()};
+      case 9:
+        return WorkAnswer{epoch(), moves()};
       default:
-        return WorkAnswer{epoch(), moves(), news()};
+        return LoadNews{epoch(), amount(), amount(), amount()};
     }
   }
 
@@ -59,11 +61,6 @@ class RandomMessage {
   std::vector<PlannedMove> moves() {
     std::vector<PlannedMove> result;
     for (auto n = below(5); n > 0; --n) result.push_back({subdomain(), rank()});
-    return result;
-  }
-  std::vector<RankLoad> news() {
-    std::vector<RankLoad> result;
-    for (auto n = below(5); n > 0; --n) result.push_back({rank(), amount(), amount(), amount()});
     return result;
   }
   SplitGroup group() {

@@ -36,9 +36,12 @@ inline Layout grid_layout(int columns, int rows, Rank ranks) {
 /// All subdomains of the layout at its owners, with the predicted work, at these speeds.
 inline LoadSnapshot initial_snapshot(Layout layout, const std::vector<double>& speeds) {
   LoadSnapshot snapshot;
-  for (std::size_t i = 0; i < layout.subdomains.size(); ++i)
-    snapshot.subdomains.push_back(
-        {static_cast<SubdomainId>(i), layout.subdomains[i].owner, layout.subdomains[i].predicted, 100});
+  std::vector<std::int32_t> turns(speeds.size(), 0);
+  for (std::size_t i = 0; i < layout.subdomains.size(); ++i) {
+    const Rank owner = layout.subdomains[i].owner;
+    snapshot.subdomains.push_back({static_cast<SubdomainId>(i), owner, layout.subdomains[i].predicted, 100,
+                                   turns[static_cast<std::size_t>(owner)]++});
+  }
   for (const double speed : speeds) snapshot.ranks.push_back({speed, 0});
   snapshot.layout = std::make_shared<Layout>(std::move(layout));
   balancer::sum_up(snapshot);

@@ -62,7 +62,8 @@ TEST_CASE("none leaves everything where it is") {
   CHECK(policy->placement() == Placement::kNobody);
   const LoadSnapshot s = initial_snapshot(grid_layout(6, 6, 2), {1, 100});
   CHECK(policy->plan(s, 0).empty());
-  CHECK(!policy->ask(s, 1, {true, true}));
+  CHECK(!policy->runs_low(0));
+  CHECK(!policy->victim(s, 1, {true, true}));
   CHECK(policy->give(s, 0, 1).empty());
 }
 
@@ -155,33 +156,25 @@ TEST_CASE("repeated diffusion evens out a chain of ranks") {
   CHECK(finishing_time(s) / ideal_time(s) < 1.1);
 }
 
-TEST_CASE("a rank asks the one that will finish last when it will soon be idle") {
+TEST_CASE("a rank that runs low gets work from the one that will finish last") {
   const auto policy = make_policy("stealing", {{"low-water", "0.5"}});
   CHECK(policy->placement() == Placement::kRequests);
+  CHECK(policy->runs_low(0));
+  CHECK(policy->runs_low(0.4));
+  CHECK(!policy->runs_low(0.6));
   LoadSnapshot s = initial_snapshot(grid_layout(12, 1, 4), {1000, 1000, 1000, 1000});
   const std::vector<bool> all(4, true);
-  CHECK(!policy->ask(s, 1, all));  // 3 s left
   s.ranks[1].remaining = 400;
+  s.ranks[2].remaining = 8000;
   s.ranks[3].remaining = 9000;
-  CHECK(policy->ask(s, 1, all) == 3);
-  CHECK(policy->ask(s, 1, {true, true, true, false}) == 2);
-  s.ranks[0].remaining = s.ranks[2].remaining = 800;
-  CHECK(!policy->ask(s, 1, {true, true, true, false}));  // they will not finish much later
-  s.ranks[1].remaining = 0;
+  CHECK(policy->victim(s, 1, all) == 3);
+  CHECK(policy->victim(s, 1, {true, true, true, false}) == 2);  // rank 3 has nothing to give
   s.ranks[3].speed = 1e6;
-  CHECK(policy->ask(s, 1, all) == 2);  // rank 3 is so fast that it needs no help
-}
-
-TEST_CASE("ranks that look the same are not all asked by everybody") {
-  const auto policy = make_policy("stealing");
-  LoadSnapshot s = initial_snapshot(grid_layout(80, 1, 8), std::vector<double>(8, 1000.0));
-  std::set<Rank> asked;
-  for (Rank thief = 0; thief < 8; ++thief) {
-    LoadSnapshot idle = s;
-    idle.ranks[static_cast<std::size_t>(thief)].remaining = 0;
-    asked.insert(policy->ask(idle, thief, std::vector<bool>(8, true)).value());
-  }
-  CHECK(asked.size() == 8);
+  CHECK(policy->victim(s, 1, all) == 2);  // rank 3 is so fast that it needs no help
+  s.ranks[3].speed = 0;
+  CHECK(policy->victim(s, 1, all) == 3);  // probably as fast as the others
+  s.ranks[0].remaining = s.ranks[2].remaining = s.ranks[3].remaining = 800;
+  CHECK(!policy->victim(s, 1, all));  // they will not finish much later
 }
 
 TEST_CASE("a rank gives as long as the other one finishes that earlier") {

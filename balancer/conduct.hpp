@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "balancer/load_snapshot.hpp"
+#include "balancer/move_cost.hpp"
+#include "protocol/messages.hpp"
+
+namespace driftmesh::balancer {
+
+struct ControllerOptions {
+  double look = 2e-3;      ///< seconds between two looks at the rank's own load
+  double gap = 0.02;       ///< seconds between two reports of a rank, and between two plans, at least
+  double interval = 1;     ///< seconds between two reports of a rank with work, at most
+  double change = 0.1;     ///< a forecast that is off by this share is reported (see ReportRule)
+  int refusals = 8;        ///< after so many in a row a rank asks for no more work until it was given some
+  double overhead = 0.01;  ///< share of the time that planning may take
+  MoveCost cost;
+  Worth worth;
+};
+
+/// What a rank does for balance at one moment.
+struct Decision {
+  std::vector<Move> moves;  ///< hand these over, now
+  std::vector<protocol::Outgoing> messages;
+  bool planned = false;  ///< a policy has made a plan, which may have taken long
+};
+
+/// What a rank tells the controller at one moment.
+struct Situation {
+  double now = 0;
+  std::span<const protocol::SubdomainLoad> own;
+  double speed = 0;
+};
+
+/// Of all subdomains in `own`, the work.
+[[nodiscard]] inline double total_work(std::span<const protocol::SubdomainLoad> own) {
+  double total = 0;
+  for (const protocol::SubdomainLoad& load : own) total += load.remaining;
+  return total;
+}
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "balancer/load_snapshot.hpp"
+#include "balancer/move_cost.hpp"
+#include "balancer/planning_conduct.hpp"
+#include "balancer/policy.hpp"
+#include "balancer/request_conduct.hpp"
+#include "protocol/messages.hpp"
+
+namespace driftmesh::balancer {
+
+/// One rank's side of balancing, as a state machine: it is told the time, the rank's own load and what other ranks
+/// advise, and says what to send and what to hand over. It knows no transport and no clock, so that it runs on real and
+/// on simulated ranks.
+///
+/// How a rank's loop drives it: pass all advice that arrives to receive(). When
+/// due(), call think(), hand over what it says, and send its messages by RankProtocol::advise. A rank at rest is
+/// passive only if also `!waiting()`. Nothing that a rank without work is told makes it send work: think() moves only
+/// what is listed as unfinished.
+class Controller {
+ public:
+  /// At `now` the run begins. `layout` is equal on all ranks, and so are policy and options.
+  Controller(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
+             const ControllerOptions& options, double now);
+
+  /// Advice came from another rank. It is looked at in the next think().
+  void receive(Rank source, protocol::Message advice, double now);
+
+  /// Whether think() has something to do; costs next to nothing.
+  [[nodiscard]] bool due(double now) const;
+
+  /// `own`: the subdomains here that are not finished, in the order in which they will be worked on as far as it is
+  /// known. `speed`: triangles a second, 0 while it is not known.
+  [[nodiscard]] Decision think(double now, std::span<const protocol::SubdomainLoad> own, double speed);
+
+  /// A request of this rank has not been answered, or something that came has not been looked at.
+  [[nodiscard]] bool waiting() const;
+
+  /// The last think() took that long. Plans that take long are made less often.
+  void took(double seconds);
+
+ private:
+  std::variant<std::monostate, PlanningConduct, RequestConduct> conduct_;
+  double look_interval_;
+  double next_look_;
+};
+
+}  // namespace driftmesh::balancer

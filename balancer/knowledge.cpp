@@ -1,0 +1,107 @@
+#include "balancer/knowledge.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace driftmesh::balancer {
+namespace {
+
+std::size_t index(Rank rank) {
+  return static_cast<std::size_t>(rank);
+}
+
+// What is left of work in a row when `done` of it is done.
+double left_of(double work, double& done) {
+  const double taken = std::min(work, done);
+  done -= taken;
+  return work - taken;
+}
+
+}  // namespace
+
+Knowledge::Knowledge(std::shared_ptr<const Layout> layout, double patience)
+    : layout_(std::move(layout)), patience_(patience), ranks_(index(layout_->ranks)) {
+  for (const Layout::Subdomain& s : layout_->subdomains) ranks_[index(s.owner)].predicted += s.predicted;
+}
+
+void Knowledge::hear(Rank rank, const protocol::LoadReport& report, double now) {
+  Heard& heard = ranks_[index(rank)];
+  if (heard.any && report.round <= heard.round) return;
+  heard_ += heard.any ? 0 : 1;
+  heard = {true, report.round, now, report.speed, {}, heard.predicted};
+  for (const protocol::SubdomainLoad& load : report.loads) {
+    const auto [known, first] = claims_.try_emplace(load.subdomain, Claim{rank, load.epoch});
+    if (!first && load.epoch < known->second.epoch) continue;
+    known->second = {rank, load.epoch};
+    heard.loads.push_back(load);
+  }
+  settle_planned(rank, report, now);
+}
+
+// A planned move is settled when its destination reports the subdomain, when its owner has seen the plan and still
+// reports it, or when it has been too long.
+void Knowledge::settle_planned(Rank rank, const protocol::LoadReport& report, double now) {
+  for (const protocol::SubdomainLoad& load : report.loads) {
+    const auto planned = planned_.find(load.subdomain);
+    if (planned == planned_.end()) continue;
+    const bool made = rank != planned->second.from;
+    const bool refused = rank == planned->second.from && report.plan >= planned->second.plan;
+    if (made || refused) planned_.erase(planned);
+  }
+  std::erase_if(planned_, [&](const auto& p) { return now - p.second.at > patience_; });
+}
+
+void Knowledge::expect(std::span<const Move> moves, const LoadSnapshot& planned_on, std::uint32_t plan, double now) {
+  for (const Move& move : moves)
+    if (const SubdomainState* const s = find(planned_on, move.subdomain))
+      planned_[move.subdomain] = {s->owner, move.destination, plan, now, *s};
+}
+
+Rank Knowledge::owner_of(SubdomainId id) const {
+  const auto known = claims_.find(id);
+  return known == claims_.end() ? (*layout_)[id].owner : known->second.owner;
+}
+
+void Knowledge::list(LoadSnapshot& snapshot, Rank rank, const std::vector<SubdomainState>& arriving, double now) const {
+  const Heard& heard = ranks_[index(rank)];
+  double done = heard.any ? heard.speed * std::max(0.0, now - heard.at) : 0;
+  std::int32_t turn = 0;
+  const auto add = [&](SubdomainId id, double work, std::uint64_t bytes) {
+    if (const double left = left_of(work, done); left > 0)
+      snapshot.subdomains.push_back({id, rank, left, bytes, turn++});
+  };
+  for (const protocol::SubdomainLoad& load : heard.loads)
+    if (owner_of(load.subdomain) == rank && !planned_.contains(load.subdomain))
+      add(load.subdomain, load.remaining, load.bytes);
+  for (const SubdomainState& s : arriving) add(s.id, s.remaining, s.bytes);
+}
+
+LoadSnapshot Knowledge::snapshot(double now, bool with_silent) const {
+  LoadSnapshot snapshot;
+  snapshot.layout = layout_;
+  std::map<Rank, std::vector<SubdomainState>> arriving;
+  for (const auto& [id, planned] : planned_) arriving[planned.to].push_back(planned.load);
+  static const std::vector<SubdomainState> kNone;
+  for (std::size_t r = 0; r < ranks_.size(); ++r) {
+    const auto rank = static_cast<Rank>(r);
+    const auto coming = arriving.find(rank);
+    snapshot.ranks.push_back({ranks_[r].speed, 0});
+    list(snapshot, rank, coming == arriving.end() ? kNone : coming->second, now);
+  }
+  if (with_silent)
+    for (std::size_t i = 0; i < layout_->subdomains.size(); ++i) {
+      const auto id = static_cast<SubdomainId>(i);
+      const Layout::Subdomain& s = (*layout_)[id];
+      if (!ranks_[index(s.owner)].any && !planned_.contains(id) && !claims_.contains(id))
+        snapshot.subdomains.push_back({id, s.owner, s.predicted, 0, id});
+    }
+  std::sort(snapshot.subdomains.begin(), snapshot.subdomains.end(),
+            [](const SubdomainState& a, const SubdomainState& b) { return a.id < b.id; });
+  sum_up(snapshot);
+  if (!with_silent)
+    for (std::size_t r = 0; r < ranks_.size(); ++r)
+      if (!ranks_[r].any) snapshot.ranks[r].remaining = ranks_[r].predicted;
+  return snapshot;
+}
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,156 @@
+#include "balancer/planning_conduct.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace driftmesh::balancer {
+namespace {
+
+constexpr Rank kLeader = 0;
+
+/// The snapshot with work on `self` and on the destinations of `moves` alone: what one rank can judge by itself.
+LoadSnapshot between(LoadSnapshot snapshot, Rank self, std::span<const Move> moves) {
+  std::vector<bool> concerned(snapshot.ranks.size(), false);
+  concerned[static_cast<std::size_t>(self)] = true;
+  for (const Move& move : moves) concerned[static_cast<std::size_t>(move.destination)] = true;
+  for (std::size_t r = 0; r < concerned.size(); ++r)
+    if (!concerned[r]) snapshot.ranks[r].remaining = 0;
+  return snapshot;
+}
+
+// False if it is not there.
+bool remove(std::vector<protocol::SubdomainLoad>& own, SubdomainId id) {
+  return std::erase_if(own, [&](const auto& load) { return load.subdomain == id; }) > 0;
+}
+
+}  // namespace
+
+PlanningConduct::PlanningConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
+                                 const ControllerOptions& options, double now)
+    : self_(self),
+      layout_(std::move(layout)),
+      policy_(std::move(policy)),
+      options_(options),
+      rule_(options.gap, options.interval, options.change),
+      start_(now),
+      next_plan_(now),
+      pause_(options.gap) {
+  if (policy_->placement() == Placement::kNeighbours || self == kLeader)
+    knowledge_.emplace(layout_, 3 * options.interval);
+}
+
+void PlanningConduct::receive(Rank source, protocol::Message advice, double now) {
+  if (auto* const report = std::get_if<protocol::LoadReport>(&advice)) {
+    if (!plans()) return;
+    knowledge_->hear(source, *report, now);
+    news_ = true;
+  } else if (auto* const plan = std::get_if<protocol::Plan>(&advice)) {
+    advised_.push_back(std::move(*plan));
+  }
+}
+
+Decision PlanningConduct::think(const Situation& situation) {
+  Decision decision;
+  Loads own(situation.own.begin(), situation.own.end());
+  follow_advice(situation, own, decision);
+  if (plans()) plan(situation, own, decision);
+  report(situation, own, decision);
+  return decision;
+}
+
+void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Decision& decision) {
+  for (const protocol::Plan& plan : std::exchange(advised_, {})) {
+    plan_seen_ = std::max(plan_seen_, plan.round);
+    acted_ = true;
+    for (const protocol::PlannedMove& move : plan.moves) {
+      const auto load =
+          std::find_if(own.begin(), own.end(), [&](const auto& l) { return l.subdomain == move.subdomain; });
+      if (load == own.end() || move.destination == self_) continue;
+      if (situation.speed > 0 && load->remaining / situation.speed <= options_.cost.for_giver(load->bytes)) continue;
+      decision.moves.push_back({move.subdomain, move.destination});
+      own.erase(load);
+    }
+  }
+}
+
+// Worth a look at all: there is more to gain than what planning and the least worthwhile plan take.
+bool PlanningConduct::may_gain(const LoadSnapshot& snapshot) const {
+  const double last = finishing_time(snapshot);
+  const double gain = last - ideal_time(snapshot);
+  return gain > options_.worth.gain * last && gain > options_.worth.seconds && gain > cost_of_planning_;
+}
+
+void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& decision) {
+  const double now = situation.now;
+  knowledge_->hear(self_, {++reports_, plan_seen_, situation.speed, own}, now);
+  const bool leads = policy_->placement() == Placement::kLeader;
+  if (!news_ || now < next_plan_) return;
+  // The first plan waits a little for all to say how fast they are.
+  if (leads && !knowledge_->complete() && now < start_ + options_.interval) return;
+  news_ = false;
+  const LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
+  if (leads && !may_gain(snapshot)) return;
+  decision.planned = true;
+  std::vector<Move> planned = policy_->plan(snapshot, self_);
+  std::erase_if(moved_, [&](const auto& move) { return now - move.second > options_.interval; });
+  std::erase_if(planned, [&](const Move& move) {
+    return knowledge_->in_motion(move.subdomain) || moved_.contains(move.subdomain);
+  });
+  const auto moves =
+      worth_moving(leads ? snapshot : between(snapshot, self_, planned), planned, options_.cost, options_.worth);
+  pause_ = moves.empty() ? std::min(2 * pause_, options_.interval) : options_.gap;
+  next_plan_ = now + std::max(pause_, cost_of_planning_ / options_.overhead);
+  if (moves.empty()) return;
+  advise(moves, snapshot, own, decision);
+  knowledge_->expect(moves, snapshot, plans_, now);
+  for (const Move& move : moves) moved_[move.subdomain] = now;
+}
+
+void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own,
+                             Decision& decision) {
+  ++plans_;
+  std::map<Rank, protocol::Plan> of_rank;
+  for (const Move& move : moves) {
+    const Rank owner = find(snapshot, move.subdomain)->owner;
+    if (owner != self_) {
+      of_rank[owner].round = plans_;
+      of_rank[owner].moves.push_back({move.subdomain, move.destination});
+    } else if (remove(own, move.subdomain)) {
+      decision.moves.push_back(move);
+      plan_seen_ = plans_;
+      acted_ = true;
+    }
+  }
+  for (auto& [rank, plan] : of_rank) decision.messages.push_back({rank, std::move(plan)});
+}
+
+void PlanningConduct::report(const Situation& situation, const Loads& own, Decision& decision) {
+  const auto is_new = [&](const auto& load) { return !std::binary_search(told_.begin(), told_.end(), load.subdomain); };
+  const bool changed = acted_ || std::any_of(own.begin(), own.end(), is_new);
+  const double total = total_work(own);
+  if (!rule_.due(situation.now, total, situation.speed, changed)) return;
+  rule_.told(situation.now, total, situation.speed);
+  acted_ = false;
+  told_.clear();
+  for (const auto& load : own) told_.push_back(load.subdomain);
+  std::sort(told_.begin(), told_.end());
+  news_ = true;  // also to this rank, if it plans
+  const protocol::LoadReport report{++reports_, plan_seen_, situation.speed, own};
+  for (const Rank rank : audience(own))
+    if (rank != self_) decision.messages.push_back({rank, report});
+}
+
+std::vector<Rank> PlanningConduct::audience(const Loads& own) {
+  if (policy_->placement() == Placement::kLeader) return {kLeader};
+  if (own.empty()) return audience_;  // that it is idle matters to those it touched last
+  audience_.clear();
+  for (const auto& load : own)
+    for (const Neighbour& n : (*layout_)[load.subdomain].neighbours)
+      audience_.push_back(knowledge_->owner_of(n.subdomain));
+  std::sort(audience_.begin(), audience_.end());
+  audience_.erase(std::unique(audience_.begin(), audience_.end()), audience_.end());
+  return audience_;
+}
+
+}  // namespace driftmesh::balancer

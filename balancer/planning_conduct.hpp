@@ -1,0 +1,62 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "balancer/conduct.hpp"
+#include "balancer/knowledge.hpp"
+#include "balancer/policy.hpp"
+#include "balancer/report_rule.hpp"
+
+namespace driftmesh::balancer {
+
+/// How a rank behaves where plans follow from reports (Placement::kLeader, kNeighbours): it reports to those who plan,
+/// follows their advice, and plans itself if it is one of them.
+class PlanningConduct {
+ public:
+  PlanningConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
+                  const ControllerOptions& options, double now);
+
+  void receive(Rank source, protocol::Message advice, double now);
+  [[nodiscard]] bool waiting() const { return !advised_.empty(); }
+  [[nodiscard]] Decision think(const Situation& situation);
+  void took(double seconds) { cost_of_planning_ = seconds; }
+
+ private:
+  using Loads = std::vector<protocol::SubdomainLoad>;
+
+  [[nodiscard]] bool plans() const { return knowledge_.has_value(); }
+  void follow_advice(const Situation& situation, Loads& own, Decision& decision);
+  void plan(const Situation& situation, Loads& own, Decision& decision);
+  [[nodiscard]] bool may_gain(const LoadSnapshot& snapshot) const;
+  void advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own, Decision& decision);
+  void report(const Situation& situation, const Loads& own, Decision& decision);
+  [[nodiscard]] std::vector<Rank> audience(const Loads& own);
+
+  Rank self_;
+  std::shared_ptr<const Layout> layout_;
+  std::shared_ptr<const Policy> policy_;
+  ControllerOptions options_;
+
+  ReportRule rule_;
+  std::uint32_t reports_ = 0;
+  std::vector<SubdomainId> told_;  // ascending; of the last report, less what was handed over since
+  bool acted_ = false;             // on a plan, since the last report
+  std::uint32_t plan_seen_ = 0;
+  std::vector<protocol::Plan> advised_;  // and not looked at
+  std::vector<Rank> audience_;
+
+  // Of a rank that plans:
+  std::optional<Knowledge> knowledge_;
+  bool news_ = false;  // since the last plan
+  double start_;
+  double next_plan_;
+  double pause_;  // after a plan that was not worth it
+  double cost_of_planning_ = 0;
+  std::uint32_t plans_ = 0;
+  std::map<SubdomainId, double> moved_;  // when a move of it was last planned: it is left alone for a while
+};
+
+}  // namespace driftmesh::balancer

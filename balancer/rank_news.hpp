@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "balancer/load_snapshot.hpp"
+#include "protocol/messages.hpp"
+
+namespace driftmesh::balancer {
+
+/// What rank 0 has heard of the load of all ranks, each as a whole: at first what the layout predicts.
+class RankNews {
+ public:
+  /// At `now` the run begins.
+  RankNews(const Layout& layout, double now);
+
+  /// News that came at `now`. False, and nothing changes, if later ones have come before.
+  bool hear(Rank rank, const protocol::LoadNews& news, double now);
+  /// This much work will go from one rank to another, and they have not said so yet.
+  void expect(Rank from, Rank to, double work, double now);
+
+  /// All ranks at `now`: what was heard, less what they must have done since.
+  [[nodiscard]] std::vector<RankState> states(double now) const;
+  /// Of each rank, whether it has something to give. It works on that last.
+  [[nodiscard]] std::vector<bool> able(const std::vector<RankState>& states) const;
+
+ private:
+  struct Heard {
+    protocol::LoadNews news;
+    double at = 0;
+  };
+  std::vector<Heard> ranks_;
+};
+
+}  // namespace driftmesh::balancer

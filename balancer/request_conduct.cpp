@@ -1,0 +1,208 @@
+#include "balancer/request_conduct.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace driftmesh::balancer {
+namespace {
+
+constexpr Rank kBroker = 0;
+constexpr std::uint32_t kMostRivals = 15;
+
+std::size_t index(Rank rank) {
+  return static_cast<std::size_t>(rank);
+}
+
+double seconds_of(double work, double speed) {
+  return work <= 0 ? 0 : speed > 0 ? work / speed : HUGE_VAL;
+}
+
+// How many idle ranks there are for each that can give, besides the one that asks.
+std::uint32_t rivals(const std::vector<RankState>& ranks, const std::vector<bool>& able) {
+  const auto idle = std::count_if(ranks.begin(), ranks.end(), [](const RankState& r) { return r.remaining <= 0; });
+  const auto givers = std::count(able.begin(), able.end(), true);
+  return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(0, idle - 1) / std::max<std::ptrdiff_t>(1, givers));
+}
+
+// What makes both finish at the same time.
+double even_share(const RankState& victim, double victim_speed, const RankState& thief, double thief_speed) {
+  const double share = (victim.remaining * thief_speed - thief.remaining * victim_speed) / (victim_speed + thief_speed);
+  return std::max(0.0, share);
+}
+
+}  // namespace
+
+RequestConduct::RequestConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
+                               const ControllerOptions& options, double now)
+    : self_(self),
+      layout_(std::move(layout)),
+      policy_(std::move(policy)),
+      options_(options),
+      rule_(options.gap, options.interval, options.change) {
+  if (self == kBroker) news_.emplace(*layout_, now);
+}
+
+void RequestConduct::receive(Rank source, protocol::Message advice, double now) {
+  if (const auto* const news = std::get_if<protocol::LoadNews>(&advice)) {
+    if (news_ && news_->hear(source, *news, now)) surprised_ = true;
+    if (news->remaining > 0) hungry_.erase(source);
+  } else if (const auto* const request = std::get_if<protocol::WorkRequest>(&advice)) {
+    requests_.push_back(*request);
+  } else if (const auto* const answer = std::get_if<protocol::WorkAnswer>(&advice)) {
+    take_answer(source, *answer, now);
+  }
+}
+
+void RequestConduct::take_answer(Rank source, const protocol::WorkAnswer& answer, double now) {
+  if (asked_ && answer.round == round_) {
+    asked_ = false;
+    // The broker refuses when nobody has anything to give; then it is for the broker to come back.
+    refusals_ = !answer.moves.empty() ? 0 : source == kBroker ? options_.refusals : refusals_ + 1;
+  }
+  if (answer.moves.empty()) return;
+  refusals_ = 0;
+  for (const protocol::PlannedMove& move : answer.moves) coming_.push_back(move.subdomain);
+  promised_ = now;
+}
+
+Decision RequestConduct::think(const Situation& situation) {
+  Decision decision;
+  Loads own(situation.own.begin(), situation.own.end());
+  for (const protocol::WorkRequest& request : std::exchange(requests_, {}))
+    if (self_ == kBroker)
+      place(request, situation, own, decision);
+    else
+      give(request, situation, own, decision);
+  if (self_ == kBroker) feed_hungry(situation, own, decision);
+  report(situation, own, decision);
+  look_for_promised(situation);
+  ask(situation, own, decision);
+  return decision;
+}
+
+// What is worked on now stays.
+protocol::LoadNews RequestConduct::news_of(const Situation& situation, const Loads& own) {
+  const double total = total_work(own);
+  return {++reports_, total, own.empty() ? 0 : total - own.front().remaining, situation.speed};
+}
+
+// Returns how much work is given.
+double RequestConduct::give(const protocol::WorkRequest& request, const Situation& situation, Loads& own,
+                            Decision& decision) {
+  protocol::WorkAnswer answer{request.round, {}};
+  const double before = total_work(own);
+  for (const Move& move : gifts(request, situation, own)) {
+    std::erase_if(own, [&](const auto& load) { return load.subdomain == move.subdomain; });
+    answer.moves.push_back({move.subdomain, move.destination});
+    decision.moves.push_back(move);
+  }
+  changed_ = true;
+  decision.messages.push_back({request.thief, std::move(answer)});
+  return before - total_work(own);
+}
+
+// What the policy gives, of that what is worth moving, if nobody but the two ranks is looked at. To the policy the
+// giver is as fast as all who will share what it keeps.
+std::vector<Move> RequestConduct::gifts(const protocol::WorkRequest& request, const Situation& situation,
+                                        const Loads& own) const {
+  LoadSnapshot snapshot;
+  snapshot.layout = layout_;
+  snapshot.ranks.resize(index(layout_->ranks));
+  const double speed = situation.speed > 0 ? situation.speed : request.speed > 0 ? request.speed : 1;
+  const double sharers = 1 + std::min(request.rivals, kMostRivals);
+  snapshot.ranks[index(request.thief)] = {request.speed > 0 ? request.speed : speed, request.remaining};
+  snapshot.ranks[index(self_)] = {sharers * speed, total_work(own)};
+  for (std::size_t i = 0; i < own.size(); ++i)
+    snapshot.subdomains.push_back(
+        {own[i].subdomain, self_, own[i].remaining, own[i].bytes, static_cast<std::int32_t>(i)});
+  std::sort(snapshot.subdomains.begin(), snapshot.subdomains.end(),
+            [](const SubdomainState& a, const SubdomainState& b) { return a.id < b.id; });
+  const std::vector<Move> moves = policy_->give(snapshot, self_, request.thief);
+  snapshot.ranks[index(self_)].speed = speed;
+  return worth_moving(snapshot, moves, options_.cost, options_.worth);
+}
+
+void RequestConduct::report(const Situation& situation, const Loads& own, Decision& decision) {
+  const double total = total_work(own);
+  if (self_ == kBroker) {
+    news_->hear(self_, news_of(situation, own), situation.now);
+  } else if (rule_.due(situation.now, total, situation.speed, changed_)) {
+    rule_.told(situation.now, total, situation.speed);
+    changed_ = false;
+    decision.messages.push_back({kBroker, news_of(situation, own)});
+  }
+}
+
+// What was promised may have been finished between two looks; it is not waited for without end.
+void RequestConduct::look_for_promised(const Situation& situation) {
+  if (situation.now > promised_ + options_.interval) coming_.clear();
+  std::erase_if(coming_, [&](SubdomainId id) {
+    return std::any_of(situation.own.begin(), situation.own.end(), [&](const auto& l) { return l.subdomain == id; });
+  });
+}
+
+void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decision) {
+  const double total = total_work(own);
+  const bool low = policy_->runs_low(seconds_of(total, situation.speed));
+  if (!low) refusals_ = 0;
+  if (!low || asked_ || !coming_.empty() || refusals_ >= options_.refusals) return;
+  const protocol::WorkRequest request{self_, ++round_, total, situation.speed, 0};
+  if (self_ != kBroker) {
+    asked_ = true;
+    decision.messages.push_back({kBroker, request});
+  } else if (pass_on(request, situation, own, decision)) {
+    asked_ = true;
+  } else {
+    refusals_ = options_.refusals;
+    hungry_.insert(self_);
+  }
+}
+
+void RequestConduct::place(const protocol::WorkRequest& request, const Situation& situation, Loads& own,
+                           Decision& decision) {
+  if (pass_on(request, situation, own, decision)) return;
+  hungry_.insert(request.thief);
+  decision.messages.push_back({request.thief, protocol::WorkAnswer{request.round, {}}});
+}
+
+bool RequestConduct::pass_on(protocol::WorkRequest request, const Situation& situation, Loads& own,
+                             Decision& decision) {
+  news_->hear(self_, news_of(situation, own), situation.now);
+  LoadSnapshot snapshot;
+  snapshot.layout = layout_;
+  snapshot.ranks = news_->states(situation.now);
+  snapshot.ranks[index(request.thief)] = {request.speed, request.remaining};
+  const std::vector<bool> able = news_->able(snapshot.ranks);
+  const auto victim = policy_->victim(snapshot, request.thief, able);
+  if (!victim) return false;
+  request.rivals = rivals(snapshot.ranks, able);
+  hungry_.erase(request.thief);
+  if (*victim == self_) {
+    news_->expect(self_, request.thief, give(request, situation, own, decision), situation.now);
+    return true;
+  }
+  const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
+  const double giver_speed = speeds[index(*victim)] * (1 + std::min(request.rivals, kMostRivals));
+  news_->expect(*victim, request.thief,
+                even_share(snapshot.ranks[index(*victim)], giver_speed, snapshot.ranks[index(request.thief)],
+                           speeds[index(request.thief)]),
+                situation.now);
+  decision.messages.push_back({*victim, request});
+  return true;
+}
+
+// The broker's own requests are asked anew, all others passed on without anybody waiting for an answer.
+void RequestConduct::feed_hungry(const Situation& situation, Loads& own, Decision& decision) {
+  if (!std::exchange(surprised_, false)) return;
+  const std::set<Rank> hungry = hungry_;
+  for (const Rank thief : hungry) {
+    const double speed = news_->states(situation.now)[index(thief)].speed;
+    if (thief == self_)
+      refusals_ = 0, hungry_.erase(thief);
+    else if (!pass_on({thief, 0, 0, speed, 0}, situation, own, decision))
+      return;
+  }
+}
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,184 @@
+// Whole runs on simulated ranks, from the first report to termination, with nothing simulated but work and network.
+#include "support/balanced_ranks.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+
+#include "property/cases.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+using driftmesh::testing::Cluster;
+using driftmesh::testing::grid_layout;
+using driftmesh::testing::Job;
+using driftmesh::testing::Outcome;
+using driftmesh::testing::run_jobs;
+
+namespace {
+
+const std::vector<std::string> kPolicies{"none", "diffusion", "greedy", "zoltan", "stealing"};
+
+/// Jobs as a layout predicts them, the prediction wrong by up to `error`.
+std::vector<Job> jobs_of(Layout& layout, double work, double error, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> factor(1 - error, 1 + error);
+  std::vector<Job> jobs;
+  for (auto& s : layout.subdomains) {
+    s.predicted = work;
+    jobs.push_back({0, std::floor(work * factor(random)), work});
+  }
+  return jobs;
+}
+
+Cluster published_cluster() {
+  Cluster cluster;
+  cluster.speeds.assign(64, 110e3);
+  cluster.speeds.insert(cluster.speeds.end(), 16, 92e3);
+  cluster.speeds.insert(cluster.speeds.end(), 64, 186e3);
+  cluster.latency = 100e-6;
+  cluster.bandwidth = 12.5e6;  // Ethernet of 100 Mb/s
+  return cluster;
+}
+
+Outcome run_and_show(const std::string& policy, const Cluster& cluster, const Layout& layout,
+                     const std::vector<Job>& jobs) {
+  ControllerOptions options;
+  options.cost.bandwidth = cluster.bandwidth;
+  const Outcome o = run_jobs(cluster, layout, jobs, policy, {}, options);
+  std::printf("%4zu ranks, %-9s %8.3f s, %.3f of ideal, %5d moves, %6llu messages, %7.1f MB\n", cluster.speeds.size(),
+              policy.c_str(), o.time, o.time / o.ideal, o.moves, static_cast<unsigned long long>(o.messages),
+              static_cast<double>(o.bytes) / 1e6);
+  CHECK(o.complete);
+  return o;
+}
+
+}  // namespace
+
+TEST_CASE("the published cluster, three kinds of nodes with equal shares of the triangles") {
+  const Cluster cluster = published_cluster();
+  Layout layout = grid_layout(72, 56, 144);
+  const auto jobs = jobs_of(layout, 350e3, 0.1, 1);
+  std::map<std::string, double> time;
+  double ideal = 0;
+  for (const std::string& policy : kPolicies) {
+    CAPTURE(policy);
+    const Outcome o = run_and_show(policy, cluster, layout, jobs);
+    time[policy] = o.time;
+    ideal = o.ideal;
+  }
+  CHECK(time["none"] > 1.4 * ideal);
+  CHECK(time["diffusion"] < time["none"]);
+  for (const char* policy : {"greedy", "zoltan", "stealing"}) {
+    CAPTURE(policy);
+    CHECK(time[policy] < 1.1 * ideal);
+    CHECK(time["none"] - time[policy] > 0.85 * (time["none"] - ideal));
+  }
+}
+
+TEST_CASE("two ranks of two speeds, and wrong forecasts") {
+  Cluster cluster;
+  cluster.speeds = {2e6, 1e6};
+  Layout layout = grid_layout(20, 20, 2);
+  const auto jobs = jobs_of(layout, 25e3, 0.3, 2);
+  for (const std::string& policy : kPolicies) {
+    CAPTURE(policy);
+    const Outcome o = run_and_show(policy, cluster, layout, jobs);
+    if (policy == "none")
+      CHECK(o.time > 1.4 * o.ideal);
+    else
+      CHECK(o.time < 1.05 * o.ideal);
+  }
+}
+
+TEST_CASE("all work on one rank of many") {
+  for (const bool on_the_first : {true, false}) {
+    CAPTURE(on_the_first);
+    Cluster cluster;
+    cluster.speeds.assign(16, 1e6);
+    Layout layout = grid_layout(20, 20, 16);
+    for (auto& s : layout.subdomains) s.owner = on_the_first ? 0 : 11;
+    const auto jobs = jobs_of(layout, 25e3, 0.1, 3);
+    for (const char* policy : {"greedy", "zoltan", "stealing"}) {
+      CAPTURE(policy);
+      CHECK(run_and_show(policy, cluster, layout, jobs).time < 1.2 * jobs.size() * 25e3 / 16e6);
+    }
+  }
+}
+
+TEST_CASE("runs end in good order whatever there is to do") {
+  for (const std::string& policy : kPolicies)
+    for (const Rank ranks : {1, 2, 7}) {
+      CAPTURE(policy);
+      CAPTURE(ranks);
+      Cluster cluster;
+      cluster.speeds.assign(static_cast<std::size_t>(ranks), 1e6);
+      Layout one = grid_layout(1, 1, ranks);
+      CHECK(run_jobs(cluster, one, jobs_of(one, 1e6, 0, 4), policy).complete);
+      Layout few = grid_layout(3, 1, ranks);
+      CHECK(run_jobs(cluster, few, jobs_of(few, 1e6, 0, 4), policy).complete);
+      Layout finished = grid_layout(9, 9, ranks);
+      CHECK(run_jobs(cluster, finished, jobs_of(finished, 0, 0, 4), policy).complete);
+      CHECK(run_jobs(cluster, Layout{{}, ranks}, {}, policy).complete);
+    }
+}
+
+TEST_CASE("a balanced run is left alone: nothing goes back and forth") {
+  // Forecasts that are wrong by a third make it look unbalanced now and then.
+  Cluster cluster;
+  cluster.speeds.assign(8, 1e6);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    CAPTURE(seed);
+    Layout layout = grid_layout(40, 20, 8);
+    const auto jobs = jobs_of(layout, 25e3, 0.33, seed);
+    for (const std::string& policy : kPolicies) {
+      CAPTURE(policy);
+      const Outcome o = run_jobs(cluster, layout, jobs, policy);
+      CHECK(o.complete);
+      CHECK(o.moves <= 80);  // a tenth
+      CHECK(o.most_moves_of_one <= 3);
+      CHECK(o.time < 1.1 * o.ideal);
+    }
+  }
+}
+
+TEST_CASE("random clusters and loads: every run is complete, and none takes much longer than without a balancer") {
+  auto random = testing::seeded_generator("random clusters");
+  const auto below = [&](std::uint64_t n) { return random() % n; };
+  for (std::int64_t i = testing::case_count(60); i > 0; --i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    random.seed(seed);
+    const Rank ranks = static_cast<Rank>(1 + below(12));
+    Cluster cluster;
+    for (Rank r = 0; r < ranks; ++r) cluster.speeds.push_back(std::exp(static_cast<double>(below(300)) / 100) * 1e5);
+    cluster.latency = std::pow(10, -static_cast<double>(below(5)) - 2);
+    cluster.slice = static_cast<double>(1 + below(20000));
+    Layout layout = grid_layout(static_cast<int>(1 + below(15)), static_cast<int>(1 + below(15)), ranks);
+    if (below(3) == 0)
+      for (auto& s : layout.subdomains) s.owner = static_cast<Rank>(below(static_cast<std::uint64_t>(ranks)));
+    auto jobs = jobs_of(layout, static_cast<double>(1 + below(50000)), static_cast<double>(below(50)) / 100, random());
+    const Outcome none = run_jobs(cluster, layout, jobs, "none");
+    REQUIRE(none.complete);
+    for (const std::string& policy : kPolicies) {
+      CAPTURE(policy);
+      const Outcome o = run_jobs(cluster, layout, jobs, policy);
+      REQUIRE(o.complete);
+      // A rank that begins with nothing to do, and so of unknown speed, may get a subdomain and turn out to be slow.
+      const double slowest = *std::min_element(cluster.speeds.begin(), cluster.speeds.end());
+      REQUIRE(o.time <= 1.1 * none.time + 1.5 * jobs.front().forecast / slowest + 20 * cluster.latency + 0.05);
+    }
+  }
+}
+
+TEST_CASE("a thousand ranks of three speeds") {
+  Cluster cluster;
+  for (int r = 0; r < 1024; ++r) cluster.speeds.push_back(r < 512 ? 2e6 : r < 768 ? 1e6 : 3e6);
+  Layout layout = grid_layout(160, 128, 1024);
+  const auto jobs = jobs_of(layout, 200e3, 0.1, 5);
+  for (const char* policy : {"none", "greedy", "stealing"}) {
+    CAPTURE(policy);
+    const Outcome o = run_and_show(policy, cluster, layout, jobs);
+    if (policy != std::string("none")) CHECK(o.time < 1.15 * o.ideal);
+  }
+}

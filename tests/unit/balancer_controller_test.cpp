@@ -1,0 +1,220 @@
+#include <doctest/doctest.h>
+
+#include "balancer/controller.hpp"
+#include "balancer/knowledge.hpp"
+#include "balancer/policy_factory.hpp"
+#include "balancer/report_rule.hpp"
+#include "support/load_snapshots.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+using driftmesh::testing::grid_layout;
+using protocol::LoadReport;
+using protocol::SubdomainLoad;
+
+namespace {
+
+using Loads = std::vector<SubdomainLoad>;
+
+// Subdomains first .. last, of equal work, in epoch 0.
+Loads loads_of(SubdomainId first, SubdomainId last, double work) {
+  Loads loads;
+  for (SubdomainId s = first; s <= last; ++s) loads.push_back({s, 0, work, 40});
+  return loads;
+}
+
+Controller controller_of(Rank self, const Layout& layout, const std::string& policy, double start = 0) {
+  return Controller(self, std::make_shared<Layout>(layout), make_policy(policy), ControllerOptions{}, start);
+}
+
+template <class M>
+std::vector<std::pair<Rank, M>> sent(const Decision& decision) {
+  std::vector<std::pair<Rank, M>> found;
+  for (const auto& o : decision.messages)
+    if (const auto* const m = std::get_if<M>(&o.message)) found.emplace_back(o.destination, *m);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a rank that works as it said has nothing to report") {
+  ReportRule rule(0.02, 5, 0.1);
+  CHECK(!rule.due(0, 1000, 0, false));  // does not know its speed
+  CHECK(rule.due(0, 0, 0, false));      // has nothing to do
+  CHECK(rule.due(0.1, 1000, 100, false));
+  rule.told(0.1, 1000, 100);
+  CHECK(!rule.due(1.1, 900, 100, false));
+  CHECK(!rule.due(1.1, 850, 95, false));
+  CHECK(rule.due(1.1, 900, 80, false));    // slower than it thought
+  CHECK(rule.due(1.1, 1200, 100, false));  // more to do
+  CHECK(rule.due(1.1, 900, 100, true));    // other subdomains
+  CHECK(!rule.due(0.11, 900, 80, true));   // but not at once again
+  CHECK(rule.due(5.2, 490, 100, false));   // a sign of life
+  CHECK(rule.due(9, 0, 100, false));       // finished
+  rule.told(10, 0, 100);
+  CHECK(!rule.due(100, 0, 100, false));
+  CHECK(rule.due(100, 1, 100, false));
+}
+
+TEST_CASE("what is known of a rank goes on as it said, in the order it said") {
+  Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
+  CHECK(knowledge.snapshot(0, true).ranks[0].remaining == 2000);  // as the layout predicts
+  knowledge.hear(0, {1, 0, 100, {{1, 0, 500, 40}, {0, 0, 300, 40}}}, 1);
+  CHECK(!knowledge.complete());
+  const LoadSnapshot s = knowledge.snapshot(7, true);
+  CHECK(find(s, 1) == nullptr);
+  CHECK(find(s, 0)->remaining == 200);
+  CHECK(find(s, 0)->owner == 0);
+  CHECK(s.ranks[0].remaining == 200);
+  CHECK(s.ranks[1].remaining == 2000);
+  CHECK(knowledge.snapshot(7, false).ranks[1].remaining == 2000);
+  CHECK(knowledge.snapshot(7, false).subdomains.size() == 1);
+}
+
+TEST_CASE("late reports cannot move a subdomain back") {
+  Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
+  knowledge.hear(1, {1, 0, 100, {{0, 1, 500, 40}, {2, 0, 500, 40}}}, 1);  // 0 has moved there
+  knowledge.hear(0, {1, 0, 100, {{0, 0, 900, 40}, {1, 0, 900, 40}}}, 2);  // sent before it did
+  CHECK(knowledge.complete());
+  CHECK(knowledge.owner_of(0) == 1);
+  const LoadSnapshot s = knowledge.snapshot(2, true);
+  CHECK(find(s, 0)->owner == 1);
+  CHECK(s.ranks[0].remaining == 900);
+  knowledge.hear(1, {1, 0, 100, {}}, 2);  // again, or an older one
+  CHECK(find(knowledge.snapshot(2, true), 0)->owner == 1);
+}
+
+TEST_CASE("planned moves count as made until it is known whether they were") {
+  Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
+  knowledge.hear(0, {1, 0, 100, loads_of(0, 1, 1000)}, 0);
+  knowledge.hear(1, {1, 0, 100, loads_of(2, 3, 1000)}, 0);
+  const LoadSnapshot before = knowledge.snapshot(0, true);
+  knowledge.expect(std::vector<Move>{{0, 1}, {1, 1}}, before, 1, 0);
+  CHECK(knowledge.snapshot(0, true).ranks[1].remaining == 4000);
+  CHECK(knowledge.in_motion(0));
+  // Rank 0 has followed the plan as for 0, and kept 1.
+  knowledge.hear(0, {2, 1, 100, loads_of(1, 1, 1000)}, 0);
+  CHECK(!knowledge.in_motion(1));
+  CHECK(knowledge.in_motion(0));
+  CHECK(find(knowledge.snapshot(0, true), 1)->owner == 0);
+  CHECK(find(knowledge.snapshot(0, true), 0)->owner == 1);
+  // It has arrived.
+  knowledge.hear(1, {2, 0, 100, {{2, 0, 1000, 40}, {3, 0, 1000, 40}, {0, 1, 800, 40}}}, 0);
+  CHECK(!knowledge.in_motion(0));
+  CHECK(find(knowledge.snapshot(0, true), 0)->remaining == 800);
+}
+
+TEST_CASE("a planned move of which nothing is heard is forgotten") {
+  Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
+  knowledge.hear(0, {1, 0, 0, loads_of(0, 1, 1000)}, 0);
+  knowledge.expect(std::vector<Move>{{0, 1}}, knowledge.snapshot(0, true), 1, 0);
+  knowledge.hear(1, {1, 0, 0, loads_of(2, 3, 1000)}, 9);
+  CHECK(knowledge.in_motion(0));
+  knowledge.hear(1, {2, 0, 0, loads_of(2, 3, 1000)}, 11);
+  CHECK(!knowledge.in_motion(0));
+}
+
+TEST_CASE("the leader plans when all have reported, and a rank follows") {
+  const Layout layout = grid_layout(12, 1, 2);
+  Controller leader = controller_of(0, layout, "greedy", 100), other = controller_of(1, layout, "greedy", 100);
+  CHECK(leader.due(100));
+  CHECK(leader.think(100, loads_of(0, 5, 1000), 400).moves.empty());
+  CHECK(!leader.due(100.001));
+
+  const Decision report = other.think(100, loads_of(6, 11, 1000), 100);
+  REQUIRE(sent<LoadReport>(report).size() == 1);
+  CHECK(sent<LoadReport>(report)[0].first == 0);
+  leader.receive(1, report.messages[0].message, 100.1);
+  CHECK(leader.due(100.1));
+  const Decision decision = leader.think(100.1, loads_of(0, 5, 1000), 400);
+  CHECK(decision.planned);
+  CHECK(decision.moves.empty());
+  const auto plans = sent<protocol::Plan>(decision);
+  REQUIRE(plans.size() == 1);
+  CHECK(plans[0].first == 1);
+  CHECK(plans[0].second.moves.size() == 4);
+
+  // What is not here, or finished, or costs more than it is worth, stays.
+  other.receive(0, plans[0].second, 100.2);
+  CHECK(other.waiting());
+  Loads here = loads_of(6, 11, 1000);
+  here.pop_back();
+  here[3].remaining = 1;
+  here[3].bytes = 100'000'000;
+  const Decision followed = other.think(100.2, here, 100);
+  CHECK(!other.waiting());
+  CHECK(followed.moves.size() == 2);
+  const auto answer = sent<LoadReport>(followed);
+  REQUIRE(answer.size() == 1);  // the leader learns what was done
+  CHECK(answer[0].second.plan == plans[0].second.round);
+  CHECK(answer[0].second.loads.size() == 3);
+}
+
+TEST_CASE("a rank without work sends none, whatever it is told") {
+  const Layout layout = grid_layout(12, 1, 3);
+  for (const std::string& policy : policy_names()) {
+    CAPTURE(policy);
+    for (Rank self = 0; self < 3; ++self) {
+      Controller c = controller_of(self, layout, policy);
+      c.receive(2, protocol::Plan{1, {{0, 1}, {4, 2}, {9, 0}}}, 0);
+      c.receive(2, LoadReport{1, 0, 10, loads_of(8, 11, 1e6)}, 0);
+      c.receive(2, protocol::LoadNews{1, 4e6, 3e6, 10}, 0);
+      c.receive(2, protocol::WorkRequest{2, 1, 0, 10, 0}, 0);
+      c.receive(2, protocol::WorkAnswer{7, {{3, self}}}, 0);
+      CHECK(c.think(0.1, {}, 100).moves.empty());
+    }
+  }
+}
+
+TEST_CASE("a rank that runs low asks, and waits for the answer") {
+  const Layout layout = grid_layout(12, 1, 3);
+  Controller broker = controller_of(0, layout, "stealing"), thief = controller_of(1, layout, "stealing"),
+             victim = controller_of(2, layout, "stealing");
+  broker.receive(2, protocol::LoadNews{1, 4000, 3000, 100}, 1);
+  CHECK(broker.think(1, loads_of(0, 1, 1000), 1000).moves.empty());
+
+  const auto request = sent<protocol::WorkRequest>(thief.think(1, loads_of(4, 4, 10), 300));
+  REQUIRE(request.size() == 1);
+  CHECK(request[0].first == 0);
+  CHECK(thief.waiting());
+
+  broker.receive(1, request[0].second, 1);
+  CHECK(broker.waiting());
+  const auto passed_on = sent<protocol::WorkRequest>(broker.think(1, loads_of(0, 1, 1000), 1000));
+  CHECK(!broker.waiting());
+  REQUIRE(passed_on.size() == 1);
+  CHECK(passed_on[0].first == 2);
+
+  victim.receive(0, passed_on[0].second, 1);
+  const Decision gift = victim.think(1, loads_of(8, 11, 1000), 100);
+  const auto answer = sent<protocol::WorkAnswer>(gift);
+  REQUIRE(answer.size() == 1);
+  CHECK(answer[0].first == 1);
+  CHECK(gift.moves.size() == 3);
+  for (const Move& move : gift.moves) CHECK(move.destination == 1);
+
+  thief.receive(2, answer[0].second, 1);
+  CHECK(!thief.waiting());
+  CHECK(sent<protocol::WorkRequest>(thief.think(1.5, loads_of(4, 4, 5), 300)).empty());  // there is some on its way
+}
+
+TEST_CASE("a refused rank does not ask without end, and is thought of later") {
+  const Layout layout = grid_layout(12, 1, 2);
+  Controller broker = controller_of(0, layout, "stealing"), thief = controller_of(1, layout, "stealing");
+  const auto request = sent<protocol::WorkRequest>(thief.think(1, {}, 300));
+  REQUIRE(request.size() == 1);
+  broker.receive(1, protocol::LoadNews{1, 0, 0, 300}, 1);
+  broker.receive(1, request[0].second, 1);
+  const auto refusal = sent<protocol::WorkAnswer>(broker.think(1, {}, 1000));
+  REQUIRE(refusal.size() == 1);
+  CHECK(refusal[0].second.moves.empty());
+  thief.receive(0, refusal[0].second, 1);
+  CHECK(!thief.waiting());
+  for (int i = 0; i < 100; ++i) CHECK(sent<protocol::WorkRequest>(thief.think(2 + i, {}, 300)).empty());
+
+  // A SPLIT has made work at the broker; something tells it to look.
+  broker.receive(1, protocol::LoadNews{2, 0, 0, 300}, 200);
+  const Decision late = broker.think(200, loads_of(0, 4, 1000), 1000);
+  CHECK(!late.moves.empty());
+  CHECK(sent<protocol::WorkAnswer>(late).size() == 1);
+}
