@@ -41,6 +41,8 @@ struct SoundRules {
   static constexpr bool passive(bool program_is_passive, bool aggregator_empty, bool nothing_held) {
     return program_is_passive && aggregator_empty && nothing_held;
   }
+  /// A rank calls itself passive only when none of its subdomains has work.
+  static constexpr bool rests(bool has_work) { return !has_work; }
   /// Records only move forward.
   static constexpr bool supersedes(const Location& news, const Location& record) { return news.epoch > record.epoch; }
 };

@@ -75,7 +75,7 @@ class BasicRankLoop {
     charge(agenda_.empty() && !heard ? &RankTimes::idle : &RankTimes::polling);
     const bool worked = work();
     charge(worked ? &RankTimes::computing : &RankTimes::idle);
-    if (!worked) protocol_.rest(true);
+    if (Rules::rests(worked)) protocol_.rest(true);
     const bool sent = send();
     charge(sent || worked ? &RankTimes::sending : &RankTimes::idle);
     watch(heard || worked || sent);
