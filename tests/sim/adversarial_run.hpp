@@ -1,0 +1,264 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "mesh/digest.hpp"
+#include "runtime/rank_loop.hpp"
+#include "sim/mesh_oracles.hpp"
+#include "sim/scenario.hpp"
+#include "support/simulated_run.hpp"
+
+namespace driftmesh::sim {
+
+/// What an oracle says; nothing if all is well.
+struct Verdict {
+  const char* oracle;
+  std::string problem;
+};
+
+/// What a run came to.
+struct Outcome {
+  std::vector<Verdict> verdicts;  ///< in the order in which they were found; not all of them, after a failure
+  std::int64_t triangles = 0;
+  std::uint64_t digest = 0;
+  std::uint64_t steps = 0;
+  protocol::ProtocolCounters counters;  ///< of all ranks together
+  protocol::AdversarialNetwork::Counters network;
+  std::uint64_t late_rounds = 0;  ///< probes after the one that was out when all work was over
+  bool digest_compared = false;
+
+  /// The first problem with the name of its oracle, or nothing.
+  [[nodiscard]] std::string failure() const {
+    for (const Verdict& v : verdicts)
+      if (!v.problem.empty()) return std::string(v.oracle) + ": " + v.problem;
+    return {};
+  }
+};
+
+/// Real subdomains on ranks with the loop of a real run, on a network that does its worst. While it runs, and at its
+/// end, every oracle looks at the truth: at the subdomains and at what is on the network, not at anybody's counts.
+///
+/// `Rules` are the protocol's; a broken one shows whether the oracles notice.
+template <class Rules = protocol::SoundRules>
+class AdversarialRun {
+ public:
+  using Loop = BasicRankLoop<Rules>;
+  /// Puts something between a rank and the network. It may ask for the rank's loop once the run is going.
+  using Wrap = std::function<std::unique_ptr<protocol::Transport>(protocol::Transport&, std::function<const Loop&()>)>;
+
+  AdversarialRun(const Scenario& scenario, Domain& domain, const Wrap& wrap = {})
+      : scenario_(scenario),
+        domain_(domain),
+        random_(scenario.seed * 31 + 7),
+        moves_left_(scenario.most_moves),
+        network_(scenario.ranks, scenario.adversary) {
+    make_plan();
+    for (protocol::Rank r = 0; r < scenario.ranks; ++r) {
+      protocol::Transport* transport = &network_.transport(r);
+      if (wrap) {
+        wrapped_.push_back(
+            wrap(*transport, [this, r]() -> const Loop& { return *loops_[static_cast<std::size_t>(r)]; }));
+        transport = wrapped_.back().get();
+      }
+      loops_.push_back(std::make_unique<Loop>(*transport, plan_));
+    }
+    arrivals_seen_.resize(loops_.size());
+  }
+
+  Outcome run() {
+    if (!go()) return std::move(outcome_);
+    count();
+    say("no message lost", lost_messages());
+    say("one live owner", owners_at_the_end());
+    if (!outcome_.failure().empty()) return std::move(outcome_);
+    const std::vector<const Subdomain*> all = subdomains();
+    const auto problems = testing::conformity_problems(plan_.decomposition, all);
+    say("both sides of each edge hold the same points", problems.empty() ? "" : problems.front());
+    say("the mesh, to the judge", judge(domain_, plan_.decomposition, all));
+    compare_digest(all);
+    return std::move(outcome_);
+  }
+
+ private:
+  struct Wrong {
+    Verdict verdict;
+  };
+
+  void make_plan() {
+    plan_.decomposition = domain_.cut(scenario_.subdomains);
+    for (std::size_t s = 0; s < plan_.decomposition.size(); ++s) plan_.owners.push_back(any_rank());
+    plan_.bounds = domain_.bounds();
+    plan_.presplit = scenario_.presplit;
+    plan_.aggregation = scenario_.aggregation;
+    plan_.slice = scenario_.slice;
+    plan_.order = scenario_.order;
+  }
+
+  /// To the end of the run. False if it does not come to a good one.
+  bool go() {
+    std::vector<protocol::RankStep> steps;
+    for (const auto& loop : loops_) steps.push_back([this, l = loop.get()] { return step(*l); });
+    try {
+      const protocol::RunResult result = network_.run(steps);
+      outcome_.steps = result.steps;
+      outcome_.network = network_.counters();
+      say("the run ends", result.end == protocol::RunEnd::kFinished  ? ""
+                          : result.end == protocol::RunEnd::kStalled ? "stalled: " + describe()
+                                                                     : "does not end: " + describe());
+      say("termination in time", "");
+    } catch (const Wrong& wrong) {
+      outcome_.verdicts.push_back(wrong.verdict);
+    } catch (const std::exception& error) {
+      say("no error", error.what());
+    }
+    return outcome_.failure().empty();
+  }
+
+  protocol::StepResult step(Loop& loop) {
+    if (moves_left_ > 0 && chance(scenario_.move_chance)) move_one(loop);
+    const protocol::StepResult result = loop.step();
+    watch_owners(loop);
+    watch_termination();
+    return result;
+  }
+
+  void move_one(Loop& loop) {
+    std::vector<SubdomainId> active;
+    for (const auto& [id, subdomain] : loop.subdomains())
+      if (subdomain.active()) active.push_back(id);
+    if (!active.empty() && loop.hand_over(active[random_() % active.size()], any_rank())) --moves_left_;
+  }
+
+  /// A subdomain that arrives lives nowhere else.
+  void watch_owners(const Loop& loop) {
+    const std::int64_t arrivals = loop.protocol().counters().arrivals;
+    std::int64_t& seen = arrivals_seen_[index_of(loop)];
+    if (std::exchange(seen, arrivals) == arrivals) return;
+    for (const auto& [id, subdomain] : loop.subdomains())
+      for (const auto& other : loops_)
+        if (other.get() != &loop && other->subdomains().contains(id))
+          throw Wrong{{"one live owner", "subdomain " + std::to_string(id) + " lives on two ranks"}};
+  }
+  [[nodiscard]] std::size_t index_of(const Loop& loop) const {
+    const auto place = std::find_if(loops_.begin(), loops_.end(), [&](const auto& l) { return l.get() == &loop; });
+    return static_cast<std::size_t>(place - loops_.begin());
+  }
+
+  void watch_termination() {
+    const auto wrong = [](const char* what) { throw Wrong{{"termination in time", what}}; };
+    if (work_anywhere()) {
+      if (quiet_since_) wrong("work out of nothing");
+      for (const auto& loop : loops_)
+        if (loop->protocol().phase() != protocol::Termination::Phase::kWorking) wrong("too early");
+      return;
+    }
+    const std::uint64_t rounds = loops_[0]->protocol().termination().rounds();
+    if (!quiet_since_) quiet_since_ = rounds;
+    if (rounds > *quiet_since_ + 2) wrong("too late");
+    outcome_.late_rounds = rounds - *quiet_since_;
+  }
+
+  [[nodiscard]] bool work_anywhere() {
+    for (const auto& loop : loops_)
+      if (loop->at_work()) return true;
+    for (protocol::Rank r = 0; r < scenario_.ranks; ++r)
+      for (const auto& parcel : network_.under_way(r))
+        if (protocol::traffic_of(parcel.source, parcel.bytes) == protocol::Traffic::kWork) return true;
+    return false;
+  }
+
+  void count() {
+    for (const auto& loop : loops_) {
+      const protocol::ProtocolCounters& c = loop->protocol().counters();
+      outcome_.counters.splits_sent += c.splits_sent;
+      outcome_.counters.splits_handled += c.splits_handled;
+      outcome_.counters.batches_sent += c.batches_sent;
+      outcome_.counters.hand_offs += c.hand_offs;
+      outcome_.counters.arrivals += c.arrivals;
+      outcome_.counters.forwarded += c.forwarded;
+      outcome_.counters.held += c.held;
+    }
+  }
+
+  [[nodiscard]] std::string lost_messages() const {
+    const protocol::ProtocolCounters& c = outcome_.counters;
+    if (network_.in_flight() != 0) return std::to_string(network_.in_flight()) + " messages are left behind";
+    if (c.splits_sent != c.splits_handled)
+      return std::to_string(c.splits_sent) + " SPLITs were sent, " + std::to_string(c.splits_handled) + " handled";
+    if (c.hand_offs != c.arrivals)
+      return std::to_string(c.hand_offs) + " subdomains were given away, " + std::to_string(c.arrivals) + " arrived";
+    return {};
+  }
+
+  [[nodiscard]] std::string owners_at_the_end() const {
+    std::vector<int> owners(plan_.decomposition.size());
+    for (const auto& loop : loops_)
+      for (std::size_t s = 0; s < owners.size(); ++s) {
+        const bool here = loop->subdomains().contains(static_cast<SubdomainId>(s));
+        owners[s] += here ? 1 : 0;
+        if (here != loop->protocol().holds(static_cast<SubdomainId>(s)))
+          return "the directory of a rank is wrong about subdomain " + std::to_string(s);
+      }
+    for (std::size_t s = 0; s < owners.size(); ++s)
+      if (owners[s] != 1) return "subdomain " + std::to_string(s) + " has " + std::to_string(owners[s]) + " owners";
+    return {};
+  }
+
+  void compare_digest(const std::vector<const Subdomain*>& all) {
+    for (const Subdomain* s : all) {
+      outcome_.digest += mesh_digest(s->mesh().mesh);
+      outcome_.triangles += s->triangles();
+    }
+    if (!scenario_.presplit) return;
+    const auto expected = domain_.digest_alone(scenario_.subdomains);
+    if (!expected) return;
+    outcome_.digest_compared = true;
+    say("presplit interfaces need no SPLIT", outcome_.counters.splits_sent == 0 ? "" : "some were sent");
+    say("the same mesh as from every other run", *expected == outcome_.digest ? "" : "its digest differs");
+  }
+
+  [[nodiscard]] std::vector<const Subdomain*> subdomains() const {
+    std::vector<const Subdomain*> all;
+    for (const auto& loop : loops_)
+      for (const auto& [id, subdomain] : loop->subdomains()) all.push_back(&subdomain);
+    std::sort(all.begin(), all.end(), [](const Subdomain* a, const Subdomain* b) { return a->id() < b->id(); });
+    return all;
+  }
+
+  [[nodiscard]] std::string describe() const {
+    std::string text;
+    for (const auto& loop : loops_)
+      if (!loop->protocol().finished()) text += (text.empty() ? "" : "; ") + loop->protocol().describe();
+    return text;
+  }
+
+  void say(const char* oracle, std::string problem) { outcome_.verdicts.push_back({oracle, std::move(problem)}); }
+  protocol::Rank any_rank() {
+    return static_cast<protocol::Rank>(random_() % static_cast<std::uint64_t>(scenario_.ranks));
+  }
+  bool chance(double probability) { return static_cast<double>(random_() >> 11) * 0x1p-53 < probability; }
+
+  const Scenario& scenario_;
+  Domain& domain_;
+  std::mt19937_64 random_;
+  std::int64_t moves_left_;
+  RunPlan plan_;
+  protocol::AdversarialNetwork network_;
+  std::vector<std::unique_ptr<protocol::Transport>> wrapped_;
+  std::vector<std::unique_ptr<Loop>> loops_;
+  std::vector<std::int64_t> arrivals_seen_;
+  std::optional<std::uint64_t> quiet_since_;  // probes that were out or over then
+  Outcome outcome_;
+};
+
+}  // namespace driftmesh::sim

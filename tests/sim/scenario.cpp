@@ -1,0 +1,46 @@
+#include "sim/scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <random>
+
+#include "sim/domains.hpp"
+
+namespace driftmesh::sim {
+
+// Every draw is made whatever the choice says, so that a choice changes nothing else.
+Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
+  std::mt19937_64 random(seed * 0x9e3779b97f4a7c15u + 1);
+  const auto one_of = [&](const auto& values) { return values[random() % values.size()]; };
+  Scenario s;
+  s.seed = seed;
+  s.domain = choice.domain.value_or(one_of(domain_names()));
+  s.ranks = choice.ranks.value_or(one_of(std::array<protocol::Rank, 12>{1, 2, 2, 3, 3, 4, 5, 6, 8, 11, 13, 16}));
+  s.subdomains = one_of(std::array{4, 7, 12});
+  s.presplit = choice.presplit.value_or(random() % 3 == 0);
+  s.aggregation = choice.aggregation.value_or(one_of(std::array<std::size_t, 5>{1, 2, 7, 30, 512}));
+  s.slice = one_of(std::array<std::int64_t, 4>{3, 10, 30, 16384});
+  s.order = one_of(std::array{WorkOrder::kGiven, WorkOrder::kLargest, WorkOrder::kBacklog});
+  s.move_chance = one_of(std::array{0.0, 0.05, 0.3, 1.0});
+  s.most_moves = one_of(std::array{5, 20, 60});
+  s.adversary = protocol::Adversary::from_seed(seed);
+  s.adversary.step_limit = 200'000;
+  s.adversary.may_copy = [](protocol::Rank source, auto bytes) {
+    return protocol::traffic_of(source, bytes) == protocol::Traffic::kDetection;
+  };
+  return s;
+}
+
+std::string Scenario::describe() const {
+  const protocol::Adversary& a = adversary;
+  return fmt::format(
+      "seed {}: {} in {} subdomains on {} ranks, presplit {}, {} SPLITs a message, slices of {}; {} moves at most, "
+      "with "
+      "chance {} at each step; {}, delay {}{}{}{}",
+      seed, domain, subdomains, ranks, presplit ? "on" : "off", aggregation, slice, most_moves, move_chance,
+      a.fifo ? "in order" : "reordered", a.delay, a.starve ? ", a rank starved" : "",
+      a.hold_one ? ", a message held back" : "", a.copy > 0 ? ", copies" : "");
+}
+
+}  // namespace driftmesh::sim

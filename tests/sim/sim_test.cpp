@@ -1,0 +1,174 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "property/cases.hpp"
+#include "sim/adversarial_run.hpp"
+#include "sim/tampering.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::sim;
+
+namespace {
+
+// A wrong rule must show within so many seeds, and by the oracle that is there for it.
+template <class Rules>
+void must_be_caught(std::uint64_t seeds, std::string_view as, const typename AdversarialRun<Rules>::Wrap& wrap = {}) {
+  Domains domains;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const Scenario scenario = Scenario::from_seed(seed);
+    const std::string failure = AdversarialRun<Rules>(scenario, domains[scenario.domain], wrap).run().failure();
+    if (failure.empty()) continue;
+    MESSAGE("caught at seed ", seed, ": ", failure);
+    CHECK(failure.find(as) != std::string::npos);
+    return;
+  }
+  FAIL("not caught within ", seeds, " seeds");
+}
+
+AdversarialRun<>::Wrap tampering(Tampering tamper) {
+  return [tamper](protocol::Transport& transport, std::function<const RankLoop&()> loop) {
+    // Edges and subdomains of any number: the loop looks at them again.
+    const protocol::WireLimits limits{transport.ranks(), 1 << 20, 1 << 20};
+    return std::make_unique<TamperingTransport>(transport, tamper, limits,
+                                                [loop = std::move(loop)](SubdomainId s) -> const Subdomain* {
+                                                  const auto place = loop().subdomains().find(s);
+                                                  return place == loop().subdomains().end() ? nullptr : &place->second;
+                                                });
+  };
+}
+
+}  // namespace
+
+TEST_CASE("the schedules are hard ones, on every domain and number of ranks") {
+  Domains domains;
+  protocol::ProtocolCounters sum;
+  protocol::AdversarialNetwork::Counters network;
+  std::set<std::string> compared, shapes;
+  std::set<protocol::Rank> ranks;
+  std::uint64_t late_rounds = 0;
+  std::int64_t smallest = INT64_MAX;
+  const auto seeds = static_cast<std::uint64_t>(testing::case_count(1000));
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    CAPTURE(seed);
+    const Scenario scenario = Scenario::from_seed(seed);
+    const Outcome o = AdversarialRun<>(scenario, domains[scenario.domain]).run();
+    REQUIRE(o.failure() == "");
+    shapes.insert(scenario.domain);
+    ranks.insert(scenario.ranks);
+    if (o.digest_compared) compared.insert(scenario.domain);
+    smallest = std::min(smallest, o.triangles);
+    sum.splits_sent += o.counters.splits_sent;
+    sum.batches_sent += o.counters.batches_sent;
+    sum.hand_offs += o.counters.hand_offs;
+    sum.forwarded += o.counters.forwarded;
+    sum.held += o.counters.held;
+    network.reordered += o.network.reordered;
+    network.copies += o.network.copies;
+    network.starved += o.network.starved;
+    network.held += o.network.held;
+    late_rounds = std::max(late_rounds, o.late_rounds);
+  }
+  MESSAGE(sum.splits_sent, " SPLITs in ", sum.batches_sent, " messages, ", sum.hand_offs, " moves, ", sum.forwarded,
+          " groups forwarded, ", sum.held, " held; at most ", late_rounds, " probes after the last work");
+  const auto at_least = static_cast<std::int64_t>(seeds / 10);
+  CHECK(shapes.size() == domain_names().size());
+  CHECK(ranks.contains(1));
+  CHECK(ranks.contains(16));
+  CHECK(compared.contains("square"));
+  CHECK(compared.contains("ell"));
+  CHECK(smallest > 30);
+  CHECK(sum.splits_sent > 20 * at_least);
+  CHECK(sum.splits_sent > sum.batches_sent);
+  CHECK(sum.hand_offs > 10 * at_least);
+  CHECK(sum.forwarded > 10 * at_least);
+  CHECK(sum.held > at_least);
+  CHECK(network.reordered > seeds);
+  CHECK(network.copies > seeds / 10);
+  CHECK(network.starved > seeds);
+  CHECK(network.held > seeds / 10);
+  CHECK(late_rounds == 2);
+}
+
+TEST_CASE("a run is repeated exactly by its seed") {
+  Domains domains;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scenario scenario = Scenario::from_seed(seed);
+    const Outcome one = AdversarialRun<>(scenario, domains[scenario.domain]).run();
+    const Outcome two = AdversarialRun<>(scenario, domains[scenario.domain]).run();
+    CHECK(one.digest == two.digest);
+    CHECK(one.steps == two.steps);
+    CHECK(one.network.delivered == two.network.delivered);
+  }
+}
+
+TEST_CASE("mutation: an aggregator that is not flushed counts as passive") {
+  struct Rules : protocol::SoundRules {
+    static constexpr bool counts_as_sent(Station station) {
+      return station == Station::kLeavesAggregator || station == Station::kGivenAway;
+    }
+    static constexpr bool flushes_when_idle() { return false; }
+    static constexpr bool passive(bool program_is_passive, bool, bool nothing_held) {
+      return program_is_passive && nothing_held;
+    }
+  };
+  must_be_caught<Rules>(50, "termination in time: too early");
+}
+
+TEST_CASE("mutation: an idle rank keeps what it has collected") {
+  struct Rules : protocol::SoundRules {
+    static constexpr bool flushes_when_idle() { return false; }
+  };
+  must_be_caught<Rules>(50, "stalled");
+}
+
+TEST_CASE("mutation: the token is passed by a rank that is active") {
+  struct Rules : protocol::SoundRules {
+    static constexpr bool rests(bool) { return true; }
+  };
+  must_be_caught<Rules>(50, "termination in time: too early");
+}
+
+TEST_CASE("mutation: forwarding counts as sending") {
+  struct Rules : protocol::SoundRules {
+    static constexpr bool counts_as_sent(Station station) {
+      return station == Station::kForwarded || SoundRules::counts_as_sent(station);
+    }
+  };
+  must_be_caught<Rules>(100, "");
+}
+
+TEST_CASE("mutation: what is held back counts as handled, and again when it is") {
+  struct Rules : protocol::SoundRules {
+    static constexpr bool counts_as_handled(Station station) {
+      return station == Station::kHeld || SoundRules::counts_as_handled(station);
+    }
+  };
+  must_be_caught<Rules>(100, "termination in time: too late");
+}
+
+TEST_CASE("mutation: hand-offs are not counted") {
+  struct Rules : protocol::SoundRules {
+    static constexpr bool counts_as_sent(Station station) { return station == Station::kEntersAggregator; }
+    static constexpr bool counts_as_handled(Station station) { return station == Station::kReachesSubdomain; }
+  };
+  must_be_caught<Rules>(100, "");
+}
+
+TEST_CASE("mutation: location records without epochs") {
+  struct Rules : protocol::SoundRules {
+    static constexpr bool supersedes(const protocol::Location&, const protocol::Location&) { return true; }
+  };
+  must_be_caught<Rules>(1000, "");
+}
+
+TEST_CASE("mutation: missing ancestors are not replayed") {
+  must_be_caught<protocol::SoundRules>(400, "both sides of each edge", tampering(drop_orphans));
+}
+
+TEST_CASE("mutation: a point that is there is inserted again") {
+  must_be_caught<protocol::SoundRules>(50, "both sides of each edge", tampering(insert_again));
+}
