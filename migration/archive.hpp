@@ -5,6 +5,7 @@
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/serialization/array_wrapper.hpp>
 #include <boost/serialization/is_bitwise_serializable.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -18,14 +19,15 @@
 // Boost's binary archives on bytes in memory, for values and flat arrays of values that are bytes already. An array
 // goes as one block.
 
+BOOST_IS_BITWISE_SERIALIZABLE(std::byte)
+
 namespace driftmesh {
 
 inline constexpr unsigned kArchiveFlags = boost::archive::no_header | boost::archive::no_codecvt;
 
+/// What may stand in an array: Boost would otherwise go element by element, and turn enumerators into ints.
 template <class T>
-inline constexpr bool kIsFlat =
-    std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> &&
-    (std::is_arithmetic_v<T> || std::is_enum_v<T> || boost::serialization::is_bitwise_serializable<T>::value);
+inline constexpr bool kIsFlat = boost::serialization::is_bitwise_serializable<T>::value;
 
 /// A stream that appends to sealed bytes.
 class ByteSink : public std::streambuf {
@@ -64,7 +66,7 @@ class ArchiveWriter {
 
   template <class T>
   void value(const T& v) {
-    static_assert(kIsFlat<T>);
+    static_assert(kIsFlat<T> || std::is_enum_v<T>);
     archive_.save_binary(&v, sizeof v);
   }
   template <class Array>
@@ -87,7 +89,7 @@ class ArchiveReader {
 
   template <class T>
   void value(T& v) {
-    static_assert(kIsFlat<T>);
+    static_assert(kIsFlat<T> || std::is_enum_v<T>);
     expect(1, sizeof v);
     archive_.load_binary(&v, sizeof v);
   }

@@ -29,7 +29,7 @@ BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Point)
 namespace driftmesh {
 namespace {
 
-enum class Content : std::uint8_t { kNotStarted, kMesh };
+enum class Content : std::uint8_t { kNotStarted, kMesh, kDormant };
 
 [[noreturn]] void refuse(const std::string& why) {
   throw Error(why);
@@ -169,6 +169,37 @@ Refiner::State load_refiner(ArchiveReader& in) {
   return state;
 }
 
+// ---- The dormant form ----
+
+template <class Archive, class Body>
+void transfer_dormant(Archive& archive, Body& body) {
+  DormantMesh::fields(body.mesh, [&](auto& field) {
+    if constexpr (requires { field.data(); })
+      archive.array(field);
+    else
+      archive.value(field);
+  });
+  archive.array(body.unsplittable);
+  archive.value(body.max_triangles);
+  archive.value(body.counters);
+  archive.value(body.forecast);
+}
+
+DormantBody load_dormant(ArchiveReader& in, Source source) {
+  DormantBody body;
+  transfer_dormant(in, body);
+  require(std::isfinite(body.forecast), "the forecast is not a number");
+  require(std::is_sorted(body.unsplittable.begin(), body.unsplittable.end(), std::less_equal<>()),
+          "subsegments out of order");
+  body.mesh.check();
+  const std::size_t subsegments = body.mesh.skeleton().mesh.subsegments.size();
+  require(std::all_of(body.unsplittable.begin(), body.unsplittable.end(),
+                      [&](SubsegmentId s) { return s >= 0 && static_cast<std::size_t>(s) < subsegments; }),
+          "an unsplittable subsegment does not exist");
+  if (kCheckAll || source == Source::kUnknown) check_part(body.mesh.wake(), source);
+  return body;
+}
+
 // ---- The whole ----
 
 SubdomainState::Body load_body(ArchiveReader& in, Source source) {
@@ -189,13 +220,20 @@ void load_rest(ArchiveReader& in, SubdomainState& subdomain, Source source) {
   Content content{};
   in.value(refined);
   in.value(content);
-  require(refined <= 1 && content <= Content::kMesh, "it says what cannot be");
+  require(refined <= 1 && content <= Content::kDormant, "it says what cannot be");
   subdomain.refined = refined != 0;
   load_points(in, subdomain.pending, &protocol::SplitEntry::edge);
   if (content == Content::kMesh) subdomain.body = load_body(in, source);
+  if (content == Content::kDormant) subdomain.dormant = load_dormant(in, source);
   require(in.at_end(), "bytes are left over");
-  require(!subdomain.refined || (subdomain.body && subdomain.body->refiner.stage == Refiner::Stage::kDone),
-          "it is refined and is not");
+  const bool done = subdomain.dormant || (subdomain.body && subdomain.body->refiner.stage == Refiner::Stage::kDone);
+  require(done || !subdomain.refined, "it is refined and is not");
+  require(subdomain.refined || !subdomain.dormant, "it is dormant and not refined");
+}
+
+Content content_of(const SubdomainView& subdomain) {
+  if (subdomain.body) return Content::kMesh;
+  return subdomain.dormant != nullptr ? Content::kDormant : Content::kNotStarted;
 }
 
 std::size_t mesh_bytes(const Triangulation& mesh) {
@@ -207,18 +245,21 @@ std::size_t mesh_bytes(const Triangulation& mesh) {
 
 protocol::Bytes pack(const SubdomainView& subdomain) {
   constexpr std::size_t kSmallArrays = 4096;
-  SealedBytes bytes(kSmallArrays + (subdomain.body ? mesh_bytes(subdomain.body->part.mesh) : 0));
+  SealedBytes bytes(kSmallArrays + (subdomain.body                 ? mesh_bytes(subdomain.body->part.mesh)
+                                    : subdomain.dormant != nullptr ? subdomain.dormant->mesh.bytes()
+                                                                   : 0));
   {
     ArchiveWriter out(bytes);
     out.value(subdomain.id);
     out.value(static_cast<std::uint8_t>(subdomain.refined));
-    out.value(subdomain.body ? Content::kMesh : Content::kNotStarted);
+    out.value(content_of(subdomain));
     save_points(out, subdomain.pending, &protocol::SplitEntry::edge);
     if (subdomain.body) {
       out.value(subdomain.body->forecast);
       transfer_mesh(out, subdomain.body->part);
       save_refiner(out, subdomain.body->refiner, subdomain.body->part.mesh.points.size());
     }
+    if (subdomain.dormant != nullptr) transfer_dormant(out, *subdomain.dormant);
   }
   return bytes.take();
 }

@@ -6,10 +6,20 @@
 
 #include "decompose/subdomain_mesh.hpp"
 #include "mesh/refiner.hpp"
+#include "migration/dormant_mesh.hpp"
 #include "protocol/ids.hpp"
 #include "protocol/messages.hpp"
 
 namespace driftmesh {
+
+/// What a refiner at rest leaves beside a dormant mesh.
+struct DormantBody {
+  DormantMesh mesh;
+  std::vector<SubsegmentId> unsplittable;  ///< of the mesh that wakes, ascending
+  std::int64_t max_triangles = 0;
+  Refiner::Counters counters;
+  double forecast = 0;  ///< of triangles, as it was
+};
 
 /// A subdomain without what all subdomains of a run share.
 struct SubdomainState {
@@ -21,7 +31,8 @@ struct SubdomainState {
     Refiner::State refiner;
     double forecast = 0;  ///< of triangles, when all bounds are met
   };
-  std::optional<Body> body;  ///< absent until it first works
+  std::optional<Body> body;  ///< absent until it first works, and while it is dormant
+  std::optional<DormantBody> dormant;
 };
 
 /// A view of the same, to pack without copying.
@@ -35,6 +46,7 @@ struct SubdomainView {
     double forecast;
   };
   std::optional<Body> body;
+  const DormantBody* dormant = nullptr;
 };
 
 /// The packed form: the bytes that migrate, and that a checkpoint holds (layout in docs/file-formats.md). For ranks of

@@ -14,24 +14,42 @@ std::int64_t points_made(const Refiner::Counters& c) {
   return c.free_points + c.segment_points;
 }
 
-/// Why an unpacked subdomain is none of this decomposition; empty if it is one.
-std::string misfit(const SubdomainState& state, const Decomposition& d) {
-  if (static_cast<std::size_t>(state.id) >= d.size()) return "there are only " + std::to_string(d.size());
-  for (const protocol::SplitEntry& entry : state.pending)
-    if (static_cast<std::size_t>(entry.edge) >= d.roots.size()) return "a point waits for an edge that does not exist";
-  if (!state.body) return "";
-  const SubdomainMesh& part = state.body->part;
-  if (!std::ranges::equal(part.roots, d.roots_of(state.id))) return "its border is another";
+Refiner::State rest_of(const DormantBody& dormant, const Triangulation& mesh, const QualityBounds& bounds) {
+  Refiner::State state = Refiner::State::at_rest(mesh, bounds);
+  state.unsplittable.insert(dormant.unsplittable.begin(), dormant.unsplittable.end());
+  state.max_triangles = dormant.max_triangles;
+  state.counters = dormant.counters;
+  return state;
+}
+
+/// Why a mesh is not of subdomain i; empty if it is. `label`: the highest of its region labels.
+std::string misfit(const SubdomainMesh& part, std::uint16_t label, const Decomposition& d, SubdomainId i) {
+  if (!std::ranges::equal(part.roots, d.roots_of(i))) return "its border is another";
   std::uint16_t last_label = 0;
   for (const RootId r : part.roots) {
     const Decomposition::Root& root = d.roots[static_cast<std::size_t>(r)];
     last_label = std::max({last_label, root.left_region, root.right_region});
   }
-  if (std::any_of(part.mesh.region.begin(), part.mesh.region.end(), [&](auto label) { return label > last_label; }))
-    return "it has a region that is not there";
-  if (std::any_of(part.points.begin(), part.points.end(),
-                  [&](GlobalPointId v) { return static_cast<std::size_t>(v) >= d.points.size(); }))
+  if (label > last_label) return "it has a region that is not there";
+  if (std::ranges::any_of(part.points, [&](auto v) { return static_cast<std::size_t>(v) >= d.points.size(); }))
     return "it has a point that is not there";
+  return "";
+}
+
+/// Why an unpacked subdomain is none of this decomposition; empty if it is one.
+std::string misfit(const SubdomainState& state, const Decomposition& d) {
+  if (static_cast<std::size_t>(state.id) >= d.size()) return "there are only " + std::to_string(d.size());
+  for (const protocol::SplitEntry& entry : state.pending)
+    if (static_cast<std::size_t>(entry.edge) >= d.roots.size()) return "a point waits for an edge that does not exist";
+  std::uint16_t label = 0;
+  if (state.body) {
+    for (const std::uint16_t l : state.body->part.mesh.region) label = std::max(label, l);
+    return misfit(state.body->part, label, d, state.id);
+  }
+  if (state.dormant) {
+    state.dormant->mesh.visit_triangles([&](const auto&, std::uint16_t l) { label = std::max(label, l); });
+    return misfit(state.dormant->mesh.skeleton(), label, d, state.id);
+  }
   return "";
 }
 
@@ -39,18 +57,21 @@ std::string misfit(const SubdomainState& state, const Decomposition& d) {
 
 double Subdomain::remaining() const {
   if (!active()) return 0;
-  const double forecast =
-      body_ ? body_->forecast : context_->decomposition->subdomains[static_cast<std::size_t>(id_)].predicted;
+  const double forecast = dormant_ ? dormant_->forecast
+                          : body_  ? body_->forecast
+                                   : context_->decomposition->subdomains[static_cast<std::size_t>(id_)].predicted;
   // What is left of a subdomain that has outgrown its forecast, or met its bounds before, is a matter of single points.
   return std::max(forecast - static_cast<double>(triangles()), 1 + static_cast<double>(pending_.size()));
 }
 
 std::int64_t Subdomain::triangles() const {
+  if (dormant_) return dormant_->mesh.triangles();
   return body_ ? static_cast<std::int64_t>(body_->part.mesh.live_triangles()) : 0;
 }
 
 SliceWork Subdomain::work(std::int64_t insertions, std::vector<protocol::SplitEntry>& said) {
   SliceWork done;
+  wake();
   if (!body_) {
     make_body();
     done.prepared = triangles();
@@ -74,9 +95,49 @@ SliceWork Subdomain::work(std::int64_t insertions, std::vector<protocol::SplitEn
   return done;
 }
 
+Subdomain::Body::Body(DormantBody&& dormant, const QualityBounds& bounds)
+    : part(dormant.mesh.wake()),
+      refiner(part.mesh, bounds, rest_of(dormant, part.mesh, bounds)),
+      forecast(dormant.forecast) {}
+
+void Subdomain::sleep() {
+  if (!body_ || active()) return;
+  const Refiner::State& refiner = body_->refiner.state();
+  auto dormant = std::make_unique<DormantBody>();
+  dormant->mesh = DormantMesh(body_->part);
+  const auto waking = DormantMesh::waking_subsegments(body_->part.mesh);
+  for (const SubsegmentId s : refiner.unsplittable)
+    dormant->unsplittable.push_back(waking[static_cast<std::size_t>(s)]);
+  std::ranges::sort(dormant->unsplittable);
+  dormant->max_triangles = refiner.max_triangles;
+  dormant->counters = refiner.counters;
+  dormant->forecast = body_->forecast;
+  dormant_ = std::move(dormant);
+  body_.reset();
+}
+
+void Subdomain::wake() {
+  if (!dormant_) return;
+  try {
+    body_ = std::make_unique<Body>(std::move(*dormant_), context_->bounds);
+  } catch (const Error& error) {
+    throw Error("the dormant form of subdomain " + std::to_string(id_) + " is damaged: " + error.what());
+  }
+  dormant_.reset();
+}
+
+/// Whether it holds the point already.
+bool Subdomain::sleeps_through(const protocol::SplitEntry& entry) const {
+  const auto roots = context_->decomposition->roots_of(id_);
+  const auto place = std::ranges::lower_bound(roots, entry.edge);
+  return place != roots.end() && *place == entry.edge &&
+         dormant_->mesh.holds(static_cast<RootId>(place - roots.begin()), entry.path);
+}
+
 protocol::Bytes Subdomain::pack() const {
-  SubdomainView view{id_, refined_, pending_, {}};
+  SubdomainView view{id_, refined_, pending_, {}, nullptr};
   if (body_) view.body.emplace(body_->part, body_->refiner.state(), body_->forecast);
+  view.dormant = dormant_.get();
   return driftmesh::pack(view);
 }
 
@@ -88,12 +149,13 @@ Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainCon
   Subdomain subdomain(state.id, context);
   subdomain.refined_ = state.refined;
   subdomain.pending_ = std::move(state.pending);
-  if (!state.body) return subdomain;
   try {
-    subdomain.body_ = std::make_unique<Body>(std::move(*state.body), context.bounds);
+    if (state.body) subdomain.body_ = std::make_unique<Body>(std::move(*state.body), context.bounds);
+    if (state.dormant && source == Source::kUnknown) Body(DormantBody(*state.dormant), context.bounds);  // it can wake
   } catch (const Error& error) {
     throw Error("the packed form of subdomain " + std::to_string(state.id) + " is damaged: " + error.what());
   }
+  if (state.dormant) subdomain.dormant_ = std::make_unique<DormantBody>(std::move(*state.dormant));
   return subdomain;
 }
 

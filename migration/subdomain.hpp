@@ -35,6 +35,9 @@ struct SliceWork {
 ///
 /// A split point from a neighbour is queued and inserted in the next slice, with its ancestors, in any order of arrival
 /// and any number of times: the points on a shared edge are a set that only grows (docs/protocol.md).
+///
+/// When it has nothing to do it can be put to sleep: it then takes a third of the memory, or less, and wakes by itself
+/// when it has to take in a point that it does not hold.
 class Subdomain {
  public:
   Subdomain(SubdomainId id, const SubdomainContext& context) : id_(id), context_(&context) {}
@@ -52,12 +55,22 @@ class Subdomain {
   [[nodiscard]] std::int64_t triangles() const;
 
   /// A neighbour has put a point on a shared edge.
-  void tell(const protocol::SplitEntry& entry) { pending_.push_back(entry); }
+  void tell(const protocol::SplitEntry& entry) {
+    if (!dormant_ || !sleeps_through(entry)) pending_.push_back(entry);
+  }
 
   /// Works for about so many insertions. Points put on shared edges are appended to `said`, each after its ancestors.
   /// Throws Error when a shared edge cannot be split where the neighbour has split it, LimitError at the limit of what
   /// handles can name.
   SliceWork work(std::int64_t insertions, std::vector<protocol::SplitEntry>& said);
+
+  /// Shrinks to the dormant form (see dormant_mesh.hpp), if it has worked and has nothing to do. What refinement does
+  /// after waking, if anything, meets the same bounds but need not be the same to the bit as without sleep.
+  void sleep();
+  void wake();
+  [[nodiscard]] bool dormant() const { return dormant_ != nullptr; }
+  /// The mesh as it sleeps. Only while dormant().
+  [[nodiscard]] const DormantMesh& dormant_mesh() const { return dormant_->mesh; }
 
   /// Everything as bytes (see packed_form.hpp), little more than none before the first work(); the subdomain that
   /// unpack makes of them goes on exactly as this one would.
@@ -66,10 +79,12 @@ class Subdomain {
   [[nodiscard]] static Subdomain unpack(std::span<const std::byte> bytes, const SubdomainContext& context,
                                         Source source = Source::kUnknown);
 
-  /// The mesh as it is now. Only after work() was called once.
+  /// The mesh as it is now. Only after work() was called once, and while it is awake.
   [[nodiscard]] const SubdomainMesh& mesh() const { return body_->part; }
-  [[nodiscard]] bool started() const { return body_ != nullptr; }
-  [[nodiscard]] const Refiner::Counters& counters() const { return body_->refiner.counters(); }
+  [[nodiscard]] bool started() const { return body_ != nullptr || dormant_ != nullptr; }
+  [[nodiscard]] const Refiner::Counters& counters() const {
+    return dormant_ ? dormant_->counters : body_->refiner.counters();
+  }
 
  private:
   struct Body {
@@ -79,12 +94,14 @@ class Subdomain {
         : part(std::move(packed.part)),
           refiner(part.mesh, bounds, std::move(packed.refiner)),
           forecast(packed.forecast) {}
+    Body(DormantBody&& dormant, const QualityBounds& bounds);
     SubdomainMesh part;
     Refiner refiner;
     double forecast;  // of triangles, when all bounds are met
   };
 
   void make_body();
+  [[nodiscard]] bool sleeps_through(const protocol::SplitEntry& entry) const;
   void take_in(const protocol::SplitEntry& entry);
   void say_new_points(std::vector<protocol::SplitEntry>& said);
 
@@ -92,7 +109,8 @@ class Subdomain {
   const SubdomainContext* context_;
   bool refined_ = false;
   std::vector<protocol::SplitEntry> pending_;
-  std::unique_ptr<Body> body_;
+  std::unique_ptr<Body> body_;  // at most one of the two
+  std::unique_ptr<DormantBody> dormant_;
 };
 
 }  // namespace driftmesh

@@ -81,6 +81,9 @@ class Refiner {
     std::int64_t max_triangles = kMaxTriangles - 64;
     Counters counters;
 
+    /// Of a refiner that has done with `mesh`, whatever the order of its slots: nothing waits.
+    [[nodiscard]] static State at_rest(const Triangulation& mesh, const QualityBounds& bounds);
+
     /// Whether a refiner of this mesh and these bounds can be in this state as far as memory is concerned: handles
     /// exist, arrays have their lengths. Otherwise what is wrong; empty if all is well.
     [[nodiscard]] std::string fault(const Triangulation& mesh, const QualityBounds& bounds) const;

@@ -33,6 +33,17 @@ bool is_sound(const SkinnyBuckets& skinny, std::size_t triangles) {
 
 }  // namespace
 
+Refiner::State Refiner::State::at_rest(const Triangulation& mesh, const QualityBounds& bounds) {
+  State state;
+  const auto triangles = static_cast<TriangleId>(mesh.triangles.size());
+  state.stage = Stage::kDone;
+  state.next_segment = static_cast<SubsegmentId>(mesh.subsegments.size());
+  state.sweep = Sweep({triangles, triangles, triangles, triangles, 1}, {});
+  if (bounds.size != nullptr)
+    for (const Point& p : mesh.points) state.size.push_back(bounds.size->edge_length(p));
+  return state;
+}
+
 std::string Refiner::State::fault(const Triangulation& mesh, const QualityBounds& bounds) const {
   const std::size_t triangles = mesh.triangles.size(), subsegments = mesh.subsegments.size();
   const std::vector<SubsegmentId> kept_whole(unsplittable.begin(), unsplittable.end());

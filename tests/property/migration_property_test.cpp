@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <set>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include "mesh/digest.hpp"
+#include "mesh/exceptions.hpp"
+#include "mesh/triangulation_fault.hpp"
 #include "migration/packed_form.hpp"
 #include "property/cases.hpp"
 #include "pslg/generate.hpp"
@@ -31,7 +34,7 @@ Subdomain move_honestly(const Subdomain& subdomain, const SubdomainContext& cont
 Subdomain move_without_pending(const Subdomain& subdomain, const SubdomainContext& context) {
   SubdomainState state = unpack(subdomain.pack());
   state.pending.clear();
-  SubdomainView view{state.id, state.refined, state.pending, {}};
+  SubdomainView view{state.id, state.refined, state.pending, {}, nullptr};
   if (state.body) view.body.emplace(state.body->part, state.body->refiner, state.body->forecast);
   return Subdomain::unpack(pack(view), context);
 }
@@ -132,6 +135,61 @@ TEST_CASE("a pack that forgets the points to be taken in is found out") {
     found += !live_and_move(world, 0, move_without_pending).difference.empty();
   }
   CHECK(found > lives / 2);
+}
+
+TEST_CASE("a subdomain that sleeps whenever it can is finished as well, and holds what it was told") {
+  auto seeds = seeded_generator("sleeping subdomains");
+  int slept = 0, woken = 0, slept_through = 0, moved = 0;
+  for (std::int64_t i = case_count(60); i > 0; --i) {
+    const std::uint64_t seed = seeds() % 100'000;
+    CAPTURE(seed);
+    RandomSubdomains world(seed, 3, 500);
+    auto& random = world.random();
+    const auto id = static_cast<SubdomainId>(random() % static_cast<std::uint64_t>(world.size()));
+    Subdomain subdomain(id, world.context());
+    std::vector<protocol::SplitEntry> said, told;
+    for (int round = 0; round < 12; ++round) {
+      while (subdomain.active()) subdomain.work(1000, said);
+      const std::uint64_t digest = mesh_digest(subdomain.mesh().mesh);
+      const std::int64_t triangles = subdomain.triangles();
+      subdomain.sleep();
+      REQUIRE(subdomain.dormant());
+      REQUIRE(subdomain.triangles() == triangles);
+      ++slept;
+      if (random() % 3 == 0) {
+        const protocol::Bytes packed = subdomain.pack();
+        subdomain = Subdomain::unpack(packed, world.context(), random() % 2 == 0 ? Source::kThisRun : Source::kUnknown);
+        REQUIRE(subdomain.dormant());
+        REQUIRE(subdomain.pack() == packed);
+        ++moved;
+      }
+      if (random() % 2 == 0) {
+        subdomain.wake();
+        REQUIRE(mesh_digest(subdomain.mesh().mesh) == digest);
+        subdomain.sleep();
+      }
+      told.push_back(!told.empty() && random() % 2 == 0 ? told[random() % told.size()] : world.split_of(id, 6));
+      subdomain.tell(told.back());
+      ++(subdomain.active() ? woken : slept_through);
+      if (!subdomain.active()) subdomain.wake();
+    }
+    while (subdomain.active()) subdomain.work(1000, said);
+    const SubdomainMesh& part = subdomain.mesh();
+    for (const protocol::SplitEntry& entry : told) {
+      const auto root = static_cast<RootId>(std::ranges::lower_bound(part.roots, entry.edge) - part.roots.begin());
+      CHECK(!part.mesh.subsegments[Triangulation::id(part.mesh.descend(root, entry.path))].is_leaf());
+    }
+    const Exceptions exceptions = find_exceptions(part.mesh, world.context().bounds);
+    CHECK(exceptions.large.empty());
+    for (const Exceptions::Item& item : exceptions.skinny)
+      CHECK((item.cause == ExceptionCause::kInputAngle || item.cause == ExceptionCause::kShell));
+    CHECK(triangulation_fault(part.mesh) == "");
+  }
+  MESSAGE("slept " << slept << " times, woken " << woken << ", slept through " << slept_through << ", moved asleep "
+                   << moved);
+  CHECK(woken > 50);
+  CHECK(slept_through > 50);
+  CHECK(moved > 50);
 }
 
 TEST_CASE("large subdomains, in the stage of blocks, come out the same") {

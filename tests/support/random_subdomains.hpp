@@ -65,6 +65,7 @@ class RandomSubdomains {
     if (!input.regions.empty() && random_() % 2 == 0) {
       bounds.region_max_area.assign(input.regions.size() + 1, 0);
       for (double& bound : bounds.region_max_area) bound = random_() % 2 == 0 ? 0 : bounds.max_area / 3;
+      bounds.region_max_area[0] = 0;  // outside all regions
     }
     if (random_() % 3 != 0) return;
     const double h = std::sqrt(area / triangles);

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "mesh/digest.hpp"
+#include "mesh/mesh_piece.hpp"
 #include "mesh/triangulation_fault.hpp"
 #include "migration/packed_bytes.hpp"
 #include "migration/subdomain.hpp"
@@ -45,13 +46,57 @@ Subdomain half_refined(RandomSubdomains& world, SubdomainId id) {
   return subdomain;
 }
 
+Subdomain asleep(RandomSubdomains& world, SubdomainId id) {
+  Subdomain subdomain = half_refined(world, id);
+  std::vector<protocol::SplitEntry> said;
+  while (subdomain.active()) subdomain.work(10'000, said);
+  subdomain.sleep();
+  return subdomain;
+}
+
 /// Reads all arrays by all handles, under the eyes of a sanitizer where there is one.
-void look_at_everything(const Subdomain& subdomain) {
+void look_at_everything(Subdomain& subdomain, Source source) {
   if (!subdomain.started()) return;
+  if (subdomain.dormant()) {
+    MeshPiece piece;
+    piece.points = subdomain.dormant_mesh().points();
+    subdomain.dormant_mesh().visit_triangles(
+        [&](const auto& corners, std::uint16_t) { piece.triangles.push_back(corners); });
+    CHECK(mesh_digest(piece) != 1);
+    for (RootId r = 0; r < 3; ++r) CHECK_NOTHROW(static_cast<void>(subdomain.dormant_mesh().holds(r, 37)));
+    try {
+      subdomain.wake();
+    } catch (const Error&) {
+      CHECK(source == Source::kThisRun);  // all that is asked of it was asked before otherwise
+      return;
+    }
+  }
   const Triangulation& mesh = subdomain.mesh().mesh;
   CHECK(mesh_digest(mesh) != 1);
   CHECK(subdomain.remaining() >= 0);
   for (const Subsegment& s : mesh.subsegments) CHECK(mesh.descend(s.root, s.path) >= 0);
+}
+
+void check_refusals(const Bytes& whole, const SubdomainContext& context) {
+  REQUIRE(refusal_of(whole, context) == "");
+  for (std::size_t size = 0; size < whole.size(); size += 1 + size / 20) {
+    const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    REQUIRE(refusal_of(cut, context).find("the packed form of a subdomain") == 0);
+    if (size < sizeof(PackedHeader)) continue;
+    REQUIRE(refusal_of(sealed_again(cut), context).find("the packed form of subdomain") == 0);
+  }
+  Bytes longer = whole;
+  longer.push_back(std::byte{0});
+  CHECK(refusal_of(longer, context).find("bytes instead of") != std::string::npos);
+  CHECK(refusal_of(sealed_again(longer), context).find("left over") != std::string::npos);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    Bytes changed = whole;
+    changed[i] ^= std::byte{4};
+    REQUIRE(refusal_of(changed, context) != "");
+  }
+  Bytes later = whole;
+  later[offsetof(PackedHeader, version)] = std::byte{9};
+  CHECK(refusal_of(later, context).find("version 9") != std::string::npos);
 }
 
 }  // namespace
@@ -69,28 +114,19 @@ TEST_CASE("a subdomain that has not worked packs to its number and what it was t
   CHECK(again.active());
 }
 
+TEST_CASE("a dormant subdomain packs to little more than it takes asleep") {
+  RandomSubdomains world(5, 1, 3000);
+  const Subdomain subdomain = asleep(world, 0);
+  const auto triangles = static_cast<std::size_t>(subdomain.triangles());
+  REQUIRE(triangles > 1000);
+  CHECK(subdomain.pack().size() < 16 * triangles);
+  CHECK(subdomain.pack().size() < subdomain.dormant_mesh().bytes() + 250);
+}
+
 TEST_CASE("bytes that are cut off, prolonged, changed or foreign are refused in words") {
   RandomSubdomains world(11, 3, 300);
-  const Bytes whole = half_refined(world, 1).pack();
-  REQUIRE(refusal_of(whole, world.context()) == "");
-  for (std::size_t size = 0; size < whole.size(); size += 1 + size / 20) {
-    const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
-    REQUIRE(refusal_of(cut, world.context()).find("the packed form of a subdomain") == 0);
-    if (size < sizeof(PackedHeader)) continue;
-    REQUIRE(refusal_of(sealed_again(cut), world.context()).find("the packed form of subdomain") == 0);
-  }
-  Bytes longer = whole;
-  longer.push_back(std::byte{0});
-  CHECK(refusal_of(longer, world.context()).find("bytes instead of") != std::string::npos);
-  CHECK(refusal_of(sealed_again(longer), world.context()).find("left over") != std::string::npos);
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    Bytes changed = whole;
-    changed[i] ^= std::byte{4};
-    REQUIRE(refusal_of(changed, world.context()) != "");
-  }
-  Bytes later = whole;
-  later[offsetof(PackedHeader, version)] = std::byte{9};
-  CHECK(refusal_of(later, world.context()).find("version 9") != std::string::npos);
+  for (const Bytes& whole : {half_refined(world, 1).pack(), asleep(world, 1).pack()})
+    check_refusals(whole, world.context());
 }
 
 TEST_CASE("the packed form of another decomposition is refused") {
@@ -105,7 +141,7 @@ TEST_CASE("damage under a right checksum is refused, or leaves a mesh that keeps
   int accepted = 0, refused = 0;
   for (std::int64_t i = case_count(20); i > 0; --i) {
     RandomSubdomains world(random() % 1000, 3, 200);
-    const Bytes whole = half_refined(world, 0).pack();
+    const Bytes whole = (i % 2 == 0 ? half_refined(world, 0) : asleep(world, 0)).pack();
     for (int k = 0; k < 300; ++k) {
       Bytes changed = whole;
       for (auto flips = 1 + random() % 3; flips > 0; --flips) {
@@ -121,9 +157,9 @@ TEST_CASE("damage under a right checksum is refused, or leaves a mesh that keeps
           continue;
         }
         ++accepted;
-        const Subdomain subdomain = Subdomain::unpack(changed, world.context(), source);
-        look_at_everything(subdomain);
+        Subdomain subdomain = Subdomain::unpack(changed, world.context(), source);
         REQUIRE(subdomain.pack() == changed);
+        look_at_everything(subdomain, source);
       }
     }
   }

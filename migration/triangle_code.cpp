@@ -1,0 +1,122 @@
+#include "migration/triangle_code.hpp"
+
+#include "base/error.hpp"
+
+namespace driftmesh {
+
+using namespace triangle_code;
+
+BorderGuess::BorderGuess(std::size_t vertices, std::span<const BorderEdge> border)
+    : after_(vertices, kNone), before_(vertices, kNone) {
+  for (const auto [a, b] : border) {
+    after_[Triangulation::id(a)] = b;
+    before_[Triangulation::id(b)] = a;
+  }
+}
+
+void BorderGuess::cover(VertexId a, VertexId b, VertexId v) {
+  const bool closes_left = before(a) == v, closes_right = after(b) == v;
+  if (!closes_left) {
+    after_[Triangulation::id(a)] = v;
+    before_[Triangulation::id(v)] = a;
+  }
+  if (!closes_right) {
+    after_[Triangulation::id(v)] = b;
+    before_[Triangulation::id(b)] = v;
+  }
+}
+
+namespace {
+
+class Encoder {
+ public:
+  Encoder(const Triangulation& mesh, std::vector<VertexId>& number, std::int32_t fixed,
+          std::span<const BorderEdge> border)
+      : mesh_(mesh),
+        number_(number),
+        guess_(mesh.live_vertices(), border),
+        visited_(mesh.triangles.size(), false),
+        out_(coded_.code) {
+    coded_.fixed = coded_.vertices = fixed;
+  }
+
+  /// The walk over all that can be reached from the triangle of `entrance`, a half-edge on the domain's border.
+  void walk_from(HalfEdge entrance) {
+    if (visited_[Triangulation::id(triangle_of(entrance))]) return;
+    out_.put(static_cast<std::uint64_t>(number_of(mesh_.edge_start(entrance))));
+    out_.put(static_cast<std::uint64_t>(number_of(mesh_.edge_end(entrance))));
+    enter(entrance);
+    while (!ways_.empty()) {
+      const Way way = ways_.back();
+      ways_.pop_back();
+      const HalfEdge g = mesh_.across(way.through);
+      if (g == kNone || visited_[Triangulation::id(triangle_of(g))]) continue;
+      coded_.code[way.place] |= static_cast<std::byte>(way.bit);
+      enter(g);
+    }
+  }
+
+  [[nodiscard]] CodedTriangles take() { return std::move(coded_); }
+  [[nodiscard]] std::int32_t triangles() const { return coded_.triangles; }
+
+ private:
+  /// An edge through which the walk may go on; whether it does is noted in the code of the triangle that it leaves.
+  struct Way {
+    HalfEdge through;
+    std::size_t place;
+    std::uint8_t bit;
+  };
+
+  [[nodiscard]] VertexId number_of(VertexId v) const { return number_[Triangulation::id(v)]; }
+
+  void enter(HalfEdge g) {
+    const TriangleId t = triangle_of(g);
+    visited_[Triangulation::id(t)] = true;
+    ++coded_.triangles;
+    const std::size_t place = coded_.code.size();
+    put_corner(number_of(mesh_.edge_start(g)), number_of(mesh_.edge_end(g)), mesh_.apex(g));
+    put_region(t, place);
+    ways_.push_back({half_edge(t, previous(index_of(g))), place, kGoesLeft});
+    ways_.push_back({half_edge(t, next(index_of(g))), place, kGoesRight});
+  }
+
+  void put_corner(VertexId a, VertexId b, VertexId apex) {
+    VertexId& v = number_[Triangulation::id(apex)];
+    const Corner corner = v == kNone ? kNew : v == guess_.after(b) ? kAfter : v == guess_.before(a) ? kBefore : kNamed;
+    coded_.code.push_back(static_cast<std::byte>(corner));
+    if (corner == kNew) v = coded_.vertices++;
+    if (corner == kNamed) out_.put(static_cast<std::uint64_t>(v));
+    guess_.cover(a, b, v);
+  }
+
+  void put_region(TriangleId t, std::size_t place) {
+    if (mesh_.region.empty() || mesh_.region[Triangulation::id(t)] == region_) return;
+    region_ = mesh_.region[Triangulation::id(t)];
+    coded_.code[place] |= static_cast<std::byte>(kNewRegion);
+    out_.put(region_);
+  }
+
+  const Triangulation& mesh_;
+  std::vector<VertexId>& number_;
+  BorderGuess guess_;
+  std::vector<bool> visited_;
+  CodedTriangles coded_;
+  VarintWriter out_;
+  std::vector<Way> ways_;
+  std::uint16_t region_ = 0;
+};
+
+}  // namespace
+
+CodedTriangles encode_triangles(const Triangulation& mesh, std::vector<VertexId>& number, std::int32_t fixed,
+                                std::span<const BorderEdge> border) {
+  Encoder encoder(mesh, number, fixed, border);
+  for (const Subsegment& s : mesh.subsegments)
+    if (s.is_leaf() && (s.half[0] == kNone) != (s.half[1] == kNone))
+      encoder.walk_from(s.half[0] == kNone ? s.half[1] : s.half[0]);
+  if (static_cast<std::size_t>(encoder.triangles()) != mesh.live_triangles())
+    throw Error("some triangles of a mesh cannot be reached from its border");
+  return encoder.take();
+}
+
+}  // namespace driftmesh

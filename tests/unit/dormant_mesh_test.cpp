@@ -1,0 +1,187 @@
+#include "migration/dormant_mesh.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/stopwatch.hpp"
+#include "mesh/digest.hpp"
+#include "mesh/link_triangles.hpp"
+#include "mesh/mesh_piece.hpp"
+#include "mesh/triangulation_fault.hpp"
+#include "property/cases.hpp"
+#include "pslg/generate.hpp"
+#include "pslg/poly_file.hpp"
+#include "pslg/repair.hpp"
+#include "support/random_subdomains.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+
+namespace {
+
+constexpr auto id = &Triangulation::id;
+
+using Edge = std::pair<std::pair<double, double>, std::pair<double, double>>;
+
+std::pair<double, double> pair_of(const Point& p) {
+  return {p.x, p.y};
+}
+
+/// Every subsegment, leaf or not, by root and path, with its ends, and whether triangles lie on its sides.
+std::map<std::pair<RootId, dyadic::Path>, std::pair<Edge, int>> subsegments_of(const SubdomainMesh& part) {
+  std::map<std::pair<RootId, dyadic::Path>, std::pair<Edge, int>> all;
+  const Triangulation& mesh = part.mesh;
+  for (const Subsegment& s : mesh.subsegments) {
+    const Edge ends{pair_of(mesh.points[id(s.vertex[0])]), pair_of(mesh.points[id(s.vertex[1])])};
+    const int sides = s.is_leaf() ? (s.half[0] != kNone ? 1 : 0) + (s.half[1] != kNone ? 2 : 0) : -1;
+    all[{part.roots[id(s.root)], s.path}] = {ends, sides};
+  }
+  return all;
+}
+
+/// What every vertex is, by its place: the subsegment of a midpoint by root and path.
+std::multiset<std::string> origins_of(const SubdomainMesh& part) {
+  std::multiset<std::string> all;
+  const Triangulation& mesh = part.mesh;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (mesh.origin[v] == kDeleted) continue;
+    std::string what = std::to_string(mesh.origin[v]);
+    if (is_midpoint(mesh.origin[v])) {
+      const Subsegment& s = mesh.subsegments[id(~mesh.origin[v])];
+      what = "root " + std::to_string(part.roots[id(s.root)]) + " " + std::to_string(s.path);
+    }
+    const Point& p = mesh.points[v];
+    all.insert(what + " " + std::to_string(std::bit_cast<std::uint64_t>(p.x)) + " " +
+               std::to_string(std::bit_cast<std::uint64_t>(p.y)));
+  }
+  return all;
+}
+
+/// The digest of the triangles of each region.
+std::map<std::uint16_t, std::uint64_t> digests_of(const Triangulation& mesh) {
+  std::map<std::uint16_t, MeshPiece> pieces;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (mesh.triangles[t].alive())
+      pieces[mesh.region.empty() ? std::uint16_t{0} : mesh.region[t]].triangles.push_back(mesh.triangles[t].vertex);
+  std::map<std::uint16_t, std::uint64_t> digests;
+  for (auto& [region, piece] : pieces) {
+    piece.points.assign(mesh.points.begin(), mesh.points.end());
+    digests[region] = mesh_digest(piece);
+  }
+  return digests;
+}
+
+/// The digest by the dormant form's own iteration.
+std::uint64_t digest_of(const DormantMesh& dormant) {
+  MeshPiece piece;
+  piece.points = dormant.points();
+  dormant.visit_triangles([&](const auto& corners, std::uint16_t) { piece.triangles.push_back(corners); });
+  return mesh_digest(piece);
+}
+
+void check_same(const SubdomainMesh& part, const DormantMesh& dormant) {
+  const SubdomainMesh woken = dormant.wake();
+  REQUIRE(triangulation_fault(woken.mesh) == "");
+  CHECK(woken.mesh.triangles.size() == part.mesh.live_triangles());
+  CHECK(woken.mesh.points.size() == part.mesh.live_vertices());
+  CHECK(digests_of(woken.mesh) == digests_of(part.mesh));
+  CHECK(subsegments_of(woken) == subsegments_of(part));
+  CHECK(origins_of(woken) == origins_of(part));
+  CHECK(woken.roots == part.roots);
+  CHECK(woken.points == part.points);
+  CHECK(digest_of(dormant) == mesh_digest(part.mesh));
+  REQUIRE(woken.mesh.roots.size() == part.mesh.roots.size());
+  for (std::size_t r = 0; r < part.mesh.roots.size(); ++r) {
+    CHECK(woken.mesh.roots[r].marker == part.mesh.roots[r].marker);
+    CHECK(woken.mesh.roots[r].shell == part.mesh.roots[r].shell);
+  }
+  const auto waking = DormantMesh::waking_subsegments(part.mesh);
+  for (std::size_t s = 0; s < waking.size(); ++s) {
+    const Subsegment &before = part.mesh.subsegments[s], &after = woken.mesh.subsegments[id(waking[s])];
+    REQUIRE((before.root == after.root && before.path == after.path));
+  }
+}
+
+void check_holds(const SubdomainMesh& part, const DormantMesh& dormant, RandomSubdomains& world) {
+  const Triangulation& mesh = part.mesh;
+  for (int k = 0; k < 200; ++k) {
+    const auto root = static_cast<RootId>(world.random()() % mesh.roots.size());
+    const dyadic::Path path = 1 + world.random()() % 63;
+    const Subsegment& s = mesh.subsegments[id(mesh.descend(root, path))];
+    CHECK(dormant.holds(root, path) == (s.path == path && !s.is_leaf()));
+  }
+}
+
+SubdomainMesh refined(const SubdomainContext& context, SubdomainId i) {
+  SubdomainMesh part = subdomain_triangulation(*context.decomposition, i);
+  Refiner(part.mesh, context.bounds).refine();
+  return part;
+}
+
+}  // namespace
+
+TEST_CASE("a mesh that slept is the same mesh") {
+  auto random = seeded_generator("sleeping meshes");
+  std::size_t regions = 0, several_sides = 0;
+  for (std::int64_t i = case_count(60); i > 0; --i) {
+    const std::uint64_t seed = random() % 100'000;
+    CAPTURE(seed);
+    RandomSubdomains world(seed, static_cast<int>(1 + seed % 4), 400);
+    for (SubdomainId k = 0; k < world.size(); ++k) {
+      const SubdomainMesh part = refined(world.context(), k);
+      const DormantMesh dormant(part);
+      check_same(part, dormant);
+      check_holds(part, dormant, world);
+      regions += !part.mesh.region.empty();
+      for (const Subsegment& s : part.mesh.subsegments) several_sides += s.half[0] != kNone && s.half[1] != kNone;
+    }
+  }
+  CHECK(regions > 0);
+  CHECK(several_sides > 0);  // segments inside a subdomain
+}
+
+TEST_CASE("16 bytes a triangle hold a sleeping mesh, with all that belongs to it") {
+  std::vector<std::pair<std::string, Pslg>> models{{"pipe", generate_pipe({})},
+                                                   {"flow", generate_cylinder_flow({})},
+                                                   {"holes", generate_holes({})},
+                                                   {"comb", generate_comb({})}};
+  for (const std::string name : {"pipe", "cylinder_flow", "chesapeake", "key", "A"}) {
+    const std::string path = DRIFTMESH_SOURCE_DIR "/../shared/data/" + name + ".poly";
+    if (!std::filesystem::exists(path)) {
+      MESSAGE("skipped: no " << path);
+      continue;
+    }
+    models.emplace_back(name + ".poly", read_poly(path));
+    repair(models.back().second);
+  }
+  for (const auto& [name, pslg] : models) {
+    CAPTURE(name);
+    Triangulation mesh = triangulate(pslg);
+    prepare_corners(mesh);
+    DecomposeOptions options;
+    options.subdomains = 8;
+    const Decomposition d = decompose(mesh, options);
+    double area = 0;
+    for (const auto& s : d.subdomains) area += s.area;
+    SubdomainContext context{&d, {}, false};
+    context.bounds.max_area = area / 40'000;
+    std::size_t bytes = 0, triangles = 0;
+    for (SubdomainId i = 0; i < 8; ++i) {
+      const SubdomainMesh part = refined(context, i);
+      const DormantMesh dormant(part);
+      check_same(part, dormant);
+      bytes += dormant.bytes();
+      triangles += part.mesh.live_triangles();
+    }
+    MESSAGE(name << ": " << triangles << " triangles, " << static_cast<double>(bytes) / static_cast<double>(triangles)
+                 << " bytes each");
+    CHECK(bytes <= 16 * triangles);
+    CHECK(bytes > 8 * triangles);  // the coordinates alone
+  }
+}
