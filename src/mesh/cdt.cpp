@@ -246,7 +246,7 @@ Triangulation triangulate_box(const Pslg& pslg) {
 Triangulation triangulate(const Pslg& pslg) {
   Triangulation mesh = triangulate_box(pslg);
   carve(mesh, pslg);
-  renumber(mesh);
+  renumber(mesh, GivenVertices::kSorted);
   return mesh;
 }
 
@@ -254,7 +254,7 @@ Triangulation triangulate(const Pslg& pslg, const std::vector<SegmentSides>& sid
   DM_ASSERT(sides.size() == pslg.segments.size());
   Triangulation mesh = triangulate_box(pslg);
   carve(mesh, sides, mesh.roots.size() - sides.size());
-  renumber(mesh);
+  renumber(mesh, GivenVertices::kSorted);
   return mesh;
 }
 

@@ -186,7 +186,7 @@ void Refiner::enter(Stage stage) {
     case Stage::kFine: {
       const bool after_coarse = coarsening_ != 1;
       coarsening_ = 1;
-      if (after_coarse) renumber(mesh_);
+      if (after_coarse) renumber(mesh_, GivenVertices::kFirst);
       if (after_coarse && bounds_.size != nullptr)
         for (std::size_t v = 0; v < mesh_.points.size(); ++v)
           state_.size[v] = bounds_.size->edge_length(mesh_.points[v]);

@@ -37,10 +37,26 @@ void sort_by_hilbert(const Triangulation& mesh, std::vector<TriangleId>& triangl
   std::transform(keyed.begin(), keyed.end(), triangles.begin(), [](const auto& k) { return k.second; });
 }
 
-/// New ids in the order of first use by `order`; kNone for vertices without use.
+std::vector<bool> used_vertices(const Triangulation& mesh, const std::vector<TriangleId>& triangles) {
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const TriangleId t : triangles)
+    for (const VertexId v : mesh.triangles[id(t)].vertex) used[id(v)] = true;
+  return used;
+}
+
+/// New ids in the order of first use by `order`, after given vertices if these come first; kNone for vertices without
+/// use.
 std::vector<VertexId> vertices_by_use(const Triangulation& mesh, const std::vector<TriangleId>& order,
-                                      std::vector<VertexId>& old_of_new) {
+                                      GivenVertices given, std::vector<VertexId>& old_of_new) {
   std::vector<VertexId> new_of_old(mesh.points.size(), kNone);
+  if (given == GivenVertices::kFirst) {
+    const std::vector<bool> used = used_vertices(mesh, order);
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+      if (used[v] && (is_input(mesh.origin[v]) || is_shell_end(mesh.origin[v]))) {
+        new_of_old[v] = static_cast<VertexId>(old_of_new.size());
+        old_of_new.push_back(static_cast<VertexId>(v));
+      }
+  }
   for (const TriangleId t : order)
     for (const VertexId v : mesh.triangles[id(t)].vertex)
       if (new_of_old[id(v)] == kNone) {
@@ -88,9 +104,9 @@ void move_triangles(Triangulation& mesh, const std::vector<TriangleId>& order,
       for (HalfEdge& h : s.half) h = h == kNone ? kNone : moved(h);
 }
 
-void rebuild_in_order(Triangulation& mesh, const std::vector<TriangleId>& order) {
+void rebuild_in_order(Triangulation& mesh, const std::vector<TriangleId>& order, GivenVertices given) {
   std::vector<VertexId> old_of_new;
-  const std::vector<VertexId> new_vertex = vertices_by_use(mesh, order, old_of_new);
+  const std::vector<VertexId> new_vertex = vertices_by_use(mesh, order, given, old_of_new);
   move_triangles(mesh, order, new_vertex);
   for (Subsegment& s : mesh.subsegments)
     for (VertexId& v : s.vertex) v = new_vertex[id(v)];
@@ -101,14 +117,14 @@ void rebuild_in_order(Triangulation& mesh, const std::vector<TriangleId>& order)
 
 }  // namespace
 
-void renumber(Triangulation& mesh) {
+void renumber(Triangulation& mesh, GivenVertices given) {
   std::vector<TriangleId> order = live_triangles(mesh);
   sort_by_hilbert(mesh, order);
-  rebuild_in_order(mesh, order);
+  rebuild_in_order(mesh, order, given);
 }
 
 void compact(Triangulation& mesh) {
-  rebuild_in_order(mesh, live_triangles(mesh));
+  rebuild_in_order(mesh, live_triangles(mesh), GivenVertices::kSorted);
 }
 
 }  // namespace driftmesh

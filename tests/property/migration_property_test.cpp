@@ -215,6 +215,9 @@ TEST_CASE("large subdomains, in the stage of blocks, come out the same") {
       moves = Subdomain::unpack(moves.pack(), context);
     }
     CHECK(stays.pack() == moves.pack());
+    const SubdomainMesh& part = moves.mesh();
+    for (std::size_t v = 0; v < part.points.size(); ++v)  // also after vertices were sorted
+      CHECK(part.mesh.points[v] == d.points[Triangulation::id(part.points[v])]);
     CHECK(stages.contains(Refiner::Stage::kCoarse));
     CHECK(stages.contains(Refiner::Stage::kFine));
   }
