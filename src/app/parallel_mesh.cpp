@@ -249,9 +249,7 @@ class ParallelMesh {
       return assembly.piece(pslg_);
     });
     loop_.reset();
-    notes_.timed("write", [&] {
-      for (const std::string& output : options_.outputs) write_distributed(ranks, piece, output, {pslg_.holes});
-    });
+    notes_.timed("write", [&] { write_distributed(ranks, piece, options_.outputs, {pslg_.holes}); });
     if (!options_.picture.empty()) plot(ranks, piece);
     transport.close();
     if (!leader_) return;

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "base/byte_stream.hpp"
 #include "base/error.hpp"
 #include "distributed/piece_builder.hpp"
-#include "distributed/wire.hpp"
 
 namespace driftmesh {
 
@@ -24,18 +24,35 @@ struct HeldEntry {
   std::int64_t triangles = 0;
 };
 
-std::vector<HeldEntry> read_announcement(const Mail& mail) {
-  WireReader reader(mail.rank, mail.bytes);
-  std::vector<HeldEntry> entries;
-  for (auto left = reader.value<std::uint32_t>(); left > 0; --left) {
-    HeldEntry& entry = entries.emplace_back();
-    entry.rank = mail.rank;
-    entry.subdomain = reader.value<SubdomainId>();
-    entry.points = reader.value<std::int64_t>();
-    entry.triangles = reader.value<std::int64_t>();
-  }
-  reader.finish();
-  return entries;
+void read_announcement(const Mail& mail, std::vector<HeldEntry>& entries) {
+  read_mail(mail, [&](ByteReader& reader) {
+    for (auto left = reader.value<std::uint32_t>(); left > 0; --left) {
+      HeldEntry& entry = entries.emplace_back();
+      entry.rank = mail.rank;
+      reader.value(entry.subdomain);
+      reader.value(entry.points);
+      reader.value(entry.triangles);
+    }
+  });
+}
+
+void write_root(ByteWriter& writer, const NumberedRoot& r) {
+  writer.value(r.root);
+  writer.value(r.splits);
+  writer.value(r.first_number);
+}
+
+std::vector<NumberedRoot> read_roots(const Mail& mail) {
+  std::vector<NumberedRoot> roots;
+  read_mail(mail, [&](ByteReader& reader) {
+    for (auto left = reader.value<std::uint32_t>(); left > 0; --left) {
+      NumberedRoot& r = roots.emplace_back();
+      reader.value(r.root);
+      reader.value(r.splits);
+      reader.value(r.first_number);
+    }
+  });
+  return roots;
 }
 
 [[noreturn]] void wrong_holders(std::size_t subdomain, const std::vector<HeldEntry>& entries) {
@@ -110,7 +127,7 @@ void PieceAssembly::receive(int round, std::vector<Mail> mail) {
 }
 
 std::vector<Mail> PieceAssembly::announce() const {
-  WireWriter writer;
+  ByteWriter writer;
   writer.value(static_cast<std::uint32_t>(census_.size()));
   for (const SubdomainCensus& census : census_) {
     writer.value(census.id);
@@ -125,8 +142,7 @@ std::vector<Mail> PieceAssembly::announce() const {
 
 void PieceAssembly::learn_subdomains(const std::vector<Mail>& mail) {
   std::vector<HeldEntry> entries;
-  for (const Mail& message : mail)
-    for (const HeldEntry& entry : read_announcement(message)) entries.push_back(entry);
+  for (const Mail& message : mail) read_announcement(message, entries);
   std::stable_sort(entries.begin(), entries.end(),
                    [](const auto& a, const auto& b) { return a.subdomain < b.subdomain; });
   const std::size_t count = decomposition_.size();
@@ -164,37 +180,25 @@ std::vector<Mail> PieceAssembly::describe_roots() {
   std::vector<Mail> mail;
   for (const auto& [to, roots] : shared) {
     neighbors_.push_back(to);
-    WireWriter writer;
+    ByteWriter writer;
     writer.value(static_cast<std::uint32_t>(roots.size()));
-    for (const NumberedRoot* r : roots) {
-      writer.value(r->root);
-      writer.value(r->splits.count);
-      writer.value(r->splits.sum);
-      writer.value(r->splits.toggle);
-      writer.value(r->first_number);
-    }
+    for (const NumberedRoot* r : roots) write_root(writer, *r);
     mail.push_back({to, writer.take()});
   }
   return mail;
 }
 
 void PieceAssembly::learn_roots(const Mail& mail) {
-  WireReader reader(mail.rank, mail.bytes);
-  for (auto left = reader.value<std::uint32_t>(); left > 0; --left) {
-    const auto r = reader.value<RootId>();
-    NumberedRoot* const own = find_root(roots_, r);
+  for (const NumberedRoot& theirs : read_roots(mail)) {
+    NumberedRoot* const own = find_root(roots_, theirs.root);
     if (own == nullptr)
-      reader.fail("describes root " + std::to_string(r) + ", which rank " + std::to_string(rank_) +
-                  " does not have; start all ranks with the same decomposition");
-    protocol::SplitDigest splits;
-    splits.count = reader.value<std::uint64_t>();
-    splits.sum = reader.value<std::uint64_t>();
-    splits.toggle = reader.value<std::uint64_t>();
-    const auto first_number = reader.value<std::int64_t>();
-    if (!(splits == own->splits)) do_not_conform(decomposition_, r, rank_, own->splits, mail.rank, splits);
-    if (own->first_number < 0) own->first_number = first_number;
+      throw protocol::ProtocolError(mail.rank, "it describes root " + std::to_string(theirs.root) + ", which rank " +
+                                                   std::to_string(rank_) +
+                                                   " does not have; start all ranks with the same decomposition");
+    if (!(theirs.splits == own->splits))
+      do_not_conform(decomposition_, own->root, rank_, own->splits, mail.rank, theirs.splits);
+    if (own->first_number < 0) own->first_number = theirs.first_number;
   }
-  reader.finish();
 }
 
 DistributedPiece PieceAssembly::piece(const Pslg& pslg) const {

@@ -4,10 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
-#include "distributed/wire.hpp"
-#include "protocol/protocol_error.hpp"
-
 namespace driftmesh {
 
 using protocol::Bytes;
@@ -38,10 +34,10 @@ StepResult ExchangeRunner::step(Exchange& exchange) {
 
 void ExchangeRunner::begin_round(Exchange& exchange) {
   for (Mail& mail : exchange.send(round_)) {
-    WireWriter writer;
+    ByteWriter writer;
     writer.value(kMark);
     writer.value(serial_);
-    writer.rest(mail.bytes);
+    writer.array(mail.bytes);
     transport_.send(mail.rank, writer.take());
   }
   senders_ = exchange.senders(round_);
@@ -65,12 +61,17 @@ bool ExchangeRunner::end_round(Exchange& exchange) {
 }
 
 void ExchangeRunner::keep(protocol::Received message) {
-  WireReader reader(message.source, message.bytes);
-  if (reader.value<std::uint32_t>() != kMark) throw ProtocolError(message.source, "is not of an exchange in rounds");
-  const auto serial = reader.value<std::uint32_t>();
-  if (serial < serial_) throw ProtocolError(message.source, "comes after its round " + std::to_string(serial));
-  if (!arrived_[serial].emplace(message.source, reader.rest()).second)
-    throw ProtocolError(message.source, "is its second of round " + std::to_string(serial));
+  std::uint32_t mark = 0, serial = 0;
+  Bytes bytes;
+  read_mail({message.source, std::move(message.bytes)}, [&](ByteReader& reader) {
+    reader.value(mark);
+    if (mark != kMark) throw Error("it is not of an exchange in rounds");
+    reader.value(serial);
+    reader.array(bytes);
+  });
+  if (serial < serial_) throw ProtocolError(message.source, "it comes after its round " + std::to_string(serial));
+  if (!arrived_[serial].emplace(message.source, std::move(bytes)).second)
+    throw ProtocolError(message.source, "it is its second of round " + std::to_string(serial));
 }
 
 void exchange_directly(std::span<Exchange* const> ranks) {

@@ -5,7 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "base/byte_stream.hpp"
+#include "base/error.hpp"
 #include "protocol/ids.hpp"
+#include "protocol/protocol_error.hpp"
 #include "protocol/rank_step.hpp"
 #include "protocol/transport.hpp"
 
@@ -16,6 +19,18 @@ struct Mail {
   protocol::Rank rank = 0;
   protocol::Bytes bytes;
 };
+
+/// Has `read(ByteReader&)` read a message, to its end. An Error in it becomes a ProtocolError that names the sender.
+template <class Read>
+void read_mail(const Mail& mail, const Read& read) {
+  try {
+    ByteReader reader(mail.bytes);
+    read(reader);
+    if (!reader.at_end()) throw Error("it goes on after its end");
+  } catch (const Error& error) {
+    throw protocol::ProtocolError(mail.rank, error.what());
+  }
+}
 
 /// One rank's part of a conversation in rounds: in each, ranks send at most one message to each rank (themselves
 /// included), then take in what was sent to them. What is said is decided here, how it travels elsewhere: by a

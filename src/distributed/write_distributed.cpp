@@ -2,10 +2,11 @@
 
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 
+#include "base/byte_stream.hpp"
 #include "base/error.hpp"
-#include "distributed/wire.hpp"
 #include "mesh/merge_pieces.hpp"
 #include "output/pvtu_format.hpp"
 
@@ -17,7 +18,7 @@ using protocol::Rank;
 namespace {
 
 Bytes pack(const MeshPiece& mesh) {
-  WireWriter writer;
+  ByteWriter writer;
   writer.array(mesh.points);
   writer.array(mesh.triangles);
   writer.array(mesh.edges);
@@ -32,19 +33,19 @@ Bytes pack(const MeshPiece& mesh) {
 }
 
 MeshPiece unpack(const Mail& mail) {
-  WireReader reader(mail.rank, mail.bytes);
   MeshPiece mesh;
-  mesh.points = reader.array<Point>();
-  mesh.triangles = reader.array<std::array<std::int32_t, 3>>();
-  mesh.edges = reader.array<MeshPiece::Edge>();
-  mesh.point_markers = reader.array<std::int32_t>();
-  mesh.attributes = reader.array<double>();
-  mesh.attributes_per_point = reader.value<std::int32_t>();
-  mesh.regions = reader.array<double>();
-  mesh.numbers = reader.array<std::int64_t>();
-  mesh.subdomains = reader.array<std::int32_t>();
-  mesh.ranks = reader.array<std::int32_t>();
-  reader.finish();
+  read_mail(mail, [&](ByteReader& reader) {
+    reader.array(mesh.points);
+    reader.array(mesh.triangles);
+    reader.array(mesh.edges);
+    reader.array(mesh.point_markers);
+    reader.array(mesh.attributes);
+    reader.value(mesh.attributes_per_point);
+    reader.array(mesh.regions);
+    reader.array(mesh.numbers);
+    reader.array(mesh.subdomains);
+    reader.array(mesh.ranks);
+  });
   return mesh;
 }
 
@@ -85,22 +86,30 @@ VtuArrays arrays_of_pieces(const DistributedPiece& piece) {
 
 }  // namespace
 
-std::vector<Mail> GatherPieces::send(int) {
+std::vector<Mail> GatherPieces::send(int round) {
   std::vector<Mail> mail;
-  mail.push_back({0, pack(piece_.mesh)});
+  if (round == 0) mail.push_back({0, pack(piece_.mesh)});
+  if (round == 1 && piece_.rank == 0) mail = status_to_all(piece_.ranks, [&] { merge(); });
   return mail;
 }
 
-std::vector<Rank> GatherPieces::senders(int) const {
+std::vector<Rank> GatherPieces::senders(int round) const {
+  if (round == 1) return {0};
   return piece_.rank == 0 ? all_of(piece_.ranks) : std::vector<Rank>();
 }
 
-void GatherPieces::receive(int, std::vector<Mail> mail) {
-  if (piece_.rank != 0) return;
+void GatherPieces::receive(int round, std::vector<Mail> mail) {
+  if (round == 0)
+    pieces_ = std::move(mail);
+  else
+    throw_first_failure(mail);
+}
+
+void GatherPieces::merge() {
   std::vector<MeshPiece> pieces;
-  for (Mail& message : mail) {
-    pieces.push_back(unpack(message));
-    message.bytes = {};
+  for (Mail& mail : pieces_) {
+    pieces.push_back(unpack(mail));
+    mail.bytes = {};
   }
   MergeFaults faults;
   whole_ = merge_pieces(pieces, faults);
@@ -143,16 +152,19 @@ void WriteWhole::receive(int, std::vector<Mail> mail) {
   throw_first_failure(mail);
 }
 
-void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, const std::string& path,
+void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, std::span<const std::string> paths,
                        const WriteOptions& options) {
-  if (is_in_pieces(path)) {
-    WritePieces pieces(piece, path);
-    return ranks.run(pieces);
+  std::optional<GatherPieces> gathered;
+  for (const std::string& path : paths) {
+    if (is_in_pieces(path)) {
+      WritePieces pieces(piece, path);
+      ranks.run(pieces);
+      continue;
+    }
+    if (!gathered) ranks.run(gathered.emplace(piece));
+    WriteWhole whole(piece, gathered->whole(), path, options);
+    ranks.run(whole);
   }
-  GatherPieces gather(piece);
-  ranks.run(gather);
-  WriteWhole whole(piece, gather.whole(), path, options);
-  ranks.run(whole);
 }
 
 }  // namespace driftmesh

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "distributed/distributed_piece.hpp"
 #include "distributed/exchange.hpp"
@@ -10,23 +12,26 @@
 
 namespace driftmesh {
 
-/// Brings the pieces of all ranks to rank 0: one round.
+/// Brings the pieces of all ranks to rank 0, which merges them. If that fails, all throw.
 class GatherPieces final : public Exchange {
  public:
   /// `piece` outlives the object.
   explicit GatherPieces(const DistributedPiece& piece) : piece_(piece) {}
 
-  [[nodiscard]] int rounds() const override { return 1; }
+  [[nodiscard]] int rounds() const override { return 2; }
   [[nodiscard]] std::vector<Mail> send(int round) override;
   [[nodiscard]] std::vector<protocol::Rank> senders(int round) const override;
   void receive(int round, std::vector<Mail> mail) override;
 
   /// After the conversation: on rank 0 the whole mesh, the same for every distribution of the same subdomains but for
-  /// MeshPiece::ranks; on others nothing. Throws LimitError if it has more than 2^31 - 1 points or triangles.
-  [[nodiscard]] MeshPiece& whole() { return whole_; }
+  /// MeshPiece::ranks; on others nothing.
+  [[nodiscard]] const MeshPiece& whole() const { return whole_; }
 
  private:
+  void merge();
+
   const DistributedPiece& piece_;
+  std::vector<Mail> pieces_;  // as they came
   MeshPiece whole_;
 };
 
@@ -69,9 +74,9 @@ class WriteWhole final : public Exchange {
   WriteOptions options_;
 };
 
-/// Writes the mesh to `path` from all ranks together: in pieces if it ends in .pvtu, else as one file of any format
-/// that write_mesh knows, which takes the memory for the whole mesh on rank 0.
-void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, const std::string& path,
+/// Writes the mesh to each of `paths` from all ranks together: in pieces if it ends in .pvtu, else as one file of any
+/// format that write_mesh knows, which takes the memory for the whole mesh on rank 0. If one rank fails, all throw.
+void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, std::span<const std::string> paths,
                        const WriteOptions& options = {});
 
 }  // namespace driftmesh

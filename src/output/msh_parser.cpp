@@ -232,7 +232,7 @@ class MshParser {
                                                                                           : nullptr;
     if (values == nullptr) return;
     for (std::int32_t left = view.values; left > 0; --left) {
-      const auto element = static_cast<std::uint64_t>(input.integer());
+      const std::int32_t element = input.integer();
       const double value = input.real();
       if (!(value >= 0 && value <= INT32_MAX)) fail("has a " + std::string(view.name) + " out of range", kDamaged);
       values->push_back({element, static_cast<std::int32_t>(value)});

@@ -27,7 +27,7 @@ struct RawMsh {
     std::vector<double> values;
   };
   struct ElementValue {
-    std::uint64_t element = 0;
+    std::int32_t element = 0;
     std::int32_t value = 0;
   };
   struct Marker {

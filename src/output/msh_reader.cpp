@@ -83,12 +83,14 @@ class MshAssembler {
 
   // Only if each triangle has one; values of lines are passed over.
   [[nodiscard]] std::vector<std::int32_t> values_of_triangles(const std::vector<RawMsh::ElementValue>& values) const {
+    if (values.empty()) return {};
     std::vector<std::uint64_t> tags = raw_.triangles.tags;
     std::sort(tags.begin(), tags.end());
     std::vector<std::int32_t> result(tags.size(), -1);
     for (const RawMsh::ElementValue& v : values) {
-      const auto found = std::lower_bound(tags.begin(), tags.end(), v.element);
-      if (found != tags.end() && *found == v.element) result[static_cast<std::size_t>(found - tags.begin())] = v.value;
+      const auto tag = static_cast<std::uint64_t>(v.element);
+      const auto found = std::lower_bound(tags.begin(), tags.end(), tag);
+      if (found != tags.end() && *found == tag) result[static_cast<std::size_t>(found - tags.begin())] = v.value;
     }
     if (std::find(result.begin(), result.end(), -1) != result.end()) result.clear();
     return result;

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/byte_stream.hpp"
 #include "base/error.hpp"
-#include "distributed/wire.hpp"
 #include "distributed/write_distributed.hpp"
 #include "mesh/digest.hpp"
 #include "mesh/merge_pieces.hpp"
@@ -224,18 +224,20 @@ TEST_CASE("messages that do not belong into an exchange are errors that name the
     });
   };
   const auto message = [](std::uint32_t mark, std::uint32_t round, std::vector<std::uint32_t> content) {
-    WireWriter writer;
-    writer.value(mark);
-    writer.value(round);
-    for (const std::uint32_t word : content) writer.value(word);
-    return writer.take();
+    ByteWriter inner, outer;
+    for (const std::uint32_t word : content) inner.value(word);
+    outer.value(mark);
+    outer.value(round);
+    outer.array(inner.take());
+    return outer.take();
   };
   constexpr std::uint32_t kMark = 0x31584d44;
-  CHECK(send_to_rank_0(message(kMark, 0, {})).find("message from rank 1: ends too early") == 0);
-  CHECK(send_to_rank_0(message(kMark, 0, {4'000'000'000})).find("message from rank 1: ends too early") == 0);
-  CHECK(send_to_rank_0(message(kMark, 0, {0, 7})).find("message from rank 1: goes on after its end") == 0);
-  CHECK(send_to_rank_0(message(7, 0, {0})).find("message from rank 1: is not of an exchange") == 0);
-  CHECK(send_to_rank_0({}).find("message from rank 1: ends too early") == 0);
+  CHECK(send_to_rank_0(message(kMark, 0, {})).find("message from rank 1: a message between ranks is too short") == 0);
+  CHECK(send_to_rank_0(message(kMark, 0, {4'000'000'000}))
+            .find("message from rank 1: a message between ranks is too short") == 0);
+  CHECK(send_to_rank_0(message(kMark, 0, {0, 7})).find("message from rank 1: it goes on after its end") == 0);
+  CHECK(send_to_rank_0(message(7, 0, {0})).find("message from rank 1: it is not of an exchange") == 0);
+  CHECK(send_to_rank_0({}).find("message from rank 1: a message between ranks is too short") == 0);
   CHECK(send_to_rank_0(message(kMark, 5, {0})) == "no error");  // of a rank that is ahead: it waits
 }
 
