@@ -1,0 +1,55 @@
+// How long planning takes: every policy that plans for all, on a square of subdomains dealt in rows to ranks of three
+// speeds. Counts how many subdomains move, before and after what is not worth it is left out.
+#include <benchmark/benchmark.h>
+
+#include "balancer/move_cost.hpp"
+#include "balancer/policy_factory.hpp"
+#include "support/load_snapshots.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+
+namespace {
+
+LoadSnapshot snapshot_of(int subdomains, int ranks) {
+  const int rows = static_cast<int>(std::sqrt(subdomains));
+  Layout layout = testing::grid_layout(subdomains / rows, rows, ranks);
+  std::mt19937_64 random(1);
+  for (auto& s : layout.subdomains) s.predicted = 20e3 * std::uniform_real_distribution<double>(0.7, 1.3)(random);
+  std::vector<double> speeds;
+  for (int r = 0; r < ranks; ++r) speeds.push_back(9 * r < 4 * ranks ? 110e3 : 9 * r < 5 * ranks ? 92e3 : 186e3);
+  return testing::initial_snapshot(std::move(layout), speeds);
+}
+
+void plan(benchmark::State& state, const std::string& name, const Parameters::Values& parameters) {
+  const LoadSnapshot snapshot = snapshot_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  const auto policy = make_policy(name, parameters);
+  std::vector<Move> planned, worth;
+  for (auto _ : state) {
+    planned = policy->plan(snapshot, 0);
+    worth = worth_moving(snapshot, planned, {});
+    benchmark::DoNotOptimize(worth.data());
+  }
+  state.counters["planned"] = static_cast<double>(planned.size());
+  state.counters["worth"] = static_cast<double>(worth.size());
+  state.counters["time/ideal"] = finishing_time(after(snapshot, worth)) / ideal_time(snapshot);
+}
+
+void all_sizes(benchmark::internal::Benchmark* b) {
+  b->Args({4'000, 8})->Args({4'000, 144})->Args({100'000, 1'000})->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto add = [](const std::string& label, const std::string& policy, const Parameters::Values& parameters) {
+    benchmark::RegisterBenchmark(label.c_str(), plan, policy, parameters)->Apply(all_sizes);
+  };
+  add("greedy", "greedy", {});
+  for (const char* method : {"rcb", "hsfc"}) add(std::string("zoltan ") + method, "zoltan", {{"method", method}});
+  for (const char* method : {"graph", "hypergraph"})
+    for (const char* approach : {"partition", "repartition", "refine"})
+      add(std::string("zoltan ") + method + ' ' + approach, "zoltan", {{"method", method}, {"approach", approach}});
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
