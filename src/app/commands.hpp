@@ -15,5 +15,7 @@ void add_convert(CLI::App& program);
 void add_decompose(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_plot(CLI::App& program);
+void add_run(CLI::App& program);
+void add_config(CLI::App& program);
 
 }  // namespace driftmesh::app

@@ -26,6 +26,8 @@ void add_commands(CLI::App& program) {
   add_decompose(program);
   add_generate(program);
   add_plot(program);
+  add_run(program);
+  add_config(program);
 }
 
 /// What is wrong with the command line, and where to look: in the help of the command that was meant.

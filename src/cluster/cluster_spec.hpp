@@ -18,9 +18,10 @@ struct RankGroup {
 /// A cluster to simulate. Its ranks are numbered through the groups. Every rank has a line of its own to all others.
 struct ClusterSpec {
   std::vector<RankGroup> groups;
-  double latency = 50e-6;          ///< seconds from the end of sending to arrival
-  double bandwidth = 1e9;          ///< bytes a second that leave a rank
-  double message_overhead = 1e-6;  ///< seconds of a rank of this machine's speed, for each message sent or received
+  double latency = 50e-6;  ///< seconds from the end of sending to arrival
+  double bandwidth = 1e9;  ///< bytes a second that leave a rank
+  double message_overhead =
+      1e-6;  ///< seconds of a rank, whatever its speed, for each message that it sends or receives
 };
 
 /// Triangles a second that a rank with these costs refines: a point makes two triangles.

@@ -81,7 +81,7 @@ class Simulation {
     for (std::size_t r = 0; r < loops_.size(); ++r) {
       const RankLoop& loop = *loops_[r];
       run_.ranks.push_back({loop.times(), loop.protocol().counters(), loop.triangles(),
-                            static_cast<std::int32_t>(loop.subdomains().size())});
+                            static_cast<std::int32_t>(loop.subdomains().size()), loop.interface_splits()});
       for (const auto& [id, subdomain] : loop.subdomains()) {
         run_.owners[static_cast<std::size_t>(id)] = static_cast<Rank>(r);
         if (observers_.finished) observers_.finished(subdomain);

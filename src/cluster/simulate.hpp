@@ -26,6 +26,7 @@ struct RankOutcome {
   protocol::ProtocolCounters counters;
   std::int64_t triangles = 0;
   std::int32_t subdomains = 0;
+  std::int64_t interface_splits = 0;  ///< points that refinement put on interfaces
 };
 
 /// What a run on a simulated cluster came to.

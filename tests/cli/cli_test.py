@@ -5,6 +5,7 @@ usage: cli_test.py DRIFTMESH [unittest options]
 """
 
 import functools
+import csv
 import json
 import os
 import pathlib
@@ -484,6 +485,78 @@ class Mesh(Cli):
 
     def test_the_version(self):
         self.assertRegex(self.succeed("--version"), r"^driftmesh \d+\.\d+\.\d+\n$")
+
+
+class Experiments(Cli):
+    """driftmesh run, and every experiment that is shipped, shrunk."""
+
+    CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
+    # What makes each of them small.
+    SHRUNK = {
+        "first-run": ["bounds.triangles=2e4"],
+        "aggregation": ["bounds.triangles-per-rank=2e3", "decomposition.subdomains-per-rank=10", "cluster.ranks=4",
+                        "run.aggregation=[1, 16, 1024]"],
+        "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
+    }
+
+    def run_config(self, name, *settings, folder="results"):
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        return self.succeed("run", self.CONFIGS / f"{name}.yaml", "-o", folder, *arguments)
+
+    def table(self, folder="results"):
+        with open(self.folder / folder / "table.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_every_shipped_experiment(self):
+        shipped = {path.stem for path in self.CONFIGS.glob("*.yaml")}
+        self.assertEqual(shipped, set(self.SHRUNK))
+        for name in sorted(shipped):
+            with self.subTest(config=name):
+                said = self.run_config(name, *self.SHRUNK[name], folder=name)
+                rows = self.table(name)
+                self.assertEqual(len(rows) + 2, sum(line.startswith("|") for line in said.splitlines()))
+                for number, row in enumerate(rows, 1):
+                    record = json.loads((self.folder / name / f"{row['run']}.json").read_text())
+                    self.assertEqual(record["mesh"]["triangles"], int(row["triangles"]))
+                    self.assertEqual(record["cluster"]["seconds"], float(row["seconds"]))
+                    self.assertEqual(len(record["parts"]["ranks"]), int(row["ranks"]))
+                    self.assertGreaterEqual(record["mesh"]["smallest_angle"], 20)
+                    shares = [float(row[kind]) for kind in ("computing", "sending", "polling", "balancing", "idle")]
+                    self.assertAlmostEqual(sum(shares), 1)
+                    self.assertTrue(all(0 <= share <= 1 for share in shares), shares)
+                    self.assertIn(str(number), row["run"])
+
+    def test_aggregation_saves_messages(self):
+        self.run_config("aggregation", *self.SHRUNK["aggregation"])
+        one, some, all_together = self.table()
+        self.assertEqual(one["splits"], one["split_messages"])
+        self.assertGreater(int(one["split_messages"]), int(some["split_messages"]))
+        self.assertGreaterEqual(int(some["split_messages"]), int(all_together["split_messages"]))
+        self.assertGreater(float(one["sending"]), float(all_together["sending"]))
+
+    def test_the_experiment_in_full_does_the_same_again(self):
+        self.run_config("first-run", *self.SHRUNK["first-run"], folder="first")
+        self.succeed("run", "first/experiment.yaml", "-o", "again", "--quiet")
+        self.assertEqual(self.table("first"), self.table("again"))
+
+    def test_a_dry_run_prints_and_does_nothing(self):
+        said = self.succeed("run", self.CONFIGS / "scaled-speedup.yaml", "--dry-run")
+        self.assertIn("triangles-per-rank: 100000", said)
+        self.assertIn("# 11 runs", said)
+        self.assertEqual(self.files(), [])
+
+    def test_what_is_wrong_is_told_before_anything_runs(self):
+        self.write("wrong.yaml", "input: {generate: pipe}\nclutser: {ranks: 2}\n")
+        self.refuse("run", "wrong.yaml", says=["wrong.yaml:2:1", "'cluster"])
+        self.refuse("run", "missing.yaml", says=["missing.yaml"])
+        self.refuse("run", self.CONFIGS / "first-run.yaml", "--set", "bounds.angle=50", says=["at most 34"])
+        self.refuse("config", code=2)
+        self.assertEqual(self.files(), ["wrong.yaml"])
+
+    def test_the_schema_is_one(self):
+        schema = json.loads(self.succeed("config", "--schema"))
+        self.assertEqual(schema["properties"]["run"]["properties"]["order"]["enum"], ["given", "largest", "backlog"])
+        self.assertIn("| `bounds.angle` |", self.succeed("config", "--keys"))
 
 
 if __name__ == "__main__":

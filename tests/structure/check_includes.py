@@ -26,7 +26,7 @@ BEHIND = {
     "muParser.h": "src/sizing/expression_field.cpp",
     "cairo": "src/output/plot_",
     "CLI/": "src/app/",
-    "yaml-cpp/": "src/app/config_file.cpp",
+    "yaml-cpp/": ("src/app/config_file.cpp", "src/experiment/experiment_file.cpp"),
     "zoltan": "balancer/zoltan_partition.cpp",
     "CGAL/": "tests and bench alone",
 }
@@ -99,7 +99,7 @@ def misplaced_libraries(root):
             match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
             for header, place in BEHIND.items():
                 if match and match.group(1).startswith(header) and not name.startswith(place):
-                    yield f"{name}:{number}: includes {match.group(1)}, which belongs to {place}"
+                    yield f"{name}:{number}: includes {match.group(1)}, which belongs to {' and '.join([place] if isinstance(place, str) else place)}"
 
 
 def undeclared_folders(root, boxes):

@@ -1,0 +1,103 @@
+#include "app/experiment_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/memory.hpp"
+#include "app/summary.hpp"
+#include "base/stopwatch.hpp"
+#include "experiment/key_words.hpp"
+#include "experiment/prepare.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+using experiment::Json;
+
+constexpr std::size_t kRecordedSamples = 200;  // of the load over time, in a record
+
+void record_input(RunRecord& record, const experiment::Experiment& e, const experiment::Prepared& prepared) {
+  record.input_file = experiment::input_name(e);
+  record.input_points = static_cast<std::int64_t>(prepared.pslg.points.size());
+  record.input_segments = static_cast<std::int64_t>(prepared.pslg.segments.size());
+  record.input_holes = static_cast<std::int64_t>(prepared.pslg.holes.size());
+  record.input_regions = static_cast<std::int64_t>(prepared.pslg.regions.size());
+  record.repairs = prepared.repairs;
+  record.min_angle = e.angle;
+  record.max_area = prepared.plan.bounds.max_area;
+  record.sizing = e.size_expression.empty() ? e.size_background : e.size_expression;
+  record.acute_corners = prepared.acute_corners;
+  record.forecast = prepared.forecast;
+  record.subdomains = static_cast<std::int32_t>(prepared.plan.decomposition.size());
+  record.presplit = prepared.plan.presplit;
+}
+
+void record_outcome(RunRecord& record, const SimulatedRun& outcome) {
+  for (const RankOutcome& rank : outcome.ranks)
+    record.ranks.push_back({rank.triangles, rank.subdomains, rank.interface_splits, rank.counters, rank.times, 0});
+  record.seconds_refine = outcome.makespan;
+  record.peak = record.peak_refining = peak_memory();
+}
+
+/// What is left to do on all ranks together, over time.
+Json load_json(const SimulatedRun& outcome) {
+  std::vector<double> remaining(outcome.ranks.size(), 0);
+  double total = 0;
+  Json times = Json::array(), loads = Json::array();
+  const std::size_t step = std::max<std::size_t>(1, outcome.samples.size() / kRecordedSamples);
+  for (std::size_t i = 0; i < outcome.samples.size(); ++i) {
+    const LoadSample& s = outcome.samples[i];
+    total += s.remaining - std::exchange(remaining[static_cast<std::size_t>(s.rank)], s.remaining);
+    if (i % step != 0 && i + 1 != outcome.samples.size()) continue;
+    times.push_back(s.time);
+    loads.push_back(std::round(total));
+  }
+  return {{"seconds", times}, {"triangles_to_be_made", loads}};
+}
+
+}  // namespace
+
+void simulate_experiment(ExperimentRun& run, const RunProgress& progress) {
+  const CostModel costs;
+  const ClusterSpec cluster = experiment::cluster_of(run.experiment);
+  run.speeds = speeds_of(cluster, costs);
+  const Stopwatch preparing;
+  experiment::Prepared prepared = experiment::prepare(run.experiment, run.speeds);
+  run.record.stages.push_back({"prepare", preparing.seconds()});
+  record_input(run.record, run.experiment, prepared);
+  SimulationObservers observers;
+  observers.progress = [&](std::int64_t triangles) { progress(triangles, prepared.forecast); };
+  observers.finished = [&](const Subdomain& subdomain) {
+    add_part(run.record, subdomain.mesh().mesh, prepared.plan.bounds, true);
+    add_counters(run.record, subdomain.counters());
+  };
+  const Stopwatch simulating;
+  run.outcome = simulate(prepared.plan, cluster, costs, observers);
+  run.record.stages.push_back({"simulate", simulating.seconds()});
+  run.record.seconds = preparing.seconds();
+  run.plan = std::move(prepared.plan);
+  run.plan.bounds.size = nullptr;
+  record_outcome(run.record, run.outcome);
+}
+
+std::string experiment_record(const ExperimentRun& run) {
+  Json record = Json::parse(summary_json(run.record));
+  Json swept = Json::object();
+  for (const auto& [key, value] : run.swept) swept[key] = value;
+  record["format"] = "driftmesh experiment run";
+  record["experiment"] = experiment::experiment_json(run.experiment);
+  record["swept"] = swept;
+  record["repetition"] = run.repetition;
+  record["cluster"] = {{"seconds", run.outcome.makespan},
+                       {"ideal_seconds", ideal_seconds(run.outcome, run.speeds)},
+                       {"speeds", run.speeds},
+                       {"messages", run.outcome.messages},
+                       {"message_bytes", run.outcome.bytes},
+                       {"steps", run.outcome.steps},
+                       {"owners_before", run.plan.owners},
+                       {"owners_after", run.outcome.owners},
+                       {"load", load_json(run.outcome)}};
+  return record.dump(1) + "\n";
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/experiment_run.hpp"
+
+namespace driftmesh::app {
+
+/// The runs of an experiment as rows of figures.
+class ExperimentTable {
+ public:
+  /// A row for a run that has ended.
+  void add(const ExperimentRun& run);
+
+  /// All figures, comma-separated; the first line names the columns (docs/experiments.md says what they are).
+  [[nodiscard]] std::string csv() const;
+  /// The most telling figures in Markdown, aligned, one line a run.
+  [[nodiscard]] std::string markdown() const;
+
+  struct Row {
+    std::string run;
+    std::vector<std::pair<std::string, std::string>> swept;
+    std::int32_t repetition = 0;
+    std::size_t ranks = 0, subdomains = 0;
+    std::int64_t triangles = 0;
+    double seconds = 0;
+    double ideal_seconds = 0;  ///< if every rank computed from beginning to end
+    double rate = 0;           ///< triangles a second
+    double efficiency = 0;     ///< rate for the cluster's speed, against that of the first run
+    RankTimes times;           ///< of all ranks together, as shares of ranks x seconds
+    std::int64_t splits = 0, split_messages = 0, hand_offs = 0, hand_off_bytes = 0;
+    std::uint64_t messages = 0, message_bytes = 0;
+  };
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+
+ private:
+  std::vector<Row> rows_;
+  double first_rate_ = 0;  // for the cluster's speed
+};
+
+}  // namespace driftmesh::app

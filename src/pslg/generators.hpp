@@ -1,0 +1,97 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "pslg/generate.hpp"
+#include "pslg/pslg.hpp"
+
+namespace driftmesh {
+
+// The parameters of each generated input, by the names that users know them by: visit(name, value, what it is).
+
+template <class Visit>
+void visit_parameters(PipeOptions& o, Visit&& visit) {
+  visit("outer-radius", o.outer_radius, "Radius of the outside");
+  visit("bore-radius", o.bore_radius, "Radius of the bore");
+  visit("channels", o.channels, "Number of channels");
+  visit("channel-depth", o.channel_depth, "Depth of a channel, along the radius");
+  visit("channel-width", o.channel_width, "Width of a channel, along the circle");
+  visit("fillet", o.fillet, "Radius of the rounded corners of a channel");
+  visit("edge", o.edge, "Longest edge of the boundary");
+}
+
+template <class Visit>
+void visit_parameters(CylinderFlowOptions& o, Visit&& visit) {
+  visit("radius", o.radius, "Radius of the cylinder");
+  visit("upstream", o.upstream, "Distance from the cylinder's center to the inflow");
+  visit("downstream", o.downstream, "Distance from the cylinder's center to the outflow");
+  visit("height", o.height, "Height of the half channel");
+  visit("arc-edges", o.arc_edges, "Edges of the half circle");
+  visit("edge", o.edge, "Longest edge of the other sides");
+}
+
+template <class Visit>
+void visit_parameters(BayOptions& o, Visit&& visit) {
+  visit("width", o.width, "Width of the region, in metres");
+  visit("height", o.height, "Height of the region, in metres");
+  visit("resolution", o.resolution, "About the distance of the coastline's points, in metres");
+  visit("roughness", o.roughness, "0: smooth coast, 1: very ragged");
+  visit("seed", o.seed, "Another seed makes another bay");
+}
+
+template <class Visit>
+void visit_parameters(FanOptions& o, Visit&& visit) {
+  visit("wedges", o.wedges, "Number of angles");
+  visit("angle", o.angle, "Each angle, in degrees");
+  visit("corner", o.from_corner, "From a corner and not from the center");
+}
+
+template <class Visit>
+void visit_parameters(CombOptions& o, Visit&& visit) {
+  visit("slits", o.slits, "Number of slits");
+  visit("pitch", o.pitch, "Distance of the slits");
+  visit("width", o.width, "Width of a slit");
+  visit("depth", o.depth, "Depth of a slit, below 1");
+}
+
+template <class Visit>
+void visit_parameters(HolesOptions& o, Visit&& visit) {
+  visit("columns", o.columns, "Holes in a row");
+  visit("rows", o.rows, "Rows of holes");
+  visit("sides", o.sides, "Sides of a hole");
+  visit("radius", o.radius, "Radius of a hole, below 0.5");
+  visit("jitter", o.jitter, "Random displacement of a hole in each axis");
+  visit("seed", o.seed, "Seed of the displacements");
+}
+
+template <class Visit>
+void visit_parameters(RectangleHoleOptions& o, Visit&& visit) {
+  visit("sides", o.sides, "Sides of the hole");
+  visit("radius", o.radius, "Radius of the hole, below 0.5");
+}
+
+template <class Visit>
+void visit_parameters(RandomPolygonOptions& o, Visit&& visit) {
+  visit("vertices", o.vertices, "Number of vertices");
+  visit("jitter", o.jitter, "Largest displacement of a corner, below 0.5; edges have length 1");
+  visit("seed", o.seed, "Another seed makes another polygon");
+}
+
+template <class Visit>
+void visit_parameters(RandomPointsOptions& o, Visit&& visit) {
+  visit("points", o.points, "Number of points, besides the corners of the square");
+  visit("segments", o.segments, "Number of segments, at most a quarter of the points");
+  visit("seed", o.seed, "Another seed makes other points");
+}
+
+/// The names of all inputs that can be generated.
+[[nodiscard]] std::vector<std::string> generator_names();
+
+/// A generated input by its name and the values of some of its parameters. Throws InputError for names that are not
+/// known (with the nearest one), values that are not numbers, and what the generator refuses.
+[[nodiscard]] Pslg generate(const std::string& name, const std::map<std::string, std::string>& parameters);
+
+}  // namespace driftmesh
