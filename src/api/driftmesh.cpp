@@ -74,12 +74,6 @@ Start share(MpiTransport& transport, const std::function<Start()>& make) {
   return {plan_from_bytes(plan_bytes), pslg_from_bytes(input_bytes)};
 }
 
-HeldSubdomains held_by(const RankLoop& loop) {
-  std::vector<HeldSubdomain> all;
-  for (const auto& [id, subdomain] : loop.subdomains()) all.push_back({id, &subdomain.mesh()});
-  return held_in_memory(std::move(all));
-}
-
 /// The others wait for a rank that fails here, so it takes them with it.
 template <class Work>
 auto or_end_the_job(const MpiTransport& transport, const Work& work) {
@@ -96,7 +90,8 @@ DistributedPiece refine(MpiTransport& transport, int communicator, const Start& 
     protocol::run_rank(transport, [&] { return loop.step(); });
     MpiTransport afterwards(communicator);  // messages of ranks that are still at work do not reach it
     ExchangeRunner ranks(afterwards);
-    PieceAssembly assembly(transport.rank(), transport.ranks(), start.plan.decomposition, held_by(loop));
+    PieceAssembly assembly(transport.rank(), transport.ranks(), start.plan.decomposition,
+                           held_by_rank(loop.subdomains()));
     ranks.run(assembly);
     afterwards.close();
     return assembly.piece(start.input);

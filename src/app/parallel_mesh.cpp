@@ -234,11 +234,7 @@ class ParallelMesh {
     run_.peak_refining = run_.peak;
   }
 
-  [[nodiscard]] HeldSubdomains held() const {
-    std::vector<HeldSubdomain> all;
-    for (const auto& [id, subdomain] : loop_->subdomains()) all.push_back({id, &subdomain.mesh()});
-    return held_in_memory(std::move(all));
-  }
+  [[nodiscard]] HeldSubdomains held() const { return held_by_rank(loop_->subdomains()); }
 
   void write() {
     protocol::MpiTransport transport(protocol::MpiSession::world());

@@ -25,6 +25,16 @@ HeldSubdomains held_in_memory(std::vector<HeldSubdomain> held) {
   };
 }
 
+HeldSubdomains held_by_rank(const std::map<SubdomainId, Subdomain>& subdomains) {
+  return [&subdomains](const ShowSubdomain& show) {
+    for (const auto& [i, subdomain] : subdomains)
+      if (subdomain.dormant())
+        show(i, subdomain.dormant_mesh().wake());
+      else
+        show(i, subdomain.mesh());
+  };
+}
+
 void visit_splits(const Triangulation& mesh, RootId root, const std::function<void(dyadic::Path, VertexId)>& visit) {
   visit_below(mesh, mesh.roots[id(root)].tree, visit);
 }

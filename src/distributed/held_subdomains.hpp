@@ -1,10 +1,11 @@
 #pragma once
 
 #include <functional>
-#include <span>
+#include <map>
 #include <vector>
 
 #include "decompose/subdomain_mesh.hpp"
+#include "migration/subdomain.hpp"
 
 namespace driftmesh {
 
@@ -19,6 +20,10 @@ struct HeldSubdomain {
 };
 /// Subdomains that lie in memory, given in any order.
 [[nodiscard]] HeldSubdomains held_in_memory(std::vector<HeldSubdomain> held);
+
+/// The subdomains of a rank's loop when a run has ended; `subdomains` outlives the result. Those that sleep are woken
+/// one at a time, for as long as they are shown.
+[[nodiscard]] HeldSubdomains held_by_rank(const std::map<SubdomainId, Subdomain>& subdomains);
 
 /// The points that refinement put on root `root` of a mesh, in the order of their positions on it: calls
 /// visit(path, vertex) for each.

@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
-"""Meshes in pieces, written here byte by byte: what the program says of them, and what it makes of them.
+"""Meshes in pieces, written here byte by byte: what the program says of them, and what it makes of them. And those that
+the program writes from several ranks, read here with an XML parser and taken apart.
 
 usage: pieces_test.py DRIFTMESH [unittest options]
 """
 
+import collections
 import math
+import os
 import pathlib
 import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 PROGRAM = None
 
@@ -145,6 +149,122 @@ class Pieces(unittest.TestCase):
         before = self.right.read_bytes()
         self.run_program("convert", "two.pvtu", "right.vtu", code=1, says=["is the input itself"])
         self.assertEqual(self.right.read_bytes(), before)
+
+
+CODES = {"Float64": "d", "Int64": "q", "Int32": "i", "UInt8": "B"}
+
+
+class Piece:
+    """A .vtu as the standard describes it: the header is XML, arrays follow the underscore at their offsets."""
+
+    def __init__(self, path):
+        whole = path.read_bytes()
+        begin = whole.index(b"<AppendedData")
+        data = whole.index(b"_", begin) + 1
+        root = xml.etree.ElementTree.fromstring(whole[:begin] + b"</VTKFile>")
+        assert root.attrib["header_type"] == "UInt64" and root.attrib["byte_order"] == "LittleEndian"
+        self.tag = root.find("UnstructuredGrid/Piece")
+        self.kinds = {}
+        for section in self.tag:
+            for array in section:
+                assert array.attrib["format"] == "appended"
+                code = CODES[array.attrib["type"]]
+                offset = data + int(array.attrib["offset"])
+                size = struct.unpack_from("<Q", whole, offset)[0]
+                values = struct.unpack_from(f"<{size // struct.calcsize(code)}{code}", whole, offset + 8)
+                setattr(self, f"{section.tag}_{array.attrib['Name']}", values)
+                if section.tag in ("PointData", "CellData"):
+                    self.kinds["P" + section.tag, array.attrib["Name"]] = array.attrib["type"]
+        self.points = list(zip(self.Points_Points[0::3], self.Points_Points[1::3]))
+        self.numbers = self.PointData_global_number
+        self.triangles, self.lines, begin = [], [], 0
+        for cell, (end, kind) in enumerate(zip(self.Cells_offsets, self.Cells_types)):
+            corners = tuple(self.numbers[v] for v in self.Cells_connectivity[begin:end])
+            (self.triangles if kind == 5 else self.lines).append((corners, cell))
+            begin = end
+
+
+class Ranks(unittest.TestCase):
+    """What several ranks write, against what can be known without the program."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        subprocess.run([PROGRAM, "generate", "holes", "--columns", "4", "--rows", "3", "-o", "holes.poly"],
+                       cwd=self.folder, check=True, capture_output=True)
+
+    def mesh(self, ranks, *outputs):
+        environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                           OMPI_MCA_rmaps_base_oversubscribe="1", ASAN_OPTIONS="detect_leaks=0")
+        subprocess.run(["mpiexec", "-n", str(ranks), PROGRAM, "mesh", "holes.poly", "--area", "0.01", "-n", "20",
+                        *(word for output in outputs for word in ("-o", output))],
+                       cwd=self.folder, check=True, capture_output=True, timeout=120, env=environment)
+
+    def read(self, name):
+        grid = xml.etree.ElementTree.parse(self.folder / name).find("PUnstructuredGrid")
+        self.assertEqual(grid.attrib["GhostLevel"], "0")
+        pieces = [Piece(self.folder / tag.attrib["Source"]) for tag in grid.findall("Piece")]
+        declared = {(section.tag, array.attrib["Name"]): array.attrib["type"]
+                    for section in grid if section.tag in ("PPointData", "PCellData") for array in section}
+        for piece in pieces:
+            self.assertEqual(piece.kinds, declared)
+            self.assertEqual(len(piece.points), int(piece.tag.attrib["NumberOfPoints"]))
+            self.assertEqual(len(piece.triangles) + len(piece.lines), int(piece.tag.attrib["NumberOfCells"]))
+        return pieces
+
+    def test_the_pieces_of_three_ranks_are_one_mesh(self):
+        self.mesh(3, "holes.pvtu")
+        pieces = self.read("holes.pvtu")
+        self.assertEqual(len(pieces), 3)
+        place, number = {}, {}
+        for piece in pieces:
+            for n, p in zip(piece.numbers, piece.points):
+                self.assertEqual(place.setdefault(n, p), p)
+                self.assertEqual(number.setdefault(p, n), n)
+        self.assertEqual(sorted(place), list(range(len(place))))
+
+        sides = collections.Counter()
+        lines = set()
+        area = 0
+        for rank, piece in enumerate(pieces):
+            self.assertEqual(set(piece.CellData_rank), {rank})
+            for (a, b, c), _ in piece.triangles:
+                (ax, ay), (bx, by), (cx, cy) = place[a], place[b], place[c]
+                area += ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
+                sides.update([(a, b), (b, c), (c, a)])
+            lines.update(frozenset(line) for line, _ in piece.lines)
+        self.assertEqual(set(sides.values()), {1})
+        # What has no triangle on its other side is the boundary, all of it and nothing else.
+        boundary = {frozenset(side) for side in sides if side[::-1] not in sides}
+        self.assertEqual(boundary, lines)
+        edges = len({frozenset(side) for side in sides})
+        triangles = sum(len(piece.triangles) for piece in pieces)
+        self.assertEqual(len(place) - edges + triangles, 1 - 12)  # Euler, for 12 holes
+        hole = 12 / 2 * math.sin(2 * math.pi / 12) * 0.3 ** 2
+        self.assertAlmostEqual(area, 12 * (1 - hole), places=9)
+        # Between ranks there is something to weld.
+        self.assertGreater(sum(len(piece.points) for piece in pieces), len(place) + 20)
+
+    def test_subdomains_tell_the_pieces_apart(self):
+        self.mesh(2, "holes.pvtu")
+        held = [set(piece.CellData_subdomain) for piece in self.read("holes.pvtu")]
+        self.assertEqual(held[0] | held[1], set(range(20)))
+        self.assertFalse(held[0] & held[1])
+
+    def test_the_merged_file_does_not_depend_on_the_ranks(self):
+        wholes = []
+        for ranks in 1, 3:
+            self.mesh(ranks, "holes.vtu")
+            whole = (self.folder / "holes.vtu").read_bytes()
+            begin = whole.index(b"<AppendedData")
+            root = xml.etree.ElementTree.fromstring(whole[:begin] + b"</VTKFile>")
+            offset = [int(a.attrib["offset"]) for a in root.iter("DataArray") if a.attrib["Name"] == "rank"][0]
+            data = whole.index(b"_", begin) + 1 + offset
+            size = 8 + struct.unpack_from("<Q", whole, data)[0]
+            self.assertEqual(set(whole[data + 8:data + size:4]), set(range(ranks)))
+            wholes.append(whole[:data] + whole[data + size:])
+        self.assertEqual(wholes[0], wholes[1])
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 
 #include "mesh/digest.hpp"
 #include "mesh/merge_pieces.hpp"
+#include "migration/dormant_mesh.hpp"
 #include "oracles/meshing.hpp"
 #include "property/cases.hpp"
 #include "protocol/adversarial_network.hpp"
@@ -127,6 +128,28 @@ TEST_CASE("random domains, dealt to random ranks, are one mesh") {
   CHECK(shared > 100 * cases);
   CHECK(empty > cases / 10);
   CHECK(not_delaunay > 0);
+}
+
+TEST_CASE("subdomains that sleep are shown as if they did not") {
+  const auto cases = static_cast<std::uint64_t>(case_count(20));
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    CAPTURE(seed);
+    const DistributedCase c = random_distributed_case(seed);
+    std::vector<DormantMesh> asleep;
+    for (const SubdomainMesh& part : c.parts) asleep.emplace_back(part);
+    std::vector<std::unique_ptr<PieceAssembly>> all;
+    for (Rank r = 0; r < 2; ++r)
+      all.push_back(std::make_unique<PieceAssembly>(r, 2, c.decomposition, [&, r](const ShowSubdomain& show) {
+        for (std::size_t i = 0; i < asleep.size(); ++i)
+          if (static_cast<Rank>(i % 2) == r) show(static_cast<SubdomainId>(i), asleep[i].wake());
+      }));
+    exchange_directly(std::vector<Exchange*>{all[0].get(), all[1].get()});
+    const std::vector<DistributedPiece> pieces{all[0]->piece(c.input), all[1]->piece(c.input)};
+    check_numbers(pieces);
+    check_interfaces(pieces);
+    MergeFaults faults;
+    check_whole(c, pieces, merge_pieces(meshes_of(pieces), faults));
+  }
 }
 
 TEST_CASE("messages may come in any order") {
