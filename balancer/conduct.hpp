@@ -10,7 +10,7 @@
 namespace driftmesh::balancer {
 
 struct ControllerOptions {
-  double look = 2e-3;      ///< seconds between two looks at the rank's own load
+  double look = 1e-2;      ///< seconds between two looks at the rank's own load
   double gap = 0.02;       ///< seconds between two reports of a rank, and between two plans, at least
   double interval = 1;     ///< seconds between two reports of a rank with work, at most
   double change = 0.1;     ///< a forecast that is off by this share is reported (see ReportRule)
@@ -24,7 +24,7 @@ struct ControllerOptions {
 struct Decision {
   std::vector<Move> moves;  ///< hand these over, now
   std::vector<protocol::Outgoing> messages;
-  bool planned = false;  ///< a policy has made a plan, which may have taken long
+  bool planned = false;  ///< whether to plan was looked at, which may have taken long: tell took()
 };
 
 /// What a rank tells the controller at one moment.

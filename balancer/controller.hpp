@@ -18,10 +18,10 @@ namespace driftmesh::balancer {
 /// advise, and says what to send and what to hand over. It knows no transport and no clock, so that it runs on real and
 /// on simulated ranks.
 ///
-/// How a rank's loop drives it: pass all advice that arrives to receive(). When
-/// due(), call think(), hand over what it says, and send its messages by RankProtocol::advise. A rank at rest is
-/// passive only if also `!waiting()`. Nothing that a rank without work is told makes it send work: think() moves only
-/// what is listed as unfinished.
+/// How a rank's loop drives it: pass all advice that arrives to receive(). When due(), and when work has just run out,
+/// call think() between taking in what arrived and working; hand over what it says, and send its messages by
+/// RankProtocol::advise. A rank at rest is passive only if also `!waiting()`. Nothing that a rank without work is told
+/// makes it send work: think() moves only what is listed as unfinished.
 class Controller {
  public:
   /// At `now` the run begins. `layout` is equal on all ranks, and so are policy and options.

@@ -52,6 +52,7 @@ void PlanningConduct::receive(Rank source, protocol::Message advice, double now)
 
 Decision PlanningConduct::think(const Situation& situation) {
   Decision decision;
+  last_look_ = situation.now;
   Loads own(situation.own.begin(), situation.own.end());
   follow_advice(situation, own, decision);
   if (plans()) plan(situation, own, decision);
@@ -74,6 +75,11 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
   }
 }
 
+void PlanningConduct::took(double seconds) {
+  next_plan_ = std::max(next_plan_, last_look_ + seconds / options_.overhead);
+  if (policy_ran_) cost_of_planning_ = seconds;
+}
+
 // Worth a look at all: there is more to gain than what planning and the least worthwhile plan take.
 bool PlanningConduct::may_gain(const LoadSnapshot& snapshot) const {
   const double last = finishing_time(snapshot);
@@ -89,9 +95,11 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   // The first plan waits a little for all to say how fast they are.
   if (leads && !knowledge_->complete() && now < start_ + options_.interval) return;
   news_ = false;
-  const LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
-  if (leads && !may_gain(snapshot)) return;
+  next_plan_ = now + options_.gap;
   decision.planned = true;
+  const LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
+  policy_ran_ = !leads || may_gain(snapshot);
+  if (!policy_ran_) return;
   std::vector<Move> planned = policy_->plan(snapshot, self_);
   std::erase_if(moved_, [&](const auto& move) { return now - move.second > options_.interval; });
   std::erase_if(planned, [&](const Move& move) {
@@ -100,7 +108,7 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   const auto moves =
       worth_moving(leads ? snapshot : between(snapshot, self_, planned), planned, options_.cost, options_.worth);
   pause_ = moves.empty() ? std::min(2 * pause_, options_.interval) : options_.gap;
-  next_plan_ = now + std::max(pause_, cost_of_planning_ / options_.overhead);
+  next_plan_ = now + pause_;
   if (moves.empty()) return;
   advise(moves, snapshot, own, decision);
   knowledge_->expect(moves, snapshot, plans_, now);

@@ -22,7 +22,7 @@ class PlanningConduct {
   void receive(Rank source, protocol::Message advice, double now);
   [[nodiscard]] bool waiting() const { return !advised_.empty(); }
   [[nodiscard]] Decision think(const Situation& situation);
-  void took(double seconds) { cost_of_planning_ = seconds; }
+  void took(double seconds);
 
  private:
   using Loads = std::vector<protocol::SubdomainLoad>;
@@ -53,8 +53,10 @@ class PlanningConduct {
   bool news_ = false;  // since the last plan
   double start_;
   double next_plan_;
-  double pause_;  // after a plan that was not worth it
-  double cost_of_planning_ = 0;
+  double last_look_ = 0;
+  double pause_;                 // after a plan that was not worth it
+  bool policy_ran_ = false;      // in the last think()
+  double cost_of_planning_ = 0;  // with the policy
   std::uint32_t plans_ = 0;
   std::map<SubdomainId, double> moved_;  // when a move of it was last planned: it is left alone for a while
 };

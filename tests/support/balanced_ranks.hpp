@@ -38,20 +38,22 @@ class WorkingRank {
 
   WorkingRank(protocol::Transport& transport, std::shared_ptr<const balancer::Layout> layout,
               const std::vector<Job>& jobs, std::shared_ptr<const balancer::Policy> policy,
-              const balancer::ControllerOptions& options, double slice)
+              const balancer::ControllerOptions& options, double slice, double given_speed = 0)
       : transport_(transport),
         protocol_(transport.rank(), transport.ranks(), owners_of(*layout)),
         limits_{transport.ranks(), static_cast<SubdomainId>(jobs.size()), 1},
         controller_(transport.rank(), layout, std::move(policy), options, transport.now()),
-        slice_(slice) {
+        slice_(slice),
+        given_speed_(given_speed) {
     for (std::size_t i = 0; i < jobs.size(); ++i)
       if (layout->subdomains[i].owner == transport.rank()) jobs_[static_cast<SubdomainId>(i)] = jobs[i];
   }
 
   protocol::StepResult step() {
     const bool heard = poll();
-    if (controller_.due(transport_.now())) balance();
-    const bool worked = work();
+    const bool ran_out = std::exchange(worked_, false) && agenda().empty();
+    if (ran_out || controller_.due(transport_.now())) balance();
+    const bool worked = worked_ = work();
     if (!worked) protocol_.rest(!controller_.waiting());
     for (const auto& o : protocol_.take_outgoing()) transport_.send(o.destination, protocol::encode(o.message));
     if (protocol_.finished()) return protocol::StepResult::kFinished;
@@ -97,7 +99,7 @@ class WorkingRank {
     std::vector<protocol::SubdomainLoad> own;
     for (const SubdomainId id : agenda())
       own.push_back({id, protocol_.where(id).epoch, jobs_.at(id).remaining(), jobs_.at(id).bytes()});
-    auto decision = controller_.think(transport_.now(), own, speed_.value());
+    auto decision = controller_.think(transport_.now(), own, given_speed_ > 0 ? given_speed_ : speed_.value());
     if (decision.planned) controller_.took(1e-3);
     for (const auto& move : decision.moves) hand_over(move);
     for (auto& message : decision.messages) protocol_.advise(message.destination, std::move(message.message));
@@ -133,6 +135,8 @@ class WorkingRank {
   balancer::SpeedEstimate speed_;
   std::map<SubdomainId, Job> jobs_;
   double slice_;
+  bool worked_ = false;  // in the last step
+  double given_speed_;   // where there is no time to measure one
   Counts counts_;
 };
 
@@ -153,7 +157,51 @@ struct Outcome {
   bool complete = false;  // the run has ended in good order, and every job was done, whole, once
 };
 
-/// Runs jobs on simulated ranks until the protocol says that it is over.
+/// The ranks of one run, made for the endpoints of a network.
+class WorkingRanks {
+ public:
+  template <class Network>
+  WorkingRanks(Network& network, const balancer::Layout& layout, const std::vector<Job>& jobs,
+               const std::string& policy, const balancer::Parameters::Values& parameters,
+               const balancer::ControllerOptions& options, double slice, double given_speed = 0)
+      : jobs_(jobs) {
+    const auto shared_layout = std::make_shared<const balancer::Layout>(layout);
+    const std::shared_ptr<const balancer::Policy> shared_policy = balancer::make_policy(policy, parameters);
+    for (Rank r = 0; r < layout.ranks; ++r) {
+      ranks_.push_back(std::make_unique<WorkingRank>(network.transport(r), shared_layout, jobs, shared_policy, options,
+                                                     slice, given_speed));
+      steps_.emplace_back([rank = ranks_.back().get()] { return rank->step(); });
+    }
+  }
+  [[nodiscard]] const std::vector<protocol::RankStep>& steps() const { return steps_; }
+
+  /// Found by looking at the jobs, wherever they are.
+  [[nodiscard]] Outcome outcome(protocol::RunEnd end) const {
+    Outcome outcome;
+    outcome.complete = end == protocol::RunEnd::kFinished;
+    std::vector<int> found(jobs_.size(), 0);
+    std::map<SubdomainId, int> moves_of;
+    for (const auto& rank : ranks_) {
+      outcome.time = std::max(outcome.time, rank->last_work);
+      outcome.moves += rank->counts().moves;
+      for (const auto& [id, n] : rank->counts().moves_of) moves_of[id] += n;
+      for (const auto& [id, job] : rank->jobs()) {
+        ++found[static_cast<std::size_t>(id)];
+        if (job.done != jobs_[static_cast<std::size_t>(id)].work) outcome.complete = false;
+      }
+    }
+    for (const auto& [id, n] : moves_of) outcome.most_moves_of_one = std::max(outcome.most_moves_of_one, n);
+    outcome.complete = outcome.complete && std::all_of(found.begin(), found.end(), [](int n) { return n == 1; });
+    return outcome;
+  }
+
+ private:
+  const std::vector<Job>& jobs_;
+  std::vector<std::unique_ptr<WorkingRank>> ranks_;
+  std::vector<protocol::RankStep> steps_;
+};
+
+/// Runs jobs on simulated ranks in simulated time until the protocol says that it is over.
 inline Outcome run_jobs(const Cluster& cluster, const balancer::Layout& layout, const std::vector<Job>& jobs,
                         const std::string& policy, const balancer::Parameters::Values& parameters = {},
                         const balancer::ControllerOptions& options = {}) {
@@ -162,34 +210,12 @@ inline Outcome run_jobs(const Cluster& cluster, const balancer::Layout& layout, 
                                       return protocol::Link{cluster.latency, cluster.bandwidth};
                                     },
                                     1e-6, 1e-6, 50'000'000});
-  const auto shared_layout = std::make_shared<const balancer::Layout>(layout);
-  const std::shared_ptr<const balancer::Policy> shared_policy = balancer::make_policy(policy, parameters);
-  std::vector<std::unique_ptr<WorkingRank>> ranks;
-  std::vector<protocol::RankStep> steps;
-  for (Rank r = 0; r < layout.ranks; ++r) {
-    ranks.push_back(std::make_unique<WorkingRank>(network.transport(r), shared_layout, jobs, shared_policy, options,
-                                                  cluster.slice));
-    steps.emplace_back([rank = ranks.back().get()] { return rank->step(); });
-  }
-  Outcome outcome;
-  outcome.complete = network.run(steps).end == protocol::RunEnd::kFinished;
-  std::vector<int> found(jobs.size(), 0);
-  std::map<SubdomainId, int> moves_of;
+  WorkingRanks ranks(network, layout, jobs, policy, parameters, options, cluster.slice);
+  Outcome outcome = ranks.outcome(network.run(ranks.steps()).end);
   double work = 0, speed = 0;
-  for (const auto& rank : ranks) {
-    outcome.time = std::max(outcome.time, rank->last_work);
-    outcome.moves += rank->counts().moves;
-    for (const auto& [id, n] : rank->counts().moves_of) moves_of[id] += n;
-    for (const auto& [id, job] : rank->jobs()) {
-      ++found[static_cast<std::size_t>(id)];
-      if (job.done != job.work) outcome.complete = false;
-    }
-  }
-  for (const auto& [id, n] : moves_of) outcome.most_moves_of_one = std::max(outcome.most_moves_of_one, n);
   for (const Job& job : jobs) work += job.work;
   for (const double s : cluster.speeds) speed += s;
   outcome.ideal = work / speed;
-  outcome.complete = outcome.complete && std::all_of(found.begin(), found.end(), [](int n) { return n == 1; });
   outcome.messages = network.messages();
   outcome.bytes = network.bytes();
   return outcome;
