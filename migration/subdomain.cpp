@@ -136,7 +136,7 @@ bool Subdomain::sleeps_through(const protocol::SplitEntry& entry) const {
 
 protocol::Bytes Subdomain::pack() const {
   SubdomainView view{id_, refined_, pending_, {}, nullptr};
-  if (body_) view.body.emplace(body_->part, body_->refiner.state(), body_->forecast);
+  if (body_) view.body.emplace(SubdomainView::Body{body_->part, body_->refiner.state(), body_->forecast});
   view.dormant = dormant_.get();
   return driftmesh::pack(view);
 }

@@ -80,6 +80,10 @@ bool knows(const Triangulation& mesh, SubsegmentId s, HalfEdge h) {
 bool handles_exist(const Triangulation& mesh, std::size_t& dead) {
   const auto edges = static_cast<std::uint32_t>(4 * mesh.triangles.size());
   const auto last_vertex = static_cast<std::int32_t>(mesh.points.size()) - 1;
+  // Negative for a vertex past the last; what a negative one gives does not matter, but must not overflow.
+  const auto beyond = [last = static_cast<std::uint32_t>(last_vertex)](VertexId v) {
+    return static_cast<std::int32_t>(last - static_cast<std::uint32_t>(v));
+  };
   std::int32_t out_of_range = 0, low_bits = 0;
   for (const Triangle& triangle : mesh.triangles) {
     const auto [a, b, c] = triangle.vertex;
@@ -87,7 +91,7 @@ bool handles_exist(const Triangulation& mesh, std::size_t& dead) {
       ++dead;
       continue;
     }
-    out_of_range |= a | b | c | (last_vertex - a) | (last_vertex - b) | (last_vertex - c);
+    out_of_range |= a | b | c | beyond(a) | beyond(b) | beyond(c);
     for (const HalfEdge g : triangle.neighbor) {
       if (static_cast<std::uint32_t>(g) >= edges) [[unlikely]] {
         if (!is_constrained(g) || !names(subsegment_of(g), mesh.subsegments.size())) return false;
