@@ -90,28 +90,95 @@ Grid make_grid(const BayOptions& o) {
   return grid;
 }
 
-/// Below zero in the water: rivers and open sea, their shores displaced in proportion to the width of the water.
-Grid make_terrain(const BayOptions& o) {
-  SeededRandom random(o.seed);
-  const GradientNoise noise(random), islands(random), warp_x(random), warp_y(random);
-  const double unit = std::min(o.width, o.height);
-  Grid grid = make_grid(o);
-  const Rivers rivers(o, random);
-  for (const Reach& reach : rivers.reaches()) carve(grid, reach);
-  const double wave = 0.11 * unit;  // longest wave of the shore
-  const int octaves = std::clamp(static_cast<int>(std::log2(wave / (2 * o.resolution))) + 1, 1, 12);
-  for (std::size_t i = 0; i < grid.values.size(); ++i) {
-    const Point p = grid.place(i);
-    const Point slow{p.x / (2.5 * wave), p.y / (2.5 * wave)};
-    const double sea = (0.86 * o.width + 0.10 * unit * warp_x.fractal(slow, 3, 0.5) - p.x) / (0.07 * unit);
-    const Point q{p.x / wave + 0.35 * warp_x.fractal(slow, 3, 0.5), p.y / wave + 0.35 * warp_y.fractal(slow, 3, 0.5)};
-    const double shore = noise.fractal(q, octaves, 0.5 + 0.2 * o.roughness);
-    const double shoal = islands.fractal({2.5 * q.x, 2.5 * q.y}, std::max(1, octaves - 1), 0.5);
-    grid.values[i] = std::clamp(std::min(grid.values[i], sea), -1.6, kLand) + 2 * o.roughness * shore +
-                     10 * o.roughness * std::max(0.0, shoal - 0.33);
+/// Below zero in the water: rivers and open sea, their shores displaced in proportion to the width of the water. On
+/// most of the grid only the sign counts, and a few octaves of noise settle it.
+class Terrain {
+ public:
+  explicit Terrain(const BayOptions& o)
+      : o_(o),
+        random_(o.seed),
+        noise_(random_),
+        islands_(random_),
+        warp_x_(random_),
+        warp_y_(random_),
+        wave_(0.11 * unit()),
+        octaves_(std::clamp(static_cast<int>(std::log2(wave_ / (2 * o.resolution))) + 1, 1, 12)),
+        grid_(make_grid(o)) {}
+
+  Grid make() {
+    const Rivers rivers(o_, random_);
+    for (const Reach& reach : rivers.reaches()) carve(grid_, reach);
+    river_ = grid_.values;
+    exact_.assign(grid_.values.size(), 0);
+    for (std::size_t i = 0; i < grid_.values.size(); ++i) settle(i);
+    for (std::size_t i = 0; i < grid_.values.size(); ++i)
+      if (exact_[i] == 0 && at_shore(i)) grid_.values[i] = value(place(i));
+    return std::move(grid_);
   }
-  return grid;
-}
+
+ private:
+  /// What is the same whatever the shore's noise is.
+  struct Place {
+    double base;  ///< the value without noise
+    Point q;      ///< where noise is looked up
+  };
+
+  [[nodiscard]] double unit() const { return std::min(o_.width, o_.height); }
+  [[nodiscard]] double gain() const { return 0.5 + 0.2 * o_.roughness; }
+  [[nodiscard]] int island_octaves() const { return std::max(1, octaves_ - 1); }
+
+  [[nodiscard]] Place place(std::size_t i) const {
+    const Point p = grid_.place(i);
+    const Point slow{p.x / (2.5 * wave_), p.y / (2.5 * wave_)};
+    const double warp = warp_x_.fractal(slow, 3, 0.5);
+    const double sea = (0.86 * o_.width + 0.10 * unit() * warp - p.x) / (0.07 * unit());
+    return {std::clamp(std::min(river_[i], sea), -1.6, kLand),
+            {p.x / wave_ + 0.35 * warp, p.y / wave_ + 0.35 * warp_y_.fractal(slow, 3, 0.5)}};
+  }
+
+  [[nodiscard]] double value(const Place& at) const {
+    const double shore = noise_.fractal(at.q, octaves_, gain());
+    const double shoal = islands_.fractal({2.5 * at.q.x, 2.5 * at.q.y}, island_octaves(), 0.5);
+    return at.base + 2 * o_.roughness * shore + 10 * o_.roughness * std::max(0.0, shoal - kShoal);
+  }
+
+  /// Any value of the right sign, or the value itself if the sign is hard to tell.
+  void settle(std::size_t i) {
+    const Place at = place(i);
+    const GradientNoise::Range shore = noise_.fractal_range(at.q, std::min(2, octaves_), octaves_, gain());
+    const double least = at.base + 2 * o_.roughness * shore.low, most = at.base + 2 * o_.roughness * shore.high;
+    const double shoal_to_emerge = kShoal - most / (10 * o_.roughness);
+    if (least > kSure) {
+      grid_.values[i] = least;
+    } else if (most < -kSure && islands_.fractal_is_below(shoal_to_emerge - kSure, {2.5 * at.q.x, 2.5 * at.q.y},
+                                                          island_octaves(), 0.5)) {
+      grid_.values[i] = most;
+    } else {
+      grid_.values[i] = value(at);
+      exact_[i] = 1;
+    }
+  }
+
+  /// Whether a curve passes beside the point, which then depends on its value.
+  [[nodiscard]] bool at_shore(std::size_t i) const {
+    const std::size_t column = i % grid_.columns, row = i / grid_.columns;
+    const auto differs = [&](std::size_t k) { return grid_.negative(k) != grid_.negative(i); };
+    return (column > 0 && differs(i - 1)) || (column + 1 < grid_.columns && differs(i + 1)) ||
+           (row > 0 && differs(i - grid_.columns)) || (row + 1 < grid_.rows && differs(i + grid_.columns));
+  }
+
+  static constexpr double kShoal = 0.33;  // noise above this lifts the ground
+  static constexpr double kSure = 1e-9;   // for rounding
+
+  const BayOptions& o_;
+  SeededRandom random_;
+  const GradientNoise noise_, islands_, warp_x_, warp_y_;
+  const double wave_;  // longest of the shore
+  const int octaves_;
+  Grid grid_;
+  std::vector<double> river_;
+  std::vector<char> exact_;
+};
 
 bool on_one_line(const Point& a, const Point& b, const Point& c) {
   return (a.x == b.x && b.x == c.x) || (a.y == b.y && b.y == c.y);
@@ -155,7 +222,7 @@ void check_bay(const BayOptions& o) {
 
 Pslg generate_bay(const BayOptions& o) {
   check_bay(o);
-  Grid terrain = make_terrain(o);
+  Grid terrain = Terrain(o).make();
   keep_main_basin(terrain, kLeastIsland);
   Pslg pslg;
   std::int32_t island = 3;

@@ -12,6 +12,12 @@ double fade(double t) {
   return t * t * t * (t * (6 * t - 15) + 10);
 }
 
+/// Without the call that std::floor is on processors of any age.
+std::int64_t floor_of(double t) {
+  const auto whole = static_cast<std::int64_t>(t);
+  return whole - (static_cast<double>(whole) > t ? 1 : 0);
+}
+
 double mix(double a, double b, double t) {
   return a + (b - a) * t;
 }
@@ -34,23 +40,51 @@ double GradientNoise::corner(std::int64_t x, std::int64_t y, double dx, double d
 }
 
 double GradientNoise::operator()(const Point& p) const {
-  const double fx = std::floor(p.x), fy = std::floor(p.y);
-  const auto x = static_cast<std::int64_t>(fx), y = static_cast<std::int64_t>(fy);
-  const double dx = p.x - fx, dy = p.y - fy;
+  const std::int64_t x = floor_of(p.x), y = floor_of(p.y);
+  const double dx = p.x - static_cast<double>(x), dy = p.y - static_cast<double>(y);
   const double south = mix(corner(x, y, dx, dy), corner(x + 1, y, dx - 1, dy), fade(dx));
   const double north = mix(corner(x, y + 1, dx, dy - 1), corner(x + 1, y + 1, dx - 1, dy - 1), fade(dx));
   return mix(south, north, fade(dy));
 }
 
+// Octaves are shifted, else all would be zero at the same points.
+double GradientNoise::octave(int i, const Point& p) const {
+  const double frequency = static_cast<double>(std::int64_t{1} << i);
+  return (*this)({p.x * frequency + 17.3 * i, p.y * frequency - 9.7 * i});
+}
+
 double GradientNoise::fractal(const Point& p, int octaves, double gain) const {
-  double sum = 0, height = 1, frequency = 1;
+  double sum = 0, height = 1;
   for (int i = 0; i < octaves; ++i) {
-    // Octaves are shifted, else all would be zero at the same points.
-    sum += height * (*this)({p.x * frequency + 17.3 * i, p.y * frequency - 9.7 * i});
+    sum += height * octave(i, p);
     height *= gain;
-    frequency *= 2;
   }
   return sum;
+}
+
+GradientNoise::Range GradientNoise::fractal_range(const Point& p, int known, int octaves, double gain) const {
+  double sum = 0, rest = 0, height = 1;
+  for (int i = 0; i < octaves; ++i) {
+    if (i < known)
+      sum += height * octave(i, p);
+    else
+      rest += height * kBound;
+    height *= gain;
+  }
+  return {sum - rest, sum + rest};
+}
+
+bool GradientNoise::fractal_is_below(double bound, const Point& p, int octaves, double gain) const {
+  double rest = 0, height = 1;
+  for (int i = 0; i < octaves; ++i, height *= gain) rest += height * kBound;
+  double sum = 0;
+  height = 1;
+  for (int i = 0; i < octaves; ++i, height *= gain) {
+    if (sum + rest < bound) return true;
+    sum += height * octave(i, p);
+    rest -= height * kBound;
+  }
+  return sum < bound;
 }
 
 }  // namespace driftmesh

@@ -17,7 +17,18 @@ class GradientNoise {
   /// A sum of `octaves` noises, each of twice the frequency and `gain` times the height of the one before.
   [[nodiscard]] double fractal(const Point& p, int octaves, double gain) const;
 
+  /// Where a fractal sum may lie once some of its octaves are known.
+  struct Range {
+    double low, high;
+  };
+  /// Adds octaves of fractal() until it is certain that the sum is below `bound`, or all `octaves` are known.
+  [[nodiscard]] bool fractal_is_below(double bound, const Point& p, int octaves, double gain) const;
+  /// What the first `known` octaves tell about fractal().
+  [[nodiscard]] Range fractal_range(const Point& p, int known, int octaves, double gain) const;
+
  private:
+  static constexpr double kBound = 0.75;  // of one noise, rounded up from sqrt(1/2)
+  [[nodiscard]] double octave(int i, const Point& p) const;
   [[nodiscard]] double corner(std::int64_t x, std::int64_t y, double dx, double dy) const;
   std::array<std::uint8_t, 256> order_{};
   std::array<Point, 256> gradients_{};

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -7,8 +8,10 @@
 
 #include "base/error.hpp"
 #include "pslg/generate.hpp"
+#include "pslg/noise.hpp"
 #include "pslg/open_boundary.hpp"
 #include "pslg/repair.hpp"
+#include "pslg/seeded_random.hpp"
 
 using namespace driftmesh;
 
@@ -201,4 +204,29 @@ TEST_CASE("options out of range are named") {
   CHECK(
       error_of([] { (void)generate_random_points({.points = 100, .segments = 26}); }).starts_with("generate random-"));
   CHECK(error_of([] { (void)generate_bay({.resolution = 0}); }).starts_with("generate bay: the resolution"));
+}
+
+TEST_CASE("what is said of a sum of noise by a part of its octaves is true of all of it") {
+  SeededRandom random(7);
+  const GradientNoise noise(random);
+  double widest = 0;
+  int below = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Point p{random.uniform(-40, 40), random.uniform(-40, 40)};
+    const int octaves = 1 + k % 9;
+    const double gain = k % 2 == 0 ? 0.5 : 0.7, sum = noise.fractal(p, octaves, gain);
+    for (int known = 0; known <= octaves; ++known) {
+      const GradientNoise::Range range = noise.fractal_range(p, known, octaves, gain);
+      CHECK(range.low <= sum);
+      CHECK(sum <= range.high);
+      if (known == octaves) CHECK(range.low == range.high);
+    }
+    widest = std::max(widest, std::fabs(noise(p)));
+    const double bound = random.uniform(-1, 1);
+    CHECK(noise.fractal_is_below(bound, p, octaves, gain) == (sum < bound));
+    below += sum < bound ? 1 : 0;
+  }
+  CHECK(widest > 0.5);
+  CHECK(below > 1000);
+  CHECK(below < 2000);
 }
