@@ -69,6 +69,12 @@ std::int64_t Subdomain::triangles() const {
   return body_ ? static_cast<std::int64_t>(body_->part.mesh.live_triangles()) : 0;
 }
 
+std::uint64_t Subdomain::packed_bytes() const {
+  constexpr std::uint64_t kOverhead = 200, kTriangle = 40;  // with its half of a vertex, and what refinement has queued
+  return kOverhead + kTriangle * static_cast<std::uint64_t>(triangles()) +
+         sizeof(protocol::SplitEntry) * pending_.size();
+}
+
 SliceWork Subdomain::work(std::int64_t insertions, std::vector<protocol::SplitEntry>& said) {
   SliceWork done;
   wake();

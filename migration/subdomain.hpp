@@ -54,6 +54,9 @@ class Subdomain {
   /// Triangles that there are now.
   [[nodiscard]] std::int64_t triangles() const;
 
+  /// About how long pack() would be, in bytes.
+  [[nodiscard]] std::uint64_t packed_bytes() const;
+
   /// A neighbour has put a point on a shared edge.
   void tell(const protocol::SplitEntry& entry) {
     if (!dormant_ || !sleeps_through(entry)) pending_.push_back(entry);

@@ -5,6 +5,7 @@
 #include "app/cutting_options.hpp"
 #include "app/sizing_options.hpp"
 #include "app/validators.hpp"
+#include "balancer/policy_factory.hpp"
 #include "decompose/decompose.hpp"
 
 namespace driftmesh::app {
@@ -109,6 +110,32 @@ void add_parts_options(CLI::App& command, MeshOptions::Parts& parts) {
       ->group(kGroup);
 }
 
+void add_balancing_options(CLI::App& command, MeshOptions::Parts& parts) {
+  constexpr const char* kGroup = "Balancing: subdomains move between ranks while they are refined";
+  command
+      .add_option("--balance", parts.policy,
+                  "Who decides what moves: none, zoltan, stealing, diffusion or greedy (docs/balancing.md)")
+      ->check(CLI::IsMember(balancer::policy_names()).description(""))
+      ->capture_default_str()
+      ->type_name("POLICY")
+      ->group(kGroup);
+  command
+      .add_option("--balance-with", parts.policy_parameters,
+                  "A parameter of the policy, as in --balance-with method=graph; can be given several times")
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE")
+      ->group(kGroup);
+  command
+      .add_option(
+          "--drag", parts.drag,
+          "For experiments: the fraction of its time that each rank works, as in --drag 1,0.5; it sleeps through "
+          "the rest")
+      ->delimiter(',')
+      ->check(CLI::Range(0.01, 1.0).description(""))
+      ->type_name("F,F,...")
+      ->group(kGroup);
+}
+
 void add_output_options(CLI::App& command, MeshOptions& options) {
   constexpr const char* kGroup = "Output";
   command
@@ -142,6 +169,7 @@ void add_mesh_options(CLI::App& command, MeshOptions& options) {
   add_quality_options(command, options);
   add_limit_options(command, options);
   add_parts_options(command, options.parts);
+  add_balancing_options(command, options.parts);
   add_output_options(command, options);
   command.footer(
       "Examples:\n"

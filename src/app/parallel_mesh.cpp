@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -137,7 +139,7 @@ class ParallelMesh {
     }
     notes_.timed("share", [&] { start = Start::unpack(transport_.broadcast(start.pack())); });
     if (start.failed) return false;
-    plan_ = plan_from_bytes(start.plan);
+    plan_ = plan_from_bytes(start.plan, transport_.ranks());
     pslg_ = pslg_from_bytes(start.pslg);
     return true;
   }
@@ -182,7 +184,24 @@ class ParallelMesh {
     plan.presplit = presplit_mode(parts.presplit);
     plan.aggregation = parts.aggregation;
     plan.order = work_order(parts.order);
+    plan.balancing.policy = parts.policy;
+    for (const std::string& parameter : parts.policy_parameters) {
+      const std::size_t equals = parameter.find('=');
+      if (equals == std::string::npos)
+        throw Error("--balance-with takes NAME=VALUE, as in method=graph, not '" + parameter + "'");
+      plan.balancing.parameters[parameter.substr(0, equals)] = parameter.substr(equals + 1);
+    }
+    if (!parts.drag.empty() && parts.drag.size() != static_cast<std::size_t>(transport_.ranks()))
+      throw Error(fmt::format("--drag has {} fractions for {} ranks", parts.drag.size(), transport_.ranks()));
     return plan;
+  }
+
+  /// A rank with drag sleeps after a slice, for so long that it works its fraction of the time.
+  void drag(double seconds_of_slice) const {
+    const std::vector<double>& fractions = options_.parts.drag;
+    if (fractions.empty()) return;
+    const double fraction = fractions[static_cast<std::size_t>(transport_.rank())];
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds_of_slice * (1 / fraction - 1)));
   }
 
   void refine() {
@@ -193,8 +212,10 @@ class ParallelMesh {
       if (plan_.owners[s] == transport_.rank()) forecast += plan_.decomposition.subdomains[s].predicted;
     RankLoop::Observers observers;
     observers.stalled = [](const std::string& why) { fmt::print(stderr, "driftmesh: {}\n", why); };
-    if (leader_)
-      observers.after_slice = [&](const RankLoop& loop) { notes_.progress.refining(loop.triangles(), forecast); };
+    observers.after_slice = [&](const RankLoop& loop, double seconds) {
+      if (leader_) notes_.progress.refining(loop.triangles(), forecast);
+      drag(seconds);
+    };
     notes_.timed("refine", [&] {
       loop_.emplace(transport_, plan_, CostModel{}, observers);
       protocol::run_rank(transport_, [&] { return loop_->step(); });

@@ -47,7 +47,7 @@ struct RunRecord : MeshFacts {
   /// One rank of a parallel run.
   struct Rank {
     std::int64_t triangles = 0;
-    std::int32_t subdomains = 0;  ///< at the end
+    std::int32_t subdomains = 0;        ///< at the end
     std::int64_t interface_splits = 0;  ///< points that refinement put on interfaces
     protocol::ProtocolCounters protocol;
     RankTimes times;

@@ -117,6 +117,8 @@ void add_ranks(const RunRecord& run, Text out) {
   std::int64_t splits = 0;
   for (const RunRecord::Rank& r : run.ranks) {
     splits += r.interface_splits;
+    sum.hand_offs += r.protocol.hand_offs;
+    sum.hand_off_bytes += r.protocol.hand_off_bytes;
     sum.splits_sent += r.protocol.splits_sent;
     sum.batches_sent += r.protocol.batches_sent;
   }
@@ -125,6 +127,9 @@ void add_ranks(const RunRecord& run, Text out) {
                  run.presplit ? "cut to size" : "not cut");
   fmt::format_to(out, "             {} put on interfaces by refinement, {} sent between ranks in {}\n",
                  counted(splits, "split point"), grouped(sum.splits_sent), counted(sum.batches_sent, "message"));
+  if (sum.hand_offs > 0)
+    fmt::format_to(out, "             {} moved between ranks, {}\n", counted(sum.hand_offs, "subdomain"),
+                   bytes_words(static_cast<std::uint64_t>(sum.hand_off_bytes)));
   add_rank_table(run, out);
 }
 

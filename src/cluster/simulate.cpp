@@ -49,7 +49,7 @@ class Simulation {
     of_rank_.resize(static_cast<std::size_t>(ranks));
     for (Rank r = 0; r < ranks; ++r) {
       RankLoop::Observers watch;
-      watch.after_slice = [this, r](const RankLoop& loop) { sample(r, loop); };
+      watch.after_slice = [this, r](const RankLoop& loop, double) { sample(r, loop); };
       loops_.push_back(std::make_unique<RankLoop>(network_.transport(r), plan, costs, std::move(watch)));
       sample(r, *loops_.back());
     }

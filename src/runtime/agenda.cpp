@@ -31,6 +31,12 @@ std::optional<protocol::SubdomainId> Agenda::first() const {
   return queue_.begin()->id;
 }
 
+std::vector<protocol::SubdomainId> Agenda::in_order() const {
+  std::vector<protocol::SubdomainId> ids;
+  for (const Place& place : queue_) ids.push_back(place.id);
+  return ids;
+}
+
 Agenda::Place Agenda::place_of(const Item& item) const {
   if (item.begun) return {0, 0, item.id};
   const double urgency = order_ == WorkOrder::kLargest   ? item.remaining

@@ -38,6 +38,8 @@ class Agenda {
   void remove(protocol::SubdomainId id);
   /// The subdomain to work on next.
   [[nodiscard]] std::optional<protocol::SubdomainId> first() const;
+  /// All of them, in that order.
+  [[nodiscard]] std::vector<protocol::SubdomainId> in_order() const;
   [[nodiscard]] bool empty() const { return queue_.empty(); }
   [[nodiscard]] std::size_t size() const { return queue_.size(); }
 

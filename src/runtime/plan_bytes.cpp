@@ -2,6 +2,7 @@
 
 #include "base/byte_stream.hpp"
 #include "base/error.hpp"
+#include "runtime/plan_run.hpp"
 
 namespace driftmesh {
 namespace {
@@ -28,6 +29,7 @@ void transfer_plan(Stream& stream, Plan& plan) {
   stream.value(plan.slice);
   stream.value(plan.order);
   stream.value(plan.max_triangles);
+  stream.value(plan.balancing.options);
 }
 
 template <class Stream, class Input>
@@ -65,14 +67,26 @@ Pslg pslg_from_bytes(std::span<const std::byte> bytes) {
 protocol::Bytes plan_to_bytes(const RunPlan& plan) {
   ByteWriter writer;
   transfer_plan(writer, plan);
+  writer.text(plan.balancing.policy);
+  writer.value(static_cast<std::uint64_t>(plan.balancing.parameters.size()));
+  for (const auto& [name, value] : plan.balancing.parameters) {
+    writer.text(name);
+    writer.text(value);
+  }
   return writer.take();
 }
 
-RunPlan plan_from_bytes(std::span<const std::byte> bytes) {
+RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks) {
   ByteReader reader(bytes);
   RunPlan plan;
   transfer_plan(reader, plan);
+  plan.balancing.policy = reader.text();
+  for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
+    const std::string name = reader.text();
+    plan.balancing.parameters[name] = reader.text();
+  }
   require_end(reader);
+  prepare_balancing(plan, ranks);
   return plan;
 }
 

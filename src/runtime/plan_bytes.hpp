@@ -12,8 +12,9 @@ namespace driftmesh {
 /// memory). The size field is not in it: each rank makes its own.
 [[nodiscard]] protocol::Bytes plan_to_bytes(const RunPlan& plan);
 
-/// The plan that plan_to_bytes was given, without its size field. Throws Error if the bytes are not such a plan.
-[[nodiscard]] RunPlan plan_from_bytes(std::span<const std::byte> bytes);
+/// The plan, for so many ranks, that plan_to_bytes was given, without its size field. Throws Error if the bytes are not
+/// such a plan.
+[[nodiscard]] RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks);
 
 /// The same for the input of a run.
 [[nodiscard]] protocol::Bytes pslg_to_bytes(const Pslg& pslg);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "balancer/policy_factory.hpp"
 #include "base/error.hpp"
 #include "decompose/presplit.hpp"
 #include "decompose/work.hpp"
@@ -58,7 +59,28 @@ RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const
   plan.aggregation = options.aggregation;
   plan.slice = options.slice;
   plan.order = options.order;
+  plan.balancing = options.balancing;
+  prepare_balancing(plan, options.mapping.ranks);
   return plan;
+}
+
+void prepare_balancing(RunPlan& plan, std::int32_t ranks) {
+  plan.policy = balancer::make_policy(plan.balancing.policy, plan.balancing.parameters);
+  if (plan.policy->placement() == balancer::Placement::kNobody) {
+    plan.policy.reset();
+    return;
+  }
+  const auto layout = std::make_shared<balancer::Layout>();
+  layout->ranks = ranks;
+  for (std::size_t s = 0; s < plan.owners.size(); ++s) {
+    const Decomposition::Subdomain& known = plan.decomposition.subdomains[s];
+    layout->subdomains.push_back({known.centroid.x, known.centroid.y, known.predicted, plan.owners[s], {}});
+  }
+  for (const Interface& i : interfaces(plan.decomposition)) {
+    layout->subdomains[static_cast<std::size_t>(i.first)].neighbours.push_back({i.second, i.length});
+    layout->subdomains[static_cast<std::size_t>(i.second)].neighbours.push_back({i.first, i.length});
+  }
+  plan.layout = layout;
 }
 
 }  // namespace driftmesh

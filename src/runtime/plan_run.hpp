@@ -26,6 +26,7 @@ struct PlanOptions {
   std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;
   std::int64_t slice = RunPlan{}.slice;
   WorkOrder order = WorkOrder::kGiven;
+  Balancing balancing;
 };
 
 /// Subdomains for a mesh of about so many triangles on so many ranks: 20 for each rank, and more where they would
@@ -38,5 +39,8 @@ struct PlanOptions {
 
 /// The plan of a run on a decomposition. Throws Error for options out of range or that do not go together.
 [[nodiscard]] RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options);
+
+/// Makes the plan's layout and policy from the rest of it. Throws InputError for an unknown policy or parameter.
+void prepare_balancing(RunPlan& plan, std::int32_t ranks);
 
 }  // namespace driftmesh

@@ -3,10 +3,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "balancer/controller.hpp"
+#include "balancer/speed_estimate.hpp"
 #include "base/error.hpp"
 #include "migration/subdomain.hpp"
 #include "protocol/codec.hpp"
@@ -29,7 +32,7 @@ class BasicRankLoop {
  public:
   /// What the loop tells its surroundings; each may be empty.
   struct Observers {
-    std::function<void(const BasicRankLoop&)> after_slice;  ///< work was done
+    std::function<void(const BasicRankLoop&, double seconds)> after_slice;  ///< work was done, in so much time
     /// Nothing has moved for a minute: what this rank waits for, and what waits here.
     std::function<void(const std::string&)> stalled;
   };
@@ -47,6 +50,7 @@ class BasicRankLoop {
                 static_cast<protocol::EdgeId>(plan.decomposition.roots.size())},
         agenda_(plan.order),
         clock_(transport.now()) {
+    if (plan.policy) controller_.emplace(transport.rank(), plan.layout, plan.policy, plan.balancing.options, clock_);
     for (std::size_t s = 0; s < plan.owners.size(); ++s)
       if (plan.owners[s] == transport.rank()) put(Subdomain(static_cast<SubdomainId>(s), context_));
   }
@@ -75,10 +79,11 @@ class BasicRankLoop {
     charge(agenda_.empty() && !heard ? &RankTimes::idle : &RankTimes::polling);
     const bool worked = work();
     charge(worked ? &RankTimes::computing : &RankTimes::idle);
-    if (Rules::rests(worked)) protocol_.rest(true);
+    const bool balanced = balance(worked);
+    if (Rules::rests(worked)) protocol_.rest(!controller_ || !controller_->waiting());
     const bool sent = send();
     charge(sent || worked ? &RankTimes::sending : &RankTimes::idle);
-    watch(heard || worked || sent);
+    watch(heard || worked || balanced || sent);
     if (protocol_.finished()) return protocol::StepResult::kFinished;
     return heard || worked ? protocol::StepResult::kBusy : protocol::StepResult::kIdle;
   }
@@ -115,6 +120,7 @@ class BasicRankLoop {
       heard = true;
       auto delivery = protocol_.receive(received->source, protocol::decode(received->source, received->bytes, limits_));
       if (delivery.arrival) settle(*delivery.arrival);
+      if (delivery.advice && controller_) controller_->receive(received->source, std::move(*delivery.advice), clock_);
       for (const protocol::SplitGroup& group : delivery.splits) {
         Subdomain& subdomain = subdomains_.at(group.to);
         for (const protocol::SplitEntry& entry : group.entries) subdomain.tell(entry);
@@ -138,6 +144,7 @@ class BasicRankLoop {
     Subdomain& subdomain = subdomains_.at(*id);
     said_.clear();
     const std::int64_t before = subdomain.triangles();
+    const double start = transport_.now();
     const SliceWork done = subdomain.work(plan_.slice, said_);
     triangles_ += subdomain.triangles() - before;
     if (triangles_ > plan_.max_triangles)
@@ -148,8 +155,34 @@ class BasicRankLoop {
     reschedule(subdomain);
     interface_splits_ += static_cast<std::int64_t>(said_.size());
     for (const protocol::SplitEntry& entry : said_) tell_across(*id, entry);
-    if (observers_.after_slice) observers_.after_slice(*this);
+    if (observers_.after_slice) observers_.after_slice(*this, transport_.now() - start);
+    speed_.add(static_cast<double>(done.triangles), transport_.now() - start);
     return true;
+  }
+
+  /// Lets the controller look, when it is time or when work has just run out. Whether anything came of it.
+  bool balance(bool worked) {
+    const bool ran_out = std::exchange(worked_, worked) && agenda_.empty();
+    if (!controller_ || !(controller_->due(clock_) || ran_out)) return false;
+    const double start = transport_.now();
+    const std::vector<protocol::SubdomainLoad> own = loads();
+    transport_.spend(static_cast<double>(own.size()) * costs_.listed);
+    balancer::Decision decision = controller_->think(clock_, own, speed_.value());
+    for (const balancer::Move& move : decision.moves) hand_over(move.subdomain, move.destination);
+    for (protocol::Outgoing& o : decision.messages) protocol_.advise(o.destination, std::move(o.message));
+    if (decision.planned) controller_->took(transport_.now() - start);
+    charge(&RankTimes::balancing);
+    return !decision.moves.empty() || !decision.messages.empty();
+  }
+
+  /// What is to be done here, in the order in which it will be.
+  [[nodiscard]] std::vector<protocol::SubdomainLoad> loads() const {
+    std::vector<protocol::SubdomainLoad> own;
+    for (const SubdomainId id : agenda_.in_order()) {
+      const Subdomain& s = subdomains_.at(id);
+      own.push_back({id, protocol_.where(id).epoch, s.remaining(), s.packed_bytes()});
+    }
+    return own;
   }
 
   void tell_across(SubdomainId from, const protocol::SplitEntry& entry) {
@@ -191,6 +224,9 @@ class BasicRankLoop {
   protocol::WireLimits limits_;
   std::map<SubdomainId, Subdomain> subdomains_;
   Agenda agenda_;
+  std::optional<balancer::Controller> controller_;
+  balancer::SpeedEstimate speed_;
+  bool worked_ = false;  // in the last step
   std::vector<protocol::SplitEntry> said_;
   std::int64_t triangles_ = 0;
   std::int64_t interface_splits_ = 0;

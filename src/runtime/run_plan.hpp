@@ -1,8 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "balancer/conduct.hpp"
+#include "balancer/load_snapshot.hpp"
+#include "balancer/parameters.hpp"
+#include "balancer/policy.hpp"
 #include "decompose/decomposition.hpp"
 #include "mesh/bounds.hpp"
 #include "protocol/aggregator.hpp"
@@ -10,6 +16,13 @@
 #include "runtime/agenda.hpp"
 
 namespace driftmesh {
+
+/// Who moves subdomains between ranks during a run, and when.
+struct Balancing {
+  std::string policy = "none";  ///< see balancer/policy_factory.hpp
+  balancer::Parameters::Values parameters;
+  balancer::ControllerOptions options;
+};
 
 /// What every rank of a parallel run knows from the start, equal on all of them.
 struct RunPlan {
@@ -22,6 +35,11 @@ struct RunPlan {
   std::int64_t slice = 16384;
   WorkOrder order = WorkOrder::kGiven;
   std::int64_t max_triangles = INT64_MAX;  ///< on one rank; more is a LimitError
+
+  Balancing balancing;
+  /// Made from the above by prepare_balancing; null where nothing is to be balanced.
+  std::shared_ptr<const balancer::Layout> layout;
+  std::shared_ptr<const balancer::Policy> policy;
 };
 
 /// What a rank of the reference machine needs for its work, in seconds: simulated time passes by it. Measured with
@@ -30,6 +48,7 @@ struct CostModel {
   double start = 29e-6;         ///< of the initial triangulation of a subdomain
   double prepared = 0.17e-6;    ///< more for each of its triangles
   double point = 0.229e-6;      ///< a point inserted by refinement
+  double listed = 20e-9;        ///< a subdomain that balancing looks at
   double packed_byte = 0.4e-9;  ///< of a subdomain that is packed or unpacked
 };
 

@@ -21,8 +21,9 @@ struct SimulatedRanks {
   std::vector<protocol::RankStep> steps;
 
   template <class Network>
-  SimulatedRanks(Network& network, protocol::Rank ranks, const RunPlan& plan) {
-    for (protocol::Rank r = 0; r < ranks; ++r) loops.push_back(std::make_unique<Loop>(network.transport(r), plan));
+  SimulatedRanks(Network& network, protocol::Rank ranks, const RunPlan& plan, const CostModel& costs = {}) {
+    for (protocol::Rank r = 0; r < ranks; ++r)
+      loops.push_back(std::make_unique<Loop>(network.transport(r), plan, costs));
     for (const auto& loop : loops) steps.push_back([l = loop.get()] { return l->step(); });
   }
 
