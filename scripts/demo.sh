@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The whole way on one input: builds driftmesh, generates a bay with islands, meshes it coarsely and finely, has both
-# meshes checked against the input, and draws them.
+# The whole way on one input: builds driftmesh, generates a bay with islands, meshes it coarsely, finely and on two
+# ranks, has the meshes checked against the input, and draws them.
 #   scripts/demo.sh [FOLDER]        (default: demo/ in the project)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
@@ -22,6 +22,10 @@ folder=$(cd "${1:-$project_root/demo}" && pwd)
 driftmesh() {
   printf '\n$ driftmesh %s\n' "$*"
   (cd "$folder" && "$project_root/build/release/driftmesh" "$@")
+}
+on_two_ranks() {
+  printf '\n$ mpirun -n 2 driftmesh %s\n' "$*"
+  (cd "$folder" && mpirun -n 2 "$project_root/build/release/driftmesh" "$@")
 }
 
 "$project_root/scripts/setup.sh" build
@@ -45,6 +49,11 @@ driftmesh mesh bay.poly --area 1000 --angle 20 -o bay-fine.vtu
 driftmesh check bay-fine.vtu bay.poly --area 1000 --angle 20 --quiet
 driftmesh plot bay-fine.vtu -o bay-fine.png
 
+say "The same in 60 subdomains on two ranks, which share out the work as they go"
+on_two_ranks mesh bay.poly --area 1000 --angle 20 --subdomains 60 --balance stealing -o bay-parts.pvtu
+driftmesh check bay-parts.pvtu bay.poly --area 1000 --angle 20 --quiet
+driftmesh plot bay-parts.pvtu --color subdomain -o bay-parts.png
+
 say "Done. Look at these:"
-for file in bay.png bay-detail.png bay-fine.png bay.svg; do echo "  $folder/$file"; done
-echo "  $folder/bay.vtu and bay-fine.vtu open in ParaView"
+for file in bay.png bay-detail.png bay-fine.png bay-parts.png bay.svg; do echo "  $folder/$file"; done
+echo "  $folder/bay.vtu, bay-fine.vtu and bay-parts.pvtu open in ParaView"
