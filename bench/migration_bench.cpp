@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,62 +21,59 @@ using namespace driftmesh;
 
 namespace {
 
+/// What one subdomain costs, on average: seconds, bytes, triangles.
 struct Costs {
-  std::vector<double> refine, pack, unpack, unpack_all, sleep, wake;  // seconds a subdomain, one entry a round
-  double triangles = 0;                                               // mean of the subdomains
-  double bytes = 0, dormant_bytes = 0;                                // of memory
+  double refine = 0, pack = 0, unpack = 0, sleep = 0, wake = 0;
+  double triangles = 0, packed_bytes = 0, dormant_bytes = 0;
   bool same = true;
 };
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
+template <class Work>
+void add_time(double& seconds, Work&& work) {
+  const Stopwatch watch;
+  work();
+  seconds += watch.seconds();
 }
 
-/// Refines every subdomain, and packs and unpacks it while it lies in the cache as it does when a rank has worked on
-/// it.
-Costs measure(const SubdomainContext& context, int rounds) {
-  Costs costs;
+/// Packs and unpacks a subdomain while it lies in the cache, as it does when a rank has just worked on it.
+void move(Subdomain& subdomain, const SubdomainContext& context, Source source, Costs& costs) {
+  protocol::Bytes packed;
+  std::optional<Subdomain> moved;
+  add_time(costs.pack, [&] { packed = subdomain.pack(); });
+  add_time(costs.unpack, [&] { moved = Subdomain::unpack(packed, context, source); });
+  costs.packed_bytes += static_cast<double>(packed.size());
+  costs.same &= mesh_digest(moved->mesh().mesh) == mesh_digest(subdomain.mesh().mesh);
+}
+
+void sleep(Subdomain& subdomain, Costs& costs) {
+  const std::uint64_t digest = mesh_digest(subdomain.mesh().mesh);
+  add_time(costs.sleep, [&] { subdomain.sleep(); });
+  costs.dormant_bytes += static_cast<double>(subdomain.dormant_mesh().bytes());
+  add_time(costs.wake, [&] { subdomain.wake(); });
+  costs.same &= mesh_digest(subdomain.mesh().mesh) == digest;
+}
+
+/// Refines every subdomain and lets `then` do something with it; the round whose refinement took the median time.
+template <class Then>
+Costs median_round(const SubdomainContext& context, Then&& then) {
+  constexpr int kRounds = 11;
+  std::vector<Costs> rounds(kRounds);
   const auto n = static_cast<SubdomainId>(context.decomposition->size());
-  std::vector<protocol::SplitEntry> said;
-  for (int round = 0; round < rounds; ++round) {
-    double refine = 0, pack = 0, unpack = 0, unpack_all = 0, sleep = 0, wake = 0, triangles = 0, bytes = 0,
-           dormant_bytes = 0;
+  for (Costs& costs : rounds) {
     for (SubdomainId i = 0; i < n; ++i) {
       Subdomain subdomain(i, context);
-      said.clear();
-      Stopwatch watch;
-      subdomain.work(INT64_MAX, said);
-      refine += watch.seconds();
-      watch = Stopwatch();
-      const protocol::Bytes packed = subdomain.pack();
-      pack += watch.seconds();
-      const bool check_all = round % 2 != 0;
-      watch = Stopwatch();
-      const Subdomain again = Subdomain::unpack(packed, context, check_all ? Source::kUnknown : Source::kThisRun);
-      (check_all ? unpack_all : unpack) += watch.seconds();
-      watch = Stopwatch();
-      subdomain.sleep();
-      sleep += watch.seconds();
-      dormant_bytes += static_cast<double>(subdomain.dormant_mesh().bytes());
-      watch = Stopwatch();
-      subdomain.wake();
-      wake += watch.seconds();
-      triangles += static_cast<double>(again.triangles());
-      bytes += static_cast<double>(packed.size());
-      if (round == 0) costs.same &= mesh_digest(again.mesh().mesh) == mesh_digest(subdomain.mesh().mesh);
+      std::vector<protocol::SplitEntry> said;
+      add_time(costs.refine, [&] { subdomain.work(INT64_MAX, said); });
+      costs.triangles += static_cast<double>(subdomain.triangles());
+      then(subdomain, costs);
     }
-    costs.refine.push_back(refine / n);
-    costs.pack.push_back(pack / n);
-    if (unpack > 0) costs.unpack.push_back(unpack / n);
-    if (unpack_all > 0) costs.unpack_all.push_back(unpack_all / n);
-    costs.sleep.push_back(sleep / n);
-    costs.wake.push_back(wake / n);
-    costs.dormant_bytes = dormant_bytes / n;
-    costs.triangles = triangles / n;
-    costs.bytes = bytes / n;
+    for (double* sum : {&costs.refine, &costs.pack, &costs.unpack, &costs.sleep, &costs.wake, &costs.triangles,
+                        &costs.packed_bytes, &costs.dormant_bytes})
+      *sum /= n;
   }
-  return costs;
+  std::nth_element(rounds.begin(), rounds.begin() + kRounds / 2, rounds.end(),
+                   [](const Costs& a, const Costs& b) { return a.refine < b.refine; });
+  return rounds[kRounds / 2];
 }
 
 void print_row(double wanted) {
@@ -89,13 +87,14 @@ void print_row(double wanted) {
   for (const auto& s : d.subdomains) area += s.area;
   SubdomainContext context{&d, {}, true};
   context.bounds.max_area = area / (0.645 * wanted * kSubdomains);
-  const Costs c = measure(context, 20);
-  const double refine = median(c.refine), pack = median(c.pack), unpack = median(c.unpack),
-               unpack_all = median(c.unpack_all);
-  std::printf("| %.0f | %.2f | %.3f | %.3f | %.1f %% | %.3f | %.1f | %.3f | %.3f | %.1f | %s |\n", c.triangles,
-              1e3 * refine, 1e3 * pack, 1e3 * unpack, 100 * (pack + unpack) / refine, 1e3 * unpack_all,
-              c.bytes / c.triangles, 1e3 * median(c.sleep), 1e3 * median(c.wake), c.dormant_bytes / c.triangles,
-              c.same ? "yes" : "NO");
+  const Costs moved = median_round(context, [&](Subdomain& s, Costs& c) { move(s, context, Source::kThisRun, c); });
+  const Costs checked = median_round(context, [&](Subdomain& s, Costs& c) { move(s, context, Source::kUnknown, c); });
+  const Costs slept = median_round(context, [&](Subdomain& s, Costs& c) { sleep(s, c); });
+  std::printf("| %.0f | %.2f | %.3f | %.3f | %.1f %% | %.3f | %.1f | %.3f | %.3f | %.1f | %s |\n", moved.triangles,
+              1e3 * moved.refine, 1e3 * moved.pack, 1e3 * moved.unpack,
+              100 * (moved.pack + moved.unpack) / moved.refine, 1e3 * checked.unpack,
+              moved.packed_bytes / moved.triangles, 1e3 * slept.sleep, 1e3 * slept.wake,
+              slept.dormant_bytes / slept.triangles, moved.same && checked.same && slept.same ? "yes" : "NO");
 }
 
 }  // namespace

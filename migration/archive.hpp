@@ -49,14 +49,18 @@ class ByteSink : public std::streambuf {
   SealedBytes& bytes_;
 };
 
-/// A stream that reads a span of bytes and knows how many are left.
+/// A stream that reads sealed bytes.
 class ByteSource : public std::streambuf {
  public:
-  explicit ByteSource(std::span<const std::byte> bytes) {
-    char* first = const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));  // streambuf's interface; only read
-    setg(first, first, first + bytes.size());
+  explicit ByteSource(SealReader& bytes) : bytes_(bytes) {}
+
+ protected:
+  std::streamsize xsgetn(char* to, std::streamsize size) override {
+    return static_cast<std::streamsize>(bytes_.read(to, static_cast<std::size_t>(size)));
   }
-  [[nodiscard]] std::size_t left() const { return static_cast<std::size_t>(egptr() - gptr()); }
+
+ private:
+  SealReader& bytes_;
 };
 
 /// Saves values and arrays; an ArchiveReader takes them out in the same order.
@@ -85,7 +89,7 @@ class ArchiveWriter {
 /// Throws Error when there are fewer bytes than an array or value needs, before memory is asked for.
 class ArchiveReader {
  public:
-  explicit ArchiveReader(std::span<const std::byte> bytes) : source_(bytes), archive_(source_, kArchiveFlags) {}
+  explicit ArchiveReader(SealReader& bytes) : bytes_(bytes), source_(bytes), archive_(source_, kArchiveFlags) {}
 
   template <class T>
   void value(T& v) {
@@ -106,12 +110,13 @@ class ArchiveReader {
       values.resize(count);
     if (count != 0) archive_ >> boost::serialization::make_array(values.data(), count);
   }
-  [[nodiscard]] bool at_end() const { return source_.left() == 0; }
+  [[nodiscard]] bool at_end() const { return bytes_.left() == 0; }
 
  private:
   void expect(std::uint64_t count, std::size_t size) const {
-    if (count > source_.left() / size) throw Error("an array is longer than the bytes that are left");
+    if (count > bytes_.left() / size) throw Error("an array is longer than the bytes that are left");
   }
+  SealReader& bytes_;
   ByteSource source_;
   boost::archive::binary_iarchive archive_;
 };

@@ -20,6 +20,9 @@ Pair load(const From* from) {
   return pair;
 }
 
+/// Bytes copied before they are summed up, so that they are in the cache then.
+constexpr std::size_t kInCache = 65536;
+
 constexpr std::uint64_t mix(std::uint64_t z) {  // of splitmix64
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
@@ -66,7 +69,6 @@ std::span<const std::byte> SealedBytes::payload() const {
 }
 
 void SealedBytes::append(const void* data, std::size_t size) {
-  constexpr std::size_t kInCache = 8192;
   const auto* next = static_cast<const std::byte*>(data);
   for (std::size_t left = size; left > 0;) {
     const std::size_t some = std::min(left, kInCache);
@@ -85,21 +87,39 @@ protocol::Bytes SealedBytes::take() {
   return std::move(bytes_);
 }
 
-std::span<const std::byte> open_sealed(std::span<const std::byte> bytes, const std::string& what) {
+SealReader::SealReader(std::span<const std::byte> bytes, std::string what) : what_(std::move(what)) {
   PackedHeader header;
-  if (bytes.size() < sizeof header) throw Error(what + " is too short to be one");
+  if (bytes.size() < sizeof header) throw Error(what_ + " is too short to be one");
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.magic != PackedHeader::kMagic)
-    throw Error(what + " does not begin like one; it must come from this program, on a machine of the same byte order");
+    throw Error(what_ +
+                " does not begin like one; it must come from this program, on a machine of the same byte order");
   if (header.version != PackedHeader::kVersion)
-    throw Error(what + " has version " + std::to_string(header.version) + ", but this program reads version " +
+    throw Error(what_ + " has version " + std::to_string(header.version) + ", but this program reads version " +
                 std::to_string(PackedHeader::kVersion) + "; use the program that wrote it");
-  const auto payload = bytes.subspan(sizeof header);
-  if (header.length != payload.size() || header.reserved != 0)
-    throw Error(what + " has " + std::to_string(payload.size()) + " bytes instead of " + std::to_string(header.length) +
-                ": it was cut off or damaged on its way");
-  if (header.checksum != Checksum().of(payload)) throw Error(what + " was damaged on its way: its checksum is wrong");
-  return payload;
+  payload_ = bytes.subspan(sizeof header);
+  if (header.length != payload_.size() || header.reserved != 0)
+    throw Error(what_ + " has " + std::to_string(payload_.size()) + " bytes instead of " +
+                std::to_string(header.length) + ": it was cut off or damaged on its way");
+  expected_ = header.checksum;
+}
+
+std::size_t SealReader::read(void* to, std::size_t size) {
+  size = std::min(size, left());
+  auto* next = static_cast<std::byte*>(to);
+  for (std::size_t rest = size; rest > 0;) {
+    const std::size_t some = std::min(rest, kInCache);
+    std::memcpy(next, payload_.data() + read_, some);
+    read_ += some;
+    checksum_.catch_up(payload_.first(read_));
+    next += some;
+    rest -= some;
+  }
+  return size;
+}
+
+void SealReader::verify() {
+  if (checksum_.of(payload_) != expected_) throw Error(what_ + " was damaged on its way: its checksum is wrong");
 }
 
 }  // namespace driftmesh

@@ -54,7 +54,23 @@ class SealedBytes {
   Checksum checksum_;
 };
 
-/// What follows the header. Throws Error, beginning with `what`, for bytes that were not sealed or have changed since.
-[[nodiscard]] std::span<const std::byte> open_sealed(std::span<const std::byte> bytes, const std::string& what);
+/// Reads what follows the header, and sums it up while it is in the cache.
+class SealReader {
+ public:
+  /// Throws Error, beginning with `what`, if the bytes have no such header or have another length than it says.
+  SealReader(std::span<const std::byte> bytes, std::string what);
+  [[nodiscard]] std::size_t left() const { return payload_.size() - read_; }
+  /// Copies as many bytes, but no more than are left. Returns how many.
+  std::size_t read(void* to, std::size_t size);
+  /// Throws Error if the bytes, all of them, have changed since they were sealed.
+  void verify();
+
+ private:
+  std::span<const std::byte> payload_;
+  std::string what_;
+  std::uint64_t expected_ = 0;
+  std::size_t read_ = 0;
+  Checksum checksum_;
+};
 
 }  // namespace driftmesh

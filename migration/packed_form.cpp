@@ -29,6 +29,12 @@ BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Point)
 namespace driftmesh {
 namespace {
 
+#ifdef DRIFTMESH_CHECKED
+constexpr bool kCheckAll = true;
+#else
+constexpr bool kCheckAll = false;
+#endif
+
 enum class Content : std::uint8_t { kNotStarted, kMesh, kDormant };
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -88,16 +94,8 @@ void transfer_mesh(Archive& archive, Part& part) {
   archive.array(part.points);
 }
 
-#ifdef DRIFTMESH_CHECKED
-constexpr bool kCheckAll = true;
-#else
-constexpr bool kCheckAll = false;
-#endif
-
-void check_part(const SubdomainMesh& part, Source source) {
-  const bool whole = kCheckAll || source == Source::kUnknown;
-  if (const std::string fault = whole ? triangulation_fault(part.mesh) : handle_fault(part.mesh); !fault.empty())
-    refuse(fault);
+void check_part(const SubdomainMesh& part) {
+  if (const std::string fault = triangulation_fault(part.mesh); !fault.empty()) refuse(fault);
   require(part.roots.size() == part.mesh.roots.size(), "roots without numbers");
   require(std::is_sorted(part.roots.begin(), part.roots.end(), std::less_equal<>()), "roots out of order");
   require(part.roots.empty() || part.roots.front() >= 0, "a root has no number");
@@ -185,9 +183,7 @@ void transfer_dormant(Archive& archive, Body& body) {
   archive.value(body.forecast);
 }
 
-DormantBody load_dormant(ArchiveReader& in, Source source) {
-  DormantBody body;
-  transfer_dormant(in, body);
+void check_dormant(const DormantBody& body) {
   require(std::isfinite(body.forecast), "the forecast is not a number");
   require(std::is_sorted(body.unsplittable.begin(), body.unsplittable.end(), std::less_equal<>()),
           "subsegments out of order");
@@ -196,39 +192,58 @@ DormantBody load_dormant(ArchiveReader& in, Source source) {
   require(std::all_of(body.unsplittable.begin(), body.unsplittable.end(),
                       [&](SubsegmentId s) { return s >= 0 && static_cast<std::size_t>(s) < subsegments; }),
           "an unsplittable subsegment does not exist");
-  if (kCheckAll || source == Source::kUnknown) check_part(body.mesh.wake(), source);
-  return body;
+  check_part(body.mesh.wake());
 }
 
 // ---- The whole ----
 
-SubdomainState::Body load_body(ArchiveReader& in, Source source) {
-  SubdomainState::Body body;
+void load_body(ArchiveReader& in, SubdomainState::Body& body) {
   in.value(body.forecast);
-  require(std::isfinite(body.forecast), "the forecast is not a number");
   transfer_mesh(in, body.part);
-  check_part(body.part, source);
   body.refiner = load_refiner(in);
-  require(body.refiner.size.empty() || body.refiner.size.size() == body.part.mesh.points.size(),
-          "the size field is not known at each vertex");
-  return body;
 }
 
-void load_rest(ArchiveReader& in, SubdomainState& subdomain, Source source) {
-  require(subdomain.id >= 0, "it has no number");
+void check_body(const SubdomainState::Body& body) {
+  require(std::isfinite(body.forecast), "the forecast is not a number");
+  check_part(body.part);
+  require(body.refiner.size.empty() || body.refiner.size.size() == body.part.mesh.points.size(),
+          "the size field is not known at each vertex");
+}
+
+void load(ArchiveReader& in, SubdomainState& subdomain) {
   std::uint8_t refined = 0;
   Content content{};
+  in.value(subdomain.id);
   in.value(refined);
   in.value(content);
+  require(subdomain.id >= 0, "it has no number");
   require(refined <= 1 && content <= Content::kDormant, "it says what cannot be");
   subdomain.refined = refined != 0;
   load_points(in, subdomain.pending, &protocol::SplitEntry::edge);
-  if (content == Content::kMesh) subdomain.body = load_body(in, source);
-  if (content == Content::kDormant) subdomain.dormant = load_dormant(in, source);
+  if (content == Content::kMesh) load_body(in, subdomain.body.emplace());
+  if (content == Content::kDormant) transfer_dormant(in, subdomain.dormant.emplace());
   require(in.at_end(), "bytes are left over");
+}
+
+void check(const SubdomainState& subdomain) {
   const bool done = subdomain.dormant || (subdomain.body && subdomain.body->refiner.stage == Refiner::Stage::kDone);
   require(done || !subdomain.refined, "it is refined and is not");
   require(subdomain.refined || !subdomain.dormant, "it is dormant and not refined");
+  if (subdomain.body) check_body(*subdomain.body);
+  if (subdomain.dormant) check_dormant(*subdomain.dormant);
+}
+
+/// What a step throws, in words; empty if it does not.
+template <class Step>
+std::string complaint_of(Step&& step) {
+  try {
+    step();
+  } catch (const boost::archive::archive_exception& error) {
+    return error.what();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
 }
 
 Content content_of(const SubdomainView& subdomain) {
@@ -265,17 +280,17 @@ protocol::Bytes pack(const SubdomainView& subdomain) {
 }
 
 SubdomainState unpack(std::span<const std::byte> bytes, Source source) {
-  const auto payload = open_sealed(bytes, "the packed form of a subdomain");
+  SealReader sealed(bytes, "the packed form of a subdomain");
   SubdomainState subdomain;
-  try {
-    ArchiveReader in(payload);
-    in.value(subdomain.id);
-    load_rest(in, subdomain, source);
-  } catch (const boost::archive::archive_exception& error) {
-    throw Error("the packed form of subdomain " + std::to_string(subdomain.id) + " is damaged: " + error.what());
-  } catch (const Error& error) {
-    throw Error("the packed form of subdomain " + std::to_string(subdomain.id) + " is damaged: " + error.what());
-  }
+  std::string complaint = complaint_of([&] {
+    ArchiveReader in(sealed);
+    load(in, subdomain);
+  });
+  sealed.verify();  // first of all complaints: bytes that have changed say nothing about who packed them
+  const bool vouched_for = source == Source::kThisRun && !kCheckAll;
+  if (complaint.empty() && !vouched_for) complaint = complaint_of([&] { check(subdomain); });
+  if (!complaint.empty())
+    throw Error("the packed form of subdomain " + std::to_string(subdomain.id) + " is damaged: " + complaint);
   return subdomain;
 }
 

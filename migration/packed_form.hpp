@@ -56,17 +56,17 @@ struct SubdomainView {
 /// What is known of where bytes come from.
 enum class Source {
   kUnknown,  ///< a file, or anything else that may not be what it says
-  kThisRun,  ///< a rank of this run has packed them, so that the checksum speaks for what is in them
+  kThisRun,  ///< a rank of this run has just packed them: if the checksum is right, so is what it was made of
 };
 
 /// The subdomain that was packed. A refiner made from what comes out goes on exactly as the one packed would have.
 ///
-/// Nothing is believed before it is checked: length and checksum first, each array's length against the bytes that are
-/// there before memory is asked for, then that the mesh is a triangulation (triangulation_fault) whose roots and points
-/// go with the subdomain. For bytes of this run it is enough that every handle exists (handle_fault), except in builds
-/// with assertions: the whole check takes three times as long as the copying.
-/// Throws Error that says what is wrong with "the packed form of subdomain N". That the refiner's state fits the mesh
-/// and the bounds is for its constructor to check.
+/// Nothing is believed before it is checked: the length; each array's length against the bytes that are there, before
+/// memory is asked for; the checksum, before anything that was read is used; then that the mesh is a triangulation
+/// (triangulation_fault) with roots and points as they must be. For bytes of this run the checksum is the last of
+/// these, except in builds with assertions: the rest takes twice as long as packing and unpacking. Throws Error
+/// that says what is wrong with "the packed form of subdomain N". That the refiner's state fits the mesh and the bounds
+/// is for its constructor to check.
 [[nodiscard]] SubdomainState unpack(std::span<const std::byte> bytes, Source source = Source::kUnknown);
 
 }  // namespace driftmesh

@@ -36,20 +36,22 @@ std::string misfit(const SubdomainMesh& part, std::uint16_t label, const Decompo
   return "";
 }
 
+std::uint16_t highest_label(const SubdomainState& state) {
+  std::uint16_t label = 0;
+  if (state.body)
+    for (const std::uint16_t l : state.body->part.mesh.region) label = std::max(label, l);
+  else
+    state.dormant->mesh.visit_triangles([&](const auto&, std::uint16_t l) { label = std::max(label, l); });
+  return label;
+}
+
 /// Why an unpacked subdomain is none of this decomposition; empty if it is one.
 std::string misfit(const SubdomainState& state, const Decomposition& d) {
   if (static_cast<std::size_t>(state.id) >= d.size()) return "there are only " + std::to_string(d.size());
   for (const protocol::SplitEntry& entry : state.pending)
     if (static_cast<std::size_t>(entry.edge) >= d.roots.size()) return "a point waits for an edge that does not exist";
-  std::uint16_t label = 0;
-  if (state.body) {
-    for (const std::uint16_t l : state.body->part.mesh.region) label = std::max(label, l);
-    return misfit(state.body->part, label, d, state.id);
-  }
-  if (state.dormant) {
-    state.dormant->mesh.visit_triangles([&](const auto&, std::uint16_t l) { label = std::max(label, l); });
-    return misfit(state.dormant->mesh.skeleton(), label, d, state.id);
-  }
+  if (state.body) return misfit(state.body->part, highest_label(state), d, state.id);
+  if (state.dormant) return misfit(state.dormant->mesh.skeleton(), highest_label(state), d, state.id);
   return "";
 }
 
@@ -149,7 +151,8 @@ protocol::Bytes Subdomain::pack() const {
 
 Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainContext& context, Source source) {
   SubdomainState state = driftmesh::unpack(bytes, source);
-  if (const std::string fault = misfit(state, *context.decomposition); !fault.empty())
+  const std::string fault = misfit(state, *context.decomposition);
+  if (!fault.empty())
     throw Error("the packed form of subdomain " + std::to_string(state.id) + " is not of this decomposition: " + fault +
                 "; use the one that it was packed with");
   Subdomain subdomain(state.id, context);

@@ -51,6 +51,7 @@ bool lists_once(const std::vector<std::int32_t>& list, std::size_t free_count, s
 
 std::string vertex_fault(const Triangulation& mesh) {
   if (mesh.origin.size() != mesh.points.size()) return "points and origins differ in number";
+  if (!is_in_range(mesh.points)) return "a coordinate is out of range";
   const auto lowest = -static_cast<std::int64_t>(mesh.subsegments.size());  // ~s of the last subsegment
   std::size_t deleted = 0;
   bool exist = true;
@@ -198,16 +199,10 @@ std::string subsegment_fault(const Triangulation& mesh) {
 
 }  // namespace
 
-std::string handle_fault(const Triangulation& mesh) {
-  if (std::string fault = vertex_fault(mesh); !fault.empty()) return fault;
-  if (std::string fault = array_fault(mesh); !fault.empty()) return fault;
-  return subsegment_fault(mesh);
-}
-
 std::string triangulation_fault(const Triangulation& mesh) {
-  if (std::string fault = handle_fault(mesh); !fault.empty()) return fault;
-  if (!is_in_range(mesh.points)) return "a coordinate is out of range";
-  return triangle_fault(mesh);
+  for (const auto look : {vertex_fault, array_fault, subsegment_fault, triangle_fault})
+    if (std::string fault = look(mesh); !fault.empty()) return fault;
+  return "";
 }
 
 }  // namespace driftmesh

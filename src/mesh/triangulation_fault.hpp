@@ -10,11 +10,8 @@ namespace driftmesh {
 /// are counterclockwise and their neighbours know them; each leaf subsegment and its triangles know each other; the
 /// subsegments are whole trees, one a root, of midpoints that lie where the formula puts them; free slots are listed
 /// once each. Not asked: whether it is Delaunay, and whether it overlaps itself.
-/// Returns what is wrong, empty if nothing is. Linear: about 9 ns a triangle, a tenth of the time that refining took.
+/// Returns what is wrong, empty if nothing is. Linear: about 9 ns a triangle, a tenth of the time
+/// that refining took.
 [[nodiscard]] std::string triangulation_fault(const Triangulation& mesh);
-
-/// The part of it that keeps algorithms within the arrays: triangles are asked only whether their corners and
-/// neighbours exist. About 1.5 ns a triangle.
-[[nodiscard]] std::string handle_fault(const Triangulation& mesh);
 
 }  // namespace driftmesh

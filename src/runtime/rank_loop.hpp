@@ -132,7 +132,7 @@ class BasicRankLoop {
 
   void settle(const protocol::HandOff& arrival) {
     charge(&RankTimes::polling);
-    put(Subdomain::unpack(arrival.packed, context_));
+    put(Subdomain::unpack(arrival.packed, context_, Source::kThisRun));
     transport_.spend(static_cast<double>(arrival.packed.size()) * costs_.packed_byte);
     charge(&RankTimes::balancing);
   }
