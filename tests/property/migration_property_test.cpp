@@ -35,7 +35,7 @@ Subdomain move_without_pending(const Subdomain& subdomain, const SubdomainContex
   SubdomainState state = unpack(subdomain.pack());
   state.pending.clear();
   SubdomainView view{state.id, state.refined, state.pending, {}, nullptr};
-  if (state.body) view.body.emplace(state.body->part, state.body->refiner, state.body->forecast);
+  if (state.body) view.body.emplace(SubdomainView::Body{state.body->part, state.body->refiner, state.body->forecast});
   return Subdomain::unpack(pack(view), context);
 }
 
