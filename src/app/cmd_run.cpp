@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/experiment_pictures.hpp"
 #include "app/experiment_run.hpp"
 #include "app/experiment_table.hpp"
 #include "app/progress_line.hpp"
@@ -50,6 +51,7 @@ class Runner {
       do_run(fmt::format("run-{:0{}}", i + 1, std::to_string(runs).size()), file_.points[i / repetitions],
              static_cast<std::int32_t>(i % repetitions));
     }
+    if (file_.base.pictures) draw_sweep(table_, file_.base.name, folder_.string());
     progress_.end();
     if (!command_.quiet) std::cout << table_.markdown() << "\nresults in " << folder_.string() << "/\n";
   }
@@ -73,6 +75,7 @@ class Runner {
     for (const std::string& setting : command_.settings) run.record.command += fmt::format(" --set '{}'", setting);
     simulate_experiment(run, [&](std::int64_t triangles, double forecast) { progress_.refining(triangles, forecast); });
     write_file(folder_ / (name + ".json"), experiment_record(run));
+    if (run.experiment.pictures) draw_run(run, folder_.string());
     table_.add(run);
     write_file(folder_ / "table.csv", table_.csv());
   }

@@ -32,10 +32,8 @@ std::vector<int> color_subdomains(const Decomposition& d) {
   return color;
 }
 
-}  // namespace
-
-MeshPiece colored_subdomains(const Decomposition& d) {
-  const std::vector<int> color = color_subdomains(d);
+/// The subdomains triangulated, in pieces of the plane that a picture can show.
+MeshPiece subdomains_as_mesh(const Decomposition& d) {
   MeshPiece piece;
   piece.points = d.points;
   for (std::size_t i = 0; i < d.size(); ++i) {
@@ -46,10 +44,20 @@ MeshPiece colored_subdomains(const Decomposition& d) {
         return part.points[static_cast<std::size_t>(t.vertex[static_cast<std::size_t>(k)])];
       };
       piece.triangles.push_back({global(0), global(1), global(2)});
-      piece.regions.push_back(color[i] + 1);
+      piece.subdomains.push_back(static_cast<std::int32_t>(i));
     }
   }
   for (const Decomposition::Root& r : d.roots) piece.edges.push_back({r.a, r.b, r.marker});
+  return piece;
+}
+
+}  // namespace
+
+MeshPiece colored_subdomains(const Decomposition& d) {
+  const std::vector<int> color = color_subdomains(d);
+  MeshPiece piece = subdomains_as_mesh(d);
+  for (const std::int32_t s : piece.subdomains) piece.regions.push_back(color[static_cast<std::size_t>(s)] + 1);
+  piece.subdomains.clear();
   return piece;
 }
 
@@ -59,6 +67,17 @@ void plot_decomposition(const Decomposition& d, const std::string& path, const s
   options.edges = PlotEdges::off;
   options.title = title;
   plot_mesh(colored_subdomains(d), path, options);
+}
+
+void plot_owners(const Decomposition& d, const std::vector<std::int32_t>& owners, const std::string& path,
+                 const std::string& title) {
+  MeshPiece piece = subdomains_as_mesh(d);
+  for (const std::int32_t s : piece.subdomains) piece.ranks.push_back(owners[static_cast<std::size_t>(s)]);
+  PlotOptions options;
+  options.color = PlotColor::rank;
+  options.edges = PlotEdges::off;
+  options.title = title;
+  plot_mesh(piece, path, options);
 }
 
 }  // namespace driftmesh::app

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "decompose/decomposition.hpp"
 #include "mesh/mesh_piece.hpp"
@@ -12,5 +14,9 @@ namespace driftmesh::app {
 
 /// Draws them. Throws as plot_mesh does.
 void plot_decomposition(const Decomposition& decomposition, const std::string& path, const std::string& title);
+
+/// Draws them with one colour for each owner. Throws as plot_mesh does.
+void plot_owners(const Decomposition& decomposition, const std::vector<std::int32_t>& owners, const std::string& path,
+                 const std::string& title);
 
 }  // namespace driftmesh::app

@@ -7,7 +7,7 @@
 namespace driftmesh {
 
 double reference_speed(const CostModel& costs) {
-  return 2 / costs.point;
+  return 1.8 / costs.point;
 }
 
 std::int32_t ranks_of(const ClusterSpec& cluster) {

@@ -24,7 +24,8 @@ struct ClusterSpec {
       1e-6;  ///< seconds of a rank, whatever its speed, for each message that it sends or receives
 };
 
-/// Triangles a second that a rank with these costs refines: a point makes two triangles.
+/// Triangles a second that a rank with these costs refines in subdomains of some thousands: a point makes two
+/// triangles, less a tenth for points on borders, which make fewer, and for the preparation of subdomains.
 [[nodiscard]] double reference_speed(const CostModel& costs);
 
 [[nodiscard]] std::int32_t ranks_of(const ClusterSpec& cluster);

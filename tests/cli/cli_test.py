@@ -496,6 +496,8 @@ class Experiments(Cli):
         "first-run": ["bounds.triangles=2e4"],
         "aggregation": ["bounds.triangles-per-rank=2e3", "decomposition.subdomains-per-rank=10", "cluster.ranks=4",
                         "run.aggregation=[1, 16, 1024]"],
+        "sciclone-144": ["bounds.triangles-per-rank=500", "decomposition.subdomains=300", "pictures=false"],
+        "two-speeds": ["bounds.triangles-per-rank=5e3"],
         "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
     }
 
@@ -538,6 +540,14 @@ class Experiments(Cli):
         self.run_config("first-run", *self.SHRUNK["first-run"], folder="first")
         self.succeed("run", "first/experiment.yaml", "-o", "again", "--quiet")
         self.assertEqual(self.table("first"), self.table("again"))
+
+    def test_runs_and_sweeps_are_drawn(self):
+        self.run_config("scaled-speedup", *self.SHRUNK["scaled-speedup"], "cluster.ranks=[1, 2]")
+        expected = {f"run-{run}-{what}.png" for run in (1, 2) for what in ("time", "load", "owners-before")}
+        expected |= {"sweep.png"}
+        self.assertEqual({path.name for path in (self.folder / "results").glob("*.png")}, expected)
+        for name in expected:
+            self.assertTrue((self.folder / "results" / name).read_bytes().startswith(b"\x89PNG"))
 
     def test_a_dry_run_prints_and_does_nothing(self):
         said = self.succeed("run", self.CONFIGS / "scaled-speedup.yaml", "--dry-run")

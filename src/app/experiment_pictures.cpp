@@ -1,0 +1,130 @@
+#include "app/experiment_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "app/decomposition_picture.hpp"
+#include "app/words.hpp"
+#include "cluster/cluster_spec.hpp"
+#include "experiment/key_words.hpp"
+#include "experiment/prepare.hpp"
+#include "output/plot.hpp"
+#include "output/plot_chart.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+constexpr Rgb kComputing{0.25, 0.47, 0.70}, kSending{0.95, 0.61, 0.20}, kPolling{0.93, 0.82, 0.35},
+    kBalancing{0.78, 0.28, 0.33}, kIdle{0.86, 0.87, 0.89};
+
+std::string swept_words(const ExperimentRun& run) {
+  std::string words;
+  for (const auto& [key, value] : run.swept) words += fmt::format(", {} {}", key, experiment::value_text(value));
+  return words;
+}
+
+ChartText text_of(const ExperimentRun& run, std::string title) {
+  return {std::move(title),
+          fmt::format("{}{}: {} triangles on {} ranks in {}", run.experiment.name, swept_words(run),
+                      grouped(run.outcome.triangles()), run.outcome.ranks.size(), duration_words(run.outcome.makespan)),
+          "", ""};
+}
+
+void draw_times(const ExperimentRun& run, const std::string& path) {
+  StackedBars bars;
+  bars.text = text_of(run, "Where the time of each rank went");
+  bars.text.x_label = "rank";
+  bars.text.y_label = "seconds";
+  bars.parts = {{"computing", kComputing, {}},
+                {"sending", kSending, {}},
+                {"polling", kPolling, {}},
+                {"balancing", kBalancing, {}},
+                {"idle", kIdle, {}}};
+  for (const RankOutcome& rank : run.outcome.ranks) {
+    const RankTimes& t = rank.times;
+    const double busy = t.computing + t.sending + t.polling + t.balancing;
+    const double heights[] = {t.computing, t.sending, t.polling, t.balancing,
+                              std::max(run.outcome.makespan - busy, 0.0)};
+    for (std::size_t i = 0; i < bars.parts.size(); ++i) bars.parts[i].heights.push_back(heights[i]);
+  }
+  for (const RankGroup& group : run.experiment.groups)
+    bars.groups.push_back({group.name, static_cast<std::size_t>(group.ranks)});
+  plot_chart(bars, path);
+}
+
+/// Seconds of work that each rank has left, by what is expected, over time: the mean, and from the least to the most.
+void draw_load(const ExperimentRun& run, const std::string& path) {
+  const SimulatedRun& outcome = run.outcome;
+  LineChart chart;
+  chart.text = text_of(run, "Work left on a rank, over time");
+  chart.text.x_label = "seconds";
+  chart.text.y_label = "seconds of work, as expected";
+  LineChart::Curve band{"least to most of all ranks", {0.80, 0.86, 0.93}, {}, {}};
+  LineChart::Curve mean{"mean", kComputing, {}, {}};
+  std::vector<double> left(outcome.ranks.size(), 0);
+  constexpr int kColumns = 300;
+  std::size_t next = 0;
+  for (int column = 0; column <= kColumns; ++column) {
+    const double time = outcome.makespan * column / kColumns;
+    for (; next < outcome.samples.size() && outcome.samples[next].time <= time; ++next) {
+      const auto rank = static_cast<std::size_t>(outcome.samples[next].rank);
+      left[rank] = outcome.samples[next].remaining / run.speeds[rank];
+    }
+    double sum = 0;
+    for (const double seconds : left) sum += seconds;
+    const auto [least, most] = std::minmax_element(left.begin(), left.end());
+    band.points.push_back({time, *most});
+    band.low.push_back(*least);
+    mean.points.push_back({time, sum / static_cast<double>(left.size())});
+  }
+  chart.curves = {std::move(band), std::move(mean)};
+  plot_chart(chart, path);
+}
+
+std::optional<double> number_of(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return {};
+  return value;
+}
+
+}  // namespace
+
+void draw_run(const ExperimentRun& run, const std::string& folder) {
+  const std::string stem = folder + "/" + run.name;
+  draw_times(run, stem + "-time.png");
+  draw_load(run, stem + "-load.png");
+  plot_owners(run.plan.decomposition, run.plan.owners, stem + "-owners-before.png",
+              run.experiment.name + ": subdomains by rank, at the start");
+  if (run.outcome.owners != run.plan.owners)
+    plot_owners(run.plan.decomposition, run.outcome.owners, stem + "-owners-after.png",
+                run.experiment.name + ": subdomains by rank, at the end");
+}
+
+void draw_sweep(const ExperimentTable& table, const std::string& title, const std::string& folder) {
+  LineChart::Curve efficiency{"efficiency", kComputing, {}, {}, true};
+  LineChart::Curve communication{"share of sending and polling", kSending, {}, {}, true};
+  for (const ExperimentTable::Row& row : table.rows()) {
+    const std::optional<double> x = row.swept.size() == 1 ? number_of(row.swept[0].second) : std::nullopt;
+    if (!x) return;
+    efficiency.points.push_back({*x, row.efficiency});
+    communication.points.push_back({*x, row.times.sending + row.times.polling});
+  }
+  if (efficiency.points.size() < 2) return;
+  const auto by_x = [](const Point& a, const Point& b) { return a.x < b.x; };
+  std::stable_sort(efficiency.points.begin(), efficiency.points.end(), by_x);
+  std::stable_sort(communication.points.begin(), communication.points.end(), by_x);
+  LineChart chart;
+  chart.text = {title, "triangles a second for the speed of the cluster, against the first run",
+                table.rows().front().swept[0].first, ""};
+  chart.logarithmic_x =
+      efficiency.points.front().x > 0 && efficiency.points.back().x >= 10 * efficiency.points.front().x;
+  chart.curves = {std::move(efficiency), std::move(communication)};
+  plot_chart(chart, folder + "/sweep.png");
+}
+
+}  // namespace driftmesh::app
