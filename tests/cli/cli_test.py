@@ -496,12 +496,13 @@ class Experiments(Cli):
         "first-run": ["bounds.triangles=2e4"],
         "aggregation": ["bounds.triangles-per-rank=2e3", "decomposition.subdomains-per-rank=10", "cluster.ranks=4",
                         "run.aggregation=[1, 16, 1024]"],
-        "sciclone-144": ["bounds.triangles-per-rank=500", "decomposition.subdomains=300", "pictures=false"],
+        "sciclone-144": ["bounds.triangles-per-rank=500", "decomposition.subdomains=300"],
         "two-speeds": ["bounds.triangles-per-rank=5e3"],
         "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
     }
 
-    def run_config(self, name, *settings, folder="results"):
+    def run_config(self, name, *settings, folder="results", pictures=False):
+        settings = [*settings, f"pictures={'true' if pictures else 'false'}"]
         arguments = [word for setting in settings for word in ("--set", setting)]
         return self.succeed("run", self.CONFIGS / f"{name}.yaml", "-o", folder, *arguments)
 
@@ -542,7 +543,7 @@ class Experiments(Cli):
         self.assertEqual(self.table("first"), self.table("again"))
 
     def test_runs_and_sweeps_are_drawn(self):
-        self.run_config("scaled-speedup", *self.SHRUNK["scaled-speedup"], "cluster.ranks=[1, 2]")
+        self.run_config("scaled-speedup", *self.SHRUNK["scaled-speedup"], "cluster.ranks=[1, 2]", pictures=True)
         expected = {f"run-{run}-{what}.png" for run in (1, 2) for what in ("time", "load", "owners-before")}
         expected |= {"sweep.png"}
         self.assertEqual({path.name for path in (self.folder / "results").glob("*.png")}, expected)
