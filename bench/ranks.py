@@ -160,6 +160,19 @@ def size(bench):
                  "peak bytes/triangle"], rows)
 
 
+def growth(bench):
+    millions = (1, 10, 100)
+    records = bench.take_turns([lambda m=m: bench.mesh(1, "pipe", bench.area_of("pipe", CELLS * m / 10.93), "--subdomains",
+                                                       max(1, round(m * 50))) for m in millions])
+    first = median(records[0], rate)
+    rows = [[f"{runs[0]['mesh']['triangles']:,}", runs[0]["parts"]["subdomains"], f"{median(runs, rate):.2f}",
+             f"{100 * (first / median(runs, rate) - 1):+.0f} %",
+             f"{median(runs, lambda r: r['work']['peak_bytes_refining'] / r['mesh']['triangles']):.1f}"]
+            for runs in records]
+    print_table("Growth: pipe on one rank, in subdomains of 20,000 triangles (`growth`):",
+                ["triangles", "subdomains", "million triangles/s", "time a triangle", "peak bytes/triangle"], rows)
+
+
 def machine():
     name = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo", encoding="ascii")
                  if line.startswith("model name")), "unknown processor")
@@ -167,7 +180,7 @@ def machine():
 
 
 def main():
-    suites = {suite.__name__: suite for suite in (models, aggregation, breakdown, size)}
+    suites = {suite.__name__: suite for suite in (models, aggregation, breakdown, size, growth)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("suite", nargs="*", help=f"of {', '.join(suites)}; all when absent")
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh")
