@@ -108,6 +108,11 @@ void add_parts_options(CLI::App& command, MeshOptions::Parts& parts) {
       ->capture_default_str()
       ->type_name("ORDER")
       ->group(kGroup);
+  command
+      .add_flag(
+          "--sleep", parts.sleep,
+          "Keep finished subdomains in about 10 bytes a triangle instead of 40, until a neighbour needs one again")
+      ->group(kGroup);
 }
 
 void add_balancing_options(CLI::App& command, MeshOptions::Parts& parts) {

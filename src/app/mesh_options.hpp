@@ -38,6 +38,7 @@ struct MeshOptions {
     std::string presplit = "auto";
     std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;
     std::string order = "given";
+    bool sleep = false;
     std::string policy = "none";
     std::vector<std::string> policy_parameters;  ///< name=value
     std::vector<double> drag;                    ///< of each rank: the fraction of its time that it works

@@ -184,6 +184,7 @@ class ParallelMesh {
     plan.presplit = presplit_mode(parts.presplit);
     plan.aggregation = parts.aggregation;
     plan.order = work_order(parts.order);
+    plan.sleep = parts.sleep;
     plan.balancing.policy = parts.policy;
     for (const std::string& parameter : parts.policy_parameters) {
       const std::size_t equals = parameter.find('=');
@@ -231,10 +232,8 @@ class ParallelMesh {
     own.rank.times = loop_->times();
     own.rank.peak = peak_memory();
     notes_.timed("inspect", [&] {
-      for (const auto& [id, subdomain] : loop_->subdomains()) {
-        add_part(own.facts, subdomain.mesh().mesh, plan_.bounds, true);
-        add_counters(own.facts, subdomain.counters());
-      }
+      held()([&](SubdomainId, const SubdomainMesh& part) { add_part(own.facts, part.mesh, plan_.bounds, true); });
+      for (const auto& [id, subdomain] : loop_->subdomains()) add_counters(own.facts, subdomain.counters());
       own.facts.vertices = own.facts.subsegments = 0;  // shared ones count where they are owned
       for (const SubdomainCensus& census : take_census(plan_.decomposition, held())) {
         own.facts.vertices += owned_points(plan_.decomposition, census);

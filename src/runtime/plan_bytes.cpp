@@ -28,6 +28,7 @@ void transfer_plan(Stream& stream, Plan& plan) {
   stream.value(plan.aggregation);
   stream.value(plan.slice);
   stream.value(plan.order);
+  stream.value(plan.sleep);
   stream.value(plan.max_triangles);
   stream.value(plan.balancing.options);
 }

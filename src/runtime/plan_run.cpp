@@ -59,6 +59,7 @@ RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const
   plan.aggregation = options.aggregation;
   plan.slice = options.slice;
   plan.order = options.order;
+  plan.sleep = options.sleep;
   plan.balancing = options.balancing;
   prepare_balancing(plan, options.mapping.ranks);
   return plan;

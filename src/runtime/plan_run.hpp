@@ -26,6 +26,7 @@ struct PlanOptions {
   std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;
   std::int64_t slice = RunPlan{}.slice;
   WorkOrder order = WorkOrder::kGiven;
+  bool sleep = false;
   Balancing balancing;
 };
 

@@ -153,6 +153,7 @@ class BasicRankLoop {
     transport_.spend(static_cast<double>(done.points) * costs_.point +
                      (done.prepared > 0 ? costs_.start + static_cast<double>(done.prepared) * costs_.prepared : 0));
     reschedule(subdomain);
+    if (plan_.sleep && !subdomain.active()) subdomain.sleep();
     interface_splits_ += static_cast<std::int64_t>(said_.size());
     for (const protocol::SplitEntry& entry : said_) tell_across(*id, entry);
     if (observers_.after_slice) observers_.after_slice(*this, transport_.now() - start);

@@ -34,6 +34,7 @@ struct RunPlan {
   /// Insertions between two looks at the transport: some milliseconds, and most subdomains in one go.
   std::int64_t slice = 16384;
   WorkOrder order = WorkOrder::kGiven;
+  bool sleep = false;  ///< finished subdomains shrink to a quarter of their memory, until somebody needs them
   std::int64_t max_triangles = INT64_MAX;  ///< on one rank; more is a LimitError
 
   Balancing balancing;

@@ -146,6 +146,27 @@ TEST_CASE("in virtual time two ranks take about half as long as one") {
   CHECK(seconds[1] > 0.45 * seconds[0]);
 }
 
+TEST_CASE("finished subdomains that sleep wake when a point arrives that they do not hold") {
+  std::int64_t asleep = 0, split = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 3, 20, Presplit::kOff);
+    plan.sleep = true;
+    protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
+    SimulatedRanks<> run(network, 3, plan);
+    REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
+    for (const auto& loop : run.loops) {
+      split += loop->interface_splits();
+      for (const auto& [id, subdomain] : loop->subdomains()) {
+        asleep += subdomain.dormant();
+        const_cast<Subdomain&>(subdomain).wake();
+      }
+    }
+    check_mesh(plan, run.subdomains());
+  }
+  CHECK(asleep == 6 * 20);
+  CHECK(split > 100);
+}
+
 TEST_CASE("every policy gives a slow rank less to do, and changes nothing about the mesh") {
   const QualityBounds bounds{20, 1e-4, {}, nullptr};
   const std::vector<double> speeds{1, 1, 0.25};
