@@ -172,3 +172,10 @@ TEST_CASE("mutation: missing ancestors are not replayed") {
 TEST_CASE("mutation: a point that is there is inserted again") {
   must_be_caught<protocol::SoundRules>(50, "both sides of each edge", tampering(insert_again));
 }
+
+TEST_CASE("mutation: a message is lost") {
+  must_be_caught<protocol::SoundRules>(50, "termination in time: too late",
+                                       [](protocol::Transport& transport, const std::function<const RankLoop&()>&) {
+                                         return std::make_unique<LosingTransport>(transport);
+                                       });
+}

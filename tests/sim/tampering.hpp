@@ -50,6 +50,28 @@ inline void insert_again(protocol::SplitGroup& group, const Subdomain& receiver)
     if (has_point(receiver, entry)) entry.path *= 2;
 }
 
+/// Loses the first work that comes to a rank: SPLITs, or a subdomain.
+class LosingTransport final : public protocol::Transport {
+ public:
+  explicit LosingTransport(protocol::Transport& inner) : inner_(inner) {}
+  [[nodiscard]] protocol::Rank rank() const override { return inner_.rank(); }
+  [[nodiscard]] protocol::Rank ranks() const override { return inner_.ranks(); }
+  void send(protocol::Rank destination, protocol::Bytes bytes) override { inner_.send(destination, std::move(bytes)); }
+  void idle() override { inner_.idle(); }
+  [[nodiscard]] double now() const override { return inner_.now(); }
+  std::optional<protocol::Received> poll() override {
+    auto received = inner_.poll();
+    if (!received || lost_ || protocol::traffic_of(received->source, received->bytes) != protocol::Traffic::kWork)
+      return received;
+    lost_ = true;
+    return inner_.poll();
+  }
+
+ private:
+  protocol::Transport& inner_;
+  bool lost_ = false;
+};
+
 /// Between a rank and its network.
 class TamperingTransport final : public protocol::Transport {
  public:
