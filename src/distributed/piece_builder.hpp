@@ -27,6 +27,7 @@ class PieceBuilder {
   [[nodiscard]] protocol::Rank holder(SubdomainId i) const { return subdomains_.rank[static_cast<std::size_t>(i)]; }
   void place_decomposition_points();
   void place_added_points();
+  void reserve_triangles();
   void add_subdomain(SubdomainId i, const SubdomainMesh& part, const Pslg& pslg);
   [[nodiscard]] std::vector<std::int32_t> place_vertices(SubdomainId i, const SubdomainMesh& part);
   void set_point(std::int32_t place, const Point& p, SubdomainId i);
