@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace driftmesh::balancer {
+namespace {
+
+constexpr double kNotable = 1.05;
+
+}  // namespace
 
 RankNews::RankNews(const Layout& layout, double now) : ranks_(static_cast<std::size_t>(layout.ranks), Heard{{}, now}) {
   for (const Layout::Subdomain& s : layout.subdomains) {
@@ -15,8 +20,9 @@ RankNews::RankNews(const Layout& layout, double now) : ranks_(static_cast<std::s
 bool RankNews::hear(Rank rank, const protocol::LoadNews& news, double now) {
   Heard& heard = ranks_[static_cast<std::size_t>(rank)];
   if (news.round <= heard.news.round) return false;
+  const double believed = std::max(0.0, heard.news.remaining - heard.news.speed * std::max(0.0, now - heard.at));
   heard = {news, now};
-  return true;
+  return news.spare > 0 && news.remaining > kNotable * believed;
 }
 
 void RankNews::expect(Rank from, Rank to, double work, double now) {

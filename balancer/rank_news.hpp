@@ -15,7 +15,8 @@ class RankNews {
   /// At `now` the run begins.
   RankNews(const Layout& layout, double now);
 
-  /// News that came at `now`. False, and nothing changes, if later ones have come before.
+  /// News that came at `now`; ignored if later ones have come before. Whether that rank has something to give, and
+  /// more to do than was believed.
   bool hear(Rank rank, const protocol::LoadNews& news, double now);
   /// This much work will go from one rank to another, and they have not said so yet.
   void expect(Rank from, Rank to, double work, double now);

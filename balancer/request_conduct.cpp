@@ -126,7 +126,7 @@ std::vector<Move> RequestConduct::gifts(const protocol::WorkRequest& request, co
 void RequestConduct::report(const Situation& situation, const Loads& own, Decision& decision) {
   const double total = total_work(own);
   if (self_ == kBroker) {
-    news_->hear(self_, news_of(situation, own), situation.now);
+    if (news_->hear(self_, news_of(situation, own), situation.now)) surprised_ = true;
   } else if (rule_.due(situation.now, total, situation.speed, changed_)) {
     rule_.told(situation.now, total, situation.speed);
     changed_ = false;
@@ -179,7 +179,9 @@ bool RequestConduct::pass_on(protocol::WorkRequest request, const Situation& sit
   request.rivals = rivals(snapshot.ranks, able);
   hungry_.erase(request.thief);
   if (*victim == self_) {
-    news_->expect(self_, request.thief, give(request, situation, own, decision), situation.now);
+    const double given = give(request, situation, own, decision);
+    if (given <= 0) hungry_.insert(request.thief);
+    news_->expect(self_, request.thief, given, situation.now);
     return true;
   }
   const std::vector<double> speeds = assumed_speeds(snapshot.ranks);

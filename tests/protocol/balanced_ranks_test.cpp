@@ -224,11 +224,11 @@ TEST_CASE("a thousand ranks of three speeds") {
   Cluster cluster;
   const int ranks = 1024 / kShrink;
   for (int r = 0; r < ranks; ++r) cluster.speeds.push_back(r < ranks / 2 ? 2e6 : r < ranks * 3 / 4 ? 1e6 : 3e6);
-  Layout layout = grid_layout(160, 128 / kShrink, static_cast<Rank>(ranks));
+  Layout layout = grid_layout(160, 64 / kShrink, static_cast<Rank>(ranks));
   const auto jobs = jobs_of(layout, 200e3, 0.1, 5);
-  for (const char* policy : {"none", "greedy", "stealing"}) {
+  for (const char* policy : {"greedy", "stealing"}) {
     CAPTURE(policy);
     const Outcome o = run_and_show(policy, cluster, layout, jobs);
-    if (policy != std::string("none")) CHECK(o.time < 1.15 * o.ideal);
+    CHECK(o.time < 1.15 * o.ideal);
   }
 }
