@@ -44,6 +44,7 @@ Start plan(const Pslg& input, const MakeDecomposition& decomposition, const Dist
   how.mapping.ranks = ranks;
   how.mapping.method = mapping_method(options.mapping);
   how.presplit = presplit_mode(options.presplit);
+  how.balancing.policy = options.balance;
   start.plan = plan_run(decomposition(start.input, bounds, ranks), bounds, how);
   return start;
 }
@@ -71,7 +72,7 @@ Start share(MpiTransport& transport, const std::function<Start()>& make) {
   Bytes plan_bytes, input_bytes;
   reader.array(plan_bytes);
   reader.array(input_bytes);
-  return {plan_from_bytes(plan_bytes), pslg_from_bytes(input_bytes)};
+  return {plan_from_bytes(plan_bytes, transport.ranks()), pslg_from_bytes(input_bytes)};
 }
 
 /// The others wait for a rank that fails here, so it takes them with it.

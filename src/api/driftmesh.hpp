@@ -22,6 +22,7 @@ struct DistributedOptions {
   std::int32_t subdomains = 0;      ///< 0: as suits the size of the mesh and the number of ranks
   std::string mapping = "graph";    ///< how subdomains are dealt to ranks
   std::string presplit = "auto";    ///< whether interfaces are cut to size before refinement
+  std::string balance = "none";     ///< the policy by which subdomains move from slow ranks to fast ones
 };
 
 /// Makes a mesh of `input` on all ranks of a communicator, which all call it together. `communicator` is the Fortran

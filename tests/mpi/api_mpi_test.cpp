@@ -81,6 +81,7 @@ TEST_CASE("pieces of all ranks are one mesh, whichever way they are made") {
       options.size = size;
       options.max_area = size != nullptr ? 0 : 0.002;
       options.presplit = given ? "off" : "auto";
+      options.balance = given ? "stealing" : "none";
       const DistributedPiece piece = given ? mesh_distributed(world(), input, decompose_hole(17), options)
                                            : mesh_distributed(world(), input, options);
       const std::uint64_t digest = sum_over_ranks(mesh_digest(piece.mesh));
@@ -134,6 +135,9 @@ TEST_CASE("what allows no mesh is thrown on all ranks alike") {
   CHECK(common_error([&] { (void)mesh_distributed(world(), input, options); }).find("angle") != std::string::npos);
   options = {};
   options.mapping = "by hand";
+  CHECK(common_error([&] { (void)mesh_distributed(world(), input, options); }).find("by hand") != std::string::npos);
+  options = {};
+  options.balance = "by hand";
   CHECK(common_error([&] { (void)mesh_distributed(world(), input, options); }).find("by hand") != std::string::npos);
   CHECK(common_error([&] { (void)mesh_distributed(world(), Pslg(), {}); }) != "nothing");
   const Pslg other = generate_rectangle_hole({.sides = 7});
