@@ -75,7 +75,10 @@ class Runner {
     for (const std::string& setting : command_.settings) run.record.command += fmt::format(" --set '{}'", setting);
     simulate_experiment(run, [&](std::int64_t triangles, double forecast) { progress_.refining(triangles, forecast); });
     write_file(folder_ / (name + ".json"), experiment_record(run));
-    if (run.experiment.pictures) draw_run(run, folder_.string());
+    if (run.experiment.pictures) {
+      draw_run(run, folder_.string());
+      write_file(folder_ / (name + ".trace.json"), chrome_trace(run));
+    }
     table_.add(run);
     write_file(folder_ / "table.csv", table_.csv());
   }

@@ -85,6 +85,21 @@ void draw_load(const ExperimentRun& run, const std::string& path) {
   plot_chart(chart, path);
 }
 
+void draw_moves(const ExperimentRun& run, const std::string& path) {
+  Timeline timeline;
+  timeline.text = text_of(run, fmt::format("{} subdomains move while the ranks work", run.outcome.moves.size()));
+  timeline.text.x_label = "seconds";
+  timeline.text.y_label = "rank; blue: at work, red: a subdomain moves";
+  timeline.rows = run.outcome.ranks.size();
+  timeline.end = run.outcome.makespan;
+  timeline.busy.resize(timeline.rows);
+  for (const LoadSample& s : run.outcome.samples)
+    if (s.worked > 0) timeline.busy[static_cast<std::size_t>(s.rank)].push_back({s.time - s.worked, s.time});
+  for (const MoveRecord& m : run.outcome.moves)
+    timeline.arrows.push_back({m.left, m.arrived, static_cast<std::size_t>(m.from), static_cast<std::size_t>(m.to)});
+  plot_chart(timeline, path);
+}
+
 std::optional<double> number_of(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -103,6 +118,7 @@ void draw_run(const ExperimentRun& run, const std::string& folder) {
   if (run.outcome.owners != run.plan.owners)
     plot_owners(run.plan.decomposition, run.outcome.owners, stem + "-owners-after.png",
                 run.experiment.name + ": subdomains by rank, at the end");
+  if (!run.outcome.moves.empty()) draw_moves(run, stem + "-moves.png");
 }
 
 void draw_sweep(const ExperimentTable& table, const std::string& title, const std::string& folder) {

@@ -30,6 +30,9 @@ using RunProgress = std::function<void(std::int64_t triangles, double forecast)>
 /// Makes the run that run.experiment describes, in virtual time, and fills in what came out.
 void simulate_experiment(ExperimentRun& run, const RunProgress& progress);
 
+/// The slices of work of all ranks and the moves between them, as a Chrome trace, which https://ui.perfetto.dev opens.
+[[nodiscard]] std::string chrome_trace(const ExperimentRun& run);
+
 /// Everything about a run, for programs: the record of `driftmesh mesh --json` with the experiment and its outcome.
 [[nodiscard]] std::string experiment_record(const ExperimentRun& run);
 

@@ -1,6 +1,7 @@
 #include "cluster/simulate.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -49,9 +50,11 @@ class Simulation {
     of_rank_.resize(static_cast<std::size_t>(ranks));
     for (Rank r = 0; r < ranks; ++r) {
       RankLoop::Observers watch;
-      watch.after_slice = [this, r](const RankLoop& loop, double) { sample(r, loop); };
+      watch.after_slice = [this, r](const RankLoop&, double seconds) { sample(r, seconds); };
+      watch.handed_over = [this, r](SubdomainId id, Rank to, std::size_t bytes) { departs(id, r, to, bytes); };
+      watch.settled = [this, r](SubdomainId id) { arrives(id, r); };
       loops_.push_back(std::make_unique<RankLoop>(network_.transport(r), plan, costs, std::move(watch)));
-      sample(r, *loops_.back());
+      sample(r, 0);
     }
   }
 
@@ -67,9 +70,21 @@ class Simulation {
   }
 
  private:
-  void sample(Rank rank, const RankLoop& loop) {
+  void departs(SubdomainId id, Rank from, Rank to, std::size_t bytes) {
+    under_way_[id] = run_.moves.size();
+    run_.moves.push_back({id, from, to, network_.clock(from), 0, bytes});
+    sample(from, 0);
+  }
+
+  void arrives(SubdomainId id, Rank rank) {
+    run_.moves[under_way_.at(id)].arrived = network_.clock(rank);
+    sample(rank, 0);
+  }
+
+  void sample(Rank rank, double worked) {
+    const RankLoop& loop = *loops_[static_cast<std::size_t>(rank)];
     triangles_ += loop.triangles() - std::exchange(of_rank_[static_cast<std::size_t>(rank)], loop.triangles());
-    run_.samples.push_back({network_.clock(rank), rank, loop.triangles(), remaining_on(loop)});
+    run_.samples.push_back({network_.clock(rank), rank, loop.triangles(), remaining_on(loop), worked});
     if (observers_.progress) observers_.progress(triangles_);
   }
 
@@ -87,6 +102,8 @@ class Simulation {
         if (observers_.finished) observers_.finished(subdomain);
       }
     }
+    std::stable_sort(run_.moves.begin(), run_.moves.end(),
+                     [](const MoveRecord& a, const MoveRecord& b) { return a.left < b.left; });
     std::stable_sort(run_.samples.begin(), run_.samples.end(),
                      [](const LoadSample& a, const LoadSample& b) { return a.time < b.time; });
   }
@@ -103,6 +120,7 @@ class Simulation {
   SimulatedRun run_;
   std::vector<std::int64_t> of_rank_;  // triangles of each
   std::int64_t triangles_ = 0;
+  std::map<SubdomainId, std::size_t> under_way_;  // the last move of each that has moved
   std::vector<std::unique_ptr<RankLoop>> loops_;
 };
 

@@ -18,6 +18,15 @@ struct LoadSample {
   protocol::Rank rank = 0;     ///< whose work changed at that time
   std::int64_t triangles = 0;  ///< that its subdomains have
   double remaining = 0;        ///< that they are expected to need still
+  double worked = 0;           ///< seconds of refinement that ended at that time
+};
+
+/// A subdomain that went from one rank to another.
+struct MoveRecord {
+  protocol::SubdomainId subdomain = 0;
+  protocol::Rank from = 0, to = 0;
+  double left = 0, arrived = 0;  ///< seconds since the run began: packed and gone; unpacked
+  std::uint64_t bytes = 0;       ///< its packed size
 };
 
 /// One rank at the end of a run.
@@ -33,6 +42,7 @@ struct RankOutcome {
 struct SimulatedRun {
   double makespan = 0;  ///< seconds from the start to the moment when the last rank knows that all is done
   std::vector<RankOutcome> ranks;
+  std::vector<MoveRecord> moves;          ///< in the order of leaving
   std::vector<LoadSample> samples;        ///< in the order of time
   std::vector<protocol::Rank> owners;     ///< of each subdomain at the end
   std::uint64_t messages = 0, bytes = 0;  ///< of all ranks, termination included

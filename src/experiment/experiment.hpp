@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "balancer/conduct.hpp"
 #include "base/error.hpp"
 #include "cluster/cluster_spec.hpp"
 #include "protocol/aggregator.hpp"
@@ -37,6 +38,7 @@ struct Experiment {
   double skew = 0;
   std::string mapping = "graph";
   bool mapping_by_speed = false;
+  bool mapping_by_area = false;
 
   std::string cluster = "simulated";
   std::int32_t ranks = 0;
@@ -50,6 +52,13 @@ struct Experiment {
   std::int64_t aggregation = protocol::Aggregator::kDefaultThreshold;
   std::string order = "given";
   std::int64_t slice = RunPlan{}.slice;
+
+  std::string policy = "none";
+  std::map<std::string, std::string> policy_parameters;
+  double balance_look = balancer::ControllerOptions{}.look;
+  double balance_gap = balancer::ControllerOptions{}.gap;
+  double balance_interval = balancer::ControllerOptions{}.interval;
+  double balance_gain = balancer::Worth{}.gain;
 
   std::int64_t seed = 1;
   std::int32_t repetitions = 1;

@@ -3,6 +3,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "balancer/policy_factory.hpp"
 #include "base/nearest_name.hpp"
 #include "mesh/bounds.hpp"
 #include "pslg/generators.hpp"
@@ -147,6 +148,8 @@ std::vector<Key> make_keys() {
       key("mapping.method", &E::mapping, "Who starts with which subdomain", one_of({"graph", "block", "round-robin"})),
       key("mapping.by-speed", &E::mapping_by_speed, "Whether the mapping knows the speeds of the ranks"),
 
+      key("mapping.by-area", &E::mapping_by_area, "Whether it deals area in place of expected work"),
+
       key("cluster.kind", &E::cluster, "Ranks in virtual time, or those that mpirun starts",
           one_of({"simulated", "real"})),
       key("cluster.ranks", &E::ranks, "Ranks; 0: those of cluster.groups, or of mpirun", in(0, kMaxRanks)),
@@ -162,6 +165,15 @@ std::vector<Key> make_keys() {
       key("run.aggregation", &E::aggregation, "Split points that travel together at most", in(1, 1e6)),
       key("run.order", &E::order, "Which subdomain a rank refines next", one_of({"given", "largest", "backlog"})),
       key("run.slice", &E::slice, "Points inserted between two looks at the network", in(1, 1e9)),
+
+      key("balance.policy", &E::policy, "Who decides what moves (docs/balancing.md)", one_of(balancer::policy_names())),
+      key("balance.parameters", &E::policy_parameters, "Of the policy: {method: graph}"),
+      key("balance.look", &E::balance_look, "Seconds between two looks of a rank at its own load", above(0)),
+      key("balance.gap", &E::balance_gap, "Seconds between two reports of a rank, and between two plans, at least",
+          from(0)),
+      key("balance.interval", &E::balance_interval, "Seconds between two reports of a rank with work, at most",
+          above(0)),
+      key("balance.gain", &E::balance_gain, "Share of the finishing time that moving must save", in(0, 1)),
 
       key("seed", &E::seed, "Of what is random: the skew; each repetition adds one", from(0)),
       key("repetitions", &E::repetitions, "How often each run is made", in(1, 1000)),
@@ -206,6 +218,11 @@ void check(const Experiment& e) {
   };
   require(!e.input_file.empty() || !e.generator.empty(), "input.file", "no domain is given",
           "name a file with input.file, or what to generate with input.generate");
+  try {
+    static_cast<void>(balancer::make_policy(e.policy, e.policy_parameters));
+  } catch (const Error& error) {
+    throw KeyError("balance.parameters", error.what(), "see docs/balancing.md");
+  }
   require(e.input_file.empty() || e.generator.empty(), "input.generate", "two domains are given",
           "remove input.file or input.generate");
   require(!e.generator.empty() || e.generator_parameters.empty(), "input.parameters", "nothing is generated",

@@ -48,6 +48,29 @@ Decomposition decomposition_of(const Experiment& e, const Prepared& run, const T
   return decompose_for(mesh, cutting, ranks);
 }
 
+Balancing balancing_of(const Experiment& e) {
+  Balancing balancing;
+  balancing.policy = e.policy;
+  balancing.parameters = e.policy_parameters;
+  balancing.options.look = e.balance_look;
+  balancing.options.gap = e.balance_gap;
+  balancing.options.interval = e.balance_interval;
+  balancing.options.worth.gain = e.balance_gain;
+  if (e.cluster == "simulated") {
+    balancing.options.cost.latency = e.latency + 2 * e.message_overhead;
+    balancing.options.cost.bandwidth = e.bandwidth;
+  }
+  return balancing;
+}
+
+/// Deals the subdomains once more, as one who does not know how small triangles will be.
+void map_by_area(RunPlan& plan, const MappingOptions& options) {
+  Decomposition by_area = plan.decomposition;
+  for (Decomposition::Subdomain& s : by_area.subdomains) s.predicted = s.area;
+  plan.owners = map_subdomains(by_area, options);
+  prepare_balancing(plan, options.ranks);
+}
+
 }  // namespace
 
 SizingOptions sizing_of(const Experiment& e) {
@@ -88,7 +111,9 @@ Prepared prepare(const Experiment& e, const std::vector<double>& speeds) {
   options.aggregation = static_cast<std::size_t>(e.aggregation);
   options.slice = e.slice;
   options.order = work_order(e.order);
+  options.balancing = balancing_of(e);
   run.plan = plan_run(decomposition_of(e, run, mesh, options.mapping.ranks), run.plan.bounds, options);
+  if (e.mapping_by_area) map_by_area(run.plan, options.mapping);
   for (const Decomposition::Subdomain& s : run.plan.decomposition.subdomains) run.forecast += s.predicted;
   return run;
 }

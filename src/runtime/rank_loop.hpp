@@ -35,6 +35,8 @@ class BasicRankLoop {
     std::function<void(const BasicRankLoop&, double seconds)> after_slice;  ///< work was done, in so much time
     /// Nothing has moved for a minute: what this rank waits for, and what waits here.
     std::function<void(const std::string&)> stalled;
+    std::function<void(SubdomainId, protocol::Rank to, std::size_t bytes)> handed_over;  ///< it leaves, packed
+    std::function<void(SubdomainId)> settled;                                            ///< it has come here
   };
 
   /// `transport` and `plan` must outlive the loop.
@@ -68,6 +70,7 @@ class BasicRankLoop {
     transport_.spend(static_cast<double>(packed.size()) * costs_.packed_byte);
     agenda_.remove(id);
     subdomains_.erase(place);
+    if (observers_.handed_over) observers_.handed_over(id, to, packed.size());
     protocol_.hand_off(id, to, std::move(packed));
     return true;
   }
@@ -135,6 +138,7 @@ class BasicRankLoop {
     put(Subdomain::unpack(arrival.packed, context_, Source::kThisRun));
     transport_.spend(static_cast<double>(arrival.packed.size()) * costs_.packed_byte);
     charge(&RankTimes::balancing);
+    if (observers_.settled) observers_.settled(arrival.subdomain);
   }
 
   /// A slice of the subdomain whose turn it is. False if none has anything to do.

@@ -498,6 +498,10 @@ class Experiments(Cli):
                         "run.aggregation=[1, 16, 1024]"],
         "sciclone-144": ["bounds.triangles-per-rank=500", "decomposition.subdomains=300"],
         "two-speeds": ["bounds.triangles-per-rank=5e3"],
+        "corner-refinement": ["sizing.size=\"x < 0.45 && y < 0.45 ? 0.006 : 0.05\"",
+                              "decomposition.subdomains-per-rank=10"],
+        "policies": ["bounds.triangles-per-rank=1e3", "decomposition.subdomains-per-rank=8"],
+        "migration-stress": ["bounds.triangles=2e4", "decomposition.subdomains=60"],
         "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
     }
 
@@ -550,6 +554,27 @@ class Experiments(Cli):
         for name in expected:
             self.assertTrue((self.folder / "results" / name).read_bytes().startswith(b"\x89PNG"))
 
+    def test_moves_are_recorded_and_drawn(self):
+        self.run_config("two-speeds", "bounds.triangles-per-rank=4e4", "balance.policy=greedy", pictures=True)
+        record = json.loads((self.folder / "results" / "run-1.json").read_text())
+        owners, moves = record["cluster"]["owners_before"], record["cluster"]["moves"]
+        self.assertGreater(len(moves), 0)
+        self.assertEqual(len(moves), int(self.table()[0]["hand_offs"]))
+        self.assertEqual(sum(move["bytes"] for move in moves), int(self.table()[0]["hand_off_bytes"]))
+        for move in moves:
+            self.assertEqual(owners[move["subdomain"]], move["from"])
+            self.assertLess(move["left"], move["arrived"])
+            owners[move["subdomain"]] = move["to"]
+        self.assertEqual(owners, record["cluster"]["owners_after"])
+        trace = json.loads((self.folder / "results" / "run-1.trace.json").read_text())["traceEvents"]
+        self.assertEqual(sum(event["ph"] == "s" for event in trace), len(moves))
+        self.assertEqual(sum(event["ph"] == "f" for event in trace), len(moves))
+        worked = sum(event["dur"] for event in trace if event["name"] == "refine")
+        computing = sum(rank["seconds"]["computing"] for rank in record["parts"]["ranks"])
+        self.assertAlmostEqual(worked / 1e6, computing, delta=0.01 * computing)
+        for picture in ("moves", "owners-after"):
+            self.assertTrue((self.folder / "results" / f"run-1-{picture}.png").exists())
+
     def test_a_dry_run_prints_and_does_nothing(self):
         said = self.succeed("run", self.CONFIGS / "scaled-speedup.yaml", "--dry-run")
         self.assertIn("triangles-per-rank: 100000", said)
@@ -561,6 +586,7 @@ class Experiments(Cli):
         self.refuse("run", "wrong.yaml", says=["wrong.yaml:2:1", "'cluster"])
         self.refuse("run", "missing.yaml", says=["missing.yaml"])
         self.refuse("run", self.CONFIGS / "first-run.yaml", "--set", "bounds.angle=50", says=["at most 34"])
+        self.refuse("run", self.CONFIGS / "policies.yaml", "--set", "balance.parameters={methd: rcb}", says=["methd"])
         self.refuse("config", code=2)
         self.assertEqual(self.files(), ["wrong.yaml"])
 
