@@ -220,7 +220,11 @@ void load(ArchiveReader& in, SubdomainState& subdomain) {
   require(refined <= 1 && content <= Content::kDormant, "it says what cannot be");
   subdomain.refined = refined != 0;
   load_points(in, subdomain.pending, &protocol::SplitEntry::edge);
-  if (content == Content::kMesh) load_body(in, subdomain.body.emplace());
+  if (content == Content::kMesh) {
+    SubdomainState::Body body;
+    load_body(in, body);
+    subdomain.body = std::move(body);
+  }
   if (content == Content::kDormant) transfer_dormant(in, subdomain.dormant.emplace());
   require(in.at_end(), "bytes are left over");
 }

@@ -79,6 +79,7 @@ std::uint64_t Subdomain::packed_bytes() const {
 
 SliceWork Subdomain::work(std::int64_t insertions, std::vector<protocol::SplitEntry>& said) {
   SliceWork done;
+  if (dormant_) done.woken = triangles();
   wake();
   if (!body_) {
     make_body();

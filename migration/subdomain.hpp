@@ -28,6 +28,7 @@ struct SliceWork {
   std::int64_t points = 0;     ///< inserted
   std::int64_t triangles = 0;  ///< more than before
   std::int64_t prepared = 0;   ///< triangles of the initial triangulation, if it was made in this slice
+  std::int64_t woken = 0;      ///< triangles that it had asleep, if it was woken in this slice
 };
 
 /// One subdomain: it refines itself, says which points it puts on the edges that it shares, and takes in those of its

@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "migration/subdomain.hpp"
 #include "protocol/codec.hpp"
+#include "protocol/protocol_error.hpp"
 #include "protocol/rank_protocol.hpp"
 #include "protocol/rank_step.hpp"
 #include "protocol/transport.hpp"
@@ -122,7 +123,7 @@ class BasicRankLoop {
     while (const auto received = transport_.poll()) {
       heard = true;
       auto delivery = protocol_.receive(received->source, protocol::decode(received->source, received->bytes, limits_));
-      if (delivery.arrival) settle(*delivery.arrival);
+      if (delivery.arrival) settle(*delivery.arrival, received->source);
       if (delivery.advice && controller_) controller_->receive(received->source, std::move(*delivery.advice), clock_);
       for (const protocol::SplitGroup& group : delivery.splits) {
         Subdomain& subdomain = subdomains_.at(group.to);
@@ -133,9 +134,13 @@ class BasicRankLoop {
     return heard;
   }
 
-  void settle(const protocol::HandOff& arrival) {
+  void settle(const protocol::HandOff& arrival, protocol::Rank sender) {
     charge(&RankTimes::polling);
-    put(Subdomain::unpack(arrival.packed, context_, Source::kThisRun));
+    try {
+      put(Subdomain::unpack(arrival.packed, context_, Source::kThisRun));
+    } catch (const Error& error) {
+      throw protocol::ProtocolError(sender, error.what());
+    }
     transport_.spend(static_cast<double>(arrival.packed.size()) * costs_.packed_byte);
     charge(&RankTimes::balancing);
     if (observers_.settled) observers_.settled(arrival.subdomain);
@@ -157,7 +162,11 @@ class BasicRankLoop {
     transport_.spend(static_cast<double>(done.points) * costs_.point +
                      (done.prepared > 0 ? costs_.start + static_cast<double>(done.prepared) * costs_.prepared : 0));
     reschedule(subdomain);
-    if (plan_.sleep && !subdomain.active()) subdomain.sleep();
+    if (done.woken > 0) transport_.spend(static_cast<double>(done.woken) * costs_.woken);
+    if (plan_.sleep && !subdomain.active()) {
+      subdomain.sleep();
+      transport_.spend(static_cast<double>(subdomain.triangles()) * costs_.asleep);
+    }
     interface_splits_ += static_cast<std::int64_t>(said_.size());
     for (const protocol::SplitEntry& entry : said_) tell_across(*id, entry);
     if (observers_.after_slice) observers_.after_slice(*this, transport_.now() - start);

@@ -51,6 +51,8 @@ struct CostModel {
   double point = 0.229e-6;      ///< a point inserted by refinement
   double listed = 20e-9;        ///< a subdomain that balancing looks at
   double packed_byte = 0.4e-9;  ///< of a subdomain that is packed or unpacked
+  double asleep = 23e-9;        ///< a triangle of a subdomain that falls asleep
+  double woken = 40e-9;         ///< and of one that wakes
 };
 
 }  // namespace driftmesh

@@ -167,6 +167,45 @@ TEST_CASE("finished subdomains that sleep wake when a point arrives that they do
   CHECK(split > 100);
 }
 
+TEST_CASE("subdomains that sleep when they are finished make one conforming mesh, and move asleep") {
+  int asleep = 0, moved = 0;
+  for (const Presplit presplit : {Presplit::kOn, Presplit::kOff})
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      CAPTURE(seed);
+      RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 3, 20, presplit);
+      const SubdomainContext context{&plan.decomposition, plan.bounds, plan.presplit};
+      std::uint64_t digest = 0;
+      for (const bool sleep : {false, true}) {
+        plan.sleep = sleep;
+        protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
+        SimulatedRanks<> run(network, 3, plan);
+        const auto move_sleeper = [&](protocol::Rank r) {
+          auto& loop = *run.loops[static_cast<std::size_t>(r)];
+          const auto sleeper = std::find_if(loop.subdomains().begin(), loop.subdomains().end(),
+                                            [](const auto& s) { return s.second.dormant(); });
+          if (sleeper == loop.subdomains().end() || seed % 2 == 0) return;
+          loop.hand_over(sleeper->first, (r + 1) % 3);
+          ++moved;
+        };
+        REQUIRE(network.run(run.steps, move_sleeper).end == protocol::RunEnd::kFinished);
+        std::vector<Subdomain> awake;
+        for (const Subdomain* s : run.subdomains()) {
+          asleep += s->dormant();
+          CHECK(s->dormant() == sleep);
+          awake.push_back(Subdomain::unpack(s->pack(), context));
+          awake.back().wake();
+        }
+        std::vector<const Subdomain*> all;
+        for (const Subdomain& s : awake) all.push_back(&s);
+        check_mesh(plan, all);
+        if (!sleep) digest = digest_of(all);
+        if (presplit == Presplit::kOn) CHECK(digest_of(all) == digest);
+      }
+    }
+  CHECK(asleep == 2 * 8 * 20);
+  CHECK(moved > 50);
+}
+
 TEST_CASE("every policy gives a slow rank less to do, and changes nothing about the mesh") {
   const QualityBounds bounds{20, 1e-4, {}, nullptr};
   const std::vector<double> speeds{1, 1, 0.25};
