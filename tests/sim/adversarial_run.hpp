@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -34,6 +35,7 @@ struct Outcome {
   std::uint64_t steps = 0;
   protocol::ProtocolCounters counters;  ///< of all ranks together
   protocol::AdversarialNetwork::Counters network;
+  std::int64_t asleep = 0;        ///< subdomains at the end
   std::uint64_t late_rounds = 0;  ///< probes after the one that was out when all work was over
   bool digest_compared = false;
 
@@ -81,7 +83,7 @@ class AdversarialRun {
     say("no message lost", lost_messages());
     say("one live owner", owners_at_the_end());
     if (!outcome_.failure().empty()) return std::move(outcome_);
-    const std::vector<const Subdomain*> all = subdomains();
+    const std::vector<const Subdomain*> all = subdomains_awake();
     const auto problems = testing::conformity_problems(plan_.decomposition, all);
     say("both sides of each edge hold the same points", problems.empty() ? "" : problems.front());
     say("the mesh, to the judge", judge(domain_, plan_.decomposition, all));
@@ -98,10 +100,12 @@ class AdversarialRun {
     plan_.decomposition = domain_.cut(scenario_.subdomains);
     for (std::size_t s = 0; s < plan_.decomposition.size(); ++s) plan_.owners.push_back(any_rank());
     plan_.bounds = domain_.bounds();
+    context_ = {&plan_.decomposition, plan_.bounds, scenario_.presplit};
     plan_.presplit = scenario_.presplit;
     plan_.aggregation = scenario_.aggregation;
     plan_.slice = scenario_.slice;
     plan_.order = scenario_.order;
+    plan_.sleep = scenario_.sleep;
   }
 
   /// To the end of the run. False if it does not come to a good one.
@@ -227,10 +231,18 @@ class AdversarialRun {
     say("the same mesh as from every other run", *expected == outcome_.digest ? "" : "its digest differs");
   }
 
-  [[nodiscard]] std::vector<const Subdomain*> subdomains() const {
+  /// All of them; of those that sleep, copies that are awake.
+  [[nodiscard]] std::vector<const Subdomain*> subdomains_awake() {
     std::vector<const Subdomain*> all;
     for (const auto& loop : loops_)
-      for (const auto& [id, subdomain] : loop->subdomains()) all.push_back(&subdomain);
+      for (const auto& [id, subdomain] : loop->subdomains()) {
+        all.push_back(&subdomain);
+        if (!subdomain.dormant()) continue;
+        copies_.push_back(Subdomain::unpack(subdomain.pack(), context_));
+        copies_.back().wake();
+        all.back() = &copies_.back();
+      }
+    outcome_.asleep = static_cast<std::int64_t>(copies_.size());
     std::sort(all.begin(), all.end(), [](const Subdomain* a, const Subdomain* b) { return a->id() < b->id(); });
     return all;
   }
@@ -253,6 +265,8 @@ class AdversarialRun {
   std::mt19937_64 random_;
   std::int64_t moves_left_;
   RunPlan plan_;
+  SubdomainContext context_;
+  std::deque<Subdomain> copies_;
   protocol::AdversarialNetwork network_;
   std::vector<std::unique_ptr<protocol::Transport>> wrapped_;
   std::vector<std::unique_ptr<Loop>> loops_;

@@ -24,6 +24,7 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
   s.order = one_of(std::array{WorkOrder::kGiven, WorkOrder::kLargest, WorkOrder::kBacklog});
   s.move_chance = one_of(std::array{0.0, 0.05, 0.3, 1.0});
   s.most_moves = one_of(std::array{5, 20, 60});
+  s.sleep = random() % 3 == 0;
   s.adversary = protocol::Adversary::from_seed(seed);
   s.adversary.step_limit = 200'000;
   s.adversary.may_copy = [](protocol::Rank source, auto bytes) {
@@ -35,11 +36,11 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
 std::string Scenario::describe() const {
   const protocol::Adversary& a = adversary;
   return fmt::format(
-      "seed {}: {} in {} subdomains on {} ranks, presplit {}, {} SPLITs a message, slices of {}; {} moves at most, "
+      "seed {}: {} in {} subdomains on {} ranks, presplit {}, {} SPLITs a message, slices of {}{}; {} moves at most, "
       "with "
       "chance {} at each step; {}, delay {}{}{}{}",
-      seed, domain, subdomains, ranks, presplit ? "on" : "off", aggregation, slice, most_moves, move_chance,
-      a.fifo ? "in order" : "reordered", a.delay, a.starve ? ", a rank starved" : "",
+      seed, domain, subdomains, ranks, presplit ? "on" : "off", aggregation, slice, sleep ? ", the finished sleep" : "",
+      most_moves, move_chance, a.fifo ? "in order" : "reordered", a.delay, a.starve ? ", a rank starved" : "",
       a.hold_one ? ", a message held back" : "", a.copy > 0 ? ", copies" : "");
 }
 

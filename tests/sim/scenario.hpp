@@ -29,6 +29,7 @@ struct Scenario {
   std::int64_t slice = 1;  ///< insertions
   WorkOrder order = WorkOrder::kGiven;
   double move_chance = 0;       ///< of handing a subdomain over, at each step of a rank
+  bool sleep = false;           ///< finished subdomains sleep
   std::int64_t most_moves = 0;  ///< in the whole run
   protocol::Adversary adversary;
 

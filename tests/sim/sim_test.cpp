@@ -50,7 +50,7 @@ TEST_CASE("the schedules are hard ones, on every domain and number of ranks") {
   std::set<std::string> compared, shapes;
   std::set<protocol::Rank> ranks;
   std::uint64_t late_rounds = 0;
-  std::int64_t smallest = INT64_MAX;
+  std::int64_t smallest = INT64_MAX, asleep = 0;
   const auto seeds = static_cast<std::uint64_t>(testing::case_count(1000));
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     CAPTURE(seed);
@@ -61,6 +61,7 @@ TEST_CASE("the schedules are hard ones, on every domain and number of ranks") {
     ranks.insert(scenario.ranks);
     if (o.digest_compared) compared.insert(scenario.domain);
     smallest = std::min(smallest, o.triangles);
+    asleep += o.asleep;
     sum.splits_sent += o.counters.splits_sent;
     sum.batches_sent += o.counters.batches_sent;
     sum.hand_offs += o.counters.hand_offs;
@@ -81,6 +82,7 @@ TEST_CASE("the schedules are hard ones, on every domain and number of ranks") {
   CHECK(compared.contains("square"));
   CHECK(compared.contains("ell"));
   CHECK(smallest > 30);
+  CHECK(asleep > at_least);
   CHECK(sum.splits_sent > 20 * at_least);
   CHECK(sum.splits_sent > sum.batches_sent);
   CHECK(sum.hand_offs > 10 * at_least);

@@ -15,7 +15,7 @@ namespace driftmesh::sim {
 
 /// Whether the point is in the subdomain's mesh.
 inline bool has_point(const Subdomain& subdomain, const protocol::SplitEntry& entry) {
-  if (!subdomain.started()) return false;
+  if (!subdomain.started() || subdomain.dormant()) return false;
   const auto& roots = subdomain.mesh().roots;
   const auto place = std::lower_bound(roots.begin(), roots.end(), entry.edge);
   const Triangulation& mesh = subdomain.mesh().mesh;
