@@ -555,7 +555,7 @@ class Experiments(Cli):
             self.assertTrue((self.folder / "results" / name).read_bytes().startswith(b"\x89PNG"))
 
     def test_moves_are_recorded_and_drawn(self):
-        self.run_config("two-speeds", "bounds.triangles-per-rank=4e4", "balance.policy=greedy", pictures=True)
+        self.run_config("two-speeds", "bounds.triangles-per-rank=2e5", "balance.policy=greedy", pictures=True)
         record = json.loads((self.folder / "results" / "run-1.json").read_text())
         owners, moves = record["cluster"]["owners_before"], record["cluster"]["moves"]
         self.assertGreater(len(moves), 0)

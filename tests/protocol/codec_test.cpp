@@ -110,8 +110,7 @@ TEST_CASE("refusals say what is wrong") {
   CHECK(error_of(encode(SplitBatch{{{1, 1, 1, {{1, 0}}}}})) ==
         "message from rank 5: split path 0 is none, or deeper than 60");
   CHECK(error_of(encode(LoadReport{1, 0, -1.0, {}})) == "message from rank 5: an amount is negative or not finite");
-  CHECK(error_of(encode(LoadNews{1, 1.0, 2.0, -0.5})) ==
-        "message from rank 5: an amount is negative or not finite");
+  CHECK(error_of(encode(LoadNews{1, 1.0, 2.0, -0.5})) == "message from rank 5: an amount is negative or not finite");
   CHECK(error_of(encode(WorkRequest{7, 1, 1.0, 2.0, 0})) == "message from rank 5: rank 7 is outside 0 .. 6");
   CHECK(error_of({}) == "message from rank 5: ends too early");
 }
