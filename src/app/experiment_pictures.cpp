@@ -58,7 +58,7 @@ void draw_times(const ExperimentRun& run, const std::string& path) {
 
 /// Seconds of work that each rank has left, by what is expected, over time: the mean, and from the least to the most.
 void draw_load(const ExperimentRun& run, const std::string& path) {
-  const SimulatedRun& outcome = run.outcome;
+  const ClusterRun& outcome = run.outcome;
   LineChart chart;
   chart.text = text_of(run, "Work left on a rank, over time");
   chart.text.x_label = "seconds";

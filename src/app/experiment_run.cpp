@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "app/memory.hpp"
+#include "app/rank_report.hpp"
 #include "app/summary.hpp"
 #include "base/stopwatch.hpp"
+#include "cluster/simulate.hpp"
 #include "experiment/key_words.hpp"
 #include "experiment/prepare.hpp"
 
@@ -28,19 +30,28 @@ void record_input(RunRecord& record, const experiment::Experiment& e, const expe
   record.sizing = e.size_expression.empty() ? e.size_background : e.size_expression;
   record.acute_corners = prepared.acute_corners;
   record.forecast = prepared.forecast;
-  record.subdomains = static_cast<std::int32_t>(prepared.plan.decomposition.size());
-  record.presplit = prepared.plan.presplit;
 }
 
-void record_outcome(RunRecord& record, const SimulatedRun& outcome) {
-  for (const RankOutcome& rank : outcome.ranks)
-    record.ranks.push_back({rank.triangles, rank.subdomains, rank.interface_splits, rank.counters, rank.times, 0});
-  record.seconds_refine = outcome.makespan;
-  record.peak = record.peak_refining = peak_memory();
+/// Triangles a second of real ranks in this run: one with the whole of its time is taken to be as fast as any other.
+std::vector<double> measured_speeds(const ClusterRun& run, std::vector<double> shares) {
+  double seconds = 0;  // that the work would have taken one rank
+  for (std::size_t r = 0; r < shares.size(); ++r) seconds += run.ranks[r].times.computing * shares[r];
+  for (double& share : shares) share *= static_cast<double>(run.triangles()) / seconds;
+  return shares;
+}
+
+ClusterRun run_simulated(ExperimentRun& run, const experiment::Prepared& prepared, const RunProgress& progress) {
+  SimulationObservers observers;
+  observers.progress = [&](std::int64_t triangles) { progress(triangles, prepared.forecast); };
+  observers.finished = [&](const RankLoop& rank) { add_report(run.record, report_of(rank, prepared.plan)); };
+  ClusterRun outcome = simulate(prepared.plan, experiment::cluster_of(run.experiment), {}, observers);
+  add_plan(run.record, prepared.plan);
+  run.record.peak = run.record.peak_refining = peak_memory();
+  return outcome;
 }
 
 /// What is left to do on all ranks together, over time.
-Json load_json(const SimulatedRun& outcome) {
+Json load_json(const ClusterRun& outcome) {
   std::vector<double> remaining(outcome.ranks.size(), 0);
   double total = 0;
   Json times = Json::array(), loads = Json::array();
@@ -55,7 +66,7 @@ Json load_json(const SimulatedRun& outcome) {
   return {{"seconds", times}, {"triangles_to_be_made", loads}};
 }
 
-Json moves_json(const SimulatedRun& outcome) {
+Json moves_json(const ClusterRun& outcome) {
   Json moves = Json::array();
   for (const MoveRecord& m : outcome.moves)
     moves.push_back({{"subdomain", m.subdomain},
@@ -69,27 +80,28 @@ Json moves_json(const SimulatedRun& outcome) {
 
 }  // namespace
 
-void simulate_experiment(ExperimentRun& run, const RunProgress& progress) {
-  const CostModel costs;
-  const ClusterSpec cluster = experiment::cluster_of(run.experiment);
-  run.speeds = speeds_of(cluster, costs);
+void make_run(ExperimentRun& run, RealCluster* cluster, const RunProgress& progress) {
+  const experiment::Experiment& e = run.experiment;
+  const bool real = e.cluster == "real";
+  run.speeds = !real            ? speeds_of(experiment::cluster_of(e), {})
+               : e.drag.empty() ? std::vector<double>(static_cast<std::size_t>(cluster->ranks()), 1)
+                                : e.drag;
   const Stopwatch preparing;
-  experiment::Prepared prepared = experiment::prepare(run.experiment, run.speeds);
+  experiment::Prepared prepared = experiment::prepare(e, run.speeds);
   run.record.stages.push_back({"prepare", preparing.seconds()});
-  record_input(run.record, run.experiment, prepared);
-  SimulationObservers observers;
-  observers.progress = [&](std::int64_t triangles) { progress(triangles, prepared.forecast); };
-  observers.finished = [&](const Subdomain& subdomain) {
-    add_part(run.record, subdomain.mesh().mesh, prepared.plan.bounds, true);
-    add_counters(run.record, subdomain.counters());
-  };
-  const Stopwatch simulating;
-  run.outcome = simulate(prepared.plan, cluster, costs, observers);
-  run.record.stages.push_back({"simulate", simulating.seconds()});
+  record_input(run.record, e, prepared);
+  const Stopwatch running;
+  if (real) {
+    run.outcome = cluster->run({prepared.plan, experiment::sizing_of(e), run.speeds}, run.record, progress);
+    run.speeds = measured_speeds(run.outcome, run.speeds);
+  } else {
+    run.outcome = run_simulated(run, prepared, progress);
+  }
+  run.record.stages.push_back({real ? "run" : "simulate", running.seconds()});
   run.record.seconds = preparing.seconds();
+  run.record.seconds_refine = run.outcome.makespan;
   run.plan = std::move(prepared.plan);
   run.plan.bounds.size = nullptr;
-  record_outcome(run.record, run.outcome);
 }
 
 std::string chrome_trace(const ExperimentRun& run) {
@@ -140,9 +152,8 @@ std::string experiment_record(const ExperimentRun& run) {
   record["cluster"] = {{"seconds", run.outcome.makespan},
                        {"ideal_seconds", ideal_seconds(run.outcome, run.speeds)},
                        {"speeds", run.speeds},
-                       {"messages", run.outcome.messages},
-                       {"message_bytes", run.outcome.bytes},
-                       {"steps", run.outcome.steps},
+                       {"messages", run.outcome.messages()},
+                       {"message_bytes", run.outcome.message_bytes()},
                        {"owners_before", run.plan.owners},
                        {"owners_after", run.outcome.owners},
                        {"moves", moves_json(run.outcome)},

@@ -5,8 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/real_cluster.hpp"
 #include "app/run_record.hpp"
-#include "cluster/simulate.hpp"
+#include "cluster/cluster_run.hpp"
 #include "experiment/experiment_file.hpp"
 #include "runtime/run_plan.hpp"
 
@@ -20,15 +21,16 @@ struct ExperimentRun {
   experiment::Experiment experiment;
 
   RunPlan plan;                ///< without a size field
-  std::vector<double> speeds;  ///< of the ranks, in triangles a second; all 1 on a real cluster
-  SimulatedRun outcome;
+  std::vector<double> speeds;  ///< of the ranks, in triangles a second; of real ones, as they were in this run
+  ClusterRun outcome;
   RunRecord record;
 };
 
 using RunProgress = std::function<void(std::int64_t triangles, double forecast)>;
 
-/// Makes the run that run.experiment describes, in virtual time, and fills in what came out.
-void simulate_experiment(ExperimentRun& run, const RunProgress& progress);
+/// Makes the run that run.experiment describes, and fills in what came out: on `cluster` if it is one for real ranks,
+/// in virtual time otherwise.
+void make_run(ExperimentRun& run, RealCluster* cluster, const RunProgress& progress);
 
 /// The slices of work of all ranks and the moves between them, as a Chrome trace, which https://ui.perfetto.dev opens.
 [[nodiscard]] std::string chrome_trace(const ExperimentRun& run);

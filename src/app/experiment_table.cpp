@@ -15,7 +15,7 @@ using Row = ExperimentTable::Row;
 using Cells = std::vector<std::pair<std::string, std::string>>;  // column, value
 
 /// Where the time of all ranks went, as shares. What a rank waits after it has left the loop is idle too.
-RankTimes shares_of(const SimulatedRun& outcome) {
+RankTimes shares_of(const ClusterRun& outcome) {
   RankTimes sum;
   for (const RankOutcome& rank : outcome.ranks) {
     sum.computing += rank.times.computing;
@@ -31,13 +31,20 @@ RankTimes shares_of(const SimulatedRun& outcome) {
   return sum;
 }
 
+/// Whether two runs are at the same point of the sweep but for the policy.
+bool same_but_policy(const Row& a, const Row& b) {
+  return std::equal(a.swept.begin(), a.swept.end(), b.swept.begin(), b.swept.end(), [](const auto& x, const auto& y) {
+    return x == y || (x.first == y.first && x.first == "balance.policy");
+  });
+}
+
 Cells swept_cells(const Row& row, bool repeated) {
   Cells cells(row.swept.begin(), row.swept.end());
   if (repeated) cells.emplace_back("repetition", std::to_string(row.repetition));
   return cells;
 }
 
-Cells all_cells(const Row& row) {
+Cells all_cells(const Row& row, std::optional<double> recovered) {
   Cells cells{{"run", row.run}};
   for (auto& cell : swept_cells(row, true)) cells.push_back(std::move(cell));
   const auto add = [&](const char* name, const auto& value) { cells.emplace_back(name, fmt::format("{}", value)); };
@@ -48,6 +55,7 @@ Cells all_cells(const Row& row) {
   add("ideal_seconds", row.ideal_seconds);
   add("triangles_per_second", row.rate);
   add("efficiency", row.efficiency);
+  cells.emplace_back("recovered", recovered ? fmt::format("{}", *recovered) : "");
   add("computing", row.times.computing);
   add("sending", row.times.sending);
   add("polling", row.times.polling);
@@ -62,7 +70,8 @@ Cells all_cells(const Row& row) {
   return cells;
 }
 
-Cells telling_cells(const Row& row, bool repeated) {
+/// `recovered`: what to say of it, if the table says anything of it.
+Cells telling_cells(const Row& row, bool repeated, const std::optional<std::string>& recovered) {
   Cells cells = swept_cells(row, repeated);
   const bool ranks_swept =
       std::any_of(row.swept.begin(), row.swept.end(), [](const auto& s) { return s.first == "cluster.ranks"; });
@@ -73,6 +82,7 @@ Cells telling_cells(const Row& row, bool repeated) {
   add("seconds", fmt::format("{:.4g}", row.seconds));
   add("million/s", fmt::format("{:.4g}", 1e-6 * row.rate));
   add("efficiency", fmt::format("{:.3f}", row.efficiency));
+  if (recovered) add("recovered %", *recovered);
   percent("computing %", row.times.computing);
   percent("sending %", row.times.sending);
   percent("polling %", row.times.polling);
@@ -104,6 +114,7 @@ void ExperimentTable::add(const ExperimentRun& run) {
   row.run = run.name;
   for (const auto& [key, value] : run.swept) row.swept.emplace_back(key, experiment::value_text(value));
   row.repetition = run.repetition;
+  row.policy = run.experiment.policy;
   row.ranks = run.outcome.ranks.size();
   row.subdomains = run.outcome.owners.size();
   row.triangles = run.outcome.triangles();
@@ -120,16 +131,27 @@ void ExperimentTable::add(const ExperimentRun& run) {
     row.hand_offs += rank.counters.hand_offs;
     row.hand_off_bytes += rank.counters.hand_off_bytes;
   }
-  row.messages = run.outcome.messages;
-  row.message_bytes = run.outcome.bytes;
+  row.messages = run.outcome.messages();
+  row.message_bytes = run.outcome.message_bytes();
   rows_.push_back(std::move(row));
+}
+
+std::optional<double> ExperimentTable::recovered(const Row& row) const {
+  if (row.policy == "none") return {};
+  const auto without = std::find_if(rows_.begin(), rows_.end(), [&](const Row& other) {
+    return other.policy == "none" && other.repetition == row.repetition && same_but_policy(other, row);
+  });
+  if (without == rows_.end()) return {};
+  const double possible = without->seconds - without->ideal_seconds;
+  if (!(possible > 0)) return {};
+  return (without->seconds - row.seconds) / possible;
 }
 
 std::string ExperimentTable::csv() const {
   std::string text;
   for (const Row& row : rows_) {
     std::vector<std::string> columns, values;
-    for (const auto& [column, value] : all_cells(row)) {
+    for (const auto& [column, value] : all_cells(row, recovered(row))) {
       columns.push_back(csv_quoted(column));
       values.push_back(csv_quoted(value));
     }
@@ -141,9 +163,13 @@ std::string ExperimentTable::csv() const {
 
 std::string ExperimentTable::markdown() const {
   const bool repeated = std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.repetition > 0; });
+  const bool saved =
+      std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) { return recovered(row).has_value(); });
   std::vector<std::vector<std::string>> lines;
   for (const Row& row : rows_) {
-    const Cells cells = telling_cells(row, repeated);
+    std::optional<std::string> share;
+    if (saved) share = recovered(row) ? fmt::format("{:.1f}", 100 * *recovered(row)) : "";
+    const Cells cells = telling_cells(row, repeated, share);
     if (lines.empty()) lines.resize(1);
     lines.emplace_back();
     for (const auto& [column, value] : cells) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ class ExperimentTable {
     std::string run;
     std::vector<std::pair<std::string, std::string>> swept;
     std::int32_t repetition = 0;
+    std::string policy;
     std::size_t ranks = 0, subdomains = 0;
     std::int64_t triangles = 0;
     double seconds = 0;
@@ -33,6 +35,10 @@ class ExperimentTable {
     std::uint64_t messages = 0, message_bytes = 0;
   };
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+
+  /// Of the time that perfect balance would save of the run that differs from this one in having no balancing, the
+  /// share that this run saves. Nothing if there is no such run, or nothing to save.
+  [[nodiscard]] std::optional<double> recovered(const Row& row) const;
 
  private:
   std::vector<Row> rows_;

@@ -60,13 +60,13 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
 }
 
 /// Whether rank 0 does what there is to do, and this process is another one: errors of the command line are said once,
-/// and only `mesh` works on many ranks.
+/// and only `mesh` and `run` work on many ranks.
 bool leaves_it_to_rank_0(int argc, char** argv) {
   const auto rank = driftmesh::protocol::MpiSession::launched_as();
   if (!rank || *rank == 0) return false;
   std::cerr.rdbuf(nullptr);
   std::cout.rdbuf(nullptr);
-  return argc < 2 || std::string(argv[1]) != "mesh";
+  return argc < 2 || (std::string(argv[1]) != "mesh" && std::string(argv[1]) != "run");
 }
 
 int run_program(int argc, char** argv) {

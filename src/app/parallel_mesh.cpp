@@ -2,19 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "app/drag.hpp"
 #include "app/limits.hpp"
 #include "app/memory.hpp"
-#include "app/mesh_facts.hpp"
 #include "app/output_files.hpp"
+#include "app/rank_report.hpp"
 #include "app/run_notes.hpp"
 #include "base/byte_stream.hpp"
 #include "base/error.hpp"
@@ -60,36 +58,6 @@ struct Start {
     return start;
   }
 };
-
-/// What a rank reports to rank 0 at the end.
-struct RankReport {
-  RunRecord::Rank rank;
-  MeshFacts facts;
-
-  [[nodiscard]] Bytes pack() const {
-    ByteWriter writer;
-    writer.value(rank);
-    write_facts(writer, facts);
-    return writer.take();
-  }
-  static RankReport unpack(const Bytes& bytes) {
-    ByteReader reader(bytes);
-    RankReport report;
-    reader.value(report.rank);
-    report.facts = read_facts(reader);
-    return report;
-  }
-};
-
-/// Subsegments of the input on roots whose points this subdomain numbers.
-std::int64_t owned_subsegments(const Decomposition& d, const SubdomainCensus& census) {
-  std::int64_t count = 0;
-  for (const SubdomainCensus::Root& r : census.roots) {
-    const Decomposition::Root& root = d.roots[static_cast<std::size_t>(r.root)];
-    if (!root.separator && owner_of(root) == census.id) count += static_cast<std::int64_t>(r.splits.count) + 1;
-  }
-  return count;
-}
 
 /// The files that writing to `output` made.
 std::vector<std::string> files_of(const std::string& output, protocol::Rank ranks) {
@@ -197,12 +165,10 @@ class ParallelMesh {
     return plan;
   }
 
-  /// A rank with drag sleeps after a slice, for so long that it works its fraction of the time.
-  void drag(double seconds_of_slice) const {
-    const std::vector<double>& fractions = options_.parts.drag;
-    if (fractions.empty()) return;
-    const double fraction = fractions[static_cast<std::size_t>(transport_.rank())];
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds_of_slice * (1 / fraction - 1)));
+  /// The share of its time that this rank works.
+  [[nodiscard]] double own_share() const {
+    const std::vector<double>& shares = options_.parts.drag;
+    return shares.empty() ? 1 : shares[static_cast<std::size_t>(transport_.rank())];
   }
 
   void refine() {
@@ -213,9 +179,9 @@ class ParallelMesh {
       if (plan_.owners[s] == transport_.rank()) forecast += plan_.decomposition.subdomains[s].predicted;
     RankLoop::Observers observers;
     observers.stalled = [](const std::string& why) { fmt::print(stderr, "driftmesh: {}\n", why); };
-    observers.after_slice = [&](const RankLoop& loop, double seconds) {
+    observers.after_slice = [&, share = own_share()](const RankLoop& loop, const RankLoop::Slice& slice) {
       if (leader_) notes_.progress.refining(loop.triangles(), forecast);
-      drag(seconds);
+      drag(share, slice.seconds);
     };
     notes_.timed("refine", [&] {
       loop_.emplace(transport_, plan_, CostModel{}, observers);
@@ -224,34 +190,17 @@ class ParallelMesh {
   }
 
   void report() {
-    RankReport own;
-    own.rank.triangles = loop_->triangles();
-    own.rank.subdomains = static_cast<std::int32_t>(loop_->subdomains().size());
-    own.rank.interface_splits = loop_->interface_splits();
-    own.rank.protocol = loop_->protocol().counters();
-    own.rank.times = loop_->times();
-    own.rank.peak = peak_memory();
+    ByteWriter writer;
     notes_.timed("inspect", [&] {
-      held()([&](SubdomainId, const SubdomainMesh& part) { add_part(own.facts, part.mesh, plan_.bounds, true); });
-      for (const auto& [id, subdomain] : loop_->subdomains()) add_counters(own.facts, subdomain.counters());
-      own.facts.vertices = own.facts.subsegments = 0;  // shared ones count where they are owned
-      for (const SubdomainCensus& census : take_census(plan_.decomposition, held())) {
-        own.facts.vertices += owned_points(plan_.decomposition, census);
-        own.facts.subsegments += owned_subsegments(plan_.decomposition, census);
-      }
+      RankReport own = report_of(*loop_, plan_);
+      own.rank.peak = peak_memory();
+      own.write(writer);
     });
-    for (const Bytes& bytes : transport_.gather(own.pack())) add_report(RankReport::unpack(bytes));
-    run_.vertices += static_cast<std::int64_t>(plan_.decomposition.points.size());
-    run_.subdomains = static_cast<std::int32_t>(plan_.decomposition.size());
-    run_.presplit = plan_.presplit;
-  }
-
-  void add_report(const RankReport& report) {
-    add_facts(run_, report.facts);
-    run_.ranks.push_back(report.rank);
-    run_.seconds_refine = std::max(run_.seconds_refine, report.rank.times.total());
-    run_.peak += report.rank.peak;
-    run_.peak_refining = run_.peak;
+    for (const Bytes& bytes : transport_.gather(writer.take())) {
+      ByteReader reader(bytes);
+      add_report(run_, RankReport::read(reader));
+    }
+    add_plan(run_, plan_);
   }
 
   [[nodiscard]] HeldSubdomains held() const { return held_by_rank(loop_->subdomains()); }

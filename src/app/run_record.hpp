@@ -6,9 +6,8 @@
 
 #include "app/mesh_facts.hpp"
 #include "mesh/mesher.hpp"
-#include "protocol/rank_protocol.hpp"
 #include "pslg/repair_report.hpp"
-#include "runtime/rank_times.hpp"
+#include "runtime/rank_outcome.hpp"
 
 namespace driftmesh::app {
 
@@ -45,12 +44,7 @@ struct RunRecord : MeshFacts {
   std::vector<File> files;
 
   /// One rank of a parallel run.
-  struct Rank {
-    std::int64_t triangles = 0;
-    std::int32_t subdomains = 0;        ///< at the end
-    std::int64_t interface_splits = 0;  ///< points that refinement put on interfaces
-    protocol::ProtocolCounters protocol;
-    RankTimes times;
+  struct Rank : RankOutcome {
     std::uint64_t peak = 0;
   };
   std::vector<Rank> ranks;  ///< empty if there were none

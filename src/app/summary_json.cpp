@@ -85,14 +85,14 @@ Json parts_json(const RunRecord& run) {
                        {"balancing", r.times.balancing},
                        {"idle", r.times.idle}}},
                      {"interface_splits", r.interface_splits},
-                     {"splits_sent", r.protocol.splits_sent},
-                     {"splits_handled", r.protocol.splits_handled},
-                     {"split_messages_sent", r.protocol.batches_sent},
-                     {"hand_offs", r.protocol.hand_offs},
-                     {"hand_off_bytes", r.protocol.hand_off_bytes},
-                     {"arrivals", r.protocol.arrivals},
-                     {"forwarded", r.protocol.forwarded},
-                     {"held", r.protocol.held},
+                     {"splits_sent", r.counters.splits_sent},
+                     {"splits_handled", r.counters.splits_handled},
+                     {"split_messages_sent", r.counters.batches_sent},
+                     {"hand_offs", r.counters.hand_offs},
+                     {"hand_off_bytes", r.counters.hand_off_bytes},
+                     {"arrivals", r.counters.arrivals},
+                     {"forwarded", r.counters.forwarded},
+                     {"held", r.counters.held},
                      {"peak_bytes", r.peak}});
   return {{"subdomains", run.subdomains}, {"presplit", run.presplit}, {"ranks", ranks}};
 }

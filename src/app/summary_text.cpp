@@ -117,10 +117,10 @@ void add_ranks(const RunRecord& run, Text out) {
   std::int64_t splits = 0;
   for (const RunRecord::Rank& r : run.ranks) {
     splits += r.interface_splits;
-    sum.hand_offs += r.protocol.hand_offs;
-    sum.hand_off_bytes += r.protocol.hand_off_bytes;
-    sum.splits_sent += r.protocol.splits_sent;
-    sum.batches_sent += r.protocol.batches_sent;
+    sum.hand_offs += r.counters.hand_offs;
+    sum.hand_off_bytes += r.counters.hand_off_bytes;
+    sum.splits_sent += r.counters.splits_sent;
+    sum.batches_sent += r.counters.batches_sent;
   }
   fmt::format_to(out, "parts        {} on {}; interfaces {} before refinement\n", counted(run.subdomains, "subdomain"),
                  counted(static_cast<std::int64_t>(run.ranks.size()), "rank"),

@@ -29,6 +29,14 @@ std::vector<double> speeds_of(const ClusterSpec& cluster, const CostModel& costs
                   group.speed > 0 ? group.speed : reference_speed(costs));
   }
   if (speeds.empty()) throw Error("a cluster needs at least one rank");
+  if (cluster.drag.empty()) return speeds;
+  if (cluster.drag.size() != speeds.size())
+    throw Error("the cluster has " + std::to_string(speeds.size()) + " ranks, but drag for " +
+                std::to_string(cluster.drag.size()));
+  for (std::size_t r = 0; r < speeds.size(); ++r) {
+    if (!(cluster.drag[r] > 0)) throw Error("rank " + std::to_string(r) + " of the cluster is dragged to a stop");
+    speeds[r] *= cluster.drag[r];
+  }
   return speeds;
 }
 

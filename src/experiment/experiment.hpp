@@ -44,6 +44,7 @@ struct Experiment {
   std::int32_t ranks = 0;
   double speed = 0;
   std::vector<RankGroup> groups;
+  std::vector<double> drag;
   double latency = ClusterSpec{}.latency;
   double bandwidth = ClusterSpec{}.bandwidth;
   double message_overhead = ClusterSpec{}.message_overhead;
@@ -63,6 +64,7 @@ struct Experiment {
   std::int64_t seed = 1;
   std::int32_t repetitions = 1;
   bool pictures = true;
+  std::int32_t lb_phases = 0;
 };
 
 /// A value that cannot be, or cannot be together with others; `key` is the one to look at.
@@ -80,8 +82,15 @@ class KeyError : public Error {
   std::string next_;
 };
 
+/// The parameters of the policy: of those that name one, as zoltan.method does, only the ones that name this. Throws
+/// KeyError for a policy that does not exist.
+[[nodiscard]] std::map<std::string, std::string> parameters_of_policy(const Experiment& experiment);
+
 /// Throws KeyError for values that are missing or do not go together.
 void check(const Experiment& experiment);
+
+/// Throws KeyError if a run cannot be made by so many processes, which mpirun has started: 1 without it.
+void check_processes(const Experiment& experiment, std::int32_t processes);
 
 /// The cluster to simulate. A real one is whatever mpirun has started.
 [[nodiscard]] ClusterSpec cluster_of(const Experiment& experiment);

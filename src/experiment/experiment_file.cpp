@@ -76,6 +76,8 @@ class Values {
         return table(key, node);
       case Kind::kList:
         return list(key, node);
+      case Kind::kNumbers:
+        return numbers(key, node);
       case Kind::kText:
         return text(key, node);
       case Kind::kFile:
@@ -151,6 +153,13 @@ class Values {
     return table;
   }
 
+  [[nodiscard]] Json numbers(const KeyInfo& key, const YAML::Node& node) const {
+    if (!node.IsSequence()) fail(key, node, "is no list", "write for example [1, 0.5]");
+    Json list = Json::array();
+    for (const YAML::Node& item : node) list.push_back(number(key, item));
+    return list;
+  }
+
   [[nodiscard]] Json list(const KeyInfo& key, const YAML::Node& node) const {
     if (!node.IsSequence()) fail(key, node, "is no list", "write for example [{" + key.fields[0].name + ": ...}]");
     Json list = Json::array();
@@ -184,12 +193,26 @@ class Values {
   const Origin& origin_;
 };
 
+/// Does `work`; where it finds a value wrong, the error says where that was given.
+template <class Work>
+void place_errors(const ExperimentFile& file, const Work& work) {
+  try {
+    work();
+  } catch (const KeyError& error) {
+    auto place = file.places.find(error.key());
+    if (place == file.places.end()) place = file.places.find(error.key().substr(0, error.key().find('.')));
+    throw InputError({place != file.places.end() ? place->second : file.path},
+                     "'" + error.key() + "': " + error.problem(), error.next());
+  }
+}
+
 /// Reads one file with the settings of the command line.
 class Reader {
  public:
   Reader(const std::string& path, const std::vector<std::string>& settings)
       : origin_(Origin::file(path)), settings_(settings) {
     result_.base.name = std::filesystem::path(path).stem().string();
+    result_.path = path;
   }
 
   ExperimentFile read(const std::string& path) {
@@ -226,6 +249,7 @@ class Reader {
     if (!node.IsMap())
       origin_.fail(node.Mark(), "'" + name + "' has no single value", "give its keys, indented, below");
     if (!seen_.insert(name).second) origin_.fail(key.Mark(), "'" + name + "' is given twice", "join the two");
+    result_.places[name] = origin_.place(key.Mark());
     take_section(name + ".", node);
   }
 
@@ -242,7 +266,7 @@ class Reader {
       origin.fail(mark, "'" + name + "' is given twice", "remove one of them");
     if (node.IsNull()) origin.fail(mark, "'" + name + "' has no value", "give one, or remove the key");
     store(result_.base, path, Values(origin).value(path, node));
-    places_[path.key->name] = origin.place(node.Mark());
+    result_.places[path.key->name] = origin.place(node.Mark());
   }
 
   void take_sweep(const YAML::Node& node) {
@@ -262,7 +286,7 @@ class Reader {
     ExperimentFile::Axis axis{name, {}};
     for (const YAML::Node& value : values) axis.values.push_back(Values(origin).value(path, value));
     result_.sweep.push_back(std::move(axis));
-    places_[path.key->name] = origin.place(values.Mark());
+    result_.places[path.key->name] = origin.place(values.Mark());
   }
 
   void take_setting(const std::string& setting) {
@@ -273,7 +297,8 @@ class Reader {
     const YAML::Node value = origin.parse(setting.substr(equals + 1));
     const KeyPath path = known_key(origin, name, YAML::Mark::null_mark());
     std::erase_if(result_.sweep, [&](const ExperimentFile::Axis& axis) { return axis.key == name; });
-    if (value.IsSequence() && path.key->kind != Kind::kList)
+    const bool one_list = path.key->kind == Kind::kList || path.key->kind == Kind::kNumbers;
+    if (value.IsSequence() && (!one_list || (value.size() > 0 && value[0].IsSequence())))
       take_axis(origin, name, YAML::Mark::null_mark(), value);
     else
       take_key(origin, name, YAML::Mark::null_mark(), value);
@@ -292,30 +317,23 @@ class Reader {
         }
       result_.points = std::move(next);
     }
-    for (const SweepPoint& point : result_.points) check_point(point.experiment);
-  }
-
-  void check_point(const Experiment& experiment) const {
-    try {
-      check(experiment);
-    } catch (const KeyError& error) {
-      const auto place = places_.find(error.key());
-      throw InputError({place != places_.end() ? place->second : origin_.place(YAML::Mark::null_mark())},
-                       "'" + error.key() + "': " + error.problem(), error.next());
-    }
+    for (const SweepPoint& point : result_.points) place_errors(result_, [&] { check(point.experiment); });
   }
 
   Origin origin_;
   const std::vector<std::string>& settings_;
   ExperimentFile result_;
   std::set<std::string> seen_;
-  std::map<std::string, std::string> places_;  // of the values of keys
 };
 
 }  // namespace
 
 ExperimentFile read_experiment(const std::string& path, const std::vector<std::string>& settings) {
   return Reader(path, settings).read(path);
+}
+
+void check_processes(const ExperimentFile& file, std::int32_t processes) {
+  for (const SweepPoint& point : file.points) place_errors(file, [&] { check_processes(point.experiment, processes); });
 }
 
 }  // namespace driftmesh::experiment

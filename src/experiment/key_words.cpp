@@ -21,6 +21,11 @@ Json schema_of_record(const std::vector<KeyInfo>& fields) {
   return {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
 }
 
+void add_range(Json& schema, const KeyInfo& key) {
+  if (std::isfinite(key.least)) schema[key.above ? "exclusiveMinimum" : "minimum"] = key.least;
+  if (std::isfinite(key.most)) schema["maximum"] = key.most;
+}
+
 Json schema_of(const KeyInfo& key) {
   Json schema = {{"description", key.help}};
   switch (key.kind) {
@@ -47,9 +52,12 @@ Json schema_of(const KeyInfo& key) {
       schema["type"] = "array";
       schema["items"] = schema_of_record(key.fields);
       break;
+    case Kind::kNumbers:
+      schema["type"] = "array";
+      schema["items"] = {{"type", "number"}};
+      break;
   }
-  if (std::isfinite(key.least)) schema[key.above ? "exclusiveMinimum" : "minimum"] = key.least;
-  if (std::isfinite(key.most)) schema["maximum"] = key.most;
+  add_range(key.kind == Kind::kNumbers ? schema["items"] : schema, key);
   if (!key.standard.is_null()) schema["default"] = key.standard;
   return schema;
 }
@@ -60,7 +68,8 @@ std::string number_words(double value) {
 }
 
 std::string values_words(const KeyInfo& key) {
-  static constexpr const char* kWords[] = {"text", "file", "number", "whole number", "true/false", "", "table", "list"};
+  static constexpr const char* kWords[] = {"text", "file",  "number", "whole number", "true/false",
+                                           "",     "table", "list",   "numbers"};
   std::string words = kWords[static_cast<int>(key.kind)];
   for (const std::string& choice : key.choices) words += (words.empty() ? "" : ", ") + choice;
   if (std::isfinite(key.least)) words += (key.above ? " above " : " from ") + number_words(key.least);

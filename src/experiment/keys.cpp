@@ -1,5 +1,6 @@
 #include "experiment/keys.hpp"
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 using Kind = KeyInfo::Kind;
 
 constexpr double kMaxRanks = 100'000;
+constexpr std::size_t kMaxVtNodes = 32'768;  // vt's numbers of nodes have 16 bits, one of them for the sign
 
 KeyInfo in(KeyInfo info, double least, double most) {
   info.least = least;
@@ -40,6 +42,8 @@ constexpr Kind kind_of() {
     return Kind::kNumber;
   else if constexpr (std::is_same_v<Value, std::string>)
     return Kind::kText;
+  else if constexpr (std::is_same_v<Value, std::vector<double>>)
+    return Kind::kNumbers;
   else
     return Kind::kTable;
 }
@@ -147,7 +151,6 @@ std::vector<Key> make_keys() {
 
       key("mapping.method", &E::mapping, "Who starts with which subdomain", one_of({"graph", "block", "round-robin"})),
       key("mapping.by-speed", &E::mapping_by_speed, "Whether the mapping knows the speeds of the ranks"),
-
       key("mapping.by-area", &E::mapping_by_area, "Whether it deals area in place of expected work"),
 
       key("cluster.kind", &E::cluster, "Ranks in virtual time, or those that mpirun starts",
@@ -155,6 +158,8 @@ std::vector<Key> make_keys() {
       key("cluster.ranks", &E::ranks, "Ranks; 0: those of cluster.groups, or of mpirun", in(0, kMaxRanks)),
       key("cluster.speed", &E::speed, "Triangles a second that each refines; 0: like this machine", from(0)),
       groups_key(),
+      key("cluster.drag", &E::drag,
+          "Share of its speed that is left to each rank, real or simulated: [1, 0.5]; empty: all of it", in(0.01, 1)),
       key("cluster.latency", &E::latency, "Seconds from the end of sending to arrival", from(0)),
       key("cluster.bandwidth", &E::bandwidth, "Bytes a second that leave a rank", above(0)),
       key("cluster.message-overhead", &E::message_overhead, "Seconds of a rank for each message it sends or receives",
@@ -167,7 +172,8 @@ std::vector<Key> make_keys() {
       key("run.slice", &E::slice, "Points inserted between two looks at the network", in(1, 1e9)),
 
       key("balance.policy", &E::policy, "Who decides what moves (docs/balancing.md)", one_of(balancer::policy_names())),
-      key("balance.parameters", &E::policy_parameters, "Of the policy: {method: graph}"),
+      key("balance.parameters", &E::policy_parameters,
+          "Of the policy: {method: graph}; of one that is swept over: {zoltan.method: graph}"),
       key("balance.look", &E::balance_look, "Seconds between two looks of a rank at its own load", above(0)),
       key("balance.gap", &E::balance_gap, "Seconds between two reports of a rank, and between two plans, at least",
           from(0)),
@@ -178,6 +184,9 @@ std::vector<Key> make_keys() {
       key("seed", &E::seed, "Of what is random: the skew; each repetition adds one", from(0)),
       key("repetitions", &E::repetitions, "How often each run is made", in(1, 1000)),
       key("pictures", &E::pictures, "Whether runs are drawn"),
+      key("lb-statistics", &E::lb_phases,
+          "Phases into which the statistics of runs for DARMA vt's tools are divided; 0: there are none",
+          in(0, 10'000)),
   };
 }
 
@@ -212,6 +221,20 @@ void store(Experiment& experiment, const KeyPath& path, const Json& value) {
   path.key->store(experiment, table);
 }
 
+std::map<std::string, std::string> parameters_of_policy(const Experiment& e) {
+  std::map<std::string, std::string> parameters;
+  const std::vector<std::string> policies = balancer::policy_names();
+  for (const auto& [name, value] : e.policy_parameters) {
+    const std::size_t dot = name.find('.');
+    const std::string policy = dot == std::string::npos ? e.policy : name.substr(0, dot);
+    if (std::find(policies.begin(), policies.end(), policy) == policies.end())
+      throw KeyError("balance.parameters", "there is no policy '" + policy + "'",
+                     "the nearest one is '" + nearest_name(policy, policies) + "'");
+    if (policy == e.policy) parameters[dot == std::string::npos ? name : name.substr(dot + 1)] = value;
+  }
+  return parameters;
+}
+
 void check(const Experiment& e) {
   const auto require = [](bool holds, const char* key, const char* what, const char* next) {
     if (!holds) throw KeyError(key, what, next);
@@ -219,7 +242,9 @@ void check(const Experiment& e) {
   require(!e.input_file.empty() || !e.generator.empty(), "input.file", "no domain is given",
           "name a file with input.file, or what to generate with input.generate");
   try {
-    static_cast<void>(balancer::make_policy(e.policy, e.policy_parameters));
+    static_cast<void>(balancer::make_policy(e.policy, parameters_of_policy(e)));
+  } catch (const KeyError&) {
+    throw;
   } catch (const Error& error) {
     throw KeyError("balance.parameters", error.what(), "see docs/balancing.md");
   }
@@ -243,18 +268,45 @@ void check(const Experiment& e) {
   require(e.decomposition_file.empty() || (e.subdomains == 0 && e.subdomains_per_rank == 0), "decomposition.file",
           "a decomposition is given, and how to make one", "remove one");
   require(e.groups.empty() || e.speed == 0, "cluster.speed", "each of cluster.groups has its own speed", "remove one");
-  require(e.groups.empty() || e.ranks == 0 || e.ranks == ranks_of({e.groups}), "cluster.ranks",
+  require(e.groups.empty() || e.ranks == 0 || e.ranks == ranks_of(cluster_of(e)), "cluster.ranks",
           "cluster.groups has another number of ranks", "remove one");
   require(e.cluster == "real" || !e.groups.empty() || e.ranks > 0, "cluster.ranks", "a cluster without ranks",
           "give their number, or cluster.groups");
-  require(e.cluster == "simulated" || (e.groups.empty() && e.speed == 0), "cluster.groups",
-          "a real cluster has the speeds that it has", "remove it, or simulate");
+  require(e.cluster == "simulated" || e.groups.empty(), "cluster.groups", "a real cluster has the speeds that it has",
+          "remove it, or simulate");
+  require(e.cluster == "simulated" || e.speed == 0, "cluster.speed", "a real cluster has the speed that it has",
+          "remove it, or simulate");
+  const auto ranks = static_cast<std::size_t>(ranks_of(cluster_of(e)));
+  require(e.drag.empty() || ranks == 0 || e.drag.size() == ranks, "cluster.drag",
+          "it is not for as many ranks as there are", "give one share for each rank");
+  require(e.lb_phases == 0 || ranks <= kMaxVtNodes, "lb-statistics", "vt's files know no more than 32768 ranks",
+          "remove it, or take fewer ranks");
+}
+
+void check_processes(const Experiment& e, std::int32_t processes) {
+  const auto started = "mpirun has started " + std::to_string(processes) + (processes == 1 ? " process" : " processes");
+  if (e.cluster == "simulated") {
+    if (processes > 1)
+      throw KeyError("cluster.kind", "a simulated cluster is one process, and " + started,
+                     "start it without mpirun, or write kind: real");
+    return;
+  }
+  if (e.ranks > 0 && e.ranks != processes)
+    throw KeyError("cluster.ranks",
+                   processes == 1 ? "this process is alone, not one of " + std::to_string(e.ranks)
+                                  : started + ", not " + std::to_string(e.ranks),
+                   "start it with mpirun -n " + std::to_string(e.ranks) + ", or remove the key");
+  if (!e.drag.empty() && e.drag.size() != static_cast<std::size_t>(processes))
+    throw KeyError("cluster.drag",
+                   "it is for " + std::to_string(e.drag.size()) + " ranks, and there are " + std::to_string(processes),
+                   "start it with mpirun -n " + std::to_string(e.drag.size()));
 }
 
 ClusterSpec cluster_of(const Experiment& e) {
   ClusterSpec cluster;
   cluster.groups = e.groups;
   if (cluster.groups.empty()) cluster.groups = {{"all", e.ranks, e.speed}};
+  cluster.drag = e.drag;
   cluster.latency = e.latency;
   cluster.bandwidth = e.bandwidth;
   cluster.message_overhead = e.message_overhead;

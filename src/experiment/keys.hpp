@@ -22,8 +22,9 @@ struct KeyInfo {
     kInteger,
     kFlag,
     kChoice,
-    kTable,  ///< names and values, known to what reads them
-    kList,   ///< of tables with the keys of `fields`
+    kTable,    ///< names and values, known to what reads them
+    kList,     ///< of tables with the keys of `fields`
+    kNumbers,  ///< a list, each from `least` to `most`
   };
   std::string name;  ///< with its sections: "bounds.angle"
   std::string help;

@@ -51,7 +51,7 @@ Decomposition decomposition_of(const Experiment& e, const Prepared& run, const T
 Balancing balancing_of(const Experiment& e) {
   Balancing balancing;
   balancing.policy = e.policy;
-  balancing.parameters = e.policy_parameters;
+  balancing.parameters = parameters_of_policy(e);
   balancing.options.look = e.balance_look;
   balancing.options.gap = e.balance_gap;
   balancing.options.interval = e.balance_interval;

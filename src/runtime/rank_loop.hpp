@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "protocol/rank_step.hpp"
 #include "protocol/transport.hpp"
 #include "runtime/agenda.hpp"
+#include "runtime/rank_outcome.hpp"
 #include "runtime/rank_times.hpp"
 #include "runtime/run_plan.hpp"
 #include "runtime/watchdog.hpp"
@@ -31,13 +33,26 @@ namespace driftmesh {
 template <class Rules>
 class BasicRankLoop {
  public:
+  /// A slice of work that was done.
+  struct Slice {
+    SubdomainId subdomain = 0;
+    double seconds = 0;
+    std::span<const protocol::SplitEntry> said;  ///< points that it put on interfaces
+  };
+  /// A subdomain that leaves this rank or has come to it; `epoch` is the one that begins with this move.
+  struct Passage {
+    SubdomainId subdomain = 0;
+    protocol::Epoch epoch = 0;
+    protocol::Rank to = 0;
+    std::size_t bytes = 0;  ///< its packed size
+  };
   /// What the loop tells its surroundings; each may be empty.
   struct Observers {
-    std::function<void(const BasicRankLoop&, double seconds)> after_slice;  ///< work was done, in so much time
+    std::function<void(const BasicRankLoop&, const Slice&)> after_slice;
     /// Nothing has moved for a minute: what this rank waits for, and what waits here.
     std::function<void(const std::string&)> stalled;
-    std::function<void(SubdomainId, protocol::Rank to, std::size_t bytes)> handed_over;  ///< it leaves, packed
-    std::function<void(SubdomainId)> settled;                                            ///< it has come here
+    std::function<void(const BasicRankLoop&, const Passage&)> handed_over;
+    std::function<void(const BasicRankLoop&, const Passage&)> settled;
   };
 
   /// `transport` and `plan` must outlive the loop.
@@ -71,7 +86,7 @@ class BasicRankLoop {
     transport_.spend(static_cast<double>(packed.size()) * costs_.packed_byte);
     agenda_.remove(id);
     subdomains_.erase(place);
-    if (observers_.handed_over) observers_.handed_over(id, to, packed.size());
+    if (observers_.handed_over) observers_.handed_over(*this, {id, protocol_.where(id).epoch + 1, to, packed.size()});
     protocol_.hand_off(id, to, std::move(packed));
     return true;
   }
@@ -98,6 +113,12 @@ class BasicRankLoop {
   [[nodiscard]] std::int64_t triangles() const { return triangles_; }  ///< of all subdomains here
   /// Points that refinement put on interfaces here, whoever holds the other side.
   [[nodiscard]] std::int64_t interface_splits() const { return interface_splits_; }
+  /// What this rank came to so far.
+  [[nodiscard]] RankOutcome outcome() const {
+    return {
+        times_,    protocol_.counters(), triangles_, static_cast<std::int32_t>(subdomains_.size()), interface_splits_,
+        messages_, message_bytes_};
+  }
   /// Whether something here is work, or will become some.
   [[nodiscard]] bool at_work() const {
     return !agenda_.empty() || protocol_.aggregated() > 0 || protocol_.held_groups() > 0;
@@ -143,7 +164,8 @@ class BasicRankLoop {
     }
     transport_.spend(static_cast<double>(arrival.packed.size()) * costs_.packed_byte);
     charge(&RankTimes::balancing);
-    if (observers_.settled) observers_.settled(arrival.subdomain);
+    if (observers_.settled)
+      observers_.settled(*this, {arrival.subdomain, arrival.epoch, transport_.rank(), arrival.packed.size()});
   }
 
   /// A slice of the subdomain whose turn it is. False if none has anything to do.
@@ -169,7 +191,7 @@ class BasicRankLoop {
     }
     interface_splits_ += static_cast<std::int64_t>(said_.size());
     for (const protocol::SplitEntry& entry : said_) tell_across(*id, entry);
-    if (observers_.after_slice) observers_.after_slice(*this, transport_.now() - start);
+    if (observers_.after_slice) observers_.after_slice(*this, {*id, transport_.now() - start, said_});
     speed_.add(static_cast<double>(done.triangles), transport_.now() - start);
     return true;
   }
@@ -209,7 +231,12 @@ class BasicRankLoop {
 
   bool send() {
     const auto outgoing = protocol_.take_outgoing();
-    for (const protocol::Outgoing& o : outgoing) transport_.send(o.destination, protocol::encode(o.message));
+    for (const protocol::Outgoing& o : outgoing) {
+      protocol::Bytes bytes = protocol::encode(o.message);
+      ++messages_;
+      message_bytes_ += bytes.size();
+      transport_.send(o.destination, std::move(bytes));
+    }
     return !outgoing.empty();
   }
 
@@ -244,6 +271,7 @@ class BasicRankLoop {
   std::vector<protocol::SplitEntry> said_;
   std::int64_t triangles_ = 0;
   std::int64_t interface_splits_ = 0;
+  std::uint64_t messages_ = 0, message_bytes_ = 0;
   RankTimes times_;
   double clock_;  // when time was charged last
   Watchdog watchdog_{kWatchdogSeconds};

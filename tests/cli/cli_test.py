@@ -78,6 +78,11 @@ class Cli(unittest.TestCase):
             self.assertIn(word, result.stderr)
         return result
 
+    def on_ranks(self, ranks, *arguments):
+        return subprocess.run(["mpiexec", "-n", str(ranks), PROGRAM, *map(str, arguments)], cwd=self.folder,
+                              capture_output=True, text=True, errors="replace", timeout=MESHER_SECONDS, check=False,
+                              env=RANKS_ENVIRONMENT)
+
     def write(self, name, text):
         path = self.folder / name
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
@@ -403,11 +408,6 @@ class Mesh(Cli):
         self.assertAlmostEqual(angle["worst_angle"], 5, places=6)
         self.assertEqual(angle["places"], [[0.5, 0.5]])
 
-    def on_ranks(self, ranks, *arguments):
-        return subprocess.run(["mpiexec", "-n", str(ranks), PROGRAM, *map(str, arguments)], cwd=self.folder,
-                              capture_output=True, text=True, errors="replace", timeout=MESHER_SECONDS, check=False,
-                              env=RANKS_ENVIRONMENT)
-
     def test_a_mesh_in_parts_is_the_same_on_any_number_of_ranks(self):
         self.succeed("generate", "bay", "--resolution", "1000", "-o", "bay.poly")
         digests = set()
@@ -496,7 +496,10 @@ class Experiments(Cli):
         "first-run": ["bounds.triangles=2e4"],
         "aggregation": ["bounds.triangles-per-rank=2e3", "decomposition.subdomains-per-rank=10", "cluster.ranks=4",
                         "run.aggregation=[1, 16, 1024]"],
-        "sciclone-144": ["bounds.triangles-per-rank=500", "decomposition.subdomains=300"],
+        "sciclone-144": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
+        "modern-1024": ["bounds.triangles-per-rank=30", "decomposition.subdomains-per-rank=2",
+                        "balance.policy=[none, greedy]"],
+        "two-ranks": ["bounds.triangles=2e4"],
         "two-speeds": ["bounds.triangles-per-rank=5e3"],
         "corner-refinement": ["sizing.size=\"x < 0.45 && y < 0.45 ? 0.006 : 0.05\"",
                               "decomposition.subdomains-per-rank=10"],
@@ -574,6 +577,156 @@ class Experiments(Cli):
         self.assertAlmostEqual(worked / 1e6, computing, delta=0.01 * computing)
         for picture in ("moves", "owners-after"):
             self.assertTrue((self.folder / "results" / f"run-1-{picture}.png").exists())
+
+    def run_on_ranks(self, ranks, *settings, folder="results"):
+        arguments = [word for setting in ("cluster.kind=real", *settings) for word in ("--set", setting)]
+        result = self.on_ranks(ranks, "run", self.CONFIGS / "two-ranks.yaml", "-o", folder, *arguments)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return result.stdout
+
+    def test_real_ranks_make_the_same_files_and_the_same_mesh(self):
+        settings = ["bounds.triangles=4e5", "decomposition.subdomains=60", "cluster.drag=[1, 0.2]", "lb-statistics=2"]
+        said = self.run_on_ranks(2, *settings, folder="real")
+        self.run_config("two-ranks", *settings, pictures=True, folder="simulated")
+        rows = self.table("real")
+        self.assertEqual([row["balance.policy"] for row in rows], ["none", "stealing", "zoltan"])
+        self.assertEqual(list(rows[0]), list(self.table("simulated")[0]))
+        self.assertEqual(said.count("\n|"), len(rows) + 1)
+        moves = {f"run-{run}-{what}.png" for run in (1, 2, 3) for what in ("moves", "owners-after")}
+        files = [{str(path.relative_to(self.folder / folder)) for path in (self.folder / folder).rglob("*")} - moves
+                 for folder in ("real", "simulated")]
+        self.assertEqual(*files)
+        for row in rows:
+            record, simulated = (json.loads((self.folder / folder / f"{row['run']}.json").read_text())
+                                 for folder in ("real", "simulated"))
+            self.assertEqual(record["mesh"]["digest"], simulated["mesh"]["digest"])
+            self.assertEqual(record["mesh"]["vertices"], simulated["mesh"]["vertices"])
+            self.assertEqual(list(record["cluster"]), list(simulated["cluster"]))
+            ranks, cluster = record["parts"]["ranks"], record["cluster"]
+            self.assertEqual(len(ranks), 2)
+            self.assertEqual(sum(rank["triangles"] for rank in ranks), record["mesh"]["triangles"])
+            self.assertEqual(float(row["seconds"]), cluster["seconds"])
+            self.assertGreaterEqual(cluster["seconds"], max(rank["seconds"]["computing"] for rank in ranks))
+            owners = cluster["owners_before"]
+            for move in cluster["moves"]:
+                self.assertEqual(owners[move["subdomain"]], move["from"])
+                self.assertLess(move["left"], move["arrived"])
+                owners[move["subdomain"]] = move["to"]
+            self.assertEqual(owners, cluster["owners_after"])
+        # A rank that sleeps most of its time makes fewer triangles a second; how many, the other load decides too.
+        record = json.loads((self.folder / "real" / "run-1.json").read_text())
+        self.assertAlmostEqual(record["cluster"]["speeds"][0], 5 * record["cluster"]["speeds"][1], delta=1)
+        free, dragged = (rank["triangles"] / rank["seconds"]["computing"] for rank in record["parts"]["ranks"])
+        self.assertGreater(free, 1.5 * dragged)
+
+    def test_one_process_is_a_real_cluster_too(self):
+        self.run_config("two-ranks", "cluster.kind=real", "cluster.ranks=0", "cluster.drag=[]", "bounds.triangles=2e4",
+                        "balance.policy=none")
+        self.assertEqual(self.table()[0]["ranks"], "1")
+        self.assertEqual(self.table()[0]["messages"], "0")
+
+    def test_what_ranks_cannot_run_is_said_once_with_its_place(self):
+        config = self.write("both.yaml", "input: {generate: pipe}\nbounds: {triangles: 2e4}\ncluster:\n  kind: simulated\n"
+                            "  ranks: 3\n  drag: [1, 1, 0.5]\n")
+        real = ["--set", "cluster.kind=real"]
+        for settings, place, message in (
+                ([], "both.yaml:4:9:", "a simulated cluster is one process, and mpirun has started 2"),
+                (real, "both.yaml:5:10:", "mpirun has started 2 processes, not 3"),
+                ([*real, "--set", "cluster.ranks=0"], "both.yaml:6:9:", "for 3 ranks, and there are 2"),
+                ([*real, "--set", "cluster.speed=1e6"], "--set cluster.speed=1e6", "the speed that it has"),
+                (["--set", "sizing.background=missing"], "missing", "")):
+            if settings[-1:] == ["sizing.background=missing"]:
+                settings = [*real, "--set", "cluster.ranks=2", "--set", "cluster.drag=[]", *settings]
+            result = self.on_ranks(2, "run", config, *settings)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertEqual(result.stderr.count("driftmesh: "), 1, result.stderr)
+            self.assertIn(place, result.stderr)
+            self.assertIn(message, result.stderr)
+            self.assertEqual(result.stdout, "")
+        self.refuse("run", config, *real, says=["both.yaml:5:10:", "mpirun -n 3"])
+        self.refuse("run", config, "--set", "cluster.drag=[1, 0.5]", says=["'cluster.drag'", "one share for each rank"])
+        self.refuse("run", config, "--set", "cluster.drag=[1, 2, 0.5]", says=["is 2", "at most 1"])
+        missing = self.on_ranks(2, "run", "missing.yaml")
+        self.assertEqual((missing.returncode, missing.stderr.count("driftmesh: ")), (1, 1), missing.stderr)
+
+    def test_drag_is_a_lower_speed_in_simulation(self):
+        self.run_config("two-ranks", "bounds.triangles=2e4", "balance.policy=none", folder="dragged")
+        self.run_config("two-ranks", "bounds.triangles=2e4", "balance.policy=none", "cluster.ranks=0", "cluster.drag=[]",
+                        "cluster.groups=[{ranks: 1, speed: 2e6}, {ranks: 1, speed: 1e6}]", folder="slow")
+        self.run_config("two-ranks", "bounds.triangles=2e4", "balance.policy=none", "cluster.speed=2e6", folder="both")
+        speeds = [json.loads((self.folder / folder / "run-1.json").read_text())["cluster"]["speeds"]
+                  for folder in ("dragged", "slow", "both")]
+        self.assertEqual(speeds[0][0], 2 * speeds[0][1])
+        self.assertEqual(speeds[1], speeds[2])
+        self.assertEqual(self.table("slow")[0]["seconds"], self.table("both")[0]["seconds"])
+
+    def test_the_table_says_what_each_policy_recovers(self):
+        said = self.run_config("two-ranks", "bounds.triangles=2e5", "decomposition.subdomains=60",
+                               "decomposition.skew=[0, 0.5]", "balance.policy=[stealing, none]")
+        self.assertIn("recovered %", said)
+        for skew in 0, 2:
+            stealing, none = self.table()[skew:skew + 2]
+            self.assertEqual(none["recovered"], "")
+            possible = float(none["seconds"]) - float(none["ideal_seconds"])
+            self.assertAlmostEqual(float(stealing["recovered"]) * possible,
+                                   float(none["seconds"]) - float(stealing["seconds"]))
+            self.assertGreater(float(stealing["recovered"]), 0.5)
+        self.assertNotIn("recovered", self.run_config("first-run", *self.SHRUNK["first-run"]))
+
+    def test_statistics_for_load_balancing_research(self):
+        phases = 4
+        self.run_config("migration-stress", "balance.policy=stealing", f"lb-statistics={phases}")
+        record = json.loads((self.folder / "results" / "run-1.json").read_text())
+        ranks, subdomains = record["parts"]["ranks"], record["parts"]["subdomains"]
+        self.assertGreater(len(record["cluster"]["moves"]), 0)
+        folder = self.folder / "results" / "run-1.lb-stats"
+        self.assertEqual({path.name for path in folder.iterdir()}, {f"data.{r}.json" for r in range(len(ranks))})
+        files = [json.loads((folder / f"data.{r}.json").read_text()) for r in range(len(ranks))]
+        said = elsewhere = 0
+        for rank, file in enumerate(files):
+            self.assertEqual((file["metadata"]["type"], file["metadata"]["rank"]), ("LBDatafile", rank))
+            self.assertEqual([phase["id"] for phase in file["phases"]], list(range(phases)))
+            for phase in file["phases"]:
+                self.check_lb_phase(phase, rank)
+                self.assertLessEqual(sum(task["time"] for task in phase["tasks"]),
+                                     record["cluster"]["seconds"] / phases * (1 + 1e-9))
+                elsewhere += sum(task["time"] > 0 for task in phase["tasks"] if not task["entity"]["migratable"])
+                said += sum(edge["messages"] for edge in phase.get("communications", []))
+            worked = sum(task["time"] for phase in file["phases"] for task in phase["tasks"])
+            # What takes no slice of work, such as taking note of points, is in computing alone.
+            self.assertAlmostEqual(worked, ranks[rank]["seconds"]["computing"], delta=1e-9 + 1e-3 * worked)
+        self.assertGreater(elsewhere, 0)  # subdomains worked on several ranks within a phase
+        self.assertEqual(said, sum(rank["interface_splits"] for rank in ranks))
+        for number in range(phases):  # each subdomain is one task, wherever it is
+            movable = [task["entity"]["index"] for file in files for task in file["phases"][number]["tasks"]
+                       if task["entity"]["migratable"]]
+            self.assertEqual(sorted(movable), [[s] for s in range(subdomains)])
+            ids = [task["entity"]["id"] for file in files for task in file["phases"][number]["tasks"]]
+            self.assertEqual(len(ids), len(set(ids)))
+
+    def check_lb_entity(self, entity):
+        known = {"collection_id", "home", "id", "index", "migratable", "type", "objgroup_id", "seq_id"}
+        self.assertLessEqual(set(entity), known)
+        self.assertEqual(entity["type"], "object")
+        self.assertIs(type(entity["id"]), int)
+        self.assertIs(type(entity["migratable"]), bool)
+        self.assertEqual(entity["id"] >> 2 & 0xffff, entity["home"])  # as vt's own numbers say it
+        self.assertEqual(entity["id"] & 3, 3 if entity["migratable"] else 1)
+        if entity["migratable"]:
+            self.assertIs(type(entity["collection_id"]), int)
+
+    def check_lb_phase(self, phase, rank):
+        """The structure that vt's validator asks for: these fields, of these types."""
+        self.assertLessEqual(set(phase), {"id", "tasks", "communications", "user_defined"})
+        for task in phase["tasks"]:
+            self.assertLessEqual(set(task), {"entity", "node", "resource", "subphases", "time", "user_defined"})
+            self.assertEqual((task["node"], task["resource"], type(task["time"])), (rank, "cpu", float))
+            self.check_lb_entity(task["entity"])
+        for edge in phase.get("communications", []):
+            self.assertEqual(set(edge), {"type", "from", "to", "messages", "bytes"})
+            self.assertEqual((edge["type"], type(edge["messages"]), type(edge["bytes"])), ("SendRecv", int, float))
+            self.check_lb_entity(edge["from"])
+            self.check_lb_entity(edge["to"])
 
     def test_a_dry_run_prints_and_does_nothing(self):
         said = self.succeed("run", self.CONFIGS / "scaled-speedup.yaml", "--dry-run")

@@ -76,8 +76,8 @@ TEST_CASE("The summary of a run on ranks has a row a rank, or the extremes of ma
   run.ranks.resize(2);
   run.ranks[1].triangles = 7654321;
   run.ranks[0].interface_splits = 30;
-  run.ranks[1].protocol.splits_sent = 12;
-  run.ranks[1].protocol.batches_sent = 1;
+  run.ranks[1].counters.splits_sent = 12;
+  run.ranks[1].counters.batches_sent = 1;
   std::string text = summary_text(run);
   for (const char* expected :
        {"40 subdomains on 2 ranks",

@@ -47,6 +47,13 @@ TEST_CASE("speeds and groups follow the numbers of the ranks") {
   CHECK(speeds_of(cluster, costs) == std::vector<double>{100e3, 100e3, reference_speed(costs)});
   CHECK(groups_of(cluster) == std::vector<std::size_t>{0, 0, 1});
   CHECK_THROWS_AS(static_cast<void>(speeds_of({}, costs)), Error);
+  cluster.drag = {1, 0.5, 0.1};
+  CHECK(speeds_of(cluster, costs) == std::vector<double>{100e3, 50e3, 0.1 * reference_speed(costs)});
+  cluster.drag = {1, 1};
+  CHECK_THROWS_AS(static_cast<void>(speeds_of(cluster, costs)), Error);
+  cluster.drag = {1, 0, 1};
+  CHECK_THROWS_AS(static_cast<void>(speeds_of(cluster, costs)), Error);
+  cluster.drag.clear();
   cluster.groups[0].ranks = 0;
   CHECK_THROWS_AS(static_cast<void>(speeds_of(cluster, costs)), Error);
   cluster.groups[0] = {"backwards", 1, -1};
@@ -59,11 +66,11 @@ TEST_CASE("a simulated run is the same each time, and its figures belong togethe
   std::size_t finished = 0;
   SimulationObservers observers;
   observers.progress = [&](std::int64_t now) { last_progress = now; };
-  observers.finished = [&](const Subdomain& s) {
-    ++finished;
-    triangles += s.triangles();
+  observers.finished = [&](const RankLoop& rank) {
+    finished += rank.subdomains().size();
+    for (const auto& [id, subdomain] : rank.subdomains()) triangles += subdomain.triangles();
   };
-  const SimulatedRun run = simulate(plan, equal_ranks(6), {}, observers);
+  const ClusterRun run = simulate(plan, equal_ranks(6), {}, observers);
   CHECK(finished == plan.decomposition.size());
   CHECK(run.triangles() == triangles);
   CHECK(last_progress == triangles);
@@ -79,15 +86,15 @@ TEST_CASE("a simulated run is the same each time, and its figures belong togethe
   }
   CHECK(sent > 0);
   CHECK(sent == handled);
-  const SimulatedRun again = simulate(plan, equal_ranks(6));
+  const ClusterRun again = simulate(plan, equal_ranks(6));
   CHECK(again.makespan == run.makespan);
-  CHECK(again.steps == run.steps);
-  CHECK(again.bytes == run.bytes);
+  CHECK(again.messages() == run.messages());
+  CHECK(again.message_bytes() == run.message_bytes());
 }
 
 TEST_CASE("samples show the load of each rank go from its forecast to nothing") {
   const RunPlan plan = pipe_plan(40e3, 4, 40, Presplit::kOn);
-  const SimulatedRun run = simulate(plan, equal_ranks(4));
+  const ClusterRun run = simulate(plan, equal_ranks(4));
   std::map<protocol::Rank, LoadSample> first, last;
   double time = 0;
   for (const LoadSample& s : run.samples) {
@@ -111,10 +118,10 @@ TEST_CASE("samples show the load of each rank go from its forecast to nothing") 
 TEST_CASE("a rank of half the speed computes twice as long") {
   const RunPlan plan = pipe_plan(40e3, 2, 40, Presplit::kOn);
   ClusterSpec cluster = equal_ranks(2);
-  const SimulatedRun equal = simulate(plan, cluster);
+  const ClusterRun equal = simulate(plan, cluster);
   const double speed = reference_speed({});
   cluster.groups = {{"fast", 1, speed}, {"slow", 1, speed / 2}};
-  const SimulatedRun unequal = simulate(plan, cluster);
+  const ClusterRun unequal = simulate(plan, cluster);
   CHECK(unequal.ranks[0].times.computing == doctest::Approx(equal.ranks[0].times.computing));
   CHECK(unequal.ranks[1].times.computing == doctest::Approx(2 * equal.ranks[1].times.computing));
   CHECK(unequal.makespan == doctest::Approx(2 * equal.makespan).epsilon(0.1));

@@ -142,6 +142,59 @@ TEST_CASE("what cannot be together is told where one of them is given") {
             .find("'bounds.triangles': the size of triangles is asked for twice") != std::string::npos);
 }
 
+TEST_CASE("a list of numbers is one value, and lists of lists are swept over") {
+  const Files files;
+  CHECK(files.read(std::string(kLeast), {"cluster.drag=[1, 0.5]"}).base.drag == std::vector<double>{1, 0.5});
+  CHECK(files.read(std::string(kLeast), {"cluster.drag=[]"}).base.drag.empty());
+  const ExperimentFile swept = files.read(kLeast, {"cluster.drag=[[1, 1], [1, 0.25]]"});
+  REQUIRE(swept.points.size() == 2);
+  CHECK(swept.points[1].experiment.drag == std::vector<double>{1, 0.25});
+  CHECK(message_for("input: {generate: pipe}\ncluster: {ranks: 2, drag: [1, slow]}\n") ==
+        "test.yaml:2:31: 'cluster.drag' is 'slow'; give a number");
+  CHECK(message_for("input: {generate: pipe}\ncluster: {ranks: 2, drag: 0.5}\n").find("'cluster.drag' is no list") !=
+        std::string::npos);
+  CHECK(message_for("input: {generate: pipe}\ncluster: {ranks: 2, drag: [1, 0]}\n").find("at least 0.01") !=
+        std::string::npos);
+  CHECK(message_for("input: {generate: pipe}\ncluster: {ranks: 3, drag: [1, 1]}\n").find("test.yaml:2:27: ") == 0);
+}
+
+TEST_CASE("a parameter that names a policy is that policy's alone") {
+  const Files files;
+  const ExperimentFile file = files.read(kLeast, {"balance.parameters={zoltan.method: rcb, greedy.tolerance: 0.1}",
+                                                  "balance.policy=[none, zoltan, greedy]"});
+  REQUIRE(file.points.size() == 3);
+  const auto parameters = [&](std::size_t point) { return parameters_of_policy(file.points[point].experiment); };
+  CHECK(parameters(0).empty());
+  CHECK(parameters(1) == std::map<std::string, std::string>{{"method", "rcb"}});
+  CHECK(parameters(2) == std::map<std::string, std::string>{{"tolerance", "0.1"}});
+  CHECK(message_for(kLeast, {"balance.parameters={zoltn.method: rcb}"}).find("the nearest one is 'zoltan'") !=
+        std::string::npos);
+  CHECK(message_for(kLeast, {"balance.policy=zoltan", "balance.parameters={zoltan.methd: rcb}"}).find("methd") !=
+        std::string::npos);
+}
+
+TEST_CASE("processes that do not fit an experiment are refused where it says what it needs") {
+  const Files files;
+  const auto message = [&](const std::string& yaml, std::int32_t processes) {
+    try {
+      check_processes(files.read(yaml), processes);
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      return text.substr(text.find("test.yaml"));
+    }
+    return std::string("none");
+  };
+  const std::string input = "input: {generate: pipe}\n";
+  CHECK(message(input + "cluster: {ranks: 2}\n", 1) == "none");
+  CHECK(message(input + "cluster: {ranks: 2}\n", 2).find("test.yaml:2:1: 'cluster.kind'") == 0);
+  CHECK(message(input + "cluster: {kind: real}\n", 5) == "none");
+  CHECK(message(input + "cluster: {kind: real, ranks: 2}\n", 2) == "none");
+  CHECK(message(input + "cluster: {kind: real, ranks: 2}\n", 3).find("test.yaml:2:30: 'cluster.ranks'") == 0);
+  CHECK(message(input + "cluster: {kind: real, drag: [1, 0.5]}\n", 2) == "none");
+  CHECK(message(input + "cluster: {kind: real, drag: [1, 0.5]}\n", 3).find("test.yaml:2:29: 'cluster.drag'") == 0);
+  CHECK(message(input + "cluster: {ranks: 1}\nsweep: {cluster.kind: [real, simulated]}\n", 1) == "none");
+}
+
 TEST_CASE("an experiment in full reads back as itself") {
   const Files files;
   const ExperimentFile file = files.read(

@@ -1,0 +1,163 @@
+#include "app/lb_statistics.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "protocol/codec.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+using experiment::Json;
+using protocol::Rank;
+
+constexpr double kSplitBytes = protocol::kSplitEntryBytes;
+constexpr int kCollection = 1;  // that all subdomains belong to
+
+// vt's numbers of objects: two bits for the kind, sixteen for the rank they are at home on, the rest their own number.
+constexpr std::int64_t kFixedObject = 1, kMovableObject = 3;
+std::int64_t object_id(std::int64_t number, Rank home, std::int64_t kind) {
+  return number << 18 | std::int64_t{home} << 2 | kind;
+}
+
+/// What happened in one phase.
+struct Phase {
+  std::map<SubdomainId, std::map<Rank, double>> worked;              // seconds
+  std::map<std::pair<SubdomainId, SubdomainId>, std::int64_t> told;  // points on interfaces, by from and to
+  std::vector<Rank> holder;                                          // of each subdomain, at its end
+
+  /// Where a subdomain counts as a task.
+  [[nodiscard]] Rank place_of(SubdomainId s) const {
+    const auto work = worked.find(s);
+    if (work == worked.end()) return holder[static_cast<std::size_t>(s)];
+    return std::max_element(work->second.begin(), work->second.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+  }
+};
+
+class Phases {
+ public:
+  explicit Phases(const ExperimentRun& run)
+      : run_(run),
+        phases_(static_cast<std::size_t>(run.experiment.lb_phases)),
+        length_(run.outcome.makespan / static_cast<double>(phases_.size())) {
+    for (const LoadSample& s : run.outcome.samples)
+      if (s.worked > 0) add_work(s);
+    for (const SplitRecord& s : run.outcome.splits) phases_[phase_at(s.time)].told[{s.from, s.to}] += s.points;
+    std::vector<Rank> holder = run.plan.owners;
+    auto move = run.outcome.moves.begin();
+    for (std::size_t p = 0; p < phases_.size(); ++p) {
+      for (; move != run.outcome.moves.end() && phase_at(move->left) <= p; ++move)
+        holder[static_cast<std::size_t>(move->subdomain)] = move->to;
+      phases_[p].holder = holder;
+    }
+  }
+
+  /// What each rank's file says of each phase.
+  [[nodiscard]] std::vector<Json> json() const {
+    std::vector<Json> of_rank(run_.outcome.ranks.size(), Json::array());
+    for (std::size_t p = 0; p < phases_.size(); ++p) {
+      std::vector<Json> parts = phase_json(phases_[p]);
+      for (std::size_t r = 0; r < parts.size(); ++r) {
+        parts[r]["id"] = p;
+        of_rank[r].push_back(std::move(parts[r]));
+      }
+    }
+    return of_rank;
+  }
+
+ private:
+  [[nodiscard]] std::size_t phase_at(double time) const {
+    return std::min(static_cast<std::size_t>(std::max(time, 0.0) / length_), phases_.size() - 1);
+  }
+
+  /// A slice of work, which may lie in several phases.
+  void add_work(const LoadSample& s) {
+    const double begin = s.time - s.worked;
+    const std::size_t last = phase_at(s.time);
+    for (std::size_t p = phase_at(begin); p <= last; ++p) {
+      const double from = std::max(begin, length_ * static_cast<double>(p));
+      const double to = p == last ? s.time : length_ * static_cast<double>(p + 1);
+      if (to > from) phases_[p].worked[s.subdomain][s.rank] += to - from;
+    }
+  }
+
+  [[nodiscard]] Json entity(SubdomainId s) const {
+    const Rank home = run_.plan.owners[static_cast<std::size_t>(s)];
+    return {{"collection_id", kCollection},
+            {"home", home},
+            {"id", object_id(s + 1, home, kMovableObject)},
+            {"index", {s}},
+            {"migratable", true},
+            {"type", "object"}};
+  }
+
+  [[nodiscard]] Json task(SubdomainId s, Rank rank, double seconds) const {
+    const Decomposition::Subdomain& known = run_.plan.decomposition.subdomains[static_cast<std::size_t>(s)];
+    return {
+        {"entity", entity(s)},
+        {"node", rank},
+        {"resource", "cpu"},
+        {"time", seconds},
+        {"user_defined", {{"x", known.centroid.x}, {"y", known.centroid.y}, {"predicted_triangles", known.predicted}}}};
+  }
+
+  /// For what a rank did on subdomains that are tasks of others.
+  [[nodiscard]] static Json fixed_task(Rank rank, double seconds) {
+    return {{"entity",
+             {{"home", rank}, {"id", object_id(0, rank, kFixedObject)}, {"migratable", false}, {"type", "object"}}},
+            {"node", rank},
+            {"resource", "cpu"},
+            {"time", seconds}};
+  }
+
+  [[nodiscard]] std::vector<Json> phase_json(const Phase& phase) const {
+    std::vector<Json> of_rank(run_.outcome.ranks.size(), {{"id", 0}, {"tasks", Json::array()}});
+    std::vector<double> elsewhere(of_rank.size(), 0);
+    for (std::size_t i = 0; i < phase.holder.size(); ++i) {
+      const auto s = static_cast<SubdomainId>(i);
+      const Rank place = phase.place_of(s);
+      double seconds = 0;
+      if (const auto work = phase.worked.find(s); work != phase.worked.end())
+        for (const auto& [rank, worked] : work->second)
+          (rank == place ? seconds : elsewhere[static_cast<std::size_t>(rank)]) += worked;
+      of_rank[static_cast<std::size_t>(place)]["tasks"].push_back(task(s, place, seconds));
+    }
+    for (std::size_t r = 0; r < of_rank.size(); ++r)
+      of_rank[r]["tasks"].push_back(fixed_task(static_cast<Rank>(r), elsewhere[r]));
+    for (const auto& [ends, points] : phase.told)
+      of_rank[static_cast<std::size_t>(phase.place_of(ends.first))]["communications"].push_back(
+          {{"type", "SendRecv"},
+           {"from", entity(ends.first)},
+           {"to", entity(ends.second)},
+           {"messages", points},
+           {"bytes", kSplitBytes * static_cast<double>(points)}});
+    return of_rank;
+  }
+
+  const ExperimentRun& run_;
+  std::vector<Phase> phases_;
+  double length_;
+};
+
+}  // namespace
+
+std::vector<std::string> lb_statistics(const ExperimentRun& run) {
+  std::vector<std::string> texts;
+  const Json none = {{"list", Json::array()}, {"range", Json::array()}};
+  std::size_t rank = 0;
+  for (Json& phases : Phases(run).json()) {
+    const Json metadata = {
+        {"type", "LBDatafile"},
+        {"rank", rank},
+        {"phases", {{"count", phases.size()}, {"skipped", none}, {"identical_to_previous", none}}},
+        {"attributes", {{"experiment", run.experiment.name}, {"triangles_per_second", run.speeds[rank]}}}};
+    texts.push_back(Json({{"metadata", metadata}, {"phases", std::move(phases)}}).dump(1) + "\n");
+    ++rank;
+  }
+  return texts;
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,105 @@
+#include "cluster/rank_log.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace driftmesh {
+namespace {
+
+double remaining_on(const RankLoop& loop) {
+  double remaining = 0;
+  for (const auto& [id, subdomain] : loop.subdomains()) remaining += subdomain.remaining();
+  return remaining;
+}
+
+template <class Record>
+void sort_by_time(std::vector<Record>& records, double Record::*time) {
+  std::stable_sort(records.begin(), records.end(), [=](const Record& a, const Record& b) { return a.*time < b.*time; });
+}
+
+}  // namespace
+
+RankLog::RankLog(const protocol::Transport& transport, const RunPlan& plan)
+    : transport_(&transport), plan_(&plan), start_(transport.now()) {}
+
+void RankLog::sample(const RankLoop& loop, double seconds, protocol::SubdomainId subdomain) {
+  samples_.push_back({now(), transport_->rank(), loop.triangles(), remaining_on(loop), seconds, subdomain});
+}
+
+void RankLog::begins(const RankLoop& loop) {
+  sample(loop, 0, kNone);
+}
+
+void RankLog::worked(const RankLoop& loop, const RankLoop::Slice& slice, double seconds) {
+  sample(loop, seconds, slice.subdomain);
+  told_.clear();
+  for (const protocol::SplitEntry& entry : slice.said)
+    ++told_[plan_->decomposition.roots[static_cast<std::size_t>(entry.edge)].across_from(slice.subdomain)];
+  for (const auto& [neighbour, points] : told_)
+    splits_.push_back({now(), transport_->rank(), slice.subdomain, neighbour, points});
+}
+
+void RankLog::departs(const RankLoop& loop, const RankLoop::Passage& passage) {
+  departures_.push_back({now(), passage.subdomain, passage.epoch, passage.to, passage.bytes});
+  sample(loop, 0, kNone);
+}
+
+void RankLog::arrives(const RankLoop& loop, const RankLoop::Passage& passage) {
+  arrivals_.push_back({now(), passage.subdomain, passage.epoch, passage.to, passage.bytes});
+  sample(loop, 0, kNone);
+}
+
+void RankLog::ends(const RankLoop& loop) {
+  end_ = now();
+  outcome_ = loop.outcome();
+  for (const auto& [id, subdomain] : loop.subdomains()) held_.push_back(id);
+}
+
+void RankLog::write(ByteWriter& writer) const {
+  writer.value(end_);
+  writer.value(outcome_);
+  writer.array(samples_);
+  writer.array(splits_);
+  writer.array(departures_);
+  writer.array(arrivals_);
+  writer.array(held_);
+}
+
+RankLog RankLog::read(ByteReader& reader) {
+  RankLog log;
+  reader.value(log.end_);
+  reader.value(log.outcome_);
+  reader.array(log.samples_);
+  reader.array(log.splits_);
+  reader.array(log.departures_);
+  reader.array(log.arrivals_);
+  reader.array(log.held_);
+  return log;
+}
+
+ClusterRun RankLog::join(const std::vector<RankLog>& logs) {
+  ClusterRun run;
+  std::map<std::pair<protocol::SubdomainId, protocol::Epoch>, double> arrived;
+  std::size_t subdomains = 0;
+  for (const RankLog& log : logs) {
+    run.makespan = std::max(run.makespan, log.end_);
+    run.ranks.push_back(log.outcome_);
+    run.samples.insert(run.samples.end(), log.samples_.begin(), log.samples_.end());
+    run.splits.insert(run.splits.end(), log.splits_.begin(), log.splits_.end());
+    for (const Passage& arrival : log.arrivals_) arrived[{arrival.subdomain, arrival.epoch}] = arrival.time;
+    subdomains += log.held_.size();
+  }
+  run.owners.resize(subdomains);
+  for (std::size_t r = 0; r < logs.size(); ++r) {
+    const auto rank = static_cast<protocol::Rank>(r);
+    for (const protocol::SubdomainId s : logs[r].held_) run.owners[static_cast<std::size_t>(s)] = rank;
+    for (const Passage& p : logs[r].departures_)
+      run.moves.push_back({p.subdomain, rank, p.to, p.time, arrived.at({p.subdomain, p.epoch}), p.bytes});
+  }
+  sort_by_time(run.moves, &MoveRecord::left);
+  sort_by_time(run.samples, &LoadSample::time);
+  sort_by_time(run.splits, &SplitRecord::time);
+  return run;
+}
+
+}  // namespace driftmesh

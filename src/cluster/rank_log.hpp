@@ -1,0 +1,58 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "base/byte_stream.hpp"
+#include "cluster/cluster_run.hpp"
+#include "protocol/transport.hpp"
+#include "runtime/rank_loop.hpp"
+#include "runtime/run_plan.hpp"
+
+namespace driftmesh {
+
+/// What one rank did and when: its loop tells it, and join() makes of the logs of all ranks what the run came to.
+class RankLog {
+ public:
+  /// An empty one, for read() to fill.
+  RankLog() = default;
+  /// The run begins now. `transport` and `plan` must outlive the writing.
+  RankLog(const protocol::Transport& transport, const RunPlan& plan);
+
+  void begins(const RankLoop& loop);
+  /// `seconds`: that the slice took, with what slowed it down.
+  void worked(const RankLoop& loop, const RankLoop::Slice& slice, double seconds);
+  void departs(const RankLoop& loop, const RankLoop::Passage& passage);
+  void arrives(const RankLoop& loop, const RankLoop::Passage& passage);
+  void ends(const RankLoop& loop);
+
+  void write(ByteWriter& writer) const;
+  [[nodiscard]] static RankLog read(ByteReader& reader);
+
+  /// The run of all ranks' logs, which are given in the order of ranks.
+  [[nodiscard]] static ClusterRun join(const std::vector<RankLog>& logs);
+
+ private:
+  struct Passage {
+    double time = 0;
+    protocol::SubdomainId subdomain = 0;
+    protocol::Epoch epoch = 0;
+    protocol::Rank to = 0;
+    std::uint64_t bytes = 0;
+  };
+  [[nodiscard]] double now() const { return transport_->now() - start_; }
+  void sample(const RankLoop& loop, double seconds, protocol::SubdomainId subdomain);
+
+  const protocol::Transport* transport_ = nullptr;
+  const RunPlan* plan_ = nullptr;
+  double start_ = 0;
+  double end_ = 0;
+  RankOutcome outcome_;
+  std::vector<LoadSample> samples_;
+  std::vector<SplitRecord> splits_;
+  std::vector<Passage> departures_, arrivals_;
+  std::vector<protocol::SubdomainId> held_;             // at the end
+  std::map<protocol::SubdomainId, std::int32_t> told_;  // by the slice that is being written: points by neighbour
+};
+
+}  // namespace driftmesh
