@@ -55,6 +55,18 @@ class Bench:
         subprocess.run(list(map(str, command)), check=True, env=ENVIRONMENT)
         return json.loads(record.read_text())
 
+    def experiment(self, kind, ranks, drag, policy, *arguments):
+        """The record of one run of configs/two-ranks.yaml, on real or simulated ranks."""
+        settings = {"cluster.kind": kind, "cluster.ranks": ranks, "cluster.drag": json.dumps(drag),
+                    "balance.policy": policy, "input.generate": '""', "input.file": self.input_of("pipe"),
+                    "bounds.triangles": self.options.triangles, "pictures": "false"}
+        command = ["mpirun", "-n", str(ranks)] if kind == "real" else []
+        command += [self.options.program, "run", PROJECT / "configs/two-ranks.yaml", "-o", self.folder / "runs",
+                    "--quiet", *(word for item in settings.items() for word in ("--set", "{}={}".format(*item))),
+                    *arguments]
+        subprocess.run(list(map(str, command)), check=True, env=ENVIRONMENT)
+        return json.loads((self.folder / "runs" / "run-1.json").read_text())
+
     def take_turns(self, cases):
         """The records of each case, a list a case; cases are functions that make one run."""
         records = [[] for _ in cases]
@@ -173,6 +185,29 @@ def growth(bench):
                 ["triangles", "subdomains", "million triangles/s", "time a triangle", "peak bytes/triangle"], rows)
 
 
+def seconds(run):
+    """Of a run of an experiment, real or simulated."""
+    return run["cluster"]["seconds"]
+
+
+def simulator(bench):
+    """The same experiment on real ranks and on simulated ones."""
+    cases = [(1, [], "none"), (2, [], "none"), (2, [], "stealing"), (2, [1, 0.5], "none"), (2, [1, 0.5], "stealing")]
+    measured = [median(runs, seconds) for runs in
+                bench.take_turns([lambda case=case: bench.experiment("real", *case) for case in cases])]
+    given = [bench.experiment("simulated", *case) for case in cases]
+    # The first case sets the speed of a rank, as it is on this machine today; the others are predictions.
+    speed = given[0]["cluster"]["speeds"][0] * seconds(given[0]) / measured[0]
+    predicted = [seconds(bench.experiment("simulated", *case, "--set", f"cluster.speed={speed}")) for case in cases]
+    rows = [[ranks, ", ".join(map(str, drag)) or "none", policy, f"{real:.3f}", f"{seconds(model):.3f}",
+             f"{100 * (seconds(model) / real - 1):+.1f} %", f"{simulated:.3f}", f"{100 * (simulated / real - 1):+.1f} %"]
+            for (ranks, drag, policy), real, model, simulated in zip(cases, measured, given, predicted)]
+    print_table(f"Simulated against real ranks: pipe, {given[0]['mesh']['triangles']:,} triangles, seconds of refinement "
+                "(`simulator`). By the constants of `CostModel`, and with a rank's speed from the first row, "
+                f"{speed / 1e6:.2f} million triangles/s (constants: {given[0]['cluster']['speeds'][0] / 1e6:.2f}):",
+                ["ranks", "drag", "policy", "measured", "by constants", "off by", "calibrated", "off by"], rows)
+
+
 def machine():
     name = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo", encoding="ascii")
                  if line.startswith("model name")), "unknown processor")
@@ -180,7 +215,7 @@ def machine():
 
 
 def main():
-    suites = {suite.__name__: suite for suite in (models, aggregation, breakdown, size, growth)}
+    suites = {suite.__name__: suite for suite in (models, aggregation, breakdown, size, growth, simulator)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("suite", nargs="*", help=f"of {', '.join(suites)}; all when absent")
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh")
@@ -191,6 +226,7 @@ def main():
     parser.add_argument("--cells", type=float, default=CELLS, help="models: area bound = area of the domain over this")
     parser.add_argument("--mapping", default="graph", help="aggregation: round-robin makes every interface a border")
     parser.add_argument("--sizes", type=float, nargs="+", default=[43, 200], help="size: millions of triangles")
+    parser.add_argument("--triangles", type=float, default=10e6, help="simulator: about so many")
     options = parser.parse_args()
     if unknown := set(options.suite) - set(suites):
         parser.error(f"no suite {', '.join(sorted(unknown))}")
