@@ -10,9 +10,9 @@ namespace driftmesh {
 
 /// Subsegments of an interface at most this many times the square root of the area bound are never split for a
 /// triangle's size: a triangle above its bound has a circumradius above 0.877 sqrt(bound), and a point at that distance
-/// from all others is in the diametral lens of a segment only if it is longer than this, the edge of the equilateral
-/// triangle whose area is the bound.
-inline constexpr double kPresplitSpacing = 1.52;
+/// from all others is in the diametral lens of a segment only if it is longer than 2 / 3^(1/4) = 1.51967..., the edge
+/// of the equilateral triangle of area 1. Less by a margin for rounding.
+inline constexpr double kPresplitSpacing = 1.5196;
 
 /// The split points that a root gets before refinement starts, each after its ancestors, so that its subsegments are
 /// at most kPresplitSpacing times the square root of the area bound there: of the smaller bound of its two sides, and

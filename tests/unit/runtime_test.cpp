@@ -1,11 +1,13 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
 
 #include "base/error.hpp"
 #include "decompose/presplit.hpp"
+#include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/digest.hpp"
@@ -89,6 +91,28 @@ TEST_CASE("with presplit interfaces a uniform bound needs no SPLIT, and the mesh
       for (const auto& loop : run.loops) CHECK(loop->protocol().counters().splits_sent == 0);
       if (digest == 0) digest = digest_of(run.subdomains());
       CHECK(digest_of(run.subdomains()) == digest);
+    }
+}
+
+TEST_CASE("the size bound splits no presplit interface whose pieces come out as long as they may be") {
+  // The equilateral triangle of area 1 has edges of length 2 / 3^(1/4) = 1.51967...: just below it, and just above.
+  for (const double length : {1.5196, 1.5198, 1.52})
+    for (std::size_t i = 0; i < 20; ++i) {
+      RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 1, 20, Presplit::kOn);
+      const auto& roots = plan.decomposition.roots;
+      const auto root = std::find_if(roots.begin() + static_cast<std::ptrdiff_t>(i * roots.size() / 20), roots.end(),
+                                     [](const Decomposition::Root& r) { return r.is_interface(); });
+      if (root == roots.end()) break;
+      const double whole = std::sqrt(squared_distance(plan.decomposition.points[static_cast<std::size_t>(root->a)],
+                                                      plan.decomposition.points[static_cast<std::size_t>(root->b)]));
+      const double spacing = std::ldexp(whole / length, -static_cast<int>(std::ceil(std::log2(whole / 0.04))));
+      plan.bounds.max_area = spacing * spacing;
+      protocol::AdversarialNetwork network(1, protocol::Adversary::from_seed(1));
+      SimulatedRanks<> run(network, 1, plan);
+      REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
+      CAPTURE(length);
+      CAPTURE(i);
+      CHECK(run.loops[0]->interface_splits() == 0);
     }
 }
 
