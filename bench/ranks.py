@@ -18,6 +18,9 @@ ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROO
                    OMPI_MCA_rmaps_base_oversubscribe="1")
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 AREAS = {"pipe": 187530.34, "cylinder_flow": 1399.60745, "chesapeake": 36722004389.78}
+GENERATED = {"pipe": "pipe", "cylinder_flow": "cylinder-flow", "chesapeake": "bay", "corner": "rectangle-hole"}
+# 90 % of the triangles in 10 % of the area of a rectangle of 2 x 1; about 11 million of them.
+CORNER = "x < 0.45 && y < 0.45 ? 0.00025 : 0.0022"
 CELLS = 7.04e6  # the area bound is the domain's area over this: about 10.9 million triangles
 # From the input in memory to the distributed mesh in memory.
 MESHING_STAGES = ("triangulate", "decompose", "map", "share", "refine", "assemble")
@@ -32,10 +35,9 @@ class Bench:
         path = pathlib.Path(self.options.data) / f"{model}.poly"
         if path.exists():
             return path
-        kind = {"pipe": "pipe", "cylinder_flow": "cylinder-flow", "chesapeake": "bay"}[model]
         path = self.folder / f"{model}.poly"
         if not path.exists():
-            subprocess.run([self.options.program, "generate", kind, "-o", path], check=True)
+            subprocess.run([self.options.program, "generate", GENERATED[model], "-o", path], check=True)
         return path
 
     def area_of(self, model, cells):
@@ -44,16 +46,29 @@ class Bench:
         first = self.mesh(1, model, None)
         return first["mesh"]["total_area"] / cells
 
+    def command(self, ranks, model, area, *arguments, binding=(), record="run.json"):
+        command = ["mpirun", *binding, "-n", ranks, self.options.program, "mesh", self.input_of(model), "--quiet",
+                   "--json", self.folder / record, *arguments]
+        return list(map(str, command + (["--area", repr(area)] if area else [])))
+
     def mesh(self, ranks, model, area, *arguments, output=False):
-        record = self.folder / "run.json"
-        command = ["mpirun", "-n", str(ranks), self.options.program, "mesh", self.input_of(model), "--quiet", "--json",
-                   record, *arguments]
-        if area:
-            command += ["--area", repr(area)]
+        command = self.command(ranks, model, area, *arguments)
         if output:
-            command += ["-o", self.folder / "mesh.pvtu"]
-        subprocess.run(list(map(str, command)), check=True, env=ENVIRONMENT)
-        return json.loads(record.read_text())
+            command += ["-o", str(self.folder / "mesh.pvtu")]
+        subprocess.run(command, check=True, env=ENVIRONMENT)
+        return json.loads((self.folder / "run.json").read_text())
+
+    def apart(self, jobs, model, area):
+        """The records of so many jobs of one rank at the same time, each on a core of its own: the efficiency that the
+        machine leaves when no rank has to do with another."""
+        started = []
+        for job in range(jobs):
+            binding = ("--bind-to", "core", "--cpu-set", job)
+            command = self.command(1, model, area, binding=binding, record=f"job-{job}.json")
+            started.append(subprocess.Popen(command, env=ENVIRONMENT))
+        if any([process.wait() for process in started]):
+            raise RuntimeError("a job failed")
+        return [json.loads((self.folder / f"job-{job}.json").read_text()) for job in range(jobs)]
 
     def experiment(self, kind, ranks, drag, policy, *arguments):
         """The record of one run of configs/two-ranks.yaml, on real or simulated ranks."""
@@ -114,19 +129,23 @@ def models(bench):
     for model in AREAS:
         area = bench.area_of(model, bench.options.cells)
         ranks = bench.options.ranks
-        records = bench.take_turns([lambda n=n: bench.mesh(n, model, area, output=True) for n in ranks])
-        alone = median(records[0], rate)
-        for n, runs in zip(ranks, records):
+        cases = [lambda n=n: bench.mesh(n, model, area, output=True) for n in ranks]
+        cases += [lambda n=n: bench.apart(n, model, area * n) for n in ranks]
+        records = bench.take_turns(cases)
+        alone, alone_at_best = median(records[0], rate), max(map(rate, records[0]))
+        for n, runs, jobs in zip(ranks, records, records[len(ranks):]):
+            apart = statistics.median(min(map(rate, at_once)) for at_once in jobs)
             digests = {run["mesh"]["digest"] for run in runs}
             rows.append([model, n, runs[0]["parts"]["subdomains"], f"{runs[0]['mesh']['triangles']:,}",
                          f"{median(runs, rate):.1f}", f"{median(runs, rate) / alone * ranks[0] / n:.2f}",
+                         f"{max(map(rate, runs)) / alone_at_best * ranks[0] / n:.2f}", f"{apart / alone * ranks[0]:.2f}",
                          f"{median(runs, lambda r: r['work']['seconds_by_stage'].get('decompose', 0)):.3f}",
                          f"{median(runs, lambda r: r['work']['seconds_by_stage']['assemble']):.3f}",
                          f"{median(runs, meshing):.2f}", total(runs[0], "splits_sent"),
                          digests.pop() if len(digests) == 1 else f"{len(digests)} different"])
     print_table("Real ranks, interfaces cut to size beforehand (`models`); the times are rank 0's, in seconds:",
-                ["input", "ranks", "subdomains", "triangles", "million triangles/s", "efficiency", "decompose",
-                 "assemble", "input to distributed mesh", "SPLITs", "digest"], rows)
+                ["input", "ranks", "subdomains", "triangles", "million triangles/s", "efficiency", "at best", "of jobs apart",
+                 "decompose", "assemble", "input to distributed mesh", "SPLITs", "digest"], rows)
 
 
 def aggregation(bench):
@@ -157,6 +176,40 @@ def breakdown(bench):
                 "(`breakdown`; the paper's Figure 11):",
                 ["input", "rank", "triangles", "SPLITs sent", "computing", "sending", "polling", "balancing", "idle"],
                 rows)
+
+
+def ideal(run):
+    """Seconds of refinement if all ranks finished together: all work over all speeds, as a run without balancing has
+    shown them. A rank that is dragged computes and sleeps in turn, which its time until it is through tells."""
+    speeds = [rank["triangles"] / (sum(rank["seconds"].values()) - rank["seconds"]["idle"])
+              for rank in run["parts"]["ranks"] if rank["triangles"]]
+    return run["mesh"]["triangles"] / sum(speeds)
+
+
+def balance(bench):
+    policies = ("none", "zoltan", "stealing", "greedy", "diffusion")
+    pipe = bench.area_of("pipe", bench.options.cells)
+    cases = {
+        "pipe, one rank at half speed": ("pipe", pipe, "--drag", "1,0.5"),
+        "corner, dealt by area": ("corner", None, "--size", CORNER, "--map-by-area"),
+        "corner, dealt by area, one rank at half speed": ("corner", None, "--size", CORNER, "--map-by-area", "--drag",
+                                                          "1,0.5"),
+        "pipe, nothing to balance": ("pipe", pipe),
+    }
+    rows = []
+    for case, (model, area, *arguments) in cases.items():
+        records = bench.take_turns([lambda p=p: bench.mesh(2, model, area, *arguments, "--balance", p)
+                                    for p in policies])
+        best = median(records[0], ideal)
+        for policy, runs in zip(policies, records):
+            seconds = median(runs, seconds_of_refinement)
+            rows.append([case, policy, f"{runs[0]['mesh']['triangles']:,}", f"{seconds:.2f}", f"{seconds / best:.2f}",
+                         f"{median(runs, lambda r: share_of(('balancing',), r)):.2f} %",
+                         f"{median(runs, lambda r: share_of(('idle',), r)):.1f} %",
+                         f"{median(runs, lambda r: total(r, 'hand_offs')):.0f}"])
+    print_table("Policies on two ranks (`balance`); ideal is all work over all speeds, both as seen without balancing:",
+                ["case", "policy", "triangles", "refinement s", "of the ideal", "balancing", "idle",
+                 "subdomains moved"], rows)
 
 
 def size(bench):
@@ -215,7 +268,8 @@ def machine():
 
 
 def main():
-    suites = {suite.__name__: suite for suite in (models, aggregation, breakdown, size, growth, simulator)}
+    suites = {suite.__name__: suite
+              for suite in (models, aggregation, breakdown, balance, size, growth, simulator)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("suite", nargs="*", help=f"of {', '.join(suites)}; all when absent")
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh")

@@ -82,6 +82,10 @@ void add_parts_options(CLI::App& command, MeshOptions::Parts& parts) {
       ->type_name("HOW")
       ->group(kGroup);
   command
+      .add_flag("--map-by-area", parts.map_by_area,
+                "Deal out area instead of expected work: an uneven start, for experiments")
+      ->group(kGroup);
+  command
       .add_option("--speeds", parts.speeds,
                   "Relative speed of each rank, where known: work is dealt in proportion, as in --speeds 1,1,2.5")
       ->delimiter(',')

@@ -34,6 +34,7 @@ struct MeshOptions {
     double skew = 0;
     std::uint64_t seed = 1;
     std::string mapping = "graph";
+    bool map_by_area = false;
     std::vector<double> speeds;
     std::string presplit = "auto";
     std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;

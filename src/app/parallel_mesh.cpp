@@ -148,7 +148,8 @@ class ParallelMesh {
   [[nodiscard]] PlanOptions plan_options() const {
     const MeshOptions::Parts& parts = options_.parts;
     PlanOptions plan;
-    plan.mapping = {transport_.ranks(), parts.speeds, mapping_method(parts.mapping)};
+    plan.mapping = {transport_.ranks(), parts.speeds, mapping_method(parts.mapping),
+                    parts.map_by_area ? MappingWeight::kArea : MappingWeight::kWork};
     plan.presplit = presplit_mode(parts.presplit);
     plan.aggregation = parts.aggregation;
     plan.order = work_order(parts.order);

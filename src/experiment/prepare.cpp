@@ -63,14 +63,6 @@ Balancing balancing_of(const Experiment& e) {
   return balancing;
 }
 
-/// Deals the subdomains once more, as one who does not know how small triangles will be.
-void map_by_area(RunPlan& plan, const MappingOptions& options) {
-  Decomposition by_area = plan.decomposition;
-  for (Decomposition::Subdomain& s : by_area.subdomains) s.predicted = s.area;
-  plan.owners = map_subdomains(by_area, options);
-  prepare_balancing(plan, options.ranks);
-}
-
 }  // namespace
 
 SizingOptions sizing_of(const Experiment& e) {
@@ -106,6 +98,7 @@ Prepared prepare(const Experiment& e, const std::vector<double>& speeds) {
   PlanOptions options;
   options.mapping.ranks = static_cast<std::int32_t>(speeds.size());
   options.mapping.method = mapping_method(e.mapping);
+  if (e.mapping_by_area) options.mapping.weight = MappingWeight::kArea;
   if (e.mapping_by_speed) options.mapping.speeds = speeds;
   options.presplit = presplit_mode(e.presplit);
   options.aggregation = static_cast<std::size_t>(e.aggregation);
@@ -113,7 +106,6 @@ Prepared prepare(const Experiment& e, const std::vector<double>& speeds) {
   options.order = work_order(e.order);
   options.balancing = balancing_of(e);
   run.plan = plan_run(decomposition_of(e, run, mesh, options.mapping.ranks), run.plan.bounds, options);
-  if (e.mapping_by_area) map_by_area(run.plan, options.mapping);
   for (const Decomposition::Subdomain& s : run.plan.decomposition.subdomains) run.forecast += s.predicted;
   return run;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/error.hpp"
 #include "decompose/graph_partition.hpp"
@@ -28,7 +29,13 @@ std::vector<double> speeds_of(const MappingOptions& options) {
   return options.speeds;
 }
 
-WeightedGraph graph_of(const Decomposition& d) {
+std::vector<double> weights_of(const Decomposition& d, MappingWeight weight) {
+  std::vector<double> weights;
+  for (const auto& s : d.subdomains) weights.push_back(weight == MappingWeight::kArea ? s.area : s.predicted);
+  return weights;
+}
+
+WeightedGraph graph_of(const Decomposition& d, std::vector<double> weights) {
   const std::vector<Interface> all = interfaces(d);
   WeightedGraph graph;
   graph.begin.assign(d.size() + 1, 0);
@@ -48,22 +55,21 @@ WeightedGraph graph_of(const Decomposition& d) {
     add(i.first, i.second, i.length);
     add(i.second, i.first, i.length);
   }
-  for (const auto& s : d.subdomains) graph.vertex_weight.push_back(s.predicted);
+  graph.vertex_weight = std::move(weights);
   return graph;
 }
 
-/// Consecutive subdomains: each goes where its middle falls when all work is laid out along the ranks.
-Assignment map_blocks(const Decomposition& d, const std::vector<double>& speeds) {
-  double work = 0;
-  for (const auto& s : d.subdomains) work += s.predicted;
-  const double per_speed = work / std::accumulate(speeds.begin(), speeds.end(), 0.0);
+/// Consecutive subdomains: each goes where its middle falls when all weights are laid out along the ranks.
+Assignment map_blocks(const std::vector<double>& weights, const std::vector<double>& speeds) {
+  const double per_speed =
+      std::accumulate(weights.begin(), weights.end(), 0.0) / std::accumulate(speeds.begin(), speeds.end(), 0.0);
   Assignment assignment;
   std::size_t rank = 0;
   double done = 0, limit = speeds[0] * per_speed;
-  for (const auto& s : d.subdomains) {
-    while (done + s.predicted / 2 > limit && rank + 1 < speeds.size()) limit += speeds[++rank] * per_speed;
+  for (const double weight : weights) {
+    while (done + weight / 2 > limit && rank + 1 < speeds.size()) limit += speeds[++rank] * per_speed;
     assignment.push_back(static_cast<RankId>(rank));
-    done += s.predicted;
+    done += weight;
   }
   return assignment;
 }
@@ -87,14 +93,14 @@ Assignment map_subdomains(const Decomposition& d, const MappingOptions& options)
   const std::vector<double> speeds = speeds_of(options);
   switch (options.method) {
     case MappingMethod::kBlock:
-      return map_blocks(d, speeds);
+      return map_blocks(weights_of(d, options.weight), speeds);
     case MappingMethod::kRoundRobin:
       return map_round_robin(d, options.ranks);
     case MappingMethod::kGraph:
       break;
   }
   if (d.size() <= at(options.ranks)) return map_round_robin(d, options.ranks);  // one each; METIS would leave gaps
-  return partition_graph(graph_of(d), speeds,
+  return partition_graph(graph_of(d, weights_of(d, options.weight)), speeds,
                          options.ranks <= kMostForRecursive ? PartitionMethod::kRecursive : PartitionMethod::kDirect);
 }
 

@@ -22,14 +22,21 @@ enum class MappingMethod {
 /// "graph", "block" or "round-robin". Throws Error for any other name.
 [[nodiscard]] MappingMethod mapping_method(const std::string& name);
 
+/// What is dealt out evenly.
+enum class MappingWeight {
+  kWork,  ///< predicted triangles
+  kArea,  ///< for experiments: as one deals who does not know how small triangles will be where
+};
+
 struct MappingOptions {
   std::int32_t ranks = 1;
   /// Relative speed of each rank: work is dealt in proportion (round-robin ignores it). Empty: all equal.
   std::vector<double> speeds;
   MappingMethod method = MappingMethod::kGraph;
+  MappingWeight weight = MappingWeight::kWork;
 };
 
-/// Maps subdomains to ranks by predicted work. Deterministic. A rank may be left without work when there are not many
+/// Maps subdomains to ranks by their weights. Deterministic. A rank may be left without work when there are not many
 /// more subdomains than ranks. Throws Error for options out of range.
 [[nodiscard]] Assignment map_subdomains(const Decomposition& decomposition, const MappingOptions& options);
 

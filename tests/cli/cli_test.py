@@ -425,6 +425,18 @@ class Mesh(Cli):
                           self.succeed("check", f"{ranks}.pvtu", "bay.poly", "--area", "20000", "--angle", "20"))
         self.assertEqual(len(digests), 1)
 
+    def test_dealing_area_leaves_a_corner_of_small_triangles_to_one_rank(self):
+        (self.folder / "square.poly").write_text(SQUARE)
+        largest = []
+        for options in [], ["--map-by-area"]:
+            result = self.on_ranks(2, "mesh", "square.poly", "--size", "x < 0.3 && y < 0.3 ? 0.001 : 0.03", "-n", "60",
+                                   "--json", "run.json", *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            run = json.loads((self.folder / "run.json").read_text())
+            largest.append(max(r["triangles"] for r in run["parts"]["ranks"]) / run["mesh"]["triangles"])
+        self.assertLess(largest[0], 0.6)
+        self.assertGreater(largest[1], 0.85)
+
     def test_the_protocol_in_full_makes_a_mesh_that_check_accepts(self):
         self.succeed("generate", "holes", *KINDS["holes"], "-o", "holes.poly")
         self.succeed("decompose", "holes.poly", "-n", "12", "-o", "holes.decomposition")

@@ -53,6 +53,20 @@ TEST_CASE("work follows the speeds of the ranks") {
   }
 }
 
+TEST_CASE("area can be dealt out instead of work") {
+  Decomposition d = square_in(400);
+  for (std::size_t i = 0; i < 40; ++i)
+    d.subdomains[i].predicted *= 50;  // as a size field does that is fine in a corner
+  for (const MappingMethod method : {MappingMethod::kGraph, MappingMethod::kBlock}) {
+    MappingOptions options{4, {}, method, MappingWeight::kArea};
+    const Assignment assignment = map_subdomains(d, options);
+    double area[4] = {};
+    for (std::size_t i = 0; i < d.size(); ++i) area[assignment[i]] += d.subdomains[i].area;
+    for (const double a : area) CHECK(a == doctest::Approx(0.25).epsilon(0.06));
+    CHECK(report_mapping(d, assignment, options).largest_load > 1.5);
+  }
+}
+
 TEST_CASE("blocks are consecutive and use every rank") {
   const Decomposition d = square_in(100);
   const Assignment assignment = map_subdomains(d, {7, {}, MappingMethod::kBlock});
