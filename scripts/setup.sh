@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that the named groups need and that are missing.
-#   scripts/setup.sh [build] [test] [bench] [fuzz]        (default: build)
+#   scripts/setup.sh [build] [test] [bench] [fuzz] [hosts]        (default: build)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 
@@ -13,8 +13,9 @@ packages_of() {
     test) echo doctest-dev libboost-dev libcgal-dev clang-format gmsh python3 spin ;;
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
+    hosts) echo iproute2 nftables ;;
     *)
-      echo "setup.sh: unknown group '$1'; use build, test, bench or fuzz" >&2
+      echo "setup.sh: unknown group '$1'; use build, test, bench, fuzz or hosts" >&2
       return 2
       ;;
   esac

@@ -67,7 +67,7 @@ formatted() {
     xargs -0 clang-format --dry-run -Werror
 }
 
-scripts/setup.sh build test
+scripts/setup.sh build test hosts
 run_preset ci
 [[ $quick == yes ]] || run_preset asan-ubsan
 say "Formatting"
