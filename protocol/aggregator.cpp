@@ -37,7 +37,7 @@ Outgoing Aggregator::take(Rank destination) {
   SplitBatch batch;
   for (const Waiting& w : buffer) {
     if (batch.groups.empty() || key(w) != std::pair(batch.groups.back().to, batch.groups.back().epoch))
-      batch.groups.push_back({w.to, w.epoch, self_, {}});
+      batch.groups.push_back({w.to, w.epoch, self_, 0, {}});
     batch.groups.back().entries.push_back(w.entry);
   }
   return {destination, std::move(batch)};

@@ -28,6 +28,7 @@ void fields(auto& archive, Is<SplitGroup> auto& m) {
   archive.subdomain(m.to);
   archive.number(m.epoch);
   archive.rank(m.origin);
+  archive.number(m.hops);
   archive.list(m.entries, kSplitEntryBytes);
 }
 void fields(auto& archive, Is<SplitBatch> auto& m) {

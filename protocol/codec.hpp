@@ -31,7 +31,7 @@ struct WireLimits {
 [[nodiscard]] Traffic traffic_of(Rank sender, std::span<const std::byte> bytes);
 
 /// How many bytes of its message a group of SPLITs takes besides its entries, and each of its entries.
-inline constexpr std::size_t kSplitGroupBytes = 16;
+inline constexpr std::size_t kSplitGroupBytes = 20;
 inline constexpr std::size_t kSplitEntryBytes = 12;
 
 }  // namespace driftmesh::protocol

@@ -22,8 +22,9 @@ struct SplitEntry {
 /// SPLITs for one subdomain, from one rank.
 struct SplitGroup {
   SubdomainId to = 0;
-  Epoch epoch = 0;  ///< of `to`, as the rank that sent or forwarded the group last believed
-  Rank origin = 0;  ///< the rank that made the points; it is told when the group had to be forwarded
+  Epoch epoch = 0;         ///< of `to`, as the rank that sent or forwarded the group last believed
+  Rank origin = 0;         ///< the rank that made the points; it is told when the group had to be forwarded
+  std::uint32_t hops = 0;  ///< how often it was forwarded: not above `epoch`, which rises with each
   std::vector<SplitEntry> entries;
   friend bool operator==(const SplitGroup&, const SplitGroup&) = default;
 };

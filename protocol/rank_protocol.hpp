@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@ struct SoundRules {
     kLeavesAggregator,
     kForwarded,
     kHeld,
+    kReleased,  ///< was held, and its subdomain has come
     kReachesSubdomain,
     kGivenAway,
     kArrives
@@ -33,7 +35,7 @@ struct SoundRules {
   }
   /// Each counts as handled once, and not before it is where it belongs: what is held back is still under way.
   static constexpr bool counts_as_handled(Station station) {
-    return station == Station::kReachesSubdomain || station == Station::kArrives;
+    return station == Station::kReachesSubdomain || station == Station::kReleased || station == Station::kArrives;
   }
   /// A rank with nothing to do does not let others wait for what it has collected.
   static constexpr bool flushes_when_idle() { return true; }
@@ -63,6 +65,7 @@ struct ProtocolCounters {
   std::int64_t hand_off_bytes = 0;  ///< their packed size
   std::int64_t arrivals = 0;        ///< subdomains that came
   std::int64_t forwarded = 0;       ///< groups that were sent on
+  std::int64_t most_hops = 0;       ///< how often a group had been sent on that found its subdomain here, at most
   std::int64_t held = 0;            ///< groups that had to wait for their subdomain
 };
 
@@ -140,7 +143,7 @@ class BasicRankProtocol {
   void take(Rank source, Finish&& finish, Delivery&) { termination_.receive(source, finish); }
   void take_advice(Rank source, Message&& advice, Delivery& delivery);
   void take_group(Rank source, SplitGroup&& group, Delivery& delivery);
-  void handle(SplitGroup&& group, Delivery& delivery);
+  void handle(Station station, SplitGroup&& group, Delivery& delivery);
   void forward(Rank source, SplitGroup&& group);
   void refuse_work_after_the_end(Rank source) const;
 
@@ -225,9 +228,13 @@ void BasicRankProtocol<Rules>::take(Rank source, SplitBatch&& batch, Delivery& d
 
 template <class Rules>
 void BasicRankProtocol<Rules>::take_group(Rank source, SplitGroup&& group, Delivery& delivery) {
+  if (group.hops > group.epoch)
+    throw ProtocolError(source, "SPLITs for subdomain " + std::to_string(group.to) + " were forwarded " +
+                                    std::to_string(group.hops) + " times; it has moved " + std::to_string(group.epoch) +
+                                    " times");
   switch (directory_.route(group.to, group.epoch)) {
     case Directory::Route::kHere:
-      return handle(std::move(group), delivery);
+      return handle(Station::kReachesSubdomain, std::move(group), delivery);
     case Directory::Route::kHold:
       ++counters_.held;
       count_handled(Station::kHeld, group.entries.size());
@@ -239,8 +246,9 @@ void BasicRankProtocol<Rules>::take_group(Rank source, SplitGroup&& group, Deliv
 }
 
 template <class Rules>
-void BasicRankProtocol<Rules>::handle(SplitGroup&& group, Delivery& delivery) {
-  count_handled(Station::kReachesSubdomain, group.entries.size());
+void BasicRankProtocol<Rules>::handle(Station station, SplitGroup&& group, Delivery& delivery) {
+  count_handled(station, group.entries.size());
+  counters_.most_hops = std::max<std::int64_t>(counters_.most_hops, group.hops);
   counters_.splits_handled += static_cast<std::int64_t>(group.entries.size());
   delivery.splits.push_back(std::move(group));
 }
@@ -259,6 +267,7 @@ void BasicRankProtocol<Rules>::forward(Rank source, SplitGroup&& group) {
   ++counters_.forwarded;
   count_sent(Station::kForwarded, group.entries.size());
   group.epoch = location.epoch;
+  ++group.hops;
   outgoing_.push_back({location.owner, SplitBatch{{std::move(group)}}});
 }
 
@@ -271,7 +280,7 @@ void BasicRankProtocol<Rules>::take(Rank source, HandOff&& arrival, Delivery& de
   count_handled(Station::kArrives, 1);
   ++counters_.arrivals;
   if (auto waiting = held_.extract(arrival.subdomain))
-    for (SplitGroup& group : waiting.mapped()) handle(std::move(group), delivery);
+    for (SplitGroup& group : waiting.mapped()) handle(Station::kReleased, std::move(group), delivery);
   delivery.arrival = std::move(arrival);
 }
 

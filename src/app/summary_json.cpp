@@ -92,6 +92,7 @@ Json parts_json(const RunRecord& run) {
                      {"hand_off_bytes", r.counters.hand_off_bytes},
                      {"arrivals", r.counters.arrivals},
                      {"forwarded", r.counters.forwarded},
+                     {"most_hops", r.counters.most_hops},
                      {"held", r.counters.held},
                      {"peak_bytes", r.peak}});
   return {{"subdomains", run.subdomains}, {"presplit", run.presplit}, {"ranks", ranks}};

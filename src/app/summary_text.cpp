@@ -121,6 +121,9 @@ void add_ranks(const RunRecord& run, Text out) {
     sum.hand_off_bytes += r.counters.hand_off_bytes;
     sum.splits_sent += r.counters.splits_sent;
     sum.batches_sent += r.counters.batches_sent;
+    sum.forwarded += r.counters.forwarded;
+    sum.most_hops = std::max(sum.most_hops, r.counters.most_hops);
+    sum.held += r.counters.held;
   }
   fmt::format_to(out, "parts        {} on {}; interfaces {} before refinement\n", counted(run.subdomains, "subdomain"),
                  counted(static_cast<std::int64_t>(run.ranks.size()), "rank"),
@@ -130,6 +133,9 @@ void add_ranks(const RunRecord& run, Text out) {
   if (sum.hand_offs > 0)
     fmt::format_to(out, "             {} moved between ranks, {}\n", counted(sum.hand_offs, "subdomain"),
                    bytes_words(static_cast<std::uint64_t>(sum.hand_off_bytes)));
+  if (sum.forwarded > 0 || sum.held > 0)
+    fmt::format_to(out, "             {} of split points sent on after a subdomain, by {} at most; {} waited for one\n",
+                   counted(sum.forwarded, "group"), counted(sum.most_hops, "hop"), grouped(sum.held));
   add_rank_table(run, out);
 }
 

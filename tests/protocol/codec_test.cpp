@@ -81,7 +81,7 @@ TEST_CASE("damaged bytes are refused, or are another message that is understood 
 }
 
 TEST_CASE("a SPLIT is 12 bytes on the wire") {
-  SplitBatch batch{{SplitGroup{3, 1, 2, {}}}};
+  SplitBatch batch{{SplitGroup{3, 1, 2, 0, {}}}};
   const std::size_t empty = encode(batch).size();
   CHECK(empty == 2 + 4 + kSplitGroupBytes + 4 - 4);
   for (dyadic::Path path = 1; path <= 512; ++path) batch.groups[0].entries.push_back({static_cast<EdgeId>(path), path});
@@ -107,7 +107,7 @@ TEST_CASE("refusals say what is wrong") {
   CHECK(with(Token{1, 2, true}, 18, 2) == "message from rank 5: flag of value 2");
   CHECK(with(LocationUpdate{1, 2, 3}, 2, 100) == "message from rank 5: subdomain 100 is outside 0 .. 99");
   CHECK(with(LocationUpdate{1, 2, 3}, 9, 0xff) == "message from rank 5: rank -16777214 is outside 0 .. 6");
-  CHECK(error_of(encode(SplitBatch{{{1, 1, 1, {{1, 0}}}}})) ==
+  CHECK(error_of(encode(SplitBatch{{{1, 1, 1, 0, {{1, 0}}}}})) ==
         "message from rank 5: split path 0 is none, or deeper than 60");
   CHECK(error_of(encode(LoadReport{1, 0, -1.0, {}})) == "message from rank 5: an amount is negative or not finite");
   CHECK(error_of(encode(LoadNews{1, 1.0, 2.0, -0.5})) == "message from rank 5: an amount is negative or not finite");

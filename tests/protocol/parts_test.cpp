@@ -22,7 +22,7 @@ TEST_CASE("an aggregator sends a batch at its threshold and keeps what is below 
   const auto full = aggregator.add(1, 10, 0, {1, 2});
   REQUIRE(full);
   CHECK(full->destination == 1);
-  CHECK(full->message == Message(SplitBatch{{{10, 0, 0, {{1, 1}, {1, 2}}}, {11, 0, 0, {{3, 1}}}}}));
+  CHECK(full->message == Message(SplitBatch{{{10, 0, 0, 0, {{1, 1}, {1, 2}}}, {11, 0, 0, 0, {{3, 1}}}}}));
   CHECK(aggregator.size() == 1);
   const auto rest = aggregator.flush();
   REQUIRE(rest.size() == 1);

@@ -64,7 +64,7 @@ class RandomMessage {
     return result;
   }
   SplitGroup group() {
-    SplitGroup result{subdomain(), epoch(), rank(), {}};
+    SplitGroup result{subdomain(), epoch(), rank(), epoch(), {}};
     for (auto n = below(6); n > 0; --n) {
       const auto depth = below(dyadic::kMaxDepth + 1);
       const dyadic::Path path = (dyadic::Path{1} << depth) | below(std::uint64_t{1} << depth);

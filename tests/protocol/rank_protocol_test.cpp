@@ -76,6 +76,9 @@ TEST_CASE("a SPLIT follows its subdomain, the sender learns, and counts come out
   CHECK(delivery.arrival->packed.size() == 3);
   REQUIRE(delivery.splits.size() == 1);
   CHECK(delivery.splits[0].origin == 0);
+  CHECK(delivery.splits[0].hops == 1);
+  CHECK(ranks[2].counters().most_hops == 1);
+  CHECK(ranks[1].counters().forwarded == 1);
   CHECK(ranks[2].holds(1));
   CHECK(ranks[2].held_groups() == 0);
   std::int64_t sum = 0;
@@ -83,6 +86,7 @@ TEST_CASE("a SPLIT follows its subdomain, the sender learns, and counts come out
   CHECK(sum == 0);
 
   CHECK_THROWS_AS(ranks.carry(1, hand_off), ProtocolError);
+  CHECK_THROWS_AS(ranks[2].receive(1, SplitBatch{{{1, 1, 0, 2, {{5, 1}}}}}), ProtocolError);  // two hops in one move
   CHECK_THROWS_AS(ranks[2].hand_off(1, 2, {}), Error);
 }
 

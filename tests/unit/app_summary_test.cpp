@@ -78,11 +78,22 @@ TEST_CASE("The summary of a run on ranks has a row a rank, or the extremes of ma
   run.ranks[0].interface_splits = 30;
   run.ranks[1].counters.splits_sent = 12;
   run.ranks[1].counters.batches_sent = 1;
+  run.ranks[0].counters.hand_offs = 3;
+  run.ranks[0].counters.forwarded = 5;
+  run.ranks[0].counters.most_hops = 1;
+  run.ranks[1].counters.most_hops = 2;
+  run.ranks[1].counters.held = 4;
   std::string text = summary_text(run);
   for (const char* expected :
        {"40 subdomains on 2 ranks",
-        "30 split points put on interfaces by refinement, 12 sent between ranks in 1 message", "7,654,321"})
+        "30 split points put on interfaces by refinement, 12 sent between ranks in 1 message",
+        "3 subdomains moved between ranks",
+        "5 groups of split points sent on after a subdomain, by 2 hops at most; 4 waited for one", "7,654,321"})
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
+  const std::string json = summary_json(run);
+  for (const char* expected :
+       {"\"hand_offs\": 3", "\"hand_off_bytes\": 0", "\"forwarded\": 5", "\"most_hops\": 2", "\"held\": 4"})
+    CHECK_MESSAGE(json.find(expected) != std::string::npos, expected);
   run.ranks.resize(100);
   run.ranks[77].times.computing = 12.5;
   text = summary_text(run);
