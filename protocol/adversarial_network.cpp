@@ -56,7 +56,7 @@ Transport& AdversarialNetwork::transport(Rank rank) {
   return *endpoints_.at(static_cast<std::size_t>(rank));
 }
 
-const std::vector<AdversarialNetwork::Parcel>& AdversarialNetwork::under_way(Rank destination) const {
+const std::vector<Parcel>& AdversarialNetwork::under_way(Rank destination) const {
   return boxes_.at(static_cast<std::size_t>(destination));
 }
 
@@ -66,8 +66,8 @@ void AdversarialNetwork::send(Rank source, Rank destination, Bytes bytes) {
                      std::to_string(boxes_.size()));
   auto& box = boxes_[static_cast<std::size_t>(destination)];
   const bool copy = adversary_.may_copy && adversary_.may_copy(source, bytes) && chance(adversary_.copy);
-  if (copy) box.push_back({source, bytes, serial_, true});
-  box.push_back({source, std::move(bytes), serial_, false});
+  if (copy) box.push_back({source, bytes, serial_, true, steps_});
+  box.push_back({source, std::move(bytes), serial_, false, steps_});
   ++serial_, ++in_flight_, ++activity_;
 }
 
@@ -83,17 +83,25 @@ bool AdversarialNetwork::is_held(const Parcel& parcel) const {
   return parcel.serial == held_serial_ && steps_ < release_;
 }
 
-// Which parcels may come next: with FIFO, the oldest of each source, and none of a source whose oldest is held.
+Urgency AdversarialNetwork::urgency(const Parcel& parcel) const {
+  if (is_held(parcel)) return Urgency::kNotYet;
+  return adversary_.urgency ? adversary_.urgency(parcel, steps_) : Urgency::kAnyTime;
+}
+
+// Which parcels may come next: with FIFO, the oldest of each source, and none of a source whose oldest must wait.
 std::vector<std::size_t> AdversarialNetwork::deliverable(const std::vector<Parcel>& box) const {
-  std::vector<std::size_t> result;
+  std::vector<std::size_t> result, first;
   std::vector<bool> met(boxes_.size(), false);
   for (std::size_t i = 0; i < box.size(); ++i) {
     const auto source = static_cast<std::size_t>(box[i].source);
     const bool in_order = !met[source] || !adversary_.fifo || box[i].is_copy;
     if (!box[i].is_copy) met[source] = true;
-    if (in_order && !is_held(box[i])) result.push_back(i);
+    if (!in_order) continue;
+    const Urgency urgent = urgency(box[i]);
+    if (urgent != Urgency::kNotYet) result.push_back(i);
+    if (urgent == Urgency::kFirst) first.push_back(i);
   }
-  return result;
+  return first.empty() ? result : first;
 }
 
 Received AdversarialNetwork::deliver(std::vector<Parcel>& box, std::size_t which) {

@@ -10,6 +10,21 @@
 
 namespace driftmesh::protocol {
 
+/// A message under way.
+struct Parcel {
+  Rank source;
+  Bytes bytes;
+  std::uint64_t serial;  ///< counts the sends of all ranks
+  bool is_copy;
+  std::uint64_t sent;  ///< the step in which it was
+};
+
+enum class Urgency {
+  kAnyTime,  ///< it may come when chance says so
+  kFirst,    ///< before all that is not
+  kNotYet,   ///< it must wait; what waits must be let go some day
+};
+
 /// How an adversarial network treats its ranks. The seed decides everything that is left open.
 struct Adversary {
   std::uint64_t seed = 1;
@@ -19,9 +34,11 @@ struct Adversary {
   bool hold_one = false;  ///< one of the first messages is held back for a long while
   double copy = 0;        ///< chance that a message that may_copy is delivered a second time, at any later moment
   std::function<bool(Rank source, std::span<const std::byte>)> may_copy;  ///< none, if empty
+  /// Asked, if there, of each parcel when its receiver polls, with the number of the step.
+  std::function<Urgency(const Parcel&, std::uint64_t step)> urgency = {};
   std::uint64_t step_limit = 50'000'000;
 
-  /// Everything but may_copy drawn from the seed.
+  /// Everything but the functions drawn from the seed.
   static Adversary from_seed(std::uint64_t seed);
 };
 
@@ -40,12 +57,6 @@ class AdversarialNetwork {
   /// `after_step` is called after each step with the rank that took it. What a step throws ends the run.
   RunResult run(std::span<const RankStep> steps, const std::function<void(Rank)>& after_step = {});
 
-  struct Parcel {
-    Rank source;
-    Bytes bytes;
-    std::uint64_t serial;  // counts the sends of all ranks
-    bool is_copy;
-  };
   /// What is under way to a rank, copies included.
   [[nodiscard]] const std::vector<Parcel>& under_way(Rank destination) const;
   /// Messages sent and not delivered, without copies.
@@ -69,6 +80,7 @@ class AdversarialNetwork {
   void send(Rank source, Rank destination, Bytes bytes);
   std::optional<Received> poll(Rank destination);
   [[nodiscard]] bool is_held(const Parcel& parcel) const;
+  [[nodiscard]] Urgency urgency(const Parcel& parcel) const;
   [[nodiscard]] std::vector<std::size_t> deliverable(const std::vector<Parcel>& box) const;
   Received deliver(std::vector<Parcel>& box, std::size_t which);
   [[nodiscard]] bool is_starved(Rank rank) const;

@@ -133,6 +133,31 @@ TEST_CASE("the adversary copies only what it may") {
   CHECK(network.in_flight() == 0);
 }
 
+TEST_CASE("what is urgent comes first, and what must wait waits") {
+  Adversary adversary{.seed = 6, .may_copy = {}};
+  bool closed = true;
+  adversary.urgency = [&](const Parcel& parcel, std::uint64_t) {
+    if (parcel.bytes[0] == std::byte{0}) return closed ? Urgency::kNotYet : Urgency::kAnyTime;
+    return parcel.bytes[0] == std::byte{1} ? Urgency::kFirst : Urgency::kAnyTime;
+  };
+  AdversarialNetwork network(1, adversary);
+  Transport& transport = network.transport(0);
+  for (int i = 0; i < 30; ++i) transport.send(0, Bytes{std::byte(i % 3)});
+  std::vector<int> order;
+  const auto poll = [&] {
+    for (int i = 0; i < 300; ++i)
+      if (const auto message = transport.poll()) order.push_back(std::to_integer<int>(message->bytes[0]));
+  };
+  poll();
+  std::vector<int> expected(10, 1);
+  expected.insert(expected.end(), 10, 2);
+  CHECK(order == expected);
+  closed = false;
+  poll();
+  expected.insert(expected.end(), 10, 0);
+  CHECK(order == expected);
+}
+
 TEST_CASE("ranks that wait for each other stall, and are told") {
   const std::vector<RankStep> waiting(3, [] { return StepResult::kIdle; });
   CHECK(AdversarialNetwork(3, {.seed = 3, .may_copy = {}}).run(waiting).end == RunEnd::kStalled);

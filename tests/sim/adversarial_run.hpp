@@ -14,9 +14,14 @@
 
 #include "base/error.hpp"
 #include "mesh/digest.hpp"
+#include "runtime/plan_run.hpp"
 #include "runtime/rank_loop.hpp"
+#include "sim/deeds.hpp"
 #include "sim/mesh_oracles.hpp"
+#include "sim/mover.hpp"
+#include "sim/rumours.hpp"
 #include "sim/scenario.hpp"
+#include "sim/witness.hpp"
 #include "support/simulated_run.hpp"
 
 namespace driftmesh::sim {
@@ -35,6 +40,7 @@ struct Outcome {
   std::uint64_t steps = 0;
   protocol::ProtocolCounters counters;  ///< of all ranks together
   protocol::AdversarialNetwork::Counters network;
+  Deeds deeds;
   std::int64_t asleep = 0;        ///< subdomains at the end
   std::uint64_t late_rounds = 0;  ///< probes after the one that was out when all work was over
   bool digest_compared = false;
@@ -61,19 +67,13 @@ class AdversarialRun {
   AdversarialRun(const Scenario& scenario, Domain& domain, const Wrap& wrap = {})
       : scenario_(scenario),
         domain_(domain),
-        random_(scenario.seed * 31 + 7),
-        moves_left_(scenario.most_moves),
-        network_(scenario.ranks, scenario.adversary) {
+        mover_(scenario),
+        network_(scenario.ranks, adversary()),
+        rumours_{std::mt19937_64(scenario.seed), {}},
+        witness_(scenario.ranks, static_cast<std::size_t>(scenario.subdomains), [this] { return is_quiet(); }) {
     make_plan();
-    for (protocol::Rank r = 0; r < scenario.ranks; ++r) {
-      protocol::Transport* transport = &network_.transport(r);
-      if (wrap) {
-        wrapped_.push_back(
-            wrap(*transport, [this, r]() -> const Loop& { return *loops_[static_cast<std::size_t>(r)]; }));
-        transport = wrapped_.back().get();
-      }
-      loops_.push_back(std::make_unique<Loop>(*transport, plan_));
-    }
+    for (protocol::Rank r = 0; r < scenario.ranks; ++r)
+      loops_.push_back(std::make_unique<Loop>(transport_of(r, wrap), plan_, costs_of(r)));
     arrivals_seen_.resize(loops_.size());
   }
 
@@ -81,6 +81,8 @@ class AdversarialRun {
     if (!go()) return std::move(outcome_);
     count();
     say("no message lost", lost_messages());
+    say("ranks tell the token the truth", witness_.token_problem());
+    say("no SPLIT makes more hops than its subdomain", witness_.hops_problem());
     say("one live owner", owners_at_the_end());
     if (!outcome_.failure().empty()) return std::move(outcome_);
     const std::vector<const Subdomain*> all = subdomains_awake();
@@ -98,7 +100,9 @@ class AdversarialRun {
 
   void make_plan() {
     plan_.decomposition = domain_.cut(scenario_.subdomains);
-    for (std::size_t s = 0; s < plan_.decomposition.size(); ++s) plan_.owners.push_back(any_rank());
+    const protocol::Rank only = mover_.any_rank();
+    for (std::size_t s = 0; s < plan_.decomposition.size(); ++s)
+      plan_.owners.push_back(scenario_.lopsided ? only : mover_.any_rank());
     plan_.bounds = domain_.bounds();
     context_ = {&plan_.decomposition, plan_.bounds, scenario_.presplit};
     plan_.presplit = scenario_.presplit;
@@ -106,12 +110,81 @@ class AdversarialRun {
     plan_.slice = scenario_.slice;
     plan_.order = scenario_.order;
     plan_.sleep = scenario_.sleep;
+    if (!scenario_.balanced()) return;
+    plan_.balancing.policy = scenario_.mover;
+    if (scenario_.mover == "stealing") plan_.balancing.parameters["low-water"] = "20";
+    plan_.balancing.options.look = 3;
+    plan_.balancing.options.gap = 10;
+    plan_.balancing.options.interval = 300;
+    plan_.balancing.options.cost.latency = 0.1;
+    prepare_balancing(plan_, scenario_.ranks);
   }
+
+  /// Time for policies: a step takes one unit, an insertion a tenth, or up to a whole one on a slow rank.
+  [[nodiscard]] CostModel costs_of(protocol::Rank r) const {
+    CostModel costs;
+    costs.start = 1;
+    costs.prepared = 0;
+    costs.point = 0.1 * static_cast<double>(1 + (scenario_.seed + 7 * static_cast<std::uint64_t>(r)) % 10);
+    return costs;
+  }
+
+  /// The scenario's, with its mischief.
+  protocol::Adversary adversary() {
+    protocol::Adversary result = scenario_.adversary;
+    const auto after = [ranks = static_cast<std::uint64_t>(scenario_.ranks)](std::uint64_t steps) {
+      return [least = steps * ranks](const protocol::Parcel& parcel, std::uint64_t step) {
+        return step < parcel.sent + least ? protocol::Urgency::kNotYet : protocol::Urgency::kAnyTime;
+      };
+    };
+    switch (scenario_.mischief) {
+      case Mischief::kNone:
+      case Mischief::kRumours:
+        break;
+      case Mischief::kRacingHandOffs:
+        result.urgency = [late = after(30)](const protocol::Parcel& parcel, std::uint64_t step) {
+          if (!is<protocol::HandOff>(parcel.bytes)) return protocol::Urgency::kAnyTime;
+          return parcel.serial % 2 == 0 ? protocol::Urgency::kFirst : late(parcel, step);
+        };
+        break;
+      case Mischief::kLateLocations:
+        result.urgency = [this](const protocol::Parcel& parcel, std::uint64_t) {
+          const bool waits = is<protocol::LocationUpdate>(parcel.bytes) && !is_quiet();
+          return waits ? protocol::Urgency::kNotYet : protocol::Urgency::kAnyTime;
+        };
+        break;
+      case Mischief::kLateAdvice:
+        result.urgency = [late = after(40)](const protocol::Parcel& parcel, std::uint64_t step) {
+          const bool advice = is<protocol::Plan>(parcel.bytes) || is<protocol::WorkRequest>(parcel.bytes) ||
+                              is<protocol::WorkAnswer>(parcel.bytes);
+          return advice ? late(parcel, step) : protocol::Urgency::kAnyTime;
+        };
+        break;
+    }
+    return result;
+  }
+
+  protocol::Transport& transport_of(protocol::Rank r, const Wrap& wrap) {
+    const auto loop = [this, r]() -> const Loop& { return *loops_[static_cast<std::size_t>(r)]; };
+    protocol::Transport* transport = &network_.transport(r);
+    const auto put_on = [&](std::unique_ptr<protocol::Transport> layer) {
+      layers_.push_back(std::move(layer));
+      transport = layers_.back().get();
+    };
+    if (scenario_.mischief == Mischief::kRumours) put_on(std::make_unique<RumourTransport>(*transport, rumours_));
+    put_on(std::make_unique<WitnessedTransport>(
+        *transport, witness_, [loop](SubdomainId s) { return loop().subdomains().contains(s); },
+        [loop]() -> const protocol::ProtocolCounters& { return loop().protocol().counters(); }));
+    if (wrap) put_on(wrap(*transport, loop));
+    return *transport;
+  }
+
+  [[nodiscard]] bool is_quiet() const { return quiet_since_.has_value(); }
 
   /// To the end of the run. False if it does not come to a good one.
   bool go() {
     std::vector<protocol::RankStep> steps;
-    for (const auto& loop : loops_) steps.push_back([this, l = loop.get()] { return step(*l); });
+    for (protocol::Rank r = 0; r < scenario_.ranks; ++r) steps.push_back([this, r] { return step(r); });
     try {
       const protocol::RunResult result = network_.run(steps);
       outcome_.steps = result.steps;
@@ -128,34 +201,25 @@ class AdversarialRun {
     return outcome_.failure().empty();
   }
 
-  protocol::StepResult step(Loop& loop) {
-    if (moves_left_ > 0 && chance(scenario_.move_chance)) move_one(loop);
+  protocol::StepResult step(protocol::Rank r) {
+    Loop& loop = *loops_[static_cast<std::size_t>(r)];
+    mover_.before_step(loop, r);
     const protocol::StepResult result = loop.step();
-    watch_owners(loop);
+    watch_owners(r);
     watch_termination();
     return result;
   }
 
-  void move_one(Loop& loop) {
-    std::vector<SubdomainId> active;
-    for (const auto& [id, subdomain] : loop.subdomains())
-      if (subdomain.active()) active.push_back(id);
-    if (!active.empty() && loop.hand_over(active[random_() % active.size()], any_rank())) --moves_left_;
-  }
-
   /// A subdomain that arrives lives nowhere else.
-  void watch_owners(const Loop& loop) {
+  void watch_owners(protocol::Rank r) {
+    const Loop& loop = *loops_[static_cast<std::size_t>(r)];
     const std::int64_t arrivals = loop.protocol().counters().arrivals;
-    std::int64_t& seen = arrivals_seen_[index_of(loop)];
+    std::int64_t& seen = arrivals_seen_[static_cast<std::size_t>(r)];
     if (std::exchange(seen, arrivals) == arrivals) return;
     for (const auto& [id, subdomain] : loop.subdomains())
       for (const auto& other : loops_)
         if (other.get() != &loop && other->subdomains().contains(id))
           throw Wrong{{"one live owner", "subdomain " + std::to_string(id) + " lives on two ranks"}};
-  }
-  [[nodiscard]] std::size_t index_of(const Loop& loop) const {
-    const auto place = std::find_if(loops_.begin(), loops_.end(), [&](const auto& l) { return l.get() == &loop; });
-    return static_cast<std::size_t>(place - loops_.begin());
   }
 
   void watch_termination() {
@@ -188,10 +252,16 @@ class AdversarialRun {
       outcome_.counters.splits_handled += c.splits_handled;
       outcome_.counters.batches_sent += c.batches_sent;
       outcome_.counters.hand_offs += c.hand_offs;
+      outcome_.counters.hand_off_bytes += c.hand_off_bytes;
       outcome_.counters.arrivals += c.arrivals;
       outcome_.counters.forwarded += c.forwarded;
+      outcome_.counters.most_hops = std::max(outcome_.counters.most_hops, c.most_hops);
       outcome_.counters.held += c.held;
     }
+    outcome_.deeds = mover_.deeds();
+    outcome_.deeds += witness_.deeds();
+    if (scenario_.balanced()) outcome_.deeds.by_policy = outcome_.counters.hand_offs - outcome_.deeds.by_chance;
+    outcome_.deeds.starved = static_cast<std::int64_t>(network_.counters().starved);
   }
 
   [[nodiscard]] std::string lost_messages() const {
@@ -255,20 +325,17 @@ class AdversarialRun {
   }
 
   void say(const char* oracle, std::string problem) { outcome_.verdicts.push_back({oracle, std::move(problem)}); }
-  protocol::Rank any_rank() {
-    return static_cast<protocol::Rank>(random_() % static_cast<std::uint64_t>(scenario_.ranks));
-  }
-  bool chance(double probability) { return static_cast<double>(random_() >> 11) * 0x1p-53 < probability; }
 
   const Scenario& scenario_;
   Domain& domain_;
-  std::mt19937_64 random_;
-  std::int64_t moves_left_;
+  Mover<Loop> mover_;
   RunPlan plan_;
   SubdomainContext context_;
   std::deque<Subdomain> copies_;
   protocol::AdversarialNetwork network_;
-  std::vector<std::unique_ptr<protocol::Transport>> wrapped_;
+  Rumours rumours_;
+  Witness witness_;
+  std::vector<std::unique_ptr<protocol::Transport>> layers_;  // between ranks and network
   std::vector<std::unique_ptr<Loop>> loops_;
   std::vector<std::int64_t> arrivals_seen_;
   std::optional<std::uint64_t> quiet_since_;  // probes that were out or over then

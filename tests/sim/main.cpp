@@ -44,8 +44,10 @@ bool show(std::uint64_t seed, const Choice& choice, Domains& domains) {
   const Outcome o = replay(seed, choice, domains);
   for (const Verdict& v : o.verdicts) fmt::print("  {:<46} {}\n", v.oracle, v.problem.empty() ? "yes" : v.problem);
   fmt::print("  {} steps, {} triangles, digest {:016x}\n", o.steps, o.triangles, o.digest);
-  fmt::print("  {} SPLITs in {} messages, {} subdomains moved, {} groups forwarded, {} held\n", o.counters.splits_sent,
-             o.counters.batches_sent, o.counters.hand_offs, o.counters.forwarded, o.counters.held);
+  fmt::print("  {} SPLITs in {} messages, {} subdomains moved, {} groups forwarded, {} times at most, {} held\n",
+             o.counters.splits_sent, o.counters.batches_sent, o.counters.hand_offs, o.counters.forwarded,
+             o.counters.most_hops, o.counters.held);
+  fmt::print("  {}\n", words_of(o.deeds));
   fmt::print("  {} messages delivered, {} of them reordered, {} copies; {} probes after the last work\n",
              o.network.delivered, o.network.reordered, o.network.copies, o.late_rounds);
   return o.failure().empty();
@@ -56,6 +58,7 @@ bool sweep(std::uint64_t first, std::uint64_t last, const Choice& choice, Domain
   const Stopwatch watch;
   std::uint64_t failed = 0, compared = 0;
   std::int64_t triangles = 0, splits = 0, moves = 0, forwarded = 0, held = 0;
+  Deeds deeds;
   for (std::uint64_t seed = first; seed <= last; ++seed) {
     const Outcome o = replay(seed, choice, domains);
     if (const std::string failure = o.failure(); !failure.empty()) {
@@ -67,12 +70,14 @@ bool sweep(std::uint64_t first, std::uint64_t last, const Choice& choice, Domain
     moves += o.counters.hand_offs;
     forwarded += o.counters.forwarded;
     held += o.counters.held;
+    deeds += o.deeds;
     compared += o.digest_compared ? 1 : 0;
   }
   fmt::print("seeds {} to {}: {} failed\n", first, last, failed);
   fmt::print(
       "{} triangles, {} SPLITs, {} subdomains moved, {} groups forwarded, {} held; {} digests compared; {:.1f} s\n",
       triangles, splits, moves, forwarded, held, compared, watch.seconds());
+  fmt::print("{}\n", words_of(deeds));
   return failed == 0;
 }
 
@@ -86,6 +91,9 @@ int run(int argc, char** argv) {
   program.add_option("--ranks", choice.ranks, "Simulated ranks (left out: from the seed)")->check(CLI::Range(1, 1000));
   program.add_option("--domain", choice.domain, "What is meshed (left out: from the seed)")
       ->check(CLI::IsMember(domain_names()));
+  program
+      .add_option("--mover", choice.mover, "Who moves subdomains: an adversary or a policy (left out: from the seed)")
+      ->check(CLI::IsMember(mover_names()));
   program.add_option("--presplit", presplit, "Cut interfaces to size first; auto: from the seed")
       ->check(CLI::IsMember({"on", "off", "auto"}))
       ->capture_default_str();

@@ -2,12 +2,42 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 
 #include "sim/domains.hpp"
 
 namespace driftmesh::sim {
+namespace {
+
+const char* words_of(Mischief mischief) {
+  switch (mischief) {
+    case Mischief::kNone:
+      break;
+    case Mischief::kRacingHandOffs:
+      return ", hand-offs and SPLITs race";
+    case Mischief::kLateLocations:
+      return ", locations known late";
+    case Mischief::kRumours:
+      return ", rumours of locations";
+    case Mischief::kLateAdvice:
+      return ", late advice";
+  }
+  return "";
+}
+
+}  // namespace
+
+const std::vector<std::string>& mover_names() {
+  static const std::vector<std::string> kNames{"chance", "ping-pong", "rotation", "behind-token",
+                                               "greedy", "diffusion", "stealing", "zoltan"};
+  return kNames;
+}
+
+bool Scenario::balanced() const {
+  return std::find(mover_names().begin() + 4, mover_names().end(), mover) != mover_names().end();
+}
 
 // Every draw is made whatever the choice says, so that a choice changes nothing else.
 Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
@@ -30,18 +60,25 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
   s.adversary.may_copy = [](protocol::Rank source, auto bytes) {
     return protocol::traffic_of(source, bytes) == protocol::Traffic::kDetection;
   };
+  s.mover = one_of(mover_names());
+  if (choice.mover) s.mover = *choice.mover;
+  s.lopsided = random() % 4 == 0;
+  s.mischief = one_of(std::array{Mischief::kNone, Mischief::kNone, Mischief::kRacingHandOffs, Mischief::kLateLocations,
+                                 Mischief::kRumours, Mischief::kLateAdvice});
+  // A message that must wait would block all behind it.
+  if (s.mischief != Mischief::kNone && s.mischief != Mischief::kRumours) s.adversary.fifo = false;
   return s;
 }
 
 std::string Scenario::describe() const {
   const protocol::Adversary& a = adversary;
   return fmt::format(
-      "seed {}: {} in {} subdomains on {} ranks, presplit {}, {} SPLITs a message, slices of {}{}; {} moves at most, "
-      "with "
-      "chance {} at each step; {}, delay {}{}{}{}",
+      "seed {}: {} in {} subdomains on {} ranks, presplit {}, {} SPLITs a message, slices of {}{}; moved by {}{}, {} "
+      "times at most, by chance {} at each step; {}, delay {}{}{}{}{}",
       seed, domain, subdomains, ranks, presplit ? "on" : "off", aggregation, slice, sleep ? ", the finished sleep" : "",
-      most_moves, move_chance, a.fifo ? "in order" : "reordered", a.delay, a.starve ? ", a rank starved" : "",
-      a.hold_one ? ", a message held back" : "", a.copy > 0 ? ", copies" : "");
+      mover, lopsided ? " from a single rank" : "", most_moves, move_chance, a.fifo ? "in order" : "reordered", a.delay,
+      a.starve ? ", a rank starved" : "", a.hold_one ? ", a message held back" : "", a.copy > 0 ? ", copies" : "",
+      words_of(mischief));
 }
 
 }  // namespace driftmesh::sim

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <functional>
-#include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <variant>
 
+#include "migration/packed_form.hpp"
 #include "migration/subdomain.hpp"
 #include "protocol/codec.hpp"
-#include "protocol/transport.hpp"
+#include "sim/transport_layer.hpp"
+#include "sim/witness.hpp"
 
 namespace driftmesh::sim {
 
@@ -50,57 +52,124 @@ inline void insert_again(protocol::SplitGroup& group, const Subdomain& receiver)
     if (has_point(receiver, entry)) entry.path *= 2;
 }
 
-/// Loses the first work that comes to a rank: SPLITs, or a subdomain.
-class LosingTransport final : public protocol::Transport {
- public:
-  explicit LosingTransport(protocol::Transport& inner) : inner_(inner) {}
-  [[nodiscard]] protocol::Rank rank() const override { return inner_.rank(); }
-  [[nodiscard]] protocol::Rank ranks() const override { return inner_.ranks(); }
-  void send(protocol::Rank destination, protocol::Bytes bytes) override { inner_.send(destination, std::move(bytes)); }
-  void idle() override { inner_.idle(); }
-  [[nodiscard]] double now() const override { return inner_.now(); }
-  std::optional<protocol::Received> poll() override {
-    auto received = inner_.poll();
-    if (!received || lost_ || protocol::traffic_of(received->source, received->bytes) != protocol::Traffic::kWork)
-      return received;
-    lost_ = true;
-    return inner_.poll();
-  }
-
- private:
-  protocol::Transport& inner_;
-  bool lost_ = false;
-};
-
-/// Between a rank and its network.
-class TamperingTransport final : public protocol::Transport {
+/// Changes what a rank is told of SPLITs.
+class TamperingTransport final : public TransportLayer {
  public:
   using Find = std::function<const Subdomain*(SubdomainId)>;
   TamperingTransport(protocol::Transport& inner, Tampering tamper, protocol::WireLimits limits, Find find)
-      : inner_(inner), tamper_(tamper), limits_(limits), find_(std::move(find)) {}
+      : TransportLayer(inner), tamper_(tamper), limits_(limits), find_(std::move(find)) {}
 
-  [[nodiscard]] protocol::Rank rank() const override { return inner_.rank(); }
-  [[nodiscard]] protocol::Rank ranks() const override { return inner_.ranks(); }
-  void send(protocol::Rank destination, protocol::Bytes bytes) override { inner_.send(destination, std::move(bytes)); }
-  void idle() override { inner_.idle(); }
-  [[nodiscard]] double now() const override { return inner_.now(); }
   std::optional<protocol::Received> poll() override {
-    auto received = inner_.poll();
-    if (!received) return received;
-    protocol::Message message = protocol::decode(received->source, received->bytes, limits_);
-    auto* const batch = std::get_if<protocol::SplitBatch>(&message);
-    if (batch == nullptr) return received;
-    for (protocol::SplitGroup& group : batch->groups)
+    auto received = TransportLayer::poll();
+    if (!received || !is<protocol::SplitBatch>(received->bytes)) return received;
+    auto batch = std::get<protocol::SplitBatch>(protocol::decode(received->source, received->bytes, limits_));
+    for (protocol::SplitGroup& group : batch.groups)
       if (const Subdomain* receiver = find_(group.to)) tamper_(group, *receiver);
-    received->bytes = protocol::encode(message);
+    received->bytes = protocol::encode(batch);
     return received;
   }
 
  private:
-  protocol::Transport& inner_;
   Tampering tamper_;
   protocol::WireLimits limits_;
   Find find_;
+};
+
+/// Loses the first work that comes to a rank: SPLITs, or a subdomain.
+class LosingTransport final : public TransportLayer {
+ public:
+  using TransportLayer::TransportLayer;
+  std::optional<protocol::Received> poll() override {
+    auto received = TransportLayer::poll();
+    if (!received || lost_ || protocol::traffic_of(received->source, received->bytes) != protocol::Traffic::kWork)
+      return received;
+    lost_ = true;
+    return TransportLayer::poll();
+  }
+
+ private:
+  bool lost_ = false;
+};
+
+/// As a rank that takes a subdomain which it had before for one that it has still: drops it.
+class UnwelcomingTransport final : public TransportLayer {
+ public:
+  UnwelcomingTransport(protocol::Transport& inner, protocol::WireLimits limits)
+      : TransportLayer(inner), limits_(limits) {}
+
+  void send(protocol::Rank destination, protocol::Bytes bytes) override {
+    if (is<protocol::HandOff>(bytes)) known_.insert(subdomain_of(rank(), bytes));
+    TransportLayer::send(destination, std::move(bytes));
+  }
+  std::optional<protocol::Received> poll() override {
+    auto received = TransportLayer::poll();
+    if (!received || !is<protocol::HandOff>(received->bytes)) return received;
+    return known_.contains(subdomain_of(received->source, received->bytes)) ? TransportLayer::poll() : received;
+  }
+
+ private:
+  [[nodiscard]] SubdomainId subdomain_of(protocol::Rank source, const protocol::Bytes& bytes) const {
+    return std::get<protocol::HandOff>(protocol::decode(source, bytes, limits_)).subdomain;
+  }
+
+  protocol::WireLimits limits_;
+  std::set<SubdomainId> known_;
+};
+
+/// As a packed form without the points that the subdomain was told of and has not taken in.
+class ForgetfulTransport final : public TransportLayer {
+ public:
+  ForgetfulTransport(protocol::Transport& inner, protocol::WireLimits limits)
+      : TransportLayer(inner), limits_(limits) {}
+
+  void send(protocol::Rank destination, protocol::Bytes bytes) override {
+    if (is<protocol::HandOff>(bytes)) {
+      auto leaving = std::get<protocol::HandOff>(protocol::decode(rank(), bytes, limits_));
+      leaving.packed = without_pending(leaving.packed);
+      bytes = protocol::encode(leaving);
+    }
+    TransportLayer::send(destination, std::move(bytes));
+  }
+
+ private:
+  static protocol::Bytes without_pending(const protocol::Bytes& packed) {
+    const SubdomainState state = unpack(packed);
+    SubdomainView view{state.id, state.refined, {}, {}, state.dormant ? &*state.dormant : nullptr};
+    if (state.body) view.body.emplace(SubdomainView::Body{state.body->part, state.body->refiner, state.body->forecast});
+    return pack(view);
+  }
+
+  protocol::WireLimits limits_;
+};
+
+/// As a rank that takes another colour when it forwards SPLITs: shows in the token that it passes on.
+class RecolouringTransport final : public TransportLayer {
+ public:
+  using Forwarded = std::function<std::int64_t()>;
+  /// `forwarded`: how often the rank has, so far.
+  RecolouringTransport(protocol::Transport& inner, bool black, Forwarded forwarded)
+      : TransportLayer(inner), black_(black), forwarded_(std::move(forwarded)) {}
+
+  void send(protocol::Rank destination, protocol::Bytes bytes) override {
+    if (rank() != 0 && is<protocol::Token>(bytes)) {
+      auto token = std::get<protocol::Token>(protocol::decode(rank(), bytes, {}));
+      if (forwarded_() != std::exchange(known_, forwarded_())) token.black = came_black_ || black_;
+      bytes = protocol::encode(token);
+    }
+    TransportLayer::send(destination, std::move(bytes));
+  }
+  std::optional<protocol::Received> poll() override {
+    auto received = TransportLayer::poll();
+    if (received && is<protocol::Token>(received->bytes))
+      came_black_ = std::get<protocol::Token>(protocol::decode(received->source, received->bytes, {})).black;
+    return received;
+  }
+
+ private:
+  bool black_;
+  Forwarded forwarded_;
+  std::int64_t known_ = 0;   // forwarded when the last token was passed on
+  bool came_black_ = false;  // the token that is here
 };
 
 }  // namespace driftmesh::sim

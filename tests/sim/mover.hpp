@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <vector>
+
+#include "protocol/ids.hpp"
+#include "sim/deeds.hpp"
+#include "sim/scenario.hpp"
+
+namespace driftmesh::sim {
+
+/// Hands subdomains over between two steps of a rank, in one of the ways that a protocol may not have thought of.
+template <class Loop>
+class Mover {
+ public:
+  explicit Mover(const Scenario& scenario)
+      : scenario_(scenario), random_(scenario.seed * 31 + 7), left_(scenario.most_moves) {
+    ball_ = static_cast<protocol::SubdomainId>(below(static_cast<std::uint64_t>(scenario.subdomains)));
+    if (scenario.mover == "ping-pong" || scenario.mover == "rotation") left_ = 10 * left_;
+  }
+
+  /// Any rank, at random.
+  protocol::Rank any_rank() { return static_cast<protocol::Rank>(below(static_cast<std::uint64_t>(scenario_.ranks))); }
+
+  /// Called before a rank polls.
+  void before_step(Loop& loop, protocol::Rank rank) {
+    if (left_ <= 0 || scenario_.ranks == 1) return;
+    if (scenario_.mover == "ping-pong")
+      play(loop, rank);
+    else if (scenario_.mover == "rotation")
+      rotate(loop, rank);
+    else if (scenario_.mover == "behind-token")
+      follow_token(loop, rank);
+    else if (chance(scenario_.move_chance))
+      move_any(loop);
+  }
+
+  [[nodiscard]] const Deeds& deeds() const { return deeds_; }
+
+ private:
+  bool hand_over(Loop& loop, protocol::SubdomainId s, protocol::Rank to) {
+    const bool moved = loop.hand_over(s, to);
+    if (moved) --left_;
+    return moved;
+  }
+
+  [[nodiscard]] static std::vector<protocol::SubdomainId> active(const Loop& loop) {
+    std::vector<protocol::SubdomainId> result;
+    for (const auto& [id, subdomain] : loop.subdomains())
+      if (subdomain.active()) result.push_back(id);
+    return result;
+  }
+
+  void move_any(Loop& loop) {
+    const auto all = active(loop);
+    if (!all.empty() && hand_over(loop, all[below(all.size())], any_rank())) ++deeds_.by_chance;
+  }
+
+  // One subdomain goes back and forth as long as it has work.
+  void play(Loop& loop, protocol::Rank rank) {
+    const auto from = came_from_.find(rank);
+    const protocol::Rank to = from == came_from_.end() ? (rank + 1) % scenario_.ranks : from->second;
+    if (!hand_over(loop, ball_, to)) return;
+    if (from != came_from_.end()) ++deeds_.returns;
+    came_from_[to] = rank;
+  }
+
+  void rotate(Loop& loop, protocol::Rank rank) {
+    const auto all = active(loop);
+    for (const protocol::SubdomainId s : all) hand_over(loop, s, (rank + 1) % scenario_.ranks);
+    if (!all.empty()) ++deeds_.rotations;
+  }
+
+  // The case that Safra's colours are for: the token will not come by that rank again.
+  void follow_token(Loop& loop, protocol::Rank rank) {
+    if (rank == 0 || !loop.protocol().termination().has_token()) return;
+    const auto all = active(loop);
+    if (all.empty()) return;
+    const auto to = static_cast<protocol::Rank>(below(static_cast<std::uint64_t>(rank)));
+    if (hand_over(loop, all[below(all.size())], to)) ++deeds_.behind_token;
+  }
+
+  std::uint64_t below(std::uint64_t n) { return random_() % n; }
+  bool chance(double probability) { return static_cast<double>(random_() >> 11) * 0x1p-53 < probability; }
+
+  const Scenario& scenario_;
+  std::mt19937_64 random_;
+  std::int64_t left_;  // moves
+  protocol::SubdomainId ball_;
+  std::map<protocol::Rank, protocol::Rank> came_from_;  // the ball, to each rank when it last did
+  Deeds deeds_;
+};
+
+}  // namespace driftmesh::sim

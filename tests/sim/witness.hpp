@@ -1,0 +1,185 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "protocol/codec.hpp"
+#include "protocol/rank_protocol.hpp"
+#include "sim/deeds.hpp"
+#include "sim/transport_layer.hpp"
+
+namespace driftmesh::sim {
+
+/// Whether an encoded message is a T.
+template <class T>
+[[nodiscard]] bool is(const protocol::Bytes& bytes) {
+  static const std::size_t type = protocol::Message(T{}).index();
+  return bytes.size() > 1 && std::to_integer<std::size_t>(bytes[1]) == type;
+}
+
+/// Sees everything that is sent and received, by all ranks: finds what breaks a rule of docs/protocol.md, and counts
+/// what an adversary has brought about.
+class Witness {
+ public:
+  /// `work_is_over`: whether by the truth it is; asked at any time.
+  Witness(protocol::Rank ranks, std::size_t subdomains, std::function<bool()> work_is_over)
+      : ranks_(static_cast<std::size_t>(ranks)), moves_(subdomains), work_is_over_(std::move(work_is_over)) {}
+
+  /// `rank` sends; `counters` are its protocol's at that moment.
+  void sent(protocol::Rank rank, const protocol::Bytes& bytes, const protocol::ProtocolCounters& counters) {
+    ++clock_;
+    if (is<protocol::Token>(bytes)) return token_passed(rank, decoded<protocol::Token>(bytes), counters);
+    if (is<protocol::HandOff>(bytes)) {
+      const protocol::SubdomainId s = decoded<protocol::HandOff>(bytes).subdomain;
+      ++moves_.at(index(s));
+      under_way_[s] = clock_;
+    } else if (is<protocol::SplitBatch>(bytes)) {
+      const auto batch = decoded<protocol::SplitBatch>(bytes);
+      for (const auto& group : batch.groups) split_sent(group);
+    }
+  }
+
+  /// `rank` receives; `holds` says of a subdomain whether it is there.
+  void received(protocol::Rank rank, const protocol::Bytes& bytes,
+                const std::function<bool(protocol::SubdomainId)>& holds) {
+    if (is<protocol::Token>(bytes)) {
+      const auto token = decoded<protocol::Token>(bytes);
+      ranks_[index(rank)].tokens[token.round] = token;
+    } else if (is<protocol::HandOff>(bytes)) {
+      arrived(decoded<protocol::HandOff>(bytes).subdomain);
+    } else if (is<protocol::SplitBatch>(bytes)) {
+      const auto batch = decoded<protocol::SplitBatch>(bytes);
+      for (const auto& group : batch.groups) split_received(group);
+    } else if (is<protocol::LocationUpdate>(bytes)) {
+      located(rank, decoded<protocol::LocationUpdate>(bytes));
+    } else if (is<protocol::Plan>(bytes)) {
+      const auto plan = decoded<protocol::Plan>(bytes);
+      for (const auto& move : plan.moves) deeds_.late_plans += holds(move.subdomain) ? 0 : 1;
+    }
+  }
+
+  [[nodiscard]] const Deeds& deeds() const { return deeds_; }
+  /// What is wrong with a token that a rank passed on, or nothing.
+  [[nodiscard]] const std::string& token_problem() const { return token_problem_; }
+  /// What is wrong with the way of a SPLIT, or nothing.
+  [[nodiscard]] const std::string& hops_problem() const { return hops_problem_; }
+
+ private:
+  // A group of SPLITs on one leg of its way. Each point is announced once, so that no other group begins with it.
+  using Leg = std::tuple<protocol::SubdomainId, protocol::EdgeId, dyadic::Path, std::uint32_t>;
+  struct OfRank {
+    std::map<std::uint64_t, protocol::Token> tokens;  // received, by round
+    std::int64_t handled = 0;                         // when the last one was passed on
+    std::map<std::tuple<protocol::SubdomainId, protocol::Rank, protocol::Epoch>, int> locations;
+  };
+
+  template <class T>
+  static std::size_t index(T number) {
+    return static_cast<std::size_t>(number);
+  }
+  template <class T>
+  static T decoded(const protocol::Bytes& bytes) {
+    return std::get<T>(protocol::decode(0, bytes, {1 << 20, 1 << 20, 1 << 20}));
+  }
+  static Leg leg(const protocol::SplitGroup& group) {
+    return {group.to, group.entries.front().edge, group.entries.front().path, group.hops};
+  }
+
+  // Rules 2, 3 and 4: a rank adds its own count, and blackens the token if it has handled anything since the last one.
+  void token_passed(protocol::Rank rank, const protocol::Token& token, const protocol::ProtocolCounters& counters) {
+    if (rank == 0) return;
+    OfRank& known = ranks_[index(rank)];
+    const protocol::Token& came = known.tokens.at(token.round);
+    const std::int64_t handled = counters.splits_handled + counters.arrivals;
+    const bool has_handled = std::exchange(known.handled, handled) != handled;
+    const bool black = came.black || has_handled;
+    const std::int64_t count = came.count + counters.splits_sent + counters.hand_offs - handled;
+    if (token.black != black)
+      complain(token_problem_, rank, token.black ? "blackens a token without a reason" : "passes a token on too white");
+    if (token.count != count) complain(token_problem_, rank, "adds to a token what is not its count");
+  }
+
+  void split_sent(const protocol::SplitGroup& group) {
+    if (group.hops == 0) first_epoch_[leg(group)] = group.epoch;
+    splits_[group.to][leg(group)] = clock_;
+  }
+
+  void split_received(const protocol::SplitGroup& group) {
+    splits_[group.to].erase(leg(group));
+    if (under_way_.contains(group.to)) ++deeds_.splits_ahead;
+    deeds_.most_hops = std::max<std::int64_t>(deeds_.most_hops, group.hops);
+    Leg first = leg(group);
+    std::get<3>(first) = 0;
+    if (group.hops > group.epoch - first_epoch_.at(first) || group.epoch > moves_.at(index(group.to)))
+      complain(hops_problem_, group.origin,
+               "has sent SPLITs that were forwarded more often than their subdomain moved");
+  }
+
+  void arrived(protocol::SubdomainId s) {
+    const std::uint64_t left = under_way_.at(s);
+    under_way_.erase(s);
+    for (const auto& [leg, sent] : splits_[s])
+      if (sent < left) {
+        ++deeds_.hand_offs_ahead;
+        return;
+      }
+  }
+
+  void located(protocol::Rank rank, const protocol::LocationUpdate& update) {
+    if (work_is_over_()) ++deeds_.late_locations;
+    if (update.epoch < moves_.at(index(update.subdomain))) ++deeds_.outdated_locations;
+    if (++ranks_[index(rank)].locations[{update.subdomain, update.owner, update.epoch}] > 1)
+      ++deeds_.repeated_locations;
+  }
+
+  static void complain(std::string& problem, protocol::Rank rank, const char* what) {
+    if (problem.empty()) problem = "rank " + std::to_string(rank) + " " + what;
+  }
+
+  std::uint64_t clock_ = 0;  // sends so far
+  std::vector<OfRank> ranks_;
+  std::vector<protocol::Epoch> moves_;                                    // of each subdomain
+  std::map<protocol::SubdomainId, std::uint64_t> under_way_;              // when they left
+  std::map<protocol::SubdomainId, std::map<Leg, std::uint64_t>> splits_;  // under way, and when they were sent
+  std::map<Leg, protocol::Epoch> first_epoch_;
+  std::function<bool()> work_is_over_;
+  Deeds deeds_;
+  std::string token_problem_, hops_problem_;
+};
+
+/// Between a rank and its network: lets the witness see both ways, and lets time pass by the work that is done.
+class WitnessedTransport final : public TransportLayer {
+ public:
+  using Holds = std::function<bool(protocol::SubdomainId)>;
+  using Counters = std::function<const protocol::ProtocolCounters&()>;
+  WitnessedTransport(protocol::Transport& inner, Witness& witness, Holds holds, Counters counters)
+      : TransportLayer(inner), witness_(witness), holds_(std::move(holds)), counters_(std::move(counters)) {}
+
+  void send(protocol::Rank destination, protocol::Bytes bytes) override {
+    witness_.sent(rank(), bytes, counters_());
+    TransportLayer::send(destination, std::move(bytes));
+  }
+  std::optional<protocol::Received> poll() override {
+    auto received = TransportLayer::poll();
+    if (received) witness_.received(rank(), received->bytes, holds_);
+    return received;
+  }
+  [[nodiscard]] double now() const override { return TransportLayer::now() + spent_; }
+  void spend(double seconds) override { spent_ += seconds; }
+
+ private:
+  Witness& witness_;
+  Holds holds_;
+  Counters counters_;
+  double spent_ = 0;
+};
+
+}  // namespace driftmesh::sim
