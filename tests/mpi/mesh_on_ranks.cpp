@@ -1,0 +1,179 @@
+#include "mpi/mesh_on_ranks.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "base/byte_stream.hpp"
+#include "distributed/assembly.hpp"
+#include "distributed/write_distributed.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "mesh/mesher.hpp"
+#include "protocol/delaying_transport.hpp"
+#include "protocol/mpi_transport.hpp"
+#include "runtime/rank_loop.hpp"
+#include "verify/report_text.hpp"
+#include "verify/verify.hpp"
+
+namespace driftmesh::mpi_test {
+namespace {
+
+using namespace driftmesh::protocol;
+
+/// Moves random subdomains of this rank that have work to random ranks, every second time that it is asked.
+class Mover {
+ public:
+  Mover(const Job& job, Rank self, Rank ranks)
+      : wanted_(job.moves), ranks_(ranks), random_(job.seed * 131 + static_cast<std::uint64_t>(self)) {}
+
+  void look(RankLoop& loop) {
+    if (!wanted_ || random_() % 2 != 0) return;
+    std::vector<SubdomainId> active;
+    for (const auto& [id, subdomain] : loop.subdomains())
+      if (subdomain.active()) active.push_back(id);
+    if (active.empty()) return;
+    const SubdomainId chosen = active[random_() % active.size()];
+    if (loop.hand_over(chosen, static_cast<Rank>(random_() % static_cast<std::uint64_t>(ranks_)))) ++moved_;
+  }
+  [[nodiscard]] std::int64_t moved() const { return moved_; }
+
+ private:
+  bool wanted_;
+  Rank ranks_;
+  std::mt19937_64 random_;
+  std::int64_t moved_ = 0;
+};
+
+RunPlan plan_of(const Job& job, const QualityBounds& bounds, const Triangulation& mesh, Rank ranks) {
+  DecomposeOptions cutting;
+  cutting.subdomains = job.subdomains;
+  cutting.bounds = bounds;
+  PlanOptions options;
+  options.mapping.ranks = ranks;
+  options.presplit = job.presplit;
+  options.aggregation = 1 + job.seed % 20;
+  options.slice = job.slice;
+  options.sleep = job.sleep;
+  options.balancing = job.balancing;
+  return plan_run(decompose_for(mesh, cutting, ranks), bounds, options);
+}
+
+/// What a rank knows at the end of what must add up.
+struct Account {
+  ProtocolCounters counters;
+  std::int64_t balance = 0;  ///< Safra's: sent less handled
+  std::int64_t forced = 0;
+  bool at_work = false;
+  std::vector<SubdomainId> owned;
+
+  [[nodiscard]] Bytes pack() const {
+    ByteWriter writer;
+    writer.value(counters);
+    writer.value(balance);
+    writer.value(forced);
+    writer.value(at_work);
+    writer.array(owned);
+    return writer.take();
+  }
+  static Account unpack(const Bytes& bytes) {
+    ByteReader reader(bytes);
+    Account account;
+    reader.value(account.counters);
+    reader.value(account.balance);
+    reader.value(account.forced);
+    reader.value(account.at_work);
+    reader.array(account.owned);
+    return account;
+  }
+};
+
+Account account_of(const RankLoop& loop, const Mover& mover) {
+  Account own{
+      loop.protocol().counters(), loop.protocol().termination().work_balance(), mover.moved(), loop.at_work(), {}};
+  for (const auto& [id, subdomain] : loop.subdomains())
+    if (loop.protocol().holds(id)) own.owned.push_back(id);
+  return own;
+}
+
+void add_up(const std::vector<Bytes>& reports, std::size_t subdomains, Outcome& outcome) {
+  std::vector<int> owners(subdomains);
+  std::int64_t balance = 0;
+  ProtocolCounters& sum = outcome.counters;
+  const auto complain = [&](const std::string& what) { outcome.problems.push_back(what); };
+  for (const Bytes& bytes : reports) {
+    const Account rank = Account::unpack(bytes);
+    sum.splits_sent += rank.counters.splits_sent;
+    sum.splits_handled += rank.counters.splits_handled;
+    sum.hand_offs += rank.counters.hand_offs;
+    sum.arrivals += rank.counters.arrivals;
+    sum.forwarded += rank.counters.forwarded;
+    sum.held += rank.counters.held;
+    sum.most_hops = std::max(sum.most_hops, rank.counters.most_hops);
+    balance += rank.balance;
+    outcome.forced += rank.forced;
+    for (const SubdomainId s : rank.owned) ++owners.at(static_cast<std::size_t>(s));
+    if (rank.at_work) complain("a rank has left with work");
+  }
+  for (std::size_t s = 0; s < subdomains; ++s)
+    if (owners[s] != 1) complain(fmt::format("subdomain {} has {} owners", s, owners[s]));
+  if (sum.splits_sent != sum.splits_handled) complain("not all SPLITs that were sent have been handled, once");
+  if (sum.hand_offs != sum.arrivals) complain("not all subdomains that were given away have arrived");
+  if (balance != 0) complain(fmt::format("the counts of termination come to {}", balance));
+}
+
+}  // namespace
+
+Outcome run(const Job& job) {
+  MpiTransport transport(MpiSession::world());
+  DelayingTransport delaying(transport, job.seed, job.delay);
+  Triangulation mesh = triangulate(job.input);
+  prepare_corners(mesh);
+  Outcome outcome;
+  outcome.leads = transport.rank() == 0;
+  outcome.bounds = bounds_of(job.input, {.max_area = summarize_angles(mesh).total_area / job.cells});
+  const RunPlan plan = plan_of(job, outcome.bounds, mesh, transport.ranks());
+
+  RankLoop::Observers observers;
+  const bool slow = job.drag && job.seed % static_cast<std::uint64_t>(transport.ranks()) ==
+                                    static_cast<std::uint64_t>(transport.rank());
+  if (slow)
+    observers.after_slice = [](const RankLoop&, const RankLoop::Slice& slice) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(4 * slice.seconds));
+    };
+  RankLoop loop(delaying, plan, {}, observers);
+  Mover mover(job, transport.rank(), transport.ranks());
+  run_rank(delaying, [&] {
+    mover.look(loop);
+    return loop.step();
+  });
+  const std::vector<Bytes> reports = transport.gather(account_of(loop, mover).pack());
+  if (outcome.leads) add_up(reports, plan.owners.size(), outcome);
+  transport.close();
+
+  MpiTransport quiet(MpiSession::world());
+  ExchangeRunner ranks(quiet);
+  PieceAssembly assembly(quiet.rank(), quiet.ranks(), plan.decomposition, held_by_rank(loop.subdomains()));
+  ranks.run(assembly);
+  const DistributedPiece piece = assembly.piece(job.input);
+  GatherPieces gathering(piece);
+  ranks.run(gathering);
+  outcome.mesh = std::move(gathering.whole());
+  quiet.close();
+  return outcome;
+}
+
+void check(const Job& job, const Outcome& outcome) {
+  if (!outcome.leads) return;
+  for (const std::string& problem : outcome.problems) FAIL_CHECK(problem);
+  const VerifyOptions options{.min_angle = outcome.bounds.min_angle, .max_area = outcome.bounds.max_area};
+  const VerifyReport report = verify(outcome.mesh, job.input, options);
+  CHECK_MESSAGE(report.accepted(), report_text(report, options));
+  CHECK(outcome.mesh.triangles.size() > job.cells);
+}
+
+}  // namespace driftmesh::mpi_test

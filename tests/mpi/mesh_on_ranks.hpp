@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/bounds.hpp"
+#include "mesh/mesh_piece.hpp"
+#include "protocol/rank_protocol.hpp"
+#include "pslg/pslg.hpp"
+#include "runtime/plan_run.hpp"
+
+namespace driftmesh::mpi_test {
+
+/// A run on the ranks of MPI, equal on all of them.
+struct Job {
+  Pslg input;
+  double cells = 3000;  ///< area bound = area of the domain over this
+  std::int32_t subdomains = 24;
+  std::int64_t slice = 25;  ///< insertions
+  Presplit presplit = Presplit::kOff;
+  std::uint64_t seed = 1;    ///< of delays and moves
+  std::uint64_t delay = 30;  ///< polls that a message is kept back, at most
+  bool moves = false;        ///< subdomains are handed over at random
+  bool drag = false;         ///< one rank rests after each slice, four times as long as that took
+  bool sleep = false;        ///< finished subdomains do
+  Balancing balancing;
+};
+
+/// What rank 0 has of it at the end; on other ranks nothing but `leads`.
+struct Outcome {
+  bool leads = false;
+  MeshPiece mesh;
+  QualityBounds bounds;
+  protocol::ProtocolCounters counters;  ///< of all ranks together
+  std::int64_t forced = 0;              ///< of the moves, those at random
+  std::vector<std::string> problems;    ///< of owners, counts and termination
+};
+
+/// Meshes on all ranks together, over a transport that delivers late and out of order.
+[[nodiscard]] Outcome run(const Job& job);
+
+/// Every oracle, by CHECKs on rank 0: the judge of meshes, one owner of each subdomain, counts of messages, nothing
+/// left.
+void check(const Job& job, const Outcome& outcome);
+
+}  // namespace driftmesh::mpi_test
