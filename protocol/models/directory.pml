@@ -132,7 +132,8 @@ active proctype world() {
                  to[k] = owner[r];
                  with[k] = FORWARDED_WITH(r, with[k]);
                  hops[k]++;
-                 assert(hops[k] <= moved - first_with[k])
+                 assert(hops[k] <= moved - first_with[k]);  /* no cycle */
+                 assert(hops[k] <= with[k])                 /* what each receiver asks */
             fi
        :: else
        fi;

@@ -7,7 +7,7 @@
  * overtake each other without limit. The token moves in no time: a delay of it changes nothing, because a rank that
  * does not look at it yet is the same.
  *
- * MUTATION selects a wrong rule; each must violate an assertion (1, 2, 4, 5, 6, 7) or the formula `found` (3).
+ * MUTATION selects a wrong rule; each must violate an assertion (1, 2, 4, 5, 6, 7, 8) or the formula `found` (3).
  */
 #ifndef N
 #define N 3
@@ -63,6 +63,12 @@
 #define RANK_0_WHITE true
 #else
 #define RANK_0_WHITE (!black[0])
+#endif
+
+#if MUTATION == 8   /* forwarding whitens */
+#define COLOUR_AFTER_FORWARDING(i) false
+#else
+#define COLOUR_AFTER_FORWARDING(i) black[i]
 #endif
 
 #define PASSIVE(i) (IDLE(i) && AGGREGATOR_EMPTY(i) && NOTHING_HELD(i))
@@ -121,7 +127,8 @@ end:
   /* A message arrives: its subdomain is here, has left, or is on its way here. */
   :: atomic { wire[me] > 0 -> wire[me]--; count[me] = count[me] - HELD; handle(me) }
   :: atomic { wire[me] > 0 && forwards_left > 0 ->
-       any_other(me, other); wire[me]--; forwards_left--; wire[other]++; count[me] = count[me] + FORWARDED; other = 0 }
+       any_other(me, other); wire[me]--; forwards_left--; wire[other]++; count[me] = count[me] + FORWARDED;
+       black[me] = COLOUR_AFTER_FORWARDING(me); other = 0 }
   :: atomic { wire[me] > 0 -> wire[me]--; held[me]++; count[me] = count[me] - HELD }
   :: atomic { held[me] > 0 -> held[me]--; handle(me) }
   /* Control messages. */
