@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# A million adversarial schedules of real meshing with driftmesh-sim, on all cores: says which seeds fail, and in sums what
+# the schedules did. The exit code is 0 if none fails.
+#   scripts/nightly.sh [--seeds FIRST..LAST] [--program PATH]      --program: no build first
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/env.sh"
+cd "$project_root"
+
+first=1
+last=1000000
+program=
+while [[ $# -gt 0 ]]; do
+  case "$1" in
+    --seeds)
+      [[ ${2-} =~ ^([0-9]+)\.\.([0-9]+)$ ]] || { echo "nightly.sh: --seeds takes FIRST..LAST, as in 1..5000" >&2; exit 2; }
+      first=${BASH_REMATCH[1]} last=${BASH_REMATCH[2]}
+      shift
+      ;;
+    --program)
+      program=${2-}
+      shift
+      ;;
+    -h | --help)
+      sed -n '2,4s/^# \{0,1\}//p' "$0"
+      exit 0
+      ;;
+    *)
+      echo "nightly.sh: unknown option '$1'; see --help" >&2
+      exit 2
+      ;;
+  esac
+  shift
+done
+
+if [[ -z $program ]]; then
+  cmake --preset release -Wno-dev && cmake --build --preset release -j "$jobs" --target driftmesh-sim
+  program=build/release/driftmesh-sim
+fi
+logs=$(mktemp -d)
+trap 'rm -rf "$logs"' EXIT
+
+# Parts small enough that all cores finish together; each ends with its sums.
+part=2000
+say "Seeds $first to $last on $jobs cores"
+result=0
+for ((begin = first; begin <= last; begin += part)); do
+  end=$((begin + part - 1))
+  echo "$begin..$((end < last ? end : last))"
+done | xargs -P "$jobs" -I{} sh -c '"$0" --seeds {} >"$1/{}"' "$program" "$logs" || result=1
+cat "$logs"/* | grep -A1 '^seed [0-9]' || true
+
+# Each item of the sums is a number and what it counts.
+say "What was done"
+awk -F '[,;] ' '
+  /^seeds / { split($0, words, " "); schedules += words[4] - words[2] + 1; failed += words[5]; next }
+  /^ *FAILED|^seed [0-9]/ { next }
+  { for (i = 1; i <= NF; ++i) {
+      number = $i + 0; what = $i; sub(/^[0-9.]+ /, "", what); if (what == "s") what = "seconds of cores"
+      if (!(what in sum)) order[++kinds] = what
+      if (what ~ /at most$/) { if (number > sum[what]) sum[what] = number } else sum[what] += number } }
+  END { for (i = 1; i <= kinds; ++i) printf "%15d %s\n", sum[order[i]], order[i]
+        printf "%d schedules, %d failed\n", schedules, failed }' "$logs"/*
+exit "$result"
