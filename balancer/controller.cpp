@@ -27,6 +27,11 @@ void Controller::receive(Rank source, protocol::Message advice, double now) {
   next_look_ = now;
 }
 
+void Controller::arrived(SubdomainId id, protocol::Epoch epoch) {
+  if (auto* const planning = std::get_if<PlanningConduct>(&conduct_)) planning->arrived(id, epoch);
+  if (auto* const requests = std::get_if<RequestConduct>(&conduct_)) requests->arrived(id);
+}
+
 bool Controller::due(double now) const {
   if (conduct_.index() == 0) return false;
   const auto* const requests = std::get_if<RequestConduct>(&conduct_);

@@ -18,7 +18,8 @@ namespace driftmesh::balancer {
 /// advise, and says what to send and what to hand over. It knows no transport and no clock, so that it runs on real and
 /// on simulated ranks.
 ///
-/// How a rank's loop drives it: pass all advice that arrives to receive(). When due(), and when work has just run out,
+/// How a rank's loop drives it: pass all advice that arrives to receive(), and tell arrived() of each subdomain that
+/// was handed over to this rank. When due(), and when work has just run out,
 /// call think() between taking in what arrived and working; hand over what it says, and send its messages by
 /// RankProtocol::advise. A rank at rest is passive only if also `!waiting()`. Nothing that a rank without work is told
 /// makes it send work: think() moves only what is listed as unfinished.
@@ -30,6 +31,10 @@ class Controller {
 
   /// Advice came from another rank. It is looked at in the next think().
   void receive(Rank source, protocol::Message advice, double now);
+
+  /// A subdomain has come from another rank. It may be finished before the next think(), which then does not list it;
+  /// this tells that it is not under way any more.
+  void arrived(SubdomainId id, protocol::Epoch epoch);
 
   /// Whether think() has something to do; costs next to nothing.
   [[nodiscard]] bool due(double now) const;

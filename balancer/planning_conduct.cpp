@@ -89,7 +89,7 @@ bool PlanningConduct::may_gain(const LoadSnapshot& snapshot) const {
 
 void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& decision) {
   const double now = situation.now;
-  knowledge_->hear(self_, {++reports_, plan_seen_, situation.speed, own}, now);
+  knowledge_->hear(self_, {++reports_, plan_seen_, situation.speed, with_arrived(own)}, now);
   const bool leads = policy_->placement() == Placement::kLeader;
   if (!news_ || now < next_plan_) return;
   // The first plan waits a little for all to say how fast they are.
@@ -135,7 +135,7 @@ void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& sn
 
 void PlanningConduct::report(const Situation& situation, const Loads& own, Decision& decision) {
   const auto is_new = [&](const auto& load) { return !std::binary_search(told_.begin(), told_.end(), load.subdomain); };
-  const bool changed = acted_ || std::any_of(own.begin(), own.end(), is_new);
+  const bool changed = acted_ || !arrived_.empty() || std::any_of(own.begin(), own.end(), is_new);
   const double total = total_work(own);
   if (!rule_.due(situation.now, total, situation.speed, changed)) return;
   rule_.told(situation.now, total, situation.speed);
@@ -144,9 +144,18 @@ void PlanningConduct::report(const Situation& situation, const Loads& own, Decis
   for (const auto& load : own) told_.push_back(load.subdomain);
   std::sort(told_.begin(), told_.end());
   news_ = true;  // also to this rank, if it plans
-  const protocol::LoadReport report{++reports_, plan_seen_, situation.speed, own};
+  const protocol::LoadReport report{++reports_, plan_seen_, situation.speed, with_arrived(own)};
+  arrived_.clear();
   for (const Rank rank : audience(own))
     if (rank != self_) decision.messages.push_back({rank, report});
+}
+
+// Who planned a move shall hear that it was made, also if the subdomain has been finished since.
+PlanningConduct::Loads PlanningConduct::with_arrived(Loads own) const {
+  for (const protocol::SubdomainLoad& load : arrived_)
+    if (std::none_of(own.begin(), own.end(), [&](const auto& l) { return l.subdomain == load.subdomain; }))
+      own.push_back(load);
+  return own;
 }
 
 std::vector<Rank> PlanningConduct::audience(const Loads& own) {

@@ -20,6 +20,7 @@ class PlanningConduct {
                   const ControllerOptions& options, double now);
 
   void receive(Rank source, protocol::Message advice, double now);
+  void arrived(SubdomainId id, protocol::Epoch epoch) { arrived_.push_back({id, epoch, 0, 0}); }
   [[nodiscard]] bool waiting() const { return !advised_.empty(); }
   [[nodiscard]] Decision think(const Situation& situation);
   void took(double seconds);
@@ -33,6 +34,7 @@ class PlanningConduct {
   [[nodiscard]] bool may_gain(const LoadSnapshot& snapshot) const;
   void advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own, Decision& decision);
   void report(const Situation& situation, const Loads& own, Decision& decision);
+  [[nodiscard]] Loads with_arrived(Loads own) const;
   [[nodiscard]] std::vector<Rank> audience(const Loads& own);
 
   Rank self_;
@@ -43,6 +45,7 @@ class PlanningConduct {
   ReportRule rule_;
   std::uint32_t reports_ = 0;
   std::vector<SubdomainId> told_;  // ascending; of the last report, less what was handed over since
+  Loads arrived_;                  // since the last report, as if finished
   bool acted_ = false;             // on a plan, since the last report
   std::uint32_t plan_seen_ = 0;
   std::vector<protocol::Plan> advised_;  // and not looked at

@@ -26,7 +26,7 @@ class Stealing final : public Policy {
                                            const std::vector<bool>& able) const override {
     const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
     const auto finish = [&](std::size_t r) { return snapshot.ranks[r].remaining / speeds[r]; };
-    double latest = finish(index(thief)) + low_water_;
+    double latest = finish(index(thief));
     std::optional<Rank> found;
     for (std::size_t r = 0; r < speeds.size(); ++r)
       if (able[r] && r != index(thief) && finish(r) > latest) found = static_cast<Rank>(r), latest = finish(r);

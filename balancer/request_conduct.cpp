@@ -62,8 +62,15 @@ void RequestConduct::take_answer(Rank source, const protocol::WorkAnswer& answer
   }
   if (answer.moves.empty()) return;
   refusals_ = 0;
-  for (const protocol::PlannedMove& move : answer.moves) coming_.push_back(move.subdomain);
+  for (const protocol::PlannedMove& move : answer.moves)
+    if (std::find(arrived_.begin(), arrived_.end(), move.subdomain) == arrived_.end())
+      coming_.push_back(move.subdomain);
   promised_ = now;
+}
+
+void RequestConduct::arrived(SubdomainId id) {
+  arrived_.push_back(id);
+  std::erase(coming_, id);
 }
 
 Decision RequestConduct::think(const Situation& situation) {
@@ -76,7 +83,7 @@ Decision RequestConduct::think(const Situation& situation) {
       give(request, situation, own, decision);
   if (self_ == kBroker) feed_hungry(situation, own, decision);
   report(situation, own, decision);
-  look_for_promised(situation);
+  forget_promises(situation.now);
   ask(situation, own, decision);
   return decision;
 }
@@ -125,21 +132,18 @@ std::vector<Move> RequestConduct::gifts(const protocol::WorkRequest& request, co
 
 void RequestConduct::report(const Situation& situation, const Loads& own, Decision& decision) {
   const double total = total_work(own);
-  if (self_ == kBroker) {
-    if (news_->hear(self_, news_of(situation, own), situation.now)) surprised_ = true;
-  } else if (rule_.due(situation.now, total, situation.speed, changed_)) {
-    rule_.told(situation.now, total, situation.speed);
-    changed_ = false;
+  if (!rule_.due(situation.now, total, situation.speed, changed_)) return;
+  rule_.told(situation.now, total, situation.speed);
+  changed_ = false;
+  if (self_ != kBroker)
     decision.messages.push_back({kBroker, news_of(situation, own)});
-  }
+  else if (news_->hear(self_, news_of(situation, own), situation.now))
+    surprised_ = true;
 }
 
-// What was promised may have been finished between two looks; it is not waited for without end.
-void RequestConduct::look_for_promised(const Situation& situation) {
-  if (situation.now > promised_ + options_.interval) coming_.clear();
-  std::erase_if(coming_, [&](SubdomainId id) {
-    return std::any_of(situation.own.begin(), situation.own.end(), [&](const auto& l) { return l.subdomain == id; });
-  });
+// What the giver could not hand over after all is not waited for without end.
+void RequestConduct::forget_promises(double now) {
+  if (now > promised_ + options_.interval) coming_.clear();
 }
 
 void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decision) {
@@ -148,6 +152,7 @@ void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decis
   if (!low) refusals_ = 0;
   if (!low || asked_ || !coming_.empty() || refusals_ >= options_.refusals) return;
   const protocol::WorkRequest request{self_, ++round_, total, situation.speed, 0};
+  arrived_.clear();
   if (self_ != kBroker) {
     asked_ = true;
     decision.messages.push_back({kBroker, request});

@@ -22,6 +22,7 @@ class RequestConduct {
                  const ControllerOptions& options, double now);
 
   void receive(Rank source, protocol::Message advice, double now);
+  void arrived(SubdomainId id);
   [[nodiscard]] bool waiting() const { return asked_ || !requests_.empty(); }
   /// Work is on its way here.
   [[nodiscard]] bool expects_work() const { return !coming_.empty(); }
@@ -38,7 +39,7 @@ class RequestConduct {
   [[nodiscard]] std::vector<Move> gifts(const protocol::WorkRequest& request, const Situation& situation,
                                         const Loads& own) const;
   void report(const Situation& situation, const Loads& own, Decision& decision);
-  void look_for_promised(const Situation& situation);
+  void forget_promises(double now);
   void ask(const Situation& situation, Loads& own, Decision& decision);
 
   // Of the broker:
@@ -56,11 +57,12 @@ class RequestConduct {
   std::uint32_t reports_ = 0;
   std::vector<protocol::WorkRequest> requests_;  // not looked at
 
-  bool asked_ = false;               // and not answered
-  std::uint32_t round_ = 0;          // of the last request
-  int refusals_ = 0;                 // in a row
-  std::vector<SubdomainId> coming_;  // promised, and not seen here yet
-  double promised_ = 0;              // when
+  bool asked_ = false;                // and not answered
+  std::uint32_t round_ = 0;           // of the last request
+  int refusals_ = 0;                  // in a row
+  std::vector<SubdomainId> arrived_;  // since the last request; they may be here before the answer that promises them
+  std::vector<SubdomainId> coming_;   // promised, and not here yet
+  double promised_ = 0;               // when
 
   std::optional<RankNews> news_;  // of the broker
   bool surprised_ = false;        // by news since the hungry were last thought of

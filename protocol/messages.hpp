@@ -66,7 +66,7 @@ struct LoadReport {
   std::uint32_t round = 0;           ///< of the sender's reports, from 1: an older one says nothing new
   std::uint32_t plan = 0;            ///< the round of the last Plan that the sender has acted on; 0: none
   double speed = 0;                  ///< triangles a second, a running average; 0: not known yet
-  std::vector<SubdomainLoad> loads;  ///< of its subdomains that are not finished
+  std::vector<SubdomainLoad> loads;  ///< of its subdomains that are not finished, and of those that came lately
   friend bool operator==(const LoadReport&, const LoadReport&) = default;
 };
 

@@ -164,6 +164,7 @@ class BasicRankLoop {
     }
     transport_.spend(static_cast<double>(arrival.packed.size()) * costs_.packed_byte);
     charge(&RankTimes::balancing);
+    if (controller_) controller_->arrived(arrival.subdomain, arrival.epoch);
     if (observers_.settled)
       observers_.settled(*this, {arrival.subdomain, arrival.epoch, transport_.rank(), arrival.packed.size()});
   }

@@ -80,6 +80,7 @@ class WorkingRank {
         Job job;
         std::memcpy(&job, delivery.arrival->packed.data(), sizeof job);
         jobs_[delivery.arrival->subdomain] = job;
+        controller_.arrived(delivery.arrival->subdomain, delivery.arrival->epoch);
       }
       if (delivery.advice) controller_.receive(received->source, std::move(*delivery.advice), transport_.now());
     }

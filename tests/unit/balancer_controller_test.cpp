@@ -198,6 +198,44 @@ TEST_CASE("a rank that runs low asks, and waits for the answer") {
   CHECK(sent<protocol::WorkRequest>(thief.think(1.5, loads_of(4, 4, 5), 300)).empty());  // there is some on its way
 }
 
+TEST_CASE("a rank asks again when all that was promised has come, though it was finished at once") {
+  const Layout layout = grid_layout(12, 1, 3);
+  for (const bool answer_first : {true, false}) {
+    CAPTURE(answer_first);
+    Controller thief = controller_of(1, layout, "stealing");
+    const auto request = sent<protocol::WorkRequest>(thief.think(1, loads_of(4, 4, 10), 300));
+    REQUIRE(request.size() == 1);
+    const protocol::WorkAnswer answer{request[0].second.round, {{8, 1}, {9, 1}}};
+    if (answer_first) thief.receive(2, answer, 1);
+    thief.arrived(8, 1);
+    CHECK(sent<protocol::WorkRequest>(thief.think(1.01, {}, 300)).empty());
+    thief.arrived(9, 1);
+    if (!answer_first) thief.receive(2, answer, 1);
+    CHECK(sent<protocol::WorkRequest>(thief.think(1.02, {}, 300)).size() == 1);
+  }
+}
+
+TEST_CASE("who planned a move hears that it was made, though the subdomain was finished at once") {
+  const Layout layout = grid_layout(12, 1, 2);
+  Controller rank = controller_of(1, layout, "greedy");
+  CHECK(sent<LoadReport>(rank.think(1, loads_of(6, 11, 1000), 300)).size() == 1);
+  rank.arrived(3, 1);
+  const auto report = sent<LoadReport>(rank.think(2, loads_of(6, 11, 950), 300));
+  REQUIRE(report.size() == 1);
+  REQUIRE(report[0].second.loads.size() == 7);
+  CHECK(report[0].second.loads.back() == SubdomainLoad{3, 1, 0, 0});
+
+  Knowledge knowledge(std::make_shared<Layout>(layout), 3);
+  knowledge.hear(0, {1, 0, 300, loads_of(0, 5, 1000)}, 1);
+  knowledge.hear(1, {1, 0, 300, loads_of(6, 11, 1000)}, 1);
+  knowledge.expect(std::vector<Move>{{3, 1}}, knowledge.snapshot(1, true), 1, 1);
+  CHECK(knowledge.in_motion(3));
+  knowledge.hear(1, {2, 0, 300, report[0].second.loads}, 2);
+  CHECK(!knowledge.in_motion(3));
+  CHECK(knowledge.owner_of(3) == 1);
+  CHECK(knowledge.snapshot(2, true).ranks[1].remaining == doctest::Approx(6 * 950));
+}
+
 TEST_CASE("a refused rank does not ask without end, and is thought of later") {
   const Layout layout = grid_layout(12, 1, 2);
   Controller broker = controller_of(0, layout, "stealing"), thief = controller_of(1, layout, "stealing");
