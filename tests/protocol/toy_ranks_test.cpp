@@ -9,6 +9,7 @@
 #include "protocol/adversarial_network.hpp"
 #include "protocol/toy_rank.hpp"
 #include "protocol/virtual_network.hpp"
+#include "support/broken_rules.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::protocol;
@@ -175,23 +176,11 @@ TEST_CASE("random work among adversarial ranks: nothing lost, and the end is fou
 }
 
 TEST_CASE("mutation: an aggregator that is not flushed counts as passive") {
-  struct Rules : SoundRules {
-    static constexpr bool counts_as_sent(Station station) {
-      return station == Station::kLeavesAggregator || station == Station::kGivenAway;
-    }
-    static constexpr bool flushes_when_idle() { return false; }
-    static constexpr bool passive(bool program_is_passive, bool, bool nothing_held) {
-      return program_is_passive && nothing_held;
-    }
-  };
-  must_be_caught<Rules>(50, "terminated too early");
+  must_be_caught<testing::PassiveWithSplitsToSend>(50, "terminated too early");
 }
 
 TEST_CASE("mutation: an idle rank keeps what it has collected") {
-  struct Rules : SoundRules {
-    static constexpr bool flushes_when_idle() { return false; }
-  };
-  must_be_caught<Rules>(50, "stalled");
+  must_be_caught<testing::NoFlushWhenIdle>(50, "stalled");
 }
 
 TEST_CASE("mutation: the token is passed by a rank that is active") {
@@ -202,36 +191,19 @@ TEST_CASE("mutation: the token is passed by a rank that is active") {
 }
 
 TEST_CASE("mutation: forwarding counts as sending") {
-  struct Rules : SoundRules {
-    static constexpr bool counts_as_sent(Station station) {
-      return station == Station::kForwarded || SoundRules::counts_as_sent(station);
-    }
-  };
-  must_be_caught<Rules>(200, "sends work although it was passive");
+  must_be_caught<testing::ForwardingCountsAsSending>(200, "sends work although it was passive");
 }
 
 TEST_CASE("mutation: what is held back counts as handled, and again when it is") {
-  struct Rules : SoundRules {
-    static constexpr bool counts_as_handled(Station station) {
-      return station == Station::kHeld || SoundRules::counts_as_handled(station);
-    }
-  };
-  must_be_caught<Rules>(50, "terminated too late");
+  must_be_caught<testing::HoldingCountsAsHandling>(50, "terminated too late");
 }
 
 TEST_CASE("mutation: hand-offs are not counted") {
-  struct Rules : SoundRules {
-    static constexpr bool counts_as_sent(Station station) { return station == Station::kEntersAggregator; }
-    static constexpr bool counts_as_handled(Station station) { return station == Station::kReachesSubdomain; }
-  };
-  must_be_caught<Rules>(50, "");
+  must_be_caught<testing::HandOffsAreNotCounted>(50, "");
 }
 
 TEST_CASE("mutation: location records without epochs") {
-  struct Rules : SoundRules {
-    static constexpr bool supersedes(const Location&, const Location&) { return true; }
-  };
-  must_be_caught<Rules>(500, "");
+  must_be_caught<testing::NoEpochs>(500, "");
 }
 
 TEST_CASE("mutation: missing ancestors are not replayed") {

@@ -8,6 +8,7 @@
 #include "property/cases.hpp"
 #include "sim/adversarial_run.hpp"
 #include "sim/tampering.hpp"
+#include "support/broken_rules.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::sim;
@@ -132,23 +133,11 @@ TEST_CASE("a run is repeated exactly by its seed") {
 }
 
 TEST_CASE("mutation: an aggregator that is not flushed counts as passive") {
-  struct Rules : protocol::SoundRules {
-    static constexpr bool counts_as_sent(Station station) {
-      return station == Station::kLeavesAggregator || station == Station::kGivenAway;
-    }
-    static constexpr bool flushes_when_idle() { return false; }
-    static constexpr bool passive(bool program_is_passive, bool, bool nothing_held) {
-      return program_is_passive && nothing_held;
-    }
-  };
-  must_be_caught<Rules>(50, "termination in time: too early");
+  must_be_caught<testing::PassiveWithSplitsToSend>(50, "termination in time: too early");
 }
 
 TEST_CASE("mutation: an idle rank keeps what it has collected") {
-  struct Rules : protocol::SoundRules {
-    static constexpr bool flushes_when_idle() { return false; }
-  };
-  must_be_caught<Rules>(50, "stalled");
+  must_be_caught<testing::NoFlushWhenIdle>(50, "stalled");
 }
 
 TEST_CASE("mutation: the token is passed by a rank that is active") {
@@ -159,21 +148,11 @@ TEST_CASE("mutation: the token is passed by a rank that is active") {
 }
 
 TEST_CASE("mutation: forwarding counts as sending") {
-  struct Rules : protocol::SoundRules {
-    static constexpr bool counts_as_sent(Station station) {
-      return station == Station::kForwarded || SoundRules::counts_as_sent(station);
-    }
-  };
-  must_be_caught<Rules>(100, "");
+  must_be_caught<testing::ForwardingCountsAsSending>(100, "");
 }
 
 TEST_CASE("mutation: what is held back counts as handled, and again when it is") {
-  struct Rules : protocol::SoundRules {
-    static constexpr bool counts_as_handled(Station station) {
-      return station == Station::kHeld || SoundRules::counts_as_handled(station);
-    }
-  };
-  must_be_caught<Rules>(100, "termination in time: too late");
+  must_be_caught<testing::HoldingCountsAsHandling>(100, "termination in time: too late");
 }
 
 TEST_CASE("mutation: what is held back counts as handled, and nobody looks at it") {
@@ -189,18 +168,11 @@ TEST_CASE("mutation: what is held back counts as handled, and nobody looks at it
 }
 
 TEST_CASE("mutation: hand-offs are not counted") {
-  struct Rules : protocol::SoundRules {
-    static constexpr bool counts_as_sent(Station station) { return station == Station::kEntersAggregator; }
-    static constexpr bool counts_as_handled(Station station) { return station == Station::kReachesSubdomain; }
-  };
-  must_be_caught<Rules>(100, "");
+  must_be_caught<testing::HandOffsAreNotCounted>(100, "");
 }
 
 TEST_CASE("mutation: location records without epochs") {
-  struct Rules : protocol::SoundRules {
-    static constexpr bool supersedes(const protocol::Location&, const protocol::Location&) { return true; }
-  };
-  must_be_caught<Rules>(200, "");
+  must_be_caught<testing::NoEpochs>(200, "");
 }
 
 TEST_CASE("mutation: missing ancestors are not replayed") {

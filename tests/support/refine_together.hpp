@@ -10,6 +10,7 @@
 
 #include "decompose/subdomain_mesh.hpp"
 #include "mesh/refiner.hpp"
+#include "support/split_points.hpp"
 
 namespace driftmesh::testing {
 
@@ -23,17 +24,6 @@ struct RefinedTogether {
   std::vector<std::string> not_conforming;
 };
 
-/// The split points of each root of one mesh, with coordinates.
-inline std::map<RootId, std::map<dyadic::Path, Point>> split_points(const SubdomainMesh& part) {
-  std::map<RootId, std::map<dyadic::Path, Point>> points;
-  for (const Subsegment& s : part.mesh.subsegments)
-    if (!s.is_leaf()) {
-      const VertexId middle = part.mesh.subsegments[Triangulation::id(s.child)].vertex[1];
-      points[part.roots[Triangulation::id(s.root)]][s.path] = part.mesh.points[Triangulation::id(middle)];
-    }
-  return points;
-}
-
 inline RefinedTogether refine_together(const Decomposition& d, const QualityBounds& bounds, int most_rounds = 100) {
   RefinedTogether result;
   std::vector<std::unique_ptr<Refiner>> refiners;
@@ -46,7 +36,7 @@ inline RefinedTogether refine_together(const Decomposition& d, const QualityBoun
   for (bool changed = true; changed && result.rounds < most_rounds;) {
     changed = false;
     std::map<RootId, std::set<dyadic::Path>> all;
-    std::vector<std::map<RootId, std::map<dyadic::Path, Point>>> own;
+    std::vector<SplitPoints> own;
     for (const SubdomainMesh& part : result.parts) {
       own.push_back(split_points(part));
       for (const auto& [root, points] : own.back())
@@ -63,15 +53,10 @@ inline RefinedTogether refine_together(const Decomposition& d, const QualityBoun
     if (changed) ++result.rounds;
     for (auto& refiner : refiners) refiner->refine();
   }
-  std::map<RootId, std::map<dyadic::Path, Point>> first;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    auto own = split_points(result.parts[i]);
-    for (const RootId r : result.parts[i].roots) {
-      const auto [entry, is_new] = first.emplace(r, own[r]);
-      if (!is_new && entry->second != own[r])
-        result.not_conforming.push_back("root " + std::to_string(r) + " in subdomain " + std::to_string(i));
-    }
-  }
+  SplitPoints first;
+  for (std::size_t i = 0; i < d.size(); ++i)
+    for (const RootId r : not_conforming_roots(result.parts[i], first))
+      result.not_conforming.push_back("root " + std::to_string(r) + " in subdomain " + std::to_string(i));
   return result;
 }
 

@@ -6,10 +6,8 @@
 
 #include "base/error.hpp"
 #include "cluster/simulate.hpp"
-#include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
 #include "pslg/generate.hpp"
-#include "runtime/plan_run.hpp"
+#include "support/plans.hpp"
 
 using namespace driftmesh;
 
@@ -19,16 +17,8 @@ constexpr double kPipeArea = 190'000;
 
 /// The pipe in about so many triangles.
 RunPlan pipe_plan(double triangles, std::int32_t ranks, std::int32_t subdomains, Presplit presplit) {
-  Triangulation mesh = triangulate(generate_pipe({}));
-  prepare_corners(mesh);
   const QualityBounds bounds{20, 1.55 * kPipeArea / triangles, {}, nullptr};
-  DecomposeOptions cutting;
-  cutting.subdomains = subdomains;
-  cutting.bounds = bounds;
-  PlanOptions options;
-  options.mapping.ranks = ranks;
-  options.presplit = presplit;
-  return plan_run(decompose_for(mesh, cutting, ranks), bounds, options);
+  return testing::plan_for(generate_pipe({}), bounds, ranks, subdomains, presplit);
 }
 
 ClusterSpec equal_ranks(std::int32_t ranks) {

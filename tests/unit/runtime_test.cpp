@@ -8,14 +8,13 @@
 #include "base/error.hpp"
 #include "decompose/presplit.hpp"
 #include "geometry/triangle_geometry.hpp"
-#include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
 #include "mesh/digest.hpp"
 #include "mesh/exceptions.hpp"
 #include "protocol/adversarial_network.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime/plan_bytes.hpp"
 #include "runtime/plan_run.hpp"
+#include "support/plans.hpp"
 #include "support/simulated_run.hpp"
 
 using namespace driftmesh;
@@ -35,16 +34,9 @@ Pslg ell() {
 
 RunPlan plan_of(const Pslg& pslg, const QualityBounds& bounds, std::int32_t ranks, std::int32_t subdomains,
                 Presplit presplit) {
-  Triangulation mesh = triangulate(pslg);
-  prepare_corners(mesh);
-  DecomposeOptions cutting;
-  cutting.subdomains = subdomains;
-  cutting.bounds = bounds;
-  PlanOptions options;
-  options.mapping.ranks = ranks;
-  options.presplit = presplit;
-  options.slice = 50;
-  return plan_run(decompose_for(mesh, cutting, ranks), bounds, options);
+  RunPlan plan = plan_for(pslg, bounds, ranks, subdomains, presplit);
+  plan.slice = 50;
+  return plan;
 }
 
 std::uint64_t digest_of(const std::vector<const Subdomain*>& subdomains) {
