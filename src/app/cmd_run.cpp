@@ -154,10 +154,9 @@ void add_config(CLI::App& program) {
   CLI::App* command = program.add_subcommand("config", "What the files of experiments can say");
   const auto schema = std::make_shared<bool>(false);
   const auto table = std::make_shared<bool>(false);
-  CLI::Option_group* const what = command->add_option_group("what");
-  what->add_flag("--schema", *schema, "Print the JSON schema, for editors that check YAML while it is written");
-  what->add_flag("--keys", *table, "Print all keys as a table in Markdown");
-  what->require_option(1);
+  command->add_flag("--schema", *schema, "Print the JSON schema, for editors that check YAML while it is written");
+  command->add_flag("--keys", *table, "Print all keys as a table in Markdown");
+  command->require_option(1);
   command->footer(
       "Example:\n"
       "  driftmesh config --schema > experiment.schema.json\n"

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "app/words.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "output/plot.hpp"
 
@@ -66,6 +67,8 @@ void plot_decomposition(const Decomposition& d, const std::string& path, const s
   options.color = PlotColor::region;
   options.edges = PlotEdges::off;
   options.title = title;
+  options.subtitle = grouped(static_cast<std::int64_t>(interfaces(d).size())) + " interfaces";
+  options.legend = false;
   plot_mesh(colored_subdomains(d), path, options);
 }
 

@@ -32,6 +32,8 @@ struct PlotOptions {
   PlotEdges edges = PlotEdges::automatic;
   std::optional<Box> box{};  ///< shows this part only
   std::string title{};
+  std::string subtitle{};  ///< in place of what the mesh is: its triangles, points and angles
+  bool legend = true;      ///< false where colours only tell neighbours apart
 };
 
 /// Whether a picture can have this name: it ends in .png, .svg or .pdf.

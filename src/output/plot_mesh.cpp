@@ -41,7 +41,7 @@ class MeshPlot {
       : mesh_(mesh),
         options_(options),
         frame_(options.box ? *options.box : with_margin(box_of(mesh)), options.width, options.height,
-               options.color != PlotColor::none),
+               has_legend(options)),
         canvas_(path, frame_.width(), frame_.height()),
         summary_(summarize(mesh, frame_.shown())),
         values_(plot_values(mesh, options.color, frame_.shown())) {
@@ -72,7 +72,12 @@ class MeshPlot {
     return options_.color == PlotColor::angle || options_.color == PlotColor::area;
   }
 
+  [[nodiscard]] static bool has_legend(const PlotOptions& options) {
+    return options.legend && options.color != PlotColor::none;
+  }
+
   [[nodiscard]] std::string subtitle() const {
+    if (!options_.subtitle.empty()) return options_.subtitle;
     std::string text =
         grouped_digits(mesh_.triangles.size()) + " triangles   " + grouped_digits(mesh_.points.size()) + " points";
     if (mesh_.triangles.empty()) return text;
@@ -203,7 +208,7 @@ class MeshPlot {
   }
 
   void draw_legend() {
-    if (options_.color == PlotColor::none) return;
+    if (!has_legend(options_)) return;
     if (!is_range()) return draw_swatches(canvas_, frame_, values_.title, values_.swatches);
     ColorBar bar = values_.bar;
     if (is_dense_) bar.unit += options_.color == PlotColor::angle ? ", worst of each pixel" : ", mean of each pixel";
