@@ -95,7 +95,9 @@ void add_parts_options(CLI::App& command, MeshOptions::Parts& parts) {
   command
       .add_option("--presplit", parts.presplit,
                   "Cut interfaces to size before refinement: off is the protocol in full, auto is on wherever a bound "
-                  "on area or size says what size. On, the mesh depends on the subdomains alone under a uniform bound")
+                  "on area or size says what size. On, and with one bound on area everywhere, the mesh depends on the "
+                  "subdomains alone wherever the input has "
+                  "no features that ask for more")
       ->check(CLI::IsMember({"auto", "on", "off"}).description(""))
       ->capture_default_str()
       ->type_name("MODE")

@@ -252,7 +252,8 @@ int mesh_in_parts(const MeshOptions& options, const std::string& command) {
   char** argv = nullptr;
   const protocol::MpiSession session(argc, argv);
   protocol::MpiTransport transport(protocol::MpiSession::world());
-  const int code = ParallelMesh(options, command, transport).go();
+  const std::string start = transport.ranks() > 1 ? fmt::format("mpirun -n {} ", transport.ranks()) : "";
+  const int code = ParallelMesh(options, start + command, transport).go();
   if (code == 0) transport.close();
   return code;
 }

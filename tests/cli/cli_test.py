@@ -418,6 +418,8 @@ class Mesh(Cli):
             run = json.loads((self.folder / "run.json").read_text())
             digests.add(run["mesh"]["digest"])
             self.assertEqual(len(run["parts"]["ranks"]), ranks)
+            self.assertTrue(run["command"].startswith(f"mpirun -n {ranks} driftmesh mesh" if ranks > 1 else
+                                                      "driftmesh mesh"), run["command"])
             self.assertEqual(sum(r["interface_splits"] for r in run["parts"]["ranks"]), 0)
             self.assertEqual(sum(r["triangles"] for r in run["parts"]["ranks"]), run["mesh"]["triangles"])
             self.assertEqual(sum(r["subdomains"] for r in run["parts"]["ranks"]), 30)
