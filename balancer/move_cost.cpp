@@ -32,11 +32,12 @@ class Selection {
     const bool possible = s && move.destination >= 0 && index(move.destination) < speeds_.size() &&
                           move.destination != s->owner && !taken_twice(move.subdomain);
     if (!possible) return;
-    const double spent = cost_.for_giver(s->bytes);
-    const double saved = s->remaining / speeds_[index(s->owner)] - spent;
-    const double received = s->remaining / speeds_[index(move.destination)] + cost_.for_taker(s->bytes);
+    const double giver_speed = speeds_[index(s->owner)], taker_speed = speeds_[index(move.destination)];
+    const double giving = cost_.for_giver(s->bytes, giver_speed), taking = cost_.for_taker(s->bytes, taker_speed);
+    const double saved = s->remaining / giver_speed - giving;
+    const double received = s->remaining / taker_speed + taking;
     if (saved <= 0) return;
-    candidates_.push_back({move, s->owner, saved, received, (spent + cost_.for_taker(s->bytes)) / s->remaining, true});
+    candidates_.push_back({move, s->owner, saved, received, (giving + taking) / s->remaining, true});
     times_[index(s->owner)] -= saved;
     times_[index(move.destination)] += received;
   }

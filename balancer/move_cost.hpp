@@ -7,15 +7,18 @@
 
 namespace driftmesh::balancer {
 
-/// What moving a subdomain costs the two ranks, in seconds of their time.
+/// What moving a subdomain costs the two ranks, in seconds of their time. Packing is work of the processor: a slow
+/// rank, of so many triangles a second, is slow at it too.
 struct MoveCost {
-  double latency = 1e-3;        ///< of any move, until the new owner can begin
-  double bandwidth = 1e9;       ///< bytes a second between two ranks
-  double pack_bandwidth = 5e8;  ///< bytes a second that one rank packs or unpacks
+  double latency = 1e-3;     ///< of any move, until the new owner can begin
+  double bandwidth = 1e9;    ///< bytes a second between two ranks
+  double pack_work = 0.015;  ///< triangles that a rank could make while it packs or unpacks a byte
 
-  [[nodiscard]] double for_giver(std::uint64_t bytes) const { return static_cast<double>(bytes) / pack_bandwidth; }
-  [[nodiscard]] double for_taker(std::uint64_t bytes) const {
-    return latency + static_cast<double>(bytes) / bandwidth + static_cast<double>(bytes) / pack_bandwidth;
+  [[nodiscard]] double for_giver(std::uint64_t bytes, double speed) const {
+    return static_cast<double>(bytes) * pack_work / speed;
+  }
+  [[nodiscard]] double for_taker(std::uint64_t bytes, double speed) const {
+    return latency + static_cast<double>(bytes) / bandwidth + static_cast<double>(bytes) * pack_work / speed;
   }
 };
 

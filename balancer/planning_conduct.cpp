@@ -68,7 +68,9 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
       const auto load =
           std::find_if(own.begin(), own.end(), [&](const auto& l) { return l.subdomain == move.subdomain; });
       if (load == own.end() || move.destination == self_) continue;
-      if (situation.speed > 0 && load->remaining / situation.speed <= options_.cost.for_giver(load->bytes)) continue;
+      if (situation.speed > 0 &&
+          load->remaining / situation.speed <= options_.cost.for_giver(load->bytes, situation.speed))
+        continue;
       decision.moves.push_back({move.subdomain, move.destination});
       own.erase(load);
     }

@@ -51,7 +51,7 @@ Balancing restless(const std::string& policy) {
   balancing.options.interval = 2e-3;
   balancing.options.change = 1e-3;
   balancing.options.overhead = 1;
-  balancing.options.cost = {.latency = 0, .bandwidth = 1e15, .pack_bandwidth = 1e15};
+  balancing.options.cost = {.latency = 0, .bandwidth = 1e15, .pack_work = 0};
   balancing.options.worth = {.gain = 0, .seconds = 0, .slack = 0};
   if (policy == "greedy") balancing.parameters = {{"tolerance", "0"}};
   if (policy == "stealing") balancing.parameters = {{"low-water", "0.002"}};

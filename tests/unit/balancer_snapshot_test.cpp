@@ -93,17 +93,29 @@ TEST_CASE("what costs more to move than to finish stays") {
   sum_up(s);
   const std::vector<Move> plan{{0, 1}};
   CHECK(worth_moving(s, plan, {}) == plan);
-  s.subdomains[0].bytes = 600'000'000;  // 1.2 s to pack, for 1 s of work
+  // In the time that a byte takes to pack these ranks make 0.015 triangles.
+  s.subdomains[0].bytes = 80'000;  // 1.2 s to pack, for 1 s of work
   CHECK(worth_moving(s, plan, {}).empty());
-  s.subdomains[0].bytes = 350'000'000;  // 0.7 s to pack; the other one would finish after 2.05 s instead of 2 s
+  s.subdomains[0].bytes = 70'000;  // 1.05 s to unpack; the other one would finish after 2.05 s instead of 2 s
+  CHECK(worth_moving(s, plan, {}).empty());
+}
 
-  CHECK(worth_moving(s, plan, {}).empty());
+TEST_CASE("what a fast rank packs in no time is dear on a slow one") {
+  const auto moves = [](double speed) {
+    LoadSnapshot s = initial_snapshot(grid_layout(4, 1, 2), {speed, speed});
+    for (SubdomainState& subdomain : s.subdomains) subdomain.remaining *= speed / 1000, subdomain.bytes = 1'000'000;
+    s.subdomains[2].remaining = s.subdomains[3].remaining = 0;
+    sum_up(s);
+    return worth_moving(s, std::vector<Move>{{0, 1}}, {}).size();
+  };
+  CHECK(moves(1e6) == 1);  // 1 s of work either way
+  CHECK(moves(1e3) == 0);
 }
 
 TEST_CASE("of moves that are not needed the dear ones are dropped") {
   LoadSnapshot s = initial_snapshot(grid_layout(6, 1, 3), {1000, 1000, 1000});
   s.subdomains[1].remaining = 100;
-  s.subdomains[1].bytes = 50'000'000;
+  s.subdomains[1].bytes = 5'000;
   s.subdomains[4].remaining = s.subdomains[5].remaining = 0;
   s.subdomains[2].remaining = 2000;
   sum_up(s);
