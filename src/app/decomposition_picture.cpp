@@ -80,6 +80,8 @@ void plot_owners(const Decomposition& d, const std::vector<std::int32_t>& owners
   options.color = PlotColor::rank;
   options.edges = PlotEdges::off;
   options.title = title;
+  options.subtitle = grouped(static_cast<std::int64_t>(d.size())) + " subdomains";
+  options.counts = false;  // of triangles that only fill subdomains
   plot_mesh(piece, path, options);
 }
 

@@ -66,14 +66,16 @@ void draw_load(const ExperimentRun& run, const std::string& path) {
   LineChart::Curve band{"least to most of all ranks", {0.80, 0.86, 0.93}, {}, {}};
   LineChart::Curve mean{"mean", kComputing, {}, {}};
   std::vector<double> left(outcome.ranks.size(), 0);
+  const auto take = [&](const auto& sample) {
+    const auto rank = static_cast<std::size_t>(sample.rank);
+    left[rank] = sample.remaining / run.speeds[rank];
+  };
+  std::for_each(outcome.samples.rbegin(), outcome.samples.rend(), take);  // at first, what the first ones say
   constexpr int kColumns = 300;
   std::size_t next = 0;
   for (int column = 0; column <= kColumns; ++column) {
     const double time = outcome.makespan * column / kColumns;
-    for (; next < outcome.samples.size() && outcome.samples[next].time <= time; ++next) {
-      const auto rank = static_cast<std::size_t>(outcome.samples[next].rank);
-      left[rank] = outcome.samples[next].remaining / run.speeds[rank];
-    }
+    for (; next < outcome.samples.size() && outcome.samples[next].time <= time; ++next) take(outcome.samples[next]);
     double sum = 0;
     for (const double seconds : left) sum += seconds;
     const auto [least, most] = std::minmax_element(left.begin(), left.end());

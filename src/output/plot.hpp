@@ -33,6 +33,7 @@ struct PlotOptions {
   std::optional<Box> box{};  ///< shows this part only
   std::string title{};
   std::string subtitle{};  ///< in place of what the mesh is: its triangles, points and angles
+  bool counts = true;      ///< of triangles, in the legend of regions, subdomains and ranks
   bool legend = true;      ///< false where colours only tell neighbours apart
 };
 

@@ -206,8 +206,10 @@ void plot_chart(const Timeline& timeline, const std::string& path) {
     cairo_fill(chart.canvas().cairo());
   }
   chart.draw_x(x);
+  // No more ticks than steps from row to row: each falls on a row.
   if (timeline.rows > 1)
-    for (const Tick& tick : linear_ticks(0, static_cast<double>(timeline.rows - 1), 12))
+    for (const Tick& tick : linear_ticks(0, static_cast<double>(timeline.rows - 1),
+                                         static_cast<int>(std::min<std::size_t>(timeline.rows - 1, 12))))
       chart.canvas().text({kPlot.x - 10, row(static_cast<std::size_t>(tick.value)) + 5}, tick.label,
                           {.size = 16, .color = kFaintInk, .align = TextAlign::right});
   chart.draw_base();

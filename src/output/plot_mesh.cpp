@@ -44,7 +44,7 @@ class MeshPlot {
                has_legend(options)),
         canvas_(path, frame_.width(), frame_.height()),
         summary_(summarize(mesh, frame_.shown())),
-        values_(plot_values(mesh, options.color, frame_.shown())) {
+        values_(plot_values(mesh, options.color, frame_.shown(), options.counts)) {
     const double mean_area = summary_.shown_area / std::max<double>(1, static_cast<double>(summary_.shown_triangles));
     mean_side_ = std::sqrt(2 * mean_area) * frame_.scale();
     is_dense_ = mean_side_ < kDenseSide && options.edges != PlotEdges::on;

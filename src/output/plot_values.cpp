@@ -101,9 +101,9 @@ PlotValues area_values(const MeshPiece& mesh, const Box& shown) {
 
 /// Of values without an order; one class 0 if there are none.
 template <class Value>
-PlotValues class_values(const MeshPiece& mesh, const std::vector<Value>& of_triangle, const char* title) {
+PlotValues class_values(const MeshPiece& mesh, const std::vector<Value>& of_triangle, const char* title, bool counts) {
   PlotValues result;
-  result.title = title;
+  result.title = counts ? std::string(title) + " (triangles)" : title;
   const auto value = [&](std::size_t t) { return of_triangle.empty() ? Value{0} : of_triangle[t]; };
   std::map<Value, std::size_t> triangles_of;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) ++triangles_of[value(t)];
@@ -111,8 +111,8 @@ PlotValues class_values(const MeshPiece& mesh, const std::vector<Value>& of_tria
   for (const auto& [name, count] : triangles_of) {
     const std::size_t index = number.size();
     number[name] = static_cast<float>(index);
-    result.swatches.push_back(
-        {category_color(index), friendly_number(static_cast<double>(name), 6) + "  (" + grouped_digits(count) + ")"});
+    const std::string label = friendly_number(static_cast<double>(name), 6);
+    result.swatches.push_back({category_color(index), counts ? label + "  (" + grouped_digits(count) + ")" : label});
   }
   result.of_triangle.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) result.of_triangle.push_back(number[value(t)]);
@@ -143,18 +143,18 @@ PlotSummary summarize(const MeshPiece& mesh, const Box& shown) {
   return summary;
 }
 
-PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown) {
+PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown, bool counts) {
   switch (color) {
     case PlotColor::angle:
       return angle_values(mesh, shown);
     case PlotColor::area:
       return area_values(mesh, shown);
     case PlotColor::region:
-      return class_values(mesh, mesh.regions, "Region (triangles)");
+      return class_values(mesh, mesh.regions, "Region", counts);
     case PlotColor::subdomain:
-      return class_values(mesh, mesh.subdomains, "Subdomain (triangles)");
+      return class_values(mesh, mesh.subdomains, "Subdomain", counts);
     case PlotColor::rank:
-      return class_values(mesh, mesh.ranks, "Rank (triangles)");
+      return class_values(mesh, mesh.ranks, "Rank", counts);
     case PlotColor::none:
       break;
   }

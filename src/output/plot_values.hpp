@@ -35,7 +35,7 @@ struct PlotSummary {
 [[nodiscard]] PlotSummary summarize(const MeshPiece& mesh, const Box& shown);
 
 /// The histogram and the range of areas are those of the triangles that are shown. A mesh without regions has region 0,
-/// one that does not tell subdomains or ranks has subdomain or rank 0.
-[[nodiscard]] PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown);
+/// one that does not tell subdomains or ranks has subdomain or rank 0. `counts`: swatches tell how many triangles.
+[[nodiscard]] PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown, bool counts = true);
 
 }  // namespace driftmesh
