@@ -294,8 +294,11 @@ class Reader {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) origin.fail({}, "no value", "write --set key=value");
     const std::string name = setting.substr(0, equals);
-    const YAML::Node value = origin.parse(setting.substr(equals + 1));
+    const std::string text = setting.substr(equals + 1);
+    YAML::Node value = origin.parse(text);
     const KeyPath path = known_key(origin, name, YAML::Mark::null_mark());
+    // YAML takes the colon of `a ? b : c` for that of a table.
+    if (value.IsMap() && path.key->kind == Kind::kText) value = YAML::Node(text);
     std::erase_if(result_.sweep, [&](const ExperimentFile::Axis& axis) { return axis.key == name; });
     const bool one_list = path.key->kind == Kind::kList || path.key->kind == Kind::kNumbers;
     if (value.IsSequence() && (!one_list || (value.size() > 0 && value[0].IsSequence())))

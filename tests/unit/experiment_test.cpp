@@ -96,6 +96,8 @@ TEST_CASE("settings win over the file and its sweeps") {
   CHECK(one.points[1].experiment.ranks == 5);
   CHECK(files.read(yaml, {"cluster.ranks=[1, 2, 3]"}).points.size() == 6);
   CHECK(files.read(kLeast, {"cluster.groups=[{ranks: 4}]", "cluster.ranks=0"}).base.groups.size() == 1);
+  // A text with what YAML takes for a table's colon.
+  CHECK(files.read(kLeast, {"sizing.size=x < 1 ? 0.1 : 0.2"}).base.size_expression == "x < 1 ? 0.1 : 0.2");
 }
 
 TEST_CASE("what is wrong is told with its place and what was probably meant") {
