@@ -154,7 +154,7 @@ TEST_CASE("subdomains that sleep are shown as if they did not") {
 
 TEST_CASE("messages may come in any order") {
   std::uint64_t reordered = 0;
-  const auto cases = static_cast<std::uint64_t>(case_count(40));
+  const auto cases = static_cast<std::uint64_t>(case_count(200));
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     CAPTURE(seed);
     const DistributedCase c = random_distributed_case(seed % 5 + 1);
