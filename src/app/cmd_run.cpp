@@ -152,17 +152,20 @@ void add_run(CLI::App& program) {
 
 void add_config(CLI::App& program) {
   CLI::App* command = program.add_subcommand("config", "What the files of experiments can say");
-  const auto schema = std::make_shared<bool>(false);
-  const auto table = std::make_shared<bool>(false);
-  command->add_flag("--schema", *schema, "Print the JSON schema, for editors that check YAML while it is written");
-  command->add_flag("--keys", *table, "Print all keys as a table in Markdown");
+  struct Wanted {
+    bool schema = false, keys = false;
+  };
+  const auto wanted = std::make_shared<Wanted>();
+  command->add_flag("--schema", wanted->schema,
+                    "Print the JSON schema, for editors that check YAML while it is written");
+  command->add_flag("--keys", wanted->keys, "Print all keys as a table in Markdown");
   command->require_option(1);
   command->footer(
       "Example:\n"
       "  driftmesh config --schema > experiment.schema.json\n"
       "Exit code: 0 done, 2 wrong usage.");
   command->callback(
-      [schema] { std::cout << (*schema ? experiment::json_schema() : experiment::keys_table()) << std::flush; });
+      [wanted] { std::cout << (wanted->schema ? experiment::json_schema() : experiment::keys_table()) << std::flush; });
 }
 
 }  // namespace driftmesh::app

@@ -60,8 +60,10 @@ class Cli(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def run_program(self, *arguments):
+        starts_mpi = arguments and arguments[0] == "run"
         return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
-                              errors="replace", timeout=MESHER_SECONDS, check=False)
+                              errors="replace", timeout=MESHER_SECONDS, check=False,
+                              env=RANKS_ENVIRONMENT if starts_mpi else None)
 
     def succeed(self, *arguments):
         result = self.run_program(*arguments)
