@@ -6,11 +6,12 @@
 namespace driftmesh::protocol {
 
 DelayingTransport::DelayingTransport(Transport& inner, std::uint64_t seed, std::uint64_t longest)
-    : inner_(inner), random_(seed + static_cast<std::uint64_t>(inner.rank())), longest_(longest) {}
+    : TransportLayer(inner), random_(seed + static_cast<std::uint64_t>(inner.rank())), longest_(longest) {}
 
 std::optional<Received> DelayingTransport::poll() {
   ++polls_;
-  while (auto message = inner_.poll()) kept_.push_back({polls_ + random_() % (longest_ + 1), std::move(*message)});
+  while (auto message = TransportLayer::poll())
+    kept_.push_back({polls_ + random_() % (longest_ + 1), std::move(*message)});
   const auto due = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) { return kept.until <= polls_; });
   if (due == kept_.end()) return std::nullopt;
   Received message = std::move(due->message);
@@ -20,7 +21,7 @@ std::optional<Received> DelayingTransport::poll() {
 
 // With messages in hand there is nothing to wait for but polls.
 void DelayingTransport::idle() {
-  if (kept_.empty()) inner_.idle();
+  if (kept_.empty()) TransportLayer::idle();
 }
 
 }  // namespace driftmesh::protocol

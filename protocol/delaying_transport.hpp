@@ -3,24 +3,19 @@
 #include <random>
 #include <vector>
 
-#include "protocol/transport.hpp"
+#include "protocol/transport_layer.hpp"
 
 namespace driftmesh::protocol {
 
 /// Another transport, made unpleasant: what it receives is kept for a random number of polls and handed out in random
 /// order. For tests of real ranks, whose messages otherwise arrive sooner, and in better order, than on a busy network.
-class DelayingTransport final : public Transport {
+class DelayingTransport final : public TransportLayer {
  public:
   /// Messages wait up to `longest` polls each. The inner transport must outlive this one.
   DelayingTransport(Transport& inner, std::uint64_t seed, std::uint64_t longest);
 
-  [[nodiscard]] Rank rank() const override { return inner_.rank(); }
-  [[nodiscard]] Rank ranks() const override { return inner_.ranks(); }
-  void send(Rank destination, Bytes bytes) override { inner_.send(destination, std::move(bytes)); }
   std::optional<Received> poll() override;
   void idle() override;
-  [[nodiscard]] double now() const override { return inner_.now(); }
-  void spend(double seconds) override { inner_.spend(seconds); }
 
  private:
   struct Kept {
@@ -28,7 +23,6 @@ class DelayingTransport final : public Transport {
     Received message;
   };
 
-  Transport& inner_;
   std::mt19937_64 random_;
   std::uint64_t longest_;
   std::uint64_t polls_ = 0;

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "sim/transport_layer.hpp"
+#include "protocol/transport_layer.hpp"
 #include "sim/witness.hpp"
 
 namespace driftmesh::sim {
@@ -17,7 +17,7 @@ struct Rumours {
 
 /// What comes to a rank, with half of the location updates replaced by other ones of the run: true of the past, out of
 /// date, perhaps told before. Their number stays, since the fence counts them.
-class RumourTransport final : public TransportLayer {
+class RumourTransport final : public protocol::TransportLayer {
  public:
   RumourTransport(protocol::Transport& inner, Rumours& rumours) : TransportLayer(inner), rumours_(rumours) {}
 

@@ -10,7 +10,7 @@
 #include "migration/packed_form.hpp"
 #include "migration/subdomain.hpp"
 #include "protocol/codec.hpp"
-#include "sim/transport_layer.hpp"
+#include "protocol/transport_layer.hpp"
 #include "sim/witness.hpp"
 
 namespace driftmesh::sim {
@@ -53,7 +53,7 @@ inline void insert_again(protocol::SplitGroup& group, const Subdomain& receiver)
 }
 
 /// Changes what a rank is told of SPLITs.
-class TamperingTransport final : public TransportLayer {
+class TamperingTransport final : public protocol::TransportLayer {
  public:
   using Find = std::function<const Subdomain*(SubdomainId)>;
   TamperingTransport(protocol::Transport& inner, Tampering tamper, protocol::WireLimits limits, Find find)
@@ -76,7 +76,7 @@ class TamperingTransport final : public TransportLayer {
 };
 
 /// Loses the first work that comes to a rank: SPLITs, or a subdomain.
-class LosingTransport final : public TransportLayer {
+class LosingTransport final : public protocol::TransportLayer {
  public:
   using TransportLayer::TransportLayer;
   std::optional<protocol::Received> poll() override {
@@ -92,7 +92,7 @@ class LosingTransport final : public TransportLayer {
 };
 
 /// As a rank that takes a subdomain which it had before for one that it has still: drops it.
-class UnwelcomingTransport final : public TransportLayer {
+class UnwelcomingTransport final : public protocol::TransportLayer {
  public:
   UnwelcomingTransport(protocol::Transport& inner, protocol::WireLimits limits)
       : TransportLayer(inner), limits_(limits) {}
@@ -117,7 +117,7 @@ class UnwelcomingTransport final : public TransportLayer {
 };
 
 /// As a packed form without the points that the subdomain was told of and has not taken in.
-class ForgetfulTransport final : public TransportLayer {
+class ForgetfulTransport final : public protocol::TransportLayer {
  public:
   ForgetfulTransport(protocol::Transport& inner, protocol::WireLimits limits)
       : TransportLayer(inner), limits_(limits) {}
@@ -143,7 +143,7 @@ class ForgetfulTransport final : public TransportLayer {
 };
 
 /// As a rank that takes another colour when it forwards SPLITs: shows in the token that it passes on.
-class RecolouringTransport final : public TransportLayer {
+class RecolouringTransport final : public protocol::TransportLayer {
  public:
   using Forwarded = std::function<std::int64_t()>;
   /// `forwarded`: how often the rank has, so far.

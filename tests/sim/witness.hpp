@@ -13,8 +13,8 @@
 
 #include "protocol/codec.hpp"
 #include "protocol/rank_protocol.hpp"
+#include "protocol/transport_layer.hpp"
 #include "sim/deeds.hpp"
-#include "sim/transport_layer.hpp"
 
 namespace driftmesh::sim {
 
@@ -156,7 +156,7 @@ class Witness {
 };
 
 /// Between a rank and its network: lets the witness see both ways, and lets time pass by the work that is done.
-class WitnessedTransport final : public TransportLayer {
+class WitnessedTransport final : public protocol::TransportLayer {
  public:
   using Holds = std::function<bool(protocol::SubdomainId)>;
   using Counters = std::function<const protocol::ProtocolCounters&()>;

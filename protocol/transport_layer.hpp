@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "protocol/transport.hpp"
+
+namespace driftmesh::protocol {
+
+/// Another transport as it is; what derives from it changes, or looks at, what passes. For tests.
+class TransportLayer : public Transport {
+ public:
+  /// `inner` must outlive this one.
+  explicit TransportLayer(Transport& inner) : inner_(inner) {}
+
+  [[nodiscard]] Rank rank() const override { return inner_.rank(); }
+  [[nodiscard]] Rank ranks() const override { return inner_.ranks(); }
+  void send(Rank destination, Bytes bytes) override { inner_.send(destination, std::move(bytes)); }
+  std::optional<Received> poll() override { return inner_.poll(); }
+  void idle() override { inner_.idle(); }
+  [[nodiscard]] double now() const override { return inner_.now(); }
+  void spend(double seconds) override { inner_.spend(seconds); }
+
+ private:
+  Transport& inner_;
+};
+
+}  // namespace driftmesh::protocol
