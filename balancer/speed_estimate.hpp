@@ -9,26 +9,43 @@ class SpeedEstimate {
  public:
   explicit SpeedEstimate(double memory = 2) : memory_(memory) {}
 
-  /// `triangles` were made in `seconds` of the rank's time, whatever else used the processor meanwhile. Idle time does
-  /// not belong here.
-  void add(double triangles, double seconds) {
-    if (seconds <= 0) return;
-    const double kept = std::exp(-seconds / memory_);
-    triangles_ = triangles_ * kept + triangles;
-    seconds_ = seconds_ * kept + seconds;
-    observed_ += seconds;
+  /// What a slice of work on a subdomain came to.
+  struct Slice {
+    double triangles = 0;   ///< made
+    double seconds = 0;     ///< of the rank's time, whatever else used the processor meanwhile
+    bool prepared = false;  ///< the subdomain was begun in it
+    bool finished = false;  ///< the subdomain was finished in it
+  };
+
+  /// Idle time does not belong here.
+  void add(const Slice& slice) {
+    if (slice.seconds <= 0) return;
+    if (slice.prepared) preparing_ += slice.seconds;
+    finished_ = finished_ || slice.finished;
+    const double kept = std::exp(-slice.seconds / memory_);
+    triangles_ = triangles_ * kept + slice.triangles;
+    seconds_ = seconds_ * kept + slice.seconds;
+    observed_ += slice.seconds;
   }
 
-  /// Triangles a second; 0 while too little was seen to say.
-  [[nodiscard]] double value() const { return observed_ < kEnough || triangles_ <= 0 ? 0 : triangles_ / seconds_; }
+  /// Triangles a second; 0 while too little was seen to say: less than some time, or the beginning of a subdomain
+  /// alone, which costs time and makes few triangles. A slow rank spends more time on it, and would seem slower than it
+  /// is.
+  [[nodiscard]] double value() const {
+    const bool whole = finished_ || preparing_ <= kPreparing * observed_;
+    return observed_ < kEnough || !whole || triangles_ <= 0 ? 0 : triangles_ / seconds_;
+  }
 
  private:
-  static constexpr double kEnough = 0.02;  // seconds
+  static constexpr double kEnough = 0.02;    // seconds
+  static constexpr double kPreparing = 0.1;  // of the time
 
   double memory_;
   double triangles_ = 0;
   double seconds_ = 0;
   double observed_ = 0;
+  double preparing_ = 0;
+  bool finished_ = false;
 };
 
 }  // namespace driftmesh::balancer

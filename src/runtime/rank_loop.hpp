@@ -193,7 +193,7 @@ class BasicRankLoop {
     interface_splits_ += static_cast<std::int64_t>(said_.size());
     for (const protocol::SplitEntry& entry : said_) tell_across(*id, entry);
     if (observers_.after_slice) observers_.after_slice(*this, {*id, transport_.now() - start, said_});
-    speed_.add(static_cast<double>(done.triangles), transport_.now() - start);
+    speed_.add({static_cast<double>(done.triangles), transport_.now() - start, done.prepared > 0, !subdomain.active()});
     return true;
   }
 

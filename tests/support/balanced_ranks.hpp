@@ -124,7 +124,7 @@ class WorkingRank {
     transport_.spend(amount);  // speeds of the network are triangles a second
     job.done += amount;
     counts_.done += amount;
-    speed_.add(amount, transport_.now() - before);
+    speed_.add({amount, transport_.now() - before});
     last_work = transport_.now();
     return true;
   }

@@ -42,14 +42,31 @@ TEST_CASE("subdomains are found by number, if they are listed") {
 TEST_CASE("a speed is known after a while, and follows what happens") {
   SpeedEstimate speed(2);
   CHECK(speed.value() == 0);
-  speed.add(10, 0.001);
+  speed.add({10, 0.001});
   CHECK(speed.value() == 0);
-  for (int i = 0; i < 1000; ++i) speed.add(100, 0.01);
+  for (int i = 0; i < 1000; ++i) speed.add({100, 0.01});
   CHECK(speed.value() == doctest::Approx(10'000));
-  for (int i = 0; i < 200; ++i) speed.add(50, 0.01);  // one memory's time at half the speed
+  for (int i = 0; i < 200; ++i) speed.add({50, 0.01});  // one memory's time at half the speed
   CHECK(speed.value() == doctest::Approx(5000 + 5000 * std::exp(-1)).epsilon(0.01));
-  speed.add(1e9, 0);
+  speed.add({1e9, 0});
   CHECK(speed.value() < 10'000);
+}
+
+TEST_CASE("the beginning of a subdomain alone does not tell a speed") {
+  // Beginning takes 30 ms of a rank of 1,000 triangles a second, 60 ms of one half as fast; then a point makes two.
+  const auto after = [](double speed, double seconds, bool finished) {
+    SpeedEstimate estimate;
+    estimate.add({0, 30 / speed, true, false});
+    for (double at = 30 / speed; at < seconds; at += 2 / speed) estimate.add({2, 2 / speed});
+    if (finished) estimate.add({2, 2 / speed, false, true});
+    return estimate.value();
+  };
+  CHECK(after(1000, 0.2, false) == 0);
+  CHECK(after(500, 0.2, false) == 0);
+  CHECK(after(1000, 0.4, false) == doctest::Approx(1000).epsilon(0.1));
+  CHECK(after(500, 0.8, false) == doctest::Approx(500).epsilon(0.1));
+  // What was finished tells it, however much of the time the beginning took.
+  CHECK(after(1000, 0.2, true) / after(500, 0.4, true) == doctest::Approx(2).epsilon(0.02));
 }
 
 TEST_CASE("surplus goes to who finishes it first") {
