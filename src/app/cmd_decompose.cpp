@@ -10,6 +10,7 @@
 #include "app/commands.hpp"
 #include "app/cutting_options.hpp"
 #include "app/decomposition_picture.hpp"
+#include "app/output_files.hpp"
 #include "app/sizing_options.hpp"
 #include "app/validators.hpp"
 #include "base/error.hpp"
@@ -38,11 +39,14 @@ struct DecomposeCommand {
   bool quiet = false;
 };
 
-Triangulation prepare_input(const DecomposeCommand& command, QualityBounds& bounds) {
+Pslg read_input(const DecomposeCommand& command) {
   Pslg pslg = read_poly(command.input);
   const RepairReport repairs = repair(pslg, command.input);
   if (!command.quiet) std::cerr << repairs.summary();
-  bounds = bounds_of(pslg, {.max_area = command.area, .region_areas = !command.no_region_areas});
+  return pslg;
+}
+
+Triangulation prepared(const Pslg& pslg) {
   Triangulation mesh = triangulate(pslg);
   prepare_corners(mesh);
   return mesh;
@@ -65,7 +69,10 @@ void print_summary(const Decomposition& d, const DecompositionReport& report, bo
 
 void run_decompose(DecomposeCommand& command) {
   check_sizing_options(command.sizing);
-  const Triangulation mesh = prepare_input(command, command.options.bounds);
+  check_outputs({}, command.picture, command.output, command.input);
+  const Pslg pslg = read_input(command);
+  const Triangulation mesh = prepared(pslg);
+  command.options.bounds = bounds_of(pslg, {.max_area = command.area, .region_areas = !command.no_region_areas});
   const std::unique_ptr<SizeField> size = make_size_field(command.sizing);
   command.options.bounds.size = size.get();
   const Stopwatch watch;
@@ -74,7 +81,7 @@ void run_decompose(DecomposeCommand& command) {
   const DecompositionReport report = check_decomposition(d);
   if (!report.valid()) throw Error("the decomposition is broken (please report this): " + report.problems[0]);
   if (!command.quiet) print_summary(d, report, bounds_size(command.options.bounds), seconds);
-  if (!command.output.empty()) write_decomposition(d, command.output);
+  if (!command.output.empty()) write_decomposition(d, pslg, command.output);
   if (!command.picture.empty())
     plot_decomposition(
         d, command.picture,

@@ -138,11 +138,7 @@ class ParallelMesh {
   }
 
   Decomposition load(const Pslg& pslg) {
-    return notes_.timed("load", [&] {
-      Decomposition loaded = read_decomposition(options_.parts.decomposition);
-      require_same_input(loaded, pslg, options_.parts.decomposition);
-      return loaded;
-    });
+    return notes_.timed("load", [&] { return read_decomposition(options_.parts.decomposition, pslg); });
   }
 
   [[nodiscard]] PlanOptions plan_options() const {

@@ -8,19 +8,21 @@
 
 namespace driftmesh {
 
-/// Writes a decomposition as text (docs/file-formats.md); reading it gives an equal one. The file appears when it is
-/// complete. Throws FileError.
-void write_decomposition(const Decomposition& decomposition, const std::string& path);
+/// Writes a decomposition of the (repaired) input as text (docs/file-formats.md); reading it gives an equal one. The
+/// file appears when it is complete. Throws FileError.
+void write_decomposition(const Decomposition& decomposition, const Pslg& input, const std::string& path);
 
-/// Reads what write_decomposition wrote and checks it with check_decomposition. Throws FileError when the file cannot
-/// be read, and InputError ("file:line: what; next step") for what is not a decomposition or a broken one.
-[[nodiscard]] Decomposition read_decomposition(const std::string& path);
+/// Reads what write_decomposition wrote for this (repaired) input and checks it with check_decomposition. Throws
+/// FileError when the file cannot be read, and InputError ("file:line: what; next step") for what is not a
+/// decomposition, a broken one, or one of another input: with other points, segments, markers, holes or regions.
+[[nodiscard]] Decomposition read_decomposition(const std::string& path, const Pslg& input);
 
 /// The same from memory; `file` is for messages.
-[[nodiscard]] Decomposition parse_decomposition(const std::string& file, std::string_view text);
+[[nodiscard]] Decomposition parse_decomposition(const std::string& file, std::string_view text, const Pslg& input);
 
-/// Throws InputError, naming `file`, unless the decomposition was made from this (repaired) input: its input points are
-/// those of `pslg`.
-void require_same_input(const Decomposition& decomposition, const Pslg& pslg, const std::string& file);
+/// Throws InputError, naming `file`, unless the decomposition's points, segments and regions are those of this
+/// (repaired) input. For decompositions in memory, which carry no digest of their input: a segment that the input has
+/// and the decomposition has not goes unnoticed.
+void require_same_input(const Decomposition& decomposition, const Pslg& input, const std::string& file);
 
 }  // namespace driftmesh

@@ -34,11 +34,7 @@ double area_bound_of(const Experiment& e, const Triangulation& mesh, std::size_t
 
 Decomposition decomposition_of(const Experiment& e, const Prepared& run, const Triangulation& mesh,
                                std::int32_t ranks) {
-  if (!e.decomposition_file.empty()) {
-    Decomposition loaded = read_decomposition(e.decomposition_file);
-    require_same_input(loaded, run.pslg, e.decomposition_file);
-    return loaded;
-  }
+  if (!e.decomposition_file.empty()) return read_decomposition(e.decomposition_file, run.pslg);
   DecomposeOptions cutting;
   cutting.subdomains = e.subdomains > 0 ? e.subdomains : e.subdomains_per_rank * ranks;
   cutting.min_angle = e.separator_angle;

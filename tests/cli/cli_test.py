@@ -128,7 +128,7 @@ class Pipeline(Cli):
                 self.succeed("generate", kind, *options, "-o", "in.poly")
                 said = self.succeed("decompose", "in.poly", "-n", "12", "-o", "out.parts")
                 self.assertIn("12, ", said)
-                self.assertTrue((self.folder / "out.parts").read_text().startswith("# driftmesh decomposition 1\n"))
+                self.assertTrue((self.folder / "out.parts").read_text().startswith("# driftmesh decomposition 2\n"))
         first = (self.folder / "out.parts").read_bytes()
         self.succeed("decompose", "in.poly", "-n", "12", "-o", "again.parts", "--quiet")
         self.assertEqual(first, (self.folder / "again.parts").read_bytes())

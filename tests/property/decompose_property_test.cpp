@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
+#include "decompose/decomposition_file.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
@@ -47,13 +48,14 @@ std::string check_triangulations(const Decomposition& d) {
   return "";
 }
 
-Outcome decompose_and_check(const Triangulation& mesh, int n) {
+Outcome decompose_and_check(const Pslg& input, const Triangulation& mesh, int n) {
   Outcome outcome;
   DecomposeOptions options;
   options.subdomains = n;
   try {
     const Decomposition d = decompose(mesh, options);
     outcome.report = check_decomposition(d);
+    require_same_input(d, input, "the decomposition");
     if (d.size() != static_cast<std::size_t>(n)) outcome.problem = std::to_string(d.size()) + " subdomains";
     if (!outcome.report.valid()) outcome.problem = outcome.report.problems[0];
     if (outcome.problem.empty() && !(std::fabs(outcome.report.area / total_area(mesh) - 1) < 1e-9))
@@ -86,7 +88,7 @@ TEST_CASE("random domains are cut into any number of subdomains") {
     std::mt19937_64 numbers(seed);
     for (const int n : {1, 2, static_cast<int>(2 + numbers() % 30), static_cast<int>(1 + numbers() % 200)}) {
       CAPTURE(n);
-      const Outcome outcome = decompose_and_check(mesh, n);
+      const Outcome outcome = decompose_and_check(random.input, mesh, n);
       CHECK(outcome.problem == "");
       ++cut;
       steep += outcome.report.smallest_angle >= 54;
@@ -109,7 +111,7 @@ TEST_CASE("generated inputs: combs, fans and plates with many holes") {
     const Triangulation mesh = prepared(pslg);
     for (const int n : {2, 7, 30, 200, 1000}) {
       CAPTURE(n);
-      const Outcome outcome = decompose_and_check(mesh, n);
+      const Outcome outcome = decompose_and_check(pslg, mesh, n);
       CHECK(outcome.problem == "");
       CHECK(outcome.report.smallest_angle >= 54);
       CHECK(outcome.report.largest_load <= 1.55);

@@ -39,7 +39,7 @@ Decomposition sample() {
 std::string sample_text() {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "sample").string();
-  write_decomposition(sample(), path);
+  write_decomposition(sample(), sample_input(), path);
   return read_file(path);
 }
 
@@ -50,7 +50,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 Decomposition parse(const std::string& text) {
-  return parse_decomposition("f", text);
+  return parse_decomposition("f", text, sample_input());
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ TEST_CASE("a decomposition is read back as it was written") {
 TEST_CASE("what is not a decomposition is refused with file and line") {
   const std::string text = sample_text();
   CHECK_THROWS_WITH_AS(parse(""), doctest::Contains("f:1: this is not a decomposition"), InputError);
-  CHECK_THROWS_WITH_AS(parse(replaced(text, "decomposition 1", "decomposition 2")), doctest::Contains("f:1:"),
+  CHECK_THROWS_WITH_AS(parse(replaced(text, "decomposition 2", "decomposition 1")), doctest::Contains("f:1:"),
                        InputError);
   CHECK_THROWS_WITH_AS(parse(text.substr(0, text.size() / 2)), doctest::Contains("f:"), InputError);
   CHECK_THROWS_WITH_AS(parse(text + "1 2\n"), doctest::Contains("more than"), InputError);
@@ -81,8 +81,9 @@ TEST_CASE("a broken decomposition is refused with what is broken") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "broken").string();
   const auto refused = [&](const Decomposition& broken, const char* why) {
-    write_decomposition(broken, path);
-    CHECK_THROWS_WITH_AS(static_cast<void>(read_decomposition(path)), doctest::Contains(why), InputError);
+    write_decomposition(broken, sample_input(), path);
+    CHECK_THROWS_WITH_AS(static_cast<void>(read_decomposition(path, sample_input())), doctest::Contains(why),
+                         InputError);
   };
   Decomposition broken = d;
   broken.points[broken.points.size() / 2].x += 100;
@@ -117,7 +118,47 @@ TEST_CASE("damaged files are refused or read, never worse") {
 }
 
 TEST_CASE("a decomposition of another input is recognized") {
+  const auto refused = [text = sample_text()](const Pslg& other) {
+    CHECK_THROWS_WITH_AS(static_cast<void>(parse_decomposition("f", text, other)), doctest::Contains("another input"),
+                         InputError);
+  };
   Pslg other = sample_input();
   other.points[2].y = 1.6;
-  CHECK_THROWS_WITH_AS(require_same_input(sample(), other, "f"), doctest::Contains("another input"), InputError);
+  refused(other);
+  other = sample_input();
+  other.segments.push_back({0, 4, 0});
+  refused(other);
+  other = sample_input();
+  other.segments.pop_back();
+  refused(other);
+  other = sample_input();
+  other.segments[3].marker = 9;
+  refused(other);
+  other = sample_input();
+  other.holes.clear();
+  refused(other);
+  other = sample_input();
+  other.regions.clear();
+  refused(other);
+  other = sample_input();
+  other.regions[0].max_area = 0.1;  // a bound: other work, the same subdomains
+  CHECK(parse_decomposition("f", sample_text(), other) == sample());
+}
+
+TEST_CASE("a decomposition in memory of another input is recognized, but for what it lacks") {
+  const auto refused = [](const Pslg& other, const char* why) {
+    CHECK_THROWS_WITH_AS(require_same_input(sample(), other, "f"), doctest::Contains(why), InputError);
+  };
+  Pslg other = sample_input();
+  other.points[2].y = 1.6;
+  refused(other, "is not point 2 of the input");
+  other = sample_input();
+  std::erase_if(other.segments, [](const Pslg::Segment& s) { return s.a == 8 && s.b == 9; });
+  refused(other, "which has a segment from point 8 to point 9 with marker 6");
+  other = sample_input();
+  other.segments[3].marker = 9;  // from 3 to 2, on which separators end
+  refused(other, "with marker 3");
+  other = sample_input();
+  other.regions.clear();
+  refused(other, "with more than 0 regions");
 }
