@@ -28,12 +28,14 @@ constexpr std::size_t kBroadcastPart = std::size_t{1} << 30;  // MPI counts with
 }  // namespace
 
 MpiSession::MpiSession(int& argc, char**& argv) {
-  int provided = 0;
-  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  int initialized = 0, provided = 0;
+  MPI_Initialized(&initialized);
+  began_ = initialized == 0;
+  if (began_) MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
 }
 
 MpiSession::~MpiSession() {
-  MPI_Finalize();
+  if (began_) MPI_Finalize();
 }
 
 int MpiSession::world() {
@@ -56,14 +58,14 @@ int MpiSession::ranks_on_this_machine() {
   return ranks;
 }
 
-void MpiSession::abort(const std::string& message) {
+void MpiSession::abort(const std::string& message, int code) {
   std::fprintf(stderr, "%s\n", message.c_str());
   std::fflush(stderr);
   int initialized = 0, finalized = 0;
   MPI_Initialized(&initialized);
   MPI_Finalized(&finalized);
-  if (initialized != 0 && finalized == 0) MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
-  std::_Exit(EXIT_FAILURE);
+  if (initialized != 0 && finalized == 0) MPI_Abort(MPI_COMM_WORLD, code);
+  std::_Exit(code);
 }
 
 class MpiTransport::Impl {

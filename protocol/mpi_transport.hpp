@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,7 +12,8 @@
 /// the MPI standard makes plain integers: whoever includes this needs no mpi.h.
 namespace driftmesh::protocol {
 
-/// MPI, from its initialization to its end. One object, made by the main thread before all others.
+/// MPI, from its initialization to its end. One object, made by the main thread before all others. If MPI has been
+/// initialized already, by a library, it is left to who did that to end it.
 class MpiSession {
  public:
   MpiSession(int& argc, char**& argv);
@@ -26,9 +28,12 @@ class MpiSession {
   /// Ranks that share this machine's memory. All ranks call it together.
   [[nodiscard]] static int ranks_on_this_machine();
 
-  /// Prints `message` on stderr and stops all ranks; mpiexec exits with a code other than 0. Works, as an exit of this
-  /// process alone, without MPI too.
-  [[noreturn]] static void abort(const std::string& message);
+  /// Prints `message` on stderr and stops all ranks; mpiexec exits with `code`. Works, as an exit of this process
+  /// alone, without MPI too.
+  [[noreturn]] static void abort(const std::string& message, int code = EXIT_FAILURE);
+
+ private:
+  bool began_ = false;
 };
 
 /// Messages between the ranks of an MPI communicator. It works on a duplicate of its own, so that it can neither take

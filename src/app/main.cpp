@@ -1,13 +1,18 @@
 #include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/help_text.hpp"
+#include "app/limits.hpp"
 #include "base/error.hpp"
 #include "base/temporary_files.hpp"
 #include "protocol/mpi_transport.hpp"
@@ -16,7 +21,6 @@ namespace {
 
 constexpr int kError = 1;
 constexpr int kUsage = 2;
-constexpr int kLimit = 3;
 
 void add_commands(CLI::App& program) {
   using namespace driftmesh::app;
@@ -59,15 +63,32 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
   }
 }
 
-/// Whether rank 0 does what there is to do, and this process is another one: errors of the command line are said once,
-/// and only `mesh` and `run` work on many ranks.
-bool leaves_it_to_rank_0(int argc, char** argv) {
-  const auto rank = driftmesh::protocol::MpiSession::launched_as();
-  if (!rank || *rank == 0) return false;
-  std::cerr.rdbuf(nullptr);
-  std::cout.rdbuf(nullptr);
-  return argc < 2 || (std::string(argv[1]) != "mesh" && std::string(argv[1]) != "run");
-}
+/// A process of mpirun other than rank 0: what it says is not shown, for rank 0 says the same.
+class Follower {
+ public:
+  Follower() : errors_(std::cerr.rdbuf(said_.rdbuf())) { std::cout.rdbuf(nullptr); }
+  ~Follower() { std::cerr.rdbuf(errors_); }
+  Follower(const Follower&) = delete;
+  Follower& operator=(const Follower&) = delete;
+
+  /// Its exit code. An error before the ranks have met is usually everybody's: then rank 0 has said so, and mpirun ends
+  /// this process while it waits. Otherwise it is this one's alone, a file that is missing on this host perhaps.
+  [[nodiscard]] int end(int code) const {
+    if (code == 0) return 0;
+    std::this_thread::sleep_for(std::chrono::seconds(5));
+    std::fputs(said_.str().c_str(), stderr);
+    return code;
+  }
+
+  /// Whether it has anything to do: only `mesh` and `run` work on many ranks.
+  [[nodiscard]] static bool is_needed(int argc, char** argv) {
+    return argc >= 2 && (std::string(argv[1]) == "mesh" || std::string(argv[1]) == "run");
+  }
+
+ private:
+  std::ostringstream said_;
+  std::streambuf* errors_;
+};
 
 int run_program(int argc, char** argv) {
   CLI::App program{"driftmesh: quality Delaunay meshes of planar domains", "driftmesh"};
@@ -80,10 +101,10 @@ int run_program(int argc, char** argv) {
     return parse_and_run(program, argc, argv);
   } catch (const std::bad_alloc&) {
     std::cerr << "driftmesh: out of memory; ask for larger triangles, or see --max-memory of driftmesh mesh\n";
-    return kLimit;
+    return driftmesh::app::kStoppedByLimit;
   } catch (const driftmesh::LimitError& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';
-    return kLimit;
+    return driftmesh::app::kStoppedByLimit;
   } catch (const std::exception& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';
   }
@@ -94,8 +115,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   driftmesh::remove_temporaries_on_signals();
-  if (leaves_it_to_rank_0(argc, argv)) return 0;
-  const int code = run_program(argc, argv);
-  // A rank that says nothing must not have mpirun stop rank 0 before it has said what is wrong.
-  return driftmesh::protocol::MpiSession::launched_as().value_or(0) == 0 ? code : 0;
+  if (driftmesh::protocol::MpiSession::launched_as().value_or(0) == 0) return run_program(argc, argv);
+  const Follower follower;
+  return Follower::is_needed(argc, argv) ? follower.end(run_program(argc, argv)) : 0;
 }
