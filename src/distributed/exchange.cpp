@@ -13,10 +13,21 @@ using protocol::StepResult;
 
 namespace {
 
-/// In front of every message: what it is, then its round.
-constexpr std::uint32_t kMark = 0x31584d44;  // "DMX1"
+/// In front of every message: what it is, then its round, and which part of how many it is.
+constexpr std::uint32_t kMark = 0x32584d44;  // "DMX2"
+
+constexpr std::uint32_t kMostParts = 1 << 20;
 
 }  // namespace
+
+Bytes ExchangeRunner::Arriving::joined() && {
+  Bytes all = std::move(parts[0]);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    all.insert(all.end(), parts[i].begin(), parts[i].end());
+    parts[i] = {};
+  }
+  return all;
+}
 
 void ExchangeRunner::run(Exchange& exchange) {
   protocol::run_rank(transport_, [&] { return step(exchange); });
@@ -33,26 +44,37 @@ StepResult ExchangeRunner::step(Exchange& exchange) {
 }
 
 void ExchangeRunner::begin_round(Exchange& exchange) {
-  for (Mail& mail : exchange.send(round_)) {
-    ByteWriter writer;
-    writer.value(kMark);
-    writer.value(serial_);
-    writer.array(mail.bytes);
-    transport_.send(mail.rank, writer.take());
-  }
+  for (const Mail& mail : exchange.send(round_)) send(mail);
   senders_ = exchange.senders(round_);
   sent_ = true;
 }
 
+void ExchangeRunner::send(const Mail& mail) {
+  const std::span<const std::byte> all(mail.bytes);
+  const auto parts = static_cast<std::uint32_t>(std::max<std::size_t>((all.size() + part_ - 1) / part_, 1));
+  for (std::uint32_t i = 0; i < parts; ++i) {
+    const std::size_t begin = i * part_;
+    const auto part = all.subspan(begin, std::min(part_, all.size() - begin));
+    ByteWriter writer;
+    writer.value(kMark);
+    writer.value(serial_);
+    writer.value(i);
+    writer.value(parts);
+    writer.array(part);
+    transport_.send(mail.rank, writer.take());
+  }
+}
+
 /// False while messages are missing.
 bool ExchangeRunner::end_round(Exchange& exchange) {
-  auto& arrived = arrived_[serial_];
+  Arrivals& arrived = arrived_[serial_];
   if (arrived.size() < senders_.size()) return false;
+  if (std::any_of(arrived.begin(), arrived.end(), [](const auto& a) { return a.second.missing > 0; })) return false;
   std::vector<Mail> mail;
-  for (auto& [source, bytes] : arrived) {
+  for (auto& [source, arriving] : arrived) {
     if (!std::binary_search(senders_.begin(), senders_.end(), source))
       throw ProtocolError(source, "nothing was due from it in round " + std::to_string(serial_));
-    mail.push_back({source, std::move(bytes)});
+    mail.push_back({source, std::move(arriving).joined()});
   }
   arrived_.erase(serial_++);
   sent_ = false;
@@ -61,17 +83,26 @@ bool ExchangeRunner::end_round(Exchange& exchange) {
 }
 
 void ExchangeRunner::keep(protocol::Received message) {
-  std::uint32_t mark = 0, serial = 0;
+  std::uint32_t serial = 0, part = 0, parts = 0;
   Bytes bytes;
   read_mail({message.source, std::move(message.bytes)}, [&](ByteReader& reader) {
-    reader.value(mark);
-    if (mark != kMark) throw Error("it is not of an exchange in rounds");
+    if (reader.value<std::uint32_t>() != kMark) throw Error("it is not of an exchange in rounds");
     reader.value(serial);
+    reader.value(part);
+    reader.value(parts);
+    if (part >= parts || parts > kMostParts)
+      throw Error("it is part " + std::to_string(part) + " of " + std::to_string(parts));
     reader.array(bytes);
   });
   if (serial < serial_) throw ProtocolError(message.source, "it comes after its round " + std::to_string(serial));
-  if (!arrived_[serial].emplace(message.source, std::move(bytes)).second)
+  const auto [at, first] = arrived_[serial].try_emplace(message.source);
+  Arriving& arriving = at->second;
+  if (first) arriving = {std::vector<Bytes>(parts), std::vector<bool>(parts, false), parts};
+  if (parts != arriving.parts.size() || arriving.there[part])
     throw ProtocolError(message.source, "it is its second of round " + std::to_string(serial));
+  arriving.parts[part] = std::move(bytes);
+  arriving.there[part] = true;
+  --arriving.missing;
 }
 
 void exchange_directly(std::span<Exchange* const> ranks) {

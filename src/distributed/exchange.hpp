@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -57,7 +58,11 @@ class Exchange {
 /// a rank that is ahead waits for its turn. Nothing else may use the transport meanwhile: on MPI, make one for this.
 class ExchangeRunner {
  public:
-  explicit ExchangeRunner(protocol::Transport& transport) : transport_(transport) {}
+  static constexpr std::size_t kPart = std::size_t{1} << 30;  ///< MPI counts the bytes of a message with an int
+
+  /// What is longer than `part` bytes travels in parts of that length.
+  explicit ExchangeRunner(protocol::Transport& transport, std::size_t part = kPart)
+      : transport_(transport), part_(part) {}
 
   /// The whole conversation. Every rank makes the same sequence of calls. Throws ProtocolError for a message that is
   /// none of a conversation or that was not due.
@@ -66,16 +71,28 @@ class ExchangeRunner {
   protocol::StepResult step(Exchange& exchange);
 
  private:
+  /// What has come of one mail.
+  struct Arriving {
+    std::vector<protocol::Bytes> parts;
+    std::vector<bool> there;
+    std::size_t missing = 0;
+
+    [[nodiscard]] protocol::Bytes joined() &&;
+  };
+  using Arrivals = std::map<protocol::Rank, Arriving>;
+
   void begin_round(Exchange& exchange);
   bool end_round(Exchange& exchange);
+  void send(const Mail& mail);
   void keep(protocol::Received message);
 
   protocol::Transport& transport_;
+  std::size_t part_;
   int round_ = 0;  // of the present conversation
   bool sent_ = false;
   std::vector<protocol::Rank> senders_;
-  std::uint32_t serial_ = 0;  // of the present round, over all conversations
-  std::map<std::uint32_t, std::map<protocol::Rank, protocol::Bytes>> arrived_;  // by round and sender
+  std::uint32_t serial_ = 0;                   // of the present round, over all conversations
+  std::map<std::uint32_t, Arrivals> arrived_;  // by round and sender
 };
 
 /// The whole conversation between ranks of this process, ranks[r] being rank r.

@@ -162,8 +162,9 @@ TEST_CASE("messages may come in any order") {
     const std::vector<Rank> owners = random_owners(c.parts.size(), ranks, seed);
     const auto all = c.assemblies(ranks, owners);
     protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
+    const std::size_t part = seed % 2 == 0 ? ExchangeRunner::kPart : 20 + seed;  // whole, or in many parts
     std::vector<ExchangeRunner> runners;
-    for (Rank r = 0; r < ranks; ++r) runners.emplace_back(network.transport(r));
+    for (Rank r = 0; r < ranks; ++r) runners.emplace_back(network.transport(r), part);
     std::vector<protocol::RankStep> steps;
     for (std::size_t r = 0; r < all.size(); ++r) steps.push_back([&, r] { return runners[r].step(*all[r]); });
     REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);

@@ -223,22 +223,28 @@ TEST_CASE("messages that do not belong into an exchange are errors that name the
       for (int k = 0; k < 100; ++k) (void)runner.step(assembly);
     });
   };
-  const auto message = [](std::uint32_t mark, std::uint32_t round, std::vector<std::uint32_t> content) {
+  const auto message = [](std::uint32_t mark, std::uint32_t round, std::vector<std::uint32_t> content,
+                          std::uint32_t part = 0, std::uint32_t parts = 1) {
     ByteWriter inner, outer;
     for (const std::uint32_t word : content) inner.value(word);
     outer.value(mark);
     outer.value(round);
+    outer.value(part);
+    outer.value(parts);
     outer.array(inner.take());
     return outer.take();
   };
-  constexpr std::uint32_t kMark = 0x31584d44;
+  constexpr std::uint32_t kMark = 0x32584d44;
   CHECK(send_to_rank_0(message(kMark, 0, {})).find("message from rank 1: a message between ranks is too short") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {4'000'000'000}))
             .find("message from rank 1: a message between ranks is too short") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0, 7})).find("message from rank 1: it goes on after its end") == 0);
   CHECK(send_to_rank_0(message(7, 0, {0})).find("message from rank 1: it is not of an exchange") == 0);
   CHECK(send_to_rank_0({}).find("message from rank 1: a message between ranks is too short") == 0);
-  CHECK(send_to_rank_0(message(kMark, 5, {0})) == "no error");  // of a rank that is ahead: it waits
+  CHECK(send_to_rank_0(message(kMark, 0, {0}, 3, 3)).find("message from rank 1: it is part 3 of 3") == 0);
+  CHECK(send_to_rank_0(message(kMark, 0, {0}, 0, 0xFFFFFFFF)).find("message from rank 1: it is part 0 of") == 0);
+  CHECK(send_to_rank_0(message(kMark, 0, {0}, 1, 3)) == "no error");  // the others may come
+  CHECK(send_to_rank_0(message(kMark, 5, {0})) == "no error");        // of a rank that is ahead: it waits
 }
 
 TEST_CASE("pieces are written, read, and are the mesh again") {
