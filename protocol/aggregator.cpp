@@ -7,13 +7,12 @@
 
 namespace driftmesh::protocol {
 
-Aggregator::Aggregator(Rank self, Rank ranks, std::size_t threshold)
-    : self_(self), threshold_(threshold), buffers_(static_cast<std::size_t>(ranks)) {
+Aggregator::Aggregator(Rank self, std::size_t threshold) : self_(self), threshold_(threshold) {
   if (threshold == 0) throw Error("aggregation of 0 SPLITs a message; give 1 to send each at once");
 }
 
 std::optional<Outgoing> Aggregator::add(Rank destination, SubdomainId to, Epoch epoch, const SplitEntry& entry) {
-  auto& buffer = buffers_.at(static_cast<std::size_t>(destination));
+  auto& buffer = buffers_[destination];
   if (buffer.empty()) filled_.push_back(destination);
   buffer.push_back({to, epoch, entry});
   ++size_;
@@ -30,7 +29,7 @@ std::vector<Outgoing> Aggregator::flush() {
 
 // One group for each subdomain and epoch; within a group the order of arrival, which is free but easier to follow.
 Outgoing Aggregator::take(Rank destination) {
-  auto buffer = std::exchange(buffers_[static_cast<std::size_t>(destination)], {});
+  auto buffer = std::move(buffers_.extract(destination).mapped());
   size_ -= buffer.size();
   const auto key = [](const Waiting& w) { return std::pair(w.to, w.epoch); };
   std::stable_sort(buffer.begin(), buffer.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,7 @@ class Aggregator {
   static constexpr std::size_t kDefaultThreshold = 512;
 
   /// A threshold of 1 sends every SPLIT at once. Throws Error for a threshold of 0.
-  Aggregator(Rank self, Rank ranks, std::size_t threshold = kDefaultThreshold);
+  explicit Aggregator(Rank self, std::size_t threshold = kDefaultThreshold);
 
   /// Adds a SPLIT for subdomain `to`, which `destination` owns in epoch `epoch` as far as this rank knows. Returns the
   /// batch that became full by it.
@@ -39,8 +40,8 @@ class Aggregator {
   Rank self_;
   std::size_t threshold_;
   std::size_t size_ = 0;
-  std::vector<std::vector<Waiting>> buffers_;  // by destination
-  std::vector<Rank> filled_;                   // the destinations with a buffer that is not empty
+  std::map<Rank, std::vector<Waiting>> buffers_;  // by destination, none empty: few of many ranks are neighbours
+  std::vector<Rank> filled_;                      // their destinations, in the order in which they were begun
 };
 
 }  // namespace driftmesh::protocol

@@ -78,7 +78,7 @@ class BasicRankProtocol {
   /// `owners[s]` is the rank of subdomain s at the start, equal on all ranks.
   BasicRankProtocol(Rank self, Rank ranks, const std::vector<Rank>& owners,
                     std::size_t aggregation = Aggregator::kDefaultThreshold)
-      : self_(self), aggregator_(self, ranks, aggregation), directory_(self, owners), termination_(self, ranks) {}
+      : self_(self), aggregator_(self, aggregation), directory_(self, owners), termination_(self, ranks) {}
 
   [[nodiscard]] bool holds(SubdomainId s) const { return directory_.holds(s); }
   [[nodiscard]] Location where(SubdomainId s) const { return directory_.where(s); }

@@ -23,6 +23,9 @@ struct QualityBounds {
 /// (docs/guarantees.md). Above kMaxAngle nothing is promised and the bound is refused.
 inline constexpr double kMaxAngle = 34;
 
+/// Throws Error for bounds that are no numbers, or an angle out of range.
+void require_possible(const QualityBounds& bounds);
+
 /// Twice the area of the equilateral triangle with edges of length h.
 [[nodiscard]] inline double twice_area_of_edge(double h) {
   return h * h * (std::numbers::sqrt3 / 2);

@@ -71,10 +71,7 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds)
 
 Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, State state)
     : mesh_(mesh), bounds_(bounds), cavity_(mesh), state_(std::move(state)) {
-  if (!(bounds.min_angle >= 0 && bounds.min_angle <= kMaxAngle))
-    throw Error("the angle bound must lie between 0 and " + std::to_string(static_cast<int>(kMaxAngle)) +
-                " degrees: beyond, refinement need not end");
-  if (std::isnan(bounds.max_area)) throw Error("the area bound is not a number");
+  require_possible(bounds);
   // A relative margin of 1e-9 lets a reader of the file, with other roundings, see the bound met.
   const double sine = std::sin(radians(bounds.min_angle));
   sin_squared_ = sine * sine * (1 + 1e-9);

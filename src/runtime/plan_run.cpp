@@ -47,6 +47,7 @@ Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options,
 }
 
 RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options) {
+  require_possible(bounds);
   if (options.slice < 1) throw Error("a slice must be at least one insertion");
   const bool sized = bounds_size(bounds);
   if (options.presplit == Presplit::kOn && !sized)

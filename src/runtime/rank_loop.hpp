@@ -250,12 +250,19 @@ class BasicRankLoop {
   void watch(bool moved) {
     if (moved)
       watchdog_.moved(clock_);
-    else if (watchdog_.barks(clock_) && observers_.stalled)
+    else if (watchdog_.barks(clock_) && observers_.stalled && (waits() || watchdog_.quiet(clock_) >= kLongSeconds))
       observers_.stalled("nothing has moved for " + std::to_string(static_cast<int>(watchdog_.quiet(clock_))) + " s; " +
                          protocol_.describe());
   }
 
-  static constexpr double kWatchdogSeconds = 60;
+  /// Whether something must come before this rank can go on. One that is through with its work waits for others to be,
+  /// too, but that may well take long.
+  [[nodiscard]] bool waits() const {
+    return at_work() || (controller_ && controller_->waiting()) ||
+           protocol_.phase() != protocol::Termination::Phase::kWorking;
+  }
+
+  static constexpr double kWatchdogSeconds = 60, kLongSeconds = 600;
 
   protocol::Transport& transport_;
   const RunPlan& plan_;

@@ -133,6 +133,8 @@ TEST_CASE("what allows no mesh is thrown on all ranks alike") {
   DistributedOptions options;
   options.min_angle = 50;
   CHECK(common_error([&] { (void)mesh_distributed(world(), input, options); }).find("angle") != std::string::npos);
+  options.subdomains = 8;
+  CHECK(common_error([&] { (void)mesh_distributed(world(), input, options); }).find("angle") != std::string::npos);
   options = {};
   options.mapping = "by hand";
   CHECK(common_error([&] { (void)mesh_distributed(world(), input, options); }).find("by hand") != std::string::npos);

@@ -14,7 +14,7 @@ using namespace driftmesh;
 using namespace driftmesh::protocol;
 
 TEST_CASE("an aggregator sends a batch at its threshold and keeps what is below it") {
-  Aggregator aggregator(0, 4, 3);
+  Aggregator aggregator(0, 3);
   CHECK(!aggregator.add(1, 10, 0, {1, 1}));
   CHECK(!aggregator.add(2, 20, 0, {2, 1}));
   CHECK(!aggregator.add(1, 11, 0, {3, 1}));
@@ -32,7 +32,7 @@ TEST_CASE("an aggregator sends a batch at its threshold and keeps what is below 
 }
 
 TEST_CASE("an aggregator loses nothing, and keeps epochs apart") {
-  Aggregator aggregator(3, 5, 16);
+  Aggregator aggregator(3, 16);
   std::mt19937_64 random(11);
   std::multiset<std::tuple<Rank, SubdomainId, Epoch, EdgeId>> put, got;
   const auto collect = [&](const Outgoing& batch) {
@@ -54,7 +54,7 @@ TEST_CASE("an aggregator loses nothing, and keeps epochs apart") {
   }
   for (const Outgoing& batch : aggregator.flush()) collect(batch);
   CHECK(put == got);
-  CHECK_THROWS_AS(Aggregator(0, 1, 0), Error);
+  CHECK_THROWS_AS(Aggregator(0, 0), Error);
 }
 
 namespace {
