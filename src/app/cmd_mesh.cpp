@@ -25,8 +25,6 @@
 namespace driftmesh::app {
 namespace {
 
-constexpr int kStoppedByLimit = 3;
-
 /// One run on the domain as a whole: the stages in their order.
 class MeshRun {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/json_text.hpp"
 #include "app/memory.hpp"
 #include "app/rank_report.hpp"
 #include "app/summary.hpp"
@@ -138,7 +139,7 @@ std::string chrome_trace(const ExperimentRun& run) {
       events.push_back(std::move(arrow));
     }
   }
-  return Json({{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}}).dump() + "\n";
+  return json_text(Json({{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}}), -1);
 }
 
 std::string experiment_record(const ExperimentRun& run) {
@@ -158,7 +159,7 @@ std::string experiment_record(const ExperimentRun& run) {
                        {"owners_after", run.outcome.owners},
                        {"moves", moves_json(run.outcome)},
                        {"load", load_json(run.outcome)}};
-  return record.dump(1) + "\n";
+  return json_text(record, 1);
 }
 
 }  // namespace driftmesh::app

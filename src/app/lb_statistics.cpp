@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "app/json_text.hpp"
 #include "protocol/codec.hpp"
 
 namespace driftmesh::app {
@@ -154,7 +155,7 @@ std::vector<std::string> lb_statistics(const ExperimentRun& run) {
         {"rank", rank},
         {"phases", {{"count", phases.size()}, {"skipped", none}, {"identical_to_previous", none}}},
         {"attributes", {{"experiment", run.experiment.name}, {"triangles_per_second", run.speeds[rank]}}}};
-    texts.push_back(Json({{"metadata", metadata}, {"phases", std::move(phases)}}).dump(1) + "\n");
+    texts.push_back(json_text(Json({{"metadata", metadata}, {"phases", std::move(phases)}}), 1));
     ++rank;
   }
   return texts;

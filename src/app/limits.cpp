@@ -26,10 +26,6 @@ std::uint64_t bytes_per_triangle(const MeshOptions& options, const Pslg& pslg) {
          kBytesAttribute * static_cast<std::uint64_t>(pslg.attributes_per_point);
 }
 
-std::string advice(const Limits& limits) {
-  return fmt::format("allow more with {}, or ask for larger triangles", limits.option());
-}
-
 /// Good angles take triangles as small as the gap, all along it.
 std::string narrow_words(const NarrowPlace& narrow, const Limits& limits) {
   return fmt::format(
@@ -48,6 +44,10 @@ std::string words_of(const Limits& limits) {
 
 }  // namespace
 
+std::string advice(const Limits& limits) {
+  return fmt::format("allow more with {}, or ask for larger triangles", limits.option());
+}
+
 Limits find_limits(const MeshOptions& options, const Pslg& pslg, int ranks_on_machine) {
   Limits limits{options.max_triangles, false, options.max_memory, bytes_per_triangle(options, pslg)};
   const std::uint64_t present = present_memory();
@@ -62,12 +62,11 @@ Limits find_limits(const MeshOptions& options, const Pslg& pslg, int ranks_on_ma
   return limits;
 }
 
-void check_forecast(const Limits& limits, double forecast) {
+void check_forecast(const Limits& limits, double forecast, bool may_keep) {
   if (!(forecast > kForecastError * static_cast<double>(limits.triangles))) return;
-  throw LimitError(
-      fmt::format("these bounds need about {} triangles, more than {}; {}, or keep what fits with "
-                  "--keep-incomplete",
-                  estimate_words(forecast), words_of(limits), advice(limits)));
+  throw LimitError(fmt::format("these bounds need about {} triangles, more than {}; {}{}", estimate_words(forecast),
+                               words_of(limits), advice(limits),
+                               may_keep ? ", or keep what fits with --keep-incomplete" : ""));
 }
 
 std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept,

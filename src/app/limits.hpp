@@ -25,8 +25,15 @@ struct Limits {
 /// counts as used. Free memory is shared with the other ranks on this machine; --max-memory is that of each.
 [[nodiscard]] Limits find_limits(const MeshOptions& options, const Pslg& pslg, int ranks_on_machine = 1);
 
+/// What ends a command that a limit has stopped.
+constexpr int kStoppedByLimit = 3;
+
+/// What to do about a limit.
+[[nodiscard]] std::string advice(const Limits& limits);
+
 /// Throws LimitError when a forecast of the number of triangles is beyond the limit by more than forecasts err.
-void check_forecast(const Limits& limits, double forecast);
+/// `may_keep`: whether a mesh that was stopped can be kept.
+void check_forecast(const Limits& limits, double forecast, bool may_keep = true);
 
 /// What to tell the user whose mesh hit the limit. `narrow` is the place of the input that needs the most triangles for
 /// being narrow; it is named if it accounts for a good part of them.

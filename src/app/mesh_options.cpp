@@ -52,7 +52,9 @@ void add_limit_options(CLI::App& command, MeshOptions& options) {
       ->transform(size_value(1024, 1e18))
       ->type_name("SIZE")
       ->group(kGroup);
-  command.add_flag("--keep-incomplete", options.keep_incomplete, "Write what was made when a limit stops the work")
+  command
+      .add_flag("--keep-incomplete", options.keep_incomplete,
+                "Write what was made when a limit stops the work (not in subdomains)")
       ->group(kGroup);
 }
 
@@ -68,7 +70,6 @@ void add_parts_options(CLI::App& command, MeshOptions::Parts& parts) {
           ->group(kGroup);
   command
       .add_option("--decomposition", parts.decomposition, "Take the subdomains from this file of driftmesh decompose")
-      ->check(CLI::ExistingFile.description(""))
       ->excludes(count)
       ->type_name("FILE")
       ->group(kGroup);

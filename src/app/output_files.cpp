@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "output/mesh_file.hpp"
 #include "output/plot.hpp"
+#include "output/pvtu_format.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -34,11 +35,18 @@ void check_file(const std::string& file, const std::string& input) {
 
 }  // namespace
 
+std::vector<std::string> files_of_output(const std::string& path, std::int32_t ranks) {
+  if (!is_in_pieces(path)) return mesh_files(path);
+  std::vector<std::string> files{path};
+  for (std::int32_t r = 0; r < ranks; ++r) files.push_back(pvtu_piece_path(path, r));
+  return files;
+}
+
 void check_outputs(const std::vector<std::string>& meshes, const std::string& picture, const std::string& record,
-                   const std::string& input) {
+                   const std::string& input, std::int32_t ranks) {
   std::vector<std::string> files;
   for (const std::string& mesh : meshes)
-    for (const std::string& file : mesh_files(mesh)) files.push_back(file);
+    for (const std::string& file : ranks > 0 ? files_of_output(mesh, ranks) : mesh_files(mesh)) files.push_back(file);
   if (!picture.empty() && !is_picture_name(picture))
     throw InputError({picture}, "is no picture format", "use a name that ends in .png, .svg or .pdf");
   for (const std::string& file : {picture, record})

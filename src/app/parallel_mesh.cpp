@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,7 +26,6 @@
 #include "mesh/mesher.hpp"
 #include "output/mesh_file.hpp"
 #include "output/plot.hpp"
-#include "output/pvtu_format.hpp"
 #include "protocol/mpi_transport.hpp"
 #include "pslg/poly_file.hpp"
 #include "runtime/plan_bytes.hpp"
@@ -59,14 +60,6 @@ struct Start {
   }
 };
 
-/// The files that writing to `output` made.
-std::vector<std::string> files_of(const std::string& output, protocol::Rank ranks) {
-  if (!is_in_pieces(output)) return mesh_files(output);
-  std::vector<std::string> files{output};
-  for (protocol::Rank r = 0; r < ranks; ++r) files.push_back(pvtu_piece_path(output, r));
-  return files;
-}
-
 class ParallelMesh {
  public:
   ParallelMesh(const MeshOptions& options, const std::string& command, protocol::MpiTransport& transport)
@@ -77,24 +70,38 @@ class ParallelMesh {
         run_(notes_.run) {}
 
   int go() {
-    if (!begin()) return 0;  // rank 0 has the error and the code for it
+    const Start start = agree();
+    if (start.failed) return 0;  // rank 0 has the error and the code for it
     try {
+      plan_ = plan_from_bytes(start.plan, transport_.ranks());
+      pslg_ = pslg_from_bytes(start.pslg);
       size_ = make_size_field(options_.sizing);
       plan_.bounds.size = size_.get();
       refine();
       report();
       if (!options_.outputs.empty() || !options_.picture.empty()) write();
+    } catch (const LimitError&) {
+      fail(stopped_message(limits_, loop_ ? loop_->triangles() : 0, true) + ". No mesh was written", kStoppedByLimit);
+    } catch (const std::bad_alloc&) {
+      fail("out of memory; " + advice(limits_), kStoppedByLimit);
     } catch (const std::exception& error) {
       if (transport_.ranks() == 1) throw;
-      protocol::MpiSession::abort(fmt::format("driftmesh: rank {}: {}", transport_.rank(), error.what()));
+      fail(error.what(), EXIT_FAILURE);
     }
     if (leader_) notes_.finish();
     return 0;
   }
 
  private:
-  /// Everything up to the moment when all ranks know the plan. False on ranks that leave because rank 0 has failed.
-  bool begin() {
+  /// All ranks wait for one that fails by itself: it takes them with it.
+  [[noreturn]] void fail(const std::string& why, int code) const {
+    if (transport_.ranks() == 1) throw LimitError(why);
+    protocol::MpiSession::abort(fmt::format("driftmesh: rank {}: {}", transport_.rank(), why), code);
+  }
+
+  /// The plan, as rank 0 makes it, on all ranks. Throws there what goes wrong with it, and tells the others so.
+  Start agree() {
+    ranks_on_machine_ = protocol::MpiSession::ranks_on_this_machine();
     Start start;
     if (leader_) {
       try {
@@ -105,33 +112,44 @@ class ParallelMesh {
         throw;
       }
     }
-    notes_.timed("share", [&] { start = Start::unpack(transport_.broadcast(start.pack())); });
-    if (start.failed) return false;
-    plan_ = plan_from_bytes(start.plan, transport_.ranks());
-    pslg_ = pslg_from_bytes(start.pslg);
-    return true;
+    return notes_.timed("share", [&] { return Start::unpack(transport_.broadcast(start.pack())); });
   }
 
   Start plan() {
-    check_outputs(options_.outputs, options_.picture, options_.json, options_.input);
+    if (options_.keep_incomplete)
+      throw Error(
+          "--keep-incomplete is for a mesh in one piece: what ranks have made when one stops does not fit together");
+    check_outputs(options_.outputs, options_.picture, options_.json, options_.input, transport_.ranks());
     Pslg pslg = notes_.timed("read", [&] { return read_poly(options_.input); });
     notes_.timed("repair", [&] { notes_.repair_input(pslg); });
     const auto size = notes_.timed("size", [&] { return make_size_field(options_.sizing); });
     const MeshRequest request{options_.angle, options_.area, !options_.no_region_areas, size.get(),
                               options_.max_triangles};
     const QualityBounds bounds = bounds_of(pslg, request);
-    Decomposition cut = options_.parts.decomposition.empty() ? decompose_input(pslg, bounds) : load(pslg);
+    Triangulation mesh = notes_.timed("triangulate", [&] { return triangulate(pslg); });
+    run_.acute_corners = prepare_corners(mesh);
+    check_forecast(limits_of_all(pslg), forecast_of(mesh, bounds), false);
+    Decomposition cut = options_.parts.decomposition.empty() ? decompose_input(mesh, bounds) : load(pslg);
     for (const Decomposition::Subdomain& s : cut.subdomains) run_.forecast += s.predicted;
     RunPlan plan = notes_.timed("map", [&] { return plan_run(std::move(cut), bounds, plan_options()); });
     return {false, plan_to_bytes(plan), pslg_to_bytes(pslg)};
   }
 
-  Decomposition decompose_input(const Pslg& pslg, const QualityBounds& bounds) {
-    const Triangulation mesh = notes_.timed("triangulate", [&] {
-      Triangulation made = triangulate(pslg);
-      run_.acute_corners = prepare_corners(made);
-      return made;
-    });
+  static double forecast_of(Triangulation mesh, const QualityBounds& bounds) {
+    return Refiner(mesh, bounds).predict_triangles();
+  }
+
+  /// Memory is that of each rank, --max-triangles the limit of all together.
+  [[nodiscard]] Limits limits_of_all(const Pslg& pslg) const {
+    Limits limits = find_limits(options_, pslg, ranks_on_machine_);
+    if (!limits.by_memory) return limits;
+    limits.by_memory = limits.triangles < options_.max_triangles / transport_.ranks();
+    limits.triangles = limits.by_memory ? limits.triangles * transport_.ranks() : options_.max_triangles;
+    limits.memory *= static_cast<std::uint64_t>(transport_.ranks());
+    return limits;
+  }
+
+  Decomposition decompose_input(const Triangulation& mesh, const QualityBounds& bounds) {
     const MeshOptions::Parts& parts = options_.parts;
     const DecomposeOptions cutting{parts.subdomains, parts.separator_angle, bounds, parts.skew, parts.seed};
     return notes_.timed("decompose", [&] { return decompose_for(mesh, cutting, transport_.ranks()); });
@@ -169,7 +187,7 @@ class ParallelMesh {
   }
 
   void refine() {
-    limits_ = find_limits(options_, pslg_, protocol::MpiSession::ranks_on_this_machine());
+    limits_ = find_limits(options_, pslg_, ranks_on_machine_);
     plan_.max_triangles = limits_.triangles;
     double forecast = 0;
     for (std::size_t s = 0; s < plan_.owners.size(); ++s)
@@ -216,7 +234,7 @@ class ParallelMesh {
     transport.close();
     if (!leader_) return;
     for (const std::string& output : options_.outputs)
-      for (const std::string& file : files_of(output, transport_.ranks())) notes_.note_file(file);
+      for (const std::string& file : files_of_output(output, transport_.ranks())) notes_.note_file(file);
     if (!options_.picture.empty()) notes_.note_file(options_.picture);
   }
 
@@ -232,6 +250,7 @@ class ParallelMesh {
   const MeshOptions& options_;
   protocol::MpiTransport& transport_;
   bool leader_;
+  int ranks_on_machine_ = 1;
   RunNotes notes_;
   RunRecord& run_;
   std::unique_ptr<SizeField> size_;

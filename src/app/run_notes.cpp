@@ -40,7 +40,9 @@ RunNotes::RunNotes(const MeshOptions& options, std::string command, bool silent)
 }
 
 void RunNotes::note_file(const std::string& file) {
-  run.files.push_back({file, std::filesystem::file_size(file)});
+  std::error_code unknown;  // of a pipe, or of a piece that the network file system does not show yet
+  const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+  run.files.push_back({file, unknown ? 0 : size});
 }
 
 void RunNotes::repair_input(Pslg& pslg) {

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/json_text.hpp"
 #include "app/summary.hpp"
 
 namespace driftmesh::app {
@@ -118,8 +119,7 @@ std::string summary_json(const RunRecord& run) {
                  {"work", work_json(run)},
                  {"files", files_json(run)}};
   if (!run.ranks.empty()) record["parts"] = parts_json(run);
-  // A file name need not be UTF-8.
-  return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(record, 2);
 }
 
 }  // namespace driftmesh::app

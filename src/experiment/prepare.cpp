@@ -36,7 +36,9 @@ Decomposition decomposition_of(const Experiment& e, const Prepared& run, const T
                                std::int32_t ranks) {
   if (!e.decomposition_file.empty()) return read_decomposition(e.decomposition_file, run.pslg);
   DecomposeOptions cutting;
-  cutting.subdomains = e.subdomains > 0 ? e.subdomains : e.subdomains_per_rank * ranks;
+  const std::int64_t of_all = std::int64_t{e.subdomains_per_rank} * ranks;
+  cutting.subdomains =
+      e.subdomains > 0 ? e.subdomains : static_cast<std::int32_t>(std::min<std::int64_t>(of_all, INT32_MAX));
   cutting.min_angle = e.separator_angle;
   cutting.bounds = run.plan.bounds;
   cutting.skew = e.skew;

@@ -142,7 +142,17 @@ class Pipeline(Cli):
         self.refuse("decompose", "square.poly", "-o", "a", code=2, says=["--subdomains"])
         self.refuse("decompose", "none.poly", "-n", "2", "-o", "a", says=["none.poly"])
         self.refuse("decompose", "square.poly", "-n", "2", "-o", "no/folder/a", says=["no/folder/a"])
+        self.refuse("decompose", "square.poly", "-n", "2", "-o", "square.poly", says=["square.poly", "input"])
+        self.assertEqual((self.folder / "square.poly").read_text(), SQUARE)
         self.assertEqual(self.files(), ["square.poly"])
+
+    def test_a_decomposition_of_another_input_is_refused(self):
+        self.write("square.poly", SQUARE)
+        self.write("crossed.poly", SQUARE.replace("\n4 1\n", "\n5 1\n").replace("\n0\n", "\n5 1 3 0\n0\n"))
+        self.succeed("decompose", "square.poly", "-n", "3", "-o", "square.parts")
+        self.refuse("mesh", "crossed.poly", "--decomposition", "square.parts", "--area", "0.05", "-o", "x.vtu",
+                    says=["square.parts", "another input"])
+        self.assertNotIn("x.vtu", self.files())
 
     def test_pictures_by_option(self):
         self.write("square.poly", SQUARE)
@@ -289,6 +299,16 @@ class Errors(Cli):
         self.assertIn("INCOMPLETE: stopped by --max-triangles", result.stdout)
         self.succeed("check", "x.vtu", "square.poly")
 
+    def test_a_limit_stops_subdomains_with_an_explanation(self):
+        self.write("square.poly", SQUARE)
+        mesh = ["mesh", "square.poly", "-n", "4", "--max-triangles", "1000", "-o", "x.vtu"]
+        for area in "0.0001", "1e-300":
+            self.refuse(*mesh, "--area", area, code=3, says=["more than the 1,000 of --max-triangles"])
+        self.refuse(*mesh, "--keep-incomplete", says=["--keep-incomplete"])
+        self.succeed("generate", "comb", "-o", "comb.poly")  # of which less is forecast than it takes
+        self.refuse("mesh", "comb.poly", *mesh[2:], code=3, says=["stopped at 1,", "the 1,000 of --max-triangles"])
+        self.assertEqual(self.files(), ["comb.poly", "square.poly"])
+
     def test_a_narrow_slit_stops_the_mesher_with_its_place(self):
         text = SQUARE.replace("4 2 0 0", "8 2 0 0").replace("4 0 4\n4 1\n", "4 0 4\n5 1 2\n6 3 2\n7 1 2.000001\n"
                                                             "8 3 2.000001\n6 1\n").replace("\n0\n", "\n5 5 6 1\n6 7 8 1\n0\n")
@@ -310,8 +330,15 @@ class Errors(Cli):
         self.refuse("mesh", "square.poly", "-o", "square.ele", says=["square.poly", "input"])
         self.refuse("mesh", "square.poly", "-o", "./square.node", says=["square.poly", "input"])
         self.refuse("mesh", "square.poly", "-o", "a.vtu", "-o", "./a.vtu", says=["a.vtu", "twice"])
+        self.refuse("mesh", "square.poly", "-n", "2", "-o", "a.pvtu", "-o", "a_0.vtu", says=["a_0.vtu", "twice"])
         self.assertEqual((self.folder / "square.poly").read_text(), SQUARE)
         self.assertEqual(self.files(), ["square.poly"])
+
+    def test_an_output_that_has_no_size_is_written_all_the_same(self):
+        self.write("square.poly", SQUARE)
+        (self.folder / "nowhere.vtu").symlink_to("/dev/null")
+        self.assertIn("triangles", self.succeed("mesh", "square.poly", "-o", "nowhere.vtu", "--json", "run.json"))
+        self.assertIn("run.json", self.files())
 
     def test_convert_does_not_write_over_what_it_reads(self):
         self.write("square.poly", SQUARE)
@@ -456,12 +483,22 @@ class Mesh(Cli):
     def test_errors_on_many_ranks_are_said_once(self):
         for arguments, code, message in ((["mesh", "nothing.poly"], 1, "nothing.poly: cannot open"),
                                          (["mesh", "--such"], 2, "unexpected: --such"),
+                                         (["mesh", "square.poly", "--decomposition", "no.parts"], 1, "no.parts: cannot"),
+                                         (["mesh", "square.poly", "--area", "1e-9", "--max-triangles", "1000"], 3,
+                                          "--max-triangles"),
                                          (["mesh", "square.poly", "--speeds", "1,2,3"], 1, "speed")):
             (self.folder / "square.poly").write_text(SQUARE)
             result = self.on_ranks(2, *arguments)
             self.assertEqual(result.returncode, code, result.stderr)
             self.assertEqual(result.stderr.count("driftmesh: "), 1, result.stderr)
             self.assertIn(message, result.stderr)
+
+    def test_an_error_of_one_rank_alone_is_said(self):
+        result = subprocess.run([PROGRAM, "mesh", "square.poly", "--config", "no.yaml"], cwd=self.folder, text=True,
+                                capture_output=True, timeout=MESHER_SECONDS, check=False,
+                                env=dict(RANKS_ENVIRONMENT, OMPI_COMM_WORLD_RANK="1"))
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertIn("no.yaml: cannot open", result.stderr)
 
     def test_attributes_of_added_points_are_interpolated(self):
         lines = SQUARE.splitlines()
@@ -640,6 +677,25 @@ class Experiments(Cli):
                         "balance.policy=none")
         self.assertEqual(self.table()[0]["ranks"], "1")
         self.assertEqual(self.table()[0]["messages"], "0")
+
+    def test_zoltan_may_have_started_mpi_before(self):
+        # Its parameters are tried out when the experiment is read.
+        self.run_config("two-ranks", "cluster.kind=real", "cluster.ranks=0", "cluster.drag=[]", "bounds.triangles=2e4",
+                        "balance.policy=zoltan", "balance.parameters={IMBALANCE_TOL: '1.1'}")
+        self.assertEqual(self.table()[0]["ranks"], "1")
+
+    def test_a_name_that_is_no_text(self):
+        name = os.fsdecode(b"b\xff.poly")
+        self.write(name, SQUARE)
+        self.write("odd.yaml", os.fsencode(f"input: {{file: {name}}}\nbounds: {{triangles: 2e3}}\ncluster: {{ranks: 2}}\n"
+                                           "pictures: false\nlb-statistics: 2\n"))
+        self.succeed("run", "odd.yaml", "-o", "results")
+        self.assertEqual(json.loads((self.folder / "results/run-1.json").read_text())["parts"]["subdomains"], 40)
+
+    def test_subdomains_beyond_all_bounds_are_refused(self):
+        config = self.write("many.yaml", "input: {generate: pipe}\nbounds: {triangles: 2e4}\ncluster: {ranks: 50000}\n"
+                            "decomposition: {subdomains-per-rank: 50000}\n")
+        self.refuse("run", config, says=["from 1 to 10000000, not 2147483647"])
 
     def test_what_ranks_cannot_run_is_said_once_with_its_place(self):
         config = self.write("both.yaml", "input: {generate: pipe}\nbounds: {triangles: 2e4}\ncluster:\n  kind: simulated\n"

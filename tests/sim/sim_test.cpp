@@ -59,7 +59,8 @@ TEST_CASE("the schedules are hard ones, on every domain and number of ranks") {
   std::set<protocol::Rank> ranks;
   std::uint64_t late_rounds = 0;
   std::int64_t smallest = INT64_MAX, asleep = 0;
-  const auto seeds = static_cast<std::uint64_t>(testing::case_count(3000));  // a tenth of it must show what is rare, too
+  const auto seeds =
+      static_cast<std::uint64_t>(testing::case_count(3000));  // a tenth of it must show what is rare, too
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     CAPTURE(seed);
     const Scenario scenario = Scenario::from_seed(seed);
