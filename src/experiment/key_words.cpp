@@ -1,6 +1,7 @@
 #include "experiment/key_words.hpp"
 
 #include <cmath>
+#include <filesystem>
 
 namespace driftmesh::experiment {
 namespace {
@@ -87,6 +88,12 @@ std::string quoted(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// The value in words that mean the same wherever the experiment lies that they are written into.
+Json from_anywhere(const KeyInfo& key, const Json& value) {
+  if (key.kind != Kind::kFile || value == "") return value;
+  return std::filesystem::absolute(value.get<std::string>()).string();
+}
+
 bool is_plain(const std::string& text) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-";
   return !text.empty() && text.find_first_not_of(kPlain) == std::string::npos;
@@ -145,7 +152,8 @@ std::string experiment_text(const Experiment& experiment) {
     const std::string own = key.name.substr(0, end);
     if (own != section && end > 0) text += own.substr(0, end - 1) + ":\n";
     section = own;
-    text += (end > 0 ? "  " : "") + key.name.substr(end) + ": " + value_text(key.load(experiment)) + "\n";
+    text += (end > 0 ? "  " : "") + key.name.substr(end) + ": " + value_text(from_anywhere(key, key.load(experiment))) +
+            "\n";
   }
   return text;
 }
@@ -154,7 +162,11 @@ std::string experiment_text(const ExperimentFile& file) {
   std::string text = experiment_text(file.base);
   if (file.sweep.empty()) return text;
   text += "sweep:\n";
-  for (const ExperimentFile::Axis& axis : file.sweep) text += "  " + axis.key + ": " + value_text(axis.values) + "\n";
+  for (const ExperimentFile::Axis& axis : file.sweep) {
+    Json values = axis.values;
+    for (Json& value : values) value = from_anywhere(*find_key(axis.key).key, value);
+    text += "  " + axis.key + ": " + value_text(values) + "\n";
+  }
   return text;
 }
 

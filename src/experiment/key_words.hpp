@@ -12,7 +12,7 @@ namespace driftmesh::experiment {
 /// All keys as a table in Markdown.
 [[nodiscard]] std::string keys_table();
 
-/// An experiment in full: every key with its value, as a file that says the same, without the sweep.
+/// An experiment in full: every key with its value, as a file that says the same in any folder, without the sweep.
 [[nodiscard]] std::string experiment_text(const Experiment& experiment);
 
 /// The same with the sweep.

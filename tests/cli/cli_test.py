@@ -602,6 +602,13 @@ class Experiments(Cli):
         self.succeed("run", "first/experiment.yaml", "-o", "again", "--quiet")
         self.assertEqual(self.table("first"), self.table("again"))
 
+    def test_an_experiment_in_full_finds_its_input_from_its_folder(self):
+        self.succeed("generate", "pipe", "-o", "pipe.poly")
+        self.write("small.yaml", "input: {file: pipe.poly}\nbounds: {triangles: 1e4}\ncluster: {ranks: 2}\n")
+        self.succeed("run", "small.yaml", "-o", "first/try", "--quiet")
+        self.succeed("run", "first/try/experiment.yaml", "-o", "again", "--quiet")
+        self.assertEqual(self.table("first/try"), self.table("again"))
+
     def test_runs_and_sweeps_are_drawn(self):
         self.run_config("scaled-speedup", *self.SHRUNK["scaled-speedup"], "cluster.ranks=[1, 2]", pictures=True)
         expected = {f"run-{run}-{what}.png" for run in (1, 2) for what in ("time", "load", "owners-before")}

@@ -214,6 +214,19 @@ TEST_CASE("an experiment in full reads back as itself") {
   }
 }
 
+TEST_CASE("an experiment in full finds its files from any folder") {
+  const Files files, elsewhere;
+  const ExperimentFile file = files.read("input: {file: in/a.poly}\ncluster: {ranks: 1}\n",
+                                         {"decomposition.file=d.txt", "sizing.background=[b.vtu, c.vtu]"});
+  const ExperimentFile again = elsewhere.read(experiment_text(file));
+  const auto here = [](const char* name) { return (std::filesystem::current_path() / name).string(); };
+  REQUIRE(again.points.size() == 2);
+  const Experiment& e = again.points[1].experiment;
+  CHECK(e.input_file == files.folder() + "/in/a.poly");
+  CHECK(e.decomposition_file == here("d.txt"));
+  CHECK(e.size_background == here("c.vtu"));
+}
+
 TEST_CASE("every key has a default that it accepts, and is stored where it is loaded from") {
   const Files files;
   for (const Key& key : keys()) {
