@@ -24,7 +24,7 @@ std::vector<double> speeds_of(const ClusterSpec& cluster, const CostModel& costs
                   " ranks; give it at least one");
     if (!(group.speed >= 0 && std::isfinite(group.speed)))
       throw Error("group '" + group.name + "' of the cluster has a speed of " + std::to_string(group.speed) +
-                  " triangles a second; give one above 0, or 0 for the speed of this machine");
+                  " triangles a second; give one above 0, or 0 for that of the machine in docs/benchmarks.md");
     speeds.insert(speeds.end(), static_cast<std::size_t>(group.ranks),
                   group.speed > 0 ? group.speed : reference_speed(costs));
   }

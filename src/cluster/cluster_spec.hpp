@@ -12,7 +12,7 @@ namespace driftmesh {
 struct RankGroup {
   std::string name;
   std::int32_t ranks = 1;
-  double speed = 0;  ///< triangles a second that one of them refines; 0: like this machine (see reference_speed)
+  double speed = 0;  ///< triangles a second that one of them refines; 0: reference_speed
 };
 
 /// A cluster to simulate. Its ranks are numbered through the groups. Every rank has a line of its own to all others.
@@ -26,7 +26,8 @@ struct ClusterSpec {
 };
 
 /// Triangles a second that a rank with these costs refines in subdomains of some thousands: a point makes two
-/// triangles, less a tenth for points on borders, which make fewer, and for the preparation of subdomains.
+/// triangles, less a tenth for points on borders, which make fewer, and for the preparation of subdomains. With the
+/// usual costs that is a core of the machine in docs/benchmarks.md, whatever machine simulates.
 [[nodiscard]] double reference_speed(const CostModel& costs);
 
 [[nodiscard]] std::int32_t ranks_of(const ClusterSpec& cluster);

@@ -105,7 +105,9 @@ Key groups_key() {
   made.fields = {
       info_of("name", &RankGroup::name, "What to call them"),
       in(info_of("ranks", &RankGroup::ranks, "How many"), 1, kMaxRanks),
-      from(info_of("speed", &RankGroup::speed, "Triangles a second that one refines; 0: like this machine"), 0)};
+      from(info_of("speed", &RankGroup::speed,
+                   "Triangles a second that one refines; 0: 7.9 million, as the machine in docs/benchmarks.md"),
+           0)};
   made.store = [](Experiment& e, const Json& value) {
     e.groups.clear();
     for (const Json& g : value) e.groups.push_back({g.at("name"), g.at("ranks"), g.at("speed")});
@@ -156,7 +158,8 @@ std::vector<Key> make_keys() {
       key("cluster.kind", &E::cluster, "Ranks in virtual time, or those that mpirun starts",
           one_of({"simulated", "real"})),
       key("cluster.ranks", &E::ranks, "Ranks; 0: those of cluster.groups, or of mpirun", in(0, kMaxRanks)),
-      key("cluster.speed", &E::speed, "Triangles a second that each refines; 0: like this machine", from(0)),
+      key("cluster.speed", &E::speed,
+          "Triangles a second that each refines; 0: 7.9 million, as the machine in docs/benchmarks.md", from(0)),
       groups_key(),
       key("cluster.drag", &E::drag,
           "Share of its speed that is left to each rank, real or simulated: [1, 0.5]; empty: all of it", in(0.01, 1)),
