@@ -143,7 +143,7 @@ void add_run(CLI::App& program) {
   command->footer(
       "Examples:\n"
       "  driftmesh run configs/first-run.yaml\n"
-      "  driftmesh run configs/scaled-speedup.yaml --set cluster.ranks=[1,4,16] -o few\n"
+      "  driftmesh run configs/scaled-speedup.yaml --set 'cluster.ranks=[1,4,16]' -o few\n"
       "  mpirun -n 2 driftmesh run configs/two-ranks.yaml --set cluster.kind=real\n"
       "What an experiment can say: driftmesh config --keys\n"
       "Exit code: 0 done, 1 error, 2 wrong usage, 3 stopped by a limit.");

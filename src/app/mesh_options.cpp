@@ -125,8 +125,9 @@ void add_parts_options(CLI::App& command, MeshOptions::Parts& parts) {
 void add_balancing_options(CLI::App& command, MeshOptions::Parts& parts) {
   constexpr const char* kGroup = "Balancing: subdomains move between ranks while they are refined";
   command
-      .add_option("--balance", parts.policy,
-                  "Who decides what moves: none, zoltan, stealing, diffusion or greedy (docs/balancing.md)")
+      .add_option(
+          "--balance", parts.policy,
+          "Who decides what moves: " + CLI::detail::join(balancer::policy_names(), ", ") + " (docs/balancing.md)")
       ->check(CLI::IsMember(balancer::policy_names()).description(""))
       ->capture_default_str()
       ->type_name("POLICY")
@@ -153,8 +154,9 @@ void add_output_options(CLI::App& command, MeshOptions& options) {
   command
       .add_option(
           "-o,--output", options.outputs,
-          "Mesh file, by extension: .vtu (ParaView), .msh (Gmsh 4.1), or .node, .ele, .poly, .edge, .neigh (any "
-          "of them writes Triangle's whole set). Can be given several times; without it, the summary alone")
+          "Mesh file, by extension: .vtu (ParaView), .pvtu (the same in pieces, one a rank; in subdomains only), "
+          ".msh (Gmsh 4.1), or .node, .ele, .poly, .edge, .neigh (any of them writes Triangle's whole set). Can be "
+          "given several times; without it, the summary alone")
       ->allow_extra_args(false)  // one a time: what follows may be the input
       ->type_name("FILE")
       ->group(kGroup);
