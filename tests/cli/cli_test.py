@@ -60,7 +60,8 @@ class Cli(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def run_program(self, *arguments):
-        starts_mpi = arguments and arguments[0] == "run"
+        in_subdomains = {"-n", "--decomposition"}.intersection(arguments)
+        starts_mpi = arguments and (arguments[0] == "run" or arguments[0] == "mesh" and in_subdomains)
         return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
                               errors="replace", timeout=MESHER_SECONDS, check=False,
                               env=RANKS_ENVIRONMENT if starts_mpi else None)
