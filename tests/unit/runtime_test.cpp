@@ -11,6 +11,7 @@
 #include "mesh/digest.hpp"
 #include "mesh/exceptions.hpp"
 #include "protocol/adversarial_network.hpp"
+#include "protocol/transport_layer.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime/plan_bytes.hpp"
 #include "runtime/plan_run.hpp"
@@ -252,6 +253,31 @@ TEST_CASE("every policy gives a slow rank less to do, and changes nothing about 
       CHECK(network.makespan() < 0.7 * without);  // at best a third: 1 / 2.25 instead of 1 / 3 / 0.25
     }
   }
+}
+
+TEST_CASE("a rank that is through with its work alarms nobody before long") {
+  struct Clocked final : protocol::TransportLayer {
+    using TransportLayer::TransportLayer;
+    [[nodiscard]] double now() const override { return time; }
+    double time = 0;
+  };
+  const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 2, 6, Presplit::kOn);
+  protocol::AdversarialNetwork network(2, {});
+  Clocked transport(network.transport(1));
+  std::vector<std::string> alarms;
+  RankLoop::Observers observers;
+  observers.stalled = [&](const std::string& why) { alarms.push_back(why); };
+  RankLoop loop(transport, plan, {}, observers);
+  while (loop.step() != protocol::StepResult::kIdle) {
+  }
+  REQUIRE(!loop.at_work());
+  // The other rank, which has the token, has not even begun.
+  for (; transport.time < 590; transport.time += 10) CHECK(loop.step() == protocol::StepResult::kIdle);
+  CHECK(alarms.empty());
+  for (; transport.time < 700; transport.time += 10) CHECK(loop.step() == protocol::StepResult::kIdle);
+  REQUIRE(!alarms.empty());
+  CHECK(alarms[0].find("nothing has moved for 6") == 0);
+  CHECK(alarms[0].find("without the token") != std::string::npos);
 }
 
 TEST_CASE("presplit points are in order, symmetric, and end at the spacing") {
