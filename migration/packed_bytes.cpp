@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/mix.hpp"
 
 namespace driftmesh {
 namespace {
@@ -22,12 +23,6 @@ Pair load(const From* from) {
 
 /// Bytes copied before they are summed up, so that they are in the cache then.
 constexpr std::size_t kInCache = 65536;
-
-constexpr std::uint64_t mix(std::uint64_t z) {  // of splitmix64
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-  return z ^ (z >> 31);
-}
 
 }  // namespace
 

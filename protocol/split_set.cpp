@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/assert.hpp"
+#include "base/mix.hpp"
 
 namespace driftmesh::protocol {
 
@@ -22,11 +23,7 @@ bool SplitSet::contains(dyadic::Path path) const {
 }
 
 void SplitDigest::add(dyadic::Path path) {
-  // The finalizer of splitmix64 (Steele, Lea and Flood 2014): every bit of the path reaches every bit of the hash.
-  std::uint64_t hash = path + 0x9e3779b97f4a7c15u;
-  hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
-  hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
-  hash ^= hash >> 31;
+  const std::uint64_t hash = mix(path + kMixStep);
   ++count;
   sum += hash;
   toggle ^= hash;

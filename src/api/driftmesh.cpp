@@ -7,7 +7,7 @@
 
 #include "base/byte_stream.hpp"
 #include "base/error.hpp"
-#include "decompose/decomposition_file.hpp"
+#include "decompose/same_input.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/write_distributed.hpp"
 #include "mesh/cdt.hpp"

@@ -1,10 +1,7 @@
 #include "decompose/decomposition_file.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
-#include <set>
-#include <tuple>
 #include <utility>
 
 #include "base/atomic_file.hpp"
@@ -12,6 +9,7 @@
 #include "base/line_writer.hpp"
 #include "base/read_file.hpp"
 #include "decompose/check_decomposition.hpp"
+#include "decompose/same_input.hpp"
 #include "pslg/record_scanner.hpp"
 
 namespace driftmesh {
@@ -19,83 +17,6 @@ namespace {
 
 constexpr std::string_view kFirstLine = "# driftmesh decomposition 2\n";
 constexpr std::int32_t kMostRecords = std::numeric_limits<std::int32_t>::max() / 4;
-
-/// Numbers one after another, condensed by the finalizer of splitmix64 (Steele, Lea and Flood 2014).
-class Condenser {
- public:
-  void add(std::uint64_t value) {
-    state_ += value + 0x9E3779B97F4A7C15;
-    state_ = (state_ ^ (state_ >> 30)) * 0xBF58476D1CE4E5B9;
-    state_ = (state_ ^ (state_ >> 27)) * 0x94D049BB133111EB;
-    state_ ^= state_ >> 31;
-  }
-  void add(const Point& p) {
-    add(std::bit_cast<std::uint64_t>(p.x));
-    add(std::bit_cast<std::uint64_t>(p.y));
-  }
-  /// As many bits as a whole number in a file has.
-  [[nodiscard]] std::int32_t value() const { return static_cast<std::int32_t>(state_ >> 33); }
-
- private:
-  std::uint64_t state_ = 0;
-};
-
-/// Of all in an input that its decompositions depend on, but for bounds: another input has another one, but for a
-/// chance of 2^-31.
-std::int32_t digest_of(const Pslg& input) {
-  Condenser all;
-  all.add(input.points.size());
-  for (const Point& p : input.points) all.add(p);
-  all.add(input.segments.size());
-  for (const Pslg::Segment& s : input.segments)
-    for (const std::int32_t part : {s.a, s.b, s.marker}) all.add(static_cast<std::uint32_t>(part));
-  all.add(input.holes.size());
-  for (const Point& p : input.holes) all.add(p);
-  all.add(input.regions.size());
-  for (const Pslg::Region& r : input.regions) all.add(r.at);
-  return all.value();
-}
-
-/// What says that a decomposition does not belong to an input, and stops there.
-[[noreturn]] void fail_as_another(const std::string& file, const std::string& why) {
-  throw InputError({file, 0}, "this decomposition was made from another input" + why,
-                   "decompose this input anew with driftmesh decompose");
-}
-
-/// The input's segments that a decomposition's roots make up: chains of roots that are no separators, from one point of
-/// the input to the next, as ends (the smaller first) and marker.
-class Chains {
- public:
-  explicit Chains(const Decomposition& d) : d_(d), at_(d.points.size()) {
-    for (std::size_t r = 0; r < d.roots.size(); ++r)
-      if (!d.roots[r].separator)
-        for (const GlobalPointId v : {d.roots[r].a, d.roots[r].b}) at_[static_cast<std::size_t>(v)].push_back(r);
-  }
-
-  template <class Visit>
-  void visit(Visit&& visit) const {
-    for (std::size_t v = 0; v < at_.size(); ++v)
-      if (is_input(d_.origin[v]))
-        for (const std::size_t r : at_[v])
-          if (const std::int32_t end = follow(v, r); end != kNone) visit(d_.origin[v], end, d_.roots[r].marker);
-  }
-
- private:
-  /// Along root `r` from point `v` to the next point of the input; kNone if there is none.
-  [[nodiscard]] std::int32_t follow(std::size_t v, std::size_t r) const {
-    for (std::size_t steps = 0; steps < d_.roots.size(); ++steps) {
-      const Decomposition::Root& root = d_.roots[r];
-      v = static_cast<std::size_t>(static_cast<std::size_t>(root.a) == v ? root.b : root.a);
-      if (is_input(d_.origin[v])) return d_.origin[v];
-      if (at_[v].size() != 2) return kNone;
-      r = at_[v][0] == r ? at_[v][1] : at_[v][0];
-    }
-    return kNone;
-  }
-
-  const Decomposition& d_;
-  std::vector<std::vector<std::size_t>> at_;  // the roots at each point
-};
 
 class Parser {
  public:
@@ -128,8 +49,8 @@ class Parser {
     roots_ = in_.header("number of roots", kMostRecords);
     subdomains_ = in_.header("number of subdomains", kMostRecords);
     inner_points_ = in_.header("number of inner points", kMostRecords);
-    if (in_.header("digest of the input", std::numeric_limits<std::int32_t>::max()) != digest_of(input_))
-      fail_as_another(file_, "");
+    if (in_.header("digest of the input", std::numeric_limits<std::int32_t>::max()) != input_digest(input_))
+      refuse_as_another(file_, "");
     in_.require_room(points_, "points", 3);
     in_.require_room(roots_, "roots", 9);
     in_.require_room(subdomains_, "subdomains", 5);
@@ -225,7 +146,7 @@ void write_decomposition(const Decomposition& d, const Pslg& input, const std::s
   file.write("# points, roots, subdomains, inner points, digest of the input\n");
   LineWriter line(file);
   line.field(d.points.size()).field(d.roots.size()).field(d.size()).field(d.point_list.size());
-  line.field(digest_of(input)).end();
+  line.field(input_digest(input)).end();
   file.write("# points: x y origin\n");
   for (std::size_t v = 0; v < d.points.size(); ++v)
     line.field(d.points[v].x).field(d.points[v].y).field(d.origin[v]).end();
@@ -249,26 +170,6 @@ Decomposition parse_decomposition(const std::string& file, std::string_view text
 
 Decomposition read_decomposition(const std::string& path, const Pslg& input) {
   return parse_decomposition(path, read_file(path), input);
-}
-
-void require_same_input(const Decomposition& d, const Pslg& input, const std::string& file) {
-  const auto point = [](std::int32_t i) { return "point " + std::to_string(i); };
-  for (std::size_t v = 0; v < d.points.size(); ++v) {
-    if (!is_input(d.origin[v])) continue;
-    const auto i = static_cast<std::size_t>(d.origin[v]);
-    if (i >= input.points.size() || !(input.points[i] == d.points[v]))
-      fail_as_another(file, ": its point " + std::to_string(v) + " is not " + point(d.origin[v]) + " of the input");
-  }
-  for (const Decomposition::Root& r : d.roots)
-    if (std::max(r.left_region, r.right_region) > input.regions.size())
-      fail_as_another(file, " with more than " + std::to_string(input.regions.size()) + " regions");
-  std::set<std::tuple<std::int32_t, std::int32_t, std::int32_t>> segments;
-  for (const Pslg::Segment& s : input.segments) segments.emplace(std::min(s.a, s.b), std::max(s.a, s.b), s.marker);
-  Chains(d).visit([&](std::int32_t a, std::int32_t b, std::int32_t marker) {
-    if (!segments.contains({std::min(a, b), std::max(a, b), marker}))
-      fail_as_another(file, ", which has a segment from " + point(a) + " to " + point(b) + " with marker " +
-                                std::to_string(marker));
-  });
 }
 
 }  // namespace driftmesh

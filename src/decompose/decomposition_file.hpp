@@ -20,9 +20,4 @@ void write_decomposition(const Decomposition& decomposition, const Pslg& input, 
 /// The same from memory; `file` is for messages.
 [[nodiscard]] Decomposition parse_decomposition(const std::string& file, std::string_view text, const Pslg& input);
 
-/// Throws InputError, naming `file`, unless the decomposition's points, segments and regions are those of this
-/// (repaired) input. For decompositions in memory, which carry no digest of their input: a segment that the input has
-/// and the decomposition has not goes unnoticed.
-void require_same_input(const Decomposition& decomposition, const Pslg& input, const std::string& file);
-
 }  // namespace driftmesh

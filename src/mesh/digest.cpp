@@ -6,24 +6,19 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/mix.hpp"
+
 namespace driftmesh {
 namespace {
 
 constexpr std::size_t kAhead = 16;  // triangles
-constexpr std::uint64_t kStart = 0x9E3779B97F4A7C15U;
-
-constexpr std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-  return z ^ (z >> 31);
-}
 
 std::uint64_t bits(double x) {
   return std::bit_cast<std::uint64_t>(x + 0.0);  // -0 + 0 is 0
 }
 
 std::uint64_t of_point(const Point& p) {
-  return mix(mix(bits(p.x) + kStart) + bits(p.y));
+  return mix(mix(bits(p.x) + kMixStep) + bits(p.y));
 }
 
 /// Of a directed edge between points with these digests.

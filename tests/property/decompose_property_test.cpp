@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
-#include "decompose/decomposition_file.hpp"
+#include "decompose/same_input.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/mix.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/split_set.hpp"
 
@@ -18,12 +19,7 @@ namespace driftmesh::protocol::toy {
 /// Random numbers that travel with a subdomain: splitmix64.
 struct Random {
   std::uint64_t state = 0;
-  std::uint64_t next() {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t next() { return mix(state += kMixStep); }
   std::uint64_t below(std::uint64_t n) { return next() % n; }
   bool chance(std::uint64_t percent) { return below(100) < percent; }
 };

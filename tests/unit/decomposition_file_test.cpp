@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "decompose/decompose.hpp"
+#include "decompose/same_input.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "temporary_folder.hpp"

@@ -1,0 +1,106 @@
+#include "decompose/same_input.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/mix.hpp"
+
+namespace driftmesh {
+namespace {
+
+/// Numbers one after another, condensed.
+class Condenser {
+ public:
+  void add(std::uint64_t value) { state_ = mix(state_ + value + kMixStep); }
+  void add(const Point& p) {
+    add(std::bit_cast<std::uint64_t>(p.x));
+    add(std::bit_cast<std::uint64_t>(p.y));
+  }
+  /// As many bits as a whole number in a file has.
+  [[nodiscard]] std::int32_t value() const { return static_cast<std::int32_t>(state_ >> 33); }
+
+ private:
+  std::uint64_t state_ = 0;
+};
+
+/// The input's segments that a decomposition's roots make up: chains of roots that are no separators, from one point of
+/// the input to the next, as ends (the smaller first) and marker.
+class Chains {
+ public:
+  explicit Chains(const Decomposition& d) : d_(d), at_(d.points.size()) {
+    for (std::size_t r = 0; r < d.roots.size(); ++r)
+      if (!d.roots[r].separator)
+        for (const GlobalPointId v : {d.roots[r].a, d.roots[r].b}) at_[static_cast<std::size_t>(v)].push_back(r);
+  }
+
+  template <class Visit>
+  void visit(Visit&& visit) const {
+    for (std::size_t v = 0; v < at_.size(); ++v)
+      if (is_input(d_.origin[v]))
+        for (const std::size_t r : at_[v])
+          if (const std::int32_t end = follow(v, r); end != kNone) visit(d_.origin[v], end, d_.roots[r].marker);
+  }
+
+ private:
+  /// Along root `r` from point `v` to the next point of the input; kNone if there is none.
+  [[nodiscard]] std::int32_t follow(std::size_t v, std::size_t r) const {
+    for (std::size_t steps = 0; steps < d_.roots.size(); ++steps) {
+      const Decomposition::Root& root = d_.roots[r];
+      v = static_cast<std::size_t>(static_cast<std::size_t>(root.a) == v ? root.b : root.a);
+      if (is_input(d_.origin[v])) return d_.origin[v];
+      if (at_[v].size() != 2) return kNone;
+      r = at_[v][0] == r ? at_[v][1] : at_[v][0];
+    }
+    return kNone;
+  }
+
+  const Decomposition& d_;
+  std::vector<std::vector<std::size_t>> at_;  // the roots at each point
+};
+
+}  // namespace
+
+std::int32_t input_digest(const Pslg& input) {
+  Condenser all;
+  all.add(input.points.size());
+  for (const Point& p : input.points) all.add(p);
+  all.add(input.segments.size());
+  for (const Pslg::Segment& s : input.segments)
+    for (const std::int32_t part : {s.a, s.b, s.marker}) all.add(static_cast<std::uint32_t>(part));
+  all.add(input.holes.size());
+  for (const Point& p : input.holes) all.add(p);
+  all.add(input.regions.size());
+  for (const Pslg::Region& r : input.regions) all.add(r.at);
+  return all.value();
+}
+
+void refuse_as_another(const std::string& file, const std::string& why) {
+  throw InputError({file, 0}, "this decomposition was made from another input" + why,
+                   "decompose this input anew with driftmesh decompose");
+}
+
+void require_same_input(const Decomposition& d, const Pslg& input, const std::string& file) {
+  const auto point = [](std::int32_t i) { return "point " + std::to_string(i); };
+  for (std::size_t v = 0; v < d.points.size(); ++v) {
+    if (!is_input(d.origin[v])) continue;
+    const auto i = static_cast<std::size_t>(d.origin[v]);
+    if (i >= input.points.size() || !(input.points[i] == d.points[v]))
+      refuse_as_another(file, ": its point " + std::to_string(v) + " is not " + point(d.origin[v]) + " of the input");
+  }
+  for (const Decomposition::Root& r : d.roots)
+    if (std::max(r.left_region, r.right_region) > input.regions.size())
+      refuse_as_another(file, " with more than " + std::to_string(input.regions.size()) + " regions");
+  std::set<std::tuple<std::int32_t, std::int32_t, std::int32_t>> segments;
+  for (const Pslg::Segment& s : input.segments) segments.emplace(std::min(s.a, s.b), std::max(s.a, s.b), s.marker);
+  Chains(d).visit([&](std::int32_t a, std::int32_t b, std::int32_t marker) {
+    if (!segments.contains({std::min(a, b), std::max(a, b), marker}))
+      refuse_as_another(file, ", which has a segment from " + point(a) + " to " + point(b) + " with marker " +
+                                  std::to_string(marker));
+  });
+}
+
+}  // namespace driftmesh
