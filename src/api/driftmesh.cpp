@@ -49,6 +49,16 @@ Start plan(const Pslg& input, const MakeDecomposition& decomposition, const Dist
   return start;
 }
 
+/// The others wait for a rank that fails here, so it takes them with it.
+template <class Work>
+auto or_end_the_job(const MpiTransport& transport, const Work& work) {
+  try {
+    return work();
+  } catch (const std::exception& error) {
+    MpiSession::abort("driftmesh: rank " + std::to_string(transport.rank()) + ": " + error.what());
+  }
+}
+
 /// What rank 0 makes, on all ranks; or what it throws.
 Start share(MpiTransport& transport, const std::function<Start()>& make) {
   std::string error;
@@ -69,20 +79,12 @@ Start share(MpiTransport& transport, const std::function<Start()>& make) {
   ByteReader reader(bytes);
   error = reader.text();
   if (!error.empty()) throw Error(error);
-  Bytes plan_bytes, input_bytes;
-  reader.array(plan_bytes);
-  reader.array(input_bytes);
-  return {plan_from_bytes(plan_bytes, transport.ranks()), pslg_from_bytes(input_bytes)};
-}
-
-/// The others wait for a rank that fails here, so it takes them with it.
-template <class Work>
-auto or_end_the_job(const MpiTransport& transport, const Work& work) {
-  try {
-    return work();
-  } catch (const std::exception& error) {
-    MpiSession::abort("driftmesh: rank " + std::to_string(transport.rank()) + ": " + error.what());
-  }
+  return or_end_the_job(transport, [&]() -> Start {
+    Bytes plan_bytes, input_bytes;
+    reader.array(plan_bytes);
+    reader.array(input_bytes);
+    return {plan_from_bytes(plan_bytes, transport.ranks()), pslg_from_bytes(input_bytes)};
+  });
 }
 
 DistributedPiece refine(MpiTransport& transport, int communicator, const Start& start) {

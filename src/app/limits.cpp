@@ -26,6 +26,10 @@ std::uint64_t bytes_per_triangle(const MeshOptions& options, const Pslg& pslg) {
          kBytesAttribute * static_cast<std::uint64_t>(pslg.attributes_per_point);
 }
 
+std::string advice(const Limits& limits) {
+  return fmt::format("allow more with {}, or ask for larger triangles", limits.option());
+}
+
 /// Good angles take triangles as small as the gap, all along it.
 std::string narrow_words(const NarrowPlace& narrow, const Limits& limits) {
   return fmt::format(
@@ -43,10 +47,6 @@ std::string words_of(const Limits& limits) {
 }
 
 }  // namespace
-
-std::string advice(const Limits& limits) {
-  return fmt::format("allow more with {}, or ask for larger triangles", limits.option());
-}
 
 Limits find_limits(const MeshOptions& options, const Pslg& pslg, int ranks_on_machine) {
   Limits limits{options.max_triangles, false, options.max_memory, bytes_per_triangle(options, pslg)};

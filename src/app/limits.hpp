@@ -28,8 +28,8 @@ struct Limits {
 /// What ends a command that a limit has stopped.
 constexpr int kStoppedByLimit = 3;
 
-/// What to do about a limit.
-[[nodiscard]] std::string advice(const Limits& limits);
+/// What to say when memory ends before a limit does.
+constexpr const char* kOutOfMemory = "out of memory; ask for larger triangles, or see --max-memory of driftmesh mesh";
 
 /// Throws LimitError when a forecast of the number of triangles is beyond the limit by more than forecasts err.
 /// `may_keep`: whether a mesh that was stopped can be kept.

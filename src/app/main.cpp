@@ -100,7 +100,7 @@ int run_program(int argc, char** argv) {
   try {
     return parse_and_run(program, argc, argv);
   } catch (const std::bad_alloc&) {
-    std::cerr << "driftmesh: out of memory; ask for larger triangles, or see --max-memory of driftmesh mesh\n";
+    std::cerr << "driftmesh: " << driftmesh::app::kOutOfMemory << '\n';
     return driftmesh::app::kStoppedByLimit;
   } catch (const driftmesh::LimitError& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';

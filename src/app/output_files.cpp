@@ -46,7 +46,7 @@ void check_outputs(const std::vector<std::string>& meshes, const std::string& pi
                    const std::string& input, std::int32_t ranks) {
   std::vector<std::string> files;
   for (const std::string& mesh : meshes)
-    for (const std::string& file : ranks > 0 ? files_of_output(mesh, ranks) : mesh_files(mesh)) files.push_back(file);
+    for (const std::string& file : files_of_output(mesh, ranks)) files.push_back(file);
   if (!picture.empty() && !is_picture_name(picture))
     throw InputError({picture}, "is no picture format", "use a name that ends in .png, .svg or .pdf");
   for (const std::string& file : {picture, record})

@@ -80,10 +80,12 @@ class ParallelMesh {
       refine();
       report();
       if (!options_.outputs.empty() || !options_.picture.empty()) write();
-    } catch (const LimitError&) {
-      fail(stopped_message(limits_, loop_ ? loop_->triangles() : 0, true) + ". No mesh was written", kStoppedByLimit);
+    } catch (const LimitError& error) {
+      const bool of_triangles = loop_ && loop_->triangles() > limits_.triangles;
+      fail(of_triangles ? stopped_message(limits_, loop_->triangles(), true) + ". No mesh was written" : error.what(),
+           kStoppedByLimit);
     } catch (const std::bad_alloc&) {
-      fail("out of memory; " + advice(limits_), kStoppedByLimit);
+      fail(kOutOfMemory, kStoppedByLimit);
     } catch (const std::exception& error) {
       if (transport_.ranks() == 1) throw;
       fail(error.what(), EXIT_FAILURE);
@@ -126,17 +128,16 @@ class ParallelMesh {
     const MeshRequest request{options_.angle, options_.area, !options_.no_region_areas, size.get(),
                               options_.max_triangles};
     const QualityBounds bounds = bounds_of(pslg, request);
-    Triangulation mesh = notes_.timed("triangulate", [&] { return triangulate(pslg); });
-    run_.acute_corners = prepare_corners(mesh);
-    check_forecast(limits_of_all(pslg), forecast_of(mesh, bounds), false);
+    const Triangulation mesh = notes_.timed("triangulate", [&] {
+      Triangulation made = triangulate(pslg);
+      run_.acute_corners = prepare_corners(made);
+      return made;
+    });
+    check_forecast(limits_of_all(pslg), forecast_triangles(mesh, bounds), false);
     Decomposition cut = options_.parts.decomposition.empty() ? decompose_input(mesh, bounds) : load(pslg);
     for (const Decomposition::Subdomain& s : cut.subdomains) run_.forecast += s.predicted;
     RunPlan plan = notes_.timed("map", [&] { return plan_run(std::move(cut), bounds, plan_options()); });
     return {false, plan_to_bytes(plan), pslg_to_bytes(pslg)};
-  }
-
-  static double forecast_of(Triangulation mesh, const QualityBounds& bounds) {
-    return Refiner(mesh, bounds).predict_triangles();
   }
 
   /// Memory is that of each rank, --max-triangles the limit of all together.

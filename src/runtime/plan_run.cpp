@@ -33,10 +33,13 @@ std::int32_t default_subdomains(double triangles, std::int32_t ranks) {
   return std::max(kSubdomainsPerRank * ranks, static_cast<std::int32_t>(for_cache));
 }
 
+double forecast_triangles(Triangulation mesh, const QualityBounds& bounds) {
+  return Refiner(mesh, bounds).predict_triangles();
+}
+
 Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options, std::int32_t ranks) {
   if (options.subdomains != 0) return decompose(mesh, options);
-  Triangulation copy = mesh;
-  options.subdomains = default_subdomains(Refiner(copy, options.bounds).predict_triangles(), ranks);
+  options.subdomains = default_subdomains(forecast_triangles(mesh, options.bounds), ranks);
   for (;; options.subdomains /= 2) {
     try {
       return decompose(mesh, options);

@@ -34,6 +34,9 @@ struct PlanOptions {
 /// otherwise outgrow a second-level cache.
 [[nodiscard]] std::int32_t default_subdomains(double triangles, std::int32_t ranks);
 
+/// How many triangles a domain (triangulated, corners prepared) is expected to take within these bounds.
+[[nodiscard]] double forecast_triangles(Triangulation mesh, const QualityBounds& bounds);
+
 /// Cuts the domain (triangulated, corners prepared) as `options` say; with options.subdomains = 0 into
 /// default_subdomains, or as many as the domain allows. Throws like decompose.
 [[nodiscard]] Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options, std::int32_t ranks);
