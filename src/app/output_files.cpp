@@ -45,8 +45,11 @@ std::vector<std::string> files_of_output(const std::string& path, std::int32_t r
 void check_outputs(const std::vector<std::string>& meshes, const std::string& picture, const std::string& record,
                    const std::string& input, std::int32_t ranks) {
   std::vector<std::string> files;
-  for (const std::string& mesh : meshes)
+  for (const std::string& mesh : meshes) {
+    if (ranks == 0 && is_in_pieces(mesh))
+      throw InputError({mesh}, "is for a mesh in pieces", "cut the domain with --subdomains, or write a .vtu");
     for (const std::string& file : files_of_output(mesh, ranks)) files.push_back(file);
+  }
   if (!picture.empty() && !is_picture_name(picture))
     throw InputError({picture}, "is no picture format", "use a name that ends in .png, .svg or .pdf");
   for (const std::string& file : {picture, record})

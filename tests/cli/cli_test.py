@@ -332,6 +332,8 @@ class Errors(Cli):
         self.refuse("mesh", "square.poly", "-o", "./square.node", says=["square.poly", "input"])
         self.refuse("mesh", "square.poly", "-o", "a.vtu", "-o", "./a.vtu", says=["a.vtu", "twice"])
         self.refuse("mesh", "square.poly", "-n", "2", "-o", "a.pvtu", "-o", "a_0.vtu", says=["a_0.vtu", "twice"])
+        early = self.refuse("mesh", "square.poly", "-o", "a.pvtu", "-o", "no/a.vtu", says=["a.pvtu", "--subdomains"])
+        self.assertNotIn("no/a.vtu", early.stderr)
         self.assertEqual((self.folder / "square.poly").read_text(), SQUARE)
         self.assertEqual(self.files(), ["square.poly"])
 
