@@ -95,6 +95,7 @@ class Phases {
             {"type", "object"}};
   }
 
+  // What describes a subdomain are attributes: of user_defined, if there is any, LBAF expects figures on memory.
   [[nodiscard]] Json task(SubdomainId s, Rank rank, double seconds) const {
     const Decomposition::Subdomain& known = run_.plan.decomposition.subdomains[static_cast<std::size_t>(s)];
     return {
@@ -102,7 +103,7 @@ class Phases {
         {"node", rank},
         {"resource", "cpu"},
         {"time", seconds},
-        {"user_defined", {{"x", known.centroid.x}, {"y", known.centroid.y}, {"predicted_triangles", known.predicted}}}};
+        {"attributes", {{"x", known.centroid.x}, {"y", known.centroid.y}, {"predicted_triangles", known.predicted}}}};
   }
 
   /// For what a rank did on subdomains that are tasks of others.
@@ -115,7 +116,9 @@ class Phases {
   }
 
   [[nodiscard]] std::vector<Json> phase_json(const Phase& phase) const {
-    std::vector<Json> of_rank(run_.outcome.ranks.size(), {{"id", 0}, {"tasks", Json::array()}});
+    // Where nothing was said, the list is empty: what checks that ends of communications are tasks asks for it.
+    std::vector<Json> of_rank(run_.outcome.ranks.size(),
+                              {{"id", 0}, {"tasks", Json::array()}, {"communications", Json::array()}});
     std::vector<double> elsewhere(of_rank.size(), 0);
     for (std::size_t i = 0; i < phase.holder.size(); ++i) {
       const auto s = static_cast<SubdomainId>(i);

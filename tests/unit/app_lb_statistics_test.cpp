@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/lb_statistics.hpp"
 
@@ -43,7 +45,105 @@ std::vector<Task> tasks(const std::vector<std::string>& files, std::size_t rank,
   return list;
 }
 
+using Kind = Json::value_t;
+
+/// Fields with their types: those that must be there, and those that may.
+struct Fields {
+  std::map<std::string, Kind> required, optional;
+};
+
+const Kind kWhole = Kind::number_integer, kReal = Kind::number_float;
+const Fields kFile{{{"phases", Kind::array}}, {{"metadata", Kind::object}, {"type", Kind::string}}};
+const Fields kPhase{{{"id", kWhole}, {"tasks", Kind::array}, {"communications", Kind::array}}, {}};
+const Fields kTask{{{"entity", Kind::object}, {"node", kWhole}, {"resource", Kind::string}, {"time", kReal}},
+                   {{"attributes", Kind::object}, {"subphases", Kind::array}, {"user_defined", Kind::object}}};
+const Fields kEntity{{{"home", kWhole}, {"id", kWhole}, {"migratable", Kind::boolean}, {"type", Kind::string}},
+                     {{"collection_id", kWhole}, {"index", Kind::array}, {"objgroup_id", kWhole}, {"seq_id", kWhole}}};
+const Fields kCommunication{
+    {{"type", Kind::string}, {"from", Kind::object}, {"to", Kind::object}, {"messages", kWhole}, {"bytes", kReal}}, {}};
+
+/// Whole numbers are one type for tools: signed or not is a matter of this library alone.
+Kind kind_of(const Json& value) {
+  return value.is_number_integer() ? kWhole : value.type();
+}
+
+void check_fields(const Json& object, const Fields& fields) {
+  INFO(object.dump());
+  for (const auto& [name, kind] : fields.required) {
+    INFO(name);
+    REQUIRE(object.contains(name));
+    CHECK(kind_of(object.at(name)) == kind);
+  }
+  for (const auto& [name, value] : object.items()) {
+    INFO(name);
+    const auto known = fields.optional.find(name);
+    if (known != fields.optional.end()) CHECK(kind_of(value) == known->second);
+    CHECK((known != fields.optional.end() || fields.required.count(name) > 0));
+  }
+}
+
+void check_entity(const Json& entity) {
+  check_fields(entity, kEntity);
+  const std::int64_t id = entity.at("id");
+  CHECK(entity.at("type") == "object");
+  CHECK((id >> 2 & 0xffff) == entity.at("home").get<std::int64_t>());  // which vt reads from the number
+  CHECK((id & 3) == (entity.at("migratable") ? 3 : 1));
+  CHECK(entity.contains("collection_id") == entity.at("migratable").get<bool>());
+}
+
+void check_task(const Json& task, std::size_t rank) {
+  check_fields(task, kTask);
+  check_entity(task.at("entity"));
+  CHECK(task.at("node") == rank);
+  CHECK(task.at("time") >= 0);
+  const Json attributes = task.value("attributes", Json::object());
+  for (const auto& [name, value] : attributes.items()) CHECK_MESSAGE((value.is_number() || value.is_string()), name);
+  if (!task.contains("user_defined") || task.at("user_defined").empty()) return;
+  for (const char* size : {"task_footprint_bytes", "task_working_bytes"}) {
+    REQUIRE(task.at("user_defined").contains(size));
+    CHECK(kind_of(task.at("user_defined").at(size)) == kReal);
+  }
+}
+
+/// One phase in the files of all ranks: nobody is two tasks, and who says something to somebody is a task, and another.
+void check_phase(const std::vector<Json>& files, std::size_t phase) {
+  std::set<std::int64_t> tasks;
+  for (std::size_t rank = 0; rank < files.size(); ++rank) {
+    const Json& part = files[rank].at("phases").at(phase);
+    check_fields(part, kPhase);
+    CHECK(part.at("id") == phase);
+    for (const Json& task : part.at("tasks")) {
+      check_task(task, rank);
+      CHECK(tasks.insert(task.at("entity").at("id").get<std::int64_t>()).second);
+    }
+  }
+  std::set<std::pair<std::int64_t, std::int64_t>> edges;
+  for (const Json& file : files)
+    for (const Json& edge : file.at("phases").at(phase).at("communications")) {
+      check_fields(edge, kCommunication);
+      const std::int64_t from = edge.at("from").at("id"), to = edge.at("to").at("id");
+      for (const char* end : {"from", "to"}) check_entity(edge.at(end));
+      CHECK((tasks.count(from) > 0 && tasks.count(to) > 0 && from != to));
+      CHECK(edges.emplace(from, to).second);  // of two, LBAF forgets one
+    }
+}
+
 }  // namespace
+
+TEST_CASE("files have what vt's validator and LBAF's reader ask for, whether or not there is anything to say") {
+  for (const std::int32_t phases : {1, 4, 7}) {
+    INFO(phases);
+    std::vector<Json> files;
+    for (const std::string& text : lb_statistics(two_ranks(phases))) files.push_back(Json::parse(text));
+    for (std::size_t rank = 0; rank < files.size(); ++rank) {
+      check_fields(files[rank], kFile);
+      CHECK(files[rank].at("metadata").at("type") == "LBDatafile");
+      CHECK(files[rank].at("metadata").at("rank") == rank);
+      REQUIRE(files[rank].at("phases").size() == static_cast<std::size_t>(phases));
+    }
+    for (std::size_t phase = 0; phase < static_cast<std::size_t>(phases); ++phase) check_phase(files, phase);
+  }
+}
 
 TEST_CASE("in one phase a subdomain counts where it worked longest, and the rest of its time stays where it was") {
   const std::vector<std::string> files = lb_statistics(two_ranks(1));
@@ -87,7 +187,7 @@ TEST_CASE("numbers, speeds and what subdomains told each other are as vt knows t
   const Json& entity = phase.at("tasks").at(0).at("entity");
   CHECK(entity.at("home") == 0);
   CHECK(entity.at("id") == (2 << 18) + 3);
-  CHECK(phase.at("tasks").at(0).at("user_defined").at("y") == 4);
+  CHECK(phase.at("tasks").at(0).at("attributes").at("y") == 4);
   CHECK(phase.at("tasks").at(1).at("entity").at("id") == (1 << 2) + 1);
   REQUIRE(phase.at("communications").size() == 1);
   CHECK(phase.at("communications").at(0).at("messages") == 2);
