@@ -1,0 +1,164 @@
+// A rank that joins the work late: when it makes its loop, the others have been refining for a while, have told it of
+// points, asked it for work or handed some over. All that waits for it; the mesh comes out right, and it does its part.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/byte_stream.hpp"
+#include "distributed/assembly.hpp"
+#include "distributed/write_distributed.hpp"
+#include "protocol/mpi_transport.hpp"
+#include "pslg/generate.hpp"
+#include "runtime/rank_loop.hpp"
+#include "support/late_plan.hpp"
+#include "verify/report_text.hpp"
+#include "verify/verify.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::protocol;
+using driftmesh::testing::LateCase;
+using driftmesh::testing::Start;
+
+namespace {
+
+constexpr double kTriangles = 15'000;
+constexpr int kHeadStart = 30;  // slices that the others are ahead; without it, each would do 130 and more
+constexpr auto kRest = std::chrono::microseconds(1500);  // of the others after each, so that there is enough left to do
+
+/// Waits on the late rank until another one has its head start. That one says so by calling `reached`.
+class StartingGun {
+ public:
+  explicit StartingGun(Rank late) : transport_(MpiSession::world()), late_(late) {}
+
+  void wait() {
+    while (!transport_.poll()) std::this_thread::sleep_for(kRest);
+  }
+  void reached(int slices) {
+    if (slices == kHeadStart && transport_.rank() == (late_ + 1) % transport_.ranks()) transport_.send(late_, {});
+  }
+  void close() { transport_.close(); }
+
+ private:
+  MpiTransport transport_;
+  Rank late_;
+};
+
+/// What one rank did.
+struct Deeds {
+  int slices = 0;
+  ProtocolCounters counters;
+
+  [[nodiscard]] Bytes pack() const {
+    ByteWriter writer;
+    writer.value(slices);
+    writer.value(counters);
+    return writer.take();
+  }
+  static Deeds unpack(const Bytes& bytes) {
+    ByteReader reader(bytes);
+    Deeds deeds;
+    reader.value(deeds.slices);
+    reader.value(deeds.counters);
+    return deeds;
+  }
+};
+
+/// The mesh that all ranks have made, on rank 0.
+MeshPiece gathered(const Pslg& input, const RunPlan& plan, const RankLoop& loop) {
+  MpiTransport transport(MpiSession::world());
+  ExchangeRunner ranks(transport);
+  PieceAssembly assembly(transport.rank(), transport.ranks(), plan.decomposition, held_by_rank(loop.subdomains()));
+  ranks.run(assembly);
+  const DistributedPiece piece = assembly.piece(input);
+  GatherPieces gathering(piece);
+  ranks.run(gathering);
+  transport.close();
+  return gathering.whole();
+}
+
+void check_mesh(const MeshPiece& mesh, const Pslg& input, const QualityBounds& bounds) {
+  const VerifyOptions options{.min_angle = bounds.min_angle, .max_area = bounds.max_area};
+  const VerifyReport report = verify(mesh, input, options);
+  CHECK_MESSAGE(report.accepted(), report_text(report, options));
+  CHECK(mesh.triangles.size() > kTriangles / 2);
+}
+
+/// Whether a policy gives work to a rank that starts so. Diffusion knows those that touch, and who has nothing does
+/// not.
+bool gives(const LateCase& late) {
+  return late.policy != "none" && (late.policy != "diffusion" || late.start != Start::kNothing);
+}
+
+void check_deeds(const LateCase& late, const std::vector<Bytes>& reports) {
+  std::int64_t sent = 0, handled = 0;
+  for (const Bytes& report : reports) {
+    const Deeds deeds = Deeds::unpack(report);
+    sent += deeds.counters.splits_sent;
+    handled += deeds.counters.splits_handled;
+  }
+  CHECK(sent == handled);
+  const Deeds latecomer = Deeds::unpack(reports[static_cast<std::size_t>(late.rank)]);
+  CHECK((latecomer.slices > 0) == (late.start != Start::kNothing || gives(late)));
+  if (late.start == Start::kShare) CHECK(latecomer.counters.splits_handled > 0);
+  if (late.start != Start::kShare) CHECK((latecomer.counters.arrivals > 0) == gives(late));
+}
+
+void run_with(const LateCase& late) {
+  CAPTURE(late.policy);
+  CAPTURE(late.rank);
+  MpiTransport transport(MpiSession::world());
+  StartingGun gun(late.rank);
+  const Pslg input = generate_holes({.columns = 3, .rows = 2});
+  const RunPlan plan = testing::late_plan(input, kTriangles, transport.ranks(), late);
+  const bool is_late = transport.rank() == late.rank;
+  if (is_late) gun.wait();
+
+  Deeds deeds;
+  RankLoop::Observers observers;
+  observers.after_slice = [&](const RankLoop&, const RankLoop::Slice&) {
+    ++deeds.slices;
+    if (is_late) return;
+    gun.reached(deeds.slices);
+    std::this_thread::sleep_for(kRest);
+  };
+  RankLoop loop(transport, plan, {}, observers);
+  run_rank(transport, [&] { return loop.step(); });
+  deeds.counters = loop.protocol().counters();
+  const std::vector<Bytes> reports = transport.gather(deeds.pack());
+  const bool leads = transport.rank() == 0;
+  transport.close();
+  gun.close();
+  const MeshPiece mesh = gathered(input, plan, loop);
+  if (!leads) return;
+  check_deeds(late, reports);
+  check_mesh(mesh, input, plan.bounds);
+}
+
+Rank last_rank() {
+  MpiTransport transport(MpiSession::world());
+  const Rank last = transport.ranks() - 1;
+  transport.close();
+  return last;
+}
+
+}  // namespace
+
+TEST_CASE("a rank that joins late with nothing is given work") {
+  for (const char* policy : {"none", "zoltan", "diffusion", "stealing", "greedy"}) run_with({policy, last_rank()});
+}
+
+TEST_CASE("the rank that plans for all, and begins to look for the end, may join late") {
+  for (const char* policy : {"none", "zoltan", "greedy"}) run_with({policy, 0});
+}
+
+TEST_CASE("a rank that joins late with one subdomain is given more") {
+  for (const char* policy : {"zoltan", "diffusion"}) run_with({policy, last_rank(), Start::kOneSubdomain});
+}
+
+TEST_CASE("a rank that joins late with its share is told what its subdomains were told meanwhile") {
+  for (const char* policy : {"none", "zoltan", "diffusion", "stealing", "greedy"})
+    run_with({policy, last_rank(), Start::kShare});
+}

@@ -1,0 +1,146 @@
+// A rank that joins the work late, in virtual time: until then it takes nothing in and says nothing.
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <vector>
+
+#include "mesh/exceptions.hpp"
+#include "protocol/virtual_network.hpp"
+#include "pslg/generate.hpp"
+#include "runtime/rank_loop.hpp"
+#include "support/late_plan.hpp"
+#include "support/simulated_run.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::protocol;
+using namespace driftmesh::testing;
+
+namespace {
+
+constexpr double kSpeed = 0.002;  // of each rank: runs take tenths of a second
+constexpr const char* kPolicies[] = {"none", "zoltan", "diffusion", "stealing", "greedy"};
+
+VirtualCluster slow_cluster(Rank ranks) {
+  VirtualCluster cluster;
+  cluster.speeds.assign(static_cast<std::size_t>(ranks), kSpeed);
+  cluster.step_limit = 20'000'000;
+  return cluster;
+}
+
+/// A run in which one rank makes its loop at a moment of its own.
+class LateRun {
+ public:
+  LateRun(const RunPlan& plan, Rank ranks, Rank late, double moment)
+      : plan_(plan), network_(slow_cluster(ranks)), loops_(static_cast<std::size_t>(ranks)) {
+    std::vector<RankStep> steps;
+    for (Rank r = 0; r < ranks; ++r) steps.push_back([=, this] { return step(r, r == late ? moment : 0); });
+    REQUIRE(network_.run(steps).end == RunEnd::kFinished);
+  }
+
+  [[nodiscard]] const RankLoop& loop(Rank r) const { return *loops_[static_cast<std::size_t>(r)]; }
+  [[nodiscard]] double makespan() const { return network_.makespan(); }
+
+  void check_mesh() const {
+    std::vector<const Subdomain*> all;
+    for (const auto& loop : loops_)
+      for (const auto& [id, subdomain] : loop->subdomains()) all.push_back(&subdomain);
+    for (const std::string& problem : conformity_problems(plan_.decomposition, all)) FAIL_CHECK(problem);
+    for (const Subdomain* s : all) {
+      const Exceptions exceptions = find_exceptions(s->mesh().mesh, plan_.bounds);
+      CHECK(exceptions.large.empty());
+      CHECK(exceptions.skinny.empty());
+    }
+  }
+
+ private:
+  StepResult step(Rank r, double moment) {
+    auto& loop = loops_[static_cast<std::size_t>(r)];
+    Transport& transport = network_.transport(r);
+    if (loop) return loop->step();
+    if (transport.now() < moment) {
+      transport.spend((moment - transport.now()) * kSpeed);
+      return StepResult::kBusy;
+    }
+    loop = std::make_unique<RankLoop>(transport, plan_);
+    return StepResult::kBusy;
+  }
+
+  const RunPlan& plan_;
+  VirtualNetwork network_;
+  std::vector<std::unique_ptr<RankLoop>> loops_;
+};
+
+RunPlan plan_for_late(Rank ranks, const LateCase& late) {
+  return late_plan(generate_holes({.columns = 3, .rows = 2}), 15'000, ranks, late);
+}
+
+/// How long the others take for all that is theirs.
+double seconds_without(Rank ranks, LateCase late) {
+  late.policy = "none";
+  const RunPlan plan = plan_for_late(ranks, late);
+  return LateRun(plan, ranks, late.rank, 0).makespan();
+}
+
+}  // namespace
+
+TEST_CASE("whoever comes late with nothing is given work, and two or three are through sooner for it") {
+  for (const Rank ranks : {2, 3, 8})
+    for (const Rank rank : {0, ranks - 1})
+      for (const char* policy : kPolicies)
+        for (const double share : {0.1, 0.4}) {
+          const LateCase late{policy, rank};
+          CAPTURE(ranks);
+          CAPTURE(rank);
+          CAPTURE(late.policy);
+          CAPTURE(share);
+          const double alone = seconds_without(ranks, late);
+          const RunPlan plan = plan_for_late(ranks, late);
+          const LateRun run(plan, ranks, rank, share * alone);
+          run.check_mesh();
+          // Diffusion knows ranks that touch; who has nothing does not.
+          const bool gives = late.policy != "none" && late.policy != "diffusion";
+          CHECK((run.loop(rank).protocol().counters().arrivals > 0) == gives);
+          CHECK((run.loop(rank).times().computing > 0) == gives);
+          if (gives && ranks < 8) CHECK(run.makespan() < alone);
+        }
+}
+
+TEST_CASE("a run waits for whoever comes when all could be over, also if it was given work before it came") {
+  int given = 0;
+  for (const Rank rank : {0, 2})
+    for (const char* policy : kPolicies) {
+      const LateCase late{policy, rank};
+      CAPTURE(rank);
+      CAPTURE(late.policy);
+      const double moment = 2 * seconds_without(3, late);
+      const RunPlan plan = plan_for_late(3, late);
+      const LateRun run(plan, 3, rank, moment);
+      run.check_mesh();
+      CHECK(run.makespan() > moment);
+      const bool arrived = run.loop(rank).protocol().counters().arrivals > 0;
+      CHECK((run.loop(rank).times().computing > 0) == arrived);
+      given += arrived ? 1 : 0;
+    }
+  CHECK(given > 0);  // by a leader, which takes a rank that says nothing for one that has nothing to do
+}
+
+TEST_CASE("whoever comes late with a share finds it, and all that it was told meanwhile") {
+  for (const Rank ranks : {2, 3, 8})
+    for (const Start start : {Start::kOneSubdomain, Start::kShare})
+      for (const char* policy : kPolicies)
+        for (const double share : {0.3, 3.0}) {
+          const LateCase late{policy, ranks - 1, start};
+          CAPTURE(ranks);
+          CAPTURE(late.policy);
+          CAPTURE(share);
+          const double moment = share * seconds_without(ranks, late);
+          const RunPlan plan = plan_for_late(ranks, late);
+          const LateRun run(plan, ranks, late.rank, moment);
+          run.check_mesh();
+          CHECK(run.makespan() > moment);
+          CHECK(run.loop(late.rank).times().computing > 0);
+          CHECK(run.loop(late.rank).protocol().counters().splits_handled > 0);
+          if (start == Start::kOneSubdomain && share < 1)
+            CHECK((run.loop(late.rank).protocol().counters().arrivals > 0) == (late.policy != "none"));
+        }
+}
