@@ -560,7 +560,8 @@ class Experiments(Cli):
         "corner-refinement": ["sizing.size=\"x < 0.45 && y < 0.45 ? 0.006 : 0.05\"",
                               "decomposition.subdomains-per-rank=10"],
         "policies": ["bounds.triangles-per-rank=1e3", "decomposition.subdomains-per-rank=8"],
-        "migration-stress": ["bounds.triangles=2e4", "decomposition.subdomains=60"],
+        "migration-stress": ["bounds.triangles=3e4", "decomposition.subdomains=[24, 120]",
+                             "cluster.groups=[{ranks: 6, speed: 8e4}, {ranks: 6, speed: 1e4}]"],
         "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
     }
 
@@ -755,9 +756,20 @@ class Experiments(Cli):
             self.assertGreater(float(stealing["recovered"]), 0.5)
         self.assertNotIn("recovered", self.run_config("first-run", *self.SHRUNK["first-run"]))
 
+    def test_the_stress_moves_subdomains_that_are_being_refined(self):
+        self.run_config("migration-stress", *self.SHRUNK["migration-stress"], "decomposition.subdomains=24",
+                        "balance.policy=[zoltan, greedy]")
+        for run in 1, 2:
+            record = json.loads((self.folder / "results" / f"run-{run}.json").read_text())
+            moved = [move["bytes"] for move in record["cluster"]["moves"]]
+            begun = [size for size in moved if size > 2000]  # without triangles, it is some hundred bytes
+            self.assertGreater(len(moved), 10)
+            self.assertGreater(len(begun), len(moved) / 3)
+
     def test_statistics_for_load_balancing_research(self):
         phases = 4
-        self.run_config("migration-stress", "balance.policy=stealing", f"lb-statistics={phases}")
+        self.run_config("migration-stress", "balance.policy=stealing", "decomposition.subdomains=1200",
+                        f"lb-statistics={phases}")
         record = json.loads((self.folder / "results" / "run-1.json").read_text())
         ranks, subdomains = record["parts"]["ranks"], record["parts"]["subdomains"]
         self.assertGreater(len(record["cluster"]["moves"]), 0)
