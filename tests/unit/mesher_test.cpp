@@ -9,22 +9,18 @@
 #include "base/error.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
 #include "mesh/narrow_place.hpp"
 #include "mesh/to_piece.hpp"
+#include "small_domains.hpp"
+
+// Domains that are meshed in one call. The refiner by itself is in refiner_test.cpp.
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 
 namespace {
 
 constexpr auto id = &Triangulation::id;
-
-Pslg rectangle(double width, double height) {
-  Pslg pslg;
-  pslg.points = {{0, 0}, {width, 0}, {width, height}, {0, height}};
-  pslg.segments = {{0, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}};
-  return pslg;
-}
 
 void add_ring(Pslg& pslg, Point center, double radius, int n, int marker) {
   const auto first = static_cast<std::int32_t>(pslg.points.size());
@@ -33,46 +29,6 @@ void add_ring(Pslg& pslg, Point center, double radius, int n, int marker) {
     pslg.points.push_back({center.x + radius * std::cos(angle), center.y + radius * std::sin(angle)});
     pslg.segments.push_back({first + i, first + (i + 1) % n, marker});
   }
-}
-
-/// A square with `wedges` segments of random lengths and directions that meet in its middle.
-Pslg fan(unsigned seed, int wedges) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi), radius(0.1, 0.9);
-  Pslg pslg;
-  pslg.points = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, 0}};
-  pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
-  for (int i = 0; i < wedges; ++i) {
-    const double a = angle(random), r = radius(random);
-    pslg.segments.push_back({4, static_cast<std::int32_t>(pslg.points.size()), 2});
-    pslg.points.push_back({r * std::cos(a), r * std::sin(a)});
-  }
-  return pslg;
-}
-
-/// Checks the invariants of a triangulation from its raw arrays: orientation, reciprocity, local Delaunay property.
-void check_valid(const Triangulation& mesh) {
-  std::size_t inverted = 0, unlinked = 0, not_delaunay = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!mesh.triangles[i].alive()) continue;
-    const auto t = static_cast<TriangleId>(i);
-    inverted += !(orient2d(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)) > 0);
-    for (int k = 0; k < 3; ++k) {
-      const HalfEdge h = half_edge(t, k), g = mesh.twin(h);
-      if (is_constrained(g)) {
-        const Subsegment& s = mesh.subsegments[id(subsegment_of(g))];
-        unlinked += !s.is_leaf() || (s.half[0] != h && s.half[1] != h);
-      } else {
-        unlinked +=
-            mesh.twin(g) != h || mesh.edge_start(g) != mesh.edge_end(h) || mesh.edge_end(g) != mesh.edge_start(h);
-        not_delaunay +=
-            incircle(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), mesh.points[id(mesh.apex(g))]) > 0;
-      }
-    }
-  }
-  CHECK(inverted == 0);
-  CHECK(unlinked == 0);
-  CHECK(not_delaunay == 0);
 }
 
 double total_area(const Triangulation& mesh) {
@@ -264,129 +220,6 @@ TEST_CASE("region bounds hold, also where regions touch") {
   CHECK(fine > 5 * coarse);
   request.region_areas = false;
   CHECK(mesh_domain(pslg, request).mesh.live_triangles() < 50);
-}
-
-TEST_CASE("a mesh can be made in slices, and comes out the same") {
-  const Pslg pslg = fan(3, 9);
-  QualityBounds bounds;
-  bounds.max_area = 1e-4;
-  Triangulation whole = triangulate(pslg), sliced = triangulate(pslg);
-  CHECK(Refiner(whole, bounds).refine() == Refiner::Status::kDone);
-  Refiner refiner(sliced, bounds);
-  int slices = 0;
-  while (refiner.refine(97) == Refiner::Status::kBudget) ++slices;
-  CHECK(slices > 100);
-  CHECK(refiner.refine(1) == Refiner::Status::kDone);
-  REQUIRE(whole.triangles.size() == sliced.triangles.size());
-  for (std::size_t t = 0; t < whole.triangles.size(); ++t)
-    REQUIRE(whole.triangles[t].vertex == sliced.triangles[t].vertex);
-  for (std::size_t v = 0; v < whole.points.size(); ++v) REQUIRE(whole.points[v] == sliced.points[v]);
-}
-
-TEST_CASE("a refiner made from a copy of mesh and state goes on as the first one does") {
-  const Pslg pslg = fan(7, 9);
-  QualityBounds bounds;
-  bounds.max_area = 1e-3;
-  for (const std::int64_t before : {0, 1, 5, 40, 300, 1500, 100000}) {
-    CAPTURE(before);
-    Triangulation mesh = triangulate(pslg);
-    prepare_corners(mesh);
-    Refiner refiner(mesh, bounds);
-    refiner.refine(before);
-    Triangulation copy = mesh;
-    Refiner again(copy, bounds, refiner.state());
-    for (Refiner* r : {&refiner, &again}) {
-      CHECK(r->add_split_point(1, 37));
-      CHECK(r->refine() == Refiner::Status::kDone);
-    }
-    CHECK(refiner.counters().free_points == again.counters().free_points);
-    CHECK(refiner.counters().encroaching == again.counters().encroaching);
-    REQUIRE(mesh.triangles.size() == copy.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      REQUIRE(mesh.triangles[t].vertex == copy.triangles[t].vertex);
-  }
-}
-
-TEST_CASE("a state that leaves its mesh is refused") {
-  Triangulation mesh = triangulate(fan(7, 9));
-  const QualityBounds bounds;
-  const auto refused = [&](Refiner::State state, const std::string& why) {
-    CHECK_THROWS_WITH_AS(Refiner(mesh, bounds, std::move(state)), doctest::Contains(why.c_str()), Error);
-  };
-  const auto triangles = static_cast<TriangleId>(mesh.triangles.size());
-  const auto subsegments = static_cast<SubsegmentId>(mesh.subsegments.size());
-  CHECK_NOTHROW(Refiner(mesh, bounds, Refiner::State{}));
-  Refiner::State state;
-  state.deferred = {triangles};
-  refused(state, "deferred");
-  state = {};
-  state.skinny.add(-1, 5);
-  refused(state, "skinny");
-  state = {};
-  state.sweep = Sweep({0, 0, 0, triangles + 1, 1}, {});
-  refused(state, "sweep");
-  state.sweep = Sweep({0, 0, 0, 0, 1}, {triangles});
-  refused(state, "sweep");
-  state = {};
-  state.next_segment = subsegments + 1;
-  refused(state, "segment");
-  state = {};
-  state.unsplittable = {subsegments};
-  refused(state, "unsplittable");
-  state = {};
-  state.made = {{-1, 1}};
-  refused(state, "split point");
-}
-
-TEST_CASE("split points from outside are inserted with their ancestors at any time") {
-  QualityBounds bounds;
-  bounds.max_area = 1e-3;
-  for (const std::int64_t before : {0, 1, 50, 300, 100000}) {
-    Triangulation mesh = triangulate(rectangle(2, 1));
-    Refiner refiner(mesh, bounds);
-    refiner.refine(before);
-    const dyadic::Path path = 0b1'0110'1011;
-    CHECK(refiner.add_split_point(0, path));
-    CHECK(refiner.add_split_point(0, path));  // a duplicate changes nothing
-    CHECK(refiner.refine() == Refiner::Status::kDone);
-    check_valid(mesh);
-    for (dyadic::Path k = path; k >= 1; k = dyadic::parent(k)) {
-      const Subsegment& s = mesh.subsegments[id(mesh.descend(0, k))];
-      CHECK(s.path == k);
-      CHECK(!s.is_leaf());
-    }
-    const Exceptions exceptions = find_exceptions(mesh, bounds);
-    CHECK(exceptions.large.empty());
-    CHECK(exceptions.skinny.empty());
-  }
-}
-
-TEST_CASE("the refiner tells which points it has put on segments, ancestors first, and not what it was told") {
-  Triangulation mesh = triangulate(fan(11, 5));
-  std::vector<std::vector<dyadic::Path>> known(mesh.roots.size());
-  Refiner refiner(mesh, QualityBounds{20, 0.01, {}, nullptr});
-  const auto take_in = [&](RootId root, dyadic::Path path) {
-    auto& paths = known[id(root)];
-    REQUIRE(std::find(paths.begin(), paths.end(), path) == paths.end());
-    REQUIRE((path == 1 || std::find(paths.begin(), paths.end(), dyadic::parent(path)) != paths.end()));
-    paths.push_back(path);
-  };
-  for (auto status = Refiner::Status::kBudget; status == Refiner::Status::kBudget;) {
-    status = refiner.refine(7);
-    for (const SplitPoint& p : refiner.take_split_points()) take_in(p.root, p.path);
-  }
-  CHECK(refiner.take_split_points().empty());
-  REQUIRE(std::find(known[0].begin(), known[0].end(), 19) == known[0].end());
-  CHECK(refiner.add_split_point(0, 19));
-  CHECK(refiner.take_split_points().empty());
-  for (const dyadic::Path path : {1, 2, 4, 9, 19})
-    if (std::find(known[0].begin(), known[0].end(), path) == known[0].end()) known[0].push_back(path);
-  refiner.refine();
-  for (const SplitPoint& p : refiner.take_split_points()) take_in(p.root, p.path);
-  std::size_t inner = 0, told = 0;
-  for (const Subsegment& s : mesh.subsegments) inner += !s.is_leaf();
-  for (const auto& paths : known) told += paths.size();
-  CHECK(inner == told);
 }
 
 TEST_CASE("a limit on triangles stops refinement with a valid mesh") {

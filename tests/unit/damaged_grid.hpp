@@ -1,0 +1,85 @@
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "oracles/grid_mesh.hpp"
+#include "verify/verify.hpp"
+
+// What tests of the judge share: ways to damage a mesh that is right, and what is asked of the report.
+
+namespace driftmesh::testing {
+
+inline VerifyReport check(const oracles::GridCase& grid, double min_angle = 44.9, double max_area = 0.51) {
+  VerifyOptions options;
+  options.min_angle = min_angle;
+  options.max_area = max_area;
+  return verify(grid.mesh, grid.input, options);
+}
+
+inline std::string all_messages(const VerifyReport& report) {
+  std::string text;
+  for (std::size_t f = 0; f < kFlawCount; ++f)
+    for (const auto& message : report.findings.messages(static_cast<Flaw>(f)))
+      text += std::string(flaw_name(static_cast<Flaw>(f))) + ": " + message + "\n";
+  return text;
+}
+
+inline std::size_t find_triangle(const MeshPiece& mesh, std::array<std::int32_t, 3> corners) {
+  std::sort(corners.begin(), corners.end());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    auto sorted = mesh.triangles[t];
+    std::sort(sorted.begin(), sorted.end());
+    if (sorted == corners) return t;
+  }
+  FAIL("the mesh has no such triangle");
+  return 0;
+}
+
+inline void drop_triangle(MeshPiece& mesh, std::size_t t) {
+  mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+  mesh.regions.erase(mesh.regions.begin() + static_cast<std::ptrdiff_t>(t));
+}
+
+inline void add_triangle(MeshPiece& mesh, std::array<std::int32_t, 3> corners, double region) {
+  mesh.triangles.push_back(corners);
+  mesh.regions.push_back(region);
+}
+
+inline std::int32_t add_point(MeshPiece& mesh, Point p) {
+  mesh.points.push_back(p);
+  mesh.point_markers.push_back(0);
+  return static_cast<std::int32_t>(mesh.points.size()) - 1;
+}
+
+inline MeshPiece::Edge& subsegment(MeshPiece& mesh, std::int32_t a, std::int32_t b) {
+  for (auto& edge : mesh.edges)
+    if ((edge.a == a && edge.b == b) || (edge.a == b && edge.b == a)) return edge;
+  FAIL("the mesh has no such subsegment");
+  return mesh.edges.front();
+}
+
+inline void drop_subsegment(MeshPiece& mesh, std::int32_t a, std::int32_t b) {
+  mesh.edges.erase(mesh.edges.begin() + (&subsegment(mesh, a, b) - mesh.edges.data()));
+}
+
+}  // namespace driftmesh::testing
+
+/// There are flaws of that kind, and no others.
+#define CHECK_ONLY(report, flaw)                                   \
+  do {                                                             \
+    INFO(all_messages(report));                                    \
+    CHECK(report.findings.count(flaw) > 0);                        \
+    CHECK(report.findings.total() == report.findings.count(flaw)); \
+    CHECK(!report.findings.messages(flaw).empty());                \
+  } while (false)
+
+/// There are flaws of that kind, and perhaps others.
+#define CHECK_HAS(report, flaw)             \
+  do {                                      \
+    INFO(all_messages(report));             \
+    CHECK(report.findings.count(flaw) > 0); \
+  } while (false)

@@ -1,0 +1,184 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "damaged_grid.hpp"
+
+// A mesh against what it was asked to be: segments, markers, regions, holes, points and bounds of the input. Each test
+// damages one of the two, and asks for the kind of flaw that names it.
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+using oracles::GridCase;
+
+TEST_CASE("a subsegment that is missing, listed twice or no edge") {
+  GridCase grid;
+  drop_subsegment(grid.mesh, grid.at(3, 0), grid.at(4, 0));
+  CHECK_HAS(check(grid), Flaw::open_edge);
+  CHECK_HAS(check(grid), Flaw::segment_missing);
+  grid = GridCase();  // inside the domain nothing but the input can tell
+  drop_subsegment(grid.mesh, grid.at(3, 9), grid.at(4, 9));
+  CHECK(verify(grid.mesh, {}).accepted());
+  CHECK_HAS(check(grid), Flaw::segment_missing);
+  grid = GridCase();
+  grid.mesh.edges.push_back(grid.mesh.edges[4]);
+  CHECK_HAS(check(grid), Flaw::duplicate_subsegment);
+  CHECK_ONLY(verify(grid.mesh, {}), Flaw::duplicate_subsegment);
+  grid = GridCase();
+  grid.mesh.edges.push_back({grid.at(1, 1), grid.at(9, 2), 1});
+  CHECK_HAS(check(grid), Flaw::stray_subsegment);
+  CHECK_ONLY(verify(grid.mesh, {}), Flaw::stray_subsegment);
+}
+
+TEST_CASE("a subsegment that lies on no input segment") {
+  GridCase grid;
+  grid.mesh.edges.push_back({grid.at(1, 10), grid.at(1, 11), 0});
+  CHECK(verify(grid.mesh, {}).accepted());
+  CHECK_ONLY(check(grid), Flaw::unknown_subsegment);
+}
+
+TEST_CASE("all subsegments of an input segment missing") {
+  GridCase grid;
+  for (int x = 0; x < GridCase::kSize; ++x) drop_subsegment(grid.mesh, grid.at(x, 9), grid.at(x + 1, 9));
+  CHECK(verify(grid.mesh, {}).accepted());
+  CHECK_HAS(check(grid), Flaw::segment_missing);
+}
+
+TEST_CASE("a wrong marker") {
+  GridCase grid;
+  subsegment(grid.mesh, grid.at(7, 3), grid.at(6, 3)).marker = 4;
+  CHECK_ONLY(check(grid), Flaw::wrong_marker);
+  CHECK(check(grid).findings.messages(Flaw::wrong_marker).front().find("has marker 4, expected 5") !=
+        std::string::npos);
+}
+
+TEST_CASE("a wrong region attribute") {
+  GridCase grid;
+  grid.mesh.regions[17] = 20;
+  CHECK_ONLY(check(grid), Flaw::wrong_region);
+  grid = GridCase();
+  CHECK(check(grid).regions_listed);
+  grid.mesh.regions.clear();
+  CHECK(check(grid).accepted());
+  CHECK(!check(grid).regions_listed);
+}
+
+TEST_CASE("a filled hole") {
+  GridCase grid;
+  const auto point = [&](int x, int y) { return (x > 4 && x < 8 && y > 3 && y < 7) ? -1 : grid.at(x, y); };
+  std::array<std::array<std::int32_t, 5>, 5> in_hole{};
+  for (int y = 3; y <= 7; ++y)
+    for (int x = 4; x <= 8; ++x) {
+      const std::int32_t known = point(x, y);
+      in_hole[static_cast<std::size_t>(y - 3)][static_cast<std::size_t>(x - 4)] =
+          known >= 0 ? known : add_point(grid.mesh, {static_cast<double>(x), static_cast<double>(y)});
+    }
+  for (std::size_t y = 0; y < 4; ++y)
+    for (std::size_t x = 0; x < 4; ++x) {
+      const std::int32_t a = in_hole[y][x], b = in_hole[y][x + 1], c = in_hole[y + 1][x + 1], d = in_hole[y + 1][x];
+      add_triangle(grid.mesh, {a, b, c}, 10);
+      add_triangle(grid.mesh, {c, d, a}, 10);
+    }
+  CHECK(verify(grid.mesh, {}).accepted());
+  const VerifyReport report = check(grid);
+  CHECK_HAS(report, Flaw::hole_filled);
+  CHECK_HAS(report, Flaw::wrong_area);
+  CHECK_HAS(report, Flaw::wrong_euler);
+}
+
+TEST_CASE("a triangle outside the domain") {
+  GridCase grid;
+  const std::int32_t tip = add_point(grid.mesh, {5.5, 12.75});
+  add_triangle(grid.mesh, {grid.at(5, 12), grid.at(6, 12), tip}, 20);
+  grid.mesh.edges.push_back({grid.at(6, 12), tip, 3});
+  grid.mesh.edges.push_back({tip, grid.at(5, 12), 3});
+  CHECK(verify(grid.mesh, {}).accepted());
+  CHECK_HAS(check(grid), Flaw::unknown_subsegment);
+  CHECK_HAS(check(grid), Flaw::wrong_area);
+
+  MeshPiece two;
+  two.points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  two.triangles = {{0, 1, 2}, {1, 3, 2}};
+  two.edges = {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}, {1, 3, 0}, {3, 2, 0}};
+  Pslg one;
+  one.points = two.points;
+  one.segments = {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}};
+  CHECK_HAS(verify(two, one, {}), Flaw::outside_filled);
+}
+
+TEST_CASE("an input point that is not a vertex") {
+  GridCase grid;
+  grid.input.points.push_back({1.5, 6.5});
+  CHECK_HAS(check(grid), Flaw::point_missing);
+  grid = GridCase();  // in the hole and outside, points are carved
+  grid.input.points.push_back({4.5, 6.5});
+  grid.input.points.push_back({40, 6});
+  CHECK(check(grid).accepted());
+}
+
+TEST_CASE("a chain that leaves its segment") {
+  GridCase grid;
+  grid.mesh.points[static_cast<std::size_t>(grid.at(6, 9))].y = 9.0000001;
+  CHECK_HAS(check(grid, 0, 0), Flaw::off_segment);
+  CHECK(check(grid, 0, 0).findings.messages(Flaw::off_segment).front().find("off its line") != std::string::npos);
+  grid = GridCase();  // rounding is no flaw
+  grid.mesh.points[static_cast<std::size_t>(grid.at(6, 9))].y = std::nextafter(9.0, 10.0);
+  CHECK(check(grid, 0, 0).findings.count(Flaw::off_segment) == 0);
+}
+
+TEST_CASE("bounds") {
+  const GridCase grid;
+  CHECK_ONLY(check(grid, 45.1), Flaw::small_angle);
+  CHECK(check(grid, 45.1).findings.count(Flaw::small_angle) == grid.mesh.triangles.size());
+  CHECK(check(grid, 45.1).findings.messages(Flaw::small_angle).size() == 5);
+  CHECK_ONLY(check(grid, 0, 0.499), Flaw::large_area);
+  CHECK(check(grid, 45, 0.5).accepted());
+}
+
+TEST_CASE("the area bound of a region") {
+  GridCase grid;
+  grid.input.regions[1].max_area = 0.4;
+  const VerifyReport report = check(grid, 0, 0);
+  CHECK_ONLY(report, Flaw::large_area);
+  CHECK(report.findings.count(Flaw::large_area) == 72);
+  VerifyOptions options;
+  options.region_areas = false;
+  CHECK(verify(grid.mesh, grid.input, options).accepted());
+}
+
+TEST_CASE("an input that is not planar") {
+  GridCase grid;
+  grid.input.segments.push_back({0, 3, 7});
+  CHECK_ONLY(check(grid), Flaw::input_not_planar);
+  grid = GridCase();
+  grid.input.points.push_back({6, 0});
+  CHECK_ONLY(check(grid), Flaw::input_not_planar);
+}
+
+TEST_CASE("another input") {
+  GridCase grid;
+  grid.input.segments.pop_back();
+  CHECK_HAS(check(grid), Flaw::unknown_subsegment);
+  grid = GridCase();
+  grid.input.holes.clear();
+  CHECK_HAS(check(grid), Flaw::not_covered);
+}
+
+TEST_CASE("a mesh whose file lists no subsegments") {
+  GridCase grid;
+  grid.mesh.edges.clear();
+  const VerifyReport report = verify(grid.mesh, {});
+  CHECK(report.accepted());
+  CHECK(!report.subsegments_listed);
+  CHECK_HAS(check(grid), Flaw::segment_missing);
+}
+
+TEST_CASE("an empty mesh") {
+  CHECK(verify(MeshPiece{}, {}).accepted());
+  const VerifyReport report = verify(MeshPiece{}, GridCase().input, {});
+  CHECK_HAS(report, Flaw::segment_missing);
+  CHECK_HAS(report, Flaw::point_missing);
+  CHECK_HAS(report, Flaw::wrong_area);
+}
