@@ -41,4 +41,11 @@ struct Situation {
   return total;
 }
 
+/// The news of a rank, `number` counting them from 1. What is worked on now cannot be given away.
+[[nodiscard]] inline protocol::LoadNews news_of(std::uint32_t number, double speed,
+                                                std::span<const protocol::SubdomainLoad> own) {
+  const double total = total_work(own);
+  return {number, total, own.empty() ? 0 : total - own.front().remaining, speed};
+}
+
 }  // namespace driftmesh::balancer

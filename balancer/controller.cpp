@@ -2,10 +2,21 @@
 
 #include <utility>
 
+#include "base/error.hpp"
+
 namespace driftmesh::balancer {
+namespace {
+
+// What each conduct is asked; one that has nothing to say to a question is not.
+template <class... Answers>
+struct Each : Answers... {
+  using Answers::operator()...;
+};
+
+}  // namespace
 
 Controller::Controller(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
-                       const ControllerOptions& options, double now)
+                       const ControllerOptions& options, double now, Council* council)
     : look_interval_(options.look), next_look_(now) {
   if (layout->ranks < 2) return;
   switch (policy->placement()) {
@@ -18,41 +29,51 @@ Controller::Controller(Rank self, std::shared_ptr<const Layout> layout, std::sha
     case Placement::kRequests:
       conduct_.emplace<RequestConduct>(self, std::move(layout), std::move(policy), options, now);
       break;
+    case Placement::kCollective:
+      if (!council) throw Error("the ranks are to plan together, and have no council to do it in");
+      conduct_.emplace<CollectiveConduct>(self, std::move(layout), std::move(policy), options, *council, now);
+      break;
   }
 }
 
 void Controller::receive(Rank source, protocol::Message advice, double now) {
-  if (auto* const planning = std::get_if<PlanningConduct>(&conduct_)) planning->receive(source, std::move(advice), now);
-  if (auto* const requests = std::get_if<RequestConduct>(&conduct_)) requests->receive(source, std::move(advice), now);
+  std::visit(Each{[&](auto& conduct) { conduct.receive(source, std::move(advice), now); }, [](std::monostate) {}},
+             conduct_);
   next_look_ = now;
 }
 
-void Controller::arrived(SubdomainId id, protocol::Epoch epoch) {
-  if (auto* const planning = std::get_if<PlanningConduct>(&conduct_)) planning->arrived(id, epoch);
-  if (auto* const requests = std::get_if<RequestConduct>(&conduct_)) requests->arrived(id);
+void Controller::arrived(SubdomainId id, protocol::Epoch epoch, double now) {
+  std::visit(Each{[&](PlanningConduct& planning) { planning.arrived(id, epoch); },
+                  [&](RequestConduct& requests) { requests.arrived(id); },
+                  [&](CollectiveConduct& collective) { collective.arrived(id, now); }, [](std::monostate) {}},
+             conduct_);
 }
 
 bool Controller::due(double now) const {
   if (conduct_.index() == 0) return false;
   const auto* const requests = std::get_if<RequestConduct>(&conduct_);
-  return now >= next_look_ || (requests && requests->expects_work());
+  const auto* const collective = std::get_if<CollectiveConduct>(&conduct_);
+  return now >= next_look_ || (requests && requests->expects_work()) || (collective && collective->pressing());
 }
 
 Decision Controller::think(double now, std::span<const protocol::SubdomainLoad> own, double speed) {
   next_look_ = now + look_interval_;
-  if (auto* const planning = std::get_if<PlanningConduct>(&conduct_)) return planning->think({now, own, speed});
-  if (auto* const requests = std::get_if<RequestConduct>(&conduct_)) return requests->think({now, own, speed});
-  return {};
+  return std::visit(Each{[&](auto& conduct) {
+                           return conduct.think({now, own, speed});
+                         },
+                         [](std::monostate) { return Decision{}; }},
+                    conduct_);
 }
 
 bool Controller::waiting() const {
-  if (const auto* const planning = std::get_if<PlanningConduct>(&conduct_)) return planning->waiting();
-  if (const auto* const requests = std::get_if<RequestConduct>(&conduct_)) return requests->waiting();
-  return false;
+  return std::visit(Each{[](const auto& conduct) { return conduct.waiting(); }, [](std::monostate) { return false; }},
+                    conduct_);
 }
 
 void Controller::took(double seconds) {
-  if (auto* const planning = std::get_if<PlanningConduct>(&conduct_)) planning->took(seconds);
+  std::visit(Each{[&](PlanningConduct& planning) { planning.took(seconds); }, [](RequestConduct&) {},
+                  [&](CollectiveConduct& collective) { collective.took(seconds); }, [](std::monostate) {}},
+             conduct_);
 }
 
 }  // namespace driftmesh::balancer

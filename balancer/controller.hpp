@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "balancer/collective_conduct.hpp"
+#include "balancer/council.hpp"
 #include "balancer/load_snapshot.hpp"
 #include "balancer/move_cost.hpp"
 #include "balancer/planning_conduct.hpp"
@@ -25,16 +27,17 @@ namespace driftmesh::balancer {
 /// makes it send work: think() moves only what is listed as unfinished.
 class Controller {
  public:
-  /// At `now` the run begins. `layout` is equal on all ranks, and so are policy and options.
+  /// At `now` the run begins. `layout` is equal on all ranks, and so are policy and options. Where all ranks plan
+  /// together they need a `council`, which must outlive the controller: throws Error without one.
   Controller(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
-             const ControllerOptions& options, double now);
+             const ControllerOptions& options, double now, Council* council = nullptr);
 
   /// Advice came from another rank. It is looked at in the next think().
   void receive(Rank source, protocol::Message advice, double now);
 
   /// A subdomain has come from another rank. It may be finished before the next think(), which then does not list it;
   /// this tells that it is not under way any more.
-  void arrived(SubdomainId id, protocol::Epoch epoch);
+  void arrived(SubdomainId id, protocol::Epoch epoch, double now);
 
   /// Whether think() has something to do; costs next to nothing.
   [[nodiscard]] bool due(double now) const;
@@ -43,14 +46,15 @@ class Controller {
   /// known. `speed`: triangles a second, 0 while it is not known.
   [[nodiscard]] Decision think(double now, std::span<const protocol::SubdomainLoad> own, double speed);
 
-  /// A request of this rank has not been answered, or something that came has not been looked at.
+  /// A request of this rank has not been answered, something that came has not been looked at, or a plan is being made
+  /// together.
   [[nodiscard]] bool waiting() const;
 
   /// The last think() took that long. Plans that take long are made less often.
   void took(double seconds);
 
  private:
-  std::variant<std::monostate, PlanningConduct, RequestConduct> conduct_;
+  std::variant<std::monostate, PlanningConduct, RequestConduct, CollectiveConduct> conduct_;
   double look_interval_;
   double next_look_;
 };

@@ -84,6 +84,12 @@ class Selection {
 
 }  // namespace
 
+bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning) {
+  const double last = finishing_time(snapshot);
+  const double gain = last - ideal_time(snapshot);
+  return gain > worth.gain * last && gain > worth.seconds && gain > cost_of_planning;
+}
+
 std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost,
                                const Worth& worth) {
   Selection selection(snapshot, cost);

@@ -29,6 +29,10 @@ struct Worth {
   double slack = 0.01;    ///< of the ideal time, given away for fewer moves
 };
 
+/// Whether a plan is worth being made at all: there is more to gain than the least worthwhile one must, and than making
+/// it takes, in seconds.
+[[nodiscard]] bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning);
+
 /// Those of `moves` that are worth making, in their order. The finishing time with their costs is below the present one
 /// by what `worth` asks for; otherwise none is left. Left out are moves that are not valid (unknown subdomain or rank,
 /// to the owner, a second one of a subdomain), that cost more than the work they move, and those without which the

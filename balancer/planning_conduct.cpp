@@ -34,8 +34,7 @@ PlanningConduct::PlanningConduct(Rank self, std::shared_ptr<const Layout> layout
       options_(options),
       rule_(options.gap, options.interval, options.change),
       start_(now),
-      next_plan_(now),
-      pause_(options.gap) {
+      pace_(options, now) {
   if (policy_->placement() == Placement::kNeighbours || self == kLeader)
     knowledge_.emplace(layout_, 3 * options.interval);
 }
@@ -52,7 +51,6 @@ void PlanningConduct::receive(Rank source, protocol::Message advice, double now)
 
 Decision PlanningConduct::think(const Situation& situation) {
   Decision decision;
-  last_look_ = situation.now;
   Loads own(situation.own.begin(), situation.own.end());
   follow_advice(situation, own, decision);
   if (plans()) plan(situation, own, decision);
@@ -77,31 +75,18 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
   }
 }
 
-void PlanningConduct::took(double seconds) {
-  next_plan_ = std::max(next_plan_, last_look_ + seconds / options_.overhead);
-  if (policy_ran_) cost_of_planning_ = seconds;
-}
-
-// Worth a look at all: there is more to gain than what planning and the least worthwhile plan take.
-bool PlanningConduct::may_gain(const LoadSnapshot& snapshot) const {
-  const double last = finishing_time(snapshot);
-  const double gain = last - ideal_time(snapshot);
-  return gain > options_.worth.gain * last && gain > options_.worth.seconds && gain > cost_of_planning_;
-}
-
 void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& decision) {
   const double now = situation.now;
   knowledge_->hear(self_, {++reports_, plan_seen_, situation.speed, with_arrived(own)}, now);
   const bool leads = policy_->placement() == Placement::kLeader;
-  if (!news_ || now < next_plan_) return;
+  if (!news_ || !pace_.due(now)) return;
   // The first plan waits a little for all to say how fast they are.
   if (leads && !knowledge_->complete() && now < start_ + options_.interval) return;
   news_ = false;
-  next_plan_ = now + options_.gap;
+  pace_.looked(now);
   decision.planned = true;
   const LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
-  policy_ran_ = !leads || may_gain(snapshot);
-  if (!policy_ran_) return;
+  if (leads && !may_gain(snapshot, options_.worth, pace_.cost_of_planning())) return;
   std::vector<Move> planned = policy_->plan(snapshot, self_);
   std::erase_if(moved_, [&](const auto& move) { return now - move.second > options_.interval; });
   std::erase_if(planned, [&](const Move& move) {
@@ -109,8 +94,7 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   });
   const auto moves =
       worth_moving(leads ? snapshot : between(snapshot, self_, planned), planned, options_.cost, options_.worth);
-  pause_ = moves.empty() ? std::min(2 * pause_, options_.interval) : options_.gap;
-  next_plan_ = now + pause_;
+  pace_.planned(now, !moves.empty());
   if (moves.empty()) return;
   advise(moves, snapshot, own, decision);
   knowledge_->expect(moves, snapshot, plans_, now);

@@ -7,6 +7,7 @@
 
 #include "balancer/conduct.hpp"
 #include "balancer/knowledge.hpp"
+#include "balancer/planning_pace.hpp"
 #include "balancer/policy.hpp"
 #include "balancer/report_rule.hpp"
 
@@ -23,7 +24,7 @@ class PlanningConduct {
   void arrived(SubdomainId id, protocol::Epoch epoch) { arrived_.push_back({id, epoch, 0, 0}); }
   [[nodiscard]] bool waiting() const { return !advised_.empty(); }
   [[nodiscard]] Decision think(const Situation& situation);
-  void took(double seconds);
+  void took(double seconds) { pace_.took(seconds); }
 
  private:
   using Loads = std::vector<protocol::SubdomainLoad>;
@@ -31,7 +32,6 @@ class PlanningConduct {
   [[nodiscard]] bool plans() const { return knowledge_.has_value(); }
   void follow_advice(const Situation& situation, Loads& own, Decision& decision);
   void plan(const Situation& situation, Loads& own, Decision& decision);
-  [[nodiscard]] bool may_gain(const LoadSnapshot& snapshot) const;
   void advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own, Decision& decision);
   void report(const Situation& situation, const Loads& own, Decision& decision);
   [[nodiscard]] Loads with_arrived(Loads own) const;
@@ -55,11 +55,7 @@ class PlanningConduct {
   std::optional<Knowledge> knowledge_;
   bool news_ = false;  // since the last plan
   double start_;
-  double next_plan_;
-  double last_look_ = 0;
-  double pause_;                 // after a plan that was not worth it
-  bool policy_ran_ = false;      // in the last think()
-  double cost_of_planning_ = 0;  // with the policy
+  PlanningPace pace_;
   std::uint32_t plans_ = 0;
   std::map<SubdomainId, double> moved_;  // when a move of it was last planned: it is left alone for a while
 };

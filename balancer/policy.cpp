@@ -6,6 +6,12 @@ std::vector<Move> Policy::plan(const LoadSnapshot&, Rank) const {
   return {};
 }
 
+std::vector<Rank> Policy::parts(const LoadSnapshot& own, std::optional<int>) const {
+  std::vector<Rank> owners;
+  for (const SubdomainState& s : own.subdomains) owners.push_back(s.owner);
+  return owners;
+}
+
 bool Policy::runs_low(double) const {
   return false;
 }

@@ -13,6 +13,13 @@ enum class Placement {
   kLeader,      ///< all report to rank 0, which plans for all
   kNeighbours,  ///< ranks whose subdomains touch report to each other; each plans for what it owns
   kRequests,    ///< a rank that will soon be idle asks for work; rank 0 finds it a rank that has much
+  kCollective,  ///< all at the same time, each for what it owns; rank 0 knows sums alone, and calls them together
+};
+
+/// How parts that are made for all ranks are dealt to them.
+struct Dealing {
+  bool polish = true;       ///< parts that are not even are evened out by single subdomains
+  double tolerance = 0.02;  ///< of a rank's share
 };
 
 /// Decides who should work on what. Its functions depend on their arguments alone: the same snapshot yields the same
@@ -28,6 +35,14 @@ class Policy {
   /// kLeader: moves of any subdomains. kNeighbours: moves of subdomains that `self` owns. Each subdomain at most once,
   /// to another rank than its owner.
   [[nodiscard]] virtual std::vector<Move> plan(const LoadSnapshot& snapshot, Rank self) const;
+
+  /// kCollective: the part of each subdomain that `own` lists, one part for each rank, as large as that is fast.
+  /// Everybody knows the states of all ranks, and lists what it owns. `communicator` is the Fortran handle of an MPI
+  /// communicator, all ranks of which call this at the same time and may wait for each other in it. Without one, this
+  /// is the only call, and all subdomains are listed.
+  [[nodiscard]] virtual std::vector<Rank> parts(const LoadSnapshot& own, std::optional<int> communicator) const;
+  /// kCollective: what is done with the parts.
+  [[nodiscard]] virtual Dealing dealing() const { return {}; }
 
   /// kRequests: whether a rank with so many seconds of work left should ask for more.
   [[nodiscard]] virtual bool runs_low(double seconds) const;

@@ -14,20 +14,15 @@ namespace {
 /// what there is. Where only little is out of balance, single subdomains are dealt instead of new parts.
 class ZoltanPolicy final : public Policy {
  public:
-  struct Dealing {
-    bool polish = true;       ///< parts that are not even are evened out
-    double tolerance = 0.02;  ///< of a rank's share
-    double touch_up = 0.1;    ///< of the ideal time: below, no new parts are made
-  };
-  ZoltanPolicy(ZoltanParameters parameters, const Dealing& dealing)
-      : parameters_(std::move(parameters)), dealing_(dealing) {}
+  ZoltanPolicy(ZoltanParameters parameters, Placement placement, double touch_up, const Dealing& dealing)
+      : parameters_(std::move(parameters)), placement_(placement), touch_up_(touch_up), dealing_(dealing) {}
 
-  [[nodiscard]] Placement placement() const override { return Placement::kLeader; }
+  [[nodiscard]] Placement placement() const override { return placement_; }
+  [[nodiscard]] Dealing dealing() const override { return dealing_; }
 
   [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override {
     if (snapshot.subdomains.empty() || snapshot.ranks.size() < 2) return {};
-    if (finishing_time(snapshot) <= (1 + dealing_.touch_up) * ideal_time(snapshot))
-      return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
+    if (wants_touch_up_alone(snapshot)) return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
     const auto owners = remap_parts(snapshot, zoltan_partition(snapshot, parameters_), dealing_.tolerance);
     LoadSnapshot planned = snapshot;
     for (std::size_t i = 0; i < owners.size(); ++i) planned.subdomains[i].owner = owners[i];
@@ -35,8 +30,20 @@ class ZoltanPolicy final : public Policy {
     return moves_between(snapshot, dealing_.polish ? deal_surplus(planned, dealing_.tolerance) : planned);
   }
 
+  [[nodiscard]] std::vector<Rank> parts(const LoadSnapshot& own, std::optional<int> communicator) const override {
+    if (wants_touch_up_alone(own)) return Policy::parts(own, communicator);
+    return communicator ? zoltan_partition(own, parameters_, *communicator) : zoltan_partition(own, parameters_);
+  }
+
  private:
+  // By the states of ranks, which are equal everywhere.
+  [[nodiscard]] bool wants_touch_up_alone(const LoadSnapshot& snapshot) const {
+    return finishing_time(snapshot) <= (1 + touch_up_) * ideal_time(snapshot);
+  }
+
   ZoltanParameters parameters_;
+  Placement placement_;
+  double touch_up_;  // of the ideal time
   Dealing dealing_;
 };
 
@@ -62,11 +69,13 @@ std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
     if (!zoltan_accepts(name, value)) parameters.fail(name, value, "Zoltan's user guide says what it takes");
     all[name] = value;
   }
-  ZoltanPolicy::Dealing dealing;
+  const bool collective = parameters.choice("placement", {"leader", "collective"}) == "collective";
+  Dealing dealing;
   dealing.polish = parameters.flag("polish", dealing.polish);
   dealing.tolerance = parameters.number("tolerance", dealing.tolerance, 0, 10);
-  dealing.touch_up = parameters.number("touch-up", dealing.touch_up, 0, 10);
-  return std::make_unique<ZoltanPolicy>(std::move(all), dealing);
+  const double touch_up = parameters.number("touch-up", 0.1, 0, 10);
+  return std::make_unique<ZoltanPolicy>(std::move(all), collective ? Placement::kCollective : Placement::kLeader,
+                                        touch_up, dealing);
 }
 
 }  // namespace driftmesh::balancer

@@ -38,6 +38,18 @@ void RankNews::expect(Rank from, Rank to, double work, double now) {
   change(to, work);
 }
 
+void RankNews::assume(const std::vector<RankState>& states, double now) {
+  for (std::size_t r = 0; r < ranks_.size(); ++r) {
+    ranks_[r].news.speed = states[r].speed;
+    ranks_[r].news.remaining = states[r].remaining;
+    ranks_[r].at = now;
+  }
+}
+
+bool RankNews::complete() const {
+  return std::all_of(ranks_.begin(), ranks_.end(), [](const Heard& heard) { return heard.news.round > 0; });
+}
+
 std::vector<RankState> RankNews::states(double now) const {
   std::vector<RankState> states;
   for (const Heard& heard : ranks_) states.push_back({heard.news.speed, heard.news.remaining});

@@ -21,6 +21,11 @@ class RankNews {
   /// This much work will go from one rank to another, and they have not said so yet.
   void expect(Rank from, Rank to, double work, double now);
 
+  /// This is what all ranks have to do at `now`, whatever they said before.
+  void assume(const std::vector<RankState>& states, double now);
+  /// Whether all ranks have said something.
+  [[nodiscard]] bool complete() const;
+
   /// All ranks at `now`: what was heard, less what they must have done since.
   [[nodiscard]] std::vector<RankState> states(double now) const;
   /// Of each rank, whether it has something to give. It works on that last.

@@ -88,12 +88,6 @@ Decision RequestConduct::think(const Situation& situation) {
   return decision;
 }
 
-// What is worked on now stays.
-protocol::LoadNews RequestConduct::news_of(const Situation& situation, const Loads& own) {
-  const double total = total_work(own);
-  return {++reports_, total, own.empty() ? 0 : total - own.front().remaining, situation.speed};
-}
-
 // Returns how much work is given.
 double RequestConduct::give(const protocol::WorkRequest& request, const Situation& situation, Loads& own,
                             Decision& decision) {
@@ -136,8 +130,8 @@ void RequestConduct::report(const Situation& situation, const Loads& own, Decisi
   rule_.told(situation.now, total, situation.speed);
   changed_ = false;
   if (self_ != kBroker)
-    decision.messages.push_back({kBroker, news_of(situation, own)});
-  else if (news_->hear(self_, news_of(situation, own), situation.now))
+    decision.messages.push_back({kBroker, news_of(++reports_, situation.speed, own)});
+  else if (news_->hear(self_, news_of(++reports_, situation.speed, own), situation.now))
     surprised_ = true;
 }
 
@@ -173,7 +167,7 @@ void RequestConduct::place(const protocol::WorkRequest& request, const Situation
 
 bool RequestConduct::pass_on(protocol::WorkRequest request, const Situation& situation, Loads& own,
                              Decision& decision) {
-  news_->hear(self_, news_of(situation, own), situation.now);
+  news_->hear(self_, news_of(++reports_, situation.speed, own), situation.now);
   LoadSnapshot snapshot;
   snapshot.layout = layout_;
   snapshot.ranks = news_->states(situation.now);

@@ -32,7 +32,6 @@ class RequestConduct {
   using Loads = std::vector<protocol::SubdomainLoad>;
 
   void take_answer(Rank source, const protocol::WorkAnswer& answer, double now);
-  [[nodiscard]] protocol::LoadNews news_of(const Situation& situation, const Loads& own);
 
   // Of every rank:
   double give(const protocol::WorkRequest& request, const Situation& situation, Loads& own, Decision& decision);

@@ -1,7 +1,9 @@
 #include "balancer/zoltan_partition.hpp"
 
 #include <zoltan.h>
+#include <zoltan_dd.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <numeric>
 #include <utility>
@@ -27,12 +29,11 @@ void initialize_once() {
   static_cast<void>(done);
 }
 
-/// A Zoltan object on this process alone, freed with it: after MPI_Finalize it would abort.
+/// A Zoltan object, freed with it: after MPI_Finalize it would abort.
 class Zoltan {
  public:
-  Zoltan() {
-    initialize_once();
-    zoltan_ = Zoltan_Create(MPI_COMM_SELF);
+  explicit Zoltan(MPI_Comm communicator) {
+    zoltan_ = Zoltan_Create(communicator);
     if (!zoltan_) throw Error("Zoltan cannot be created: no memory");
     static_cast<void>(set("DEBUG_LEVEL", "0"));
   }
@@ -49,23 +50,65 @@ class Zoltan {
   Zoltan_Struct* zoltan_ = nullptr;
 };
 
-/// The snapshot as a graph over the listed subdomains: what Zoltan asks for.
+/// Which process has a subdomain, for all processes of a communicator: none has it all, each asks together with the
+/// others.
+class Whereabouts {
+ public:
+  explicit Whereabouts(MPI_Comm communicator) {
+    if (Zoltan_DD_Create(&directory_, communicator, 1, 0, 0, 0, 0) != ZOLTAN_OK)
+      throw Error("Zoltan's directory cannot be created: no memory");
+  }
+  ~Whereabouts() { Zoltan_DD_Destroy(&directory_); }
+  Whereabouts(const Whereabouts&) = delete;
+  Whereabouts& operator=(const Whereabouts&) = delete;
+
+  /// This process has these.
+  void enter(std::vector<ZOLTAN_ID_TYPE> ids) {
+    const int result =
+        Zoltan_DD_Update(directory_, ids.data(), nullptr, nullptr, nullptr, static_cast<int>(ids.size()));
+    if (result != ZOLTAN_OK) throw Error("Zoltan's directory takes no subdomains");
+  }
+  /// Of each of them, or -1 where no process has it: Zoltan warns of those.
+  [[nodiscard]] std::vector<int> find(std::vector<ZOLTAN_ID_TYPE> ids) {
+    std::vector<int> processes(ids.size(), -1);
+    const int result = Zoltan_DD_Find(directory_, ids.data(), nullptr, nullptr, nullptr, static_cast<int>(ids.size()),
+                                      processes.data());
+    if (result != ZOLTAN_OK && result != ZOLTAN_WARN) throw Error("Zoltan's directory does not answer");
+    return processes;
+  }
+
+ private:
+  Zoltan_DD_Struct* directory_ = nullptr;
+};
+
+/// What Zoltan asks for: the listed subdomains as vertices of a graph, with edges to all neighbours that are listed,
+/// here or on another process.
 struct Graph {
   const LoadSnapshot* snapshot;
-  std::vector<int> first;  // edges of vertex i: first[i] up to first[i + 1]
+  std::vector<int> first{0};  // edges of vertex i: first[i] up to first[i + 1]
   std::vector<ZOLTAN_ID_TYPE> target;
+  std::vector<int> process;  // that has the target
   std::vector<float> weight;
 
-  explicit Graph(const LoadSnapshot& s) : snapshot(&s), first{0} {
-    std::vector<int> place(s.layout->subdomains.size(), -1);
-    for (std::size_t i = 0; i < s.subdomains.size(); ++i)
-      place[static_cast<std::size_t>(s.subdomains[i].id)] = static_cast<int>(i);
-    for (const SubdomainState& subdomain : s.subdomains) {
-      for (const Neighbour& n : (*s.layout)[subdomain.id].neighbours)
-        if (const int other = place[static_cast<std::size_t>(n.subdomain)]; other >= 0) {
-          target.push_back(static_cast<ZOLTAN_ID_TYPE>(other));
-          weight.push_back(static_cast<float>(n.length));
-        }
+  explicit Graph(const LoadSnapshot& s) : snapshot(&s) {}
+
+  /// `process_of(neighbours)`: which process lists each of them, or -1.
+  template <class ProcessOf>
+  void add_edges(const ProcessOf& process_of) {
+    std::vector<ZOLTAN_ID_TYPE> neighbours;
+    for (const SubdomainState& s : snapshot->subdomains)
+      for (const Neighbour& n : (*snapshot->layout)[s.id].neighbours)
+        neighbours.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
+    const std::vector<int> processes = process_of(neighbours);
+    std::size_t at = 0;
+    for (const SubdomainState& s : snapshot->subdomains) {
+      for (const Neighbour& n : (*snapshot->layout)[s.id].neighbours) {
+        const int where = processes[at++];
+        if (where < 0) continue;
+        target.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
+        process.push_back(where);
+        weight.push_back(static_cast<float>(n.length));
+      }
       first.push_back(narrow<int>(target.size(), "borders between subdomains"));
     }
   }
@@ -78,7 +121,7 @@ const Graph& graph_of(void* data) {
   return *static_cast<const Graph*>(data);
 }
 
-// Zoltan's questions. Ids, global and local ones, are indices into the list of the snapshot.
+// Zoltan's questions. Global ids are the numbers of subdomains, local ones indices into the list of the snapshot.
 
 int count_objects(void* data, int* error) {
   *error = ZOLTAN_OK;
@@ -88,8 +131,9 @@ int count_objects(void* data, int* error) {
 void list_objects(void* data, int, int, Ids global, Ids local, int, float* weights, int* error) {
   const Graph& graph = graph_of(data);
   for (int i = 0; i < graph.size(); ++i) {
-    global[i] = local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
-    weights[i] = static_cast<float>(graph.at(global[i]).remaining);
+    local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
+    global[i] = static_cast<ZOLTAN_ID_TYPE>(graph.at(local[i]).id);
+    weights[i] = static_cast<float>(std::max(1.0, graph.at(local[i]).remaining));  // none is nothing to Zoltan's curves
   }
   *error = ZOLTAN_OK;
 }
@@ -132,7 +176,7 @@ void list_edges(void* data, int, int, int count, Ids, Ids local, int*, Ids targe
     for (int e = graph.first[local[i]]; e < graph.first[local[i] + 1]; ++e) {
       const auto at = static_cast<std::size_t>(e);
       *targets++ = graph.target[at];
-      *processes++ = 0;
+      *processes++ = graph.process[at];
       *weights++ = graph.weight[at];
     }
   *error = ZOLTAN_OK;
@@ -152,10 +196,11 @@ void hypergraph(void* data, int, int edges, int, int, Ids edge_ids, int* first_p
   const Graph& graph = graph_of(data);
   int written = 0;
   for (int i = 0; i < edges; ++i) {
-    edge_ids[i] = static_cast<ZOLTAN_ID_TYPE>(i);
+    const auto at = static_cast<std::size_t>(i);
+    edge_ids[i] = static_cast<ZOLTAN_ID_TYPE>(graph.snapshot->subdomains[at].id);
     first_pin[i] = written;
     pins[written++] = edge_ids[i];
-    for (int e = graph.first[edge_ids[i]]; e < graph.first[edge_ids[i] + 1]; ++e)
+    for (int e = graph.first[at]; e < graph.first[at + 1]; ++e)
       pins[written++] = graph.target[static_cast<std::size_t>(e)];
   }
   *error = ZOLTAN_OK;
@@ -201,6 +246,53 @@ struct Answer {
     Zoltan_LB_Free_Part(&export_global, &export_local, &export_process, &export_part);
   }
 };
+
+std::vector<Rank> owners_of(const LoadSnapshot& snapshot) {
+  std::vector<Rank> owners;
+  for (const SubdomainState& s : snapshot.subdomains) owners.push_back(s.owner);
+  return owners;
+}
+
+/// What both ways have in common: by all processes of `communicator`, of which each lists its own in `snapshot`.
+template <class ProcessOf>
+std::vector<Rank> partition(MPI_Comm communicator, const LoadSnapshot& snapshot, const ZoltanParameters& parameters,
+                            const ProcessOf& process_of) {
+  Zoltan zoltan(communicator);
+  ZoltanParameters all = parameters;
+  all.try_emplace("LB_METHOD", "RCB");
+  const bool as_hypergraph = all["LB_METHOD"] == "HYPERGRAPH";
+  const ZoltanParameters own{{"SEED", "1"},
+                             {"LB_APPROACH", "REPARTITION"},
+                             {"NUM_GLOBAL_PARTS", std::to_string(snapshot.ranks.size())},
+                             {"NUM_GID_ENTRIES", "1"},
+                             {"NUM_LID_ENTRIES", "1"},
+                             {"OBJ_WEIGHT_DIM", "1"},
+                             {"EDGE_WEIGHT_DIM", as_hypergraph ? "0" : "1"},
+                             {"REMAP", "0"},
+                             // All parts where they are all on this process. Elsewhere what leaves it: a process
+                             // without objects fails to list them all.
+                             {"RETURN_LISTS", communicator == MPI_COMM_SELF ? "PARTS" : "EXPORT"}};
+  all.insert(own.begin(), own.end());
+  for (const auto& [name, value] : all)
+    if (!zoltan.set(name, value)) throw Error("Zoltan does not take " + name + " = " + value);
+  set_part_sizes(zoltan.get(), snapshot);
+  Graph graph(snapshot);
+  graph.add_edges(process_of);
+  answer_questions(zoltan.get(), graph, as_hypergraph);
+
+  Answer answer;
+  const int result = Zoltan_LB_Partition(
+      zoltan.get(), &answer.changes, &answer.global_size, &answer.local_size, &answer.imports, &answer.import_global,
+      &answer.import_local, &answer.import_process, &answer.import_part, &answer.exports, &answer.export_global,
+      &answer.export_local, &answer.export_process, &answer.export_part);
+  // A warning says that the parts are not as even as was asked for.
+  if (result != ZOLTAN_OK && result != ZOLTAN_WARN)
+    throw Error("Zoltan cannot partition with LB_METHOD = " + all["LB_METHOD"] +
+                ", LB_APPROACH = " + all["LB_APPROACH"] + "; its message stands above");
+  std::vector<Rank> parts = owners_of(snapshot);
+  for (int i = 0; i < answer.exports; ++i) parts[answer.export_local[i]] = answer.export_part[i];
+  return parts;
+}
 
 }  // namespace
 
@@ -261,43 +353,36 @@ const std::vector<std::string>& zoltan_parameter_names() {
 }
 
 bool zoltan_accepts(const std::string& name, const std::string& value) {
-  return Zoltan().set(name, value);
+  initialize_once();
+  return Zoltan(MPI_COMM_SELF).set(name, value);
 }
 
 std::vector<Rank> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters) {
-  Zoltan zoltan;
-  ZoltanParameters all = parameters;
-  all.try_emplace("LB_METHOD", "RCB");
-  const bool as_hypergraph = all["LB_METHOD"] == "HYPERGRAPH";
-  const ZoltanParameters own{{"SEED", "1"},
-                             {"LB_APPROACH", "REPARTITION"},
-                             {"NUM_GLOBAL_PARTS", std::to_string(snapshot.ranks.size())},
-                             {"NUM_GID_ENTRIES", "1"},
-                             {"NUM_LID_ENTRIES", "1"},
-                             {"OBJ_WEIGHT_DIM", "1"},
-                             {"EDGE_WEIGHT_DIM", as_hypergraph ? "0" : "1"},
-                             {"REMAP", "0"},
-                             {"RETURN_LISTS", "PARTS"}};
-  all.insert(own.begin(), own.end());
-  for (const auto& [name, value] : all)
-    if (!zoltan.set(name, value)) throw Error("Zoltan does not take " + name + " = " + value);
-  set_part_sizes(zoltan.get(), snapshot);
-  Graph graph(snapshot);
-  answer_questions(zoltan.get(), graph, as_hypergraph);
+  if (snapshot.subdomains.empty()) return {};
+  initialize_once();
+  return partition(MPI_COMM_SELF, snapshot, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbours) {
+    std::vector<int> process_of(snapshot.layout->subdomains.size(), -1);
+    for (const SubdomainState& s : snapshot.subdomains) process_of[static_cast<std::size_t>(s.id)] = 0;
+    std::vector<int> processes;
+    for (const ZOLTAN_ID_TYPE n : neighbours) processes.push_back(process_of[n]);
+    return processes;
+  });
+}
 
-  Answer answer;
-  const int result = Zoltan_LB_Partition(
-      zoltan.get(), &answer.changes, &answer.global_size, &answer.local_size, &answer.imports, &answer.import_global,
-      &answer.import_local, &answer.import_process, &answer.import_part, &answer.exports, &answer.export_global,
-      &answer.export_local, &answer.export_process, &answer.export_part);
-  // A warning says that the parts are not as even as was asked for.
-  if (result != ZOLTAN_OK && result != ZOLTAN_WARN)
-    throw Error("Zoltan cannot partition with LB_METHOD = " + all["LB_METHOD"] +
-                ", LB_APPROACH = " + all["LB_APPROACH"] + "; its message stands above");
-  std::vector<Rank> parts;
-  for (const SubdomainState& s : snapshot.subdomains) parts.push_back(s.owner);
-  for (int i = 0; i < answer.exports; ++i) parts[answer.export_local[i]] = answer.export_part[i];
-  return parts;
+std::vector<Rank> zoltan_partition(const LoadSnapshot& own, const ZoltanParameters& parameters, int communicator) {
+  initialize_once();
+  const MPI_Comm all = MPI_Comm_f2c(communicator);
+  const auto here = static_cast<std::int64_t>(own.subdomains.size());
+  std::int64_t everywhere = 0;
+  MPI_Allreduce(&here, &everywhere, 1, MPI_INT64_T, MPI_SUM, all);
+  if (everywhere == 0) return {};
+  return partition(all, own, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbours) {
+    Whereabouts whereabouts(all);
+    std::vector<ZOLTAN_ID_TYPE> listed;
+    for (const SubdomainState& s : own.subdomains) listed.push_back(static_cast<ZOLTAN_ID_TYPE>(s.id));
+    whereabouts.enter(std::move(listed));
+    return whereabouts.find(neighbours);
+  });
 }
 
 }  // namespace driftmesh::balancer

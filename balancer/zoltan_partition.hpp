@@ -23,4 +23,10 @@ using ZoltanParameters = std::map<std::string, std::string>;
 /// empty. Initializes MPI if nobody has. Throws Error if Zoltan fails.
 [[nodiscard]] std::vector<Rank> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters);
 
+/// The same by all processes of an MPI communicator, named by its Fortran handle, at the same time: each lists its own
+/// subdomains, no one is listed twice, and the states of ranks are equal everywhere. Returns the parts of `own`. Waits
+/// for the other processes.
+[[nodiscard]] std::vector<Rank> zoltan_partition(const LoadSnapshot& own, const ZoltanParameters& parameters,
+                                                 int communicator);
+
 }  // namespace driftmesh::balancer

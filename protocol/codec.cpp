@@ -81,6 +81,10 @@ void fields(auto& archive, Is<WorkAnswer> auto& m) {
   archive.number(m.round);
   archive.list(m.moves, 8);
 }
+void fields(auto& archive, Is<JointRound> auto& m) {
+  archive.number(m.round);
+  archive.choice(m.stage, JointRound::Stage::kStart);
+}
 void fields(auto& archive, Is<Token> auto& m) {
   archive.number(m.round);
   archive.number(m.count);
@@ -105,6 +109,10 @@ class Writer {
   void subdomain(SubdomainId value) { number(value); }
   void path(dyadic::Path value) { number(value); }
   void flag(bool value) { number<std::uint8_t>(value ? 1 : 0); }
+  template <class Enum>
+  void choice(Enum value, Enum /*last*/) {
+    number(static_cast<std::uint8_t>(value));
+  }
   void amount(double value) { number(std::bit_cast<std::uint64_t>(value)); }
   void rest(const Bytes& value) { bytes_.insert(bytes_.end(), value.begin(), value.end()); }
   template <class T>
@@ -146,6 +154,14 @@ class Reader {
     number(byte);
     if (byte > 1) fail("flag of value " + std::to_string(byte));
     value = byte == 1;
+  }
+  /// One of an enumeration over bytes that begins at 0.
+  template <class Enum>
+  void choice(Enum& value, Enum last) {
+    std::uint8_t byte = 0;
+    number(byte);
+    if (byte > static_cast<std::uint8_t>(last)) fail("choice " + std::to_string(byte) + " does not exist");
+    value = static_cast<Enum>(byte);
   }
   void amount(double& value) {
     std::uint64_t bits = 0;

@@ -110,6 +110,18 @@ struct WorkAnswer {
   friend bool operator==(const WorkAnswer&, const WorkAnswer&) = default;
 };
 
+/// A step on the way to a plan that all ranks make at the same time.
+struct JointRound {
+  enum class Stage : std::uint8_t {
+    kCall,   ///< rank 0 to all: come together
+    kReady,  ///< each to rank 0: the call was heard
+    kStart,  ///< rank 0 to all: everybody has heard it, plan now
+  };
+  std::uint32_t round = 0;  ///< from 1
+  Stage stage = Stage::kCall;
+  friend bool operator==(const JointRound&, const JointRound&) = default;
+};
+
 // ---- Detection: how the end is found; each of these travels along the ring of ranks ------------------------------
 
 /// Safra's token (EWD998).
@@ -134,7 +146,7 @@ struct Finish {
 };
 
 using Message = std::variant<SplitBatch, HandOff, LocationUpdate, LoadReport, Plan, Token, Terminate, Finish,
-                             WorkRequest, WorkAnswer, LoadNews>;
+                             WorkRequest, WorkAnswer, LoadNews, JointRound>;
 
 enum class Traffic { kWork, kControl, kDetection };
 [[nodiscard]] Traffic traffic_of(const Message& message);

@@ -121,21 +121,25 @@ class MpiTransport::Impl {
 
   std::vector<Bytes> gather(const Bytes& bytes) {
     const int size = narrow<int>(bytes.size(), "bytes of a report");
-    std::vector<int> sizes(rank_ == 0 ? static_cast<std::size_t>(ranks_) : 0);
-    MPI_Gather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, 0, communicator_);
-    std::vector<int> begin(sizes.size());
-    std::size_t total = 0;
-    for (std::size_t r = 0; r < sizes.size(); ++r) {
-      begin[r] = narrow<int>(total, "bytes of all reports");
-      total += static_cast<std::size_t>(sizes[r]);
-    }
-    Bytes all(total);
-    MPI_Gatherv(bytes.data(), size, MPI_BYTE, all.data(), sizes.data(), begin.data(), MPI_BYTE, 0, communicator_);
-    std::vector<Bytes> parts;
-    for (std::size_t r = 0; r < sizes.size(); ++r)
-      parts.emplace_back(all.begin() + begin[r], all.begin() + begin[r] + sizes[r]);
-    return parts;
+    Parts parts(rank_ == 0 ? ranks_ : 0);
+    MPI_Gather(&size, 1, MPI_INT, parts.sizes.data(), 1, MPI_INT, 0, communicator_);
+    parts.place();
+    MPI_Gatherv(bytes.data(), size, MPI_BYTE, parts.bytes.data(), parts.sizes.data(), parts.begin.data(), MPI_BYTE, 0,
+                communicator_);
+    return parts.divided();
   }
+
+  std::vector<Bytes> all_gather(const Bytes& bytes) {
+    const int size = narrow<int>(bytes.size(), "bytes of a report");
+    Parts parts(ranks_);
+    MPI_Allgather(&size, 1, MPI_INT, parts.sizes.data(), 1, MPI_INT, communicator_);
+    parts.place();
+    MPI_Allgatherv(bytes.data(), size, MPI_BYTE, parts.bytes.data(), parts.sizes.data(), parts.begin.data(), MPI_BYTE,
+                   communicator_);
+    return parts.divided();
+  }
+
+  [[nodiscard]] int communicator() const { return MPI_Comm_c2f(communicator_); }
 
   void close() {
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
@@ -146,6 +150,29 @@ class MpiTransport::Impl {
   }
 
  private:
+  // What several ranks have sent, one after the other.
+  struct Parts {
+    std::vector<int> sizes, begin;
+    Bytes bytes;
+
+    explicit Parts(int count) : sizes(static_cast<std::size_t>(count)) {}
+    // Makes room, once the sizes are known.
+    void place() {
+      std::size_t total = 0;
+      for (const int size : sizes) {
+        begin.push_back(narrow<int>(total, "bytes of all reports"));
+        total += static_cast<std::size_t>(size);
+      }
+      bytes.resize(total);
+    }
+    [[nodiscard]] std::vector<Bytes> divided() const {
+      std::vector<Bytes> parts;
+      for (std::size_t r = 0; r < sizes.size(); ++r)
+        parts.emplace_back(bytes.begin() + begin[r], bytes.begin() + begin[r] + sizes[r]);
+      return parts;
+    }
+  };
+
   // A message that has been announced and is being transferred: large ones take several polls.
   struct Incoming {
     Received message;
@@ -255,6 +282,12 @@ Bytes MpiTransport::broadcast(Bytes bytes) {
 }
 std::vector<Bytes> MpiTransport::gather(const Bytes& bytes) {
   return impl_->gather(bytes);
+}
+std::vector<Bytes> MpiTransport::all_gather(const Bytes& bytes) {
+  return impl_->all_gather(bytes);
+}
+int MpiTransport::communicator() const {
+  return impl_->communicator();
 }
 void MpiTransport::close() {
   impl_->close();

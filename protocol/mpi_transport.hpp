@@ -58,6 +58,11 @@ class MpiTransport final : public Transport {
   /// 2 GiB in all: for reports, not for meshes.
   [[nodiscard]] std::vector<Bytes> gather(const Bytes& bytes);
 
+  /// The bytes of every rank, on every rank. All ranks call it together. Throws LimitError for more than 2 GiB in all.
+  [[nodiscard]] std::vector<Bytes> all_gather(const Bytes& bytes);
+  /// The duplicate that it works on, for what all ranks do together.
+  [[nodiscard]] int communicator() const;
+
   /// Ends it in good order: waits until all that was sent has been received. Throws ProtocolError if a message has
   /// arrived that nobody polled.
   void close();

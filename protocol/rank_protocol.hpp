@@ -138,6 +138,7 @@ class BasicRankProtocol {
   }
   void take(Rank source, WorkAnswer&& answer, Delivery& delivery) { take_advice(source, std::move(answer), delivery); }
   void take(Rank source, LoadNews&& news, Delivery& delivery) { take_advice(source, std::move(news), delivery); }
+  void take(Rank source, JointRound&& step, Delivery& delivery) { take_advice(source, step, delivery); }
   void take(Rank source, Token&& token, Delivery&) { termination_.receive(source, token); }
   void take(Rank source, Terminate&& terminate, Delivery&) { termination_.receive(source, terminate); }
   void take(Rank source, Finish&& finish, Delivery&) { termination_.receive(source, finish); }

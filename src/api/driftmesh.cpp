@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "balancer/mpi_council.hpp"
 #include "base/byte_stream.hpp"
 #include "base/error.hpp"
 #include "decompose/same_input.hpp"
@@ -89,12 +90,13 @@ Start share(MpiTransport& transport, const std::function<Start()>& make) {
 
 DistributedPiece refine(MpiTransport& transport, int communicator, const Start& start) {
   return or_end_the_job(transport, [&] {
-    RankLoop loop(transport, start.plan);
+    const RunPlan& plan = start.plan;
+    const auto council = balancer::make_mpi_council(transport, plan.layout, plan.policy, plan.balancing.options);
+    RankLoop loop(transport, plan, CostModel{}, {}, council.get());
     protocol::run_rank(transport, [&] { return loop.step(); });
     MpiTransport afterwards(communicator);  // messages of ranks that are still at work do not reach it
     ExchangeRunner ranks(afterwards);
-    PieceAssembly assembly(transport.rank(), transport.ranks(), start.plan.decomposition,
-                           held_by_rank(loop.subdomains()));
+    PieceAssembly assembly(transport.rank(), transport.ranks(), plan.decomposition, held_by_rank(loop.subdomains()));
     ranks.run(assembly);
     afterwards.close();
     return assembly.piece(start.input);

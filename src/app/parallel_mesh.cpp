@@ -16,6 +16,7 @@
 #include "app/output_files.hpp"
 #include "app/rank_report.hpp"
 #include "app/run_notes.hpp"
+#include "balancer/mpi_council.hpp"
 #include "base/byte_stream.hpp"
 #include "base/error.hpp"
 #include "decompose/decomposition_file.hpp"
@@ -200,7 +201,8 @@ class ParallelMesh {
       drag(share, slice.seconds);
     };
     notes_.timed("refine", [&] {
-      loop_.emplace(transport_, plan_, CostModel{}, observers);
+      const auto council = balancer::make_mpi_council(transport_, plan_.layout, plan_.policy, plan_.balancing.options);
+      loop_.emplace(transport_, plan_, CostModel{}, observers, council.get());
       protocol::run_rank(transport_, [&] { return loop_->step(); });
     });
   }

@@ -9,6 +9,7 @@
 #include "app/limits.hpp"
 #include "app/memory.hpp"
 #include "app/rank_report.hpp"
+#include "balancer/mpi_council.hpp"
 #include "base/byte_stream.hpp"
 #include "base/error.hpp"
 #include "cluster/rank_log.hpp"
@@ -83,7 +84,8 @@ Bytes refine(protocol::MpiTransport& transport, RealRun run, const RealCluster::
   observers.handed_over = [&](const RankLoop& loop, const RankLoop::Passage& passage) { log.departs(loop, passage); };
   observers.settled = [&](const RankLoop& loop, const RankLoop::Passage& passage) { log.arrives(loop, passage); };
   observers.stalled = [](const std::string& why) { fmt::print(stderr, "driftmesh: {}\n", why); };
-  RankLoop loop(transport, plan, CostModel{}, observers);
+  const auto council = balancer::make_mpi_council(transport, plan.layout, plan.policy, plan.balancing.options);
+  RankLoop loop(transport, plan, CostModel{}, observers, council.get());
   log.begins(loop);
   protocol::run_rank(transport, [&] { return loop.step(); });
   log.ends(loop);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "balancer/simulated_council.hpp"
 #include "base/error.hpp"
 #include "cluster/rank_log.hpp"
 #include "protocol/virtual_network.hpp"
@@ -37,7 +38,9 @@ class Simulation {
  public:
   Simulation(const RunPlan& plan, const ClusterSpec& cluster, const CostModel& costs,
              const SimulationObservers& observers)
-      : network_(virtual_cluster(cluster, costs)), observers_(observers) {
+      : network_(virtual_cluster(cluster, costs)),
+        council_(balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options)),
+        observers_(observers) {
     const auto ranks = static_cast<std::size_t>(ranks_of(cluster));
     require_fit(plan, ranks);
     of_rank_.resize(ranks);
@@ -57,7 +60,8 @@ class Simulation {
         log.arrives(loop, passage);
         count(r, loop.triangles());
       };
-      loops_.push_back(std::make_unique<RankLoop>(network_.transport(r), plan, costs, std::move(watch)));
+      loops_.push_back(
+          std::make_unique<RankLoop>(network_.transport(r), plan, costs, std::move(watch), council_.get()));
       log.begins(*loops_.back());
     }
   }
@@ -89,6 +93,7 @@ class Simulation {
   }
 
   protocol::VirtualNetwork network_;
+  std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
   const SimulationObservers& observers_;
   std::vector<std::int64_t> of_rank_;  // triangles of each, when it was last heard of
   std::int64_t triangles_ = 0;

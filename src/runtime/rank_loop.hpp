@@ -55,9 +55,9 @@ class BasicRankLoop {
     std::function<void(const BasicRankLoop&, const Passage&)> settled;
   };
 
-  /// `transport` and `plan` must outlive the loop.
+  /// `transport`, `plan` and `council` must outlive the loop. Policies by which all ranks plan together need a council.
   BasicRankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs = {},
-                Observers observers = {})
+                Observers observers = {}, balancer::Council* council = nullptr)
       : transport_(transport),
         plan_(plan),
         context_{&plan.decomposition, plan.bounds, plan.presplit},
@@ -68,7 +68,8 @@ class BasicRankLoop {
                 static_cast<protocol::EdgeId>(plan.decomposition.roots.size())},
         agenda_(plan.order),
         clock_(transport.now()) {
-    if (plan.policy) controller_.emplace(transport.rank(), plan.layout, plan.policy, plan.balancing.options, clock_);
+    if (plan.policy)
+      controller_.emplace(transport.rank(), plan.layout, plan.policy, plan.balancing.options, clock_, council);
     for (std::size_t s = 0; s < plan.owners.size(); ++s)
       if (plan.owners[s] == transport.rank()) put(Subdomain(static_cast<SubdomainId>(s), context_));
   }
@@ -164,7 +165,7 @@ class BasicRankLoop {
     }
     transport_.spend(static_cast<double>(arrival.packed.size()) * costs_.packed_byte);
     charge(&RankTimes::balancing);
-    if (controller_) controller_->arrived(arrival.subdomain, arrival.epoch);
+    if (controller_) controller_->arrived(arrival.subdomain, arrival.epoch, clock_);
     if (observers_.settled)
       observers_.settled(*this, {arrival.subdomain, arrival.epoch, transport_.rank(), arrival.packed.size()});
   }
@@ -197,10 +198,12 @@ class BasicRankLoop {
     return true;
   }
 
-  /// Lets the controller look, when it is time or when work has just run out. Whether anything came of it.
+  /// Lets the controller look, when it is time or when work has just run out, and not once all work is over. Whether
+  /// anything came of it.
   bool balance(bool worked) {
     const bool ran_out = std::exchange(worked_, worked) && agenda_.empty();
     if (!controller_ || !(controller_->due(clock_) || ran_out)) return false;
+    if (protocol_.phase() != protocol::Termination::Phase::kWorking) return false;
     const double start = transport_.now();
     const std::vector<protocol::SubdomainLoad> own = loads();
     transport_.spend(static_cast<double>(own.size()) * costs_.listed);

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "balancer/mpi_council.hpp"
 #include "base/byte_stream.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/write_distributed.hpp"
@@ -124,7 +125,8 @@ void run_with(const LateCase& late) {
     gun.reached(deeds.slices);
     std::this_thread::sleep_for(kRest);
   };
-  RankLoop loop(transport, plan, {}, observers);
+  const auto council = balancer::make_mpi_council(transport, plan.layout, plan.policy, plan.balancing.options);
+  RankLoop loop(transport, plan, {}, observers, council.get());
   run_rank(transport, [&] { return loop.step(); });
   deeds.counters = loop.protocol().counters();
   const std::vector<Bytes> reports = transport.gather(deeds.pack());
@@ -147,18 +149,20 @@ Rank last_rank() {
 }  // namespace
 
 TEST_CASE("a rank that joins late with nothing is given work") {
-  for (const char* policy : {"none", "zoltan", "diffusion", "stealing", "greedy"}) run_with({policy, last_rank()});
+  for (const char* policy : {"none", "zoltan", "collective", "diffusion", "stealing", "greedy"})
+    run_with({policy, last_rank()});
 }
 
 TEST_CASE("the rank that plans for all, and begins to look for the end, may join late") {
-  for (const char* policy : {"none", "zoltan", "greedy"}) run_with({policy, 0});
+  for (const char* policy : {"none", "zoltan", "collective", "greedy"}) run_with({policy, 0});
 }
 
 TEST_CASE("a rank that joins late with one subdomain is given more") {
-  for (const char* policy : {"zoltan", "diffusion"}) run_with({policy, last_rank(), Start::kOneSubdomain});
+  for (const char* policy : {"zoltan", "collective", "diffusion"})
+    run_with({policy, last_rank(), Start::kOneSubdomain});
 }
 
 TEST_CASE("a rank that joins late with its share is told what its subdomains were told meanwhile") {
-  for (const char* policy : {"none", "zoltan", "diffusion", "stealing", "greedy"})
+  for (const char* policy : {"none", "zoltan", "collective", "diffusion", "stealing", "greedy"})
     run_with({policy, last_rank(), Start::kShare});
 }

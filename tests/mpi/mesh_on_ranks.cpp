@@ -8,6 +8,7 @@
 #include <random>
 #include <thread>
 
+#include "balancer/mpi_council.hpp"
 #include "base/byte_stream.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/write_distributed.hpp"
@@ -145,7 +146,8 @@ Outcome run(const Job& job) {
     observers.after_slice = [](const RankLoop&, const RankLoop::Slice& slice) {
       std::this_thread::sleep_for(std::chrono::duration<double>(4 * slice.seconds));
     };
-  RankLoop loop(delaying, plan, {}, observers);
+  const auto council = balancer::make_mpi_council(transport, plan.layout, plan.policy, plan.balancing.options);
+  RankLoop loop(delaying, plan, {}, observers, council.get());
   Mover mover(job, transport.rank(), transport.ranks());
   run_rank(delaying, [&] {
     mover.look(loop);

@@ -18,7 +18,7 @@ using driftmesh::testing::run_jobs;
 
 namespace {
 
-const std::vector<std::string> kPolicies{"none", "diffusion", "greedy", "zoltan", "stealing"};
+const std::vector<std::string> kPolicies{"none", "diffusion", "greedy", "zoltan", "collective", "stealing"};
 
 /// Jobs as a layout predicts them, the prediction wrong by up to `error`.
 std::vector<Job> jobs_of(Layout& layout, double work, double error, std::uint64_t seed) {
@@ -54,7 +54,7 @@ Outcome run_and_show(const std::string& policy, const Cluster& cluster, const La
   ControllerOptions options;
   options.cost.bandwidth = cluster.bandwidth;
   const Outcome o = run_jobs(cluster, layout, jobs, policy, {}, options);
-  std::printf("%4zu ranks, %-9s %8.3f s, %.3f of ideal, %5d moves, %6llu messages, %7.1f MB\n", cluster.speeds.size(),
+  std::printf("%4zu ranks, %-10s %8.3f s, %.3f of ideal, %5d moves, %6llu messages, %7.1f MB\n", cluster.speeds.size(),
               policy.c_str(), o.time, o.time / o.ideal, o.moves, static_cast<unsigned long long>(o.messages),
               static_cast<double>(o.bytes) / 1e6);
   CHECK(o.complete);
@@ -77,7 +77,7 @@ TEST_CASE("the published cluster, three kinds of nodes with equal shares of the 
   }
   CHECK(time["none"] > 1.4 * ideal);
   CHECK(time["diffusion"] < time["none"]);
-  for (const char* policy : {"greedy", "zoltan", "stealing"}) {
+  for (const char* policy : {"greedy", "zoltan", "collective", "stealing"}) {
     CAPTURE(policy);
     CHECK(time[policy] < 1.1 * ideal);
     CHECK(time["none"] - time[policy] > 0.85 * (time["none"] - ideal));
@@ -107,7 +107,7 @@ TEST_CASE("all work on one rank of many") {
     Layout layout = grid_layout(20, 20, 16);
     for (auto& s : layout.subdomains) s.owner = on_the_first ? 0 : 11;
     const auto jobs = jobs_of(layout, 25e3, 0.1, 3);
-    for (const char* policy : {"greedy", "zoltan", "stealing"}) {
+    for (const char* policy : {"greedy", "zoltan", "collective", "stealing"}) {
       CAPTURE(policy);
       CHECK(run_and_show(policy, cluster, layout, jobs).time < 1.3 * jobs.size() * 25e3 / 16e6);
     }

@@ -112,6 +112,7 @@ TEST_CASE("refusals say what is wrong") {
   CHECK(error_of(encode(LoadReport{1, 0, -1.0, {}})) == "message from rank 5: an amount is negative or not finite");
   CHECK(error_of(encode(LoadNews{1, 1.0, 2.0, -0.5})) == "message from rank 5: an amount is negative or not finite");
   CHECK(error_of(encode(WorkRequest{7, 1, 1.0, 2.0, 0})) == "message from rank 5: rank 7 is outside 0 .. 6");
+  CHECK(with(JointRound{1, JointRound::Stage::kStart}, 6, 3) == "message from rank 5: choice 3 does not exist");
   CHECK(error_of({}) == "message from rank 5: ends too early");
 }
 

@@ -47,8 +47,10 @@ class RandomMessage {
         return WorkRequest{rank(), epoch(), amount(), amount(), epoch()};
       case 9:
         return WorkAnswer{epoch(), moves()};
-      default:
+      case 10:
         return LoadNews{epoch(), amount(), amount(), amount()};
+      default:
+        return JointRound{epoch(), static_cast<JointRound::Stage>(below(3))};
     }
   }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "balancer/simulated_council.hpp"
 #include "base/error.hpp"
 #include "mesh/digest.hpp"
 #include "runtime/plan_run.hpp"
@@ -22,6 +23,7 @@
 #include "sim/rumours.hpp"
 #include "sim/scenario.hpp"
 #include "sim/witness.hpp"
+#include "support/policy_called.hpp"
 #include "support/simulated_run.hpp"
 
 namespace driftmesh::sim {
@@ -72,8 +74,10 @@ class AdversarialRun {
         rumours_{std::mt19937_64(scenario.seed), {}},
         witness_(scenario.ranks, static_cast<std::size_t>(scenario.subdomains), [this] { return is_quiet(); }) {
     make_plan();
+    council_ = balancer::make_simulated_council(plan_.layout, plan_.policy, plan_.balancing.options);
     for (protocol::Rank r = 0; r < scenario.ranks; ++r)
-      loops_.push_back(std::make_unique<Loop>(transport_of(r, wrap), plan_, costs_of(r)));
+      loops_.push_back(std::make_unique<Loop>(transport_of(r, wrap), plan_, costs_of(r), typename Loop::Observers{},
+                                              council_.get()));
     arrivals_seen_.resize(loops_.size());
   }
 
@@ -84,6 +88,7 @@ class AdversarialRun {
     say("ranks tell the token the truth", witness_.token_problem());
     say("no SPLIT makes more hops than its subdomain", witness_.hops_problem());
     say("one live owner", owners_at_the_end());
+    say("no plan half made", council_ && council_->in_session() ? "the run has ended around a round of planning" : "");
     if (!outcome_.failure().empty()) return std::move(outcome_);
     const std::vector<const Subdomain*> all = subdomains_awake();
     const auto problems = testing::conformity_problems(plan_.decomposition, all);
@@ -111,7 +116,9 @@ class AdversarialRun {
     plan_.order = scenario_.order;
     plan_.sleep = scenario_.sleep;
     if (!scenario_.balanced()) return;
-    plan_.balancing.policy = scenario_.mover;
+    const testing::PolicyCalled called = testing::policy_called(scenario_.mover);
+    plan_.balancing.policy = called.name;
+    plan_.balancing.parameters = called.parameters;
     if (scenario_.mover == "stealing") plan_.balancing.parameters["low-water"] = "20";
     plan_.balancing.options.look = 3;
     plan_.balancing.options.gap = 10;
@@ -156,7 +163,7 @@ class AdversarialRun {
       case Mischief::kLateAdvice:
         result.urgency = [late = after(40)](const protocol::Parcel& parcel, std::uint64_t step) {
           const bool advice = is<protocol::Plan>(parcel.bytes) || is<protocol::WorkRequest>(parcel.bytes) ||
-                              is<protocol::WorkAnswer>(parcel.bytes);
+                              is<protocol::WorkAnswer>(parcel.bytes) || is<protocol::JointRound>(parcel.bytes);
           return advice ? late(parcel, step) : protocol::Urgency::kAnyTime;
         };
         break;
@@ -336,6 +343,7 @@ class AdversarialRun {
   Rumours rumours_;
   Witness witness_;
   std::vector<std::unique_ptr<protocol::Transport>> layers_;  // between ranks and network
+  std::unique_ptr<balancer::SimulatedCouncil> council_;       // if the policy asks for one
   std::vector<std::unique_ptr<Loop>> loops_;
   std::vector<std::int64_t> arrivals_seen_;
   std::optional<std::uint64_t> quiet_since_;  // probes that were out or over then

@@ -10,11 +10,13 @@
 
 #include "balancer/controller.hpp"
 #include "balancer/policy_factory.hpp"
+#include "balancer/simulated_council.hpp"
 #include "balancer/speed_estimate.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/rank_protocol.hpp"
 #include "protocol/virtual_network.hpp"
 #include "support/load_snapshots.hpp"
+#include "support/policy_called.hpp"
 
 namespace driftmesh::testing {
 
@@ -38,11 +40,12 @@ class WorkingRank {
 
   WorkingRank(protocol::Transport& transport, std::shared_ptr<const balancer::Layout> layout,
               const std::vector<Job>& jobs, std::shared_ptr<const balancer::Policy> policy,
-              const balancer::ControllerOptions& options, double slice, double given_speed = 0)
+              const balancer::ControllerOptions& options, balancer::Council* council, double slice,
+              double given_speed = 0)
       : transport_(transport),
         protocol_(transport.rank(), transport.ranks(), owners_of(*layout)),
         limits_{transport.ranks(), static_cast<SubdomainId>(jobs.size()), 1},
-        controller_(transport.rank(), layout, std::move(policy), options, transport.now()),
+        controller_(transport.rank(), layout, std::move(policy), options, transport.now(), council),
         slice_(slice),
         given_speed_(given_speed) {
     for (std::size_t i = 0; i < jobs.size(); ++i)
@@ -80,7 +83,7 @@ class WorkingRank {
         Job job;
         std::memcpy(&job, delivery.arrival->packed.data(), sizeof job);
         jobs_[delivery.arrival->subdomain] = job;
-        controller_.arrived(delivery.arrival->subdomain, delivery.arrival->epoch);
+        controller_.arrived(delivery.arrival->subdomain, delivery.arrival->epoch, transport_.now());
       }
       if (delivery.advice) controller_.receive(received->source, std::move(*delivery.advice), transport_.now());
     }
@@ -167,10 +170,13 @@ class WorkingRanks {
                const balancer::ControllerOptions& options, double slice, double given_speed = 0)
       : jobs_(jobs) {
     const auto shared_layout = std::make_shared<const balancer::Layout>(layout);
-    const std::shared_ptr<const balancer::Policy> shared_policy = balancer::make_policy(policy, parameters);
+    PolicyCalled called = policy_called(policy);
+    called.parameters.insert(parameters.begin(), parameters.end());
+    const std::shared_ptr<const balancer::Policy> shared_policy = balancer::make_policy(called.name, called.parameters);
+    council_ = balancer::make_simulated_council(shared_layout, shared_policy, options);
     for (Rank r = 0; r < layout.ranks; ++r) {
       ranks_.push_back(std::make_unique<WorkingRank>(network.transport(r), shared_layout, jobs, shared_policy, options,
-                                                     slice, given_speed));
+                                                     council_.get(), slice, given_speed));
       steps_.emplace_back([rank = ranks_.back().get()] { return rank->step(); });
     }
   }
@@ -198,6 +204,7 @@ class WorkingRanks {
 
  private:
   const std::vector<Job>& jobs_;
+  std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
   std::vector<std::unique_ptr<WorkingRank>> ranks_;
   std::vector<protocol::RankStep> steps_;
 };

@@ -5,6 +5,7 @@
 
 #include "mesh/exceptions.hpp"
 #include "support/plans.hpp"
+#include "support/policy_called.hpp"
 
 namespace driftmesh::testing {
 
@@ -41,7 +42,9 @@ inline RunPlan late_plan(const Pslg& input, double triangles, protocol::Rank ran
   plan.owners = late_owners(plan.owners.size(), ranks, late);
   plan.slice = 40;
   plan.aggregation = 8;
-  plan.balancing.policy = late.policy;
+  const PolicyCalled called = policy_called(late.policy);
+  plan.balancing.policy = called.name;
+  plan.balancing.parameters = called.parameters;
   plan.balancing.options.look = 1e-3;
   plan.balancing.options.gap = 2e-3;
   plan.balancing.options.interval = 2e-2;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "balancer/simulated_council.hpp"
 #include "decompose/decomposition.hpp"
 #include "runtime/rank_loop.hpp"
 #include "support/split_points.hpp"
@@ -17,13 +18,16 @@ namespace driftmesh::testing {
 template <class Rules = protocol::SoundRules>
 struct SimulatedRanks {
   using Loop = BasicRankLoop<Rules>;
+  std::unique_ptr<balancer::Council> council;
   std::vector<std::unique_ptr<Loop>> loops;
   std::vector<protocol::RankStep> steps;
 
   template <class Network>
   SimulatedRanks(Network& network, protocol::Rank ranks, const RunPlan& plan, const CostModel& costs = {}) {
+    council = balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options);
     for (protocol::Rank r = 0; r < ranks; ++r)
-      loops.push_back(std::make_unique<Loop>(network.transport(r), plan, costs));
+      loops.push_back(
+          std::make_unique<Loop>(network.transport(r), plan, costs, typename Loop::Observers{}, council.get()));
     for (const auto& loop : loops) steps.push_back([l = loop.get()] { return l->step(); });
   }
 

@@ -207,9 +207,9 @@ TEST_CASE("a rank asks again when all that was promised has come, though it was 
     REQUIRE(request.size() == 1);
     const protocol::WorkAnswer answer{request[0].second.round, {{8, 1}, {9, 1}}};
     if (answer_first) thief.receive(2, answer, 1);
-    thief.arrived(8, 1);
+    thief.arrived(8, 1, 1);
     CHECK(sent<protocol::WorkRequest>(thief.think(1.01, {}, 300)).empty());
-    thief.arrived(9, 1);
+    thief.arrived(9, 1, 1);
     if (!answer_first) thief.receive(2, answer, 1);
     CHECK(sent<protocol::WorkRequest>(thief.think(1.02, {}, 300)).size() == 1);
   }
@@ -219,7 +219,7 @@ TEST_CASE("who planned a move hears that it was made, though the subdomain was f
   const Layout layout = grid_layout(12, 1, 2);
   Controller rank = controller_of(1, layout, "greedy");
   CHECK(sent<LoadReport>(rank.think(1, loads_of(6, 11, 1000), 300)).size() == 1);
-  rank.arrived(3, 1);
+  rank.arrived(3, 1, 1);
   const auto report = sent<LoadReport>(rank.think(2, loads_of(6, 11, 950), 300));
   REQUIRE(report.size() == 1);
   REQUIRE(report[0].second.loads.size() == 7);

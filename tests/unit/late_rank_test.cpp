@@ -18,7 +18,7 @@ using namespace driftmesh::testing;
 namespace {
 
 constexpr double kSpeed = 0.002;  // of each rank: runs take tenths of a second
-constexpr const char* kPolicies[] = {"none", "zoltan", "diffusion", "stealing", "greedy"};
+constexpr const char* kPolicies[] = {"none", "zoltan", "collective", "diffusion", "stealing", "greedy"};
 
 VirtualCluster slow_cluster(Rank ranks) {
   VirtualCluster cluster;
@@ -31,7 +31,10 @@ VirtualCluster slow_cluster(Rank ranks) {
 class LateRun {
  public:
   LateRun(const RunPlan& plan, Rank ranks, Rank late, double moment)
-      : plan_(plan), network_(slow_cluster(ranks)), loops_(static_cast<std::size_t>(ranks)) {
+      : plan_(plan),
+        network_(slow_cluster(ranks)),
+        council_(balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options)),
+        loops_(static_cast<std::size_t>(ranks)) {
     std::vector<RankStep> steps;
     for (Rank r = 0; r < ranks; ++r) steps.push_back([=, this] { return step(r, r == late ? moment : 0); });
     REQUIRE(network_.run(steps).end == RunEnd::kFinished);
@@ -61,12 +64,13 @@ class LateRun {
       transport.spend((moment - transport.now()) * kSpeed);
       return StepResult::kBusy;
     }
-    loop = std::make_unique<RankLoop>(transport, plan_);
+    loop = std::make_unique<RankLoop>(transport, plan_, CostModel{}, RankLoop::Observers{}, council_.get());
     return StepResult::kBusy;
   }
 
   const RunPlan& plan_;
   VirtualNetwork network_;
+  std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
   std::vector<std::unique_ptr<RankLoop>> loops_;
 };
 

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "balancer/conduct.hpp"
+#include "balancer/council.hpp"
+#include "balancer/planning_pace.hpp"
+#include "balancer/policy.hpp"
+#include "balancer/rank_news.hpp"
+#include "balancer/report_rule.hpp"
+
+namespace driftmesh::balancer {
+
+/// How a rank behaves where all plan at the same time (Placement::kCollective). All tell rank 0 how much they have when
+/// that is a surprise. When there is something to gain, rank 0 calls all together; they go on refining until everybody
+/// has heard the call, so that nobody waits for one who is busy with something long. Then they meet in the council,
+/// each with what it owns, and each hands over what was decided.
+///
+/// From the call to the decision no rank is passive: the run does not end around a round, and nobody is missed in it.
+class CollectiveConduct {
+ public:
+  /// `council` must outlive it.
+  CollectiveConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
+                    const ControllerOptions& options, Council& council, double now);
+
+  void receive(Rank source, const protocol::Message& advice, double now);
+  void arrived(SubdomainId id, double now);
+  [[nodiscard]] bool waiting() const { return stage_ != Stage::kApart; }
+  /// All others may be waiting for this rank.
+  [[nodiscard]] bool pressing() const { return stage_ == Stage::kStarted; }
+  [[nodiscard]] Decision think(const Situation& situation);
+  void took(double seconds) { pace_.took(seconds); }
+
+ private:
+  enum class Stage {
+    kApart,    ///< no round goes on
+    kCalled,   ///< one was called
+    kReady,    ///< and the call answered
+    kStarted,  ///< all have answered
+  };
+  using Step = protocol::JointRound::Stage;
+
+  [[nodiscard]] bool leads() const { return news_.has_value(); }
+  void take_step(const protocol::JointRound& step);
+  void say_to_all(Step step, Decision& decision) const;
+  void call(const Situation& situation, Decision& decision);
+  void answer(const Situation& situation, Decision& decision);
+  void start(Decision& decision);
+  void decide(const Situation& situation, Decision& decision);
+  void report(const Situation& situation, Decision& decision);
+  [[nodiscard]] Contribution contribution(const Situation& situation) const;
+  [[nodiscard]] bool expects_work(double now) const;
+  void forget_old(double now);
+
+  Rank self_;
+  std::shared_ptr<const Layout> layout_;
+  std::shared_ptr<const Policy> policy_;
+  ControllerOptions options_;
+  Council& council_;
+
+  Stage stage_ = Stage::kApart;
+  std::uint32_t round_ = 0;  // the last one called
+  ReportRule rule_;
+  std::uint32_t reports_ = 0;
+  bool changed_ = false;                // by a decision, since the last report
+  std::map<SubdomainId, double> came_;  // lately, and when: what came stays for a while
+  JointPlan::Coming coming_;            // promised by the last decision, and not here yet
+  double promised_ = 0;                 // when
+
+  // Of rank 0:
+  std::optional<RankNews> news_;
+  bool fresh_ = false;  // since it was last looked whether there is something to gain
+  Rank ready_ = 0;      // ranks that have answered the call
+  double start_;
+  PlanningPace pace_;
+};
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,45 @@
+#include "balancer/mpi_council.hpp"
+
+#include <utility>
+
+#include "base/byte_stream.hpp"
+
+namespace driftmesh::balancer {
+
+MpiCouncil::MpiCouncil(protocol::MpiTransport& transport, std::shared_ptr<const Layout> layout,
+                       std::shared_ptr<const Policy> policy, const ControllerOptions& options)
+    : transport_(transport), layout_(std::move(layout)), policy_(std::move(policy)), options_(options) {}
+
+// What every rank tells, one rank after the other.
+template <class T>
+std::vector<T> MpiCouncil::from_all(const std::vector<T>& own) {
+  ByteWriter writer;
+  writer.array(own);
+  std::vector<T> all, some;
+  for (const protocol::Bytes& bytes : transport_.all_gather(writer.take())) {
+    ByteReader(bytes).array(some);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+Council::Decision MpiCouncil::decide(std::uint32_t, const Contribution& contribution) {
+  const Dealing dealing = policy_->dealing();
+  const std::vector<RankState> states = from_all<RankState>({contribution.state});
+  const std::vector<Rank> parts =
+      policy_->parts(own_snapshot(contribution, layout_, states), transport_.communicator());
+  const std::vector<Bundle> bundles = from_all(bundles_of(contribution, parts, options_.cost));
+  const DealtParts dealt = deal_parts(states, bundles, dealing.tolerance);
+  const std::vector<Offer> own_offers = offers_of(contribution, parts, dealt, options_.cost, dealing);
+  const JointPlan plan = conclude(states, bundles, from_all(own_offers), dealt, dealing, options_.cost, options_.worth);
+  return {moves_of(contribution, parts, own_offers, plan, options_.cost), plan.states,
+          plan.coming[static_cast<std::size_t>(contribution.rank)], plan.any_moves()};
+}
+
+std::unique_ptr<Council> make_mpi_council(protocol::MpiTransport& transport, std::shared_ptr<const Layout> layout,
+                                          std::shared_ptr<const Policy> policy, const ControllerOptions& options) {
+  if (!policy || policy->placement() != Placement::kCollective) return nullptr;
+  return std::make_unique<MpiCouncil>(transport, std::move(layout), std::move(policy), options);
+}
+
+}  // namespace driftmesh::balancer

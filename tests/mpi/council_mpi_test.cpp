@@ -1,0 +1,125 @@
+// Real ranks that plan together: Zoltan on their communicator.
+#include <doctest/doctest.h>
+
+#include <cstdio>
+
+#include "balancer/mpi_council.hpp"
+#include "balancer/policy_factory.hpp"
+#include "base/byte_stream.hpp"
+#include "support/joint_rounds.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+using namespace driftmesh::testing;
+using driftmesh::protocol::Bytes;
+
+namespace {
+
+Bytes to_bytes(const Council::Decision& decision) {
+  ByteWriter writer;
+  writer.array(decision.moves);
+  writer.array(decision.states);
+  writer.value(decision.coming);
+  writer.value(decision.any_moves);
+  return writer.take();
+}
+
+Council::Decision from_bytes(const Bytes& bytes) {
+  Council::Decision decision;
+  ByteReader reader(bytes);
+  reader.array(decision.moves);
+  reader.array(decision.states);
+  reader.value(decision.coming);
+  reader.value(decision.any_moves);
+  return decision;
+}
+
+/// What all ranks decided, on each.
+std::vector<Council::Decision> hold_round(protocol::MpiTransport& transport, const Parameters::Values& parameters,
+                                          const LoadSnapshot& snapshot,
+                                          const std::vector<Contribution>& contributions) {
+  const std::shared_ptr<const Policy> policy = make_policy("zoltan", parameters);
+  MpiCouncil council(transport, snapshot.layout, policy, {});
+  const Contribution& own = contributions[static_cast<std::size_t>(transport.rank())];
+  council.announce(1, own);
+  std::vector<Council::Decision> decisions;
+  for (const Bytes& bytes : transport.all_gather(to_bytes(council.decide(1, own))))
+    decisions.push_back(from_bytes(bytes));
+  return decisions;
+}
+
+std::vector<Move> all_moves(const std::vector<Council::Decision>& decisions) {
+  std::vector<Move> moves;
+  for (const Council::Decision& d : decisions) moves.insert(moves.end(), d.moves.begin(), d.moves.end());
+  return moves;
+}
+
+Parameters::Values collective(const std::string& method, const std::string& approach, const char* touch_up = "0.1") {
+  return {{"placement", "collective"}, {"method", method}, {"approach", approach}, {"touch-up", touch_up}};
+}
+
+}  // namespace
+
+TEST_CASE("on all ranks at once: even in the end, and what everybody believes is so") {
+  protocol::MpiTransport transport(protocol::MpiSession::world());
+  const auto ranks = static_cast<std::size_t>(transport.ranks());
+  std::vector<double> speeds{1e5, 2e5, 3e5, 1e5};
+  speeds.resize(ranks);
+  for (const bool lopsided : {false, true})
+    for (const std::string method : {"rcb", "hsfc", "graph", "hypergraph"})
+      for (const std::string approach : {"repartition", "partition", "refine"}) {
+        CAPTURE(lopsided);
+        CAPTURE(method);
+        CAPTURE(approach);
+        Layout layout = grid_layout(30, 30, transport.ranks());
+        for (auto& s : layout.subdomains)
+          if (lopsided) s.owner = transport.ranks() - 1;
+        const LoadSnapshot snapshot = initial_snapshot(std::move(layout), speeds);
+        const auto contributions = contributions_of(snapshot);
+        const auto decisions = hold_round(transport, collective(method, approach), snapshot, contributions);
+        REQUIRE(problem_of(snapshot, contributions, decisions) == "");
+        CHECK(time_with(snapshot, all_moves(decisions)) < 1.05 * ideal_time(snapshot));
+        if (ranks > 1) CHECK(decisions[0].any_moves);
+      }
+  transport.close();
+}
+
+TEST_CASE("random loads, finished neighbours, ranks without any") {
+  protocol::MpiTransport transport(protocol::MpiSession::world());
+  int moved = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    Layout layout =
+        grid_layout(1 + static_cast<int>(random() % 12), 1 + static_cast<int>(random() % 12), transport.ranks());
+    std::vector<double> speeds;
+    for (Rank r = 0; r < transport.ranks(); ++r) speeds.push_back(static_cast<double>(random() % 4) * 1e4);
+    for (auto& s : layout.subdomains) {
+      const std::uint64_t kind = random() % 4;
+      s.predicted = kind == 0 ? 0 : kind == 1 ? 1e-3 : static_cast<double>(random() % 5000);
+      if (random() % 2 == 0) s.owner = static_cast<Rank>(random() % static_cast<std::uint64_t>(transport.ranks()));
+    }
+    LoadSnapshot snapshot = initial_snapshot(std::move(layout), speeds);
+    const std::uint64_t kept = random() % 5;
+    std::erase_if(snapshot.subdomains, [&](const auto&) { return random() % 4 >= kept; });
+    sum_up(snapshot);
+    const auto contributions = contributions_of(snapshot, &random);
+    const std::string method = std::vector<std::string>{"rcb", "hsfc", "graph", "hypergraph"}[random() % 4];
+    const char* const touch_up = random() % 2 == 0 ? "0" : "0.1";
+    const auto decisions = hold_round(transport, collective(method, "repartition", touch_up), snapshot, contributions);
+    REQUIRE(problem_of(snapshot, contributions, decisions) == "");
+    if (decisions[0].any_moves) REQUIRE(time_with(snapshot, all_moves(decisions)) < time_with(snapshot, {}));
+    moved += decisions[0].any_moves;
+  }
+  if (transport.ranks() > 1) CHECK(moved > 20);
+  transport.close();
+}
+
+TEST_CASE("only policies by which all plan together ask for a council") {
+  protocol::MpiTransport transport(protocol::MpiSession::world());
+  const auto layout = std::make_shared<const Layout>(grid_layout(2, 2, transport.ranks()));
+  CHECK(make_mpi_council(transport, layout, nullptr, {}) == nullptr);
+  CHECK(make_mpi_council(transport, layout, make_policy("zoltan"), {}) == nullptr);
+  CHECK(make_mpi_council(transport, layout, make_policy("zoltan", {{"placement", "collective"}}), {}) != nullptr);
+  transport.close();
+}

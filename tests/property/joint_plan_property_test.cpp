@@ -1,0 +1,112 @@
+// Plans that all ranks make together, on random loads.
+#include <doctest/doctest.h>
+
+#include "balancer/policy_factory.hpp"
+#include "balancer/simulated_council.hpp"
+#include "property/cases.hpp"
+#include "support/joint_rounds.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+using namespace driftmesh::testing;
+
+namespace {
+
+std::shared_ptr<const Policy> zoltan(Parameters::Values parameters) {
+  parameters["placement"] = "collective";
+  return make_policy("zoltan", parameters);
+}
+
+std::vector<Council::Decision> hold_round(const std::shared_ptr<const Policy>& policy, const LoadSnapshot& snapshot,
+                                          const std::vector<Contribution>& contributions,
+                                          const ControllerOptions& options = {}) {
+  SimulatedCouncil council(snapshot.layout, policy, options);
+  for (const Contribution& c : contributions) council.announce(1, c);
+  std::vector<Council::Decision> decisions;
+  for (const Contribution& c : contributions) decisions.push_back(council.decide(1, c));
+  return decisions;
+}
+
+std::vector<Move> all_moves(const std::vector<Council::Decision>& decisions) {
+  std::vector<Move> moves;
+  for (const Council::Decision& d : decisions) moves.insert(moves.end(), d.moves.begin(), d.moves.end());
+  return moves;
+}
+
+}  // namespace
+
+TEST_CASE("what all ranks decide is valid, repeatable, believed by all, and finishes earlier") {
+  auto random = seeded_generator("joint plans");
+  int moved = 0, single = 0, many = 0;
+  for (std::int64_t i = case_count(300); i > 0; --i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 one(seed);
+    const LoadSnapshot snapshot = random_snapshot(one);
+    const std::vector<Contribution> contributions = contributions_of(snapshot, &one);
+    for (const std::string method : {"rcb", "graph", "hypergraph"}) {
+      CAPTURE(method);
+      const bool polish = one() % 4 != 0;
+      const auto policy = zoltan({{"method", method}, {"polish", polish ? "true" : "false"}});
+      const auto decisions = hold_round(policy, snapshot, contributions);
+      REQUIRE(problem_of(snapshot, contributions, decisions) == "");
+      const auto moves = all_moves(decisions);
+      REQUIRE(all_moves(hold_round(policy, snapshot, contributions)) == moves);
+      if (moves.empty()) continue;
+      REQUIRE(time_with(snapshot, moves) < time_with(snapshot, {}));
+      ++moved;
+      single += moves.size() < 4;
+      many += moves.size() > 8;
+    }
+  }
+  CHECK(moved > 0);
+  CHECK(single > 0);
+  CHECK(many > 0);
+}
+
+TEST_CASE("many subdomains on ranks of three speeds come out even, however they lay before") {
+  const std::vector<double> speeds{1e5, 1e5, 2e5, 2e5, 2e5, 3e5, 3e5, 1e5};
+  for (const bool lopsided : {false, true})
+    for (const std::string method : {"rcb", "hsfc", "graph", "hypergraph"})
+      for (const std::string approach : {"repartition", "partition", "refine"}) {
+        CAPTURE(lopsided);
+        CAPTURE(method);
+        CAPTURE(approach);
+        Layout layout = grid_layout(40, 40, 8);
+        for (auto& s : layout.subdomains)
+          if (lopsided) s.owner = 5;
+        const LoadSnapshot snapshot = initial_snapshot(std::move(layout), speeds);
+        const auto contributions = contributions_of(snapshot);
+        const auto decisions =
+            hold_round(zoltan({{"method", method}, {"approach", approach}}), snapshot, contributions);
+        REQUIRE(problem_of(snapshot, contributions, decisions) == "");
+        CHECK(time_with(snapshot, all_moves(decisions)) < 1.05 * ideal_time(snapshot));
+      }
+}
+
+TEST_CASE("work that is on its way counts, and nothing is moved that is not worth it") {
+  LoadSnapshot snapshot = initial_snapshot(grid_layout(20, 20, 2), {1e5, 1e5});
+  auto contributions = contributions_of(snapshot);
+  CHECK(all_moves(hold_round(zoltan({}), snapshot, contributions)).empty());  // it is even
+  contributions[1].state.remaining += 100e3;
+  const auto decisions = hold_round(zoltan({}), snapshot, contributions);
+  CHECK(decisions[0].moves.empty());
+  CHECK(decisions[1].moves.size() == doctest::Approx(50).epsilon(0.1));
+
+  for (auto& s : contributions[1].own) s.bytes = 100'000'000;  // it takes longer to pack one than to finish it
+  CHECK(all_moves(hold_round(zoltan({}), snapshot, contributions)).empty());
+}
+
+TEST_CASE("a subdomain that two ranks list, because it has moved between their answers, is planned once") {
+  const LoadSnapshot snapshot = initial_snapshot(grid_layout(10, 10, 2), {3e5, 1e5});
+  auto contributions = contributions_of(snapshot);
+  for (std::size_t i = 30; i < 50; ++i) {
+    contributions[1].own.insert(contributions[1].own.begin() + static_cast<std::ptrdiff_t>(i - 30),
+                                contributions[0].own[i]);
+    contributions[1].own[i - 30].owner = 1;
+  }
+  const auto decisions = hold_round(zoltan({}), snapshot, contributions);
+  std::vector<int> planned(100);
+  for (const Move& move : all_moves(decisions)) ++planned[static_cast<std::size_t>(move.subdomain)];
+  CHECK(*std::max_element(planned.begin(), planned.end()) == 1);
+}

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "balancer/council.hpp"
+#include "support/load_snapshots.hpp"
+
+namespace driftmesh::testing {
+
+/// What each rank of a snapshot brings to a council. With `random`, some of its subdomains have come just now.
+inline std::vector<balancer::Contribution> contributions_of(const LoadSnapshot& snapshot,
+                                                            std::mt19937_64* random = nullptr) {
+  std::vector<balancer::Contribution> all;
+  for (std::size_t r = 0; r < snapshot.ranks.size(); ++r)
+    all.push_back({static_cast<Rank>(r), snapshot.ranks[r], {}, {}});
+  for (const balancer::SubdomainState& s : snapshot.subdomains) {
+    balancer::Contribution& owner = all[static_cast<std::size_t>(s.owner)];
+    owner.own.push_back(s);
+    if (random && (*random)() % 5 == 0) owner.settled.push_back(s.id);
+  }
+  return all;
+}
+
+/// What is wrong with the decisions of one round, or nothing: each rank moves what it owns and what has not come just
+/// now, each subdomain once and to another rank; all ranks believe the same; and what they believe of the future is
+/// what the moves lead to.
+inline std::string problem_of(const LoadSnapshot& snapshot, const std::vector<balancer::Contribution>& contributions,
+                              const std::vector<balancer::Council::Decision>& decisions) {
+  std::vector<double> work;
+  std::vector<std::int32_t> coming(decisions.size());
+  for (const balancer::RankState& state : snapshot.ranks) work.push_back(state.remaining);
+  const auto at = [](Rank r) { return static_cast<std::size_t>(r); };
+  bool any = false;
+  for (std::size_t r = 0; r < decisions.size(); ++r) {
+    SubdomainId last = -1;
+    for (const balancer::Move& move : decisions[r].moves) {
+      const balancer::SubdomainState* const s = balancer::find(snapshot, move.subdomain);
+      const auto& settled = contributions[r].settled;
+      if (!s || s->owner != static_cast<Rank>(r)) return "a rank moves what it does not own";
+      if (move.destination == s->owner || move.destination < 0 || at(move.destination) >= work.size())
+        return "a move to nowhere";
+      if (move.subdomain <= last) return "moves are not in order, or one is there twice";
+      if (std::binary_search(settled.begin(), settled.end(), move.subdomain)) return "what came just now moves on";
+      last = move.subdomain;
+      work[r] -= s->remaining;
+      work[at(move.destination)] += s->remaining;
+      ++coming[at(move.destination)];
+      any = true;
+    }
+  }
+  for (std::size_t r = 0; r < decisions.size(); ++r) {
+    if (decisions[r].any_moves != any) return "a rank is wrong about whether anything moves";
+    if (decisions[r].coming.count != coming[r]) return "a rank waits for more or less than comes";
+    for (std::size_t i = 0; i < work.size(); ++i)
+      if (std::abs(decisions[r].states[i].remaining - work[i]) > 1e-9 * (1 + std::abs(work[i])))
+        return "the states that were planned are not those that the moves lead to";
+  }
+  return {};
+}
+
+}  // namespace driftmesh::testing

@@ -1,0 +1,170 @@
+// One rank's side of a round that all ranks plan in, step by step.
+#include "balancer/collective_conduct.hpp"
+
+#include <doctest/doctest.h>
+
+#include "balancer/controller.hpp"
+#include "balancer/policy_factory.hpp"
+#include "base/error.hpp"
+#include "support/load_snapshots.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+using driftmesh::testing::grid_layout;
+using protocol::JointRound;
+using protocol::LoadNews;
+using protocol::SubdomainLoad;
+using Stage = protocol::JointRound::Stage;
+
+namespace {
+
+/// Decides what it was told, and remembers what it was brought.
+class ScriptedCouncil final : public Council {
+ public:
+  Decision next;
+  std::vector<Contribution> announced, brought;
+
+  void announce(std::uint32_t, const Contribution& contribution) override { announced.push_back(contribution); }
+  [[nodiscard]] Decision decide(std::uint32_t, const Contribution& contribution) override {
+    brought.push_back(contribution);
+    return next;
+  }
+};
+
+std::vector<SubdomainLoad> loads_of(SubdomainId first, SubdomainId last, double each) {
+  std::vector<SubdomainLoad> loads;
+  for (SubdomainId id = first; id <= last; ++id) loads.push_back({id, 0, each, 40});
+  return loads;
+}
+
+template <class T>
+std::vector<std::pair<Rank, T>> sent(const Decision& decision) {
+  std::vector<std::pair<Rank, T>> found;
+  for (const auto& m : decision.messages)
+    if (const T* const message = std::get_if<T>(&m.message)) found.emplace_back(m.destination, *message);
+  return found;
+}
+
+/// Twelve subdomains of 1,000 triangles on three ranks.
+struct Bench {
+  ScriptedCouncil council;
+  std::shared_ptr<const Layout> layout = std::make_shared<const Layout>(grid_layout(12, 1, 3));
+  std::shared_ptr<const Policy> policy = make_policy("zoltan", {{"placement", "collective"}});
+
+  CollectiveConduct rank(Rank self) { return {self, layout, policy, ControllerOptions{}, council, 0}; }
+  /// Rank 0 after everybody has reported: rank 2 has much, the others little.
+  CollectiveConduct leader_that_knows() {
+    CollectiveConduct leader = rank(0);
+    static_cast<void>(leader.think({0.01, loads_of(0, 0, 100), 300}));
+    leader.receive(1, LoadNews{1, 100, 0, 300}, 0.02);
+    leader.receive(2, LoadNews{1, 4000, 3000, 300}, 0.02);
+    return leader;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("rank 0 calls when there is something to gain, and lets all start when all have heard it") {
+  Bench bench;
+  CollectiveConduct leader = bench.leader_that_knows();
+  const auto call = sent<JointRound>(leader.think({0.05, loads_of(0, 0, 100), 300}));
+  REQUIRE(call.size() == 2);
+  CHECK(call[0] == std::pair<Rank, JointRound>{1, {1, Stage::kCall}});
+  CHECK(call[1] == std::pair<Rank, JointRound>{2, {1, Stage::kCall}});
+  CHECK(leader.waiting());
+  CHECK(bench.council.announced.size() == 1);
+
+  leader.receive(1, JointRound{1, Stage::kReady}, 0.06);
+  CHECK(sent<JointRound>(leader.think({0.06, loads_of(0, 0, 100), 300})).empty());
+  CHECK(!leader.pressing());
+  leader.receive(2, JointRound{1, Stage::kReady}, 0.07);
+  const auto start = sent<JointRound>(leader.think({0.07, loads_of(0, 0, 100), 300}));
+  REQUIRE(start.size() == 2);
+  CHECK(start[1] == std::pair<Rank, JointRound>{2, {1, Stage::kStart}});
+  // The others must hear of the start before rank 0 waits for them.
+  CHECK(bench.council.brought.empty());
+  CHECK(leader.pressing());
+
+  bench.council.next.states = {{300, 1400}, {300, 1400}, {300, 1400}};
+  const Decision decided = leader.think({0.08, loads_of(0, 0, 90), 300});
+  CHECK(bench.council.brought.size() == 1);
+  CHECK(bench.council.brought[0].state.remaining == 90);
+  CHECK(decided.planned);
+  CHECK(!leader.waiting());
+  CHECK(sent<JointRound>(decided).empty());  // what was decided is even
+}
+
+TEST_CASE("rank 0 calls nobody while all is even, and not before all have said how fast they are") {
+  Bench bench;
+  CollectiveConduct even = bench.rank(0);
+  for (const Rank r : {1, 2}) even.receive(r, LoadNews{1, 4000, 3000, 300}, 0.02);
+  CHECK(sent<JointRound>(even.think({0.05, loads_of(0, 3, 1000), 300})).empty());
+  CHECK(!even.waiting());
+
+  CollectiveConduct early = bench.rank(0);
+  early.receive(2, LoadNews{1, 40000, 3000, 300}, 0.02);
+  CHECK(sent<JointRound>(early.think({0.05, loads_of(0, 0, 100), 300})).empty());
+  CHECK(sent<JointRound>(early.think({1.5, loads_of(0, 0, 100), 300})).size() == 2);
+}
+
+TEST_CASE("a rank answers a call once, goes on, and hands over what was decided of what it still has") {
+  Bench bench;
+  CollectiveConduct rank = bench.rank(2);
+  rank.receive(0, JointRound{1, Stage::kCall}, 1);
+  CHECK(rank.waiting());  // the run does not end around it
+  const auto answer = sent<JointRound>(rank.think({1, loads_of(8, 11, 1000), 300}));
+  REQUIRE(answer.size() == 1);
+  CHECK(answer[0] == std::pair<Rank, JointRound>{0, {1, Stage::kReady}});
+  rank.receive(0, JointRound{1, Stage::kCall}, 1);
+  CHECK(sent<JointRound>(rank.think({1.01, loads_of(8, 11, 990), 300})).empty());
+  CHECK(bench.council.announced.size() == 1);
+
+  rank.receive(0, JointRound{1, Stage::kStart}, 1.02);
+  CHECK(rank.pressing());
+  bench.council.next.moves = {{8, 0}, {9, 1}};
+  const Decision decided = rank.think({1.02, loads_of(9, 11, 980), 300});  // 8 is finished
+  CHECK(decided.moves == std::vector<Move>{{9, 1}});
+  CHECK(!rank.waiting());
+  rank.receive(0, JointRound{1, Stage::kStart}, 1.03);
+  CHECK(!rank.pressing());
+}
+
+TEST_CASE("what has just come stays, and what is coming is brought as work") {
+  Bench bench;
+  CollectiveConduct rank = bench.rank(1);
+  const auto round = [&](std::uint32_t number, double now) {
+    rank.receive(0, JointRound{number, Stage::kCall}, now);
+    static_cast<void>(rank.think({now, loads_of(4, 5, 100), 300}));
+    rank.receive(0, JointRound{number, Stage::kStart}, now);
+    return rank.think({now, loads_of(4, 5, 100), 300});
+  };
+  bench.council.next.coming = {1000, 2};
+  CHECK(sent<LoadNews>(round(1, 1)).empty());  // rank 0 knows better than what is here now
+  bench.council.next.coming = {0, 0};
+  rank.arrived(5, 1.1);
+  static_cast<void>(round(2, 1.1));
+  CHECK(bench.council.brought[1].state.remaining == 200 + 500);
+  CHECK(bench.council.brought[1].settled == std::vector<SubdomainId>{5});
+  static_cast<void>(round(3, 2.5));
+  CHECK(bench.council.brought[2].state.remaining == 200);
+  CHECK(bench.council.brought[2].settled.empty());
+}
+
+TEST_CASE("work that was promised and never came is not waited for without end") {
+  Bench bench;
+  CollectiveConduct rank = bench.rank(1);
+  rank.receive(0, JointRound{1, Stage::kCall}, 1);
+  static_cast<void>(rank.think({1, {}, 300}));
+  rank.receive(0, JointRound{1, Stage::kStart}, 1);
+  bench.council.next.coming = {1000, 2};
+  static_cast<void>(rank.think({1, {}, 300}));
+  CHECK(sent<LoadNews>(rank.think({1.5, {}, 300})).empty());
+  CHECK(sent<LoadNews>(rank.think({2.5, {}, 300})).size() == 1);
+}
+
+TEST_CASE("a controller of such a policy wants a council; one rank alone needs none") {
+  Bench bench;
+  CHECK_THROWS_AS(Controller(0, bench.layout, bench.policy, ControllerOptions{}, 0), Error);
+  Controller alone(0, std::make_shared<const Layout>(grid_layout(3, 1, 1)), bench.policy, ControllerOptions{}, 0);
+  CHECK(!alone.due(1));
+}
