@@ -7,6 +7,7 @@ namespace driftmesh::balancer {
 namespace {
 
 constexpr Rank kLeader = 0;
+constexpr double kPatience = 3;  // intervals that promised work is waited for
 
 }  // namespace
 
@@ -152,7 +153,7 @@ Contribution CollectiveConduct::contribution(const Situation& situation) const {
 
 // What the giver could not hand over after all is not waited for without end.
 bool CollectiveConduct::expects_work(double now) const {
-  return coming_.count > 0 && now <= promised_ + options_.interval;
+  return coming_.count > 0 && now <= promised_ + kPatience * options_.interval;
 }
 
 void CollectiveConduct::forget_old(double now) {

@@ -47,18 +47,7 @@ std::vector<Offer> by_number(std::span<const Offer> offers) {
   return sorted;
 }
 
-/// The rank that each offer, in the order of their numbers, goes to in the end.
-std::vector<Rank> deal_offers(const std::vector<Offer>& offers, const DealtParts& dealt, const Dealing& dealing) {
-  LoadSnapshot snapshot;
-  snapshot.ranks = dealt.states;
-  for (const Offer& offer : offers) snapshot.subdomains.push_back(offer.subdomain);
-  if (dealing.polish) snapshot = deal_surplus(snapshot, dealing.tolerance);
-  std::vector<Rank> takers;
-  for (const SubdomainState& s : snapshot.subdomains) takers.push_back(s.owner);
-  return takers;
-}
-
-/// What is left of the bundles when the offers are taken out; empty ones stay, with no work.
+/// What is left of the bundles when the offers are taken out; empty ones stay.
 std::vector<Bundle> without(std::span<const Bundle> bundles, const std::vector<Offer>& offers) {
   std::map<std::pair<Rank, Rank>, std::size_t> place;
   std::vector<Bundle> rest(bundles.begin(), bundles.end());
@@ -67,7 +56,6 @@ std::vector<Bundle> without(std::span<const Bundle> bundles, const std::vector<O
     Bundle& bundle = rest[place.at({offer.holder, offer.part})];
     bundle.work = std::max(0.0, bundle.work - offer.subdomain.remaining);
     bundle.bytes -= std::min(bundle.bytes, offer.subdomain.bytes);
-    --bundle.count;
   }
   return rest;
 }
@@ -88,10 +76,9 @@ std::vector<Bundle> bundles_of(const Contribution& contribution, std::span<const
     Bundle& bundle = of_part[parts[i]];
     bundle.work += s.remaining;
     bundle.bytes += s.bytes;
-    ++bundle.count;
   }
   std::vector<Bundle> bundles;
-  for (const auto& [part, sum] : of_part) bundles.push_back({contribution.rank, part, sum.work, sum.bytes, sum.count});
+  for (const auto& [part, sum] : of_part) bundles.push_back({contribution.rank, part, sum.work, sum.bytes});
   return bundles;
 }
 
@@ -145,72 +132,90 @@ std::vector<Offer> offers_of(const Contribution& contribution, std::span<const R
   return offers;
 }
 
-JointPlan conclude(const std::vector<RankState>& states, std::span<const Bundle> bundles,
-                   std::span<const Offer> all_offers, const DealtParts& dealt, const Dealing& dealing,
-                   const MoveCost& cost, const Worth& worth) {
-  const std::vector<Offer> offers = by_number(all_offers);
-  const std::vector<Rank> takers = deal_offers(offers, dealt, dealing);
-  const std::vector<Bundle> rest = without(bundles, offers);
+DealtOffers deal_offers(const std::vector<RankState>& states, std::span<const Bundle> bundles,
+                        std::span<const Offer> offers, const DealtParts& dealt, const Dealing& dealing,
+                        const MoveCost& cost) {
+  DealtOffers result{by_number(offers), {}, {}};
+  LoadSnapshot offered;
+  offered.ranks = dealt.states;
+  for (const Offer& offer : result.offers) offered.subdomains.push_back(offer.subdomain);
+  if (dealing.polish) offered = deal_surplus(offered, dealing.tolerance);
+  for (const SubdomainState& s : offered.subdomains) result.takers.push_back(s.owner);
 
-  // All that could move, as if each were one subdomain: bundles first, then offers.
+  // All that could move, as if each were one subdomain: what is left of the bundles, then the offers.
+  const std::vector<Bundle> rest = without(bundles, result.offers);
   LoadSnapshot before = as_subdomains(states, rest);
-  std::vector<Move> wanted;
-  const auto want = [&](std::size_t i, Rank from, Rank to) {
-    if (from != to) wanted.push_back({static_cast<SubdomainId>(i), to});
-  };
+  std::vector<Move> moves;
   for (std::size_t i = 0; i < rest.size(); ++i)
-    if (rest[i].count > 0) want(i, rest[i].holder, dealt.rank_of[index(rest[i].part)]);
-  for (std::size_t i = 0; i < offers.size(); ++i) {
-    SubdomainState s = offers[i].subdomain;
+    moves.push_back({static_cast<SubdomainId>(i), dealt.rank_of[index(rest[i].part)]});
+  for (std::size_t i = 0; i < result.offers.size(); ++i) {
+    SubdomainState s = result.offers[i].subdomain;
     s.id = static_cast<SubdomainId>(before.subdomains.size());
-    s.owner = offers[i].holder;
+    s.owner = result.offers[i].holder;
     before.subdomains.push_back(s);
-    want(rest.size() + i, offers[i].holder, takers[i]);
+    moves.push_back({s.id, result.takers[i]});
   }
-
-  JointPlan plan{{}, {}, states, std::vector<JointPlan::Coming>(states.size())};
-  for (const Move& move : worth_moving(before, wanted, cost, worth)) {
-    const SubdomainState& s = before.subdomains[index(move.subdomain)];
-    plan.states[index(s.owner)].remaining -= s.remaining;
-    plan.states[index(move.destination)].remaining += s.remaining;
-    const auto i = static_cast<std::size_t>(s.id);
-    JointPlan::Coming& coming = plan.coming[index(move.destination)];
-    coming.work += s.remaining;
-    coming.count += i < rest.size() ? rest[i].count : 1;
-    if (i < rest.size())
-      plan.flows.push_back({rest[i].holder, rest[i].part, move.destination});
-    else
-      plan.moves.push_back({offers[i - rest.size()].subdomain.id, move.destination});
-  }
-  std::sort(plan.flows.begin(), plan.flows.end(),
-            [](const auto& a, const auto& b) { return std::pair(a.from, a.part) < std::pair(b.from, b.part); });
-  return plan;
+  result.times = finishing_times(before, moves, cost);
+  return result;
 }
 
 std::vector<Move> moves_of(const Contribution& contribution, std::span<const Rank> parts,
-                           const std::vector<Offer>& own_offers, const JointPlan& plan, const MoveCost& cost) {
+                           const std::vector<RankState>& states, const DealtParts& dealt, const DealtOffers& offers,
+                           const MoveCost& cost, const Worth& worth) {
   const Movable movable(contribution, cost);
-  std::map<Rank, Rank> taker_of_part;
-  for (const JointPlan::Flow& flow : plan.flows)
-    if (flow.from == contribution.rank) taker_of_part[flow.part] = flow.to;
-  std::map<SubdomainId, Rank> offered;  // stays here, unless it was dealt to another rank
-  for (const Offer& offer : own_offers) offered[offer.subdomain.id] = contribution.rank;
-  for (const Move& move : plan.moves)
-    if (const auto own = offered.find(move.subdomain); own != offered.end()) own->second = move.destination;
-
-  std::vector<Move> moves;
+  std::map<SubdomainId, Rank> taker_of;
+  for (std::size_t i = 0; i < offers.offers.size(); ++i)
+    if (offers.offers[i].holder == contribution.rank) taker_of[offers.offers[i].subdomain.id] = offers.takers[i];
+  const LoadSnapshot own = own_snapshot(contribution, nullptr, states);
+  std::vector<Move> wanted;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const SubdomainState& s = contribution.own[i];
-    const auto single = offered.find(s.id);
-    const auto flow = taker_of_part.find(parts[i]);
-    Rank to = contribution.rank;
-    if (single != offered.end())
-      to = single->second;
-    else if (flow != taker_of_part.end() && movable(s))
-      to = flow->second;
-    if (to != contribution.rank) moves.push_back({s.id, to});
+    if (!movable(s)) continue;
+    const auto offered = taker_of.find(s.id);
+    wanted.push_back({s.id, offered == taker_of.end() ? dealt.rank_of[index(parts[i])] : offered->second});
   }
-  return moves;
+  const double last = *std::max_element(offers.times.begin(), offers.times.end());
+  const double spare = std::max(last, ideal_time(own) * (1 + worth.slack)) - offers.times[index(contribution.rank)];
+  return needed_moves(own, wanted, cost, contribution.rank, spare);
+}
+
+std::vector<Transfer> transfers_of(const Contribution& contribution, std::span<const Move> moves) {
+  const LoadSnapshot own{nullptr, contribution.own, {}};
+  std::map<Rank, Transfer> to;
+  for (const Move& move : moves) {
+    const SubdomainState& s = *find(own, move.subdomain);
+    Transfer& transfer = to[move.destination];
+    transfer.work += s.remaining;
+    transfer.bytes += s.bytes;
+    ++transfer.count;
+  }
+  std::vector<Transfer> transfers;
+  for (const auto& [rank, sum] : to) transfers.push_back({contribution.rank, rank, sum.work, sum.bytes, sum.count});
+  return transfers;
+}
+
+JointPlan weigh(const std::vector<RankState>& states, std::span<const Transfer> transfers, const MoveCost& cost,
+                const Worth& worth) {
+  JointPlan plan{false, states, std::vector<JointPlan::Coming>(states.size())};
+  LoadSnapshot before{nullptr, {}, states};
+  std::vector<Move> moves;
+  for (const Transfer& t : transfers) {
+    const auto id = static_cast<SubdomainId>(before.subdomains.size());
+    before.subdomains.push_back({id, t.from, t.work, t.bytes, 0});
+    moves.push_back({id, t.to});
+  }
+  const double now = finishing_time(before);
+  const std::vector<double> times = finishing_times(before, moves, cost);
+  const double saved = now - *std::max_element(times.begin(), times.end());
+  plan.worth = saved > 0 && saved >= worth.gain * now && saved >= worth.seconds;
+  if (!plan.worth) return plan;
+  for (const Transfer& t : transfers) {
+    plan.states[index(t.from)].remaining -= t.work;
+    plan.states[index(t.to)].remaining += t.work;
+    plan.coming[index(t.to)].work += t.work;
+    plan.coming[index(t.to)].count += t.count;
+  }
+  return plan;
 }
 
 }  // namespace driftmesh::balancer

@@ -35,7 +35,6 @@ struct Bundle {
   Rank part = 0;
   double work = 0;
   std::uint64_t bytes = 0;
-  std::int32_t count = 0;  ///< of subdomains
 };
 
 /// What a rank holds of which part, given the part of each of its subdomains. What is not worth its packing is left
@@ -65,30 +64,42 @@ struct Offer {
 [[nodiscard]] std::vector<Offer> offers_of(const Contribution& contribution, std::span<const Rank> parts,
                                            const DealtParts& dealt, const MoveCost& cost, const Dealing& dealing);
 
-/// What everybody concludes.
+/// What all conclude from the offers: these are dealt as deal_surplus does it.
+struct DealtOffers {
+  std::vector<Offer> offers;  ///< of all ranks, by the numbers of the subdomains
+  std::vector<Rank> takers;   ///< of each: its part's, another one, or its holder
+  std::vector<double> times;  ///< when each rank would be through if all moved that is dealt to another
+};
+[[nodiscard]] DealtOffers deal_offers(const std::vector<RankState>& states, std::span<const Bundle> bundles,
+                                      std::span<const Offer> offers, const DealtParts& dealt, const Dealing& dealing,
+                                      const MoveCost& cost);
+
+/// What this rank should hand over: of what was dealt to others, what it cannot keep without being through later than
+/// the last one then, or than the ideal time and the slack of `worth`.
+[[nodiscard]] std::vector<Move> moves_of(const Contribution& contribution, std::span<const Rank> parts,
+                                         const std::vector<RankState>& states, const DealtParts& dealt,
+                                         const DealtOffers& offers, const MoveCost& cost, const Worth& worth);
+
+/// All that one rank would hand over to another.
+struct Transfer {
+  Rank from = 0, to = 0;
+  double work = 0;
+  std::uint64_t bytes = 0;
+  std::int32_t count = 0;  ///< of subdomains
+};
+[[nodiscard]] std::vector<Transfer> transfers_of(const Contribution& contribution, std::span<const Move> moves);
+
+/// What all conclude from the transfers: that all of them are made, or none.
 struct JointPlan {
-  struct Flow {
-    Rank from = 0, part = 0, to = 0;  ///< all that rank `from` holds of a part, but what it has offered, goes there
-  };
   struct Coming {
     double work = 0;
     std::int32_t count = 0;  ///< of subdomains
   };
-  std::vector<Flow> flows;        ///< by from and part
-  std::vector<Move> moves;        ///< of subdomains that were offered, by their numbers
+  bool worth = false;             ///< whether they are made
   std::vector<RankState> states;  ///< of all ranks when everything has arrived
   std::vector<Coming> coming;     ///< what goes to each rank
-  [[nodiscard]] bool any_moves() const { return !flows.empty() || !moves.empty(); }
 };
-
-/// `offers` of all ranks are dealt as deal_surplus does it, and of what moves only what is worth it remains.
-[[nodiscard]] JointPlan conclude(const std::vector<RankState>& states, std::span<const Bundle> bundles,
-                                 std::span<const Offer> offers, const DealtParts& dealt, const Dealing& dealing,
-                                 const MoveCost& cost, const Worth& worth);
-
-/// What this rank is to hand over.
-[[nodiscard]] std::vector<Move> moves_of(const Contribution& contribution, std::span<const Rank> parts,
-                                         const std::vector<Offer>& own_offers, const JointPlan& plan,
-                                         const MoveCost& cost);
+[[nodiscard]] JointPlan weigh(const std::vector<RankState>& states, std::span<const Transfer> transfers,
+                              const MoveCost& cost, const Worth& worth);
 
 }  // namespace driftmesh::balancer

@@ -27,6 +27,10 @@ class Selection {
     for (std::size_t r = 0; r < speeds_.size(); ++r) times_.push_back(snapshot.ranks[r].remaining / speeds_[r]);
   }
 
+  void consider(std::span<const Move> moves) {
+    for (const Move& move : moves) consider(move);
+  }
+
   void consider(const Move& move) {
     const SubdomainState* const s = find(snapshot_, move.subdomain);
     const bool possible = s && move.destination >= 0 && index(move.destination) < speeds_.size() &&
@@ -43,6 +47,8 @@ class Selection {
   }
 
   [[nodiscard]] double finish() const { return times_.empty() ? 0 : *std::max_element(times_.begin(), times_.end()); }
+
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
 
   /// Takes back what nobody needs to finish by `time`.
   void drop_needless(double time) {
@@ -94,10 +100,24 @@ std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Mov
                                const Worth& worth) {
   Selection selection(snapshot, cost);
   const double before = selection.finish();
-  for (const Move& move : moves) selection.consider(move);
+  selection.consider(moves);
   selection.drop_needless(std::max(selection.finish(), ideal_time(snapshot) * (1 + worth.slack)));
   const double saved = before - selection.finish();
   if (saved <= 0 || saved < worth.gain * before || saved < worth.seconds) return {};
+  return selection.kept();
+}
+
+std::vector<double> finishing_times(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost) {
+  Selection selection(snapshot, cost);
+  selection.consider(moves);
+  return selection.times();
+}
+
+std::vector<Move> needed_moves(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost,
+                               Rank giver, double spare) {
+  Selection selection(snapshot, cost);
+  selection.consider(moves);
+  selection.drop_needless(selection.times()[index(giver)] + spare);
   return selection.kept();
 }
 

@@ -40,4 +40,14 @@ struct Worth {
 [[nodiscard]] std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves,
                                              const MoveCost& cost, const Worth& worth = {});
 
+/// When each rank will have finished if all of `moves` are made that are valid and cost less than they move, with what
+/// they cost.
+[[nodiscard]] std::vector<double> finishing_times(const LoadSnapshot& snapshot, std::span<const Move> moves,
+                                                  const MoveCost& cost);
+
+/// The same moves, all of `giver`, less those that it can keep and still be through at most so many seconds later,
+/// dearest first.
+[[nodiscard]] std::vector<Move> needed_moves(const LoadSnapshot& snapshot, std::span<const Move> moves,
+                                             const MoveCost& cost, Rank giver, double spare);
+
 }  // namespace driftmesh::balancer

@@ -30,10 +30,12 @@ Council::Decision MpiCouncil::decide(std::uint32_t, const Contribution& contribu
       policy_->parts(own_snapshot(contribution, layout_, states), transport_.communicator());
   const std::vector<Bundle> bundles = from_all(bundles_of(contribution, parts, options_.cost));
   const DealtParts dealt = deal_parts(states, bundles, dealing.tolerance);
-  const std::vector<Offer> own_offers = offers_of(contribution, parts, dealt, options_.cost, dealing);
-  const JointPlan plan = conclude(states, bundles, from_all(own_offers), dealt, dealing, options_.cost, options_.worth);
-  return {moves_of(contribution, parts, own_offers, plan, options_.cost), plan.states,
-          plan.coming[static_cast<std::size_t>(contribution.rank)], plan.any_moves()};
+  const DealtOffers offers =
+      deal_offers(states, bundles, from_all(offers_of(contribution, parts, dealt, options_.cost, dealing)), dealt,
+                  dealing, options_.cost);
+  std::vector<Move> moves = moves_of(contribution, parts, states, dealt, offers, options_.cost, options_.worth);
+  const JointPlan plan = weigh(states, from_all(transfers_of(contribution, moves)), options_.cost, options_.worth);
+  return decision_of(contribution, std::move(moves), plan);
 }
 
 std::unique_ptr<Council> make_mpi_council(protocol::MpiTransport& transport, std::shared_ptr<const Layout> layout,

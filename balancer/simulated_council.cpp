@@ -69,20 +69,24 @@ void SimulatedCouncil::conclude_round(Round& round) const {
   }
   const DealtParts dealt = deal_parts(states, bundles, dealing.tolerance);
 
-  std::vector<std::vector<Offer>> offers_of_rank;
-  std::vector<Offer> offers;
+  std::vector<Offer> offered;
   for (const auto& [rank, contribution] : round.contributions) {
-    const auto& own = offers_of_rank.emplace_back(
-        offers_of(contribution, parts[static_cast<std::size_t>(rank)], dealt, cost, dealing));
-    offers.insert(offers.end(), own.begin(), own.end());
+    const auto own = offers_of(contribution, parts[static_cast<std::size_t>(rank)], dealt, cost, dealing);
+    offered.insert(offered.end(), own.begin(), own.end());
   }
-  const JointPlan plan = conclude(states, bundles, offers, dealt, dealing, cost, options_.worth);
+  const DealtOffers offers = deal_offers(states, bundles, offered, dealt, dealing, cost);
 
+  std::vector<std::vector<Move>> moves;
+  std::vector<Transfer> transfers;
   for (const auto& [rank, contribution] : round.contributions) {
     const auto r = static_cast<std::size_t>(rank);
-    round.decisions[rank] = {moves_of(contribution, parts[r], offers_of_rank[r], plan, cost), plan.states,
-                             plan.coming[r], plan.any_moves()};
+    moves.push_back(moves_of(contribution, parts[r], states, dealt, offers, cost, options_.worth));
+    const auto own = transfers_of(contribution, moves.back());
+    transfers.insert(transfers.end(), own.begin(), own.end());
   }
+  const JointPlan plan = weigh(states, transfers, cost, options_.worth);
+  for (const auto& [rank, contribution] : round.contributions)
+    round.decisions[rank] = decision_of(contribution, std::move(moves[static_cast<std::size_t>(rank)]), plan);
 }
 
 std::unique_ptr<SimulatedCouncil> make_simulated_council(std::shared_ptr<const Layout> layout,

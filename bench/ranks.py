@@ -187,7 +187,8 @@ def ideal(run):
 
 
 def balance(bench):
-    policies = ("none", "zoltan", "stealing", "greedy", "diffusion")
+    policies = {name: ("--balance", name) for name in ("none", "zoltan", "stealing", "greedy", "diffusion")}
+    policies["zoltan, collective"] = ("--balance", "zoltan", "--balance-with", "placement=collective")
     pipe = bench.area_of("pipe", bench.options.cells)
     cases = {
         "pipe, one rank at half speed": ("pipe", pipe, "--drag", "1,0.5"),
@@ -201,7 +202,7 @@ def balance(bench):
         # Speeds are those of ranks that are all at work: of the same run dealt by work.
         dealt_by_work = [word for word in arguments if word != "--map-by-area"]
         *records, references = bench.take_turns(
-            [lambda p=p: bench.mesh(2, model, area, *arguments, "--balance", p) for p in policies] +
+            [lambda p=p: bench.mesh(2, model, area, *arguments, *p) for p in policies.values()] +
             [lambda: bench.mesh(2, model, area, *dealt_by_work)])
         best = median(references, ideal)
         for policy, runs in zip(policies, records):

@@ -145,7 +145,7 @@ TEST_CASE("what has just come stays, and what is coming is brought as work") {
   static_cast<void>(round(2, 1.1));
   CHECK(bench.council.brought[1].state.remaining == 200 + 500);
   CHECK(bench.council.brought[1].settled == std::vector<SubdomainId>{5});
-  static_cast<void>(round(3, 2.5));
+  static_cast<void>(round(3, 4.5));
   CHECK(bench.council.brought[2].state.remaining == 200);
   CHECK(bench.council.brought[2].settled.empty());
 }
@@ -158,8 +158,8 @@ TEST_CASE("work that was promised and never came is not waited for without end")
   rank.receive(0, JointRound{1, Stage::kStart}, 1);
   bench.council.next.coming = {1000, 2};
   static_cast<void>(rank.think({1, {}, 300}));
-  CHECK(sent<LoadNews>(rank.think({1.5, {}, 300})).empty());
-  CHECK(sent<LoadNews>(rank.think({2.5, {}, 300})).size() == 1);
+  CHECK(sent<LoadNews>(rank.think({3.5, {}, 300})).empty());
+  CHECK(sent<LoadNews>(rank.think({4.5, {}, 300})).size() == 1);
 }
 
 TEST_CASE("a controller of such a policy wants a council; one rank alone needs none") {
