@@ -7,6 +7,7 @@
 
 #include "balancer/remap_parts.hpp"
 #include "balancer/surplus.hpp"
+#include "protocol/messages.hpp"
 
 namespace driftmesh::balancer {
 namespace {
@@ -15,13 +16,15 @@ std::size_t index(Rank rank) {
   return static_cast<std::size_t>(rank);
 }
 
-/// Whether a subdomain may leave: it has not come just now, and to pack it takes less than to finish it.
+/// Whether a subdomain may leave: one message can carry it, it has not come just now, and to pack it takes less than to
+/// finish it.
 class Movable {
  public:
   Movable(const Contribution& contribution, const MoveCost& cost) : contribution_(contribution), cost_(cost) {}
 
   bool operator()(const SubdomainState& s) const {
     const double speed = contribution_.state.speed;
+    if (s.bytes > protocol::kMostPackedBytes) return false;
     if (std::binary_search(contribution_.settled.begin(), contribution_.settled.end(), s.id)) return false;
     return speed <= 0 || cost_.for_giver(s.bytes, speed) < s.remaining / speed;
   }

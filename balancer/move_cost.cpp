@@ -1,7 +1,10 @@
 #include "balancer/move_cost.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
+
+#include "protocol/messages.hpp"
 
 namespace driftmesh::balancer {
 namespace {
@@ -88,6 +91,16 @@ class Selection {
   std::vector<SubdomainId> taken_;  // ascending
 };
 
+// Of subdomains that one message can carry.
+std::vector<Move> those_that_fit(const LoadSnapshot& snapshot, std::span<const Move> moves) {
+  std::vector<Move> fit;
+  std::copy_if(moves.begin(), moves.end(), std::back_inserter(fit), [&](const Move& move) {
+    const SubdomainState* const s = find(snapshot, move.subdomain);
+    return s && s->bytes <= protocol::kMostPackedBytes;
+  });
+  return fit;
+}
+
 }  // namespace
 
 bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning) {
@@ -100,7 +113,7 @@ std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Mov
                                const Worth& worth) {
   Selection selection(snapshot, cost);
   const double before = selection.finish();
-  selection.consider(moves);
+  selection.consider(those_that_fit(snapshot, moves));
   selection.drop_needless(std::max(selection.finish(), ideal_time(snapshot) * (1 + worth.slack)));
   const double saved = before - selection.finish();
   if (saved <= 0 || saved < worth.gain * before || saved < worth.seconds) return {};
@@ -116,7 +129,7 @@ std::vector<double> finishing_times(const LoadSnapshot& snapshot, std::span<cons
 std::vector<Move> needed_moves(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost,
                                Rank giver, double spare) {
   Selection selection(snapshot, cost);
-  selection.consider(moves);
+  selection.consider(those_that_fit(snapshot, moves));
   selection.drop_needless(selection.times()[index(giver)] + spare);
   return selection.kept();
 }

@@ -35,8 +35,9 @@ struct Worth {
 
 /// Those of `moves` that are worth making, in their order. The finishing time with their costs is below the present one
 /// by what `worth` asks for; otherwise none is left. Left out are moves that are not valid (unknown subdomain or rank,
-/// to the owner, a second one of a subdomain), that cost more than the work they move, and those without which the
-/// finishing time is no later, or within the slack of the ideal one: the ones that cost most for their work first.
+/// to the owner, a second one of a subdomain), of subdomains too large for one message, that cost more than the work
+/// they move, and those without which the finishing time is no later, or within the slack of the ideal one: the ones
+/// that cost most for their work first.
 [[nodiscard]] std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves,
                                              const MoveCost& cost, const Worth& worth = {});
 

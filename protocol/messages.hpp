@@ -35,6 +35,10 @@ struct SplitBatch {
   friend bool operator==(const SplitBatch&, const SplitBatch&) = default;
 };
 
+/// Packed forms that are estimated longer stay where they are: a message must not reach 2 GiB, and the estimate may be
+/// a quarter too low.
+inline constexpr std::uint64_t kMostPackedBytes = 1'600'000'000;
+
 /// A subdomain moves to the rank that this is sent to.
 struct HandOff {
   SubdomainId subdomain = 0;

@@ -78,10 +78,11 @@ class BasicRankLoop {
 
   /// Subdomain `id` goes to rank `to`, packed, with everything it was told. Between steps only, and not once this rank
   /// has nothing to do: then it may make no work for others (docs/protocol.md, rule 6). False, and nothing happens, if
-  /// the subdomain is not here, is finished, or would stay.
+  /// the subdomain is not here, is finished, would stay, or is too large for one message.
   bool hand_over(SubdomainId id, protocol::Rank to) {
     const auto place = subdomains_.find(id);
     if (to == transport_.rank() || place == subdomains_.end() || !place->second.active()) return false;
+    if (place->second.packed_bytes() > protocol::kMostPackedBytes) return false;
     triangles_ -= place->second.triangles();
     protocol::Bytes packed = place->second.pack();
     transport_.spend(static_cast<double>(packed.size()) * costs_.packed_byte);

@@ -4,6 +4,7 @@
 #include "balancer/remap_parts.hpp"
 #include "balancer/speed_estimate.hpp"
 #include "balancer/surplus.hpp"
+#include "protocol/messages.hpp"
 #include "support/load_snapshots.hpp"
 
 using namespace driftmesh;
@@ -115,6 +116,26 @@ TEST_CASE("what costs more to move than to finish stays") {
   CHECK(worth_moving(s, plan, {}).empty());
   s.subdomains[0].bytes = 70'000;  // 1.05 s to unpack; the other one would finish after 2.05 s instead of 2 s
   CHECK(worth_moving(s, plan, {}).empty());
+}
+
+TEST_CASE("what one message cannot carry stays, however much there is to gain") {
+  LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {1e6, 1e6});
+  for (SubdomainState& subdomain : s.subdomains) subdomain.remaining = subdomain.owner == 0 ? 1e12 : 0;
+  sum_up(s);
+  const std::vector<Move> plan{{0, 1}, {1, 1}};
+  CHECK(worth_moving(s, plan, {}) == plan);
+  s.subdomains[0].bytes = protocol::kMostPackedBytes + 1;
+  CHECK(worth_moving(s, plan, {}) == std::vector<Move>{{1, 1}});
+  CHECK(needed_moves(s, plan, {}, 0, 0) == std::vector<Move>{{1, 1}});
+}
+
+TEST_CASE("a rank keeps what it can in its spare time, and first what is dear to move") {
+  LoadSnapshot s = initial_snapshot(grid_layout(6, 1, 2), {1000, 1000});
+  s.subdomains[1].bytes = 5'000;
+  const std::vector<Move> plan{{0, 1}, {1, 1}, {2, 1}};
+  CHECK(needed_moves(s, plan, {}, 0, 0.5) == plan);  // each is a second of work
+  CHECK(needed_moves(s, plan, {}, 0, 1.1) == std::vector<Move>{{0, 1}, {2, 1}});
+  CHECK(needed_moves(s, plan, {}, 0, 5).empty());
 }
 
 TEST_CASE("what a fast rank packs in no time is dear on a slow one") {
