@@ -11,12 +11,10 @@ constexpr double kPatience = 3;  // intervals that promised work is waited for
 
 }  // namespace
 
-CollectiveConduct::CollectiveConduct(Rank self, std::shared_ptr<const Layout> layout,
-                                     std::shared_ptr<const Policy> policy, const ControllerOptions& options,
+CollectiveConduct::CollectiveConduct(Rank self, std::shared_ptr<const Layout> layout, const ControllerOptions& options,
                                      Council& council, double now)
     : self_(self),
       layout_(std::move(layout)),
-      policy_(std::move(policy)),
       options_(options),
       council_(council),
       rule_(options.gap, options.interval, options.change),
@@ -54,15 +52,27 @@ void CollectiveConduct::take_step(const protocol::JointRound& step) {
 
 void CollectiveConduct::arrived(SubdomainId id, double now) {
   came_[id] = now;
-  if (coming_.count == 0) return;
-  coming_.work -= coming_.work / coming_.count;
-  --coming_.count;
+  if (!promises_.empty())
+    keep_promise();
+  else if (waiting())
+    ++early_;
+}
+
+void CollectiveConduct::keep_promise() {
+  JointPlan::Coming& coming = promises_.front().coming;
+  coming.work -= coming.work / coming.count;
+  if (--coming.count == 0) promises_.pop_front();
 }
 
 Decision CollectiveConduct::think(const Situation& situation) {
   Decision decision;
   forget_old(situation.now);
-  if (stage_ == Stage::kStarted) decide(situation, decision);
+  // What is decided changes what is here: the next look tells of it.
+  if (stage_ == Stage::kStarted) {
+    decide(situation, decision);
+    return decision;
+  }
+  if (stage_ == Stage::kReady) council_.announce(round_, contribution(situation));
   if (leads() && stage_ == Stage::kApart) call(situation, decision);
   if (stage_ == Stage::kCalled) answer(situation, decision);
   if (leads() && stage_ == Stage::kReady && ready_ == layout_->ranks) start(decision);
@@ -77,7 +87,7 @@ void CollectiveConduct::say_to_all(Step step, Decision& decision) const {
 
 void CollectiveConduct::call(const Situation& situation, Decision& decision) {
   const double now = situation.now;
-  if (!fresh_ || !pace_.due(now) || expects_work(now)) return;
+  if (!fresh_ || !pace_.due(now) || expects_work()) return;
   // The first round waits a little for all to say how fast they are.
   if (!news_->complete() && now < start_ + options_.interval) return;
   fresh_ = false;
@@ -116,17 +126,19 @@ void CollectiveConduct::decide(const Situation& situation, Decision& decision) {
   };
   for (const Move& move : decided.moves)
     if (is_here(move)) decision.moves.push_back(move);
-  coming_ = decided.coming;
-  promised_ = situation.now;
-  changed_ = true;
+  if (decided.coming.count > 0) promises_.push_back({decided.coming, situation.now});
+  for (; early_ > 0 && !promises_.empty(); --early_) keep_promise();
+  early_ = 0;
+  changed_ = changed_ || !decision.moves.empty() || decided.coming.count > 0;
   if (!leads()) return;
   news_->assume(decided.states, situation.now);
   pace_.planned(situation.now, decided.any_moves);
 }
 
-// While work is on its way here, rank 0 reckons with what was planned.
+// While work is on its way here, rank 0 reckons with what was planned. From the call to the decision it is told
+// nothing: it would take for news what was said before the decision.
 void CollectiveConduct::report(const Situation& situation, Decision& decision) {
-  if (expects_work(situation.now)) return;
+  if (waiting() || expects_work()) return;
   const double total = total_work(situation.own);
   if (!rule_.due(situation.now, total, situation.speed, changed_)) return;
   rule_.told(situation.now, total, situation.speed);
@@ -142,22 +154,16 @@ void CollectiveConduct::report(const Situation& situation, Decision& decision) {
 
 Contribution CollectiveConduct::contribution(const Situation& situation) const {
   Contribution own{self_, {situation.speed, total_work(situation.own)}, {}, {}};
-  if (expects_work(situation.now)) own.state.remaining += coming_.work;
-  for (const protocol::SubdomainLoad& load : situation.own)
-    own.own.push_back({load.subdomain, self_, load.remaining, load.bytes, static_cast<std::int32_t>(own.own.size())});
-  std::sort(own.own.begin(), own.own.end(),
-            [](const SubdomainState& a, const SubdomainState& b) { return a.id < b.id; });
+  for (const Promise& promise : promises_) own.state.remaining += promise.coming.work;
+  own.own = states_of(self_, situation.own);
   for (const auto& [id, when] : came_) own.settled.push_back(id);
   return own;
 }
 
-// What the giver could not hand over after all is not waited for without end.
-bool CollectiveConduct::expects_work(double now) const {
-  return coming_.count > 0 && now <= promised_ + kPatience * options_.interval;
-}
-
+// What a giver could not hand over after all is not waited for without end.
 void CollectiveConduct::forget_old(double now) {
   std::erase_if(came_, [&](const auto& entry) { return now - entry.second > options_.interval; });
+  while (!promises_.empty() && now > promises_.front().when + kPatience * options_.interval) promises_.pop_front();
 }
 
 }  // namespace driftmesh::balancer

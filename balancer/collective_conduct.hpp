@@ -1,15 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "balancer/conduct.hpp"
 #include "balancer/council.hpp"
 #include "balancer/planning_pace.hpp"
-#include "balancer/policy.hpp"
 #include "balancer/rank_news.hpp"
 #include "balancer/report_rule.hpp"
 
@@ -24,8 +23,8 @@ namespace driftmesh::balancer {
 class CollectiveConduct {
  public:
   /// `council` must outlive it.
-  CollectiveConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
-                    const ControllerOptions& options, Council& council, double now);
+  CollectiveConduct(Rank self, std::shared_ptr<const Layout> layout, const ControllerOptions& options, Council& council,
+                    double now);
 
   void receive(Rank source, const protocol::Message& advice, double now);
   void arrived(SubdomainId id, double now);
@@ -53,12 +52,12 @@ class CollectiveConduct {
   void decide(const Situation& situation, Decision& decision);
   void report(const Situation& situation, Decision& decision);
   [[nodiscard]] Contribution contribution(const Situation& situation) const;
-  [[nodiscard]] bool expects_work(double now) const;
+  void keep_promise();
+  [[nodiscard]] bool expects_work() const { return !promises_.empty(); }
   void forget_old(double now);
 
   Rank self_;
   std::shared_ptr<const Layout> layout_;
-  std::shared_ptr<const Policy> policy_;
   ControllerOptions options_;
   Council& council_;
 
@@ -68,8 +67,12 @@ class CollectiveConduct {
   std::uint32_t reports_ = 0;
   bool changed_ = false;                // by a decision, since the last report
   std::map<SubdomainId, double> came_;  // lately, and when: what came stays for a while
-  JointPlan::Coming coming_;            // promised by the last decision, and not here yet
-  double promised_ = 0;                 // when
+  struct Promise {
+    JointPlan::Coming coming;
+    double when = 0;
+  };
+  std::deque<Promise> promises_;  // of decisions, and not kept yet, the oldest first
+  std::int32_t early_ = 0;        // came in a round before the decision that promises them was heard here
 
   // Of rank 0:
   std::optional<RankNews> news_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,15 @@ struct Situation {
   double total = 0;
   for (const protocol::SubdomainLoad& load : own) total += load.remaining;
   return total;
+}
+
+/// What a rank has to do, in ascending order of the numbers.
+[[nodiscard]] inline std::vector<SubdomainState> states_of(Rank owner, std::span<const protocol::SubdomainLoad> own) {
+  std::vector<SubdomainState> states;
+  for (const protocol::SubdomainLoad& load : own)
+    states.push_back({load.subdomain, owner, load.remaining, load.bytes, static_cast<std::int32_t>(states.size())});
+  std::sort(states.begin(), states.end(), [](const SubdomainState& a, const SubdomainState& b) { return a.id < b.id; });
+  return states;
 }
 
 /// The news of a rank, `number` counting them from 1. What is worked on now cannot be given away.

@@ -31,7 +31,7 @@ Controller::Controller(Rank self, std::shared_ptr<const Layout> layout, std::sha
       break;
     case Placement::kCollective:
       if (!council) throw Error("the ranks are to plan together, and have no council to do it in");
-      conduct_.emplace<CollectiveConduct>(self, std::move(layout), std::move(policy), options, *council, now);
+      conduct_.emplace<CollectiveConduct>(self, std::move(layout), options, *council, now);
       break;
   }
 }
@@ -52,8 +52,12 @@ void Controller::arrived(SubdomainId id, protocol::Epoch epoch, double now) {
 bool Controller::due(double now) const {
   if (conduct_.index() == 0) return false;
   const auto* const requests = std::get_if<RequestConduct>(&conduct_);
+  return now >= next_look_ || (requests && requests->expects_work()) || pressing();
+}
+
+bool Controller::pressing() const {
   const auto* const collective = std::get_if<CollectiveConduct>(&conduct_);
-  return now >= next_look_ || (requests && requests->expects_work()) || (collective && collective->pressing());
+  return collective && collective->pressing();
 }
 
 Decision Controller::think(double now, std::span<const protocol::SubdomainLoad> own, double speed) {

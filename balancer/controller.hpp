@@ -42,6 +42,9 @@ class Controller {
   /// Whether think() has something to do; costs next to nothing.
   [[nodiscard]] bool due(double now) const;
 
+  /// All others may be waiting for this rank: it should think() before it works on.
+  [[nodiscard]] bool pressing() const;
+
   /// `own`: the subdomains here that are not finished, in the order in which they will be worked on as far as it is
   /// known. `speed`: triangles a second, 0 while it is not known.
   [[nodiscard]] Decision think(double now, std::span<const protocol::SubdomainLoad> own, double speed);

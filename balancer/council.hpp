@@ -24,7 +24,7 @@ class Council {
   Council(const Council&) = delete;
   Council& operator=(const Council&) = delete;
 
-  /// A rank is ready for a round, and has this to do at the moment.
+  /// A rank is ready for a round, and has this to do at the moment; told again, what it has to do has changed.
   virtual void announce(std::uint32_t round, const Contribution& contribution) = 0;
 
   /// Called by each rank once in a round, when all have announced themselves. May wait for all of them to call it.
@@ -37,7 +37,7 @@ class Council {
   [[nodiscard]] static Decision decision_of(const Contribution& contribution, std::vector<Move> moves,
                                             const JointPlan& plan) {
     if (!plan.worth) moves.clear();
-    return {std::move(moves), plan.states, plan.coming[static_cast<std::size_t>(contribution.rank)], plan.worth};
+    return {std::move(moves), plan.states, plan.coming[index(contribution.rank)], plan.worth};
   }
 };
 

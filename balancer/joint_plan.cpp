@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "balancer/remap_parts.hpp"
@@ -11,10 +10,6 @@
 
 namespace driftmesh::balancer {
 namespace {
-
-std::size_t index(Rank rank) {
-  return static_cast<std::size_t>(rank);
-}
 
 /// Whether a subdomain may leave: one message can carry it, it has not come just now, and to pack it takes less than to
 /// finish it.

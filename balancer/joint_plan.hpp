@@ -14,6 +14,8 @@
 /// From what all have told, which is the same everywhere, each draws the same conclusions. What is told is as much as
 /// there are pairs of a rank and a part that share subdomains, far less than there are subdomains.
 ///
+/// What goes from one rank to another waits for its way once, and not once a subdomain as a leader reckons.
+///
 /// The steps are pure functions; how what is told reaches everybody is the matter of a Council.
 namespace driftmesh::balancer {
 
@@ -22,7 +24,7 @@ struct Contribution {
   Rank rank = 0;
   RankState state;                   ///< its speed; its work, also what is still on its way to it
   std::vector<SubdomainState> own;   ///< that are here and not finished, in ascending order of their numbers
-  std::vector<SubdomainId> settled;  ///< of these, ascending: they have come lately, and stay
+  std::vector<SubdomainId> settled;  ///< ascending: what has come lately, and stays
 };
 
 /// The same for a policy: what a rank owns, and the states of all.

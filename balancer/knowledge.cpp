@@ -6,10 +6,6 @@
 namespace driftmesh::balancer {
 namespace {
 
-std::size_t index(Rank rank) {
-  return static_cast<std::size_t>(rank);
-}
-
 // What is left of work in a row when `done` of it is done.
 double left_of(double work, double& done) {
   const double taken = std::min(work, done);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -13,6 +14,11 @@ namespace driftmesh::balancer {
 
 using protocol::Rank;
 using protocol::SubdomainId;
+
+/// The place of a rank in a list of all ranks.
+[[nodiscard]] inline std::size_t index(Rank rank) {
+  return static_cast<std::size_t>(rank);
+}
 
 /// A subdomain that another one shares a border with.
 struct Neighbour {

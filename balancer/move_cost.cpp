@@ -9,10 +9,6 @@
 namespace driftmesh::balancer {
 namespace {
 
-std::size_t index(Rank rank) {
-  return static_cast<std::size_t>(rank);
-}
-
 /// A move, and what it does to the two ranks' finishing times.
 struct Candidate {
   Move move;
@@ -129,7 +125,7 @@ std::vector<double> finishing_times(const LoadSnapshot& snapshot, std::span<cons
 std::vector<Move> needed_moves(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost,
                                Rank giver, double spare) {
   Selection selection(snapshot, cost);
-  selection.consider(those_that_fit(snapshot, moves));
+  selection.consider(moves);
   selection.drop_needless(selection.times()[index(giver)] + spare);
   return selection.kept();
 }

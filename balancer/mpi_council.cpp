@@ -24,10 +24,10 @@ std::vector<T> MpiCouncil::from_all(const std::vector<T>& own) {
 }
 
 Council::Decision MpiCouncil::decide(std::uint32_t, const Contribution& contribution) {
-  const Dealing dealing = policy_->dealing();
   const std::vector<RankState> states = from_all<RankState>({contribution.state});
-  const std::vector<Rank> parts =
-      policy_->parts(own_snapshot(contribution, layout_, states), transport_.communicator());
+  const LoadSnapshot own = own_snapshot(contribution, layout_, states);
+  const Dealing dealing = policy_->dealing(own);
+  const std::vector<Rank> parts = policy_->parts(own, transport_.communicator());
   const std::vector<Bundle> bundles = from_all(bundles_of(contribution, parts, options_.cost));
   const DealtParts dealt = deal_parts(states, bundles, dealing.tolerance);
   const DealtOffers offers =

@@ -13,7 +13,7 @@ namespace driftmesh::balancer {
 /// transport.
 class MpiCouncil final : public Council {
  public:
-  /// All ranks make it together. `transport` must outlive it.
+  /// `transport` must outlive it.
   MpiCouncil(protocol::MpiTransport& transport, std::shared_ptr<const Layout> layout,
              std::shared_ptr<const Policy> policy, const ControllerOptions& options);
 

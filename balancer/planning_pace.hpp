@@ -28,7 +28,7 @@ class PlanningPace {
     pause_ = moves ? gap_ : std::min(2 * pause_, interval_);
     next_ = now + pause_;
   }
-  /// What was done last took that long.
+  /// What was done last took that long, waiting for others included: it is time lost to all.
   void took(double seconds) {
     next_ = std::max(next_, looked_ + seconds / overhead_);
     if (planned_) cost_ = seconds;

@@ -12,6 +12,10 @@ std::vector<Rank> Policy::parts(const LoadSnapshot& own, std::optional<int>) con
   return owners;
 }
 
+Dealing Policy::dealing(const LoadSnapshot&) const {
+  return {};
+}
+
 bool Policy::runs_low(double) const {
   return false;
 }

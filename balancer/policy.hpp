@@ -23,7 +23,7 @@ struct Dealing {
 };
 
 /// Decides who should work on what. Its functions depend on their arguments alone: the same snapshot yields the same
-/// moves. They need not look at the cost of moving, nor at whether it is worth while: worth_moving does.
+/// moves. They need not look at the cost of moving, nor at whether it is worth while: those who call them do.
 class Policy {
  public:
   virtual ~Policy() = default;
@@ -41,8 +41,8 @@ class Policy {
   /// communicator, all ranks of which call this at the same time and may wait for each other in it. Without one, this
   /// is the only call, and all subdomains are listed.
   [[nodiscard]] virtual std::vector<Rank> parts(const LoadSnapshot& own, std::optional<int> communicator) const;
-  /// kCollective: what is done with the parts.
-  [[nodiscard]] virtual Dealing dealing() const { return {}; }
+  /// kCollective: what is done with the parts. Of `own` it may look at the states alone, so that all ranks do the same.
+  [[nodiscard]] virtual Dealing dealing(const LoadSnapshot& own) const;
 
   /// kRequests: whether a rank with so many seconds of work left should ask for more.
   [[nodiscard]] virtual bool runs_low(double seconds) const;

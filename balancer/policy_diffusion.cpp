@@ -9,10 +9,6 @@
 namespace driftmesh::balancer {
 namespace {
 
-std::size_t index(Rank rank) {
-  return static_cast<std::size_t>(rank);
-}
-
 // Who owns a subdomain, as far as the snapshot tells; else who did at the start.
 Rank owner_of(const LoadSnapshot& snapshot, SubdomainId id) {
   const SubdomainState* const known = find(snapshot, id);

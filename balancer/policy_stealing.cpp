@@ -7,10 +7,6 @@
 namespace driftmesh::balancer {
 namespace {
 
-std::size_t index(Rank rank) {
-  return static_cast<std::size_t>(rank);
-}
-
 /// A rank whose work will be done within `low_water` seconds asks for more. It gets it from the rank that will finish
 /// last, which gives of what it has as long as the asking rank would finish that earlier than the giver would. (Work
 /// stealing as in PREMA's load balancing library, Barker et al. 2004, weighed with speeds.)

@@ -18,7 +18,10 @@ class ZoltanPolicy final : public Policy {
       : parameters_(std::move(parameters)), placement_(placement), touch_up_(touch_up), dealing_(dealing) {}
 
   [[nodiscard]] Placement placement() const override { return placement_; }
-  [[nodiscard]] Dealing dealing() const override { return dealing_; }
+  // A touch-up is nothing but dealing.
+  [[nodiscard]] Dealing dealing(const LoadSnapshot& own) const override {
+    return {dealing_.polish || wants_touch_up_alone(own), dealing_.tolerance};
+  }
 
   [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override {
     if (snapshot.subdomains.empty() || snapshot.ranks.size() < 2) return {};

@@ -18,7 +18,7 @@ RankNews::RankNews(const Layout& layout, double now) : ranks_(static_cast<std::s
 }
 
 bool RankNews::hear(Rank rank, const protocol::LoadNews& news, double now) {
-  Heard& heard = ranks_[static_cast<std::size_t>(rank)];
+  Heard& heard = ranks_[index(rank)];
   if (news.round <= heard.news.round) return false;
   const double believed = std::max(0.0, heard.news.remaining - heard.news.speed * std::max(0.0, now - heard.at));
   heard = {news, now};
@@ -29,8 +29,8 @@ void RankNews::expect(Rank from, Rank to, double work, double now) {
   const std::vector<RankState> current = states(now);
   // What it will get, a rank cannot give yet.
   const auto change = [&](Rank rank, double amount) {
-    Heard& heard = ranks_[static_cast<std::size_t>(rank)];
-    heard.news.remaining = std::max(0.0, current[static_cast<std::size_t>(rank)].remaining + amount);
+    Heard& heard = ranks_[index(rank)];
+    heard.news.remaining = std::max(0.0, current[index(rank)].remaining + amount);
     heard.news.spare = std::clamp(heard.news.spare + std::min(0.0, amount), 0.0, heard.news.remaining);
     heard.at = now;
   };

@@ -10,10 +10,6 @@ namespace {
 constexpr Rank kBroker = 0;
 constexpr std::uint32_t kMostRivals = 15;
 
-std::size_t index(Rank rank) {
-  return static_cast<std::size_t>(rank);
-}
-
 double seconds_of(double work, double speed) {
   return work <= 0 ? 0 : speed > 0 ? work / speed : HUGE_VAL;
 }
@@ -114,11 +110,7 @@ std::vector<Move> RequestConduct::gifts(const protocol::WorkRequest& request, co
   const double sharers = 1 + std::min(request.rivals, kMostRivals);
   snapshot.ranks[index(request.thief)] = {request.speed > 0 ? request.speed : speed, request.remaining};
   snapshot.ranks[index(self_)] = {sharers * speed, total_work(own)};
-  for (std::size_t i = 0; i < own.size(); ++i)
-    snapshot.subdomains.push_back(
-        {own[i].subdomain, self_, own[i].remaining, own[i].bytes, static_cast<std::int32_t>(i)});
-  std::sort(snapshot.subdomains.begin(), snapshot.subdomains.end(),
-            [](const SubdomainState& a, const SubdomainState& b) { return a.id < b.id; });
+  snapshot.subdomains = states_of(self_, own);
   const std::vector<Move> moves = policy_->give(snapshot, self_, request.thief);
   snapshot.ranks[index(self_)].speed = speed;
   return worth_moving(snapshot, moves, options_.cost, options_.worth);

@@ -16,8 +16,13 @@ SimulatedCouncil::SimulatedCouncil(std::shared_ptr<const Layout> layout, std::sh
 void SimulatedCouncil::announce(std::uint32_t round, const Contribution& contribution) {
   last_ = std::max(last_, round);
   Round& at = rounds_[round];
-  Contribution& added = at.contributions[contribution.rank] = contribution;
-  std::erase_if(added.own, [&](const SubdomainState& s) { return !at.listed.insert(s.id).second; });
+  if (at.decided) return;
+  Contribution& own = at.contributions[contribution.rank];
+  for (const SubdomainState& s : own.own) at.listed.erase(s.id);
+  own = contribution;
+  std::erase_if(own.own, [&](const SubdomainState& s) { return !at.listed.insert(s.id).second; });
+  // Who has announced itself here decides in no earlier round any more.
+  if (at.contributions.size() == index(layout_->ranks)) rounds_.erase(rounds_.begin(), rounds_.find(round));
 }
 
 Council::Decision SimulatedCouncil::decide(std::uint32_t round, const Contribution& contribution) {
@@ -57,21 +62,21 @@ void SimulatedCouncil::conclude_round(Round& round) const {
   if (round.contributions.size() != static_cast<std::size_t>(layout_->ranks))
     throw Error("a rank decides before all have announced themselves");
   const MoveCost& cost = options_.cost;
-  const Dealing dealing = policy_->dealing();
   std::vector<RankState> states;
   for (const auto& [rank, contribution] : round.contributions) states.push_back(contribution.state);
+  const Dealing dealing = policy_->dealing({layout_, {}, states});
   const auto parts = parts_of(round, states);
 
   std::vector<Bundle> bundles;
   for (const auto& [rank, contribution] : round.contributions) {
-    const auto own = bundles_of(contribution, parts[static_cast<std::size_t>(rank)], cost);
+    const auto own = bundles_of(contribution, parts[index(rank)], cost);
     bundles.insert(bundles.end(), own.begin(), own.end());
   }
   const DealtParts dealt = deal_parts(states, bundles, dealing.tolerance);
 
   std::vector<Offer> offered;
   for (const auto& [rank, contribution] : round.contributions) {
-    const auto own = offers_of(contribution, parts[static_cast<std::size_t>(rank)], dealt, cost, dealing);
+    const auto own = offers_of(contribution, parts[index(rank)], dealt, cost, dealing);
     offered.insert(offered.end(), own.begin(), own.end());
   }
   const DealtOffers offers = deal_offers(states, bundles, offered, dealt, dealing, cost);
@@ -79,14 +84,14 @@ void SimulatedCouncil::conclude_round(Round& round) const {
   std::vector<std::vector<Move>> moves;
   std::vector<Transfer> transfers;
   for (const auto& [rank, contribution] : round.contributions) {
-    const auto r = static_cast<std::size_t>(rank);
+    const auto r = index(rank);
     moves.push_back(moves_of(contribution, parts[r], states, dealt, offers, cost, options_.worth));
     const auto own = transfers_of(contribution, moves.back());
     transfers.insert(transfers.end(), own.begin(), own.end());
   }
   const JointPlan plan = weigh(states, transfers, cost, options_.worth);
   for (const auto& [rank, contribution] : round.contributions)
-    round.decisions[rank] = decision_of(contribution, std::move(moves[static_cast<std::size_t>(rank)]), plan);
+    round.decisions[rank] = decision_of(contribution, std::move(moves[index(rank)]), plan);
 }
 
 std::unique_ptr<SimulatedCouncil> make_simulated_council(std::shared_ptr<const Layout> layout,

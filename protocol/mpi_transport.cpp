@@ -163,6 +163,7 @@ class MpiTransport::Impl {
         begin.push_back(narrow<int>(total, "bytes of all reports"));
         total += static_cast<std::size_t>(size);
       }
+      static_cast<void>(narrow<int>(total, "bytes of all reports"));
       bytes.resize(total);
     }
     [[nodiscard]] std::vector<Bytes> divided() const {

@@ -37,8 +37,8 @@ class MpiSession {
 };
 
 /// Messages between the ranks of an MPI communicator. It works on a duplicate of its own, so that it can neither take
-/// messages of another library nor lose its own to one. No call waits for another rank, but for construction and
-/// close(), which all ranks of the communicator make together.
+/// messages of another library nor lose its own to one. No call waits for another rank but those that all ranks of the
+/// communicator make together: construction, broadcast, gather, all_gather and close.
 class MpiTransport final : public Transport {
  public:
   explicit MpiTransport(int communicator);

@@ -201,8 +201,8 @@ class ParallelMesh {
       drag(share, slice.seconds);
     };
     notes_.timed("refine", [&] {
-      const auto council = balancer::make_mpi_council(transport_, plan_.layout, plan_.policy, plan_.balancing.options);
-      loop_.emplace(transport_, plan_, CostModel{}, observers, council.get());
+      council_ = balancer::make_mpi_council(transport_, plan_.layout, plan_.policy, plan_.balancing.options);
+      loop_.emplace(transport_, plan_, CostModel{}, observers, council_.get());
       protocol::run_rank(transport_, [&] { return loop_->step(); });
     });
   }
@@ -260,6 +260,7 @@ class ParallelMesh {
   Limits limits_;
   RunPlan plan_;
   Pslg pslg_;
+  std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
   std::optional<RankLoop> loop_;
 };
 

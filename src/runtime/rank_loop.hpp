@@ -27,7 +27,7 @@
 namespace driftmesh {
 
 /// The loop of one rank: poll the transport, dispatch what arrived, refine one subdomain for a slice, send. It runs on
-/// one thread, on real ranks and on simulated ones alike; it waits for nobody and prints nothing.
+/// one thread, on real ranks and on simulated ones alike; it waits for nobody, but in a council, and prints nothing.
 ///
 /// `Rules` are the protocol's; tests put broken ones in.
 template <class Rules>
@@ -98,9 +98,10 @@ class BasicRankLoop {
     charge(&RankTimes::idle);
     const bool heard = poll();
     charge(agenda_.empty() && !heard ? &RankTimes::idle : &RankTimes::polling);
+    const bool came_first = controller_ && controller_->pressing() && balance(worked_);
     const bool worked = work();
     charge(worked ? &RankTimes::computing : &RankTimes::idle);
-    const bool balanced = balance(worked);
+    const bool balanced = balance(worked) || came_first;
     if (Rules::rests(worked)) protocol_.rest(!controller_ || !controller_->waiting());
     const bool sent = send();
     charge(sent || worked ? &RankTimes::sending : &RankTimes::idle);

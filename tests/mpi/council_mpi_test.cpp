@@ -1,8 +1,6 @@
 // Real ranks that plan together: Zoltan on their communicator.
 #include <doctest/doctest.h>
 
-#include <cstdio>
-
 #include "balancer/mpi_council.hpp"
 #include "balancer/policy_factory.hpp"
 #include "base/byte_stream.hpp"
@@ -46,12 +44,6 @@ std::vector<Council::Decision> hold_round(protocol::MpiTransport& transport, con
   for (const Bytes& bytes : transport.all_gather(to_bytes(council.decide(1, own))))
     decisions.push_back(from_bytes(bytes));
   return decisions;
-}
-
-std::vector<Move> all_moves(const std::vector<Council::Decision>& decisions) {
-  std::vector<Move> moves;
-  for (const Council::Decision& d : decisions) moves.insert(moves.end(), d.moves.begin(), d.moves.end());
-  return moves;
 }
 
 Parameters::Values collective(const std::string& method, const std::string& approach, const char* touch_up = "0.1") {

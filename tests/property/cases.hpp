@@ -26,4 +26,11 @@ namespace driftmesh::testing {
   return std::mt19937_64(seed);
 }
 
+/// Whether to try one more case after `tried`: as many as case_count says, and up to ten times as many while what the
+/// test must have seen has not come up.
+[[nodiscard]] inline bool more_cases(std::int64_t tried, std::int64_t standard, bool seen_all) {
+  const std::int64_t count = case_count(standard);
+  return tried < count || (!seen_all && tried < 10 * count);
+}
+
 }  // namespace driftmesh::testing

@@ -22,6 +22,13 @@ inline std::vector<balancer::Contribution> contributions_of(const LoadSnapshot& 
   return all;
 }
 
+/// Of all ranks.
+inline std::vector<balancer::Move> all_moves(const std::vector<balancer::Council::Decision>& decisions) {
+  std::vector<balancer::Move> moves;
+  for (const auto& d : decisions) moves.insert(moves.end(), d.moves.begin(), d.moves.end());
+  return moves;
+}
+
 /// What is wrong with the decisions of one round, or nothing: each rank moves what it owns and what has not come just
 /// now, each subdomain once and to another rank; all ranks believe the same; and what they believe of the future is
 /// what the moves lead to.

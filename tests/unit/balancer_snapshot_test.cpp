@@ -126,7 +126,6 @@ TEST_CASE("what one message cannot carry stays, however much there is to gain") 
   CHECK(worth_moving(s, plan, {}) == plan);
   s.subdomains[0].bytes = protocol::kMostPackedBytes + 1;
   CHECK(worth_moving(s, plan, {}) == std::vector<Move>{{1, 1}});
-  CHECK(needed_moves(s, plan, {}, 0, 0) == std::vector<Move>{{1, 1}});
 }
 
 TEST_CASE("a rank keeps what it can in its spare time, and first what is dear to move") {

@@ -51,7 +51,7 @@ struct Bench {
   std::shared_ptr<const Layout> layout = std::make_shared<const Layout>(grid_layout(12, 1, 3));
   std::shared_ptr<const Policy> policy = make_policy("zoltan", {{"placement", "collective"}});
 
-  CollectiveConduct rank(Rank self) { return {self, layout, policy, ControllerOptions{}, council, 0}; }
+  CollectiveConduct rank(Rank self) { return {self, layout, ControllerOptions{}, council, 0}; }
   /// Rank 0 after everybody has reported: rank 2 has much, the others little.
   CollectiveConduct leader_that_knows() {
     CollectiveConduct leader = rank(0);
@@ -117,14 +117,19 @@ TEST_CASE("a rank answers a call once, goes on, and hands over what was decided 
   CHECK(answer[0] == std::pair<Rank, JointRound>{0, {1, Stage::kReady}});
   rank.receive(0, JointRound{1, Stage::kCall}, 1);
   CHECK(sent<JointRound>(rank.think({1.01, loads_of(8, 11, 990), 300})).empty());
-  CHECK(bench.council.announced.size() == 1);
+  REQUIRE(bench.council.announced.size() == 2);
+  CHECK(bench.council.announced[1].state.remaining == 4 * 990);
 
   rank.receive(0, JointRound{1, Stage::kStart}, 1.02);
   CHECK(rank.pressing());
   bench.council.next.moves = {{8, 0}, {9, 1}};
   const Decision decided = rank.think({1.02, loads_of(9, 11, 980), 300});  // 8 is finished
   CHECK(decided.moves == std::vector<Move>{{9, 1}});
+  CHECK(sent<LoadNews>(decided).empty());  // what leaves is still in the list
   CHECK(!rank.waiting());
+  const auto news = sent<LoadNews>(rank.think({1.05, loads_of(10, 11, 970), 300}));
+  REQUIRE(news.size() == 1);
+  CHECK(news[0].second.remaining == 2 * 970);
   rank.receive(0, JointRound{1, Stage::kStart}, 1.03);
   CHECK(!rank.pressing());
 }
@@ -145,9 +150,26 @@ TEST_CASE("what has just come stays, and what is coming is brought as work") {
   static_cast<void>(round(2, 1.1));
   CHECK(bench.council.brought[1].state.remaining == 200 + 500);
   CHECK(bench.council.brought[1].settled == std::vector<SubdomainId>{5});
-  static_cast<void>(round(3, 4.5));
-  CHECK(bench.council.brought[2].state.remaining == 200);
-  CHECK(bench.council.brought[2].settled.empty());
+  static_cast<void>(round(3, 1.2));  // the one before has promised nothing, and takes nothing back
+  CHECK(bench.council.brought[2].state.remaining == 200 + 500);
+  static_cast<void>(round(4, 4.5));
+  CHECK(bench.council.brought[3].state.remaining == 200);
+  CHECK(bench.council.brought[3].settled.empty());
+}
+
+TEST_CASE("what comes before the decision that promises it is not waited for") {
+  Bench bench;
+  CollectiveConduct rank = bench.rank(1);
+  rank.receive(0, JointRound{1, Stage::kCall}, 1);
+  static_cast<void>(rank.think({1, {}, 300}));
+  rank.receive(0, JointRound{1, Stage::kStart}, 1);
+  rank.arrived(8, 1.1);
+  rank.arrived(9, 1.1);
+  bench.council.next.coming = {2000, 2};
+  static_cast<void>(rank.think({1.1, loads_of(8, 9, 1000), 300}));
+  const auto news = sent<LoadNews>(rank.think({1.2, loads_of(8, 9, 1000), 300}));
+  REQUIRE(news.size() == 1);
+  CHECK(news[0].second.remaining == 2000);
 }
 
 TEST_CASE("work that was promised and never came is not waited for without end") {
