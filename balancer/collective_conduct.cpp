@@ -7,7 +7,6 @@ namespace driftmesh::balancer {
 namespace {
 
 constexpr Rank kLeader = 0;
-constexpr double kPatience = 3;  // intervals that promised work is waited for
 
 }  // namespace
 
@@ -117,15 +116,12 @@ void CollectiveConduct::start(Decision& decision) {
 }
 
 void CollectiveConduct::decide(const Situation& situation, Decision& decision) {
-  const Council::Decision decided = council_.decide(round_, contribution(situation));
+  const Contribution own = contribution(situation);
+  const Council::Decision decided = council_.decide(round_, own);
   stage_ = Stage::kApart;
   decision.planned = true;
-  const auto is_here = [&](const Move& move) {
-    return std::any_of(situation.own.begin(), situation.own.end(),
-                       [&](const auto& load) { return load.subdomain == move.subdomain; });
-  };
   for (const Move& move : decided.moves)
-    if (is_here(move)) decision.moves.push_back(move);
+    if (std::ranges::binary_search(own.own, move.subdomain, {}, &SubdomainState::id)) decision.moves.push_back(move);
   if (decided.coming.count > 0) promises_.push_back({decided.coming, situation.now});
   for (; early_ > 0 && !promises_.empty(); --early_) keep_promise();
   early_ = 0;
@@ -163,7 +159,7 @@ Contribution CollectiveConduct::contribution(const Situation& situation) const {
 // What a giver could not hand over after all is not waited for without end.
 void CollectiveConduct::forget_old(double now) {
   std::erase_if(came_, [&](const auto& entry) { return now - entry.second > options_.interval; });
-  while (!promises_.empty() && now > promises_.front().when + kPatience * options_.interval) promises_.pop_front();
+  while (!promises_.empty() && now > promises_.front().when + options_.patience()) promises_.pop_front();
 }
 
 }  // namespace driftmesh::balancer

@@ -19,6 +19,9 @@ struct ControllerOptions {
   double overhead = 0.01;  ///< share of the time that planning may take
   MoveCost cost;
   Worth worth;
+
+  /// Seconds that a move which was planned is waited for.
+  [[nodiscard]] double patience() const { return 3 * interval; }
 };
 
 /// What a rank does for balance at one moment.
@@ -47,7 +50,7 @@ struct Situation {
   std::vector<SubdomainState> states;
   for (const protocol::SubdomainLoad& load : own)
     states.push_back({load.subdomain, owner, load.remaining, load.bytes, static_cast<std::int32_t>(states.size())});
-  std::sort(states.begin(), states.end(), [](const SubdomainState& a, const SubdomainState& b) { return a.id < b.id; });
+  std::ranges::sort(states, {}, &SubdomainState::id);
   return states;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "balancer/joint_plan.hpp"
@@ -32,13 +31,6 @@ class Council {
 
  protected:
   Council() = default;
-
-  /// What a plan of all means for one rank, which wants to make these moves.
-  [[nodiscard]] static Decision decision_of(const Contribution& contribution, std::vector<Move> moves,
-                                            const JointPlan& plan) {
-    if (!plan.worth) moves.clear();
-    return {std::move(moves), plan.states, plan.coming[index(contribution.rank)], plan.worth};
-  }
 };
 
 }  // namespace driftmesh::balancer

@@ -91,8 +91,7 @@ LoadSnapshot Knowledge::snapshot(double now, bool with_silent) const {
       if (!ranks_[index(s.owner)].any && !planned_.contains(id) && !claims_.contains(id))
         snapshot.subdomains.push_back({id, s.owner, s.predicted, 0, id});
     }
-  std::sort(snapshot.subdomains.begin(), snapshot.subdomains.end(),
-            [](const SubdomainState& a, const SubdomainState& b) { return a.id < b.id; });
+  std::ranges::sort(snapshot.subdomains, {}, &SubdomainState::id);
   sum_up(snapshot);
   if (!with_silent)
     for (std::size_t r = 0; r < ranks_.size(); ++r)

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "balancer/plan_jointly.hpp"
 #include "base/byte_stream.hpp"
 
 namespace driftmesh::balancer {
@@ -27,15 +28,10 @@ Council::Decision MpiCouncil::decide(std::uint32_t, const Contribution& contribu
   const std::vector<RankState> states = from_all<RankState>({contribution.state});
   const LoadSnapshot own = own_snapshot(contribution, layout_, states);
   const Dealing dealing = policy_->dealing(own);
-  const std::vector<Rank> parts = policy_->parts(own, transport_.communicator());
-  const std::vector<Bundle> bundles = from_all(bundles_of(contribution, parts, options_.cost));
-  const DealtParts dealt = deal_parts(states, bundles, dealing.tolerance);
-  const DealtOffers offers =
-      deal_offers(states, bundles, from_all(offers_of(contribution, parts, dealt, options_.cost, dealing)), dealt,
-                  dealing, options_.cost);
-  std::vector<Move> moves = moves_of(contribution, parts, states, dealt, offers, options_.cost, options_.worth);
-  const JointPlan plan = weigh(states, from_all(transfers_of(contribution, moves)), options_.cost, options_.worth);
-  return decision_of(contribution, std::move(moves), plan);
+  const std::vector<std::vector<Rank>> parts{policy_->parts(own, transport_.communicator())};
+  return plan_jointly({&contribution, 1}, parts, states, dealing, options_,
+                      [this](const auto& told) { return from_all(told); })
+      .front();
 }
 
 std::unique_ptr<Council> make_mpi_council(protocol::MpiTransport& transport, std::shared_ptr<const Layout> layout,

@@ -36,7 +36,7 @@ PlanningConduct::PlanningConduct(Rank self, std::shared_ptr<const Layout> layout
       start_(now),
       pace_(options, now) {
   if (policy_->placement() == Placement::kNeighbours || self == kLeader)
-    knowledge_.emplace(layout_, 3 * options.interval);
+    knowledge_.emplace(layout_, options.patience());
 }
 
 void PlanningConduct::receive(Rank source, protocol::Message advice, double now) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "balancer/plan_jointly.hpp"
 #include "base/error.hpp"
 
 namespace driftmesh::balancer {
@@ -41,57 +42,35 @@ bool SimulatedCouncil::in_session() const {
 }
 
 // Parts are made for all at once, and given to each rank for what it listed.
-std::vector<std::vector<Rank>> SimulatedCouncil::parts_of(const Round& round,
+std::vector<std::vector<Rank>> SimulatedCouncil::parts_of(const std::vector<Contribution>& contributions,
                                                           const std::vector<RankState>& states) const {
   LoadSnapshot all{layout_, {}, states};
-  for (const auto& [rank, contribution] : round.contributions)
-    all.subdomains.insert(all.subdomains.end(), contribution.own.begin(), contribution.own.end());
-  std::sort(all.subdomains.begin(), all.subdomains.end(),
-            [](const SubdomainState& a, const SubdomainState& b) { return a.id < b.id; });
+  for (const Contribution& c : contributions) all.subdomains.insert(all.subdomains.end(), c.own.begin(), c.own.end());
+  std::ranges::sort(all.subdomains, {}, &SubdomainState::id);
   const std::vector<Rank> parts = policy_->parts(all, std::nullopt);
   std::vector<std::vector<Rank>> of_rank;
-  for (const auto& [rank, contribution] : round.contributions) {
+  for (const Contribution& c : contributions) {
     std::vector<Rank>& own = of_rank.emplace_back();
-    for (const SubdomainState& s : contribution.own)
+    for (const SubdomainState& s : c.own)
       own.push_back(parts[static_cast<std::size_t>(find(all, s.id) - all.subdomains.data())]);
   }
   return of_rank;
 }
 
 void SimulatedCouncil::conclude_round(Round& round) const {
-  if (round.contributions.size() != static_cast<std::size_t>(layout_->ranks))
+  if (round.contributions.size() != index(layout_->ranks))
     throw Error("a rank decides before all have announced themselves");
-  const MoveCost& cost = options_.cost;
+  std::vector<Contribution> contributions;
   std::vector<RankState> states;
-  for (const auto& [rank, contribution] : round.contributions) states.push_back(contribution.state);
-  const Dealing dealing = policy_->dealing({layout_, {}, states});
-  const auto parts = parts_of(round, states);
-
-  std::vector<Bundle> bundles;
   for (const auto& [rank, contribution] : round.contributions) {
-    const auto own = bundles_of(contribution, parts[index(rank)], cost);
-    bundles.insert(bundles.end(), own.begin(), own.end());
+    contributions.push_back(contribution);
+    states.push_back(contribution.state);
   }
-  const DealtParts dealt = deal_parts(states, bundles, dealing.tolerance);
-
-  std::vector<Offer> offered;
-  for (const auto& [rank, contribution] : round.contributions) {
-    const auto own = offers_of(contribution, parts[index(rank)], dealt, cost, dealing);
-    offered.insert(offered.end(), own.begin(), own.end());
-  }
-  const DealtOffers offers = deal_offers(states, bundles, offered, dealt, dealing, cost);
-
-  std::vector<std::vector<Move>> moves;
-  std::vector<Transfer> transfers;
-  for (const auto& [rank, contribution] : round.contributions) {
-    const auto r = index(rank);
-    moves.push_back(moves_of(contribution, parts[r], states, dealt, offers, cost, options_.worth));
-    const auto own = transfers_of(contribution, moves.back());
-    transfers.insert(transfers.end(), own.begin(), own.end());
-  }
-  const JointPlan plan = weigh(states, transfers, cost, options_.worth);
-  for (const auto& [rank, contribution] : round.contributions)
-    round.decisions[rank] = decision_of(contribution, std::move(moves[index(rank)]), plan);
+  // All ranks are here: what they tell is what all have told.
+  auto decisions =
+      plan_jointly(contributions, parts_of(contributions, states), states, policy_->dealing({layout_, {}, states}),
+                   options_, [](const auto& told) { return told; });
+  for (const Contribution& c : contributions) round.decisions[c.rank] = std::move(decisions[index(c.rank)]);
 }
 
 std::unique_ptr<SimulatedCouncil> make_simulated_council(std::shared_ptr<const Layout> layout,

@@ -51,6 +51,13 @@ struct Bench {
   std::shared_ptr<const Layout> layout = std::make_shared<const Layout>(grid_layout(12, 1, 3));
   std::shared_ptr<const Policy> policy = make_policy("zoltan", {{"placement", "collective"}});
 
+  /// A round is called and started for a rank that has this to do; it decides when it thinks next.
+  static void begin_round(CollectiveConduct& rank, std::uint32_t number, double now,
+                          const std::vector<SubdomainLoad>& loads) {
+    rank.receive(0, JointRound{number, Stage::kCall}, now);
+    static_cast<void>(rank.think({now, loads, 300}));
+    rank.receive(0, JointRound{number, Stage::kStart}, now);
+  }
   CollectiveConduct rank(Rank self) { return {self, layout, ControllerOptions{}, council, 0}; }
   /// Rank 0 after everybody has reported: rank 2 has much, the others little.
   CollectiveConduct leader_that_knows() {
@@ -138,9 +145,7 @@ TEST_CASE("what has just come stays, and what is coming is brought as work") {
   Bench bench;
   CollectiveConduct rank = bench.rank(1);
   const auto round = [&](std::uint32_t number, double now) {
-    rank.receive(0, JointRound{number, Stage::kCall}, now);
-    static_cast<void>(rank.think({now, loads_of(4, 5, 100), 300}));
-    rank.receive(0, JointRound{number, Stage::kStart}, now);
+    Bench::begin_round(rank, number, now, loads_of(4, 5, 100));
     return rank.think({now, loads_of(4, 5, 100), 300});
   };
   bench.council.next.coming = {1000, 2};
@@ -160,9 +165,7 @@ TEST_CASE("what has just come stays, and what is coming is brought as work") {
 TEST_CASE("what comes before the decision that promises it is not waited for") {
   Bench bench;
   CollectiveConduct rank = bench.rank(1);
-  rank.receive(0, JointRound{1, Stage::kCall}, 1);
-  static_cast<void>(rank.think({1, {}, 300}));
-  rank.receive(0, JointRound{1, Stage::kStart}, 1);
+  Bench::begin_round(rank, 1, 1, {});
   rank.arrived(8, 1.1);
   rank.arrived(9, 1.1);
   bench.council.next.coming = {2000, 2};
@@ -175,9 +178,7 @@ TEST_CASE("what comes before the decision that promises it is not waited for") {
 TEST_CASE("work that was promised and never came is not waited for without end") {
   Bench bench;
   CollectiveConduct rank = bench.rank(1);
-  rank.receive(0, JointRound{1, Stage::kCall}, 1);
-  static_cast<void>(rank.think({1, {}, 300}));
-  rank.receive(0, JointRound{1, Stage::kStart}, 1);
+  Bench::begin_round(rank, 1, 1, {});
   bench.council.next.coming = {1000, 2};
   static_cast<void>(rank.think({1, {}, 300}));
   CHECK(sent<LoadNews>(rank.think({3.5, {}, 300})).empty());
