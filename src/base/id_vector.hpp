@@ -1,0 +1,120 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/assert.hpp"
+
+// Numbers of things, and arrays indexed by them. A number is an enumeration of its own where it pays to tell kinds of
+// numbers apart (`enum class Rank : std::int32_t {}`), else a plain integer.
+namespace driftmesh {
+
+template <class Id>
+concept IsId = std::integral<Id> || std::is_enum_v<Id>;
+
+/// The number as a plain integer: for arithmetic, text and bytes.
+template <IsId Id>
+[[nodiscard]] constexpr auto value_of(Id id) {
+  if constexpr (std::is_enum_v<Id>)
+    return static_cast<std::underlying_type_t<Id>>(id);
+  else
+    return id;
+}
+
+/// Where the thing of that number stands in an array. A negative number stands beyond the end of every array.
+template <IsId Id>
+[[nodiscard]] constexpr std::size_t index_of(Id id) {
+  return static_cast<std::size_t>(id);
+}
+
+/// The numbers 0 .. count - 1, to be iterated over.
+template <IsId Id>
+class IdRange {
+ public:
+  class Iterator {
+   public:
+    constexpr explicit Iterator(std::size_t index) : index_(index) {}
+    [[nodiscard]] constexpr Id operator*() const { return static_cast<Id>(index_); }
+    constexpr Iterator& operator++() {
+      ++index_;
+      return *this;
+    }
+    friend constexpr bool operator==(Iterator, Iterator) = default;
+
+   private:
+    std::size_t index_;
+  };
+  constexpr explicit IdRange(std::size_t count) : count_(count) {}
+  [[nodiscard]] constexpr Iterator begin() const { return Iterator(0); }
+  [[nodiscard]] constexpr Iterator end() const { return Iterator(count_); }
+
+ private:
+  std::size_t count_;
+};
+
+/// The numbers of the first `count` things, which is not negative: for (const Rank r : first_ids<Rank>(ranks)).
+template <IsId Id>
+[[nodiscard]] constexpr IdRange<Id> first_ids(std::integral auto count) {
+  return IdRange<Id>(static_cast<std::size_t>(count));
+}
+
+/// A std::vector whose elements are found by numbers of type Id alone.
+template <IsId Id, class T>
+class IdVector : public std::vector<T> {
+  using Base = std::vector<T>;
+
+ public:
+  using Base::Base;
+  IdVector() = default;
+  explicit IdVector(Base values) : Base(std::move(values)) {}
+
+  /// Whether an element has this number.
+  [[nodiscard]] bool has(Id id) const { return index_of(id) < this->size(); }
+  /// The number that the next element will get.
+  [[nodiscard]] Id next_id() const { return static_cast<Id>(this->size()); }
+
+  [[nodiscard]] typename Base::reference operator[](Id id) {
+    DM_ASSERT(has(id));
+    return Base::operator[](index_of(id));
+  }
+  [[nodiscard]] typename Base::const_reference operator[](Id id) const {
+    DM_ASSERT(has(id));
+    return Base::operator[](index_of(id));
+  }
+  [[nodiscard]] typename Base::reference at(Id id) { return Base::at(index_of(id)); }
+  [[nodiscard]] typename Base::const_reference at(Id id) const { return Base::at(index_of(id)); }
+};
+
+/// A std::span in the same way.
+template <IsId Id, class T>
+class IdSpan : public std::span<T> {
+  using Base = std::span<T>;
+  using Vector = IdVector<Id, std::remove_const_t<T>>;
+
+ public:
+  IdSpan() = default;
+  explicit IdSpan(Base values) : Base(values) {}
+  IdSpan(std::conditional_t<std::is_const_v<T>, const Vector, Vector>& values) : Base(values) {}
+
+  [[nodiscard]] bool has(Id id) const { return index_of(id) < this->size(); }
+  [[nodiscard]] T& operator[](Id id) const {
+    DM_ASSERT(has(id));
+    return Base::operator[](index_of(id));
+  }
+};
+
+/// The numbers of all elements.
+template <IsId Id, class T>
+[[nodiscard]] IdRange<Id> ids_of(const IdVector<Id, T>& values) {
+  return IdRange<Id>(values.size());
+}
+template <IsId Id, class T>
+[[nodiscard]] IdRange<Id> ids_of(IdSpan<Id, T> values) {
+  return IdRange<Id>(values.size());
+}
+
+}  // namespace driftmesh
