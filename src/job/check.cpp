@@ -1,0 +1,178 @@
+#include "job/check.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "balancer/policy_factory.hpp"
+#include "base/nearest_name.hpp"
+#include "job/keys.hpp"
+#include "pslg/generators.hpp"
+
+namespace driftmesh::job {
+namespace {
+
+constexpr std::size_t kMaxVtNodes = 32'768;  // vt numbers nodes with 16 bits, one of them for the sign
+
+void require(bool holds, const char* key, const char* what, const char* next) {
+  if (!holds) throw KeyError(key, what, next);
+}
+
+// ---- Each value by itself --------------------------------------------------------------------------------------
+
+void check_value(const Key& key, const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) check_range(key, *number);
+  if (const auto* number = std::get_if<std::int64_t>(&value)) check_range(key, static_cast<double>(*number));
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+    for (const double number : *numbers) check_range(key, number);
+  if (key.kind == KeyInfo::Kind::kChoice) static_cast<void>(read_value(key, value.as<std::string>()));
+}
+
+// ---- Where it applies ------------------------------------------------------------------------------------------
+
+[[noreturn]] void refuse_at(const Key& key, Place place) {
+  if (key.places == kOnePiece)
+    throw KeyError(key.name,
+                   "is for a mesh in one piece: what subdomains hold when one of them stops does not fit together",
+                   "remove it");
+  if (key.places == kSimulated)
+    throw KeyError(key.name, "is for simulated clusters; real ranks are as they are", "remove it, or simulate");
+  if ((key.places & kSubdomains) == 0)
+    throw KeyError(key.name, "is for many ranks, and this process is alone", "start it with mpirun, or remove it");
+  throw KeyError(
+      key.name,
+      place == kOnePiece ? "is for a mesh in subdomains, and this one is made in one piece" : "has no meaning here",
+      "cut the domain with --subdomains, or remove it");
+}
+
+void check_places(const Request& request, Place place) {
+  for (const Key& key : keys())
+    if ((key.places & place) == 0 && key.load(request) != key.standard) refuse_at(key, place);
+}
+
+// ---- Values together -------------------------------------------------------------------------------------------
+
+void check_input(const Request::Input& input) {
+  require(input.file.empty() || input.generator.empty(), "input.generate", "two domains are given",
+          "remove input.file or input.generate");
+  require(!input.generator.empty() || input.parameters.empty(), "input.parameters", "nothing is generated",
+          "say what with input.generate");
+  if (input.generator.empty()) return;
+  try {
+    static_cast<void>(generate(input.generator, input.parameters));
+  } catch (const Error& error) {
+    throw KeyError("input.generate", error.what(), "see driftmesh generate --help");
+  }
+}
+
+void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
+  require((bounds.area > 0) + (bounds.triangles > 0) + (bounds.triangles_per_rank > 0) <= 1, "bounds.triangles",
+          "the size of triangles is given twice", "keep one of area, triangles and triangles-per-rank");
+  require(sizing.expression.empty() || (bounds.triangles == 0 && bounds.triangles_per_rank == 0), "sizing.size",
+          "a number of triangles and a size field are given", "remove one, or give bounds.area");
+  require(sizing.gradation == 0 || !sizing.background.empty(), "sizing.gradation",
+          "limits the growth of a background mesh's lengths, and there is none", "name one with sizing.background");
+  require(sizing.longest == 0 || sizing.shortest <= sizing.longest, "sizing.min", "is greater than sizing.max",
+          "exchange the two");
+  require(sizing.shortest == 0 || !sizing.expression.empty() || !sizing.background.empty() || sizing.longest > 0,
+          "sizing.min", "bounds the lengths of sizing.size, sizing.background or sizing.max, and none is given",
+          "give one of them");
+}
+
+void check_policy(const Request& request) {
+  try {
+    static_cast<void>(balancer::make_policy(request.balance.policy, parameters_of_policy(request)));
+  } catch (const KeyError&) {
+    throw;
+  } catch (const Error& error) {
+    throw KeyError("balance.parameters", error.what(), "see docs/balancing.md");
+  }
+}
+
+void check_parts(const Request& request) {
+  const Request::Decomposition& d = request.decomposition;
+  require(d.subdomains == 0 || d.subdomains_per_rank == 0, "decomposition.subdomains-per-rank",
+          "the number of subdomains is given twice", "remove one");
+  require(d.file.empty() || (d.subdomains == 0 && d.subdomains_per_rank == 0), "decomposition.file",
+          "a decomposition is given, and how many subdomains to cut", "remove one");
+  require(request.mapping.speeds.empty() || !request.mapping.by_speed, "mapping.by-speed",
+          "the speeds are given, and taken from the cluster", "remove one");
+}
+
+void check_cluster(const Request& request) {
+  const Request::Cluster& c = request.cluster;
+  require(c.groups.empty() || c.speed == 0, "cluster.speed", "each of cluster.groups has its own speed", "remove one");
+  require(c.groups.empty() || c.ranks == 0 || c.ranks == ranks_of(cluster_of(request)), "cluster.ranks",
+          "cluster.groups has another number of ranks", "remove one");
+  require(!c.groups.empty() || c.ranks > 0, "cluster.ranks", "a cluster without ranks",
+          "give their number, or cluster.groups");
+}
+
+}  // namespace
+
+Place place_of(const Request& request, Door door, bool launched) {
+  if (door == kExperiment) return request.cluster.kind == ClusterKind::kSimulated ? kSimulated : kRanks;
+  if (launched) return kRanks;
+  return request.decomposition.subdomains > 0 || !request.decomposition.file.empty() ? kSubdomains : kOnePiece;
+}
+
+void check(const Request& request, Place place) {
+  for (const Key& key : keys()) check_value(key, key.load(request));
+  check_places(request, place);
+  check_input(request.input);
+  check_sizes(request.bounds, request.sizing);
+  check_policy(request);
+  check_parts(request);
+  if (place == kSimulated) {
+    check_cluster(request);
+    check_ranks(request, place, ranks_of(cluster_of(request)));
+  }
+}
+
+void check_ranks(const Request& request, Place place, std::int32_t ranks) {
+  const auto for_each_rank = [&](const std::vector<double>& values, const char* key) {
+    if (!values.empty() && values.size() != static_cast<std::size_t>(ranks))
+      throw KeyError(key,
+                     "has " + std::to_string(values.size()) + (values.size() == 1 ? " value for " : " values for ") +
+                         std::to_string(ranks) + (ranks == 1 ? " rank" : " ranks"),
+                     "give one for each rank");
+  };
+  for_each_rank(request.mapping.speeds, "mapping.speeds");
+  for_each_rank(request.cluster.drag, "cluster.drag");
+  require(request.lb_phases == 0 || static_cast<std::size_t>(ranks) <= kMaxVtNodes, "lb-statistics",
+          "vt's files know no more than 32768 ranks", "remove it, or take fewer ranks");
+  if (place == kSimulated || request.cluster.ranks == 0 || request.cluster.ranks == ranks) return;
+  throw KeyError("cluster.ranks",
+                 ranks == 1 ? "this process is alone, not one of " + std::to_string(request.cluster.ranks)
+                            : "mpirun has started " + std::to_string(ranks) + " processes, not " +
+                                  std::to_string(request.cluster.ranks),
+                 "start it with mpirun -n " + std::to_string(request.cluster.ranks) + ", or remove the key");
+}
+
+std::map<std::string, std::string> parameters_of_policy(const Request& request) {
+  std::map<std::string, std::string> parameters;
+  const std::vector<std::string> policies = balancer::policy_names();
+  for (const auto& [name, value] : request.balance.parameters) {
+    const std::size_t dot = name.find('.');
+    const std::string policy = dot == std::string::npos ? request.balance.policy : name.substr(0, dot);
+    if (std::find(policies.begin(), policies.end(), policy) == policies.end())
+      throw KeyError("balance.parameters", "there is no policy '" + policy + "'",
+                     "the nearest one is '" + nearest_name(policy, policies) + "'");
+    if (policy == request.balance.policy) parameters[dot == std::string::npos ? name : name.substr(dot + 1)] = value;
+  }
+  return parameters;
+}
+
+ClusterSpec cluster_of(const Request& request) {
+  const Request::Cluster& c = request.cluster;
+  ClusterSpec cluster;
+  cluster.groups = c.groups;
+  if (cluster.groups.empty()) cluster.groups = {{"all", c.ranks, c.speed}};
+  cluster.drag = c.drag;
+  cluster.latency = c.latency;
+  cluster.bandwidth = c.bandwidth;
+  cluster.message_overhead = c.message_overhead;
+  return cluster;
+}
+
+}  // namespace driftmesh::job

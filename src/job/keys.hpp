@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "job/key.hpp"
+
+namespace driftmesh::job {
+
+/// All keys, in the order of their sections.
+[[nodiscard]] const std::vector<Key>& keys();
+
+/// A key, or one name in a table of names: "input.parameters.seed".
+struct KeyPath {
+  const Key* key = nullptr;  ///< null: there is none
+  std::string entry;         ///< of a kTable; empty: the table as a whole
+  bool negated = false;      ///< named by an option that begins with "no-"
+};
+
+/// By its full name.
+[[nodiscard]] KeyPath find_key(const std::string& name);
+/// By the long name of its option: "area", "no-region-areas".
+[[nodiscard]] KeyPath find_option(const std::string& option);
+
+/// The name of a key, of a section, or of an option at the door `door` that was probably meant.
+[[nodiscard]] std::string nearest_key(const std::string& name, Doors door);
+
+/// What a text says for a key of one value: kText, kFile, kNumber, kInteger, kFlag or kChoice; and for a kNumbers key a
+/// single one of its numbers, as double. Throws KeyError for what the key may not be.
+[[nodiscard]] Value read_value(const KeyInfo& key, const std::string& text);
+
+/// Throws KeyError for a value out of the range of its key.
+void check_range(const KeyInfo& key, double value);
+
+/// Stores a value of the right kind and range.
+void store(Request& request, const KeyPath& path, const Value& value);
+
+}  // namespace driftmesh::job

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "balancer/conduct.hpp"
+#include "cluster/cluster_spec.hpp"
+#include "mapping/mapping.hpp"
+#include "mesh/mesher.hpp"
+#include "protocol/aggregator.hpp"
+#include "runtime/agenda.hpp"
+#include "runtime/plan_run.hpp"
+#include "runtime/run_plan.hpp"
+
+namespace driftmesh::job {
+
+/// Which ranks make a mesh in subdomains.
+enum class ClusterKind {
+  kSimulated,  ///< ranks in virtual time, all in this process
+  kReal,       ///< the processes that mpirun has started
+};
+
+/// Everything a mesh can be asked for, whoever asks: a command line, a YAML file, or a program that uses the library.
+/// keys.cpp declares each member once: its name, unit, range, default, help, and where it applies. Members are grouped
+/// as the sections of a file are. Nothing here is checked yet (see check.hpp).
+struct Request {
+  struct Input {
+    std::string file;
+    std::string generator;
+    std::map<std::string, std::string> parameters;  ///< of the generator
+  } input;
+
+  struct Bounds {
+    double angle = MeshRequest{}.min_angle;
+    double area = 0;                ///< 0: no bound
+    double triangles = 0;           ///< in place of an area; 0: not given
+    double triangles_per_rank = 0;  ///< the same
+    bool region_areas = true;
+  } bounds;
+
+  struct Sizing {
+    std::string expression;
+    std::string background;
+    double gradation = 0;  ///< 0: lengths are taken as they are
+    double shortest = 0;
+    double longest = 0;  ///< 0: no limit
+  } sizing;
+
+  struct Limits {
+    std::int64_t max_triangles = MeshRequest{}.max_triangles;
+    std::int64_t max_memory = 0;  ///< bytes; 0: 90 % of what the machine has free
+    bool keep_incomplete = false;
+  } limits;
+
+  struct Decomposition {
+    std::int32_t subdomains = 0;  ///< 0: as many as suit
+    std::int32_t subdomains_per_rank = 0;
+    std::string file;
+    double separator_angle = DecomposeOptions{}.min_angle;
+    double skew = 0;
+  } decomposition;
+
+  struct Mapping {
+    MappingMethod method = MappingMethod::kGraph;
+    bool by_speed = false;
+    bool by_area = false;
+    std::vector<double> speeds;  ///< of each rank, relative; empty: all equal
+  } mapping;
+
+  struct Cluster {
+    ClusterKind kind = ClusterKind::kSimulated;
+    std::int32_t ranks = 0;
+    double speed = 0;  ///< 0: that of the reference machine
+    std::vector<RankGroup> groups;
+    std::vector<double> drag;
+    double latency = ClusterSpec{}.latency;
+    double bandwidth = ClusterSpec{}.bandwidth;
+    double message_overhead = ClusterSpec{}.message_overhead;
+  } cluster;
+
+  struct Run {
+    Presplit presplit = Presplit::kAuto;
+    std::int64_t aggregation = protocol::Aggregator::kDefaultThreshold;
+    WorkOrder order = WorkOrder::kGiven;
+    std::int64_t slice = RunPlan{}.slice;
+    bool sleep = false;
+  } run;
+
+  struct Balance {
+    std::string policy = "none";
+    std::map<std::string, std::string> parameters;
+    double look = balancer::ControllerOptions{}.look;
+    double gap = balancer::ControllerOptions{}.gap;
+    double interval = balancer::ControllerOptions{}.interval;
+    double gain = balancer::Worth{}.gain;
+  } balance;
+
+  std::int64_t seed = 1;
+
+  struct Output {
+    std::vector<std::string> meshes;
+    std::string picture;
+    std::string record;
+    bool quiet = false;
+  } output;
+
+  // Of experiments, which make many runs.
+  std::string name = "experiment";
+  std::int32_t repetitions = 1;
+  bool pictures = true;
+  std::int32_t lb_phases = 0;
+};
+
+}  // namespace driftmesh::job
