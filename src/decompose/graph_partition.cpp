@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <string>
 
@@ -32,6 +33,10 @@ std::vector<real_t> normalized(const std::vector<double>& shares) {
   return targets;
 }
 
+/// METIS draws from the C library's one random sequence, which it seeds anew, and sets signal handlers while it works:
+/// of two threads each would change what the other gets.
+std::mutex one_at_a_time;
+
 }  // namespace
 
 std::vector<std::int32_t> partition_graph(const WeightedGraph& graph, const std::vector<double>& shares,
@@ -50,6 +55,7 @@ std::vector<std::int32_t> partition_graph(const WeightedGraph& graph, const std:
   options[METIS_OPTION_SEED] = seed;
   options[METIS_OPTION_NUMBERING] = 0;
   const auto run = method == PartitionMethod::kRecursive ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  const std::lock_guard lock(one_at_a_time);
   const int status = run(&vertices, &constraints, begin.data(), neighbor.data(), vertex_weight.data(), nullptr,
                          edge_weight.data(), &parts, targets.data(), nullptr, options, &cut, part.data());
   if (status != METIS_OK)

@@ -20,8 +20,8 @@ enum class PartitionMethod {
 };
 
 /// Cuts a graph into parts of the given shares of the weight (any positive scale, one for each part), with little edge
-/// weight between them. A part may come out empty or in several pieces. Deterministic for a seed. Uses METIS (Karypis
-/// and Kumar 1998). Throws Error if METIS fails.
+/// weight between them. A part may come out empty or in several pieces. Deterministic for a seed, whatever other
+/// threads do; one call at a time works, others wait. Uses METIS (Karypis and Kumar 1998). Throws Error if METIS fails.
 [[nodiscard]] std::vector<std::int32_t> partition_graph(const WeightedGraph& graph, const std::vector<double>& shares,
                                                         PartitionMethod method, std::int32_t seed = 1);
 

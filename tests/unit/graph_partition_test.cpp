@@ -1,0 +1,48 @@
+#include "decompose/graph_partition.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+namespace {
+
+using driftmesh::WeightedGraph;
+
+/// side x side cells, each joined to the ones beside it.
+WeightedGraph grid(std::int32_t side) {
+  WeightedGraph graph;
+  const auto join = [&](std::int32_t x, std::int32_t y) {
+    if (x < 0 || y < 0 || x >= side || y >= side) return;
+    graph.neighbor.push_back(y * side + x);
+    graph.edge_weight.push_back(1);
+  };
+  for (std::int32_t y = 0; y < side; ++y)
+    for (std::int32_t x = 0; x < side; ++x) {
+      join(x - 1, y), join(x + 1, y), join(x, y - 1), join(x, y + 1);
+      graph.begin.push_back(static_cast<std::int32_t>(graph.neighbor.size()));
+      graph.vertex_weight.push_back(1);
+    }
+  return graph;
+}
+
+std::vector<std::int32_t> in_eight_parts(const WeightedGraph& graph) {
+  return partition_graph(graph, std::vector<double>(8, 1), driftmesh::PartitionMethod::kDirect);
+}
+
+}  // namespace
+
+TEST_CASE("two threads that partition graphs at once get what each would get alone") {
+  const WeightedGraph graph = grid(40);
+  const std::vector<std::int32_t> alone = in_eight_parts(graph);
+  constexpr int kTimes = 50;
+  std::vector<int> same(2);
+  std::vector<std::thread> threads;
+  for (int& count : same)
+    threads.emplace_back([&] {
+      for (int i = 0; i < kTimes; ++i) count += in_eight_parts(graph) == alone ? 1 : 0;
+    });
+  for (std::thread& t : threads) t.join();
+  CHECK(same == std::vector<int>(2, kTimes));
+}
