@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "balancer/move_cost.hpp"
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "support/load_snapshots.hpp"
 
 using namespace driftmesh;

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "base/narrow.hpp"
-#include "output/mesh_edges.hpp"
+#include "mesh/mesh_edges.hpp"
 
 namespace driftmesh::bench {
 namespace {

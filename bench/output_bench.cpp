@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
-#include "output/mesh_file.hpp"
-#include "output/plot.hpp"
+#include "io/mesh_file.hpp"
+#include "picture/plot.hpp"
 
 namespace {
 

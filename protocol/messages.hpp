@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/dyadic.hpp"
+#include "dyadic/path.hpp"
 #include "protocol/ids.hpp"
 
 /// What ranks say to each other. The layout on the wire is in codec.cpp; the rules are in docs/protocol.md.

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "protocol/dyadic.hpp"
+#include "dyadic/path.hpp"
 
 namespace driftmesh::protocol {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "balancer/mpi_council.hpp"
+#include "balancer/mpi/mpi_council.hpp"
 #include "base/byte_stream.hpp"
 #include "base/error.hpp"
 #include "decompose/same_input.hpp"
@@ -14,7 +14,7 @@
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/mesher.hpp"
-#include "protocol/mpi_transport.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
 #include "pslg/repair.hpp"
 #include "runtime/plan_bytes.hpp"
 #include "runtime/plan_run.hpp"

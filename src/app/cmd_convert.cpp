@@ -5,7 +5,7 @@
 
 #include "app/commands.hpp"
 #include "base/error.hpp"
-#include "output/mesh_file.hpp"
+#include "io/mesh_file.hpp"
 
 namespace driftmesh::app {
 namespace {

@@ -12,14 +12,14 @@
 #include "app/output_files.hpp"
 #include "app/parallel_mesh.hpp"
 #include "app/run_notes.hpp"
+#include "io/mesh_file.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/interpolate_attributes.hpp"
 #include "mesh/mesher.hpp"
 #include "mesh/narrow_place.hpp"
 #include "mesh/to_piece.hpp"
-#include "output/mesh_file.hpp"
-#include "output/plot.hpp"
-#include "protocol/mpi_transport.hpp"
+#include "picture/plot.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
 #include "pslg/poly_file.hpp"
 
 namespace driftmesh::app {

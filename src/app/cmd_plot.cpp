@@ -8,8 +8,8 @@
 
 #include "app/commands.hpp"
 #include "base/error.hpp"
-#include "output/mesh_file.hpp"
-#include "output/plot.hpp"
+#include "io/mesh_file.hpp"
+#include "picture/plot.hpp"
 #include "pslg/poly_file.hpp"
 
 namespace driftmesh::app {

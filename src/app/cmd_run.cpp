@@ -19,7 +19,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "experiment/key_words.hpp"
-#include "protocol/mpi_transport.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
 
 namespace driftmesh::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/words.hpp"
 #include "decompose/subdomain_mesh.hpp"
-#include "output/plot.hpp"
+#include "picture/plot.hpp"
 
 namespace driftmesh::app {
 namespace {

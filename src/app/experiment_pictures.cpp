@@ -12,8 +12,8 @@
 #include "cluster/cluster_spec.hpp"
 #include "experiment/key_words.hpp"
 #include "experiment/prepare.hpp"
-#include "output/plot.hpp"
-#include "output/plot_chart.hpp"
+#include "picture/plot.hpp"
+#include "picture/plot_chart.hpp"
 
 namespace driftmesh::app {
 namespace {

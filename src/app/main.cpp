@@ -15,7 +15,7 @@
 #include "app/limits.hpp"
 #include "base/error.hpp"
 #include "base/temporary_files.hpp"
-#include "protocol/mpi_transport.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include "app/cutting_options.hpp"
 #include "app/sizing_options.hpp"
 #include "app/validators.hpp"
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "decompose/decompose.hpp"
 
 namespace driftmesh::app {

@@ -5,9 +5,9 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "output/mesh_file.hpp"
-#include "output/plot.hpp"
-#include "output/pvtu_format.hpp"
+#include "io/mesh_file.hpp"
+#include "io/pvtu_format.hpp"
+#include "picture/plot.hpp"
 
 namespace driftmesh::app {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/limits.hpp"
 #include "app/memory.hpp"
 #include "app/rank_report.hpp"
-#include "balancer/mpi_council.hpp"
+#include "balancer/mpi/mpi_council.hpp"
 #include "base/byte_stream.hpp"
 #include "base/error.hpp"
 #include "cluster/rank_log.hpp"

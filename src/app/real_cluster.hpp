@@ -6,7 +6,7 @@
 
 #include "app/run_record.hpp"
 #include "cluster/cluster_run.hpp"
-#include "protocol/mpi_transport.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
 #include "runtime/run_plan.hpp"
 #include "sizing/make_size_field.hpp"
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "decompose/decomposition.hpp"
+#include "dyadic/path.hpp"
 #include "mesh/bounds.hpp"
-#include "protocol/dyadic.hpp"
 
 namespace driftmesh {
 

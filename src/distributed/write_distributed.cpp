@@ -7,8 +7,8 @@
 
 #include "base/byte_stream.hpp"
 #include "base/error.hpp"
+#include "io/pvtu_format.hpp"
 #include "mesh/merge_pieces.hpp"
-#include "output/pvtu_format.hpp"
 
 namespace driftmesh {
 

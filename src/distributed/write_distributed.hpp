@@ -7,8 +7,8 @@
 
 #include "distributed/distributed_piece.hpp"
 #include "distributed/exchange.hpp"
-#include "output/file_sink.hpp"
-#include "output/mesh_file.hpp"
+#include "io/file_sink.hpp"
+#include "io/mesh_file.hpp"
 
 namespace driftmesh {
 

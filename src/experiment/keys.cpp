@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "base/nearest_name.hpp"
 #include "mesh/bounds.hpp"
 #include "pslg/generators.hpp"

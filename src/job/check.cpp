@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "base/nearest_name.hpp"
 #include "job/keys.hpp"
 #include "pslg/generators.hpp"

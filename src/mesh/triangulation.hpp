@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/growing_array.hpp"
+#include "dyadic/path.hpp"
 #include "geometry/point.hpp"
-#include "protocol/dyadic.hpp"
 
 namespace driftmesh {
 

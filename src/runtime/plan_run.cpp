@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "base/error.hpp"
 #include "decompose/presplit.hpp"
 #include "decompose/work.hpp"

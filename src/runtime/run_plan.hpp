@@ -19,7 +19,7 @@ namespace driftmesh {
 
 /// Who moves subdomains between ranks during a run, and when.
 struct Balancing {
-  std::string policy = "none";  ///< see balancer/policy_factory.hpp
+  std::string policy = "none";  ///< see balancer/policies/policy_factory.hpp
   balancer::Parameters::Values parameters;
   balancer::ControllerOptions options;
 };

@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "output/msh_format.hpp"
-#include "output/pvtu_format.hpp"
-#include "output/vtu_format.hpp"
+#include "io/msh_format.hpp"
+#include "io/pvtu_format.hpp"
+#include "io/vtu_format.hpp"
 
 namespace {
 

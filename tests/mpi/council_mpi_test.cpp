@@ -1,8 +1,8 @@
 // Real ranks that plan together: Zoltan on their communicator.
 #include <doctest/doctest.h>
 
-#include "balancer/mpi_council.hpp"
-#include "balancer/policy_factory.hpp"
+#include "balancer/mpi/mpi_council.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "base/byte_stream.hpp"
 #include "support/joint_rounds.hpp"
 

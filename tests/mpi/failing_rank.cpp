@@ -2,7 +2,7 @@
 #include <exception>
 
 #include "base/error.hpp"
-#include "protocol/mpi_transport.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
 #include "protocol/rank_step.hpp"
 
 using namespace driftmesh;

@@ -6,11 +6,11 @@
 #include <thread>
 #include <vector>
 
-#include "balancer/mpi_council.hpp"
+#include "balancer/mpi/mpi_council.hpp"
 #include "base/byte_stream.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/write_distributed.hpp"
-#include "protocol/mpi_transport.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
 #include "pslg/generate.hpp"
 #include "runtime/rank_loop.hpp"
 #include "support/late_plan.hpp"

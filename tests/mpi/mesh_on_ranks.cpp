@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "balancer/mpi_council.hpp"
+#include "balancer/mpi/mpi_council.hpp"
 #include "base/byte_stream.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/write_distributed.hpp"
@@ -16,7 +16,7 @@
 #include "mesh/corners.hpp"
 #include "mesh/mesher.hpp"
 #include "protocol/delaying_transport.hpp"
-#include "protocol/mpi_transport.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
 #include "runtime/rank_loop.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"

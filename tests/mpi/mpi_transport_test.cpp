@@ -1,4 +1,4 @@
-#include "protocol/mpi_transport.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 #include <mpi.h>
 
 #include "protocol/delaying_transport.hpp"
-#include "protocol/mpi_transport.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
 #include "protocol/toy_rank.hpp"
 
 using namespace driftmesh::protocol;

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "balancer/move_cost.hpp"
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "property/cases.hpp"
 #include "support/load_snapshots.hpp"
 

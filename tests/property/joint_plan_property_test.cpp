@@ -1,7 +1,7 @@
 // Plans that all ranks make together, on random loads.
 #include <doctest/doctest.h>
 
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "balancer/simulated_council.hpp"
 #include "property/cases.hpp"
 #include "support/joint_rounds.hpp"

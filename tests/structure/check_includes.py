@@ -15,19 +15,19 @@ import sys
 # Where boxes lie.
 TOPS = ("src", "protocol", "migration", "balancer")
 
-# What lies in no box, and sees all of them: the program, its tests and its benchmarks.
-OPEN_FOLDERS = ("src/app", "tests", "bench")
+# What lies in no box, and sees all of them.
+OPEN_FOLDERS = ("tests", "bench")
 
 # Outside headers, by how their names begin, and the only place that may include them.
 BEHIND = {
-    "mpi.h": "protocol/mpi_transport.cpp",
+    "mpi.h": "protocol/mpi/mpi_transport.cpp",
     "boost/": "migration/archive.hpp",
     "metis.h": "src/decompose/graph_partition.cpp",
     "muParser.h": "src/sizing/expression_field.cpp",
-    "cairo": "src/output/plot_",
+    "cairo": "src/picture/plot_",
     "CLI/": "src/app/",
     "yaml-cpp/": ("src/app/config_file.cpp", "src/experiment/experiment_file.cpp"),
-    "zoltan": "balancer/zoltan_partition.cpp",
+    "zoltan": "balancer/zoltan/zoltan_partition.cpp",
     "CGAL/": "tests and bench alone",
 }
 
@@ -41,7 +41,7 @@ def declared_boxes(root):
             name, *words = call.split()
             depends, section = [], None
             for word in words:
-                if word in ("SOURCES", "DEPENDS", "PRIVATE_LIBS"):
+                if word in ("SOURCES", "DEPENDS", "LIBS", "PUBLIC_LIBS"):
                     section = word
                 elif section == "DEPENDS":
                     depends.append(word)

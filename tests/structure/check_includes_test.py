@@ -19,10 +19,9 @@ class CheckIncludes(unittest.TestCase):
         self.write("src/low/low.hpp", "#pragma once\n")
         self.write("src/middle/CMakeLists.txt", "# a remark (with brackets)\ndriftmesh_library(middle SOURCES DEPENDS low)")
         self.write("src/middle/middle.hpp", '#include <vector>\n#include "low/low.hpp"\n')
-        self.write("src/high/CMakeLists.txt", "driftmesh_library(high SOURCES high.cpp DEPENDS middle PRIVATE_LIBS low)")
+        self.write("src/high/CMakeLists.txt", "driftmesh_library(high SOURCES high.cpp DEPENDS middle LIBS low)")
         self.write("src/high/high.hpp", '#include "middle/middle.hpp"\n')
         self.write("src/high/high.cpp", '#include "high/high.hpp"\n')
-        self.write("src/app/main.cpp", '#include "low/low.hpp"\n')
 
     def write(self, name, text):
         path = self.root / name
@@ -67,11 +66,11 @@ class CheckIncludes(unittest.TestCase):
 
     def test_library_outside_its_place(self):
         self.write("src/low/low.cpp", "#include <mpi.h>\n")
-        self.expect("src/low/low.cpp:1: includes mpi.h, which belongs to protocol/mpi_transport.cpp")
+        self.expect("src/low/low.cpp:1: includes mpi.h, which belongs to protocol/mpi/mpi_transport.cpp")
 
     def test_library_in_its_place(self):
-        self.write("src/output/CMakeLists.txt", "driftmesh_library(output)")
-        self.write("src/output/plot_canvas.cpp", "#include <cairo.h>\n")
+        self.write("src/picture/CMakeLists.txt", "driftmesh_library(picture)")
+        self.write("src/picture/plot_canvas.cpp", "#include <cairo.h>\n")
         self.assertEqual(self.check().returncode, 0)
 
     def test_empty_tree(self):

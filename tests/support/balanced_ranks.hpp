@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "balancer/controller.hpp"
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "balancer/simulated_council.hpp"
 #include "balancer/speed_estimate.hpp"
 #include "protocol/codec.hpp"

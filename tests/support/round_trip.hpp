@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "output/mesh_file.hpp"
+#include "io/mesh_file.hpp"
 #include "support/mesh_equality.hpp"
 #include "support/random_mesh.hpp"
 #include "temporary_folder.hpp"

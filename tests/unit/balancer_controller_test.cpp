@@ -2,7 +2,7 @@
 
 #include "balancer/controller.hpp"
 #include "balancer/knowledge.hpp"
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "balancer/report_rule.hpp"
 #include "support/load_snapshots.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "base/error.hpp"
 #include "support/load_snapshots.hpp"
 

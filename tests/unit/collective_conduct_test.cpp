@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "balancer/controller.hpp"
-#include "balancer/policy_factory.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "base/error.hpp"
 #include "support/load_snapshots.hpp"
 

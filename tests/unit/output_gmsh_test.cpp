@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "output/mesh_file.hpp"
+#include "io/mesh_file.hpp"
 #include "support/damage.hpp"
 #include "support/random_mesh.hpp"
 #include "temporary_folder.hpp"

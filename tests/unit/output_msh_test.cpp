@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "output/mesh_file.hpp"
+#include "io/mesh_file.hpp"
 #include "support/damage.hpp"
 #include "support/mesh_equality.hpp"
 #include "support/random_mesh.hpp"

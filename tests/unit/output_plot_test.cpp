@@ -8,12 +8,12 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "output/plot.hpp"
-#include "output/plot_chart.hpp"
-#include "output/plot_color.hpp"
-#include "output/plot_raster.hpp"
-#include "output/plot_scale.hpp"
-#include "output/xml_scanner.hpp"
+#include "io/xml_scanner.hpp"
+#include "picture/plot.hpp"
+#include "picture/plot_chart.hpp"
+#include "picture/plot_color.hpp"
+#include "picture/plot_raster.hpp"
+#include "picture/plot_scale.hpp"
 #include "support/damage.hpp"
 #include "support/random_mesh.hpp"
 #include "temporary_folder.hpp"

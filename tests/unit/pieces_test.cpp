@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "io/mesh_file.hpp"
+#include "io/pvtu_format.hpp"
 #include "mesh/merge_pieces.hpp"
-#include "output/mesh_file.hpp"
-#include "output/pvtu_format.hpp"
 #include "support/damage.hpp"
 #include "support/mesh_equality.hpp"
 #include "temporary_folder.hpp"

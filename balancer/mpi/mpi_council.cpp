@@ -1,0 +1,43 @@
+#include "balancer/mpi/mpi_council.hpp"
+
+#include <utility>
+
+#include "balancer/plan_jointly.hpp"
+#include "base/byte_stream.hpp"
+
+namespace driftmesh::balancer {
+
+MpiCouncil::MpiCouncil(protocol::MpiTransport& transport, std::shared_ptr<const Layout> layout,
+                       std::shared_ptr<const Policy> policy, const ControllerOptions& options)
+    : transport_(transport), layout_(std::move(layout)), policy_(std::move(policy)), options_(options) {}
+
+// What every rank tells, one rank after the other.
+template <class T>
+std::vector<T> MpiCouncil::from_all(const std::vector<T>& own) {
+  ByteWriter writer;
+  writer.array(own);
+  std::vector<T> all, some;
+  for (const protocol::Bytes& bytes : transport_.all_gather(writer.take())) {
+    ByteReader(bytes).array(some);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+Council::Decision MpiCouncil::decide(std::uint32_t, const Contribution& contribution) {
+  const std::vector<RankState> states = from_all<RankState>({contribution.state});
+  const LoadSnapshot own = own_snapshot(contribution, layout_, states);
+  const Dealing dealing = policy_->dealing(own);
+  const std::vector<std::vector<Rank>> parts{policy_->parts(own, transport_.communicator())};
+  return plan_jointly({&contribution, 1}, parts, states, dealing, options_,
+                      [this](const auto& told) { return from_all(told); })
+      .front();
+}
+
+std::unique_ptr<Council> make_mpi_council(protocol::MpiTransport& transport, std::shared_ptr<const Layout> layout,
+                                          std::shared_ptr<const Policy> policy, const ControllerOptions& options) {
+  if (!policy || policy->placement() != Placement::kCollective) return nullptr;
+  return std::make_unique<MpiCouncil>(transport, std::move(layout), std::move(policy), options);
+}
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+
+#include "balancer/conduct.hpp"
+#include "balancer/council.hpp"
+#include "balancer/policy.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
+
+namespace driftmesh::balancer {
+
+/// The council of real ranks: each plans for what it owns while the others do the same, on the communicator of a
+/// transport.
+class MpiCouncil final : public Council {
+ public:
+  /// `transport` must outlive it.
+  MpiCouncil(protocol::MpiTransport& transport, std::shared_ptr<const Layout> layout,
+             std::shared_ptr<const Policy> policy, const ControllerOptions& options);
+
+  void announce(std::uint32_t, const Contribution&) override {}
+  /// Waits for all ranks of the communicator.
+  [[nodiscard]] Decision decide(std::uint32_t round, const Contribution& contribution) override;
+
+ private:
+  template <class T>
+  [[nodiscard]] std::vector<T> from_all(const std::vector<T>& own);
+
+  protocol::MpiTransport& transport_;
+  std::shared_ptr<const Layout> layout_;
+  std::shared_ptr<const Policy> policy_;
+  ControllerOptions options_;
+};
+
+/// What ranks need for plans of this policy: null if it does not make all of them plan together.
+[[nodiscard]] std::unique_ptr<Council> make_mpi_council(protocol::MpiTransport& transport,
+                                                        std::shared_ptr<const Layout> layout,
+                                                        std::shared_ptr<const Policy> policy,
+                                                        const ControllerOptions& options);
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,52 @@
+#include "balancer/policies/policy_factory.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/nearest_name.hpp"
+
+// All policies: a line each. The one of name X is made by make_X, which lies in the policy's own file.
+#define DRIFTMESH_POLICIES(POLICY) \
+  POLICY(none)                     \
+  POLICY(zoltan)                   \
+  POLICY(diffusion)                \
+  POLICY(stealing)                 \
+  POLICY(greedy)
+
+namespace driftmesh::balancer {
+
+#define DECLARE(NAME) std::unique_ptr<Policy> make_##NAME(Parameters& parameters);
+DRIFTMESH_POLICIES(DECLARE)
+#undef DECLARE
+
+namespace {
+
+struct Entry {
+  const char* name;
+  std::unique_ptr<Policy> (*make)(Parameters&);
+};
+
+#define ENTRY(NAME) {#NAME, make_##NAME},
+constexpr Entry kPolicies[] = {DRIFTMESH_POLICIES(ENTRY)};
+#undef ENTRY
+
+}  // namespace
+
+std::vector<std::string> policy_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : kPolicies) names.emplace_back(entry.name);
+  return names;
+}
+
+std::unique_ptr<Policy> make_policy(const std::string& name, const Parameters::Values& values) {
+  const auto* const entry =
+      std::find_if(std::begin(kPolicies), std::end(kPolicies), [&](const Entry& known) { return name == known.name; });
+  if (entry == std::end(kPolicies))
+    throw InputError("unknown policy '" + name + "'; the nearest one is '" + nearest_name(name, policy_names()) + "'");
+  Parameters parameters(name, values);
+  auto policy = entry->make(parameters);
+  parameters.finish();
+  return policy;
+}
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,84 @@
+#include <memory>
+#include <utility>
+
+#include "balancer/parameters.hpp"
+#include "balancer/policy.hpp"
+#include "balancer/remap_parts.hpp"
+#include "balancer/surplus.hpp"
+#include "balancer/zoltan/zoltan_partition.hpp"
+
+namespace driftmesh::balancer {
+namespace {
+
+/// Parts by Zoltan, as large as the ranks are fast: compact, and where the approach is repartition or refine, near to
+/// what there is. Where only little is out of balance, single subdomains are dealt instead of new parts.
+class ZoltanPolicy final : public Policy {
+ public:
+  ZoltanPolicy(ZoltanParameters parameters, Placement placement, double touch_up, const Dealing& dealing)
+      : parameters_(std::move(parameters)), placement_(placement), touch_up_(touch_up), dealing_(dealing) {}
+
+  [[nodiscard]] Placement placement() const override { return placement_; }
+  // A touch-up is nothing but dealing.
+  [[nodiscard]] Dealing dealing(const LoadSnapshot& own) const override {
+    return {dealing_.polish || wants_touch_up_alone(own), dealing_.tolerance};
+  }
+
+  [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override {
+    if (snapshot.subdomains.empty() || snapshot.ranks.size() < 2) return {};
+    if (wants_touch_up_alone(snapshot)) return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
+    const auto owners = remap_parts(snapshot, zoltan_partition(snapshot, parameters_), dealing_.tolerance);
+    LoadSnapshot planned = snapshot;
+    for (std::size_t i = 0; i < owners.size(); ++i) planned.subdomains[i].owner = owners[i];
+    sum_up(planned);
+    return moves_between(snapshot, dealing_.polish ? deal_surplus(planned, dealing_.tolerance) : planned);
+  }
+
+  [[nodiscard]] std::vector<Rank> parts(const LoadSnapshot& own, std::optional<int> communicator) const override {
+    if (wants_touch_up_alone(own)) return Policy::parts(own, communicator);
+    return communicator ? zoltan_partition(own, parameters_, *communicator) : zoltan_partition(own, parameters_);
+  }
+
+ private:
+  // By the states of ranks, which are equal everywhere.
+  [[nodiscard]] bool wants_touch_up_alone(const LoadSnapshot& snapshot) const {
+    return finishing_time(snapshot) <= (1 + touch_up_) * ideal_time(snapshot);
+  }
+
+  ZoltanParameters parameters_;
+  Placement placement_;
+  double touch_up_;  // of the ideal time
+  Dealing dealing_;
+};
+
+std::string upper_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return text;
+}
+
+}  // namespace
+
+std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
+  ZoltanParameters all{
+      {"LB_METHOD", upper_case(parameters.choice("method", {"graph", "rcb", "hsfc", "hypergraph"}))},
+      {"LB_APPROACH", upper_case(parameters.choice("approach", {"repartition", "partition", "refine"}))},
+      {"IMBALANCE_TOL", "1.03"},
+      // Edges that hold much of a small graph are not left out: nothing would be left.
+      {"PHG_EDGE_SIZE_THRESHOLD", "1.0"},
+      {"SEED", std::to_string(parameters.integer("seed", 1, 0, INT32_MAX))}};
+  // Graphs by Zoltan's own partitioner, which is in every build of it.
+  if (all["LB_METHOD"] == "GRAPH") all["GRAPH_PACKAGE"] = "PHG";
+  for (const auto& [name, value] : parameters.any_of(zoltan_parameter_names())) {
+    if (!zoltan_accepts(name, value)) parameters.fail(name, value, "Zoltan's user guide says what it takes");
+    all[name] = value;
+  }
+  const bool collective = parameters.choice("placement", {"leader", "collective"}) == "collective";
+  Dealing dealing;
+  dealing.polish = parameters.flag("polish", dealing.polish);
+  dealing.tolerance = parameters.number("tolerance", dealing.tolerance, 0, 10);
+  const double touch_up = parameters.number("touch-up", 0.1, 0, 10);
+  return std::make_unique<ZoltanPolicy>(std::move(all), collective ? Placement::kCollective : Placement::kLeader,
+                                        touch_up, dealing);
+}
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,388 @@
+#include "balancer/zoltan/zoltan_partition.hpp"
+
+#include <zoltan.h>
+#include <zoltan_dd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/narrow.hpp"
+
+namespace driftmesh::balancer {
+namespace {
+
+using Ids = ZOLTAN_ID_PTR;
+
+// Zoltan initializes MPI if that was not done; who starts it also ends it.
+void initialize_once() {
+  static const bool done = [] {
+    int mpi_was_there = 0;
+    MPI_Initialized(&mpi_was_there);
+    float version = 0;
+    if (Zoltan_Initialize(0, nullptr, &version) != ZOLTAN_OK) throw Error("Zoltan cannot be initialized");
+    if (!mpi_was_there) std::atexit([] { MPI_Finalize(); });
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+/// A Zoltan object, freed with it: after MPI_Finalize it would abort.
+class Zoltan {
+ public:
+  explicit Zoltan(MPI_Comm communicator) {
+    zoltan_ = Zoltan_Create(communicator);
+    if (!zoltan_) throw Error("Zoltan cannot be created: no memory");
+    static_cast<void>(set("DEBUG_LEVEL", "0"));
+  }
+  ~Zoltan() { Zoltan_Destroy(&zoltan_); }
+  Zoltan(const Zoltan&) = delete;
+  Zoltan& operator=(const Zoltan&) = delete;
+
+  [[nodiscard]] bool set(const std::string& name, const std::string& value) {
+    return Zoltan_Set_Param(zoltan_, name.c_str(), value.c_str()) == ZOLTAN_OK;
+  }
+  [[nodiscard]] Zoltan_Struct* get() const { return zoltan_; }
+
+ private:
+  Zoltan_Struct* zoltan_ = nullptr;
+};
+
+/// Which process has a subdomain, for all processes of a communicator: none has it all, each asks together with the
+/// others.
+class Whereabouts {
+ public:
+  explicit Whereabouts(MPI_Comm communicator) {
+    if (Zoltan_DD_Create(&directory_, communicator, 1, 0, 0, 0, 0) != ZOLTAN_OK)
+      throw Error("Zoltan's directory cannot be created: no memory");
+  }
+  ~Whereabouts() { Zoltan_DD_Destroy(&directory_); }
+  Whereabouts(const Whereabouts&) = delete;
+  Whereabouts& operator=(const Whereabouts&) = delete;
+
+  /// This process has these.
+  void enter(std::vector<ZOLTAN_ID_TYPE> ids) {
+    const int result =
+        Zoltan_DD_Update(directory_, ids.data(), nullptr, nullptr, nullptr, static_cast<int>(ids.size()));
+    if (result != ZOLTAN_OK) throw Error("Zoltan's directory takes no subdomains");
+  }
+  /// Of each of them, or -1 where no process has it: Zoltan warns of those.
+  [[nodiscard]] std::vector<int> find(std::vector<ZOLTAN_ID_TYPE> ids) {
+    std::vector<int> processes(ids.size(), -1);
+    const int result = Zoltan_DD_Find(directory_, ids.data(), nullptr, nullptr, nullptr, static_cast<int>(ids.size()),
+                                      processes.data());
+    if (result != ZOLTAN_OK && result != ZOLTAN_WARN) throw Error("Zoltan's directory does not answer");
+    return processes;
+  }
+
+ private:
+  Zoltan_DD_Struct* directory_ = nullptr;
+};
+
+/// What Zoltan asks for: the listed subdomains as vertices of a graph, with edges to all neighbours that are listed,
+/// here or on another process.
+struct Graph {
+  const LoadSnapshot* snapshot;
+  std::vector<int> first{0};  // edges of vertex i: first[i] up to first[i + 1]
+  std::vector<ZOLTAN_ID_TYPE> target;
+  std::vector<int> process;  // that has the target
+  std::vector<float> weight;
+
+  explicit Graph(const LoadSnapshot& s) : snapshot(&s) {}
+
+  /// `process_of(neighbours)`: which process lists each of them, or -1.
+  template <class ProcessOf>
+  void add_edges(const ProcessOf& process_of) {
+    std::vector<ZOLTAN_ID_TYPE> neighbours;
+    for (const SubdomainState& s : snapshot->subdomains)
+      for (const Neighbour& n : (*snapshot->layout)[s.id].neighbours)
+        neighbours.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
+    const std::vector<int> processes = process_of(neighbours);
+    std::size_t at = 0;
+    for (const SubdomainState& s : snapshot->subdomains) {
+      for (const Neighbour& n : (*snapshot->layout)[s.id].neighbours) {
+        const int where = processes[at++];
+        if (where < 0) continue;
+        target.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
+        process.push_back(where);
+        weight.push_back(static_cast<float>(n.length));
+      }
+      first.push_back(narrow<int>(target.size(), "borders between subdomains"));
+    }
+  }
+  [[nodiscard]] int size() const { return static_cast<int>(snapshot->subdomains.size()); }
+  [[nodiscard]] const SubdomainState& at(ZOLTAN_ID_TYPE i) const { return snapshot->subdomains[i]; }
+  [[nodiscard]] const Layout::Subdomain& place(ZOLTAN_ID_TYPE i) const { return (*snapshot->layout)[at(i).id]; }
+};
+
+const Graph& graph_of(void* data) {
+  return *static_cast<const Graph*>(data);
+}
+
+// Zoltan's questions. Global ids are the numbers of subdomains, local ones indices into the list of the snapshot.
+
+int count_objects(void* data, int* error) {
+  *error = ZOLTAN_OK;
+  return graph_of(data).size();
+}
+
+void list_objects(void* data, int, int, Ids global, Ids local, int, float* weights, int* error) {
+  const Graph& graph = graph_of(data);
+  for (int i = 0; i < graph.size(); ++i) {
+    local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
+    global[i] = static_cast<ZOLTAN_ID_TYPE>(graph.at(local[i]).id);
+    weights[i] = static_cast<float>(std::max(1.0, graph.at(local[i]).remaining));  // none is nothing to Zoltan's curves
+  }
+  *error = ZOLTAN_OK;
+}
+
+void current_parts(void* data, int, int, int count, Ids, Ids local, int* parts, int* error) {
+  for (int i = 0; i < count; ++i) parts[i] = graph_of(data).at(local[i]).owner;
+  *error = ZOLTAN_OK;
+}
+
+void sizes_to_move(void* data, int, int, int count, Ids, Ids local, int* sizes, int* error) {
+  constexpr std::uint64_t kMost = 1u << 30;
+  for (int i = 0; i < count; ++i)
+    sizes[i] = static_cast<int>(std::min(kMost, std::max<std::uint64_t>(1, graph_of(data).at(local[i]).bytes)));
+  *error = ZOLTAN_OK;
+}
+
+int count_dimensions(void*, int* error) {
+  *error = ZOLTAN_OK;
+  return 2;
+}
+
+void centroids(void* data, int, int, int count, Ids, Ids local, int, double* coordinates, int* error) {
+  for (int i = 0; i < count; ++i) {
+    coordinates[2 * i] = graph_of(data).place(local[i]).x;
+    coordinates[2 * i + 1] = graph_of(data).place(local[i]).y;
+  }
+  *error = ZOLTAN_OK;
+}
+
+void count_edges(void* data, int, int, int count, Ids, Ids local, int* edges, int* error) {
+  const Graph& graph = graph_of(data);
+  for (int i = 0; i < count; ++i) edges[i] = graph.first[local[i] + 1] - graph.first[local[i]];
+  *error = ZOLTAN_OK;
+}
+
+void list_edges(void* data, int, int, int count, Ids, Ids local, int*, Ids targets, int* processes, int, float* weights,
+                int* error) {
+  const Graph& graph = graph_of(data);
+  for (int i = 0; i < count; ++i)
+    for (int e = graph.first[local[i]]; e < graph.first[local[i] + 1]; ++e) {
+      const auto at = static_cast<std::size_t>(e);
+      *targets++ = graph.target[at];
+      *processes++ = graph.process[at];
+      *weights++ = graph.weight[at];
+    }
+  *error = ZOLTAN_OK;
+}
+
+// As a hypergraph: for each subdomain an edge of it and its neighbours, because each of these hears of its points.
+
+void hypergraph_size(void* data, int* lists, int* pins, int* format, int* error) {
+  const Graph& graph = graph_of(data);
+  *lists = graph.size();
+  *pins = graph.size() + graph.first.back();
+  *format = ZOLTAN_COMPRESSED_EDGE;
+  *error = ZOLTAN_OK;
+}
+
+void hypergraph(void* data, int, int edges, int, int, Ids edge_ids, int* first_pin, Ids pins, int* error) {
+  const Graph& graph = graph_of(data);
+  int written = 0;
+  for (int i = 0; i < edges; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    edge_ids[i] = static_cast<ZOLTAN_ID_TYPE>(graph.snapshot->subdomains[at].id);
+    first_pin[i] = written;
+    pins[written++] = edge_ids[i];
+    for (int e = graph.first[at]; e < graph.first[at + 1]; ++e)
+      pins[written++] = graph.target[static_cast<std::size_t>(e)];
+  }
+  *error = ZOLTAN_OK;
+}
+
+void answer_questions(Zoltan_Struct* zoltan, Graph& graph, bool as_hypergraph) {
+  Zoltan_Set_Num_Obj_Fn(zoltan, count_objects, &graph);
+  Zoltan_Set_Obj_List_Fn(zoltan, list_objects, &graph);
+  Zoltan_Set_Part_Multi_Fn(zoltan, current_parts, &graph);
+  Zoltan_Set_Obj_Size_Multi_Fn(zoltan, sizes_to_move, &graph);
+  Zoltan_Set_Num_Geom_Fn(zoltan, count_dimensions, &graph);
+  Zoltan_Set_Geom_Multi_Fn(zoltan, centroids, &graph);
+  if (as_hypergraph) {
+    Zoltan_Set_HG_Size_CS_Fn(zoltan, hypergraph_size, &graph);
+    Zoltan_Set_HG_CS_Fn(zoltan, hypergraph, &graph);
+  } else {
+    Zoltan_Set_Num_Edges_Multi_Fn(zoltan, count_edges, &graph);
+    Zoltan_Set_Edge_List_Multi_Fn(zoltan, list_edges, &graph);
+  }
+}
+
+void set_part_sizes(Zoltan_Struct* zoltan, const LoadSnapshot& snapshot) {
+  const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
+  const double total = std::accumulate(speeds.begin(), speeds.end(), 0.0);
+  std::vector<float> sizes;
+  for (const double speed : speeds) sizes.push_back(static_cast<float>(speed / total));
+  std::vector<int> parts(speeds.size());
+  std::iota(parts.begin(), parts.end(), 0);
+  std::vector<int> weight_index(speeds.size(), 0);
+  Zoltan_LB_Set_Part_Sizes(zoltan, 1, static_cast<int>(parts.size()), parts.data(), weight_index.data(), sizes.data());
+}
+
+/// What Zoltan_LB_Partition returns, freed with it.
+struct Answer {
+  int changes = 0, global_size = 0, local_size = 0, imports = 0, exports = 0;
+  Ids import_global = nullptr, import_local = nullptr, export_global = nullptr, export_local = nullptr;
+  int *import_process = nullptr, *import_part = nullptr, *export_process = nullptr, *export_part = nullptr;
+  Answer() = default;
+  Answer(const Answer&) = delete;
+  Answer& operator=(const Answer&) = delete;
+  ~Answer() {
+    Zoltan_LB_Free_Part(&import_global, &import_local, &import_process, &import_part);
+    Zoltan_LB_Free_Part(&export_global, &export_local, &export_process, &export_part);
+  }
+};
+
+std::vector<Rank> owners_of(const LoadSnapshot& snapshot) {
+  std::vector<Rank> owners;
+  for (const SubdomainState& s : snapshot.subdomains) owners.push_back(s.owner);
+  return owners;
+}
+
+/// What both ways have in common: by all processes of `communicator`, of which each lists its own in `snapshot`.
+template <class ProcessOf>
+std::vector<Rank> partition(MPI_Comm communicator, const LoadSnapshot& snapshot, const ZoltanParameters& parameters,
+                            const ProcessOf& process_of) {
+  Zoltan zoltan(communicator);
+  ZoltanParameters all = parameters;
+  all.try_emplace("LB_METHOD", "RCB");
+  const bool as_hypergraph = all["LB_METHOD"] == "HYPERGRAPH";
+  const ZoltanParameters own{{"SEED", "1"},
+                             {"LB_APPROACH", "REPARTITION"},
+                             {"NUM_GLOBAL_PARTS", std::to_string(snapshot.ranks.size())},
+                             {"NUM_GID_ENTRIES", "1"},
+                             {"NUM_LID_ENTRIES", "1"},
+                             {"OBJ_WEIGHT_DIM", "1"},
+                             {"EDGE_WEIGHT_DIM", as_hypergraph ? "0" : "1"},
+                             {"REMAP", "0"},
+                             // All parts where they are all on this process. Elsewhere what leaves it: a process
+                             // without objects fails to list them all.
+                             {"RETURN_LISTS", communicator == MPI_COMM_SELF ? "PARTS" : "EXPORT"}};
+  all.insert(own.begin(), own.end());
+  for (const auto& [name, value] : all)
+    if (!zoltan.set(name, value)) throw Error("Zoltan does not take " + name + " = " + value);
+  set_part_sizes(zoltan.get(), snapshot);
+  Graph graph(snapshot);
+  graph.add_edges(process_of);
+  answer_questions(zoltan.get(), graph, as_hypergraph);
+
+  Answer answer;
+  const int result = Zoltan_LB_Partition(
+      zoltan.get(), &answer.changes, &answer.global_size, &answer.local_size, &answer.imports, &answer.import_global,
+      &answer.import_local, &answer.import_process, &answer.import_part, &answer.exports, &answer.export_global,
+      &answer.export_local, &answer.export_process, &answer.export_part);
+  // A warning says that the parts are not as even as was asked for.
+  if (result != ZOLTAN_OK && result != ZOLTAN_WARN)
+    throw Error("Zoltan cannot partition with LB_METHOD = " + all["LB_METHOD"] +
+                ", LB_APPROACH = " + all["LB_APPROACH"] + "; its message stands above");
+  std::vector<Rank> parts = owners_of(snapshot);
+  for (int i = 0; i < answer.exports; ++i) parts[answer.export_local[i]] = answer.export_part[i];
+  return parts;
+}
+
+}  // namespace
+
+const std::vector<std::string>& zoltan_parameter_names() {
+  static const std::vector<std::string> names{"ADD_OBJ_WEIGHT",
+                                              "AVERAGE_CUTS",
+                                              "CHECK_GEOM",
+                                              "CHECK_GRAPH",
+                                              "CHECK_HYPERGRAPH",
+                                              "DETERMINISTIC",
+                                              "GRAPH_BUILD_TYPE",
+                                              "GRAPH_FAST_BUILD_BASE",
+                                              "GRAPH_PACKAGE",
+                                              "GRAPH_SYMMETRIZE",
+                                              "GRAPH_SYM_WEIGHT",
+                                              "HYPERGRAPH_PACKAGE",
+                                              "IMBALANCE_TOL",
+                                              "KEEP_CUTS",
+                                              "LB_APPROACH",
+                                              "LB_METHOD",
+                                              "PHG_BAL_TOL_ADJUSTMENT",
+                                              "PHG_COARSENING_LIMIT",
+                                              "PHG_COARSENING_METHOD",
+                                              "PHG_COARSEPARTITION_METHOD",
+                                              "PHG_CUT_OBJECTIVE",
+                                              "PHG_EDGE_SIZE_THRESHOLD",
+                                              "PHG_EDGE_WEIGHT_OPERATION",
+                                              "PHG_FROM_GRAPH_METHOD",
+                                              "PHG_MATCH_MAX_NEIGHBORS",
+                                              "PHG_MULTILEVEL",
+                                              "PHG_OUTPUT_LEVEL",
+                                              "PHG_PROCESSOR_REDUCTION_LIMIT",
+                                              "PHG_RANDOMIZE_INPUT",
+                                              "PHG_RCB_REDUCTION",
+                                              "PHG_REFINEMENT_LIMIT",
+                                              "PHG_REFINEMENT_LOOP_LIMIT",
+                                              "PHG_REFINEMENT_METHOD",
+                                              "PHG_REFINEMENT_QUALITY",
+                                              "PHG_REPART_MULTIPLIER",
+                                              "PHG_USE_TIMERS",
+                                              "RCB_LOCK_DIRECTIONS",
+                                              "RCB_MULTICRITERIA_NORM",
+                                              "RCB_OUTPUT_LEVEL",
+                                              "RCB_OVERALLOC",
+                                              "RCB_RECOMPUTE_BOX",
+                                              "RCB_RECTILINEAR_BLOCKS",
+                                              "RCB_REUSE",
+                                              "RCB_SET_DIRECTIONS",
+                                              "REDUCE_DIMENSIONS",
+                                              "DEGENERATE_RATIO",
+                                              "SCOTCH_METHOD",
+                                              "SCOTCH_STRAT",
+                                              "SCOTCH_STRAT_FILE",
+                                              "SCOTCH_TYPE",
+                                              "SEED",
+                                              "USE_TIMERS"};
+  return names;
+}
+
+bool zoltan_accepts(const std::string& name, const std::string& value) {
+  initialize_once();
+  return Zoltan(MPI_COMM_SELF).set(name, value);
+}
+
+std::vector<Rank> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters) {
+  if (snapshot.subdomains.empty()) return {};
+  initialize_once();
+  return partition(MPI_COMM_SELF, snapshot, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbours) {
+    std::vector<int> process_of(snapshot.layout->subdomains.size(), -1);
+    for (const SubdomainState& s : snapshot.subdomains) process_of[static_cast<std::size_t>(s.id)] = 0;
+    std::vector<int> processes;
+    for (const ZOLTAN_ID_TYPE n : neighbours) processes.push_back(process_of[n]);
+    return processes;
+  });
+}
+
+std::vector<Rank> zoltan_partition(const LoadSnapshot& own, const ZoltanParameters& parameters, int communicator) {
+  initialize_once();
+  const MPI_Comm all = MPI_Comm_f2c(communicator);
+  const auto here = static_cast<std::int64_t>(own.subdomains.size());
+  std::int64_t everywhere = 0;
+  MPI_Allreduce(&here, &everywhere, 1, MPI_INT64_T, MPI_SUM, all);
+  if (everywhere == 0) return {};
+  return partition(all, own, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbours) {
+    Whereabouts whereabouts(all);
+    std::vector<ZOLTAN_ID_TYPE> listed;
+    for (const SubdomainState& s : own.subdomains) listed.push_back(static_cast<ZOLTAN_ID_TYPE>(s.id));
+    whereabouts.enter(std::move(listed));
+    return whereabouts.find(neighbours);
+  });
+}
+
+}  // namespace driftmesh::balancer

@@ -1,0 +1,77 @@
+#include "io/mesh_file.hpp"
+
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "io/msh_format.hpp"
+#include "io/pvtu_format.hpp"
+#include "io/triangle_format.hpp"
+#include "io/vtu_format.hpp"
+
+namespace driftmesh {
+namespace {
+
+enum class Format { kTriangle, kVtu, kPvtu, kMsh };
+
+Format format_of(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".vtu") return Format::kVtu;
+  if (extension == ".pvtu") return Format::kPvtu;
+  if (extension == ".msh") return Format::kMsh;
+  for (const char* of_triangle : {".node", ".ele", ".poly", ".edge", ".neigh"})
+    if (extension == of_triangle) return Format::kTriangle;
+  throw InputError({path, 0}, extension.empty() ? "has no extension" : "has an unknown extension '" + extension + "'",
+                   "mesh files end in .vtu, .pvtu, .msh, or in .node, .ele, .poly, .edge, .neigh");
+}
+
+std::string without_extension(const std::string& path) {
+  return std::filesystem::path(path).replace_extension().string();
+}
+
+}  // namespace
+
+void write_mesh(const MeshPiece& mesh, const std::string& path, const WriteOptions& options) {
+  switch (format_of(path)) {
+    case Format::kVtu:
+      return write_vtu(mesh, path);
+    case Format::kPvtu:
+      throw InputError({path, 0}, "is for a mesh in pieces", "this mesh is one: write a .vtu");
+    case Format::kMsh:
+      return write_msh(mesh, path);
+    case Format::kTriangle:
+      return write_triangle_format(mesh, without_extension(path), options.holes);
+  }
+}
+
+MeshPiece read_mesh(const std::string& path) {
+  switch (format_of(path)) {
+    case Format::kVtu:
+      return read_vtu(path);
+    case Format::kPvtu:
+      return read_pvtu(path);
+    case Format::kMsh:
+      return read_msh(path);
+    case Format::kTriangle:
+      return read_triangle_format(without_extension(path));
+  }
+  return {};
+}
+
+bool is_in_pieces(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".pvtu";
+}
+
+std::vector<std::string> mesh_files(const std::string& path) {
+  if (format_of(path) != Format::kTriangle) return {path};
+  const std::string stem = without_extension(path);
+  return {stem + ".node", stem + ".ele", stem + ".poly", stem + ".edge", stem + ".neigh"};
+}
+
+std::vector<std::string> files_to_read(const std::string& path) {
+  std::vector<std::string> files = mesh_files(path);
+  if (is_in_pieces(path))
+    for (const std::string& piece : pvtu_pieces(path)) files.push_back(piece);
+  return files;
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,70 @@
+#include "io/msh_groups.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <unordered_set>
+
+namespace driftmesh {
+namespace {
+
+constexpr std::string_view kMarkerPrefix = "marker ";
+constexpr std::string_view kRegionPrefix = "region ";
+
+template <class Number>
+std::string name_of(std::string_view prefix, Number value) {
+  char digits[32];
+  const char* const end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  return std::string(prefix).append(digits, static_cast<std::size_t>(end - digits));
+}
+
+template <class Number>
+std::optional<Number> value_of(std::string_view prefix, std::string_view name) {
+  if (!name.starts_with(prefix)) return std::nullopt;
+  name.remove_prefix(prefix.size());
+  Number value{};
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), value);
+  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
+  return value;
+}
+
+std::int32_t own_tag(double value) {
+  const bool is_tag = value >= 1 && value <= std::numeric_limits<std::int32_t>::max() && value == std::floor(value);
+  return is_tag ? static_cast<std::int32_t>(value) : 0;
+}
+
+}  // namespace
+
+std::string marker_group_name(std::int32_t marker) {
+  return name_of(kMarkerPrefix, marker);
+}
+
+std::string region_group_name(double region) {
+  return name_of(kRegionPrefix, region);
+}
+
+std::optional<std::int32_t> marker_of_group_name(std::string_view name) {
+  return value_of<std::int32_t>(kMarkerPrefix, name);
+}
+
+std::optional<double> region_of_group_name(std::string_view name) {
+  return value_of<double>(kRegionPrefix, name);
+}
+
+std::vector<std::int32_t> group_tags(const std::vector<double>& values) {
+  std::unordered_set<std::int32_t> used;
+  for (double value : values) used.insert(own_tag(value));
+  std::vector<std::int32_t> tags;
+  std::int32_t next_free = 1;
+  for (double value : values) {
+    std::int32_t tag = own_tag(value);
+    if (tag == 0) {
+      while (used.contains(next_free)) ++next_free;
+      tag = next_free++;
+    }
+    tags.push_back(tag);
+  }
+  return tags;
+}
+
+}  // namespace driftmesh

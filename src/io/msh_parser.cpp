@@ -1,0 +1,270 @@
+#include "io/msh_parser.hpp"
+
+#include <utility>
+
+#include "base/error.hpp"
+#include "io/byte_cursor.hpp"
+#include "io/msh_groups.hpp"
+#include "io/msh_input.hpp"
+
+namespace driftmesh {
+namespace {
+
+const char* const kDamaged = "the file is damaged or was not written completely";
+constexpr std::size_t kMaxAttributes = 1000;
+
+class MshParser {
+ public:
+  MshParser(const std::string& path, std::string_view bytes) : path_(path), cursor_(path, bytes) {}
+
+  RawMsh parse() {
+    while (cursor_.remaining() > 0) {
+      const std::string_view line = cursor_.take_line();
+      if (!line.starts_with('$')) continue;
+      parse_section(std::string(line.substr(1, line.find_last_not_of(" \t"))));
+    }
+    for (const char* name : {"MeshFormat", "Nodes", "Elements"})
+      if (!seen_[name]) fail("has no $" + std::string(name), "is this a .msh file, and complete?");
+    return std::move(raw_);
+  }
+
+ private:
+  void parse_section(const std::string& name) {
+    if (name == "MeshFormat") {
+      parse_format();
+    } else {
+      if (!seen_["MeshFormat"]) fail("does not begin with $MeshFormat", "is this a .msh file?");
+      if (is_binary_)
+        parse_body(name, BinaryMshInput(cursor_));
+      else
+        parse_body(name, TextMshInput(path_, cursor_));
+    }
+    seen_[name] = true;
+    skip_to_end_of(name);
+  }
+
+  template <class Input>
+  void parse_body(const std::string& name, Input input) {
+    if ((name == "Nodes" || name == "Elements") && seen_[name]) fail("has two sections $" + name, kDamaged);
+    if (name == "PhysicalNames") parse_physical_names();
+    if (name == "Entities") parse_entities(input);
+    if (name == "Nodes") parse_nodes(input);
+    if (name == "Elements") parse_elements(input);
+    if (name == "NodeData") parse_node_data(input);
+    if (name == "ElementData") parse_element_data(input);
+    if (name == "DriftmeshPointMarkers") parse_point_markers();
+  }
+
+  void skip_to_end_of(const std::string& name) {
+    const std::string end = "$End" + name;
+    while (true) {
+      if (cursor_.remaining() == 0) fail("ends before " + end, kDamaged);
+      if (cursor_.take_line().starts_with(end)) return;
+    }
+  }
+
+  void parse_format() {
+    TextMshInput input(path_, cursor_);
+    const double version = input.real();
+    is_binary_ = input.integer() == 1;
+    const std::uint64_t size_bytes = input.size();
+    if (version != 4.1)
+      fail("is not of format version 4.1", "convert it: gmsh FILE -0 -save_all -format msh41 -o NEW.msh");
+    if (size_bytes != 8)
+      fail("has sizes of " + std::to_string(size_bytes) + " bytes, not 8", "write it on a 64-bit system");
+    (void)cursor_.take_line();
+    if (is_binary_ && cursor_.take<std::int32_t>("$MeshFormat") != 1)
+      fail("is of the other byte order", "convert it to ASCII first");
+  }
+
+  void parse_physical_names() {
+    TextMshInput input(path_, cursor_);
+    for (std::uint64_t left = input.size(); left > 0; --left) {
+      const std::int32_t dimension = input.integer();
+      const std::int32_t tag = input.integer();
+      const std::string_view rest = cursor_.take_line();
+      const std::size_t begin = rest.find('"');
+      const std::size_t end = rest.rfind('"');
+      if (begin == std::string_view::npos || begin == end)
+        fail("has a physical group without a name in quotes", kDamaged);
+      raw_.group_names[{dimension, tag}] = rest.substr(begin + 1, end - begin - 1);
+    }
+  }
+
+  template <class Input>
+  void parse_entities(Input& input) {
+    std::uint64_t counts[4];
+    for (std::uint64_t& count : counts) count = input.size();
+    for (std::int32_t dimension = 0; dimension < 4; ++dimension)
+      for (std::uint64_t left = counts[dimension]; left > 0; --left) parse_entity(input, dimension);
+  }
+
+  template <class Input>
+  void parse_entity(Input& input, std::int32_t dimension) {
+    const std::int32_t tag = input.integer();
+    for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) (void)input.real();
+    const std::uint64_t groups = input.size();
+    for (std::uint64_t i = 0; i < groups; ++i) {
+      const std::int32_t group = input.integer();
+      if (i == 0) raw_.entity_group[{dimension, tag}] = group;
+    }
+    if (dimension == 0) return;
+    for (std::uint64_t left = input.size(); left > 0; --left) (void)input.integer();
+  }
+
+  template <class Input>
+  void parse_nodes(Input& input) {
+    const std::uint64_t blocks = input.size();
+    for (int i = 0; i < 3; ++i) (void)input.size();  // number of nodes, smallest and largest tag
+    for (std::uint64_t b = 0; b < blocks; ++b) {
+      const std::int32_t dimension = input.integer();
+      (void)input.integer();
+      const bool is_parametric = input.integer() != 0;
+      if (dimension < 0 || dimension > 3)
+        fail("has nodes on an entity of dimension " + std::to_string(dimension), kDamaged);
+      const std::uint64_t count = input.size();
+      for (std::uint64_t i = 0; i < count; ++i) raw_.node_tags.push_back(input.size());
+      for (std::uint64_t i = 0; i < count; ++i) parse_node(input, is_parametric ? dimension : 0);
+    }
+  }
+
+  template <class Input>
+  void parse_node(Input& input, std::int32_t parameters) {
+    const double x = input.real();
+    const double y = input.real();
+    const double z = input.real();
+    for (std::int32_t i = 0; i < parameters; ++i) (void)input.real();
+    if (raw_.nodes.empty()) z_ = z;
+    if (z != z_) fail("is not planar: its nodes differ in z", "only meshes of the plane are read");
+    raw_.nodes.push_back({x, y});
+  }
+
+  template <class Input>
+  void parse_elements(Input& input) {
+    const std::uint64_t blocks = input.size();
+    for (int i = 0; i < 3; ++i) (void)input.size();  // number of elements, smallest and largest tag
+    for (std::uint64_t b = 0; b < blocks; ++b) {
+      (void)input.integer();
+      const std::int32_t entity = input.integer();
+      const std::int32_t type = input.integer();
+      const std::uint64_t count = input.size();
+      switch (type) {
+        case 1:
+          parse_element_block(input, raw_.lines, entity, count);
+          break;
+        case 2:
+          parse_element_block(input, raw_.triangles, entity, count);
+          break;
+        case 15:
+          skip_point_elements(input, count);
+          break;
+        default:
+          fail_element_type(type);
+      }
+    }
+  }
+
+  template <class Input, std::size_t kCorners>
+  static void parse_element_block(Input& input, RawMsh::Elements<kCorners>& elements, std::int32_t entity,
+                                  std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      elements.tags.push_back(input.size());
+      auto& corners = elements.nodes.emplace_back();
+      for (std::uint64_t& corner : corners) corner = input.size();
+      elements.entities.push_back(entity);
+    }
+  }
+
+  template <class Input>
+  static void skip_point_elements(Input& input, std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      (void)input.size();
+      (void)input.size();
+    }
+  }
+
+  [[noreturn]] void fail_element_type(std::int32_t type) const {
+    const bool is_second_order = type == 8 || type == 9;
+    fail("has elements of Gmsh's type " + std::to_string(type) + ", neither triangles (2) nor lines (1)",
+         is_second_order ? "save the mesh in first order" : "only triangle meshes are read");
+  }
+
+  struct View {
+    std::string_view name;
+    std::int32_t values = 0;  // 0 for views of more than one component
+  };
+  View parse_view_header(const char* section) {
+    TextMshInput text(path_, cursor_);
+    View view;
+    for (std::uint64_t left = text.size(); left > 0; --left) {
+      cursor_.skip_blanks();
+      const std::string_view line = cursor_.take_line();
+      if (view.name.empty()) view.name = line;
+      if (cursor_.remaining() == 0) fail(std::string("ends within ") + section, kDamaged);
+    }
+    for (std::uint64_t left = text.size(); left > 0; --left) (void)text.real();
+    std::vector<std::int32_t> integers;
+    for (std::uint64_t left = text.size(); left > 0; --left) integers.push_back(text.integer());
+    (void)cursor_.take_line();
+    if (integers.size() >= 3 && integers[1] == 1) view.values = integers[2];
+    return view;
+  }
+
+  // Views that are not attributes of ours are passed over.
+  template <class Input>
+  void parse_node_data(Input& input) {
+    const View view = parse_view_header("$NodeData");
+    const std::string expected = "\"attribute " + std::to_string(raw_.attributes.size() + 1) + "\"";
+    if (view.name != expected) return;
+    if (raw_.attributes.size() == kMaxAttributes) fail("has more than 1000 attributes", kDamaged);
+    RawMsh::Attribute& attribute = raw_.attributes.emplace_back();
+    for (std::int32_t left = view.values; left > 0; --left) {
+      attribute.nodes.push_back(input.integer());
+      attribute.values.push_back(input.real());
+    }
+  }
+
+  template <class Input>
+  void parse_element_data(Input& input) {
+    const View view = parse_view_header("$ElementData");
+    std::vector<RawMsh::ElementValue>* const values = view.name == quoted(kSubdomainView) ? &raw_.subdomains
+                                                      : view.name == quoted(kRankView)    ? &raw_.ranks
+                                                                                          : nullptr;
+    if (values == nullptr) return;
+    for (std::int32_t left = view.values; left > 0; --left) {
+      const std::int32_t element = input.integer();
+      const double value = input.real();
+      if (!(value >= 0 && value <= INT32_MAX)) fail("has a " + std::string(view.name) + " out of range", kDamaged);
+      values->push_back({element, static_cast<std::int32_t>(value)});
+    }
+  }
+  static std::string quoted(std::string_view name) { return '"' + std::string(name) + '"'; }
+
+  void parse_point_markers() {
+    TextMshInput input(path_, cursor_);
+    raw_.point_markers.emplace();
+    for (std::uint64_t left = input.size(); left > 0; --left) {
+      const std::uint64_t node = input.size();
+      raw_.point_markers->push_back({node, input.integer()});
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& what, const std::string& next) const {
+    throw InputError({path_, 0}, what, next);
+  }
+
+  const std::string& path_;
+  ByteCursor cursor_;
+  bool is_binary_ = false;
+  double z_ = 0;
+  std::map<std::string, bool> seen_;
+  RawMsh raw_;
+};
+
+}  // namespace
+
+RawMsh parse_msh_sections(const std::string& path, std::string_view bytes) {
+  return MshParser(path, bytes).parse();
+}
+
+}  // namespace driftmesh

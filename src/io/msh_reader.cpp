@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/narrow.hpp"
+#include "base/read_file.hpp"
+#include "io/msh_format.hpp"
+#include "io/msh_groups.hpp"
+#include "io/msh_parser.hpp"
+#include "io/read_checks.hpp"
+#include "io/tag_order.hpp"
+
+namespace driftmesh {
+namespace {
+
+const char* const kDamaged = "the file is damaged or was not written completely";
+
+// Turns tags into indices and physical groups into markers and regions.
+class MshAssembler {
+ public:
+  MshAssembler(const std::string& path, RawMsh&& raw)
+      : path_(path),
+        raw_(std::move(raw)),
+        node_order_(order_by_tag(raw_.node_tags)),
+        node_index_(ascending_node_tags()) {}
+
+  MeshPiece assemble() {
+    place_points();
+    place_edges();
+    place_triangles();
+    mesh_.subdomains = values_of_triangles(raw_.subdomains);
+    mesh_.ranks = values_of_triangles(raw_.ranks);
+    place_attributes();
+    place_point_markers();
+    return std::move(mesh_);
+  }
+
+ private:
+  std::vector<std::uint64_t> ascending_node_tags() const {
+    (void)narrow<std::int32_t>(raw_.node_tags.size(), "nodes");
+    std::vector<std::uint64_t> tags;
+    tags.reserve(node_order_.size());
+    for (std::size_t i : node_order_) tags.push_back(raw_.node_tags[i]);
+    const auto twice = std::adjacent_find(tags.begin(), tags.end());
+    if (twice != tags.end()) throw InputError({path_, 0}, "has two nodes of tag " + std::to_string(*twice), kDamaged);
+    return tags;
+  }
+
+  [[nodiscard]] std::int32_t node(std::uint64_t tag, const char* user) const {
+    const std::int32_t index = node_index_.find(tag);
+    if (index < 0)
+      throw InputError({path_, 0}, std::string(user) + " names node " + std::to_string(tag) + ", which does not exist",
+                       kDamaged);
+    return index;
+  }
+
+  void place_points() {
+    mesh_.points.reserve(node_order_.size());
+    for (std::size_t i : node_order_) mesh_.points.push_back(raw_.nodes[i]);
+  }
+
+  void place_edges() {
+    const auto markers = values_of_entities<std::int32_t>(1, raw_.lines.entities, marker_of_group_name);
+    mesh_.edges.reserve(raw_.lines.tags.size());
+    for (std::size_t i : order_by_tag(raw_.lines.tags)) {
+      const auto& [a, b] = raw_.lines.nodes[i];
+      mesh_.edges.push_back({node(a, "a line"), node(b, "a line"), markers.at(raw_.lines.entities[i])});
+    }
+  }
+
+  void place_triangles() {
+    const auto regions = values_of_entities<double>(2, raw_.triangles.entities, region_of_group_name);
+    const bool has_regions = this->has_regions();
+    mesh_.triangles.reserve(raw_.triangles.tags.size());
+    for (std::size_t i : order_by_tag(raw_.triangles.tags)) {
+      const auto& [a, b, c] = raw_.triangles.nodes[i];
+      mesh_.triangles.push_back({node(a, "a triangle"), node(b, "a triangle"), node(c, "a triangle")});
+      if (has_regions) mesh_.regions.push_back(regions.at(raw_.triangles.entities[i]));
+    }
+  }
+
+  // Only if each triangle has one; values of lines are passed over.
+  [[nodiscard]] std::vector<std::int32_t> values_of_triangles(const std::vector<RawMsh::ElementValue>& values) const {
+    if (values.empty()) return {};
+    std::vector<std::uint64_t> tags = raw_.triangles.tags;
+    std::sort(tags.begin(), tags.end());
+    std::vector<std::int32_t> result(tags.size(), -1);
+    for (const RawMsh::ElementValue& v : values) {
+      const auto tag = static_cast<std::uint64_t>(v.element);
+      const auto found = std::lower_bound(tags.begin(), tags.end(), tag);
+      if (found != tags.end() && *found == tag) result[static_cast<std::size_t>(found - tags.begin())] = v.value;
+    }
+    if (std::find(result.begin(), result.end(), -1) != result.end()) result.clear();
+    return result;
+  }
+
+  // The marker or region of each entity that is used: what the name of its group says, otherwise the group's tag.
+  template <class Value, class Parse>
+  std::map<std::int32_t, Value> values_of_entities(std::int32_t dimension, const std::vector<std::int32_t>& used,
+                                                   Parse parse) const {
+    std::map<std::int32_t, Value> values;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (i > 0 && used[i] == used[i - 1]) continue;
+      const auto group = raw_.entity_group.find({dimension, used[i]});
+      if (group == raw_.entity_group.end()) {
+        values[used[i]] = 0;
+        continue;
+      }
+      const auto name = raw_.group_names.find({dimension, group->second});
+      const std::optional<Value> named = name == raw_.group_names.end() ? std::nullopt : parse(name->second);
+      values[used[i]] = named ? *named : static_cast<Value>(group->second);
+    }
+    return values;
+  }
+
+  // Not when no surface is in a group, nor when the only group is the one that write_msh gives a mesh without regions.
+  [[nodiscard]] bool has_regions() const {
+    for (const auto& [entity, group] : raw_.entity_group) {
+      if (entity.first != 2) continue;
+      const auto name = raw_.group_names.find({2, group});
+      if (name == raw_.group_names.end() || name->second != kDomainName) return true;
+    }
+    return false;
+  }
+
+  void place_attributes() {
+    const std::size_t per_point = raw_.attributes.size();
+    mesh_.attributes_per_point = narrow<std::int32_t>(per_point, "attributes");
+    mesh_.attributes.assign(per_point * mesh_.points.size(), 0);
+    for (std::size_t k = 0; k < per_point; ++k)
+      for (std::size_t i = 0; i < raw_.attributes[k].nodes.size(); ++i) {
+        const auto tag = static_cast<std::uint64_t>(raw_.attributes[k].nodes[i]);
+        const auto v = static_cast<std::size_t>(node(tag, "$NodeData"));
+        mesh_.attributes[v * per_point + k] = raw_.attributes[k].values[i];
+      }
+  }
+
+  void place_point_markers() {
+    if (!raw_.point_markers) return;
+    mesh_.point_markers.assign(mesh_.points.size(), 0);
+    for (const RawMsh::Marker& marker : *raw_.point_markers)
+      mesh_.point_markers[static_cast<std::size_t>(node(marker.node, "a point marker"))] = marker.marker;
+  }
+
+  const std::string& path_;
+  RawMsh raw_;
+  std::vector<std::size_t> node_order_;
+  TagIndex node_index_;
+  MeshPiece mesh_;
+};
+
+}  // namespace
+
+MeshPiece parse_msh(const std::string& file, std::string_view bytes) {
+  MeshPiece mesh = MshAssembler(file, parse_msh_sections(file, bytes)).assemble();
+  check_read_mesh(mesh, file);
+  return mesh;
+}
+
+MeshPiece read_msh(const std::string& path) {
+  return parse_msh(path, read_file(path));
+}
+
+}  // namespace driftmesh

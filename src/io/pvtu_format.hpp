@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/vtu_format.hpp"
+#include "mesh/mesh_piece.hpp"
+
+namespace driftmesh {
+
+/// The name of piece `k` of the .pvtu at `path`, in the same folder: mesh.pvtu has mesh_0.vtu, mesh_1.vtu, ...
+[[nodiscard]] std::string pvtu_piece_path(const std::string& path, std::int32_t k);
+
+/// Writes the .pvtu that names `pieces` pieces, written before with the arrays given.
+void write_pvtu(const std::string& path, std::int32_t pieces, const VtuArrays& arrays);
+
+/// The paths of the pieces that a .pvtu names.
+[[nodiscard]] std::vector<std::string> pvtu_pieces(const std::string& path);
+/// The same from memory; `file` is for messages, and its folder is where the pieces are.
+[[nodiscard]] std::vector<std::string> parse_pvtu(const std::string& file, std::string_view bytes);
+
+/// The whole mesh of a .pvtu (see merge_pieces). Throws InputError if its pieces contradict each other.
+[[nodiscard]] MeshPiece read_pvtu(const std::string& path);
+
+}  // namespace driftmesh

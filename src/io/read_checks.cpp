@@ -1,0 +1,91 @@
+#include "io/read_checks.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "geometry/predicates.hpp"
+
+namespace driftmesh {
+namespace {
+
+const char* const kNext = "the file is damaged or was not written completely";
+
+// Of what the mesher computes; false for NaN.
+bool is_in_range(double x) {
+  return x == 0 || (std::fabs(x) >= kSmallestCoordinate && std::fabs(x) <= kMaxCoordinate);
+}
+
+void check_points(const MeshPiece& mesh, const std::string& path) {
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (!is_in_range(mesh.points[v].x) || !is_in_range(mesh.points[v].y))
+      throw InputError({path, 0}, "point " + std::to_string(v) + " (counted from 0) is not finite or out of range",
+                       kNext);
+}
+
+class VertexRange {
+ public:
+  VertexRange(const MeshPiece& mesh, const std::string& path) : path_(path), count_(mesh.points.size()) {}
+  void check(std::int32_t vertex, const char* what, std::size_t number) const {
+    if (vertex >= 0 && static_cast<std::size_t>(vertex) < count_) return;
+    throw InputError({path_, 0},
+                     std::string(what) + " " + std::to_string(number) + " (counted from 0) names vertex " +
+                         std::to_string(vertex) + " of " + std::to_string(count_),
+                     kNext);
+  }
+
+ private:
+  const std::string& path_;
+  std::size_t count_;
+};
+
+void check_indices(const MeshPiece& mesh, const std::string& path) {
+  const VertexRange range(mesh, path);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::int32_t vertex : mesh.triangles[t]) range.check(vertex, "triangle", t);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    range.check(mesh.edges[e].a, "constrained edge", e);
+    range.check(mesh.edges[e].b, "constrained edge", e);
+  }
+}
+
+void check_length(std::size_t length, std::size_t expected, const char* what, const std::string& path) {
+  if (length != expected)
+    throw InputError({path, 0},
+                     std::string(what) + ": " + std::to_string(length) + " values where " + std::to_string(expected) +
+                         " are expected",
+                     kNext);
+}
+
+void check_lengths(const MeshPiece& mesh, const std::string& path) {
+  if (!mesh.point_markers.empty()) check_length(mesh.point_markers.size(), mesh.points.size(), "point markers", path);
+  if (!mesh.regions.empty()) check_length(mesh.regions.size(), mesh.triangles.size(), "regions", path);
+  if (!mesh.numbers.empty()) check_length(mesh.numbers.size(), mesh.points.size(), "point numbers", path);
+  if (!mesh.subdomains.empty()) check_length(mesh.subdomains.size(), mesh.triangles.size(), "subdomains", path);
+  if (!mesh.ranks.empty()) check_length(mesh.ranks.size(), mesh.triangles.size(), "ranks", path);
+  check_length(mesh.attributes.size(), static_cast<std::size_t>(mesh.attributes_per_point) * mesh.points.size(),
+               "point attributes", path);
+}
+
+double twice_total_area(const MeshPiece& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Point& p = mesh.points[static_cast<std::size_t>(a)];
+    const Point& q = mesh.points[static_cast<std::size_t>(b)];
+    const Point& r = mesh.points[static_cast<std::size_t>(c)];
+    sum += (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void check_read_mesh(MeshPiece& mesh, const std::string& path) {
+  check_points(mesh, path);
+  check_indices(mesh, path);
+  check_lengths(mesh, path);
+  if (twice_total_area(mesh) < 0)
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,82 @@
+#include <filesystem>
+#include <limits>
+#include <optional>
+
+#include "base/read_file.hpp"
+#include "io/read_checks.hpp"
+#include "io/triangle_format.hpp"
+#include "pslg/record_scanner.hpp"
+#include "pslg/triangle_files.hpp"
+
+namespace driftmesh {
+namespace {
+
+using Edges = std::vector<MeshPiece::Edge>;
+
+// The section "count has_markers" and its records "number a b marker", which .poly and .edge files share.
+Edges scan_edges(RecordScanner& scanner, const NodeTable& nodes, bool& has_markers) {
+  scanner.require_record("the number of edges", "the file may be truncated");
+  const std::int32_t count = scanner.header("the number of edges", std::numeric_limits<std::int32_t>::max());
+  has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
+  scanner.require_room(count, "edges", has_markers ? 4 : 3);
+  Edges edges(static_cast<std::size_t>(count));
+  for (MeshPiece::Edge& edge : edges) {
+    scanner.require_record("an edge", "the header announces " + std::to_string(count) + "; the file may be truncated");
+    (void)scanner.integer("the edge number");
+    edge.a = scan_vertex(scanner, nodes.points.size(), nodes.first_number);
+    edge.b = scan_vertex(scanner, nodes.points.size(), nodes.first_number);
+    if (has_markers) edge.marker = scanner.integer("the boundary marker");
+  }
+  scanner.throw_problems();
+  return edges;
+}
+
+// A .poly that lists vertices of its own numbers its segments by them: it is an input, not part of the mesh.
+std::optional<Edges> read_segments(const std::string& path, const NodeTable& nodes) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const std::string text = read_file(path);
+  RecordScanner scanner(path, text);
+  if (!scan_nodes(scanner).points.empty()) return std::nullopt;
+  bool has_markers = false;
+  return scan_edges(scanner, nodes, has_markers);
+}
+
+Edges read_marked_edges(const std::string& path, const NodeTable& nodes) {
+  if (!std::filesystem::exists(path)) return {};
+  const std::string text = read_file(path);
+  RecordScanner scanner(path, text);
+  bool has_markers = false;
+  Edges edges = scan_edges(scanner, nodes, has_markers);
+  std::erase_if(edges, [](const MeshPiece::Edge& edge) { return edge.marker == 0; });
+  return edges;
+}
+
+std::vector<double> last_attributes(EleTable&& elements) {
+  const auto per_triangle = static_cast<std::size_t>(elements.attributes_per_triangle);
+  if (per_triangle <= 1) return std::move(elements.attributes);
+  std::vector<double> last;
+  last.reserve(elements.triangles.size());
+  for (std::size_t i = per_triangle - 1; i < elements.attributes.size(); i += per_triangle)
+    last.push_back(elements.attributes[i]);
+  return last;
+}
+
+}  // namespace
+
+MeshPiece read_triangle_format(const std::string& stem) {
+  NodeTable nodes = read_node(stem + ".node");
+  EleTable elements = read_ele(stem + ".ele", nodes);
+  MeshPiece mesh;
+  const std::optional<Edges> segments = read_segments(stem + ".poly", nodes);
+  mesh.edges = segments ? *segments : read_marked_edges(stem + ".edge", nodes);
+  mesh.points = std::move(nodes.points);
+  mesh.point_markers = std::move(nodes.markers);
+  mesh.attributes = std::move(nodes.attributes);
+  mesh.attributes_per_point = nodes.attributes_per_point;
+  mesh.triangles = std::move(elements.triangles);
+  mesh.regions = last_attributes(std::move(elements));
+  check_read_mesh(mesh, stem + ".ele");
+  return mesh;
+}
+
+}  // namespace driftmesh

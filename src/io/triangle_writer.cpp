@@ -1,0 +1,104 @@
+#include "io/file_sink.hpp"
+#include "io/triangle_format.hpp"
+#include "mesh/mesh_edges.hpp"
+
+namespace driftmesh {
+namespace {
+
+template <class... Numbers>
+void line(FileSink& sink, std::size_t first, Numbers... rest) {
+  sink.number(first);
+  ((sink.character(' '), sink.number(rest)), ...);
+  sink.character('\n');
+}
+
+void write_nodes(FileSink& sink, const MeshPiece& mesh) {
+  const auto per_point = static_cast<std::size_t>(mesh.attributes_per_point);
+  const bool has_markers = !mesh.point_markers.empty();
+  line(sink, mesh.points.size(), 2, per_point, has_markers ? 1 : 0);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    sink.number(v + 1);
+    sink.character(' ');
+    sink.number(mesh.points[v].x);
+    sink.character(' ');
+    sink.number(mesh.points[v].y);
+    for (std::size_t k = 0; k < per_point; ++k) {
+      sink.character(' ');
+      sink.number(mesh.attributes[v * per_point + k]);
+    }
+    if (has_markers) {
+      sink.character(' ');
+      sink.number(mesh.point_markers[v]);
+    }
+    sink.character('\n');
+  }
+}
+
+void write_triangles(FileSink& sink, const MeshPiece& mesh) {
+  line(sink, mesh.triangles.size(), 3, mesh.regions.empty() ? 0 : 1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (mesh.regions.empty())
+      line(sink, t + 1, a + 1, b + 1, c + 1);
+    else
+      line(sink, t + 1, a + 1, b + 1, c + 1, mesh.regions[t]);
+  }
+}
+
+void write_segments(FileSink& sink, const MeshPiece& mesh, const std::vector<Point>& holes) {
+  line(sink, 0, 2, mesh.attributes_per_point, mesh.point_markers.empty() ? 0 : 1);
+  line(sink, mesh.edges.size(), 1);
+  for (std::size_t i = 0; i < mesh.edges.size(); ++i)
+    line(sink, i + 1, mesh.edges[i].a + 1, mesh.edges[i].b + 1, mesh.edges[i].marker);
+  line(sink, holes.size());
+  for (std::size_t i = 0; i < holes.size(); ++i) line(sink, i + 1, holes[i].x, holes[i].y);
+}
+
+// An edge of two triangles is listed by the later one, which has a smaller neighbour there; so is one of a single
+// triangle, whose neighbour is -1.
+bool lists_edge(const TriangleNeighbors& neighbors, std::size_t t, std::size_t i) {
+  return neighbors[t][i] < static_cast<std::int32_t>(t);
+}
+
+void write_edges(FileSink& sink, const MeshPiece& mesh, const TriangleNeighbors& neighbors) {
+  const ConstrainedEdgeIndex index(mesh);
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) count += lists_edge(neighbors, t, i) ? 1 : 0;
+  line(sink, count, 1);
+  std::size_t number = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!lists_edge(neighbors, t, i)) continue;
+      const std::int32_t a = mesh.triangles[t][(i + 1) % 3];
+      const std::int32_t b = mesh.triangles[t][(i + 2) % 3];
+      const std::int32_t edge = index.find(a, b);
+      line(sink, ++number, a + 1, b + 1, edge < 0 ? 0 : mesh.edges[static_cast<std::size_t>(edge)].marker);
+    }
+}
+
+void write_neighbors(FileSink& sink, const TriangleNeighbors& neighbors) {
+  line(sink, neighbors.size(), 3);
+  const auto numbered = [](std::int32_t t) { return t < 0 ? -1 : t + 1; };
+  for (std::size_t t = 0; t < neighbors.size(); ++t)
+    line(sink, t + 1, numbered(neighbors[t][0]), numbered(neighbors[t][1]), numbered(neighbors[t][2]));
+}
+
+}  // namespace
+
+void write_triangle_format(const MeshPiece& mesh, const std::string& stem, const std::vector<Point>& holes) {
+  FileSink nodes(stem + ".node");
+  FileSink triangles(stem + ".ele");
+  FileSink segments(stem + ".poly");
+  FileSink edges(stem + ".edge");
+  FileSink neighbor_file(stem + ".neigh");
+  write_nodes(nodes, mesh);
+  write_triangles(triangles, mesh);
+  write_segments(segments, mesh, holes);
+  const TriangleNeighbors neighbors = triangle_neighbors(mesh);
+  write_edges(edges, mesh, neighbors);
+  write_neighbors(neighbor_file, neighbors);
+  for (FileSink* sink : {&nodes, &triangles, &segments, &edges, &neighbor_file}) sink->commit();
+}
+
+}  // namespace driftmesh

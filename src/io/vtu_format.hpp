@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "io/file_sink.hpp"
+#include "mesh/mesh_piece.hpp"
+
+namespace driftmesh {
+
+/// The data arrays of a file beside the grid itself. All pieces of a .pvtu have the same.
+struct VtuArrays {
+  bool point_markers = false;
+  std::int32_t attributes = 0;  ///< components
+  bool numbers = false;
+  bool cell_markers = false;
+  bool regions = false;
+  bool subdomains = false;
+  bool ranks = false;
+};
+/// Those that the mesh has values for.
+[[nodiscard]] VtuArrays arrays_of(const MeshPiece& mesh);
+
+/// Calls visit(a null pointer of the type, name, components) for each array on points, in the order of the file.
+template <class Visit>
+void for_each_point_array(const VtuArrays& arrays, const Visit& visit) {
+  constexpr const std::int32_t* kInt32 = nullptr;
+  constexpr const std::int64_t* kInt64 = nullptr;
+  constexpr const double* kFloat64 = nullptr;
+  if (arrays.point_markers) visit(kInt32, "marker", 1);
+  if (arrays.attributes > 0) visit(kFloat64, "attribute", arrays.attributes);
+  if (arrays.numbers) visit(kInt64, "global_number", 1);
+}
+/// The same, visit(pointer, name), for arrays on cells.
+template <class Visit>
+void for_each_cell_array(const VtuArrays& arrays, const Visit& visit) {
+  constexpr const std::int32_t* kInt32 = nullptr;
+  constexpr const double* kFloat64 = nullptr;
+  if (arrays.cell_markers) visit(kInt32, "marker");
+  if (arrays.regions) visit(kFloat64, "region");
+  if (arrays.subdomains) visit(kInt32, "subdomain");
+  if (arrays.ranks) visit(kInt32, "rank");
+}
+
+/// What VTK calls the type.
+template <class T>
+[[nodiscard]] constexpr const char* vtk_type_name() {
+  if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
+  if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
+  if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
+  if constexpr (std::is_same_v<T, double>) return "Float64";
+}
+
+/// One VTK unstructured grid: the triangles, then the constrained edges as line cells, as raw appended binary data.
+/// Point data "marker", "attribute" and "global_number"; cell data "marker" (0 on triangles), "region", "subdomain" and
+/// "rank" (on a line, of a triangle at it); each only where the mesh has it.
+void write_vtu(const MeshPiece& mesh, const std::string& path);
+/// The same with the arrays given, complete but for commit(), which puts it under its name.
+[[nodiscard]] std::unique_ptr<FileSink> prepare_vtu(const MeshPiece& mesh, const VtuArrays& arrays,
+                                                    const std::string& path);
+
+/// Reads what write_vtu writes; other files of that kind too, as long as they hold triangles and lines as raw
+/// appended data that is not compressed.
+[[nodiscard]] MeshPiece read_vtu(const std::string& path);
+/// The same from memory; `file` is for messages.
+[[nodiscard]] MeshPiece parse_vtu(const std::string& file, std::string_view bytes);
+
+}  // namespace driftmesh

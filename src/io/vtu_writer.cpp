@@ -1,0 +1,185 @@
+#include <utility>
+
+#include "io/file_sink.hpp"
+#include "io/vtu_format.hpp"
+#include "mesh/mesh_edges.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr std::uint8_t kLineCell = 3;
+constexpr std::uint8_t kTriangleCell = 5;
+
+// The header names every array with its offset before any array is written; the arrays then follow in the order in
+// which the header named them.
+class VtuFile {
+ public:
+  explicit VtuFile(FileSink& sink) : sink_(sink) {}
+
+  void header(std::string_view line) { sink_.text(line); }
+
+  template <class T>
+  void declare(const std::string& name, std::size_t values, std::int32_t components = 1) {
+    sink_.text(std::string("        <DataArray type=\"") + vtk_type_name<T>() + "\" Name=\"" + name + '"');
+    if (components != 1) sink_.text(" NumberOfComponents=\"" + std::to_string(components) + '"');
+    sink_.text(" format=\"appended\" offset=\"" + std::to_string(declared_) + "\"/>\n");
+    declared_ += sizeof(std::uint64_t) + values * sizeof(T);
+  }
+
+  template <class T>
+  void begin_array(std::size_t values) {
+    sink_.raw(std::uint64_t{values * sizeof(T)});
+  }
+  template <class T>
+  void array(const std::vector<T>& values) {
+    begin_array<T>(values.size());
+    sink_.raw_array(std::span<const T>(values));
+  }
+  FileSink& sink() { return sink_; }
+
+ private:
+  FileSink& sink_;
+  std::uint64_t declared_ = 0;
+};
+
+struct Counts {
+  explicit Counts(const MeshPiece& mesh)
+      : points(mesh.points.size()),
+        triangles(mesh.triangles.size()),
+        lines(mesh.edges.size()),
+        cells(triangles + lines),
+        connectivity(3 * triangles + 2 * lines) {}
+  std::size_t points, triangles, lines, cells, connectivity;
+};
+
+void declare_point_data(VtuFile& file, const VtuArrays& arrays, const Counts& counts) {
+  file.header(arrays.numbers ? "      <PointData GlobalIds=\"global_number\">\n" : "      <PointData>\n");
+  for_each_point_array(arrays, [&]<class T>(const T*, const char* name, std::int32_t components) {
+    file.declare<T>(name, counts.points * static_cast<std::size_t>(components), components);
+  });
+  file.header("      </PointData>\n");
+}
+
+void declare_cell_data(VtuFile& file, const VtuArrays& arrays, const Counts& counts) {
+  file.header("      <CellData>\n");
+  for_each_cell_array(arrays, [&]<class T>(const T*, const char* name) { file.declare<T>(name, counts.cells); });
+  file.header("      </CellData>\n");
+}
+
+template <class Offset>
+void declare_grid(VtuFile& file, const Counts& counts) {
+  file.header("      <Points>\n");
+  file.declare<double>("Points", 3 * counts.points, 3);
+  file.header("      </Points>\n      <Cells>\n");
+  file.declare<std::int32_t>("connectivity", counts.connectivity);
+  file.declare<Offset>("offsets", counts.cells);
+  file.declare<std::uint8_t>("types", counts.cells);
+  file.header("      </Cells>\n");
+}
+
+template <class Offset>
+void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts) {
+  file.header(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "  <UnstructuredGrid>\n");
+  file.header("    <Piece NumberOfPoints=\"" + std::to_string(counts.points) + "\" NumberOfCells=\"" +
+              std::to_string(counts.cells) + "\">\n");
+  declare_point_data(file, arrays, counts);
+  declare_cell_data(file, arrays, counts);
+  declare_grid<Offset>(file, counts);
+  file.header("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _");
+}
+
+void write_point_data(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arrays) {
+  if (arrays.point_markers) file.array(mesh.point_markers);
+  if (arrays.attributes > 0) file.array(mesh.attributes);
+  if (arrays.numbers) file.array(mesh.numbers);
+}
+
+// A line shows the value of a triangle at it, so that colouring by region does not paint the lines a colour of their
+// own.
+class LineValues {
+ public:
+  explicit LineValues(const MeshPiece& mesh) : at_edges_(triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh))) {}
+
+  template <class T>
+  void append(FileSink& sink, const std::vector<T>& of_triangles) const {
+    for (const auto& [left, right] : at_edges_) {
+      const std::int32_t triangle = left >= 0 ? left : right;
+      sink.raw(triangle >= 0 ? of_triangles[static_cast<std::size_t>(triangle)] : T{0});
+    }
+  }
+
+ private:
+  std::vector<std::array<std::int32_t, 2>> at_edges_;
+};
+
+void write_cell_data(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arrays, const Counts& counts) {
+  FileSink& sink = file.sink();
+  if (arrays.cell_markers) {
+    file.begin_array<std::int32_t>(counts.cells);
+    for (std::size_t t = 0; t < counts.triangles; ++t) sink.raw(std::int32_t{0});
+    for (const MeshPiece::Edge& edge : mesh.edges) sink.raw(edge.marker);
+  }
+  if (!arrays.regions && !arrays.subdomains && !arrays.ranks) return;
+  const LineValues lines(mesh);
+  const auto write = [&]<class T>(const std::vector<T>& of_triangles) {
+    file.begin_array<T>(counts.cells);
+    sink.raw_array(std::span<const T>(of_triangles));
+    lines.append(sink, of_triangles);
+  };
+  if (arrays.regions) write(mesh.regions);
+  if (arrays.subdomains) write(mesh.subdomains);
+  if (arrays.ranks) write(mesh.ranks);
+}
+
+template <class Offset>
+void write_grid(VtuFile& file, const MeshPiece& mesh, const Counts& counts) {
+  FileSink& sink = file.sink();
+  file.begin_array<double>(3 * counts.points);
+  for (const Point& p : mesh.points) sink.raw(std::array<double, 3>{p.x, p.y, 0.0});
+  file.begin_array<std::int32_t>(counts.connectivity);
+  sink.raw_array(std::span<const std::array<std::int32_t, 3>>(mesh.triangles));
+  for (const MeshPiece::Edge& edge : mesh.edges) sink.raw(std::array<std::int32_t, 2>{edge.a, edge.b});
+  file.begin_array<Offset>(counts.cells);
+  Offset end = 0;
+  for (std::size_t t = 0; t < counts.triangles; ++t) sink.raw(end += 3);
+  for (std::size_t e = 0; e < counts.lines; ++e) sink.raw(end += 2);
+  file.begin_array<std::uint8_t>(counts.cells);
+  for (std::size_t t = 0; t < counts.triangles; ++t) sink.raw(kTriangleCell);
+  for (std::size_t e = 0; e < counts.lines; ++e) sink.raw(kLineCell);
+}
+
+template <class Offset>
+void write_all(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arrays, const Counts& counts) {
+  write_header<Offset>(file, arrays, counts);
+  write_point_data(file, mesh, arrays);
+  write_cell_data(file, mesh, arrays, counts);
+  write_grid<Offset>(file, mesh, counts);
+  file.header("\n  </AppendedData>\n</VTKFile>\n");
+}
+
+}  // namespace
+
+VtuArrays arrays_of(const MeshPiece& mesh) {
+  return {!mesh.point_markers.empty(), mesh.attributes_per_point, !mesh.numbers.empty(), !mesh.edges.empty(),
+          !mesh.regions.empty(),       !mesh.subdomains.empty(),  !mesh.ranks.empty()};
+}
+
+std::unique_ptr<FileSink> prepare_vtu(const MeshPiece& mesh, const VtuArrays& arrays, const std::string& path) {
+  auto sink = std::make_unique<FileSink>(path);
+  VtuFile file(*sink);
+  const Counts counts(mesh);
+  if (std::in_range<std::int32_t>(counts.connectivity))
+    write_all<std::int32_t>(file, mesh, arrays, counts);
+  else
+    write_all<std::int64_t>(file, mesh, arrays, counts);
+  return sink;
+}
+
+void write_vtu(const MeshPiece& mesh, const std::string& path) {
+  prepare_vtu(mesh, arrays_of(mesh), path)->commit();
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,114 @@
+#include "mesh/mesh_edges.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/narrow.hpp"
+
+namespace driftmesh {
+namespace {
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+// Half-edge h = 3 t + i is the edge of triangle t opposite its vertex i.
+struct HalfEdge {
+  std::int32_t low;
+  std::int32_t high;
+};
+
+HalfEdge half_edge(const MeshPiece& mesh, std::uint32_t h) {
+  const auto& triangle = mesh.triangles[h / 3];
+  const std::uint32_t i = h % 3;
+  const std::int32_t a = triangle[i == 2 ? 0 : i + 1];
+  const std::int32_t b = triangle[i == 0 ? 2 : i - 1];
+  return {std::min(a, b), std::max(a, b)};
+}
+
+struct Buckets {
+  std::vector<std::uint32_t> first;  // of each vertex, and one past the last
+  std::vector<std::uint32_t> half_edges;
+};
+
+Buckets bucket_by_low_vertex(const MeshPiece& mesh, std::uint32_t half_edge_count) {
+  Buckets buckets;
+  buckets.first.assign(mesh.points.size() + 1, 0);
+  for (std::uint32_t h = 0; h < half_edge_count; ++h) ++buckets.first[at(half_edge(mesh, h).low) + 1];
+  for (std::size_t v = 1; v < buckets.first.size(); ++v) buckets.first[v] += buckets.first[v - 1];
+  buckets.half_edges.resize(half_edge_count);
+  std::vector<std::uint32_t> next(buckets.first.begin(), buckets.first.end() - 1);
+  for (std::uint32_t h = 0; h < half_edge_count; ++h) buckets.half_edges[next[at(half_edge(mesh, h).low)]++] = h;
+  return buckets;
+}
+
+void link(TriangleNeighbors& neighbors, std::uint32_t g, std::uint32_t h) {
+  neighbors[g / 3][g % 3] = static_cast<std::int32_t>(h / 3);
+  neighbors[h / 3][h % 3] = static_cast<std::int32_t>(g / 3);
+}
+
+}  // namespace
+
+TriangleNeighbors triangle_neighbors(const MeshPiece& mesh) {
+  const auto half_edge_count = narrow<std::uint32_t>(3 * mesh.triangles.size(), "edges of all triangles");
+  const Buckets buckets = bucket_by_low_vertex(mesh, half_edge_count);
+  TriangleNeighbors neighbors(mesh.triangles.size(), {-1, -1, -1});
+  struct Waiting {
+    std::int32_t low = -1;
+    std::uint32_t half_edge = 0;
+  };
+  std::vector<Waiting> waiting(mesh.points.size());  // by high vertex: an edge (low, high) seen once so far
+  for (std::uint32_t h : buckets.half_edges) {
+    const HalfEdge edge = half_edge(mesh, h);
+    Waiting& other = waiting[at(edge.high)];
+    if (other.low == edge.low) {
+      link(neighbors, other.half_edge, h);
+      other.low = -1;
+    } else {
+      other = {edge.low, h};
+    }
+  }
+  return neighbors;
+}
+
+ConstrainedEdgeIndex::ConstrainedEdgeIndex(const MeshPiece& mesh)
+    : edges_(mesh.edges), on_edge_(mesh.points.size(), false) {
+  slots_.assign(std::bit_ceil(2 * mesh.edges.size() + 1), -1);
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const auto [low, high] = std::minmax(edges_[i].a, edges_[i].b);
+    on_edge_[at(low)] = on_edge_[at(high)] = true;
+    if (look_up(low, high) != -1) continue;
+    std::size_t slot = home_slot(low, high);
+    while (slots_[slot] != -1) slot = (slot + 1) & (slots_.size() - 1);
+    slots_[slot] = static_cast<std::int32_t>(i);
+  }
+}
+
+std::size_t ConstrainedEdgeIndex::home_slot(std::int32_t low, std::int32_t high) const {
+  const std::uint64_t key = (static_cast<std::uint64_t>(low) << 32) | static_cast<std::uint32_t>(high);
+  return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> 20) & (slots_.size() - 1);
+}
+
+std::int32_t ConstrainedEdgeIndex::look_up(std::int32_t a, std::int32_t b) const {
+  const auto [low, high] = std::minmax(a, b);
+  for (std::size_t slot = home_slot(low, high); slots_[slot] != -1; slot = (slot + 1) & (slots_.size() - 1)) {
+    const MeshPiece::Edge& edge = edges_[at(slots_[slot])];
+    if (std::min(edge.a, edge.b) == low && std::max(edge.a, edge.b) == high) return slots_[slot];
+  }
+  return -1;
+}
+
+std::vector<std::array<std::int32_t, 2>> triangles_at_edges(const MeshPiece& mesh, const ConstrainedEdgeIndex& index) {
+  std::vector<std::array<std::int32_t, 2>> at_edges(mesh.edges.size(), {-1, -1});
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& triangle = mesh.triangles[t];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t from = triangle[(i + 1) % 3];
+      const std::int32_t edge = index.find(from, triangle[(i + 2) % 3]);
+      if (edge != -1) at_edges[at(edge)][mesh.edges[at(edge)].a == from ? 0 : 1] = static_cast<std::int32_t>(t);
+    }
+  }
+  return at_edges;
+}
+
+}  // namespace driftmesh

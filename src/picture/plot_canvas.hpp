@@ -1,0 +1,72 @@
+#pragma once
+
+#include <string>
+
+#include "base/atomic_file.hpp"
+#include "geometry/point.hpp"
+#include "picture/plot_color.hpp"
+
+struct _cairo;
+struct _cairo_surface;
+
+namespace driftmesh {
+
+/// A rectangle of the picture, in pixels, y down.
+struct PixelRect {
+  double x = 0;
+  double y = 0;
+  double width = 0;
+  double height = 0;
+};
+
+enum class TextAlign { left, center, right };
+
+struct TextStyle {
+  double size = 12;
+  Rgb color = kInk;
+  TextAlign align = TextAlign::left;
+  bool bold = false;
+  bool halo = false;  ///< white around the letters, for text on top of lines
+};
+
+/// Where cairo's output goes. Exceptions may not pass through cairo, which is C: the message of one waits in `failure`.
+struct PictureFile {
+  explicit PictureFile(const std::string& path) : file(path) {}
+  AtomicFile file;
+  std::string failure;
+};
+
+/// The picture being drawn, with what every part of it needs; what is special goes through cairo().
+class Canvas {
+ public:
+  /// Format by extension: .png, .svg or .pdf. Errors: InputError for another one or a size that is out of range,
+  /// FileError.
+  Canvas(const std::string& path, int width, int height);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  /// A drawing that scales without pixels.
+  [[nodiscard]] bool is_vector() const { return !is_png_; }
+  [[nodiscard]] _cairo* cairo() const { return cairo_; }
+
+  void set_color(const Rgb& color, double opacity = 1);
+  void fill_rect(const PixelRect& rect, const Rgb& color);
+  void line(const Point& from, const Point& to, double width, const Rgb& color);
+  /// `at` is on the base line of the text.
+  void text(const Point& at, const std::string& characters, const TextStyle& style);
+  [[nodiscard]] double text_width(const std::string& characters, const TextStyle& style);
+
+  /// Completes the file. Error: FileError.
+  void commit();
+
+ private:
+  void choose_font(const TextStyle& style);
+
+  PictureFile file_;
+  bool is_png_;
+  _cairo_surface* surface_ = nullptr;
+  _cairo* cairo_ = nullptr;
+};
+
+}  // namespace driftmesh

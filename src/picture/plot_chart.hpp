@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/point.hpp"
+#include "picture/plot_color.hpp"
+
+namespace driftmesh {
+
+/// What every chart says about itself.
+struct ChartText {
+  std::string title;
+  std::string subtitle;
+  std::string x_label;
+  std::string y_label;
+};
+
+/// Bars beside each other, each a stack of the same parts; what they add up to is the height.
+struct StackedBars {
+  struct Part {
+    std::string name;
+    Rgb color;
+    std::vector<double> heights;  ///< of each bar, >= 0
+  };
+  /// A run of bars with a name below them.
+  struct Group {
+    std::string name;
+    std::size_t bars = 0;
+  };
+  ChartText text;
+  std::vector<Part> parts;    ///< the lowest first
+  std::vector<Group> groups;  ///< empty: bars are numbered
+};
+
+/// Curves in one frame.
+struct LineChart {
+  struct Curve {
+    std::string name;  ///< empty: not in the legend
+    Rgb color;
+    std::vector<Point> points;  ///< x ascending
+    std::vector<double> low;    ///< empty, or the lower edge of a band that ends at each point, without a line
+    bool marks = false;         ///< whether points are marked
+  };
+  ChartText text;
+  std::vector<Curve> curves;
+  bool logarithmic_x = false;
+  double y_from = 0;  ///< the lowest y that is shown
+};
+
+/// Time from left to right, a row for each thing that time passes for, and arrows from row to row.
+struct Timeline {
+  struct Arrow {
+    double from_time = 0, to_time = 0;
+    std::size_t from_row = 0, to_row = 0;
+  };
+  ChartText text;
+  std::size_t rows = 0;
+  double end = 0;  ///< of time
+  /// Of each row: when something was done, as pairs of times.
+  std::vector<std::vector<Point>> busy;
+  std::vector<Arrow> arrows;
+};
+
+/// Draw as .png, .svg or .pdf, by the extension of `path`. Errors: InputError for an unknown extension, FileError.
+void plot_chart(const StackedBars& chart, const std::string& path);
+void plot_chart(const LineChart& chart, const std::string& path);
+void plot_chart(const Timeline& chart, const std::string& path);
+
+}  // namespace driftmesh

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/box.hpp"
+#include "picture/plot_canvas.hpp"
+
+namespace driftmesh {
+
+/// Where everything in a picture goes: title above, axes left and below, legend on the right, and between them the map
+/// from the plane to pixels, with one scale for x and y.
+class PlotFrame {
+ public:
+  /// `shown` is the part of the plane to be seen; height 0 lets its shape decide. A box without extent gets some.
+  PlotFrame(const Box& shown, int width, int height, bool has_legend);
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  /// A thousandth of the picture's width, within limits: the unit of fonts, lines and gaps.
+  [[nodiscard]] double unit() const { return unit_; }
+  /// Where the plane is drawn.
+  [[nodiscard]] const PixelRect& plot() const { return plot_; }
+  [[nodiscard]] const PixelRect& legend() const { return legend_; }
+  /// The part of the plane that the plot shows; at least what was asked for.
+  [[nodiscard]] const Box& shown() const { return shown_; }
+  /// Pixels per unit of length.
+  [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] Point to_pixels(const Point& p) const {
+    return {plot_.x + (p.x - shown_.low.x) * scale_, plot_.y + (shown_.high.y - p.y) * scale_};
+  }
+
+  void draw_title(Canvas& canvas, const std::string& title, const std::string& subtitle) const;
+  void draw_axes(Canvas& canvas) const;
+  /// Restricts drawing to the plot until end_clip.
+  void begin_clip(Canvas& canvas) const;
+  static void end_clip(Canvas& canvas);
+
+ private:
+  int width_;
+  int height_;
+  double unit_;
+  double left_ = 0;  // margin for the labels of the y axis
+  PixelRect plot_;
+  PixelRect legend_;
+  Box shown_;
+  double scale_ = 1;
+};
+
+}  // namespace driftmesh

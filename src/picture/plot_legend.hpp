@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "picture/plot_canvas.hpp"
+#include "picture/plot_frame.hpp"
+#include "picture/plot_scale.hpp"
+
+namespace driftmesh {
+
+/// A vertical bar of the colours of viridis from low to high, with ticks on its left and a histogram on its right.
+struct ColorBar {
+  std::string title;
+  std::string unit;  ///< a second line; may be empty
+  double low = 0;
+  double high = 1;
+  std::vector<Tick> ticks;             ///< values on the scale of low and high
+  std::vector<std::size_t> histogram;  ///< counts of equal parts from low to high
+};
+
+/// A thing without an order and its colour.
+struct Swatch {
+  Rgb color;
+  std::string label;
+};
+
+void draw_color_bar(Canvas& canvas, const PlotFrame& frame, const ColorBar& bar);
+
+/// As many as there is room for, then how many more there are.
+void draw_swatches(Canvas& canvas, const PlotFrame& frame, const std::string& title,
+                   const std::vector<Swatch>& swatches);
+
+}  // namespace driftmesh

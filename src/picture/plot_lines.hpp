@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "picture/plot_canvas.hpp"
+
+namespace driftmesh {
+
+/// Strokes many separate lines with one pen, a few hundred to a path: cairo is slow on paths of one line and on paths
+/// of very many.
+class LineBatch {
+ public:
+  LineBatch(Canvas& canvas, double width, const Rgb& color, double opacity = 1);
+  ~LineBatch() { flush(); }
+  LineBatch(const LineBatch&) = delete;
+  LineBatch& operator=(const LineBatch&) = delete;
+
+  void add(const Point& from, const Point& to);
+  void flush();
+
+ private:
+  Canvas& canvas_;
+  double width_;
+  Rgb color_;
+  double opacity_;
+  std::size_t waiting_ = 0;
+};
+
+}  // namespace driftmesh

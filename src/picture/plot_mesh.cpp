@@ -1,0 +1,234 @@
+#include <cairo.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "mesh/mesh_edges.hpp"
+#include "picture/plot.hpp"
+#include "picture/plot_canvas.hpp"
+#include "picture/plot_frame.hpp"
+#include "picture/plot_legend.hpp"
+#include "picture/plot_lines.hpp"
+#include "picture/plot_raster.hpp"
+#include "picture/plot_scale.hpp"
+#include "picture/plot_values.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr double kDenseSide = 2;               // pixels: below it triangles are no longer drawn one by one
+constexpr double kShortestLine = 2;            // pixels: an edge shorter than that is not drawn
+constexpr std::size_t kMostPolygons = 150000;  // of a vector picture; more become an image in it
+
+Box box_of(const MeshPiece& mesh) {
+  Box box;
+  for (const Point& p : mesh.points) box.extend(p);
+  return box;
+}
+
+// Free room around the whole, so that boundary lines are not cut in half.
+Box with_margin(const Box& box) {
+  const double margin = 0.012 * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}};
+}
+
+class MeshPlot {
+ public:
+  MeshPlot(const MeshPiece& mesh, const std::string& path, const PlotOptions& options)
+      : mesh_(mesh),
+        options_(options),
+        frame_(options.box ? *options.box : with_margin(box_of(mesh)), options.width, options.height,
+               has_legend(options)),
+        canvas_(path, frame_.width(), frame_.height()),
+        summary_(summarize(mesh, frame_.shown())),
+        values_(plot_values(mesh, options.color, frame_.shown(), options.counts)) {
+    const double mean_area = summary_.shown_area / std::max<double>(1, static_cast<double>(summary_.shown_triangles));
+    mean_side_ = std::sqrt(2 * mean_area) * frame_.scale();
+    is_dense_ = mean_side_ < kDenseSide && options.edges != PlotEdges::on;
+  }
+
+  void draw() {
+    frame_.draw_title(canvas_, options_.title, subtitle());
+    frame_.draw_axes(canvas_);
+    frame_.begin_clip(canvas_);
+    draw_triangles();
+    if (options_.edges != PlotEdges::off && !is_dense_) draw_edges();
+    draw_segments();
+    PlotFrame::end_clip(canvas_);
+    draw_legend();
+    canvas_.commit();
+  }
+
+ private:
+  [[nodiscard]] Point corner(std::int32_t vertex) const {
+    return frame_.to_pixels(mesh_.points[static_cast<std::size_t>(vertex)]);
+  }
+
+  /// Whether colours say how much; else they say which.
+  [[nodiscard]] bool is_range() const {
+    return options_.color == PlotColor::angle || options_.color == PlotColor::area;
+  }
+
+  [[nodiscard]] static bool has_legend(const PlotOptions& options) {
+    return options.legend && options.color != PlotColor::none;
+  }
+
+  [[nodiscard]] std::string subtitle() const {
+    if (!options_.subtitle.empty()) return options_.subtitle;
+    std::string text =
+        grouped_digits(mesh_.triangles.size()) + " triangles   " + grouped_digits(mesh_.points.size()) + " points";
+    if (mesh_.triangles.empty()) return text;
+    text += "   angles " + friendly_number(summary_.smallest_angle, 4) + "\u00b0 to " +
+            friendly_number(summary_.largest_angle, 4) + "\u00b0";
+    if (summary_.shown_triangles < mesh_.triangles.size())
+      text += "   (" + grouped_digits(summary_.shown_triangles) + " triangles in view)";
+    return text;
+  }
+
+  void draw_triangles() {
+    if (canvas_.is_vector() && !is_dense_ && summary_.shown_triangles <= kMostPolygons)
+      draw_polygons();
+    else
+      draw_raster();
+  }
+
+  // One path for each of 64 shades. The thin outline in the same colour closes the seams that antialiasing leaves
+  // between polygons that share an edge.
+  void draw_polygons() {
+    std::map<int, std::vector<std::size_t>> triangles_of_shade;
+    const double to_shade = is_range() ? 64 / (values_.bar.high - values_.bar.low) : 1;
+    const double low = is_range() ? values_.bar.low : 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (is_shown(mesh_, t, frame_.shown()))
+        triangles_of_shade[static_cast<int>((values_.of_triangle[t] - low) * to_shade)].push_back(t);
+    cairo_t* const cairo = canvas_.cairo();
+    cairo_set_line_width(cairo, 0.4);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    for (const auto& [shade, triangles] : triangles_of_shade) {
+      canvas_.set_color(values_.color_of(is_range() ? low + (shade + 0.5) / to_shade : shade));
+      for (std::size_t t : triangles) add_polygon(mesh_.triangles[t]);
+      cairo_fill_preserve(cairo);
+      cairo_stroke(cairo);
+    }
+  }
+
+  void add_polygon(const std::array<std::int32_t, 3>& triangle) {
+    cairo_t* const cairo = canvas_.cairo();
+    cairo_new_sub_path(cairo);
+    for (std::int32_t vertex : triangle) {
+      const Point p = corner(vertex);
+      cairo_line_to(cairo, p.x, p.y);
+    }
+    cairo_close_path(cairo);
+  }
+
+  [[nodiscard]] ValueRaster::Keep what_a_pixel_keeps() const {
+    if (!is_dense_ || !is_range()) return ValueRaster::Keep::last;
+    return options_.color == PlotColor::angle ? ValueRaster::Keep::minimum : ValueRaster::Keep::mean;
+  }
+
+  void draw_raster() {
+    const auto keep = what_a_pixel_keeps();
+    ValueRaster raster(static_cast<int>(frame_.plot().width), static_cast<int>(frame_.plot().height),
+                       keep == ValueRaster::Keep::last ? 3 : 1, keep);
+    const Point origin{frame_.plot().x, frame_.plot().y};
+    const auto inside = [&](std::int32_t vertex) {
+      const Point p = corner(vertex);
+      return Point{p.x - origin.x, p.y - origin.y};
+    };
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      raster.add_triangle(inside(a), inside(b), inside(c), values_.of_triangle[t]);
+    }
+    paint(raster, origin);
+  }
+
+  void paint(const ValueRaster& raster, const Point& origin) {
+    cairo_surface_t* const image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, raster.width(), raster.height());
+    cairo_surface_flush(image);
+    unsigned char* const bytes = cairo_image_surface_get_data(image);
+    const int stride = cairo_image_surface_get_stride(image);
+    const auto byte_of = [](double v) { return static_cast<std::uint32_t>(std::clamp(v * 255 + 0.5, 0.0, 255.0)); };
+    for (int y = 0; y < raster.height(); ++y)
+      for (int x = 0; x < raster.width(); ++x) {
+        const auto [color, coverage] = raster.pixel(x, y, values_.color_of);
+        const std::uint32_t argb = byte_of(coverage) << 24 | byte_of(coverage * color.red) << 16 |
+                                   byte_of(coverage * color.green) << 8 | byte_of(coverage * color.blue);
+        std::memcpy(bytes + y * stride + 4 * x, &argb, 4);
+      }
+    cairo_surface_mark_dirty(image);
+    cairo_set_source_surface(canvas_.cairo(), image, origin.x, origin.y);
+    cairo_pattern_set_filter(cairo_get_source(canvas_.cairo()), CAIRO_FILTER_NEAREST);
+    cairo_paint(canvas_.cairo());
+    cairo_surface_destroy(image);
+  }
+
+  // Lines are as thin as their edges are short, and fade where the mesh is too fine to be seen. Each class of length
+  // (half a power of two) has its pen. An inner edge is seen from both sides and drawn from the one where its vertices
+  // ascend; an edge of one triangle is a constrained one.
+  void draw_edges() {
+    using Line = std::array<Point, 2>;
+    std::map<int, std::vector<Line>> lines_of_class;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!is_shown(mesh_, t, frame_.shown())) continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t a = mesh_.triangles[t][i];
+        const std::int32_t b = mesh_.triangles[t][(i + 1) % 3];
+        if (a > b) continue;
+        const Line line = {corner(a), corner(b)};
+        const double length = std::hypot(line[1].x - line[0].x, line[1].y - line[0].y);
+        if (length < kShortestLine && options_.edges != PlotEdges::on) continue;
+        lines_of_class[std::clamp(static_cast<int>(std::floor(2 * std::log2(length))), 0, 14)].push_back(line);
+      }
+    }
+    for (const auto& [length_class, lines] : lines_of_class) {
+      const double length = std::exp2(length_class / 2.0);
+      LineBatch batch(canvas_, std::clamp(0.05 * length, 0.3, 0.9 * frame_.unit()), kInk,
+                      std::clamp(0.1 + 0.05 * length, 0.15, 0.65));
+      for (const Line& line : lines) batch.add(line[0], line[1]);
+    }
+  }
+
+  void draw_segments() {
+    const double width = (is_dense_ ? 0.7 : std::clamp(0.12 * mean_side_, 0.8, 1.8)) * frame_.unit();
+    LineBatch batch(canvas_, width, kInk);
+    for (const MeshPiece::Edge& edge : mesh_.edges) batch.add(corner(edge.a), corner(edge.b));
+    if (mesh_.edges.empty()) add_boundary(batch);
+  }
+
+  void add_boundary(LineBatch& batch) {
+    const TriangleNeighbors neighbors = triangle_neighbors(mesh_);
+    for (std::size_t t = 0; t < neighbors.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (neighbors[t][i] < 0)
+          batch.add(corner(mesh_.triangles[t][(i + 1) % 3]), corner(mesh_.triangles[t][(i + 2) % 3]));
+  }
+
+  void draw_legend() {
+    if (!has_legend(options_)) return;
+    if (!is_range()) return draw_swatches(canvas_, frame_, values_.title, values_.swatches);
+    ColorBar bar = values_.bar;
+    if (is_dense_) bar.unit += options_.color == PlotColor::angle ? ", worst of each pixel" : ", mean of each pixel";
+    draw_color_bar(canvas_, frame_, bar);
+  }
+
+  const MeshPiece& mesh_;
+  const PlotOptions& options_;
+  PlotFrame frame_;
+  Canvas canvas_;
+  PlotSummary summary_;
+  PlotValues values_;
+  double mean_side_ = 0;  // of the triangles in view, pixels
+  bool is_dense_ = false;
+};
+
+}  // namespace
+
+void plot_mesh(const MeshPiece& mesh, const std::string& path, const PlotOptions& options) {
+  MeshPlot(mesh, path, options).draw();
+}
+
+}  // namespace driftmesh

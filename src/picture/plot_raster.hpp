@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "geometry/point.hpp"
+#include "picture/plot_color.hpp"
+
+namespace driftmesh {
+
+/// A grid of samples to which triangles are added by scan conversion, each with a value.
+class ValueRaster {
+ public:
+  /// What a sample keeps of the triangles that reach it.
+  enum class Keep {
+    last,     ///< the value of the one triangle that covers its centre
+    minimum,  ///< of all that cover it or have their centroid in it
+    mean      ///< likewise
+  };
+
+  /// width x height pixels of samples_per_side^2 samples each.
+  ValueRaster(int width, int height, int samples_per_side, Keep keep);
+
+  /// Corners in pixels, y down, in either orientation. What is outside the raster is cut off.
+  void add_triangle(const Point& a, const Point& b, const Point& c, float value);
+
+  /// One pixel as the mean of its samples' colours, and the share of the samples that any triangle reached.
+  struct Pixel {
+    Rgb color;
+    double coverage = 0;
+  };
+  [[nodiscard]] Pixel pixel(int x, int y, const std::function<Rgb(double)>& color_of) const;
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+ private:
+  void put(std::int64_t column, std::int64_t row, float value);
+
+  int width_;
+  int height_;
+  int samples_;
+  Keep keep_;
+  std::int64_t columns_;
+  std::int64_t rows_;
+  std::vector<float> values_;          // NaN: no triangle yet; a sum when the mean is kept
+  std::vector<std::uint32_t> counts_;  // only when the mean is kept
+};
+
+}  // namespace driftmesh

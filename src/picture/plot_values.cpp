@@ -1,0 +1,167 @@
+#include "picture/plot_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "geometry/triangle_geometry.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kBestAngle = 60;
+constexpr std::size_t kBins = 60;
+
+struct Corners {
+  Corners(const MeshPiece& mesh, std::size_t t)
+      : a(mesh.points[static_cast<std::size_t>(mesh.triangles[t][0])]),
+        b(mesh.points[static_cast<std::size_t>(mesh.triangles[t][1])]),
+        c(mesh.points[static_cast<std::size_t>(mesh.triangles[t][2])]) {}
+  const Point& a;
+  const Point& b;
+  const Point& c;
+};
+
+// Smallest and largest angle in degrees: they lie opposite the shortest and the longest edge.
+std::array<double, 2> extreme_angles(const Corners& t) {
+  std::array<double, 3> square = {squared_distance(t.b, t.c), squared_distance(t.c, t.a), squared_distance(t.a, t.b)};
+  std::sort(square.begin(), square.end());
+  const double four_areas = 4 * std::fabs(signed_area(t.a, t.b, t.c));
+  return {kDegrees * std::atan2(four_areas, square[1] + square[2] - square[0]),
+          kDegrees * std::atan2(four_areas, square[0] + square[1] - square[2])};
+}
+
+std::vector<std::size_t> histogram(const MeshPiece& mesh, const Box& shown, const std::vector<float>& values,
+                                   double low, double high) {
+  std::vector<std::size_t> counts(kBins, 0);
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    if (!is_shown(mesh, t, shown)) continue;
+    const double place = std::clamp((values[t] - low) / (high - low), 0.0, 1.0);
+    ++counts[std::min(static_cast<std::size_t>(place * kBins), kBins - 1)];
+  }
+  return counts;
+}
+
+void set_bar_range(PlotValues& result, double low, double high) {
+  result.bar.low = low;
+  result.bar.high = high;
+  result.color_of = [low, high](double value) { return viridis((value - low) / (high - low)); };
+}
+
+PlotValues angle_values(const MeshPiece& mesh, const Box& shown) {
+  PlotValues result;
+  result.of_triangle.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    result.of_triangle.push_back(static_cast<float>(extreme_angles({mesh, t})[0]));
+  set_bar_range(result, 0, kBestAngle);
+  result.bar.title = "Smallest angle";
+  result.bar.unit = "degrees";
+  result.bar.ticks = linear_ticks(0, kBestAngle, 6);
+  result.bar.histogram = histogram(mesh, shown, result.of_triangle, 0, kBestAngle);
+  return result;
+}
+
+// log10 of the smallest and largest area, without the outermost thousandth on both sides: one sliver shall not use
+// up the colours.
+std::array<double, 2> area_range(const MeshPiece& mesh, const Box& shown, const std::vector<float>& logs) {
+  std::vector<float> seen;
+  for (std::size_t t = 0; t < logs.size(); ++t)
+    if (is_shown(mesh, t, shown)) seen.push_back(logs[t]);
+  if (seen.empty()) return {0, 1};
+  const auto quantile = [&seen](double share) {
+    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(seen.size() - 1));
+    std::nth_element(seen.begin(), seen.begin() + at, seen.end());
+    return double{seen[static_cast<std::size_t>(at)]};
+  };
+  const double low = quantile(0.001);
+  const double high = quantile(0.999);
+  return high - low > 0.02 ? std::array{low, high} : std::array{low - 0.1, high + 0.1};
+}
+
+PlotValues area_values(const MeshPiece& mesh, const Box& shown) {
+  PlotValues result;
+  result.of_triangle.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Corners corners(mesh, t);
+    const double area = std::fabs(signed_area(corners.a, corners.b, corners.c));
+    result.of_triangle.push_back(static_cast<float>(std::log10(std::max(area, 1e-300))));
+  }
+  const auto [low, high] = area_range(mesh, shown, result.of_triangle);
+  set_bar_range(result, low, high);
+  result.bar.title = "Area";
+  result.bar.unit = "log scale";
+  result.bar.ticks = logarithmic_ticks(std::pow(10, low), std::pow(10, high), 7);
+  for (Tick& tick : result.bar.ticks) tick.value = std::log10(tick.value);
+  result.bar.histogram = histogram(mesh, shown, result.of_triangle, low, high);
+  return result;
+}
+
+/// Of values without an order; one class 0 if there are none.
+template <class Value>
+PlotValues class_values(const MeshPiece& mesh, const std::vector<Value>& of_triangle, const char* title, bool counts) {
+  PlotValues result;
+  result.title = counts ? std::string(title) + " (triangles)" : title;
+  const auto value = [&](std::size_t t) { return of_triangle.empty() ? Value{0} : of_triangle[t]; };
+  std::map<Value, std::size_t> triangles_of;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) ++triangles_of[value(t)];
+  std::map<Value, float> number;
+  for (const auto& [name, count] : triangles_of) {
+    const std::size_t index = number.size();
+    number[name] = static_cast<float>(index);
+    const std::string label = friendly_number(static_cast<double>(name), 6);
+    result.swatches.push_back({category_color(index), counts ? label + "  (" + grouped_digits(count) + ")" : label});
+  }
+  result.of_triangle.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) result.of_triangle.push_back(number[value(t)]);
+  result.color_of = [](double index) { return category_color(static_cast<std::size_t>(index)); };
+  return result;
+}
+
+}  // namespace
+
+bool is_shown(const MeshPiece& mesh, std::size_t t, const Box& shown) {
+  const Corners corners(mesh, t);
+  const auto [low_x, high_x] = std::minmax({corners.a.x, corners.b.x, corners.c.x});
+  const auto [low_y, high_y] = std::minmax({corners.a.y, corners.b.y, corners.c.y});
+  return low_x <= shown.high.x && high_x >= shown.low.x && low_y <= shown.high.y && high_y >= shown.low.y;
+}
+
+PlotSummary summarize(const MeshPiece& mesh, const Box& shown) {
+  PlotSummary summary;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Corners corners(mesh, t);
+    const auto [smallest, largest] = extreme_angles(corners);
+    summary.smallest_angle = std::min(summary.smallest_angle, smallest);
+    summary.largest_angle = std::max(summary.largest_angle, largest);
+    if (!is_shown(mesh, t, shown)) continue;
+    ++summary.shown_triangles;
+    summary.shown_area += std::fabs(signed_area(corners.a, corners.b, corners.c));
+  }
+  return summary;
+}
+
+PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown, bool counts) {
+  switch (color) {
+    case PlotColor::angle:
+      return angle_values(mesh, shown);
+    case PlotColor::area:
+      return area_values(mesh, shown);
+    case PlotColor::region:
+      return class_values(mesh, mesh.regions, "Region", counts);
+    case PlotColor::subdomain:
+      return class_values(mesh, mesh.subdomains, "Subdomain", counts);
+    case PlotColor::rank:
+      return class_values(mesh, mesh.ranks, "Rank", counts);
+    case PlotColor::none:
+      break;
+  }
+  PlotValues result;
+  result.of_triangle.assign(mesh.triangles.size(), 0);
+  result.color_of = [](double) { return kPlainFill; };
+  return result;
+}
+
+}  // namespace driftmesh

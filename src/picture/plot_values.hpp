@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "geometry/box.hpp"
+#include "mesh/mesh_piece.hpp"
+#include "picture/plot.hpp"
+#include "picture/plot_legend.hpp"
+
+namespace driftmesh {
+
+/// What the triangles' colours are made of, and what the legend says about them.
+struct PlotValues {
+  std::vector<float> of_triangle;       ///< degrees, log10(area), or number of the class
+  std::function<Rgb(double)> color_of;  ///< of a value
+  ColorBar bar;                         ///< for angle and area
+  std::string title;                    ///< of the swatches
+  std::vector<Swatch> swatches;         ///< for region, subdomain and rank
+};
+
+/// Angles of the whole mesh, and how much of it a part of the plane shows.
+struct PlotSummary {
+  double smallest_angle = 180;  ///< degrees
+  double largest_angle = 0;     ///< degrees
+  std::size_t shown_triangles = 0;
+  double shown_area = 0;
+};
+
+/// Whether the box of triangle t meets the part of the plane that is shown.
+[[nodiscard]] bool is_shown(const MeshPiece& mesh, std::size_t t, const Box& shown);
+
+[[nodiscard]] PlotSummary summarize(const MeshPiece& mesh, const Box& shown);
+
+/// The histogram and the range of areas are those of the triangles that are shown. A mesh without regions has region 0,
+/// one that does not tell subdomains or ranks has subdomain or rank 0. `counts`: swatches tell how many triangles.
+[[nodiscard]] PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown, bool counts = true);
+
+}  // namespace driftmesh
