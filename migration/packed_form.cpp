@@ -17,13 +17,13 @@ static_assert(std::has_unique_object_representations_v<driftmesh::Triangle>);
 static_assert(std::has_unique_object_representations_v<driftmesh::Subsegment>);
 static_assert(std::has_unique_object_representations_v<driftmesh::RootSegment>);
 static_assert(std::has_unique_object_representations_v<driftmesh::Sweep::Places>);
-static_assert(std::has_unique_object_representations_v<driftmesh::Refiner::Counters>);
+static_assert(std::has_unique_object_representations_v<driftmesh::RefineCounters>);
 static_assert(sizeof(driftmesh::Point) == 2 * sizeof(double));
 BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Triangle)
 BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Subsegment)
 BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::RootSegment)
 BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Sweep::Places)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Refiner::Counters)
+BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::RefineCounters)
 BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Point)
 
 namespace driftmesh {
@@ -129,7 +129,7 @@ void load_skinny(ArchiveReader& in, SkinnyBuckets& skinny) {
   }
 }
 
-void save_refiner(ArchiveWriter& out, const Refiner::State& state, std::size_t vertices) {
+void save_refiner(ArchiveWriter& out, const RefinerState& state, std::size_t vertices) {
   out.value(state.stage);
   out.value(state.next_segment);
   out.value(state.sweep.places());
@@ -145,8 +145,8 @@ void save_refiner(ArchiveWriter& out, const Refiner::State& state, std::size_t v
   out.value(state.counters);
 }
 
-Refiner::State load_refiner(ArchiveReader& in) {
-  Refiner::State state;
+RefinerState load_refiner(ArchiveReader& in) {
+  RefinerState state;
   in.value(state.stage);
   in.value(state.next_segment);
   Sweep::Places places{};
@@ -230,7 +230,8 @@ void load(ArchiveReader& in, SubdomainState& subdomain) {
 }
 
 void check(const SubdomainState& subdomain) {
-  const bool done = subdomain.dormant || (subdomain.body && subdomain.body->refiner.stage == Refiner::Stage::kDone);
+  const bool done =
+      subdomain.dormant || (subdomain.body && subdomain.body->refiner.stage == RefinerState::Stage::kDone);
   require(done || !subdomain.refined, "it is refined and is not");
   require(subdomain.refined || !subdomain.dormant, "it is dormant and not refined");
   if (subdomain.body) check_body(*subdomain.body);

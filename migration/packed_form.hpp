@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "decompose/subdomain_mesh.hpp"
-#include "mesh/refiner.hpp"
+#include "mesh/refiner_state.hpp"
 #include "migration/dormant_mesh.hpp"
 #include "protocol/ids.hpp"
 #include "protocol/messages.hpp"
@@ -17,7 +17,7 @@ struct DormantBody {
   DormantMesh mesh;
   std::vector<SubsegmentId> unsplittable;  ///< of the mesh that wakes, ascending
   std::int64_t max_triangles = 0;
-  Refiner::Counters counters;
+  RefineCounters counters;
   double forecast = 0;  ///< of triangles, as it was
 };
 
@@ -28,7 +28,7 @@ struct SubdomainState {
   std::vector<protocol::SplitEntry> pending;  ///< points that it was told of and has not taken in
   struct Body {
     SubdomainMesh part;
-    Refiner::State refiner;
+    RefinerState refiner;
     double forecast = 0;  ///< of triangles, when all bounds are met
   };
   std::optional<Body> body;  ///< absent until it first works, and while it is dormant
@@ -42,7 +42,7 @@ struct SubdomainView {
   const std::vector<protocol::SplitEntry>& pending;
   struct Body {
     const SubdomainMesh& part;
-    const Refiner::State& refiner;
+    const RefinerState& refiner;
     double forecast;
   };
   std::optional<Body> body;

@@ -6,16 +6,17 @@
 
 #include "base/error.hpp"
 #include "decompose/presplit.hpp"
+#include "mesh/refiner.hpp"
 
 namespace driftmesh {
 namespace {
 
-std::int64_t points_made(const Refiner::Counters& c) {
+std::int64_t points_made(const RefineCounters& c) {
   return c.free_points + c.segment_points;
 }
 
-Refiner::State rest_of(const DormantBody& dormant, const Triangulation& mesh, const QualityBounds& bounds) {
-  Refiner::State state = Refiner::State::at_rest(mesh, bounds);
+RefinerState rest_of(const DormantBody& dormant, const Triangulation& mesh, const QualityBounds& bounds) {
+  RefinerState state = RefinerState::at_rest(mesh, bounds);
   state.unsplittable.insert(dormant.unsplittable.begin(), dormant.unsplittable.end());
   state.max_triangles = dormant.max_triangles;
   state.counters = dormant.counters;
@@ -56,6 +57,36 @@ std::string misfit(const SubdomainState& state, const Decomposition& d) {
 }
 
 }  // namespace
+
+struct Subdomain::Body {
+  Body(SubdomainMesh&& made, const QualityBounds& bounds)
+      : part(std::move(made)), refiner(part.mesh, bounds), forecast(refiner.predict_triangles()) {}
+  Body(SubdomainState::Body&& packed, const QualityBounds& bounds)
+      : part(std::move(packed.part)),
+        refiner(part.mesh, bounds, std::move(packed.refiner)),
+        forecast(packed.forecast) {}
+  Body(DormantBody&& dormant, const QualityBounds& bounds)
+      : part(dormant.mesh.wake()),
+        refiner(part.mesh, bounds, rest_of(dormant, part.mesh, bounds)),
+        forecast(dormant.forecast) {}
+
+  SubdomainMesh part;
+  Refiner refiner;
+  double forecast;  // of triangles, when all bounds are met
+};
+
+Subdomain::Subdomain(SubdomainId id, const SubdomainContext& context) : id_(id), context_(&context) {}
+Subdomain::Subdomain(Subdomain&&) noexcept = default;
+Subdomain& Subdomain::operator=(Subdomain&&) noexcept = default;
+Subdomain::~Subdomain() = default;
+
+const SubdomainMesh& Subdomain::mesh() const {
+  return body_->part;
+}
+
+const RefineCounters& Subdomain::counters() const {
+  return dormant_ ? dormant_->counters : body_->refiner.counters();
+}
 
 double Subdomain::remaining() const {
   if (!active()) return 0;
@@ -104,14 +135,9 @@ SliceWork Subdomain::work(std::int64_t insertions, std::vector<protocol::SplitEn
   return done;
 }
 
-Subdomain::Body::Body(DormantBody&& dormant, const QualityBounds& bounds)
-    : part(dormant.mesh.wake()),
-      refiner(part.mesh, bounds, rest_of(dormant, part.mesh, bounds)),
-      forecast(dormant.forecast) {}
-
 void Subdomain::sleep() {
   if (!body_ || active()) return;
-  const Refiner::State& refiner = body_->refiner.state();
+  const RefinerState& refiner = body_->refiner.state();
   auto dormant = std::make_unique<DormantBody>();
   dormant->mesh = DormantMesh(body_->part);
   const auto waking = DormantMesh::waking_subsegments(body_->part.mesh);

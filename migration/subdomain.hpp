@@ -9,7 +9,7 @@
 #include "decompose/decomposition.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "mesh/bounds.hpp"
-#include "mesh/refiner.hpp"
+#include "mesh/refine_counters.hpp"
 #include "migration/packed_form.hpp"
 #include "protocol/ids.hpp"
 #include "protocol/messages.hpp"
@@ -41,7 +41,10 @@ struct SliceWork {
 /// when it has to take in a point that it does not hold.
 class Subdomain {
  public:
-  Subdomain(SubdomainId id, const SubdomainContext& context) : id_(id), context_(&context) {}
+  Subdomain(SubdomainId id, const SubdomainContext& context);
+  Subdomain(Subdomain&&) noexcept;
+  Subdomain& operator=(Subdomain&&) noexcept;
+  ~Subdomain();
 
   [[nodiscard]] SubdomainId id() const { return id_; }
   /// Whether there is something to do: bounds not met yet, or points to take in.
@@ -84,25 +87,12 @@ class Subdomain {
                                         Source source = Source::kUnknown);
 
   /// The mesh as it is now. Only after work() was called once, and while it is awake.
-  [[nodiscard]] const SubdomainMesh& mesh() const { return body_->part; }
+  [[nodiscard]] const SubdomainMesh& mesh() const;
   [[nodiscard]] bool started() const { return body_ != nullptr || dormant_ != nullptr; }
-  [[nodiscard]] const Refiner::Counters& counters() const {
-    return dormant_ ? dormant_->counters : body_->refiner.counters();
-  }
+  [[nodiscard]] const RefineCounters& counters() const;
 
  private:
-  struct Body {
-    Body(SubdomainMesh&& made, const QualityBounds& bounds)
-        : part(std::move(made)), refiner(part.mesh, bounds), forecast(refiner.predict_triangles()) {}
-    Body(SubdomainState::Body&& packed, const QualityBounds& bounds)
-        : part(std::move(packed.part)),
-          refiner(part.mesh, bounds, std::move(packed.refiner)),
-          forecast(packed.forecast) {}
-    Body(DormantBody&& dormant, const QualityBounds& bounds);
-    SubdomainMesh part;
-    Refiner refiner;
-    double forecast;  // of triangles, when all bounds are met
-  };
+  struct Body;  // the mesh and its refiner
 
   void make_body();
   [[nodiscard]] bool sleeps_through(const protocol::SplitEntry& entry) const;

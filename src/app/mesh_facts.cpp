@@ -111,7 +111,7 @@ void transfer(Stream& stream, Facts& facts) {
 
 }  // namespace
 
-void add_counters(MeshFacts& facts, const Refiner::Counters& counters) {
+void add_counters(MeshFacts& facts, const RefineCounters& counters) {
   facts.counters.free_points += counters.free_points;
   facts.counters.segment_points += counters.segment_points;
   facts.counters.deleted_points += counters.deleted_points;

@@ -6,7 +6,7 @@
 
 #include "base/byte_stream.hpp"
 #include "mesh/exceptions.hpp"
-#include "mesh/refiner.hpp"
+#include "mesh/refine_counters.hpp"
 
 namespace driftmesh::app {
 
@@ -16,7 +16,7 @@ struct MeshFacts {
   std::int64_t triangles = 0;
   std::int64_t vertices = 0;  ///< those that parts share count once a part
   std::int64_t subsegments = 0;
-  Refiner::Counters counters;
+  RefineCounters counters;
   AngleSummary shape;
   std::uint64_t digest = 0;
 
@@ -38,7 +38,7 @@ struct MeshFacts {
 /// Adds what `mesh`, a part refined to `bounds`, shows. `complete`: refinement was not stopped by a limit.
 void add_part(MeshFacts& facts, const Triangulation& mesh, const QualityBounds& bounds, bool complete);
 /// Adds the work that refining a part took.
-void add_counters(MeshFacts& facts, const Refiner::Counters& counters);
+void add_counters(MeshFacts& facts, const RefineCounters& counters);
 /// Adds the facts of other parts.
 void add_facts(MeshFacts& facts, const MeshFacts& others);
 

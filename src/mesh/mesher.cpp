@@ -3,6 +3,7 @@
 #include "base/stopwatch.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
+#include "mesh/refiner.hpp"
 
 namespace driftmesh {
 namespace {

@@ -4,8 +4,7 @@
 #include <functional>
 
 #include "mesh/bounds.hpp"
-#include "mesh/exceptions.hpp"
-#include "mesh/refiner.hpp"
+#include "mesh/refine_counters.hpp"
 #include "mesh/triangulation.hpp"
 #include "pslg/pslg.hpp"
 
@@ -26,7 +25,7 @@ struct MeshResult {
   QualityBounds bounds;  ///< as they were applied
   bool complete = true;  ///< false: stopped at max_triangles; the mesh is valid but misses bounds
   std::int32_t acute_corners = 0;
-  Refiner::Counters counters;
+  RefineCounters counters;
   double seconds_triangulate = 0;  ///< constrained Delaunay triangulation, carving, corners
   double seconds_refine = 0;
 };

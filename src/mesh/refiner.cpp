@@ -57,8 +57,8 @@ double integrate_size(const SizeField& field, double twice_area_bound, const std
   return sum;
 }
 
-Refiner::State initial_state(const Triangulation& mesh, const QualityBounds& bounds) {
-  Refiner::State state;
+RefinerState initial_state(const Triangulation& mesh, const QualityBounds& bounds) {
+  RefinerState state;
   if (bounds.size != nullptr)
     for (const Point& p : mesh.points) state.size.push_back(bounds.size->edge_length(p));
   return state;
@@ -69,7 +69,7 @@ Refiner::State initial_state(const Triangulation& mesh, const QualityBounds& bou
 Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds)
     : Refiner(mesh, bounds, initial_state(mesh, bounds)) {}
 
-Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, State state)
+Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state)
     : mesh_(mesh), bounds_(bounds), cavity_(mesh), state_(std::move(state)) {
   require_possible(bounds);
   // A relative margin of 1e-9 lets a reader of the file, with other roundings, see the bound met.

@@ -2,23 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "mesh/bounds.hpp"
 #include "mesh/cavity.hpp"
+#include "mesh/refiner_state.hpp"
 #include "mesh/triangulation.hpp"
-#include "mesh/worklist.hpp"
 
 namespace driftmesh {
-
-/// A point that refinement put on a root segment: what a SPLIT message says.
-struct SplitPoint {
-  RootId root;
-  dyadic::Path path;
-};
 
 /// Delaunay refinement of one subdomain: inserts circumcenters and off-centers of triangles that miss the bounds, and
 /// midpoints of constrained segments that such a point would encroach upon, until every triangle meets the bounds.
@@ -56,47 +48,18 @@ class Refiner {
   /// after its ancestors; none that add_split_point put there.
   [[nodiscard]] std::vector<SplitPoint> take_split_points() { return std::exchange(state_.made, {}); }
 
-  struct Counters {
-    std::int64_t free_points = 0;     ///< circumcenters and off-centers inserted
-    std::int64_t segment_points = 0;  ///< midpoints inserted
-    std::int64_t deleted_points = 0;  ///< free vertices deleted before a split
-    std::int64_t encroaching = 0;     ///< points rejected because they encroached
-    std::int64_t given_up = 0;        ///< triangles left as they are because coordinates have no room for a point
-  };
-  [[nodiscard]] const Counters& counters() const { return state_.counters; }
+  [[nodiscard]] const RefineCounters& counters() const { return state_.counters; }
 
-  enum class Stage : std::uint8_t { kSegments, kCoarse, kFine, kRest, kDone };
-
-  /// All that a refiner knows besides its mesh and its bounds. A refiner made from a copy of the mesh, the same bounds
-  /// and a copy of the state goes on exactly as the first one would: the same points in the same order.
-  struct State {
-    Stage stage = Stage::kSegments;
-    SubsegmentId next_segment = 0;  ///< of kSegments
-    Sweep sweep;
-    SkinnyBuckets skinny;
-    std::vector<TriangleId> deferred;               ///< skinny ones, until kRest
-    std::unordered_set<SubsegmentId> unsplittable;  ///< coordinates have no room for their midpoints
-    std::vector<SplitPoint> made;                   ///< that nobody has been told of yet
-    GrowingArray<double> size;                      ///< the size field at each vertex; empty without one
-    std::int64_t max_triangles = kMaxTriangles - 64;
-    Counters counters;
-
-    /// Of a refiner that has done with `mesh`, whatever the order of its slots: nothing waits.
-    [[nodiscard]] static State at_rest(const Triangulation& mesh, const QualityBounds& bounds);
-
-    /// Whether a refiner of this mesh and these bounds can be in this state as far as memory is concerned: handles
-    /// exist, arrays have their lengths. Otherwise what is wrong; empty if all is well.
-    [[nodiscard]] std::string fault(const Triangulation& mesh, const QualityBounds& bounds) const;
-  };
-  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] const RefinerState& state() const { return state_; }
   /// Goes on from a state. Throws Error like the other, and if the state has a fault.
-  Refiner(Triangulation& mesh, const QualityBounds& bounds, State state);
+  Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state);
 
   /// A forecast of the number of triangles at the end, from the present mesh and the bounds on area and size (the angle
   /// bound adds to it only where no area bound is active). Within a few percent for area-bounded refinement.
   [[nodiscard]] double predict_triangles() const;
 
  private:
+  using Stage = RefinerState::Stage;
   enum class Progress { kChanged, kStuck };
   struct Shape {
     double twice_area;
@@ -142,7 +105,7 @@ class Refiner {
   double coarsening_ = 1;                  // all area bounds are this much larger at the moment
   std::vector<double> twice_area_bounds_;  // by region label
   std::vector<TriangleId> changed_;
-  State state_;
+  RefinerState state_;
 };
 
 }  // namespace driftmesh

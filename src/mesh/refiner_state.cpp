@@ -1,7 +1,7 @@
+#include "mesh/refiner_state.hpp"
+
 #include <algorithm>
 #include <array>
-
-#include "mesh/refiner.hpp"
 
 namespace driftmesh {
 namespace {
@@ -18,7 +18,7 @@ bool is_sound(const Sweep& sweep, std::size_t triangles) {
 }
 
 /// Counting on overflows nothing.
-bool is_sound(const Refiner::Counters& c) {
+bool is_sound(const RefineCounters& c) {
   constexpr std::int64_t kMost = std::int64_t{1} << 60;
   const std::array<std::int64_t, 5> all{c.free_points, c.segment_points, c.deleted_points, c.encroaching, c.given_up};
   return std::all_of(all.begin(), all.end(), [](std::int64_t n) { return n >= 0 && n < kMost; });
@@ -33,8 +33,8 @@ bool is_sound(const SkinnyBuckets& skinny, std::size_t triangles) {
 
 }  // namespace
 
-Refiner::State Refiner::State::at_rest(const Triangulation& mesh, const QualityBounds& bounds) {
-  State state;
+RefinerState RefinerState::at_rest(const Triangulation& mesh, const QualityBounds& bounds) {
+  RefinerState state;
   const auto triangles = static_cast<TriangleId>(mesh.triangles.size());
   state.stage = Stage::kDone;
   state.next_segment = static_cast<SubsegmentId>(mesh.subsegments.size());
@@ -44,7 +44,7 @@ Refiner::State Refiner::State::at_rest(const Triangulation& mesh, const QualityB
   return state;
 }
 
-std::string Refiner::State::fault(const Triangulation& mesh, const QualityBounds& bounds) const {
+std::string RefinerState::fault(const Triangulation& mesh, const QualityBounds& bounds) const {
   const std::size_t triangles = mesh.triangles.size(), subsegments = mesh.subsegments.size();
   const std::vector<SubsegmentId> kept_whole(unsplittable.begin(), unsplittable.end());
   if (stage > Stage::kDone) return "there is no such stage";

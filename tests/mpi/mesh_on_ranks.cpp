@@ -14,6 +14,7 @@
 #include "distributed/write_distributed.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
+#include "mesh/exceptions.hpp"
 #include "mesh/mesher.hpp"
 #include "protocol/delaying_transport.hpp"
 #include "protocol/mpi/mpi_transport.hpp"

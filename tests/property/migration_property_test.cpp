@@ -42,13 +42,13 @@ Subdomain move_without_pending(const Subdomain& subdomain, const SubdomainContex
 struct Outcome {
   std::string difference;  ///< the first between the twins, in words
   int moves = 0;
-  std::multiset<Refiner::Stage> stages;  ///< at the moves
+  std::multiset<RefinerState::Stage> stages;  ///< at the moves
   int before_start = 0, with_pending = 0, after_end = 0;
 
   /// Whether moves were made at all kinds of moments.
   [[nodiscard]] bool saw_all() const {
-    for (const auto stage :
-         {Refiner::Stage::kSegments, Refiner::Stage::kFine, Refiner::Stage::kRest, Refiner::Stage::kDone})
+    for (const auto stage : {RefinerState::Stage::kSegments, RefinerState::Stage::kFine, RefinerState::Stage::kRest,
+                             RefinerState::Stage::kDone})
       if (!stages.contains(stage)) return false;
     return before_start > 0 && with_pending > 10 && after_end > 10;
   }
@@ -66,7 +66,7 @@ void note_moment(const Subdomain& subdomain, Outcome& outcome) {
 }
 
 bool same_counters(const Subdomain& a, const Subdomain& b) {
-  const Refiner::Counters &c = a.counters(), &d = b.counters();
+  const RefineCounters &c = a.counters(), &d = b.counters();
   return c.free_points == d.free_points && c.segment_points == d.segment_points &&
          c.deleted_points == d.deleted_points && c.encroaching == d.encroaching && c.given_up == d.given_up;
 }
@@ -210,7 +210,7 @@ TEST_CASE("large subdomains, in the stage of blocks, come out the same") {
     if (sized) context.bounds.size = &field;
     Subdomain stays(0, context), moves(0, context);
     std::vector<protocol::SplitEntry> said;
-    std::set<Refiner::Stage> stages;
+    std::set<RefinerState::Stage> stages;
     for (const std::int64_t slice : {1, 40, 200, 600, 1000, 1000, 1000, 50'000, 50'000}) {
       stays.work(slice, said);
       moves.work(slice, said);
@@ -225,7 +225,7 @@ TEST_CASE("large subdomains, in the stage of blocks, come out the same") {
     const SubdomainMesh& part = moves.mesh();
     for (std::size_t v = 0; v < part.points.size(); ++v)  // also after vertices were sorted
       CHECK(part.mesh.points[v] == d.points[Triangulation::id(part.points[v])]);
-    CHECK(stages.contains(Refiner::Stage::kCoarse));
-    CHECK(stages.contains(Refiner::Stage::kFine));
+    CHECK(stages.contains(RefinerState::Stage::kCoarse));
+    CHECK(stages.contains(RefinerState::Stage::kFine));
   }
 }

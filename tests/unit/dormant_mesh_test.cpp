@@ -13,6 +13,7 @@
 #include "mesh/digest.hpp"
 #include "mesh/link_triangles.hpp"
 #include "mesh/mesh_piece.hpp"
+#include "mesh/refiner.hpp"
 #include "mesh/triangulation_fault.hpp"
 #include "property/cases.hpp"
 #include "pslg/generate.hpp"

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "mesh/digest.hpp"
+#include "mesh/exceptions.hpp"
 #include "mesh/interpolate_attributes.hpp"
 #include "mesh/mesher.hpp"
 #include "mesh/to_piece.hpp"

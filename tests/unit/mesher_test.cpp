@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
+#include "mesh/exceptions.hpp"
 #include "mesh/narrow_place.hpp"
 #include "mesh/to_piece.hpp"
 #include "small_domains.hpp"

@@ -68,13 +68,13 @@ TEST_CASE("a refiner made from a copy of mesh and state goes on as the first one
 TEST_CASE("a state that leaves its mesh is refused") {
   Triangulation mesh = triangulate(fan(7, 9));
   const QualityBounds bounds;
-  const auto refused = [&](Refiner::State state, const std::string& why) {
+  const auto refused = [&](RefinerState state, const std::string& why) {
     CHECK_THROWS_WITH_AS(Refiner(mesh, bounds, std::move(state)), doctest::Contains(why.c_str()), Error);
   };
   const auto triangles = static_cast<TriangleId>(mesh.triangles.size());
   const auto subsegments = static_cast<SubsegmentId>(mesh.subsegments.size());
-  CHECK_NOTHROW(Refiner(mesh, bounds, Refiner::State{}));
-  Refiner::State state;
+  CHECK_NOTHROW(Refiner(mesh, bounds, RefinerState{}));
+  RefinerState state;
   state.deferred = {triangles};
   refused(state, "deferred");
   state = {};
