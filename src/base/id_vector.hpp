@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -18,7 +19,7 @@ concept IsId = std::integral<Id> || std::is_enum_v<Id>;
 
 /// The number as a plain integer: for arithmetic, text and bytes.
 template <IsId Id>
-[[nodiscard]] constexpr auto value_of(Id id) {
+[[nodiscard]] constexpr auto to_int(Id id) {
   if constexpr (std::is_enum_v<Id>)
     return static_cast<std::underlying_type_t<Id>>(id);
   else
@@ -27,7 +28,7 @@ template <IsId Id>
 
 /// Where the thing of that number stands in an array. A negative number stands beyond the end of every array.
 template <IsId Id>
-[[nodiscard]] constexpr std::size_t index_of(Id id) {
+[[nodiscard]] constexpr std::size_t to_index(Id id) {
   return static_cast<std::size_t>(id);
 }
 
@@ -37,16 +38,24 @@ class IdRange {
  public:
   class Iterator {
    public:
+    using value_type = Id;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const Id*;
+    using reference = Id;
+    using iterator_category = std::input_iterator_tag;
+
+    Iterator() = default;
     constexpr explicit Iterator(std::size_t index) : index_(index) {}
     [[nodiscard]] constexpr Id operator*() const { return static_cast<Id>(index_); }
     constexpr Iterator& operator++() {
       ++index_;
       return *this;
     }
+    constexpr Iterator operator++(int) { return Iterator(index_++); }
     friend constexpr bool operator==(Iterator, Iterator) = default;
 
    private:
-    std::size_t index_;
+    std::size_t index_ = 0;
   };
   constexpr explicit IdRange(std::size_t count) : count_(count) {}
   [[nodiscard]] constexpr Iterator begin() const { return Iterator(0); }
@@ -73,20 +82,20 @@ class IdVector : public std::vector<T> {
   explicit IdVector(Base values) : Base(std::move(values)) {}
 
   /// Whether an element has this number.
-  [[nodiscard]] bool has(Id id) const { return index_of(id) < this->size(); }
+  [[nodiscard]] bool has(Id id) const { return to_index(id) < this->size(); }
   /// The number that the next element will get.
   [[nodiscard]] Id next_id() const { return static_cast<Id>(this->size()); }
 
   [[nodiscard]] typename Base::reference operator[](Id id) {
     DM_ASSERT(has(id));
-    return Base::operator[](index_of(id));
+    return Base::operator[](to_index(id));
   }
   [[nodiscard]] typename Base::const_reference operator[](Id id) const {
     DM_ASSERT(has(id));
-    return Base::operator[](index_of(id));
+    return Base::operator[](to_index(id));
   }
-  [[nodiscard]] typename Base::reference at(Id id) { return Base::at(index_of(id)); }
-  [[nodiscard]] typename Base::const_reference at(Id id) const { return Base::at(index_of(id)); }
+  [[nodiscard]] typename Base::reference at(Id id) { return Base::at(to_index(id)); }
+  [[nodiscard]] typename Base::const_reference at(Id id) const { return Base::at(to_index(id)); }
 };
 
 /// A std::span in the same way.
@@ -100,10 +109,10 @@ class IdSpan : public std::span<T> {
   explicit IdSpan(Base values) : Base(values) {}
   IdSpan(std::conditional_t<std::is_const_v<T>, const Vector, Vector>& values) : Base(values) {}
 
-  [[nodiscard]] bool has(Id id) const { return index_of(id) < this->size(); }
+  [[nodiscard]] bool has(Id id) const { return to_index(id) < this->size(); }
   [[nodiscard]] T& operator[](Id id) const {
     DM_ASSERT(has(id));
-    return Base::operator[](index_of(id));
+    return Base::operator[](to_index(id));
   }
 };
 

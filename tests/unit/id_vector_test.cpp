@@ -62,7 +62,7 @@ TEST_CASE("the numbers of all elements come in order") {
   for (const Apple a : ids_of(letters)) seen += letters[a];
   CHECK(seen == "abc");
   std::int32_t sum = 0;
-  for (const Apple a : first_ids<Apple>(4)) sum = 10 * sum + value_of(a);
+  for (const Apple a : first_ids<Apple>(4)) sum = 10 * sum + to_int(a);
   CHECK(sum == 123);
   for ([[maybe_unused]] const Apple a : ids_of(IdVector<Apple, char>())) FAIL("there is none");
 }
