@@ -21,27 +21,26 @@ if(DRIFTMESH_FUZZ)
   target_compile_options(driftmesh_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# driftmesh_library(NAME SOURCES a.cpp ... DEPENDS other boxes LIBS outside libraries PUBLIC_LIBS outside libraries)
-# One box, which is the folder that this is called in. The boxes listed in DEPENDS are the only ones whose headers NAME may
-# include; LIBS names the outside libraries that it uses (see OutsideLibraries.cmake), PUBLIC_LIBS those that its headers
-# use as well. tests/structure/check_includes.py reads these declarations and fails on any other include.
+# driftmesh_library(NAME SOURCES a.cpp ... DEPENDS other boxes LIBS outside libraries)
+# One box, which is the folder that this is called in. It includes headers of each box that DEPENDS names, and of no other;
+# LIBS names the outside libraries (see OutsideLibraries.cmake) whose headers it includes or gets from another box's header.
+# tests/structure/check_includes.py holds the sources to these declarations.
 function(driftmesh_library NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBS;PUBLIC_LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
   if(ARG_SOURCES)
     add_library(dm_${NAME} STATIC ${ARG_SOURCES})
     set(scope PUBLIC)
-    foreach(lib IN LISTS ARG_LIBS)
-      target_link_libraries(dm_${NAME} PRIVATE ${driftmesh_lib_${lib}})
-    endforeach()
+    set(own PRIVATE)
   else()
     add_library(dm_${NAME} INTERFACE)
     set(scope INTERFACE)
+    set(own INTERFACE)
   endif()
   target_link_libraries(dm_${NAME} ${scope} driftmesh_flags)
   foreach(dep IN LISTS ARG_DEPENDS)
     target_link_libraries(dm_${NAME} ${scope} dm_${dep})
   endforeach()
-  foreach(lib IN LISTS ARG_PUBLIC_LIBS)
-    target_link_libraries(dm_${NAME} ${scope} ${driftmesh_lib_${lib}})
+  foreach(lib IN LISTS ARG_LIBS)
+    target_link_libraries(dm_${NAME} ${own} ${driftmesh_lib_${lib}})
   endforeach()
 endfunction()

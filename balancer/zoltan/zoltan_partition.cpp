@@ -1,5 +1,6 @@
 #include "balancer/zoltan/zoltan_partition.hpp"
 
+#include <mpi.h>
 #include <zoltan.h>
 #include <zoltan_dd.h>
 
