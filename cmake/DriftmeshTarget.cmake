@@ -5,7 +5,7 @@ add_library(driftmesh_flags INTERFACE)
 # lets two nodes compute different shared points. It is off on every target, whatever the compiler's default.
 target_compile_options(driftmesh_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
                                                  -Wnon-virtual-dtor -Wold-style-cast)
-target_include_directories(driftmesh_flags INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+target_include_directories(driftmesh_flags INTERFACE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
 if(DRIFTMESH_WERROR)
   target_compile_options(driftmesh_flags INTERFACE -Werror)
 endif()

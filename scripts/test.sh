@@ -63,7 +63,7 @@ run_preset() {
 }
 
 formatted() {
-  find src protocol migration balancer examples tests bench \( -name '*.cpp' -o -name '*.hpp' \) -print0 |
+  find include src protocol migration balancer examples tests bench \( -name '*.cpp' -o -name '*.hpp' \) -print0 |
     xargs -0 clang-format --dry-run -Werror
 }
 

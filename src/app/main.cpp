@@ -15,6 +15,7 @@
 #include "app/limits.hpp"
 #include "base/error.hpp"
 #include "base/temporary_files.hpp"
+#include "driftmesh/version.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 
 namespace {

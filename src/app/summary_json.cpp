@@ -4,6 +4,7 @@
 
 #include "app/json_text.hpp"
 #include "app/summary.hpp"
+#include "driftmesh/version.hpp"
 
 namespace driftmesh::app {
 namespace {
