@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "base/standard_streams.hpp"
 
 namespace driftmesh {
 namespace {
@@ -35,11 +36,30 @@ std::string temporary_name(const std::string& target) {
   return target + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
 }
 
+std::FILE* open_standard_output() {
+  if (!take_standard_output())
+    throw InputError({"-"}, "standard output can hold only one file", "give the others a name");
+  if (::write(STDOUT_FILENO, "", 0) == -1) return nullptr;  // it is closed
+  const int copy = ::dup(STDOUT_FILENO);
+  return copy == -1 ? nullptr : ::fdopen(copy, "wb");
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(follow_links(path)) {
-  std::error_code ignored;
+AtomicFile::AtomicFile(const std::string& path)
+    : path_(is_standard_stream(path) ? "standard output" : path), target_(follow_links(path)) {
   errno = 0;
+  if (is_standard_stream(path))
+    stream_ = open_standard_output();
+  else
+    open();
+  if (stream_ == nullptr) fail("cannot write");
+  buffer_ = std::make_unique<char[]>(kBufferBytes);
+  std::setvbuf(stream_, buffer_.get(), _IOFBF, kBufferBytes);
+}
+
+void AtomicFile::open() {
+  std::error_code ignored;
   if (std::filesystem::is_directory(target_, ignored)) {
     errno = EISDIR;
     fail("cannot write");
@@ -55,9 +75,6 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(follow_li
       temporary_.clear();
     }
   }
-  if (stream_ == nullptr) fail("cannot write");
-  buffer_ = std::make_unique<char[]>(kBufferBytes);
-  std::setvbuf(stream_, buffer_.get(), _IOFBF, kBufferBytes);
 }
 
 AtomicFile::~AtomicFile() {

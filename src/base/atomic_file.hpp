@@ -15,7 +15,8 @@ namespace driftmesh {
 /// A file that appears under its name only when it is complete. Bytes go to a temporary file in the same
 /// folder; commit() renames it over `path`. Destroyed without commit, it removes the temporary and leaves
 /// `path` as it was; so does a signal that ends the process (see temporary_files.hpp). A link is followed; what is not
-/// a regular file (a pipe, /dev/stdout, /dev/null) is written to directly. Every operation throws FileError that names
+/// a regular file (a pipe, /dev/null) is written to directly, and so is standard output (see is_standard_stream), which
+/// can be asked for once: InputError. Every operation throws FileError that names
 /// `path` and the system's reason (disk full, no permission, ...).
 class AtomicFile {
  public:
@@ -33,6 +34,7 @@ class AtomicFile {
   void commit();
 
  private:
+  void open();
   [[noreturn]] void fail(const char* what);
   void close_and_remove() noexcept;
 

@@ -36,4 +36,12 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   return nearest == known.end() ? "" : *nearest;
 }
 
+std::string probable_name(const std::string& name, const std::vector<std::string>& known) {
+  const auto longer =
+      std::find_if(known.begin(), known.end(), [&](const std::string& k) { return k.starts_with(name); });
+  if (longer != known.end()) return *longer;
+  const std::string nearest = nearest_name(name, known);
+  return 2 * edit_distance(name, nearest) <= nearest.size() ? nearest : "";
+}
+
 }  // namespace driftmesh

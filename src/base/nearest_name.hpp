@@ -9,4 +9,9 @@ namespace driftmesh {
 /// their case. The first of several; "" when none is known.
 [[nodiscard]] std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 
+/// The same if it is near: one that `name` is the beginning of, or that differs in at most half of its letters.
+/// Otherwise
+/// "".
+[[nodiscard]] std::string probable_name(const std::string& name, const std::vector<std::string>& known);
+
 }  // namespace driftmesh

@@ -17,8 +17,9 @@ class NotedTemporary {
   int slot_;
 };
 
-/// From now on SIGINT, SIGTERM and SIGHUP remove the noted files before they end the process, as they do by themselves.
-/// Those that are ignored stay ignored.
+/// From now on SIGINT, SIGTERM, SIGHUP and SIGPIPE remove the noted files before they end the process, as they do by
+/// themselves. Those that are ignored stay ignored, but for SIGPIPE: a reader that has seen enough (head) ends the
+/// process quietly, whoever started it.
 void remove_temporaries_on_signals();
 
 }  // namespace driftmesh

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "base/standard_streams.hpp"
 #include "io/msh_format.hpp"
 #include "io/pvtu_format.hpp"
 #include "io/triangle_format.hpp"
@@ -13,7 +14,8 @@ namespace {
 
 enum class Format { kTriangle, kVtu, kPvtu, kMsh };
 
-Format format_of(const std::string& path) {
+Format named_format(const std::string& path) {
+  if (names_no_format(path)) return Format::kVtu;
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".vtu") return Format::kVtu;
   if (extension == ".pvtu") return Format::kPvtu;
@@ -22,6 +24,14 @@ Format format_of(const std::string& path) {
     if (extension == of_triangle) return Format::kTriangle;
   throw InputError({path, 0}, extension.empty() ? "has no extension" : "has an unknown extension '" + extension + "'",
                    "mesh files end in .vtu, .pvtu, .msh, or in .node, .ele, .poly, .edge, .neigh");
+}
+
+Format format_of(const std::string& path) {
+  const Format format = named_format(path);
+  if (is_standard_stream(path) && (format == Format::kTriangle || format == Format::kPvtu))
+    throw InputError({path, 0}, "is for a mesh in several files, and a standard stream is one",
+                     "use - or -.vtu, or -.msh, or name a file");
+  return format;
 }
 
 std::string without_extension(const std::string& path) {
@@ -58,7 +68,7 @@ MeshPiece read_mesh(const std::string& path) {
 }
 
 bool is_in_pieces(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".pvtu";
+  return format_of(path) == Format::kPvtu;
 }
 
 std::vector<std::string> mesh_files(const std::string& path) {

@@ -13,17 +13,18 @@ struct WriteOptions {
 };
 
 /// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, or Triangle's .node, .ele, .poly,
-/// .edge, .neigh (any of these stands for the whole set). Files appear under their names only when complete.
-/// docs/file-formats.md says what each format holds. Errors: InputError for an unknown extension, FileError.
+/// .edge, .neigh (any of these stands for the whole set); to standard output for "-" (as .vtu), "-.vtu" and "-.msh".
+/// Files appear under their names only when complete. docs/file-formats.md says what each format holds. Errors:
+/// InputError for an unknown extension, FileError.
 void write_mesh(const MeshPiece& mesh, const std::string& path, const WriteOptions& options = {});
 
-/// Reads a mesh back, from any of these formats, or from the pieces that a .pvtu names. Nothing in the file is believed
-/// before it is checked: indices are in range and counts fit the file. Triangles come as the file lists them, so a
-/// check sees what the file holds; only a file whose area is negative as a whole is turned over. Errors: InputError
-/// naming file and place, FileError.
+/// Reads a mesh back, from any of these formats, from standard input by the same names, or from the pieces that a .pvtu
+/// names. Nothing in the file is believed before it is checked: indices are in range and counts fit the file. Triangles
+/// come as the file lists them, so a check sees what the file holds; only a file whose area is negative as a whole is
+/// turned over. Errors: InputError naming file and place, FileError.
 [[nodiscard]] MeshPiece read_mesh(const std::string& path);
 
-/// Whether the extension is that of a mesh in pieces: .pvtu.
+/// Whether the extension is that of a mesh in pieces: .pvtu. Error: InputError for an unknown extension.
 [[nodiscard]] bool is_in_pieces(const std::string& path);
 /// The pieces of a mesh as they are, with the numbers of their points, for a check. Errors: as of read_mesh.
 [[nodiscard]] std::vector<MeshPiece> read_pieces(const std::string& path);

@@ -37,7 +37,7 @@ struct PlotOptions {
   bool legend = true;      ///< false where colours only tell neighbours apart
 };
 
-/// Whether a picture can have this name: it ends in .png, .svg or .pdf.
+/// Whether a picture can have this name: it ends in .png, .svg or .pdf, or is "-": PNG to standard output.
 [[nodiscard]] bool is_picture_name(const std::string& path);
 
 /// Draws the mesh as .png, .svg or .pdf, by the extension of `path`. Triangles of less than about two pixels on average

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "base/standard_streams.hpp"
 #include "picture/plot.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -22,6 +23,11 @@ namespace {
 
 constexpr int kSmallest = 100;
 constexpr int kLargest = 20000;
+
+/// ".png", ".svg" or ".pdf"; something else for what is no picture.
+std::string format_of(const std::string& path) {
+  return names_no_format(path) ? ".png" : std::filesystem::path(path).extension().string();
+}
 
 std::string checked_name(const std::string& path, int width, int height) {
   if (!is_picture_name(path))
@@ -47,15 +53,15 @@ cairo_status_t write_bytes(void* picture_file, const unsigned char* bytes, unsig
 }  // namespace
 
 bool is_picture_name(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  return extension == ".png" || extension == ".svg" || extension == ".pdf";
+  const std::string format = format_of(path);
+  return format == ".png" || format == ".svg" || format == ".pdf";
 }
 
 Canvas::Canvas(const std::string& path, int width, int height)
-    : file_(checked_name(path, width, height)), is_png_(path.ends_with(".png")) {
+    : file_(checked_name(path, width, height)), is_png_(format_of(path) == ".png") {
   if (is_png_)
     surface_ = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
-  else if (path.ends_with(".svg"))
+  else if (format_of(path) == ".svg")
     surface_ = cairo_svg_surface_create_for_stream(write_bytes, &file_, width, height);
   else
     surface_ = cairo_pdf_surface_create_for_stream(write_bytes, &file_, width, height);

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/read_file.hpp"
+#include "base/standard_streams.hpp"
 #include "pslg/record_scanner.hpp"
 #include "pslg/triangle_files.hpp"
 
@@ -81,6 +82,9 @@ Pslg parse_poly(const std::string& file, std::string_view text) {
   RecordScanner scanner(file, text);
   NodeTable nodes = scan_nodes(scanner);
   if (nodes.points.empty()) {
+    if (is_standard_stream(file))
+      throw InputError({file, 0}, "leaves its vertices to a .node file, and there is none beside standard input",
+                       "put the vertices into the .poly, or name it");
     const std::string node_file = std::filesystem::path(file).replace_extension(".node").string();
     nodes = read_node(node_file);
     require_points(node_file, nodes);

@@ -36,3 +36,11 @@ TEST_CASE("the nearest name is the one that takes the fewest changes") {
   CHECK(nearest_name("none", known) == "none");
   CHECK(nearest_name("x", {}) == "");
 }
+
+TEST_CASE("a name is probably meant if half of its letters are right, or if it goes on") {
+  const std::vector<std::string> known{"mesh", "subdomains", "run"};
+  CHECK(probable_name("mseh", known) == "mesh");
+  CHECK(probable_name("sub", known) == "subdomains");
+  CHECK(probable_name("publish", known) == "");
+  CHECK(probable_name("xyz", known) == "");
+}
