@@ -1,19 +1,22 @@
 // Measures the mesher on whole meshes and prints tables for docs/benchmarks.md.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "bench/models.hpp"
 #include "bench/report.hpp"
 #include "bench/suites.hpp"
+#include "cli/command_line.hpp"
+#include "cli/values.hpp"
 
 namespace driftmesh::bench {
 namespace {
@@ -25,22 +28,47 @@ struct CommandLine {
   Options options;
 };
 
-void add_options(CLI::App& app, CommandLine& line) {
+cli::Command program(CommandLine& line, std::function<int(cli::Call&)> run) {
   std::vector<std::string> known;
   for (const auto& [name, suite] : suites()) known.push_back(name);
-  app.add_option("suite", line.names, "What to measure; everything when absent")->check(CLI::IsMember(known));
-  app.add_option("--data", line.data,
-                 "Folder of pipe.poly, cylinder_flow.poly, chesapeake.poly; generated inputs stand in for missing ones")
-      ->capture_default_str();
-  app.add_option("--json", line.json, "Write every single run to this file");
-  app.add_option("--repetitions", line.options.repetitions, "Runs of which the median counts")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--angle", line.options.degrees, "Bound on the angles, degrees")->capture_default_str();
-  app.add_option("--cells", line.options.cells, "models and cut: area bound = area of the domain over this")
-      ->capture_default_str();
-  app.add_option("--parts", line.options.parts, "cut: about so many parts")->capture_default_str();
-  app.add_option("--growth", line.options.growth, "growth: the same, one value a size")->capture_default_str();
+  Options& options = line.options;
+  return {.name = "driftmesh_bench",
+          .summary = "How fast the mesher is, and how much memory it takes",
+          .options =
+              {{.kind = cli::Option::Kind::kPositional,
+                .name = "suite",
+                .value = "SUITE",
+                .help = "What to measure",
+                .standard = "everything",
+                .repeats = true,
+                .choices = known,
+                .take = cli::into(line.names)},
+               {.name = "data",
+                .value = "FOLDER",
+                .help = "Folder of pipe.poly, cylinder_flow.poly, chesapeake.poly; generated inputs stand in for "
+                        "missing ones",
+                .standard = line.data,
+                .take = cli::into(line.data)},
+               {.name = "json",
+                .value = "FILE",
+                .help = "Write every single run to this file",
+                .take = cli::into(line.json)},
+               {.name = "repetitions",
+                .value = "N",
+                .help = "Runs of which the median counts",
+                .standard = std::to_string(options.repetitions),
+                .take = cli::into(options.repetitions, cli::kPositive)},
+               {.name = "angle", .value = "DEGREES", .help = "Bound on the angles", .take = cli::into(options.degrees)},
+               {.name = "cells",
+                .value = "N",
+                .help = "models and cut: the area bound is the area of the domain over this",
+                .take = cli::into(options.cells)},
+               {.name = "parts", .value = "N", .help = "cut: about so many parts", .take = cli::into(options.parts)},
+               {.name = "growth",
+                .value = "N,N,...",
+                .help = "growth: cells, one number for each size",
+                .take = cli::into(options.growth)}},
+          .run = std::move(run)};
 }
 
 std::vector<Measurement> measure(const CommandLine& line) {
@@ -62,18 +90,15 @@ void write_json(const std::string& path, const std::vector<Measurement>& measure
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"driftmesh_bench: how fast the mesher is, and how much memory it takes"};
   CommandLine line;
-  add_options(app, line);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  }
-  std::cout << machine() << "\n\n";
-  const std::vector<Measurement> measurements = measure(line);
-  if (!line.json.empty()) write_json(line.json, measurements);
-  return 0;
+  return cli::run(program(line,
+                          [&line](const cli::Call&) {
+                            std::cout << machine() << "\n\n";
+                            const std::vector<Measurement> measurements = measure(line);
+                            if (!line.json.empty()) write_json(line.json, measurements);
+                            return 0;
+                          }),
+                  argc, argv);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,8 +9,9 @@
 
 #include "app/commands.hpp"
 #include "app/sizing_options.hpp"
-#include "app/validators.hpp"
 #include "base/error.hpp"
+#include "base/standard_streams.hpp"
+#include "cli/values.hpp"
 #include "io/mesh_file.hpp"
 #include "mesh/digest.hpp"
 #include "pslg/poly_file.hpp"
@@ -42,7 +43,7 @@ std::vector<MeshPiece> read_and_digest(const CheckOptions& options) {
     pieces.push_back(read_mesh(options.mesh));
   std::uint64_t digest = 0;
   for (const MeshPiece& piece : pieces) digest += mesh_digest(piece);
-  if (!options.quiet) std::cout << fmt::format("digest         {:016x}\n", digest);
+  if (!options.quiet) print(fmt::format("digest         {:016x}\n", digest));
   return pieces;
 }
 
@@ -50,7 +51,7 @@ std::optional<Pslg> read_and_repair(const CheckOptions& options) {
   if (options.input.empty()) return std::nullopt;
   Pslg input = read_poly(options.input);
   const RepairReport repairs = repair(input, options.input);
-  if (!options.quiet) std::cout << repairs.summary();
+  if (!options.quiet) print(repairs.summary());
   return input;
 }
 
@@ -68,8 +69,9 @@ int run_check(CheckOptions& options) {
     const std::unique_ptr<SizeField> size = make_size_field(options.sizing);
     options.verify.size = size.get();
     const VerifyReport report = read_and_verify(options);
-    if (!options.quiet) std::cout << report_text(report, options.verify);
-    std::cout << verdict_text(report, options.verify) << '\n';
+    if (!options.quiet) print(report_text(report, options.verify));
+    print(verdict_text(report, options.verify) + "\n");
+    flush_standard_output();
     return report.accepted() ? 0 : kRejected;
   } catch (const Error& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';
@@ -77,46 +79,72 @@ int run_check(CheckOptions& options) {
   }
 }
 
+std::vector<cli::Option> bound_options(CheckOptions& options) {
+  constexpr const char* kGroup = "Bounds that the mesh must keep (as for driftmesh mesh)";
+  std::vector<cli::Option> all{
+      {.name = "area",
+       .letter = 'a',
+       .value = "AREA",
+       .help = "No triangle is larger than this",
+       .group = kGroup,
+       .take = cli::into(options.verify.max_area, cli::kPositive)},
+      {.name = "angle",
+       .letter = 'q',
+       .value = "DEGREES",
+       .help = "No angle is smaller than this, in degrees, but for those that the input forces",
+       .group = kGroup,
+       .take = cli::into(options.verify.min_angle, {0, 60})}};
+  std::ranges::move(sizing_options(options.sizing, kGroup), std::back_inserter(all));
+  all.push_back({.kind = cli::Option::Kind::kFlag,
+                 .name = "no-region-areas",
+                 .help = "Ignore the area bounds of the input's regions",
+                 .group = kGroup,
+                 .take = cli::into(options.no_region_areas)});
+  return all;
+}
+
+std::vector<cli::Option> check_options(CheckOptions& options) {
+  std::vector<cli::Option> all{
+      {.kind = cli::Option::Kind::kPositional,
+       .name = "mesh",
+       .value = "MESH",
+       .help = "The mesh: .vtu, .pvtu, .msh, or any file of Triangle's .node/.ele set",
+       .required = true,
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(options.mesh)},
+      {.kind = cli::Option::Kind::kPositional,
+       .name = "input",
+       .value = "INPUT",
+       .help = "The .poly that the mesh was made from; with it, the mesh must cover its domain and hold its segments, "
+               "markers, points and regions",
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(options.input)},
+      {.name = "list",
+       .value = "N",
+       .help = "Findings to print of each kind",
+       .standard = std::to_string(options.verify.max_listed),
+       .take = cli::into(options.verify.max_listed)},
+      {.kind = cli::Option::Kind::kFlag,
+       .name = "quiet",
+       .help = "Print the verdict alone",
+       .take = cli::into(options.quiet)}};
+  std::ranges::move(bound_options(options), std::back_inserter(all));
+  return all;
+}
+
 }  // namespace
 
-void add_check(CLI::App& program) {
+cli::Command check_command() {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = program.add_subcommand("check", "Verify a mesh from its file, independent of how it was made");
-  command->add_option("mesh", options->mesh, "The mesh: .vtu, .pvtu, .msh, or any file of Triangle's .node/.ele set")
-      ->type_name("")
-      ->required();
-  command
-      ->add_option("input", options->input,
-                   "The .poly that the mesh was made from; with it, the mesh must cover its domain and hold its "
-                   "segments, markers, points and regions")
-      ->type_name("");
-  constexpr const char* kGroup = "Bounds that the mesh must keep (as for driftmesh mesh)";
-  command->add_option("-a,--area", options->verify.max_area, "No triangle is larger than this")
-      ->check(positive())
-      ->type_name("AREA")
-      ->group(kGroup);
-  command
-      ->add_option("-q,--angle", options->verify.min_angle,
-                   "No angle is smaller than this, in degrees, but for those that the input forces")
-      ->check(CLI::Range(0.0, 60.0).description(""))
-      ->type_name("DEGREES")
-      ->group(kGroup);
-  add_sizing_options(*command, options->sizing, kGroup);
-  command->add_flag("--no-region-areas", options->no_region_areas, "Ignore the area bounds of the input's regions")
-      ->group(kGroup);
-  command->add_option("--list", options->verify.max_listed, "Findings to print of each kind")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_flag("--quiet", options->quiet, "Print the verdict alone");
-  command->footer(
-      "Angles below the bound are allowed where the input has them, and in wedges between input segments\n"
-      "that meet at less than 60 degrees; the report lists them.\n"
-      "Example:\n"
-      "  driftmesh check bay.vtu bay.poly --angle 20 --area 5000\n"
-      "Exit code: 0 accepted, 1 rejected, 2 a file could not be read, or wrong usage.");
-  command->callback([options] {
-    if (const int code = run_check(*options); code != 0) throw CLI::RuntimeError(code);
-  });
+  return {.name = "check",
+          .summary = "Verify a mesh from its file, independent of how it was made",
+          .options = check_options(*options),
+          .notes =
+              "Angles below the bound are allowed where the input has them, and in wedges between input segments "
+              "that meet at less than 60 degrees; the report lists them.",
+          .examples = {"driftmesh check bay.vtu bay.poly --angle 20 --area 5000"},
+          .exit_codes = "0 accepted, 1 rejected, 2 a file could not be read or written, or wrong usage",
+          .run = [options](cli::Call&) { return run_check(*options); }};
 }
 
 }  // namespace driftmesh::app

@@ -1,10 +1,10 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
 
 #include "app/commands.hpp"
 #include "base/error.hpp"
+#include "cli/values.hpp"
 #include "io/mesh_file.hpp"
 
 namespace driftmesh::app {
@@ -27,23 +27,31 @@ void refuse_to_overwrite_input(const ConvertOptions& options) {
 
 }  // namespace
 
-void add_convert(CLI::App& program) {
+cli::Command convert_command() {
   const auto options = std::make_shared<ConvertOptions>();
-  CLI::App* command = program.add_subcommand("convert", "Write a mesh in another format");
-  command->add_option("input", options->input, "The mesh: .vtu, .pvtu, .msh, or any file of Triangle's .node/.ele set")
-      ->type_name("")
-      ->required();
-  command->add_option("output", options->output, "The new file; its extension chooses the format")
-      ->type_name("")
-      ->required();
-  command->footer(
-      "Example:\n"
-      "  driftmesh convert bay.vtu bay.msh\n"
-      "Exit code: 0 done, 1 error, 2 wrong usage.");
-  command->callback([options] {
-    refuse_to_overwrite_input(*options);
-    write_mesh(read_mesh(options->input), options->output);
-  });
+  return {.name = "convert",
+          .summary = "Write a mesh in another format",
+          .options = {{.kind = cli::Option::Kind::kPositional,
+                       .name = "input",
+                       .value = "INPUT",
+                       .help = "The mesh: .vtu, .pvtu, .msh, or any file of Triangle's .node/.ele set",
+                       .required = true,
+                       .completes = cli::Option::Completes::kFile,
+                       .take = cli::into(options->input)},
+                      {.kind = cli::Option::Kind::kPositional,
+                       .name = "output",
+                       .value = "OUTPUT",
+                       .help = "The new file; its extension chooses the format",
+                       .required = true,
+                       .completes = cli::Option::Completes::kFile,
+                       .take = cli::into(options->output)}},
+          .examples = {"driftmesh convert bay.vtu bay.msh"},
+          .exit_codes = "0 done, 1 error, 2 wrong usage",
+          .run = [options](cli::Call&) {
+            refuse_to_overwrite_input(*options);
+            write_mesh(read_mesh(options->input), options->output);
+            return 0;
+          }};
 }
 
 }  // namespace driftmesh::app

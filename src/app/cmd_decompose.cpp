@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -12,9 +12,10 @@
 #include "app/decomposition_picture.hpp"
 #include "app/output_files.hpp"
 #include "app/sizing_options.hpp"
-#include "app/validators.hpp"
 #include "base/error.hpp"
+#include "base/standard_streams.hpp"
 #include "base/stopwatch.hpp"
+#include "cli/values.hpp"
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
@@ -52,19 +53,21 @@ Triangulation prepared(const Pslg& pslg) {
   return mesh;
 }
 
-void print_summary(const Decomposition& d, const DecompositionReport& report, bool predicts, double seconds) {
+std::string summary(const Decomposition& d, const DecompositionReport& report, bool predicts, double seconds) {
   double work = 0;
   for (const auto& s : d.subdomains) work += s.predicted;
-  fmt::print("Subdomains       {}, {} interfaces, made in {:.3f} s\n", d.size(), interfaces(d).size(), seconds);
-  fmt::print("Work             {}largest {:.2f}, smallest {:.2f} of the mean\n",
-             predicts ? fmt::format("about {:.4g} triangles; ", work) : "by area; ", report.largest_load,
-             report.smallest_load);
-  fmt::print("Separators       length {:.6g}, {:.3f} of the border's\n", report.separator_length,
-             report.separator_length / report.border_length);
+  std::string text =
+      fmt::format("Subdomains       {}, {} interfaces, made in {:.3f} s\n", d.size(), interfaces(d).size(), seconds);
+  text += fmt::format("Work             {}largest {:.2f}, smallest {:.2f} of the mean\n",
+                      predicts ? fmt::format("about {:.4g} triangles; ", work) : "by area; ", report.largest_load,
+                      report.smallest_load);
+  text += fmt::format("Separators       length {:.6g}, {:.3f} of the border's\n", report.separator_length,
+                      report.separator_length / report.border_length);
   if (report.smallest_at != kNone) {
     const Point& p = d.points[static_cast<std::size_t>(report.smallest_at)];
-    fmt::print("Smallest angle   {:.1f} degrees at ({:.10g}, {:.10g})\n", report.smallest_angle, p.x, p.y);
+    text += fmt::format("Smallest angle   {:.1f} degrees at ({:.10g}, {:.10g})\n", report.smallest_angle, p.x, p.y);
   }
+  return text;
 }
 
 void run_decompose(DecomposeCommand& command) {
@@ -80,44 +83,80 @@ void run_decompose(DecomposeCommand& command) {
   const double seconds = watch.seconds();
   const DecompositionReport report = check_decomposition(d);
   if (!report.valid()) throw Error("the decomposition is broken (please report this): " + report.problems[0]);
-  if (!command.quiet) print_summary(d, report, bounds_size(command.options.bounds), seconds);
   if (!command.output.empty()) write_decomposition(d, pslg, command.output);
   if (!command.picture.empty())
     plot_decomposition(
         d, command.picture,
         fmt::format("{}: {} subdomains", std::filesystem::path(command.input).filename().string(), d.size()));
+  if (!command.quiet) print(summary(d, report, bounds_size(command.options.bounds), seconds));
+}
+
+std::vector<cli::Option> triangle_options(DecomposeCommand& command) {
+  constexpr const char* kGroup = "Triangles that the subdomains shall get equal numbers of (as for driftmesh mesh)";
+  std::vector<cli::Option> all{{.name = "area",
+                                .letter = 'a',
+                                .value = "AREA",
+                                .help = "No triangle is larger than this",
+                                .group = kGroup,
+                                .take = cli::into(command.area, cli::kPositive)}};
+  std::ranges::move(sizing_options(command.sizing, kGroup), std::back_inserter(all));
+  all.push_back({.kind = cli::Option::Kind::kFlag,
+                 .name = "no-region-areas",
+                 .help = "Ignore the area bounds of the input's regions",
+                 .group = kGroup,
+                 .take = cli::into(command.no_region_areas)});
+  return all;
+}
+
+std::vector<cli::Option> decompose_options(DecomposeCommand& command) {
+  std::vector<cli::Option> all{{.kind = cli::Option::Kind::kPositional,
+                                .name = "input",
+                                .value = "INPUT",
+                                .help = "The domain: Triangle's .poly (its .node beside it), or .node",
+                                .required = true,
+                                .completes = cli::Option::Completes::kFile,
+                                .take = cli::into(command.input)},
+                               {.name = "subdomains",
+                                .letter = 'n',
+                                .value = "N",
+                                .help = "How many",
+                                .required = true,
+                                .take = cli::into(command.options.subdomains, {1, kMaxSubdomains})},
+                               {.name = "output",
+                                .letter = 'o',
+                                .value = "FILE",
+                                .help = "Write the decomposition (text; docs/file-formats.md)",
+                                .completes = cli::Option::Completes::kFile,
+                                .take = cli::into(command.output)},
+                               {.name = "plot",
+                                .value = "FILE",
+                                .help = "Picture in colors: .png, .svg or .pdf",
+                                .completes = cli::Option::Completes::kFile,
+                                .take = cli::into(command.picture)}};
+  std::ranges::move(
+      cutting_options({&command.options.min_angle, &command.options.skew, &command.options.seed}, "Options"),
+      std::back_inserter(all));
+  all.push_back({.kind = cli::Option::Kind::kFlag,
+                 .name = "quiet",
+                 .help = "Print nothing but errors",
+                 .take = cli::into(command.quiet)});
+  std::ranges::move(triangle_options(command), std::back_inserter(all));
+  return all;
 }
 
 }  // namespace
 
-void add_decompose(CLI::App& program) {
-  const auto options = std::make_shared<DecomposeCommand>();
-  CLI::App* command = program.add_subcommand("decompose", "Cut a domain into subdomains of equal work");
-  command->add_option("input", options->input, "The domain: Triangle's .poly (its .node beside it), or .node")
-      ->type_name("")
-      ->required();
-  command->add_option("-n,--subdomains", options->options.subdomains, "How many")
-      ->check(CLI::Range(1, kMaxSubdomains).description(""))
-      ->type_name("N")
-      ->required();
-  command->add_option("-o,--output", options->output, "Write the decomposition (text; docs/file-formats.md)")
-      ->type_name("FILE");
-  command->add_option("--plot", options->picture, "Picture in colours: .png, .svg or .pdf")->type_name("FILE");
-  add_cutting_options(*command, {&options->options.min_angle, &options->options.skew, &options->options.seed},
-                      "Options");
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  constexpr const char* kGroup = "Triangles that the subdomains shall get equal numbers of (as for driftmesh mesh)";
-  command->add_option("-a,--area", options->area, "No triangle is larger than this")
-      ->check(positive())
-      ->type_name("AREA")
-      ->group(kGroup);
-  add_sizing_options(*command, options->sizing, kGroup);
-  command->add_flag("--no-region-areas", options->no_region_areas, "Ignore the area bounds of the input's regions")
-      ->group(kGroup);
-  command->footer(
-      "Example: driftmesh decompose bay.poly -n 400 -o bay.decomposition --plot bay.png\n"
-      "Exit code: 0 done, 1 error, 2 wrong usage.");
-  command->callback([options] { run_decompose(*options); });
+cli::Command decompose_command() {
+  const auto command = std::make_shared<DecomposeCommand>();
+  return {.name = "decompose",
+          .summary = "Cut a domain into subdomains of equal work",
+          .options = decompose_options(*command),
+          .examples = {"driftmesh decompose bay.poly -n 400 -o bay.decomposition --plot bay.png"},
+          .exit_codes = "0 done, 1 error, 2 wrong usage",
+          .run = [command](cli::Call&) {
+            run_decompose(*command);
+            return 0;
+          }};
 }
 
 }  // namespace driftmesh::app

@@ -1,10 +1,12 @@
-#include <CLI/CLI.hpp>
-#include <iostream>
+#include <fmt/format.h>
+
 #include <memory>
 #include <string>
 #include <type_traits>
 
 #include "app/commands.hpp"
+#include "base/standard_streams.hpp"
+#include "cli/values.hpp"
 #include "pslg/generators.hpp"
 #include "pslg/poly_file.hpp"
 
@@ -18,60 +20,64 @@ struct Request {
 };
 
 template <class Value>
-void add_parameter(CLI::App& command, const std::string& name, Value& value, const char* what) {
+cli::Option parameter(const std::string& name, Value& value, const char* what) {
   if constexpr (std::is_same_v<Value, bool>)
-    command.add_flag("--" + name, value, what);
+    return {.kind = cli::Option::Kind::kFlag, .name = name, .help = what, .take = cli::into(value)};
   else
-    command.add_option("--" + name, value, what)
-        ->capture_default_str()
-        ->type_name(std::is_integral_v<Value> ? "N" : "NUMBER");
+    return {.name = name,
+            .value = std::is_integral_v<Value> ? "N" : "NUMBER",
+            .help = what,
+            .standard = fmt::format("{}", value),
+            .take = cli::into(value)};
 }
 
-/// Adds the kind's subcommand.
+void report(const Pslg& pslg, const std::string& file) {
+  print(fmt::format("{}: {} points, {} segments, {} holes\n", file, pslg.points.size(), pslg.segments.size(),
+                    pslg.holes.size()));
+}
+
+/// The command of a kind.
 template <class Options>
-void add_kind(CLI::App& generate, const std::string& kind, const std::string& what, Pslg (*make)(const Options&)) {
-  CLI::App* command = generate.add_subcommand(kind, what);
-  command->footer("");  // not that of all kinds
+cli::Command kind(const std::string& name, const std::string& what, Pslg (*make)(const Options&)) {
   const auto request = std::make_shared<Request<Options>>();
-  visit_parameters(request->options, [&](const char* name, auto& value, const char* meaning) {
-    add_parameter(*command, name, value, meaning);
+  cli::Command command{.name = name, .summary = what};
+  visit_parameters(request->options, [&](const char* parameter_name, auto& value, const char* meaning) {
+    command.options.push_back(parameter(parameter_name, value, meaning));
   });
-  command->add_option("-o,--output", request->output, "The .poly file to write")->required()->type_name("FILE");
-  command->callback([request, make] {
+  command.options.push_back({.name = "output",
+                             .letter = 'o',
+                             .value = "FILE",
+                             .help = "The .poly file to write; - is standard output",
+                             .required = true,
+                             .completes = cli::Option::Completes::kFile,
+                             .take = cli::into(request->output)});
+  command.run = [request, make](cli::Call&) {
     const Pslg pslg = make(request->options);
     write_poly(pslg, request->output);
-    std::cout << request->output << ": " << pslg.points.size() << " points, " << pslg.segments.size() << " segments, "
-              << pslg.holes.size() << " holes\n";
-  });
-}
-
-void add_models(CLI::App& generate) {
-  add_kind(generate, "pipe", "Cross-section of a cooled pipe: a ring with channels in its wall", generate_pipe);
-  add_kind(generate, "cylinder-flow", "Half of the channel around a cylinder at the origin", generate_cylinder_flow);
-  add_kind(generate, "bay", "A bay with inlets, an estuary and islands, in metres", generate_bay);
-}
-
-void add_stress_tests(CLI::App& generate) {
-  add_kind(generate, "fan", "A square with segments that leave one point at small angles", generate_fan);
-  add_kind(generate, "comb", "A rectangle of height 1 with thin slits cut into it", generate_comb);
-  add_kind(generate, "holes", "A plate with columns x rows holes in unit cells", generate_holes);
-  add_kind(generate, "rectangle-hole", "A 2 x 1 rectangle with a regular polygon as a hole", generate_rectangle_hole);
-  add_kind(generate, "random-polygon", "A random simple polygon: a labyrinth without loops", generate_random_polygon);
-  add_kind(generate, "random-points", "Random points in a square, some joined by segments", generate_random_points);
+    report(pslg, request->output);
+    return 0;
+  };
+  return command;
 }
 
 }  // namespace
 
-void add_generate(CLI::App& program) {
-  CLI::App* generate = program.add_subcommand("generate", "Make an input: a model with parameters, or a stress test");
-  generate->require_subcommand(1);
-  generate->footer(
-      "Options of a kind: driftmesh generate KIND --help\n"
-      "Example:\n"
-      "  driftmesh generate bay --seed 7 -o bay.poly\n"
-      "Exit code: 0 done, 1 error, 2 wrong usage.");
-  add_models(*generate);
-  add_stress_tests(*generate);
+cli::Command generate_command() {
+  return {.name = "generate",
+          .summary = "Make an input: a model with parameters, or a stress test",
+          .commands =
+              {kind("pipe", "Cross-section of a cooled pipe: a ring with channels in its wall", generate_pipe),
+               kind("cylinder-flow", "Half of the channel around a cylinder at the origin", generate_cylinder_flow),
+               kind("bay", "A bay with inlets, an estuary and islands, in meters", generate_bay),
+               kind("fan", "A square with segments that leave one point at small angles", generate_fan),
+               kind("comb", "A rectangle of height 1 with thin slits cut into it", generate_comb),
+               kind("holes", "A plate with columns x rows holes in unit cells", generate_holes),
+               kind("rectangle-hole", "A 2 x 1 rectangle with a regular polygon as a hole", generate_rectangle_hole),
+               kind("random-polygon", "A random simple polygon: a labyrinth without loops", generate_random_polygon),
+               kind("random-points", "Random points in a square, some joined by segments", generate_random_points)},
+          .notes = "Parameters of a kind: driftmesh generate KIND --help",
+          .examples = {"driftmesh generate bay --seed 7 -o bay.poly"},
+          .exit_codes = "0 done, 1 error, 2 wrong usage"};
 }
 
 }  // namespace driftmesh::app

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -90,23 +89,28 @@ class MeshRun {
   Limits limits_;
 };
 
-int run_mesh(CLI::App& command, MeshOptions& options) {
-  if (!options.config.empty()) apply_config(command, options.config);
+int run_mesh(cli::Call& call, const MeshOptions& options) {
+  if (!options.config.empty()) apply_config(call, options.config);
   check_mesh_options(options);
-  const std::string line = command_line_of(command, {"config", "quiet"});
+  const std::string line = call.text({"config", "quiet"});
   if (protocol::MpiSession::launched_as() || options.parts.wanted()) return mesh_in_parts(options, line);
   return MeshRun(options, line).go();
 }
 
 }  // namespace
 
-void add_mesh(CLI::App& program) {
+cli::Command mesh_command() {
   const auto options = std::make_shared<MeshOptions>();
-  CLI::App* const command = program.add_subcommand("mesh", "Make a quality mesh of a domain");
-  add_mesh_options(*command, *options);
-  command->callback([command, options] {
-    if (const int code = run_mesh(*command, *options); code != 0) throw CLI::RuntimeError(code);
-  });
+  return {.name = "mesh",
+          .summary = "Make a quality mesh of a domain",
+          .options = mesh_options(*options),
+          .notes = "Check a mesh with: driftmesh check bay.vtu bay.poly --angle 20 --area 5000",
+          .examples = {"driftmesh mesh bay.poly --area 5000 -o bay.vtu --plot bay.png",
+                       "driftmesh mesh bay.poly --angle 30 -o bay.msh -o bay.ele",
+                       "driftmesh mesh bay.poly --size \"20 + 0.1*abs(x)\" --json run.json",
+                       "mpirun -n 4 driftmesh mesh bay.poly --area 50 -o bay.pvtu"},
+          .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",
+          .run = [options](cli::Call& call) { return run_mesh(call, *options); }};
 }
 
 }  // namespace driftmesh::app

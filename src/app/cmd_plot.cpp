@@ -1,13 +1,14 @@
-#include <CLI/CLI.hpp>
+#include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "base/error.hpp"
+#include "base/standard_streams.hpp"
+#include "cli/values.hpp"
 #include "io/mesh_file.hpp"
 #include "picture/plot.hpp"
 #include "pslg/poly_file.hpp"
@@ -15,41 +16,49 @@
 namespace driftmesh::app {
 namespace {
 
-const std::map<std::string, PlotColor> kColors = {{"angle", PlotColor::angle},   {"area", PlotColor::area},
-                                                  {"region", PlotColor::region}, {"subdomain", PlotColor::subdomain},
-                                                  {"rank", PlotColor::rank},     {"none", PlotColor::none}};
-const std::map<std::string, PlotEdges> kEdges = {
-    {"auto", PlotEdges::automatic}, {"on", PlotEdges::on}, {"off", PlotEdges::off}};
+template <class Value>
+using Names = std::vector<std::pair<std::string, Value>>;
+
+const Names<PlotColor> kColors = {{"angle", PlotColor::angle},   {"area", PlotColor::area},
+                                  {"region", PlotColor::region}, {"subdomain", PlotColor::subdomain},
+                                  {"rank", PlotColor::rank},     {"none", PlotColor::none}};
+const Names<PlotEdges> kEdges = {{"auto", PlotEdges::automatic}, {"on", PlotEdges::on}, {"off", PlotEdges::off}};
 
 template <class Value>
-std::vector<std::string> keys_of(const std::map<std::string, Value>& names) {
-  std::vector<std::string> keys;
-  for (const auto& entry : names) keys.push_back(entry.first);
-  return keys;
+std::vector<std::string> words_of(const Names<Value>& names) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : names) words.push_back(word);
+  return words;
+}
+
+/// Stores what a name stands for.
+template <class Value>
+cli::Take into(Value& to, const Names<Value>& names) {
+  return [&](const std::string& text) {
+    for (const auto& [word, value] : names)
+      if (word == text) to = value;
+  };
 }
 
 struct PlotCommand {
   std::string input;
   std::string output;
   PlotOptions plot;
-  std::string color = "angle";
-  std::string edges = "auto";
-  std::string size;
-  std::vector<double> box;
 };
 
 // "1600x900"
-std::string check_size(const std::string& text) {
-  int width = 0;
-  int height = 0;
+void read_size(const std::string& text, PlotOptions& plot) {
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2) return {};
-  return "'" + text + "' is not WIDTHxHEIGHT, for example 1600x900";
+  if (std::sscanf(text.c_str(), "%dx%d%c", &plot.width, &plot.height, &rest) != 2)
+    throw cli::UsageError("'" + text + "' is not WIDTHxHEIGHT, for example 1600x900");
 }
 
-std::string check_box(const std::vector<double>& box) {
-  if (box.empty() || (box.size() == 4 && box[0] < box[2] && box[1] < box[3])) return {};
-  return "--box needs x0,y0,x1,y1 with x0 < x1 and y0 < y1";
+void read_box(const std::string& text, PlotOptions& plot) {
+  std::vector<double> box;
+  cli::into(box)(text);
+  if (box.size() != 4 || !(box[0] < box[2] && box[1] < box[3]))
+    throw cli::UsageError("'" + text + "' is not x0,y0,x1,y1 with x0 < x1 and y0 < y1");
+  plot.box = Box{{box[0], box[1]}, {box[2], box[3]}};
 }
 
 // A .node file without an .ele beside it is points alone.
@@ -59,71 +68,94 @@ bool holds_input(const std::filesystem::path& path) {
 }
 
 void check_color(const PlotCommand& command, const MeshPiece& mesh) {
-  const bool tells = (command.plot.color != PlotColor::subdomain || !mesh.subdomains.empty()) &&
-                     (command.plot.color != PlotColor::rank || !mesh.ranks.empty());
-  if (!tells)
-    throw InputError({command.input, 0}, "does not tell the " + command.color + " of its triangles",
+  const auto refuse = [&](const char* what) {
+    throw InputError({command.input, 0}, std::string("does not tell the ") + what + " of its triangles",
                      "only .pvtu, .vtu and .msh files of distributed meshes do; choose another --color");
+  };
+  if (command.plot.color == PlotColor::subdomain && mesh.subdomains.empty()) refuse("subdomain");
+  if (command.plot.color == PlotColor::rank && mesh.ranks.empty()) refuse("rank");
 }
 
-void run_plot(PlotCommand& command) {
-  if (const std::string problem = check_box(command.box); !problem.empty()) throw CLI::ValidationError(problem);
-  command.plot.color = kColors.at(command.color);
-  command.plot.edges = kEdges.at(command.edges);
-  if (!command.box.empty()) command.plot.box = Box{{command.box[0], command.box[1]}, {command.box[2], command.box[3]}};
-  if (!command.size.empty())
-    (void)std::sscanf(command.size.c_str(), "%dx%d", &command.plot.width, &command.plot.height);
+std::string title_of(const std::string& input) {
+  return is_standard_stream(input) ? "standard input" : std::filesystem::path(input).filename().string();
+}
+
+void run_plot(const cli::Call& call, PlotCommand& command) {
+  if (call.has("size") && call.has("width")) throw cli::UsageError("--size says the width too: leave out --width");
   const std::filesystem::path input(command.input);
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
-  if (command.plot.title.empty()) command.plot.title = input.filename().string();
+  if (command.plot.title.empty()) command.plot.title = title_of(command.input);
   if (holds_input(input)) return plot_pslg(read_poly(command.input), command.output, command.plot);
   const MeshPiece mesh = read_mesh(command.input);
   check_color(command, mesh);
   plot_mesh(mesh, command.output, command.plot);
 }
 
+std::vector<cli::Option> plot_options(PlotCommand& command) {
+  return {{.kind = cli::Option::Kind::kPositional,
+           .name = "input",
+           .value = "INPUT",
+           .help = "A mesh (.vtu, .pvtu, .msh, .ele, .node) or an input (.poly, or a .node without .ele). - is a .vtu "
+                   "from standard input; -.msh and -.poly are the others",
+           .required = true,
+           .completes = cli::Option::Completes::kFile,
+           .take = cli::into(command.input)},
+          {.name = "output",
+           .letter = 'o',
+           .value = "FILE",
+           .help = "The picture: .png, .svg or .pdf. - is a PNG to standard output, -.svg and -.pdf are the others",
+           .standard = "the input's name with .png, in this folder",
+           .completes = cli::Option::Completes::kFile,
+           .take = cli::into(command.output)},
+          {.name = "color",
+           .value = "WHAT",
+           .help = "What the colors of triangles show",
+           .standard = kColors.front().first,
+           .choices = words_of(kColors),
+           .take = into(command.plot.color, kColors)},
+          {.name = "edges",
+           .value = "WHEN",
+           .help = "Draw the edges of triangles: on, off or auto, which is where they can be seen",
+           .standard = kEdges.front().first,
+           .choices = words_of(kEdges),
+           .take = into(command.plot.edges, kEdges)},
+          {.name = "width",
+           .value = "PIXELS",
+           .help = "Width in pixels; the height follows",
+           .standard = std::to_string(command.plot.width),
+           .take = cli::into(command.plot.width)},
+          {.name = "size",
+           .value = "WxH",
+           .help = "Width and height in pixels, as 1600x900",
+           .take = [&plot = command.plot](const std::string& text) { read_size(text, plot); }},
+          {.name = "box",
+           .value = "X0,Y0,X1,Y1",
+           .help = "Show only this part of the plane",
+           .take = [&plot = command.plot](const std::string& text) { read_box(text, plot); }},
+          {.name = "title",
+           .value = "TEXT",
+           .help = "The title",
+           .standard = "the input's name",
+           .take = cli::into(command.plot.title)}};
+}
+
 }  // namespace
 
-void add_plot(CLI::App& program) {
-  const auto options = std::make_shared<PlotCommand>();
-  CLI::App* command = program.add_subcommand("plot", "Draw a mesh or an input as PNG, SVG or PDF");
-  command
-      ->add_option("input", options->input,
-                   "A mesh (.vtu, .pvtu, .msh, .ele, .node) or an input (.poly, or a .node without .ele)")
-      ->type_name("")
-      ->required();
-  command
-      ->add_option("-o,--output", options->output,
-                   "The picture: .png, .svg or .pdf  [the input's name with .png, in this folder]")
-      ->type_name("FILE");
-  command->add_option("--color", options->color, "What the triangles' colours show")
-      ->check(CLI::IsMember(keys_of(kColors)))
-      ->type_name("WHAT")
-      ->capture_default_str();
-  command->add_option("--edges", options->edges, "Draw the triangles' edges; auto: where they can be seen")
-      ->check(CLI::IsMember(keys_of(kEdges)))
-      ->type_name("WHEN")
-      ->capture_default_str();
-  CLI::Option* const width = command->add_option("--width", options->plot.width, "Width in pixels; the height follows")
-                                 ->type_name("PIXELS")
-                                 ->capture_default_str();
-  command->add_option("--size", options->size, "Width and height in pixels, as 1600x900")
-      ->check(check_size)
-      ->type_name("WxH")
-      ->excludes(width);
-  command->add_option("--box", options->box, "Show only this part of the plane")
-      ->delimiter(',')
-      ->expected(4)
-      ->type_name("X0,Y0,X1,Y1");
-  command->add_option("--title", options->plot.title, "The title  [the input's name]")->type_name("TEXT");
-  command->footer(
-      "Where triangles are smaller than about two pixels, each pixel shows the worst angle, or the mean\n"
-      "area, of the triangles in it.\n"
-      "Examples:\n"
-      "  driftmesh plot bay.poly -o input.svg\n"
-      "  driftmesh plot bay.vtu --color area --box 380000,4180000,420000,4210000 -o bay.svg\n"
-      "Exit code: 0 done, 1 error, 2 wrong usage.");
-  command->callback([options] { run_plot(*options); });
+cli::Command plot_command() {
+  const auto command = std::make_shared<PlotCommand>();
+  return {.name = "plot",
+          .summary = "Draw a mesh or an input as PNG, SVG or PDF",
+          .options = plot_options(*command),
+          .notes =
+              "Where triangles are smaller than about two pixels, each pixel shows the worst angle, or the mean "
+              "area, of the triangles in it.",
+          .examples = {"driftmesh plot bay.poly -o input.svg",
+                       "driftmesh plot bay.vtu --color area --box 380000,4180000,420000,4210000 -o bay.svg"},
+          .exit_codes = "0 done, 1 error, 2 wrong usage",
+          .run = [command](cli::Call& call) {
+            run_plot(call, *command);
+            return 0;
+          }};
 }
 
 }  // namespace driftmesh::app

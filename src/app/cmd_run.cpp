@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +16,8 @@
 #include "app/real_cluster.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/standard_streams.hpp"
+#include "cli/values.hpp"
 #include "experiment/key_words.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 
@@ -73,7 +73,7 @@ class Runner {
     }
     if (file_.base.pictures) draw_sweep(table_, file_.base.name, folder_.string());
     progress_.end();
-    if (!command_.quiet) std::cout << table_.markdown() << "\nresults in " << folder_.string() << "/\n";
+    if (!command_.quiet) print(table_.markdown() + "\nresults in " + folder_.string() + "/\n");
   }
 
  private:
@@ -117,7 +117,7 @@ void run_experiment(const RunCommand& command) {
   const experiment::ExperimentFile file = experiment::read_experiment(command.file, command.settings);
   const auto runs = file.points.size() * static_cast<std::size_t>(file.base.repetitions);
   if (command.dry) {
-    std::cout << experiment::experiment_text(file) << "# " << runs << (runs == 1 ? " run\n" : " runs\n");
+    print(experiment::experiment_text(file) + fmt::format("# {} {}\n", runs, runs == 1 ? "run" : "runs"));
     return;
   }
   experiment::check_processes(file, cluster ? cluster->ranks() : 1);
@@ -127,45 +127,47 @@ void run_experiment(const RunCommand& command) {
 
 }  // namespace
 
-void add_run(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("run", "Do the experiment that a file describes");
-  const auto request = std::make_shared<RunCommand>();
-  command->add_option("experiment", request->file, "The experiment")->required()->type_name("FILE.yaml");
-  command
-      ->add_option("--set", request->settings,
-                   "A key with another value than the file gives it; with a list of values, one to sweep over")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
-  command->add_option("-o,--output", request->folder, "Folder for the results (by default NAME.runs)")
-      ->type_name("FOLDER");
-  command->add_flag("--dry-run", request->dry, "Print the experiment with all its values, and run nothing");
-  command->add_flag("--quiet", request->quiet, "Print nothing but errors");
-  command->footer(
-      "Examples:\n"
-      "  driftmesh run configs/first-run.yaml\n"
-      "  driftmesh run configs/scaled-speedup.yaml --set 'cluster.ranks=[1,4,16]' -o few\n"
-      "  mpirun -n 2 driftmesh run configs/two-ranks.yaml --set cluster.kind=real\n"
-      "What an experiment can say: driftmesh config --keys\n"
-      "Exit code: 0 done, 1 error, 2 wrong usage, 3 stopped by a limit.");
-  command->callback([request] { run_experiment(*request); });
-}
-
-void add_config(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("config", "What the files of experiments can say");
-  struct Wanted {
-    bool schema = false, keys = false;
-  };
-  const auto wanted = std::make_shared<Wanted>();
-  command->add_flag("--schema", wanted->schema,
-                    "Print the JSON schema, for editors that check YAML while it is written");
-  command->add_flag("--keys", wanted->keys, "Print all keys as a table in Markdown");
-  command->require_option(1);
-  command->footer(
-      "Example:\n"
-      "  driftmesh config --schema > experiment.schema.json\n"
-      "Exit code: 0 done, 2 wrong usage.");
-  command->callback(
-      [wanted] { std::cout << (wanted->schema ? experiment::json_schema() : experiment::keys_table()) << std::flush; });
+cli::Command run_command() {
+  const auto command = std::make_shared<RunCommand>();
+  return {.name = "run",
+          .summary = "Run an experiment",
+          .options = {{.kind = cli::Option::Kind::kPositional,
+                       .name = "experiment",
+                       .value = "FILE.yaml",
+                       .help = "The file that describes it",
+                       .required = true,
+                       .completes = cli::Option::Completes::kFile,
+                       .take = cli::into(command->file)},
+                      {.name = "set",
+                       .value = "KEY=VALUE",
+                       .help = "Give a key another value than the file does; with a list of values, sweep over them. "
+                               "Can be given several times",
+                       .repeats = true,
+                       .take = cli::into(command->settings)},
+                      {.name = "output",
+                       .letter = 'o',
+                       .value = "FOLDER",
+                       .help = "Folder for the results",
+                       .standard = "NAME.runs",
+                       .completes = cli::Option::Completes::kFolder,
+                       .take = cli::into(command->folder)},
+                      {.kind = cli::Option::Kind::kFlag,
+                       .name = "dry-run",
+                       .help = "Print the experiment with all its values, and run nothing",
+                       .take = cli::into(command->dry)},
+                      {.kind = cli::Option::Kind::kFlag,
+                       .name = "quiet",
+                       .help = "Print nothing but errors",
+                       .take = cli::into(command->quiet)}},
+          .notes = "What a file can say: driftmesh config --keys",
+          .examples = {"driftmesh run configs/first-run.yaml",
+                       "driftmesh run configs/scaled-speedup.yaml --set 'cluster.ranks=[1,4,16]' -o few",
+                       "mpirun -n 2 driftmesh run configs/two-ranks.yaml --set cluster.kind=real"},
+          .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",
+          .run = [command](cli::Call&) {
+            run_experiment(*command);
+            return 0;
+          }};
 }
 
 }  // namespace driftmesh::app

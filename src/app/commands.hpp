@@ -1,21 +1,21 @@
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include "cli/command.hpp"
 
 namespace driftmesh::app {
 
-// Each adds one subcommand, with its options and help, to the program. A subcommand's callback throws driftmesh::Error
-// for what the user can mend; main prints its message and exits with 1, or 3 for a LimitError.
+// The commands of the program. What they run throws driftmesh::Error for what the user can mend: main prints its
+// message and exits with 1, or with 3 for a LimitError.
 
-void add_mesh(CLI::App& program);
-void add_check(CLI::App& program);
-void add_convert(CLI::App& program);
-void add_decompose(CLI::App& program);
-void add_generate(CLI::App& program);
-void add_plot(CLI::App& program);
-void add_run(CLI::App& program);
-void add_config(CLI::App& program);
+[[nodiscard]] cli::Command mesh_command();
+[[nodiscard]] cli::Command check_command();
+[[nodiscard]] cli::Command convert_command();
+[[nodiscard]] cli::Command decompose_command();
+[[nodiscard]] cli::Command generate_command();
+[[nodiscard]] cli::Command plot_command();
+[[nodiscard]] cli::Command run_command();
+/// These speak about the whole program, which must outlive them.
+[[nodiscard]] cli::Command config_command(const cli::Command& program);
+[[nodiscard]] cli::Command help_command(const cli::Command& program);
 
 }  // namespace driftmesh::app

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -15,26 +13,10 @@
 namespace driftmesh::app {
 namespace {
 
-std::string key_of(const CLI::Option& option) {
-  return option.get_positional() ? option.get_name() : option.get_lnames().empty() ? "" : option.get_lnames().front();
-}
-
-bool is_flag(const CLI::Option& option) {
-  return option.get_items_expected_max() == 0;
-}
-
-/// The options that a file may set, by key.
-std::vector<CLI::Option*> settable_options(CLI::App& command) {
-  return command.get_options([](const CLI::Option* option) {
-    const std::string key = key_of(*option);
-    return !key.empty() && key != "help" && key != "config";
-  });
-}
-
 /// Reads one file of settings.
 class Config {
  public:
-  Config(CLI::App& command, const std::string& file) : file_(file), options_(settable_options(command)) {}
+  Config(cli::Call& call, const std::string& file) : call_(call), file_(file), given_before_(call) {}
 
   void apply() {
     const YAML::Node root = parse();
@@ -57,12 +39,13 @@ class Config {
     }
   }
 
-  CLI::Option* find(const YAML::Node& key) const {
+  [[nodiscard]] const cli::Option& find(const YAML::Node& key) const {
     const std::string name = key.IsScalar() ? key.Scalar() : "";
     std::vector<std::string> known;
-    for (CLI::Option* const option : options_) {
-      if (key_of(*option) == name) return option;
-      known.push_back(key_of(*option));
+    for (const cli::Option& option : call_.command->options) {
+      if (option.name == "config") continue;
+      if (option.name == name) return option;
+      known.push_back(option.name);
     }
     fail(key.Mark(), fmt::format("unknown option '{}'", name),
          fmt::format("the nearest one is '{}'", nearest_name(name, known)));
@@ -81,59 +64,34 @@ class Config {
   }
 
   void set(const YAML::Node& key, const YAML::Node& value) {
-    CLI::Option* const option = find(key);
-    if (!seen_.insert(option).second)
+    const cli::Option& option = find(key);
+    if (!seen_.insert(&option).second)
       fail(key.Mark(), fmt::format("'{}' is given twice", key.Scalar()), "remove one of them");
     std::vector<std::string> values = values_of(value, key);
-    if (option->count() > 0) return;  // the command line wins
-    if (is_flag(*option)) {
+    if (given_before_.has(option.name)) return;  // the command line wins
+    if (option.kind == cli::Option::Kind::kFlag) {
       if (values != std::vector<std::string>{"true"} && values != std::vector<std::string>{"false"})
         fail(value.Mark(), fmt::format("'{}' is {}", key.Scalar(), values.front()), "it is either true or false");
       if (values.front() == "false") return;
+      values = {""};
     }
     try {
-      option->add_result(std::move(values));
-      option->run_callback();
-    } catch (const CLI::ParseError& error) {
-      fail(value.Mark(), error.what(), "see --help");
+      for (const std::string& one : values) call_.give(option, one);
+    } catch (const cli::UsageError& error) {
+      fail(value.Mark(), cli::spelled(option) + ": " + error.what(), "see --help");
     }
   }
 
+  cli::Call& call_;
   const std::string& file_;
-  std::vector<CLI::Option*> options_;
-  std::set<const CLI::Option*> seen_;
+  const cli::Call given_before_;
+  std::set<const cli::Option*> seen_;
 };
-
-/// A word as a POSIX shell reads it back.
-std::string quoted(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
 
 }  // namespace
 
-void apply_config(CLI::App& command, const std::string& file) {
-  Config(command, file).apply();
-}
-
-std::string command_line_of(const CLI::App& command, const std::initializer_list<std::string>& without) {
-  std::string line;
-  for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) line = app->get_name() + " " + line;
-  line.pop_back();
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string key = key_of(*option);
-    if (option->count() == 0 || std::find(without.begin(), without.end(), key) != without.end()) continue;
-    if (is_flag(*option)) {
-      line += " --" + key;
-      continue;
-    }
-    for (const std::string& value : option->results())
-      line += (option->get_positional() ? " " : " --" + key + " ") + quoted(value);
-  }
-  return line;
+void apply_config(cli::Call& call, const std::string& file) {
+  Config(call, file).apply();
 }
 
 }  // namespace driftmesh::app

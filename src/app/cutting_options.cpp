@@ -1,24 +1,27 @@
 #include "app/cutting_options.hpp"
 
-#include <CLI/CLI.hpp>
+#include "cli/values.hpp"
 
 namespace driftmesh::app {
 
-void add_cutting_options(CLI::App& command, const CuttingOptions& options, const std::string& group) {
-  command
-      .add_option("--separator-angle", *options.separator_angle,
-                  "Separators keep this angle, in degrees, to everything where the domain allows it")
-      ->check(CLI::Range(0.0, 80.0).description(""))
-      ->capture_default_str()
-      ->type_name("DEGREES")
-      ->group(group);
-  command
-      .add_option("--split-skew", *options.skew,
-                  "Deliberately uneven subdomains, for experiments: each cut gives one side up to 1 + S times its due")
-      ->check(CLI::Range(0.0, 10.0).description(""))
-      ->type_name("S")
-      ->group(group);
-  command.add_option("--seed", *options.seed, "Of the unevenness")->capture_default_str()->type_name("N")->group(group);
+std::vector<cli::Option> cutting_options(const CuttingOptions& options, const std::string& group) {
+  return {{.name = "separator-angle",
+           .value = "DEGREES",
+           .help = "Separators keep this angle, in degrees, to everything where the domain allows it",
+           .standard = "60",
+           .group = group,
+           .take = cli::into(*options.separator_angle, {0, 80})},
+          {.name = "split-skew",
+           .value = "S",
+           .help = "Deliberately uneven subdomains, for experiments: each cut gives one side up to 1 + S times its due",
+           .group = group,
+           .take = cli::into(*options.skew, {0, 10})},
+          {.name = "seed",
+           .value = "N",
+           .help = "Seed of the unevenness",
+           .standard = "1",
+           .group = group,
+           .take = cli::into(*options.seed)}};
 }
 
 }  // namespace driftmesh::app

@@ -2,10 +2,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
-namespace CLI {
-class App;
-}
+#include "cli/command.hpp"
 
 namespace driftmesh::app {
 
@@ -16,7 +15,7 @@ struct CuttingOptions {
   std::uint64_t* seed;
 };
 
-/// Adds --separator-angle, --split-skew and --seed to a subcommand, in a group of its help.
-void add_cutting_options(CLI::App& command, const CuttingOptions& options, const std::string& group);
+/// --separator-angle, --split-skew and --seed, under a heading of help.
+[[nodiscard]] std::vector<cli::Option> cutting_options(const CuttingOptions& options, const std::string& group);
 
 }  // namespace driftmesh::app

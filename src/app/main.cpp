@@ -1,73 +1,54 @@
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <memory>
 #include <new>
 #include <sstream>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "app/commands.hpp"
-#include "app/help_text.hpp"
 #include "app/limits.hpp"
 #include "base/error.hpp"
+#include "base/standard_streams.hpp"
 #include "base/temporary_files.hpp"
+#include "cli/command_line.hpp"
 #include "driftmesh/version.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 
 namespace {
 
+using namespace driftmesh;
+using namespace driftmesh::app;
+
 constexpr int kError = 1;
-constexpr int kUsage = 2;
 
-void add_commands(CLI::App& program) {
-  using namespace driftmesh::app;
-  add_mesh(program);
-  add_check(program);
-  add_convert(program);
-  add_decompose(program);
-  add_generate(program);
-  add_plot(program);
-  add_run(program);
-  add_config(program);
+std::string version_text() {
+  return "driftmesh " DRIFTMESH_VERSION "\n";
 }
 
-/// What is wrong with the command line, and where to look: in the help of the command that was meant.
-std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
-  std::string what = error.what();
-  const std::vector<std::string> unknown = program.remaining(true);
-  if (!unknown.empty()) what = "unexpected: " + CLI::detail::join(unknown, " ");
-  const CLI::App* command = &program;
-  std::string call = "driftmesh";
-  for (; !command->get_subcommands().empty(); call += " " + command->get_name())
-    command = command->get_subcommands().front();
-  if (unknown.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
-      command->get_require_subcommand_min() > 0)
-    what = "a command is missing";
-  return what + "; see " + call + " --help";
+cli::Command commands_of_program() {
+  return {.name = "driftmesh",
+          .summary = "driftmesh: quality Delaunay meshes of planar domains",
+          .options = {{.kind = cli::Option::Kind::kFlag,
+                       .name = "version",
+                       .help = "Print the version of the program, and of what it was built with",
+                       .prints = version_text}},
+          .commands = {mesh_command(), check_command(), convert_command(), decompose_command(), generate_command(),
+                       plot_command(), run_command()},
+          .notes = "driftmesh COMMAND --help says what each can do."};
 }
 
-int parse_and_run(CLI::App& program, int argc, char** argv) {
-  try {
-    program.parse(argc, argv);
-    return 0;
-  } catch (const CLI::RuntimeError& finished) {
-    return finished.get_exit_code();
-  } catch (const CLI::Success& help) {
-    return program.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "driftmesh: " << usage_message(program, error) << '\n';
-    return kUsage;
-  }
+/// Writes what is still in buffers.
+int flushed(int code) {
+  flush_standard_output();
+  return code;
 }
 
 /// A process of mpirun other than rank 0: what it says is not shown, for rank 0 says the same.
 class Follower {
  public:
-  Follower() : errors_(std::cerr.rdbuf(said_.rdbuf())) { std::cout.rdbuf(nullptr); }
+  Follower() : errors_(std::cerr.rdbuf(said_.rdbuf())) { mute_standard_output(); }
   ~Follower() { std::cerr.rdbuf(errors_); }
   Follower(const Follower&) = delete;
   Follower& operator=(const Follower&) = delete;
@@ -92,20 +73,17 @@ class Follower {
 };
 
 int run_program(int argc, char** argv) {
-  CLI::App program{"driftmesh: quality Delaunay meshes of planar domains", "driftmesh"};
-  program.formatter(std::make_shared<driftmesh::app::HelpFormatter>());
-  program.set_version_flag("--version", "driftmesh " DRIFTMESH_VERSION);
-  program.require_subcommand(1);
-  add_commands(program);
-  program.footer("driftmesh COMMAND --help says what each can do.");  // last: commands inherit what is set before
+  cli::Command program = commands_of_program();
+  program.commands.push_back(config_command(program));
+  program.commands.push_back(help_command(program));
   try {
-    return parse_and_run(program, argc, argv);
+    return flushed(cli::run(program, argc, argv));
   } catch (const std::bad_alloc&) {
-    std::cerr << "driftmesh: " << driftmesh::app::kOutOfMemory << '\n';
-    return driftmesh::app::kStoppedByLimit;
-  } catch (const driftmesh::LimitError& error) {
+    std::cerr << "driftmesh: " << kOutOfMemory << '\n';
+    return kStoppedByLimit;
+  } catch (const LimitError& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';
-    return driftmesh::app::kStoppedByLimit;
+    return kStoppedByLimit;
   } catch (const std::exception& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';
   }
@@ -115,6 +93,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  driftmesh::hold_closed_streams();
   driftmesh::remove_temporaries_on_signals();
   if (driftmesh::protocol::MpiSession::launched_as().value_or(0) == 0) return run_program(argc, argv);
   const Follower follower;

@@ -4,13 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/command.hpp"
 #include "mesh/mesher.hpp"
 #include "protocol/aggregator.hpp"
 #include "sizing/make_size_field.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace driftmesh::app {
 
@@ -53,10 +50,10 @@ struct MeshOptions {
   std::string config;
 };
 
-/// Adds the options of `driftmesh mesh`, with their help, to its subcommand. `options` must outlive it.
-void add_mesh_options(CLI::App& command, MeshOptions& options);
+/// The options of `driftmesh mesh`. `options` must outlive them.
+[[nodiscard]] std::vector<cli::Option> mesh_options(MeshOptions& options);
 
-/// Throws CLI::ParseError for options that are missing or do not go together.
+/// Throws UsageError for options that are missing or do not go together.
 void check_mesh_options(const MeshOptions& options);
 
 }  // namespace driftmesh::app

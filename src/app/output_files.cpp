@@ -5,6 +5,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/standard_streams.hpp"
 #include "io/mesh_file.hpp"
 #include "io/pvtu_format.hpp"
 #include "picture/plot.hpp"
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 /// Opens it as writing will, and lets go. Not what is no regular file: opening a pipe already does something.
 void try_to_open(const std::string& file) {
   std::error_code ignored;
+  if (is_standard_stream(file)) return;
   if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored) && !fs::is_directory(file, ignored)) return;
   const AtomicFile attempt(file);
 }
@@ -57,8 +59,8 @@ void check_outputs(const std::vector<std::string>& meshes, const std::string& pi
   std::set<std::string> seen;
   for (const std::string& file : files) {
     check_file(file, input);
-    if (!seen.insert(fs::absolute(file).lexically_normal().string()).second)
-      throw InputError({file}, "would be written twice", "name each output once");
+    const std::string name = is_standard_stream(file) ? "-" : fs::absolute(file).lexically_normal().string();
+    if (!seen.insert(name).second) throw InputError({file}, "would be written twice", "name each output once");
   }
 }
 

@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <utility>
 
 #include "app/memory.hpp"
 #include "app/summary.hpp"
 #include "base/atomic_file.hpp"
+#include "base/standard_streams.hpp"
 #include "pslg/repair.hpp"
 
 namespace driftmesh::app {
@@ -40,6 +40,7 @@ RunNotes::RunNotes(const MeshOptions& options, std::string command, bool silent)
 }
 
 void RunNotes::note_file(const std::string& file) {
+  if (is_standard_stream(file)) return;
   std::error_code unknown;  // of a pipe, or of a piece that the network file system does not show yet
   const std::uintmax_t size = std::filesystem::file_size(file, unknown);
   run.files.push_back({file, unknown ? 0 : size});
@@ -58,11 +59,12 @@ void RunNotes::finish() {
   run.seconds = since_start_.seconds();
   run.peak = std::max(run.peak, peak_memory());
   progress.end();
-  if (!quiet_) std::cout << summary_text(run) << std::flush;
-  if (options_.json.empty()) return;
-  AtomicFile file(options_.json);
-  file.write(summary_json(run));
-  file.commit();
+  if (!options_.json.empty()) {
+    AtomicFile file(options_.json);
+    file.write(summary_json(run));
+    file.commit();
+  }
+  if (!quiet_) print(summary_text(run));
 }
 
 }  // namespace driftmesh::app

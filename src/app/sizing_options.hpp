@@ -1,18 +1,17 @@
 #pragma once
 
-#include "sizing/make_size_field.hpp"
+#include <string>
+#include <vector>
 
-namespace CLI {
-class App;
-}
+#include "cli/command.hpp"
+#include "sizing/make_size_field.hpp"
 
 namespace driftmesh::app {
 
-/// Adds the options that ask for sizes of triangles (--size and so on) to a subcommand's help group. `sizing` must
-/// outlive the subcommand.
-void add_sizing_options(CLI::App& command, SizingOptions& sizing, const char* group);
+/// The options that ask for sizes of triangles (--size and so on), under a heading of help. `sizing` must outlive them.
+[[nodiscard]] std::vector<cli::Option> sizing_options(SizingOptions& sizing, const std::string& group);
 
-/// Throws CLI::ParseError for sizing options that do not go together.
+/// Throws UsageError for sizing options that do not go together.
 void check_sizing_options(const SizingOptions& sizing);
 
 }  // namespace driftmesh::app

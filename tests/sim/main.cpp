@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdint>
 #include <exception>
@@ -11,7 +10,10 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/standard_streams.hpp"
 #include "base/stopwatch.hpp"
+#include "cli/command_line.hpp"
+#include "cli/values.hpp"
 #include "sim/adversarial_run.hpp"
 
 namespace {
@@ -81,42 +83,76 @@ bool sweep(std::uint64_t first, std::uint64_t last, const Choice& choice, Domain
   return failed == 0;
 }
 
-int run(int argc, char** argv) {
-  CLI::App program{"Meshes small domains on simulated ranks whose network does its worst, and checks everything"};
+struct Request {
   std::uint64_t seed = 1;
   std::string seeds, presplit = "auto";
   Choice choice;
-  auto* const one = program.add_option("--seed", seed, "Replay this run, in detail")->capture_default_str();
-  program.add_option("--seeds", seeds, "Replay these runs, FIRST..LAST; print those that fail")->excludes(one);
-  program.add_option("--ranks", choice.ranks, "Simulated ranks (left out: from the seed)")->check(CLI::Range(1, 1000));
-  program.add_option("--domain", choice.domain, "What is meshed (left out: from the seed)")
-      ->check(CLI::IsMember(domain_names()));
-  program
-      .add_option("--mover", choice.mover, "Who moves subdomains: an adversary or a policy (left out: from the seed)")
-      ->check(CLI::IsMember(mover_names()));
-  program.add_option("--presplit", presplit, "Cut interfaces to size first; auto: from the seed")
-      ->check(CLI::IsMember({"on", "off", "auto"}))
-      ->capture_default_str();
-  program.add_option("--aggregation", choice.aggregation, "SPLITs in one message at most (left out: from the seed)")
-      ->check(CLI::PositiveNumber);
-  program.footer("Exit code: 0 all oracles are content, 1 one is not, 2 wrong usage.");
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : 2;
-  }
-  if (presplit != "auto") choice.presplit = presplit == "on";
+};
+
+int replay_all(Request& request) {
+  if (request.presplit != "auto") request.choice.presplit = request.presplit == "on";
   Domains domains;
-  if (seeds.empty()) return show(seed, choice, domains) ? 0 : 1;
-  const auto [first, last] = seed_range(seeds);
-  return sweep(first, last, choice, domains) ? 0 : 1;
+  if (request.seeds.empty()) return show(request.seed, request.choice, domains) ? 0 : 1;
+  const auto [first, last] = seed_range(request.seeds);
+  return sweep(first, last, request.choice, domains) ? 0 : 1;
+}
+
+cli::Command program(Request& request) {
+  Choice& choice = request.choice;
+  return {.name = "driftmesh-sim",
+          .summary = "Meshes small domains on simulated ranks whose network does its worst, and checks everything",
+          .options = {{.name = "seed",
+                       .value = "N",
+                       .help = "Replay this run, in detail",
+                       .standard = "1",
+                       .take = cli::into(request.seed)},
+                      {.name = "seeds",
+                       .value = "FIRST..LAST",
+                       .help = "Replay these runs; print those that fail",
+                       .take = cli::into(request.seeds)},
+                      {.name = "ranks",
+                       .value = "N",
+                       .help = "Simulated ranks",
+                       .standard = "from the seed",
+                       .take = cli::into(choice.ranks, {1, 1000})},
+                      {.name = "domain",
+                       .value = "NAME",
+                       .help = "What is meshed",
+                       .standard = "from the seed",
+                       .choices = domain_names(),
+                       .take = cli::into(choice.domain)},
+                      {.name = "mover",
+                       .value = "NAME",
+                       .help = "Who moves subdomains: an adversary or a policy",
+                       .standard = "from the seed",
+                       .choices = mover_names(),
+                       .take = cli::into(choice.mover)},
+                      {.name = "presplit",
+                       .value = "MODE",
+                       .help = "Cut interfaces to size first: on, off, or auto, which is from the seed",
+                       .standard = "auto",
+                       .choices = {"on", "off", "auto"},
+                       .take = cli::into(request.presplit)},
+                      {.name = "aggregation",
+                       .value = "K",
+                       .help = "SPLITs in one message at most",
+                       .standard = "from the seed",
+                       .take = cli::into(choice.aggregation, cli::kPositive)}},
+          .exit_codes = "0 all oracles are content, 1 one is not, 2 wrong usage",
+          .run = [&request](const cli::Call& call) {
+            if (call.has("seed") && call.has("seeds")) throw cli::UsageError("--seed and --seeds exclude each other");
+            return replay_all(request);
+          }};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    Request request;
+    const int code = cli::run(program(request), argc, argv);
+    flush_standard_output();
+    return code;
   } catch (const std::exception& error) {
     std::cerr << "driftmesh-sim: " << error.what() << '\n';
     return 2;

@@ -1,11 +1,11 @@
 #include <doctest/doctest.h>
 
-#include <CLI/CLI.hpp>
 #include <fstream>
 
 #include "app/config_file.hpp"
 #include "app/mesh_options.hpp"
 #include "base/error.hpp"
+#include "cli/command_line.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;
@@ -15,12 +15,12 @@ namespace {
 
 /// The number that --max-memory makes of it, or 0 where it refuses.
 std::uint64_t memory_of(const std::string& text) {
-  CLI::App program;
   MeshOptions options;
-  add_mesh_options(program, options);
+  const cli::Command command{.name = "mesh", .options = mesh_options(options)};
+  cli::Call call;
   try {
-    program.parse(std::vector<std::string>{"--max-memory=" + text});
-  } catch (const CLI::ParseError&) {
+    cli::parse(command, {"--max-memory=" + text}, call);
+  } catch (const cli::UsageError&) {
     return 0;
   }
   return options.max_memory;
@@ -29,28 +29,27 @@ std::uint64_t memory_of(const std::string& text) {
 /// The options of `driftmesh mesh ARGUMENTS` with a settings file of this text.
 class Parsed {
  public:
-  Parsed(const std::string& arguments, const std::string& yaml) : file_((folder_.path() / "run.yaml").string()) {
+  Parsed(const std::vector<std::string>& arguments, const std::string& yaml)
+      : file_((folder_.path() / "run.yaml").string()) {
     std::ofstream(file_) << yaml;
-    command_ = program_.add_subcommand("mesh");
-    add_mesh_options(*command_, options);
-    program_.parse("mesh " + arguments);
-    apply_config(*command_, file_);
+    cli::parse(command_, arguments, call_);
+    apply_config(call_, file_);
   }
-  [[nodiscard]] std::string command_line() const { return command_line_of(*command_, {"config", "quiet"}); }
+  [[nodiscard]] std::string command_line() const { return call_.text({"config", "quiet"}); }
 
   MeshOptions options;
 
  private:
   TemporaryFolder folder_;
   std::string file_;
-  CLI::App program_{"", "driftmesh"};
-  CLI::App* command_ = nullptr;
+  cli::Command command_{.name = "driftmesh mesh", .options = mesh_options(options)};
+  cli::Call call_;
 };
 
 /// The message for a settings file, from its place on.
 std::string message_for(const std::string& yaml) {
   try {
-    const Parsed parsed("in.poly", yaml);
+    const Parsed parsed({"in.poly"}, yaml);
   } catch (const InputError& error) {
     const std::string message = error.what();
     return message.substr(message.find("run.yaml"));
@@ -61,7 +60,7 @@ std::string message_for(const std::string& yaml) {
 }  // namespace
 
 TEST_CASE("A settings file sets what the command line left out") {
-  const Parsed parsed("-a 7 --angle 25",
+  const Parsed parsed({"-a", "7", "--angle", "25"},
                       "input: bay.poly  # comment\narea: 5000\nsize: 1 + x\noutput: [a.vtu, b.msh]\n"
                       "max-triangles: 2M\nmax-memory: 1G\ngradation: 0.25\nkeep-incomplete: true\nquiet: false\n");
   CHECK(parsed.options.input == "bay.poly");
@@ -77,9 +76,9 @@ TEST_CASE("A settings file sets what the command line left out") {
 }
 
 TEST_CASE("The command line that repeats a run says what the settings file said") {
-  const Parsed parsed("\"my bay.poly\" -o a.vtu", "size: it's\nangle: 30\nno-region-areas: true\nquiet: true\n");
+  const Parsed parsed({"my bay.poly", "-o", "a.vtu"}, "size: it's\nangle: 30\nno-region-areas: true\nquiet: true\n");
   CHECK(parsed.command_line() ==
-        "driftmesh mesh 'my bay.poly' --angle 30 --size 'it'\\''s' --no-region-areas --output a.vtu");
+        "driftmesh mesh 'my bay.poly' --output a.vtu --size 'it'\\''s' --angle 30 --no-region-areas");
 }
 
 TEST_CASE("An empty settings file sets nothing") {

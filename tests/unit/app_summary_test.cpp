@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "app/help_text.hpp"
 #include "app/progress_line.hpp"
 #include "app/summary.hpp"
 #include "app/words.hpp"
@@ -141,10 +140,4 @@ TEST_CASE("Progress in words") {
   CHECK(refining_words(5'000'000, 4'000'000, 1) == "refining  5,000,000 triangles  5.00 M/s");
   CHECK(refining_words(12, 1e18, 0) == "refining  12 triangles");
   CHECK(refining_words(100'000'000, 536'000'000, 40).find("triangles") < 70);
-}
-
-TEST_CASE("Help text is wrapped at spaces") {
-  CHECK(wrapped("one two three", 7) == "one two\nthree");
-  CHECK(wrapped("toolongaword is", 5) == "toolongaword\nis");
-  CHECK(wrapped("", 5).empty());
 }

@@ -1,0 +1,47 @@
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "base/standard_streams.hpp"
+#include "cli/help_text.hpp"
+#include "cli/values.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+/// The help of the command that the words name, as `driftmesh generate bay --help` prints it.
+std::string help_of(const cli::Command& program, const std::vector<std::string>& words) {
+  const cli::Command* command = &program;
+  std::string name = program.name;
+  for (const std::string& word : words) {
+    std::vector<std::string> known;
+    for (const cli::Command& c : command->commands) known.push_back(c.name);
+    const auto found = std::find(known.begin(), known.end(), word);
+    if (found == known.end()) throw cli::UsageError("unknown command '" + word + "'" + cli::did_you_mean(word, known));
+    command = &command->commands[static_cast<std::size_t>(found - known.begin())];
+    name += " " + word;
+  }
+  return cli::help_text(name, *command);
+}
+
+}  // namespace
+
+cli::Command help_command(const cli::Command& program) {
+  const auto words = std::make_shared<std::vector<std::string>>();
+  return {.name = "help",
+          .summary = "Print the help of a command",
+          .options = {{.kind = cli::Option::Kind::kPositional,
+                       .name = "command",
+                       .value = "COMMAND",
+                       .help = "The command, as in: driftmesh help generate bay",
+                       .repeats = true,
+                       .take = cli::into(*words)}},
+          .run = [words, &program](cli::Call&) {
+            print(help_of(program, *words));
+            return 0;
+          }};
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,72 @@
+#include "cli/command.hpp"
+
+#include <algorithm>
+
+#include "base/nearest_name.hpp"
+
+namespace driftmesh::cli {
+namespace {
+
+/// A word as a POSIX shell reads it back.
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string words_of(const Call::Given& given) {
+  switch (given.option->kind) {
+    case Option::Kind::kFlag:
+      return "--" + given.option->name;
+    case Option::Kind::kPositional:
+      return quoted(given.value);
+    case Option::Kind::kValue:
+      break;
+  }
+  return "--" + given.option->name + " " + quoted(given.value);
+}
+
+}  // namespace
+
+bool Call::has(const std::string& option) const {
+  return std::any_of(given.begin(), given.end(), [&](const Given& g) { return g.option->name == option; });
+}
+
+void Call::give(const Option& option, const std::string& value) {
+  if (!option.repeats && has(option.name)) throw UsageError("given twice");
+  const auto& choices = option.choices;
+  if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end())
+    throw UsageError("unknown value '" + value + "'; choose " + listed(choices) + did_you_mean(value, choices));
+  if (option.take) option.take(value);
+  given.push_back({&option, value});
+}
+
+std::string Call::text(const std::vector<std::string>& without) const {
+  std::string line = name;
+  for (const Given& g : given) {
+    if (std::find(without.begin(), without.end(), g.option->name) != without.end()) continue;
+    line += ' ';
+    line += words_of(g);
+  }
+  return line;
+}
+
+std::string spelled(const Option& option) {
+  return option.kind == Option::Kind::kPositional ? option.value : "--" + option.name;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+  return text;
+}
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& known, const std::string& dashes) {
+  const std::string probable = probable_name(name, known);
+  return probable.empty() ? "" : " (did you mean " + dashes + probable + "?)";
+}
+
+}  // namespace driftmesh::cli

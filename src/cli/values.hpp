@@ -1,0 +1,60 @@
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+
+namespace driftmesh::cli {
+
+struct Range {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool above = false;  ///< more than `least`, not equal to it
+};
+constexpr Range kPositive{.least = 0, .above = true};
+
+/// The number that the whole text is. Throws UsageError if it is none, not finite, or out of range.
+[[nodiscard]] double read_number(const std::string& text, const Range& range);
+[[nodiscard]] std::int64_t read_integer(const std::string& text, const Range& range);
+
+// What an option does with its value. Each stores it in a variable that must outlive the command.
+
+using Take = std::function<void(const std::string&)>;
+
+template <std::floating_point Number>
+[[nodiscard]] Take into(Number& to, const Range& range = {}) {
+  return [&to, range](const std::string& text) { to = read_number(text, range); };
+}
+template <std::integral Number>
+[[nodiscard]] Take into(Number& to, Range range = {}) {
+  range.least = std::max(range.least, static_cast<double>(std::numeric_limits<Number>::min()));
+  range.most = std::min(range.most, static_cast<double>(std::numeric_limits<Number>::max()));
+  return [&to, range](const std::string& text) { to = static_cast<Number>(read_integer(text, range)); };
+}
+[[nodiscard]] inline Take into(std::string& to) {
+  return [&to](const std::string& text) { to = text; };
+}
+/// One more.
+[[nodiscard]] inline Take into(std::vector<std::string>& to) {
+  return [&to](const std::string& text) { to.push_back(text); };
+}
+/// What may be left out.
+template <class Value, class... Limits>
+[[nodiscard]] Take into(std::optional<Value>& to, const Limits&... limits) {
+  return [&to, limits...](const std::string& text) { into(to.emplace(), limits...)(text); };
+}
+/// Numbers with commas between them.
+[[nodiscard]] Take into(std::vector<double>& to, const Range& range = {});
+/// A flag.
+[[nodiscard]] inline Take into(bool& to) {
+  return [&to](const std::string&) { to = true; };
+}
+
+}  // namespace driftmesh::cli

@@ -1,0 +1,180 @@
+#include "cli/command_line.hpp"
+
+#include <doctest/doctest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/help_text.hpp"
+#include "cli/values.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::cli;
+
+namespace {
+
+/// A program with two commands, and what it was told.
+struct Program {
+  std::string input, order = "given";
+  std::vector<std::string> outputs;
+  double area = 0;
+  int count = 0;
+  bool quiet = false, fast = false;
+  std::vector<double> speeds;
+  Call call;
+  Command root{
+      .name = "prog",
+      .summary = "A program",
+      .options =
+          {{.kind = Option::Kind::kFlag, .name = "version", .help = "Its version", .prints = [] { return "7\n"; }}},
+      .commands = {
+          {.name = "mesh",
+           .summary = "Make a mesh",
+           .options = {{.kind = Option::Kind::kPositional,
+                        .name = "input",
+                        .value = "INPUT",
+                        .help = "The input",
+                        .required = true,
+                        .take = into(input)},
+                       {.name = "area",
+                        .letter = 'a',
+                        .value = "AREA",
+                        .help = "No triangle is larger than this",
+                        .group = "Triangles",
+                        .take = into(area, kPositive)},
+                       {.name = "count", .letter = 'n', .value = "N", .take = into(count, {1, 9})},
+                       {.name = "output", .letter = 'o', .value = "FILE", .repeats = true, .take = into(outputs)},
+                       {.name = "order",
+                        .value = "ORDER",
+                        .help = "Which comes next",
+                        .standard = "given",
+                        .choices = {"given", "largest", "backlog"},
+                        .take = into(order)},
+                       {.name = "speeds", .value = "S,S,...", .take = into(speeds, kPositive)},
+                       {.kind = Option::Kind::kFlag, .name = "quiet", .letter = 'q', .take = into(quiet)},
+                       {.kind = Option::Kind::kFlag, .name = "fast", .letter = 'f', .take = into(fast)}}},
+          {.name = "generate", .summary = "Make an input", .commands = {{.name = "bay"}, {.name = "comb"}}}}};
+
+  void read(const std::vector<std::string>& words) { parse(root, words, call); }
+};
+
+std::string problem(const std::vector<std::string>& words) {
+  Program program;
+  try {
+    program.read(words);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+}  // namespace
+
+TEST_CASE("Options have a long name and a letter, and mix with arguments") {
+  Program p;
+  p.read({"mesh", "--area=2.5", "-n3", "in.poly", "-o", "a.vtu", "--output", "b.vtu", "-qf", "--speeds", "1,2.5"});
+  CHECK(p.call.name == "prog mesh");
+  CHECK(p.input == "in.poly");
+  CHECK(p.area == 2.5);
+  CHECK(p.count == 3);
+  CHECK(p.outputs == std::vector<std::string>{"a.vtu", "b.vtu"});
+  CHECK(p.quiet);
+  CHECK(p.fast);
+  CHECK(p.speeds == std::vector<double>{1, 2.5});
+}
+
+TEST_CASE("The last of the flags that share a dash may have a value") {
+  Program p;
+  p.read({"mesh", "in.poly", "-qa", "4"});
+  CHECK(p.quiet);
+  CHECK(p.area == 4);
+}
+
+TEST_CASE("A value may begin with a dash, and be empty") {
+  Program p;
+  p.read({"mesh", "-o", "-n", "--output=", "--", "-strange"});
+  CHECK(p.outputs == std::vector<std::string>{"-n", ""});
+  CHECK(p.input == "-strange");
+}
+
+TEST_CASE("Standard streams are arguments") {
+  for (const std::string stream : {"-", "-.msh"}) {
+    Program p;
+    p.read({"mesh", "-o", stream, stream});
+    CHECK(p.input == stream);
+    CHECK(p.outputs == std::vector<std::string>{stream});
+  }
+}
+
+TEST_CASE("Commands lie in commands") {
+  Program p;
+  p.read({"generate", "comb"});
+  CHECK(p.call.name == "prog generate comb");
+}
+
+TEST_CASE("What cannot be meant is told, with what was probably meant") {
+  CHECK(problem({}) == "a command is missing");
+  CHECK(problem({"mseh"}) == "unknown command 'mseh' (did you mean mesh?)");
+  CHECK(problem({"publish"}) == "unknown command 'publish'");
+  CHECK(problem({"generate", "by"}) == "unknown command 'by' (did you mean bay?)");
+  CHECK(problem({"generate"}) == "a command is missing");
+  CHECK(problem({"mesh", "in.poly", "--are", "5"}) == "unknown option --are (did you mean --area?)");
+  CHECK(problem({"mesh", "in.poly", "--aera=5"}) == "unknown option --aera (did you mean --area?)");
+  CHECK(problem({"mesh", "in.poly", "--such"}) == "unknown option --such");
+  CHECK(problem({"mesh", "in.poly", "-x"}) == "unknown option -x");
+  CHECK(problem({"mesh", "in.poly", "more"}) == "unexpected argument 'more'");
+  CHECK(problem({"mesh"}) == "INPUT is missing");
+  CHECK(problem({"mesh", "in.poly", "--area"}) == "--area needs a value: AREA");
+  CHECK(problem({"mesh", "in.poly", "-a"}) == "--area needs a value: AREA");
+  CHECK(problem({"mesh", "in.poly", "--quiet=yes"}) == "--quiet takes no value");
+  CHECK(problem({"mesh", "in.poly", "-a", "1", "-a", "2"}) == "--area: given twice");
+  CHECK(problem({"mesh", "in.poly", "--order", "bakclog"}) ==
+        "--order: unknown value 'bakclog'; choose given, largest or backlog (did you mean backlog?)");
+}
+
+TEST_CASE("Numbers are numbers as a whole, and in range") {
+  CHECK(problem({"mesh", "i", "--area", "5x"}) == "--area: '5x' is not a number");
+  CHECK(problem({"mesh", "i", "--area", ""}) == "--area: '' is not a number");
+  CHECK(problem({"mesh", "i", "--area", "nan"}) == "--area: 'nan' is not a number");
+  CHECK(problem({"mesh", "i", "--area", "1e999"}) == "--area: '1e999' is not a number");
+  CHECK(problem({"mesh", "i", "--area", "0"}) == "--area: 0 is not above 0");
+  CHECK(problem({"mesh", "i", "--area", "+1e-3"}) == "none");
+  CHECK(problem({"mesh", "i", "-n", "2.5"}) == "--count: '2.5' is not a whole number");
+  CHECK(problem({"mesh", "i", "-n", "10"}) == "--count: 10 is not from 1 to 9");
+  CHECK(problem({"mesh", "i", "--speeds", "1,0"}) == "--speeds: 0 is not above 0");
+  CHECK(problem({"mesh", "i", "--speeds", "1,,2"}) == "--speeds: '' is not a number");
+}
+
+TEST_CASE("An option that prints ends the command line") {
+  Program p;
+  p.read({"mesh", "--help", "--nonsense"});
+  CHECK(p.call.prints() == help_text("prog mesh", p.root.commands[0]));
+  Program q;
+  q.read({"--version", "nonsense"});
+  CHECK(q.call.prints() == "7\n");
+}
+
+TEST_CASE("The options of a call make a command line that says the same") {
+  Program p;
+  p.read({"mesh", "--area=7", "my input", "-q", "-oa.vtu", "--output", "it's"});
+  CHECK(p.call.text() == "prog mesh --area 7 'my input' --quiet --output a.vtu --output 'it'\\''s'");
+  CHECK(p.call.text({"quiet", "output"}) == "prog mesh --area 7 'my input'");
+}
+
+TEST_CASE("Help says what there is, in lines that fit") {
+  Program p;
+  Command& mesh = p.root.commands[0];
+  const std::string text = help_text("prog mesh", mesh);
+  CHECK(text.starts_with("Make a mesh\nUsage: prog mesh [OPTIONS] INPUT\n\nArguments:\n  INPUT  "));
+  CHECK(text.find("\nOptions:\n  -h, --help  ") != std::string::npos);
+  CHECK(text.find("\nTriangles:\n  -a, --area AREA  ") != std::string::npos);
+  CHECK(text.find("  --order ORDER               Which comes next: given, largest or backlog [given]\n") !=
+        std::string::npos);
+  CHECK(help_text("prog", p.root).find("\nCommands:\n  mesh                        Make a mesh\n") !=
+        std::string::npos);
+  mesh.options.push_back({.name = "a-name-that-fills-its-column", .value = "X", .help = std::string(80, 'x') + " end"});
+  const std::string wide = help_text("prog mesh", mesh);
+  CHECK(wide.find("  --a-name-that-fills-its-column X\n" + std::string(30, ' ') + "xxx") != std::string::npos);
+  CHECK(wide.find("x\n" + std::string(30, ' ') + "end\n") != std::string::npos);
+}
