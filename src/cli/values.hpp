@@ -46,9 +46,12 @@ template <std::integral Number>
   return [&to](const std::string& text) { to.push_back(text); };
 }
 /// What may be left out.
-template <class Value, class... Limits>
-[[nodiscard]] Take into(std::optional<Value>& to, const Limits&... limits) {
-  return [&to, limits...](const std::string& text) { into(to.emplace(), limits...)(text); };
+template <class Number>
+[[nodiscard]] Take into(std::optional<Number>& to, const Range& range = {}) {
+  return [&to, range](const std::string& text) { into(to.emplace(), range)(text); };
+}
+[[nodiscard]] inline Take into(std::optional<std::string>& to) {
+  return [&to](const std::string& text) { to = text; };
 }
 /// Numbers with commas between them.
 [[nodiscard]] Take into(std::vector<double>& to, const Range& range = {});
