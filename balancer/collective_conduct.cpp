@@ -4,11 +4,6 @@
 #include <utility>
 
 namespace driftmesh::balancer {
-namespace {
-
-constexpr Rank kLeader = 0;
-
-}  // namespace
 
 CollectiveConduct::CollectiveConduct(Rank self, std::shared_ptr<const Layout> layout, const ControllerOptions& options,
                                      Council& council, double now)
@@ -19,7 +14,7 @@ CollectiveConduct::CollectiveConduct(Rank self, std::shared_ptr<const Layout> la
       rule_(options.gap, options.interval, options.change),
       start_(now),
       pace_(options, now) {
-  if (self == kLeader) news_.emplace(*layout_, now);
+  if (self == kLeadingRank) news_.emplace(*layout_, now);
 }
 
 void CollectiveConduct::receive(Rank source, const protocol::Message& advice, double now) {
@@ -106,7 +101,7 @@ void CollectiveConduct::answer(const Situation& situation, Decision& decision) {
   if (leads())
     ++ready_;
   else
-    decision.messages.push_back({kLeader, protocol::JointRound{round_, Step::kReady}});
+    decision.messages.push_back({kLeadingRank, protocol::JointRound{round_, Step::kReady}});
 }
 
 // Rank 0 itself decides when it thinks next: what it says now must leave before it waits for those who are to hear it.
@@ -141,7 +136,7 @@ void CollectiveConduct::report(const Situation& situation, Decision& decision) {
   changed_ = false;
   const protocol::LoadNews news = news_of(++reports_, situation.speed, situation.own);
   if (!leads()) {
-    decision.messages.push_back({kLeader, news});
+    decision.messages.push_back({kLeadingRank, news});
     return;
   }
   static_cast<void>(news_->hear(self_, news, situation.now));

@@ -10,6 +10,9 @@
 
 namespace driftmesh::balancer {
 
+/// The rank that plans for all, or calls them together.
+inline constexpr Rank kLeadingRank = 0;
+
 struct ControllerOptions {
   double look = 1e-2;      ///< seconds between two looks at the rank's own load
   double gap = 0.02;       ///< seconds between two reports of a rank, and between two plans, at least

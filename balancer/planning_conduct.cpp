@@ -7,8 +7,6 @@
 namespace driftmesh::balancer {
 namespace {
 
-constexpr Rank kLeader = 0;
-
 /// The snapshot with work on `self` and on the destinations of `moves` alone: what one rank can judge by itself.
 LoadSnapshot between(LoadSnapshot snapshot, Rank self, std::span<const Move> moves) {
   std::vector<bool> concerned(snapshot.ranks.size(), false);
@@ -35,7 +33,7 @@ PlanningConduct::PlanningConduct(Rank self, std::shared_ptr<const Layout> layout
       rule_(options.gap, options.interval, options.change),
       start_(now),
       pace_(options, now) {
-  if (policy_->placement() == Placement::kNeighbours || self == kLeader)
+  if (policy_->placement() == Placement::kNeighbours || self == kLeadingRank)
     knowledge_.emplace(layout_, options.patience());
 }
 
@@ -145,7 +143,7 @@ PlanningConduct::Loads PlanningConduct::with_arrived(Loads own) const {
 }
 
 std::vector<Rank> PlanningConduct::audience(const Loads& own) {
-  if (policy_->placement() == Placement::kLeader) return {kLeader};
+  if (policy_->placement() == Placement::kLeader) return {kLeadingRank};
   if (own.empty()) return audience_;  // that it is idle matters to those it touched last
   audience_.clear();
   for (const auto& load : own)

@@ -49,8 +49,7 @@ class Parser {
     roots_ = in_.header("number of roots", kMostRecords);
     subdomains_ = in_.header("number of subdomains", kMostRecords);
     inner_points_ = in_.header("number of inner points", kMostRecords);
-    if (in_.header("digest of the input", std::numeric_limits<std::int32_t>::max()) != input_digest(input_))
-      refuse_as_another(file_, "");
+    if (in_.header("digest of the input") != input_digest(input_)) refuse_as_another(file_, "");
     in_.require_room(points_, "points", 3);
     in_.require_room(roots_, "roots", 9);
     in_.require_room(subdomains_, "subdomains", 5);

@@ -6,11 +6,11 @@
 #include "io/byte_cursor.hpp"
 #include "io/msh_groups.hpp"
 #include "io/msh_input.hpp"
+#include "io/read_checks.hpp"
 
 namespace driftmesh {
 namespace {
 
-const char* const kDamaged = "the file is damaged or was not written completely";
 constexpr std::size_t kMaxAttributes = 1000;
 
 class MshParser {

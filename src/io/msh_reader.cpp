@@ -15,8 +15,6 @@
 namespace driftmesh {
 namespace {
 
-const char* const kDamaged = "the file is damaged or was not written completely";
-
 // Turns tags into indices and physical groups into markers and regions.
 class MshAssembler {
  public:

@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <limits>
 #include <optional>
 
 #include "base/read_file.hpp"
@@ -16,7 +15,7 @@ using Edges = std::vector<MeshPiece::Edge>;
 // The section "count has_markers" and its records "number a b marker", which .poly and .edge files share.
 Edges scan_edges(RecordScanner& scanner, const NodeTable& nodes, bool& has_markers) {
   scanner.require_record("the number of edges", "the file may be truncated");
-  const std::int32_t count = scanner.header("the number of edges", std::numeric_limits<std::int32_t>::max());
+  const std::int32_t count = scanner.header("the number of edges");
   has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
   scanner.require_room(count, "edges", has_markers ? 4 : 3);
   Edges edges(static_cast<std::size_t>(count));

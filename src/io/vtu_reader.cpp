@@ -13,7 +13,6 @@
 namespace driftmesh {
 namespace {
 
-const char* const kDamaged = "the file is damaged or was not written completely";
 const char* const kSaveAs = "save it as an uncompressed .vtu with appended data, encoding raw";
 
 struct DataArray {

@@ -13,12 +13,12 @@ std::size_t at(std::int32_t index) {
 }
 
 // Half-edge h = 3 t + i is the edge of triangle t opposite its vertex i.
-struct HalfEdge {
+struct Ends {
   std::int32_t low;
   std::int32_t high;
 };
 
-HalfEdge half_edge(const MeshPiece& mesh, std::uint32_t h) {
+Ends ends_of(const MeshPiece& mesh, std::uint32_t h) {
   const auto& triangle = mesh.triangles[h / 3];
   const std::uint32_t i = h % 3;
   const std::int32_t a = triangle[i == 2 ? 0 : i + 1];
@@ -34,11 +34,11 @@ struct Buckets {
 Buckets bucket_by_low_vertex(const MeshPiece& mesh, std::uint32_t half_edge_count) {
   Buckets buckets;
   buckets.first.assign(mesh.points.size() + 1, 0);
-  for (std::uint32_t h = 0; h < half_edge_count; ++h) ++buckets.first[at(half_edge(mesh, h).low) + 1];
+  for (std::uint32_t h = 0; h < half_edge_count; ++h) ++buckets.first[at(ends_of(mesh, h).low) + 1];
   for (std::size_t v = 1; v < buckets.first.size(); ++v) buckets.first[v] += buckets.first[v - 1];
   buckets.half_edges.resize(half_edge_count);
   std::vector<std::uint32_t> next(buckets.first.begin(), buckets.first.end() - 1);
-  for (std::uint32_t h = 0; h < half_edge_count; ++h) buckets.half_edges[next[at(half_edge(mesh, h).low)]++] = h;
+  for (std::uint32_t h = 0; h < half_edge_count; ++h) buckets.half_edges[next[at(ends_of(mesh, h).low)]++] = h;
   return buckets;
 }
 
@@ -59,7 +59,7 @@ TriangleNeighbors triangle_neighbors(const MeshPiece& mesh) {
   };
   std::vector<Waiting> waiting(mesh.points.size());  // by high vertex: an edge (low, high) seen once so far
   for (std::uint32_t h : buckets.half_edges) {
-    const HalfEdge edge = half_edge(mesh, h);
+    const Ends edge = ends_of(mesh, h);
     Waiting& other = waiting[at(edge.high)];
     if (other.low == edge.low) {
       link(neighbors, other.half_edge, h);

@@ -11,9 +11,9 @@ namespace driftmesh {
 namespace {
 
 // Margins in units.
-constexpr double kTop = 78;
-constexpr double kRight = 24;
-constexpr double kBottom = 40;
+constexpr double kTopMargin = 78;
+constexpr double kRightMargin = 24;
+constexpr double kBottomMargin = 40;
 constexpr double kLegendWidth = 160;
 constexpr double kTickFont = 11.5;
 constexpr double kTickDistance = 90;
@@ -41,17 +41,17 @@ PlotFrame::PlotFrame(const Box& shown, int width, int height, bool has_legend)
     : width_(width), height_(height), unit_(std::clamp(width / 1000.0, 0.6, 4.0)), shown_(with_extent(shown)) {
   left_ = left_margin(shown_, 12) * unit_;
   const double legend = has_legend ? kLegendWidth * unit_ : 0;
-  const double room_x = width_ - left_ - kRight * unit_ - legend;
+  const double room_x = width_ - left_ - kRightMargin * unit_ - legend;
   const double aspect = (shown_.high.y - shown_.low.y) / (shown_.high.x - shown_.low.x);
-  const double margins_y = (kTop + kBottom) * unit_;
+  const double margins_y = (kTopMargin + kBottomMargin) * unit_;
   if (height_ == 0) height_ = static_cast<int>(std::lround(margins_y + std::clamp(aspect, 0.3, 1.4) * room_x));
   const double room_y = height_ - margins_y;
   scale_ = std::min(room_x / (shown_.high.x - shown_.low.x), room_y / (shown_.high.y - shown_.low.y));
   plot_.width = std::max(std::floor((shown_.high.x - shown_.low.x) * scale_), 1.0);
   plot_.height = std::max(std::floor((shown_.high.y - shown_.low.y) * scale_), 1.0);
   plot_.x = std::round(left_ + (room_x - plot_.width) / 2);
-  plot_.y = std::round(kTop * unit_ + (room_y - plot_.height) / 2);
-  legend_ = {plot_.x + plot_.width + kRight * unit_, plot_.y, legend, plot_.height};
+  plot_.y = std::round(kTopMargin * unit_ + (room_y - plot_.height) / 2);
+  legend_ = {plot_.x + plot_.width + kRightMargin * unit_, plot_.y, legend, plot_.height};
 }
 
 void PlotFrame::draw_title(Canvas& canvas, const std::string& title, const std::string& subtitle) const {

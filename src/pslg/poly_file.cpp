@@ -1,7 +1,6 @@
 #include "pslg/poly_file.hpp"
 
 #include <filesystem>
-#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
@@ -12,8 +11,6 @@
 
 namespace driftmesh {
 namespace {
-
-constexpr std::int32_t kMaxCount = std::numeric_limits<std::int32_t>::max();
 
 void move_nodes(NodeTable&& nodes, Pslg& pslg) {
   pslg.points = std::move(nodes.points);
@@ -36,7 +33,7 @@ Pslg pslg_of_points(const std::string& file, NodeTable&& nodes) {
 
 void scan_segments(RecordScanner& scanner, Pslg& pslg) {
   scanner.require_record("the number of segments", "add a line '0 0' if there are none");
-  const std::int32_t count = scanner.header("the number of segments", kMaxCount);
+  const std::int32_t count = scanner.header("the number of segments");
   const bool has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
   scanner.require_room(count, "segments", has_markers ? 4 : 3);
   pslg.segments.reserve(static_cast<std::size_t>(count));
@@ -52,7 +49,7 @@ void scan_segments(RecordScanner& scanner, Pslg& pslg) {
 
 void scan_holes(RecordScanner& scanner, Pslg& pslg) {
   scanner.require_record("the number of holes", "add a line '0' if there are none; the file may be truncated");
-  const std::int32_t count = scanner.header("the number of holes", kMaxCount);
+  const std::int32_t count = scanner.header("the number of holes");
   scanner.require_room(count, "holes", 3);
   for (std::int32_t i = 0; i < count; ++i) {
     scanner.require_element(i, count, "holes");
@@ -64,7 +61,7 @@ void scan_holes(RecordScanner& scanner, Pslg& pslg) {
 // The section may be missing altogether.
 void scan_regions(RecordScanner& scanner, Pslg& pslg) {
   if (!scanner.next_record()) return;
-  const std::int32_t count = scanner.header("the number of regions", kMaxCount);
+  const std::int32_t count = scanner.header("the number of regions");
   scanner.require_room(count, "regions", 4);
   for (std::int32_t i = 0; i < count; ++i) {
     scanner.require_element(i, count, "regions");

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -36,7 +37,7 @@ class RecordScanner {
   Point point();                    ///< both coordinates in the range of in_coordinate_range
 
   /// A field that announces a count or a choice from 0 to `limit`; throws when it is anything else.
-  std::int32_t header(const char* what, std::int32_t limit);
+  std::int32_t header(const char* what, std::int32_t limit = std::numeric_limits<std::int32_t>::max());
   /// Like header(); 0 when the record has no more fields.
   std::int32_t optional_header(const char* what, std::int32_t limit);
   /// Throws unless the rest of the file can hold `count` records of `fields` fields: no memory is set aside

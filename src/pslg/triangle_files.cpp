@@ -1,14 +1,11 @@
 #include "pslg/triangle_files.hpp"
 
-#include <limits>
-
 #include "base/read_file.hpp"
 #include "pslg/record_scanner.hpp"
 
 namespace driftmesh {
 namespace {
 
-constexpr std::int32_t kMaxCount = std::numeric_limits<std::int32_t>::max();
 constexpr std::int32_t kMaxAttributes = 1000;
 
 struct NodeHeader {
@@ -20,8 +17,8 @@ struct NodeHeader {
 NodeHeader scan_node_header(RecordScanner& scanner) {
   scanner.require_record("the number of vertices", "the file has no data");
   NodeHeader header;
-  header.count = scanner.header("the number of vertices", kMaxCount);
-  if (scanner.has_field() && scanner.header("the dimension", kMaxCount) != 2)
+  header.count = scanner.header("the number of vertices");
+  if (scanner.has_field() && scanner.header("the dimension") != 2)
     scanner.fail("the dimension is not 2", "only plane input can be meshed");
   header.attributes = scanner.optional_header("the number of attributes", kMaxAttributes);
   header.has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
@@ -90,7 +87,7 @@ NodeTable parse_node(const std::string& file, std::string_view text) {
 EleTable parse_ele(const std::string& file, std::string_view text, const NodeTable& nodes) {
   RecordScanner scanner(file, text);
   scanner.require_record("the number of triangles", "the file has no data");
-  const std::int32_t count = scanner.header("the number of triangles", kMaxCount);
+  const std::int32_t count = scanner.header("the number of triangles");
   const std::int32_t corners = scanner.has_field() ? scanner.header("the number of nodes per triangle", 6) : 3;
   if (corners != 3 && corners != 6) scanner.fail("triangles have 3 or 6 nodes", "correct the second field");
   EleTable table;
@@ -112,7 +109,7 @@ EleTable parse_ele(const std::string& file, std::string_view text, const NodeTab
 std::vector<double> parse_area(const std::string& file, std::string_view text, std::size_t triangle_count) {
   RecordScanner scanner(file, text);
   scanner.require_record("the number of triangles", "the file has no data");
-  const std::int32_t count = scanner.header("the number of triangles", kMaxCount);
+  const std::int32_t count = scanner.header("the number of triangles");
   if (static_cast<std::size_t>(count) != triangle_count)
     scanner.fail("has area bounds for " + std::to_string(count) + " triangles, but the mesh has " +
                      std::to_string(triangle_count),

@@ -20,7 +20,7 @@ constexpr double kSlack = 1e-9;         // relative, for rounding
 constexpr double kSameDistance = 1e-6;  // relative: two vertices count as equally far from their apex
 // In a wedge narrower than this, in degrees, distances count as equal up to a share of the wedge's width: segments that
 // hardly diverge and end almost beside each other need no points to tell their ends apart.
-constexpr double kNarrow = 1;
+constexpr double kNarrowWedge = 1;
 constexpr double kShareOfWidth = 0.3;
 constexpr long double kDegrees = 180 / std::numbers::pi_v<long double>;
 
@@ -210,7 +210,7 @@ class QualityCheck {
           64 * 0x1p-52L * std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(at_p.x), std::fabs(at_p.y)});
       const double angle = angle_at(o, at_p, at_q);
       const long double same =
-          angle < kNarrow ? kShareOfWidth * std::sqrt(dot_extended(at_p, at_q, at_q)) : kSameDistance * op;
+          angle < kNarrowWedge ? kShareOfWidth * std::sqrt(dot_extended(at_p, at_q, at_q)) : kSameDistance * op;
       if (angle < 60 && std::fabs(op - oq) <= same + rounding) return true;
     }
     return false;
