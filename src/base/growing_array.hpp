@@ -9,14 +9,17 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/id_vector.hpp"
+
 namespace driftmesh {
 
 /// A contiguous array of trivially copyable values that grows without copying once it is large: small arrays live on
 /// the heap, large ones in their own mapping, which mremap extends in place or by moving page tables. Only pages that
 /// were touched cost memory, so doubling the capacity of a large array is free. Large mappings ask for huge pages,
 /// because a mesh is read in no order that a TLB of small pages could hold.
-/// Elements above size() are uninitialized. Throws std::bad_alloc when the system has no more memory to map.
-template <class T>
+/// Elements above size() are uninitialized. Throws std::bad_alloc when the system has no more memory to map. Elements
+/// are found by numbers of type Id.
+template <class T, IsId Id = std::size_t>
 class GrowingArray {
   static_assert(std::is_trivially_copyable_v<T>);
 
@@ -39,8 +42,12 @@ class GrowingArray {
   [[nodiscard]] std::size_t capacity() const { return capacity_; }
   [[nodiscard]] T* data() { return data_; }
   [[nodiscard]] const T* data() const { return data_; }
-  [[nodiscard]] T& operator[](std::size_t i) { return data_[i]; }
-  [[nodiscard]] const T& operator[](std::size_t i) const { return data_[i]; }
+  [[nodiscard]] T& operator[](Id id) { return data_[to_index(id)]; }
+  [[nodiscard]] const T& operator[](Id id) const { return data_[to_index(id)]; }
+  /// Whether an element has this number.
+  [[nodiscard]] bool has(Id id) const { return to_index(id) < size_; }
+  /// The number that the next element will get.
+  [[nodiscard]] Id next_id() const { return static_cast<Id>(size_); }
   [[nodiscard]] T* begin() { return data_; }
   [[nodiscard]] T* end() { return data_ + size_; }
   [[nodiscard]] const T* begin() const { return data_; }
@@ -127,5 +134,10 @@ class GrowingArray {
   std::size_t capacity_ = 0;
   std::size_t mapped_bytes_ = 0;  // 0: on the heap
 };
+
+template <class T, IsId Id>
+[[nodiscard]] IdRange<Id> ids_of(const GrowingArray<T, Id>& values) {
+  return IdRange<Id>(values.size());
+}
 
 }  // namespace driftmesh

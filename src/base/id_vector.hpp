@@ -32,6 +32,22 @@ template <IsId Id>
   return static_cast<std::size_t>(id);
 }
 
+template <class Id>
+concept IsSignedId = IsId<Id> && static_cast<Id>(-1) < static_cast<Id>(0);
+
+/// The number of nothing: -1 as a number of any signed kind.
+struct NoId {
+  template <IsSignedId Id>
+  [[nodiscard]] constexpr operator Id() const {
+    return static_cast<Id>(-1);
+  }
+  template <IsSignedId Id>
+  [[nodiscard]] friend constexpr bool operator==(Id id, NoId) {
+    return id == static_cast<Id>(-1);
+  }
+};
+inline constexpr NoId kNone;
+
 /// The numbers 0 .. count - 1, to be iterated over.
 template <IsId Id>
 class IdRange {

@@ -64,7 +64,7 @@ class Checker {
     for (std::size_t v = 0; v < d_.points.size(); ++v)
       if (!in_range(d_.points[v].x) || !in_range(d_.points[v].y))
         problem("point " + std::to_string(v) + " has a coordinate out of range");
-    const auto is_subdomain = [&](SubdomainId s) { return s >= kNone && s < subdomains; };
+    const auto is_subdomain = [&](SubdomainId s) { return s >= -1 && s < subdomains; };
     for (std::size_t r = 0; r < d_.roots.size(); ++r) {
       const Decomposition::Root& root = d_.roots[r];
       const std::string name = "root " + std::to_string(r) + " ";

@@ -157,7 +157,7 @@ void read_outline(const PlanarMap& map, SideId side, double spacing, double angl
 SideId realize(PlanarMap& map, const Outline::Station& station) {
   if (station.corner) return station.side;
   // A shell of which both ends of a separator are places is halved by the first of them.
-  const auto found = [&] {
+  const auto found = [&]() -> SideId {
     if (map.at(map.start(station.side)) == station.at) return station.side;
     if (map.at(map.end(station.side)) == station.at) return map.side(station.side).next;
     return kNone;

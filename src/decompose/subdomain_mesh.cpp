@@ -40,7 +40,8 @@ SubdomainMesh subdomain_triangulation(const Decomposition& d, SubdomainId i) {
   for (const RootId r : result.roots) {
     const Decomposition::Root& root = d.roots[id(r)];
     pslg.segments.push_back({local(root.a), local(root.b), root.marker});
-    sides.push_back({root.left == i ? root.left_region : kNone, root.right == i ? root.right_region : kNone});
+    sides.push_back({root.left == i ? std::int32_t{root.left_region} : kNone,
+                     root.right == i ? std::int32_t{root.right_region} : kNone});
   }
   result.mesh = triangulate(pslg, sides);
   if (result.mesh.roots.size() != result.roots.size())

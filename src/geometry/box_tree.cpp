@@ -17,7 +17,7 @@ using Places = std::vector<Place>::iterator;
 /// Sorts by the place of the boxes' centers on a Hilbert curve. Centers in one cell of it, as all but a far outlier
 /// are, are sorted along a finer one: the tree is good whatever the distribution.
 void sort_along_curve(Places begin, Places end, const std::vector<Box>& boxes) {
-  const auto center = [&](const Place& place) { return boxes[static_cast<std::size_t>(place.item)].center(); };
+  const auto center = [&](const Place& place) { return boxes[place.item].center(); };
   Box all;
   for (Places i = begin; i != end; ++i) all.extend(center(*i));
   if (all.low == all.high) return;
@@ -49,8 +49,7 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) {
   if (boxes.empty()) return;
   items_ = sorted_along_curve(boxes);
   std::vector<Box> level(boxes.size());
-  std::transform(items_.begin(), items_.end(), level.begin(),
-                 [&](std::int32_t item) { return boxes[static_cast<std::size_t>(item)]; });
+  std::transform(items_.begin(), items_.end(), level.begin(), [&](std::int32_t item) { return boxes[item]; });
   while (level.size() > kChildren) {
     std::vector<Box> above((level.size() + kChildren - 1) / kChildren);
     for (std::size_t i = 0; i < level.size(); ++i) above[i / kChildren].extend(level[i]);

@@ -30,7 +30,7 @@ class ByteCursor {
   std::string_view take_bytes(std::uint64_t count, std::size_t size, const char* what) {
     if (count > bytes_.size() / size)
       throw InputError({path_, 0}, std::string("ends within ") + what, "it was not written completely, or is damaged");
-    const std::string_view taken = bytes_.substr(0, static_cast<std::size_t>(count) * size);
+    const std::string_view taken = bytes_.substr(0, count * size);
     bytes_.remove_prefix(taken.size());
     return taken;
   }

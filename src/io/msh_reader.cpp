@@ -88,7 +88,7 @@ class MshAssembler {
     for (const RawMsh::ElementValue& v : values) {
       const auto tag = static_cast<std::uint64_t>(v.element);
       const auto found = std::lower_bound(tags.begin(), tags.end(), tag);
-      if (found != tags.end() && *found == tag) result[static_cast<std::size_t>(found - tags.begin())] = v.value;
+      if (found != tags.end() && *found == tag) result[found - tags.begin()] = v.value;
     }
     if (std::find(result.begin(), result.end(), -1) != result.end()) result.clear();
     return result;
@@ -130,7 +130,7 @@ class MshAssembler {
     for (std::size_t k = 0; k < per_point; ++k)
       for (std::size_t i = 0; i < raw_.attributes[k].nodes.size(); ++i) {
         const auto tag = static_cast<std::uint64_t>(raw_.attributes[k].nodes[i]);
-        const auto v = static_cast<std::size_t>(node(tag, "$NodeData"));
+        const auto v = node(tag, "$NodeData");
         mesh_.attributes[v * per_point + k] = raw_.attributes[k].values[i];
       }
   }
@@ -139,7 +139,7 @@ class MshAssembler {
     if (!raw_.point_markers) return;
     mesh_.point_markers.assign(mesh_.points.size(), 0);
     for (const RawMsh::Marker& marker : *raw_.point_markers)
-      mesh_.point_markers[static_cast<std::size_t>(node(marker.node, "a point marker"))] = marker.marker;
+      mesh_.point_markers[node(marker.node, "a point marker")] = marker.marker;
   }
 
   const std::string& path_;

@@ -5,6 +5,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "base/id_vector.hpp"
 #include "base/narrow.hpp"
 #include "io/file_sink.hpp"
 #include "io/msh_format.hpp"
@@ -18,19 +19,15 @@ namespace {
 constexpr std::int32_t kLineType = 1;
 constexpr std::int32_t kTriangleType = 2;
 
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
-
 // The items of each group one after the other, in their own order: items[first[g]] to items[first[g + 1] - 1].
 struct Grouping {
   Grouping(const std::vector<std::int32_t>& group_of_item, std::size_t groups) : first(groups + 1, 0) {
-    for (std::int32_t group : group_of_item) ++first[at(group) + 1];
+    for (std::int32_t group : group_of_item) ++first[group + 1];
     for (std::size_t g = 0; g < groups; ++g) first[g + 1] += first[g];
     items.resize(group_of_item.size());
     std::vector<std::size_t> next(first.begin(), first.end() - 1);
     for (std::size_t i = 0; i < group_of_item.size(); ++i)
-      items[next[at(group_of_item[i])]++] = static_cast<std::int32_t>(i);
+      items[next[group_of_item[i]]++] = static_cast<std::int32_t>(i);
   }
   [[nodiscard]] std::span<const std::int32_t> of(std::size_t group) const {
     return std::span(items).subspan(first[group], first[group + 1] - first[group]);
@@ -122,19 +119,18 @@ struct Classification {
   void find_boxes(const MeshPiece& mesh) {
     for (std::size_t e = 0; e < mesh.edges.size(); ++e)
       for (std::int32_t vertex : {mesh.edges[e].a, mesh.edges[e].b})
-        curves[at(curve_of_edge[e])].box.add(mesh.points[at(vertex)]);
+        curves[curve_of_edge[e]].box.add(mesh.points[vertex]);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      for (std::int32_t vertex : mesh.triangles[t])
-        surfaces[at(surface_of_triangle[t])].box.add(mesh.points[at(vertex)]);
+      for (std::int32_t vertex : mesh.triangles[t]) surfaces[surface_of_triangle[t]].box.add(mesh.points[vertex]);
   }
 
   void classify_nodes(const MeshPiece& mesh) {
     const auto first_surface = static_cast<std::int32_t>(curves.size());
     entity_of_node.assign(mesh.points.size(), first_surface);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      for (std::int32_t vertex : mesh.triangles[t]) entity_of_node[at(vertex)] = first_surface + surface_of_triangle[t];
+      for (std::int32_t vertex : mesh.triangles[t]) entity_of_node[vertex] = first_surface + surface_of_triangle[t];
     for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-      for (std::int32_t vertex : {mesh.edges[e].a, mesh.edges[e].b}) entity_of_node[at(vertex)] = curve_of_edge[e];
+      for (std::int32_t vertex : {mesh.edges[e].a, mesh.edges[e].b}) entity_of_node[vertex] = curve_of_edge[e];
   }
 
   void find_boundaries(const MeshPiece& mesh) {
@@ -144,8 +140,8 @@ struct Classification {
     for (std::size_t e = 0; e < at_edges.size(); ++e)
       for (std::int32_t triangle : at_edges[e]) {
         if (triangle < 0) continue;
-        const std::int32_t surface = surface_of_triangle[at(triangle)];
-        if (seen.insert({surface, curve_of_edge[e]}).second) boundaries[at(surface)].push_back(curve_of_edge[e]);
+        const std::int32_t surface = surface_of_triangle[triangle];
+        if (seen.insert({surface, curve_of_edge[e]}).second) boundaries[surface].push_back(curve_of_edge[e]);
       }
   }
 };
@@ -211,7 +207,7 @@ void write_entities(FileSink& sink, const Classification& classes) {
     const Entity& surface = classes.surfaces[s];
     write_entity(sink, surface, surface.box.min_x <= surface.box.max_x ? surface.box : Box{0, 0, 0, 0});
     write_size(sink, classes.boundaries[s].size());
-    for (std::int32_t curve : classes.boundaries[s]) sink.raw(classes.curves[at(curve)].tag);
+    for (std::int32_t curve : classes.boundaries[s]) sink.raw(classes.curves[curve].tag);
   }
   end_of_binary_section(sink, "EndEntities");
 }
@@ -240,9 +236,8 @@ void write_nodes(FileSink& sink, const MeshPiece& mesh, const Classification& cl
     const Entity& entity = is_curve ? classes.curves[g] : classes.surfaces[g - classes.curves.size()];
     sink.raw(std::array<std::int32_t, 3>{is_curve ? 1 : 2, entity.tag, 0});
     write_size(sink, nodes.size());
-    for (std::int32_t node : nodes) write_size(sink, at(node) + 1);
-    for (std::int32_t node : nodes)
-      sink.raw(std::array<double, 3>{mesh.points[at(node)].x, mesh.points[at(node)].y, 0});
+    for (std::int32_t node : nodes) write_size(sink, to_index(node) + 1);
+    for (std::int32_t node : nodes) sink.raw(std::array<double, 3>{mesh.points[node].x, mesh.points[node].y, 0});
   }
   end_of_binary_section(sink, "EndNodes");
 }
@@ -260,14 +255,16 @@ void write_elements(FileSink& sink, const MeshPiece& mesh, const Classification&
   for (std::size_t c = 0; c < classes.curves.size(); ++c) {
     write_block_header(sink, 1, classes.curves[c], kLineType, edges.of(c).size());
     for (std::int32_t e : edges.of(c))
-      sink.raw(std::array<std::uint64_t, 3>{at(e) + 1, at(mesh.edges[at(e)].a) + 1, at(mesh.edges[at(e)].b) + 1});
+      sink.raw(
+          std::array<std::uint64_t, 3>{to_index(e) + 1, to_index(mesh.edges[e].a) + 1, to_index(mesh.edges[e].b) + 1});
   }
   for (std::size_t s = 0; s < classes.surfaces.size(); ++s) {
     if (triangles.of(s).empty()) continue;
     write_block_header(sink, 2, classes.surfaces[s], kTriangleType, triangles.of(s).size());
     for (std::int32_t t : triangles.of(s)) {
-      const auto& [a, b, c] = mesh.triangles[at(t)];
-      sink.raw(std::array<std::uint64_t, 4>{mesh.edges.size() + at(t) + 1, at(a) + 1, at(b) + 1, at(c) + 1});
+      const auto& [a, b, c] = mesh.triangles[t];
+      sink.raw(std::array<std::uint64_t, 4>{mesh.edges.size() + to_index(t) + 1, to_index(a) + 1, to_index(b) + 1,
+                                            to_index(c) + 1});
     }
   }
   end_of_binary_section(sink, "EndElements");
@@ -280,7 +277,7 @@ void write_attribute(FileSink& sink, const MeshPiece& mesh, std::size_t k) {
   sink.text("\"\n1\n0\n3\n0\n1\n");  // time 0; step 0, one component, and the number of nodes:
   sink.number(mesh.points.size());
   sink.character('\n');
-  const auto per_point = at(mesh.attributes_per_point);
+  const std::size_t per_point = mesh.attributes_per_point;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     sink.raw(static_cast<std::int32_t>(v + 1));
     sink.raw(mesh.attributes[v * per_point + k]);
@@ -307,7 +304,7 @@ void write_triangle_data(FileSink& sink, const MeshPiece& mesh, std::string_view
 // Text, also in a binary file: readers that do not know the section look for its end line by line.
 void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& markers) {
   section(sink, "DriftmeshPointMarkers");
-  sink.number(markers.size() - static_cast<std::size_t>(std::count(markers.begin(), markers.end(), 0)));
+  sink.number(markers.size() - std::count(markers.begin(), markers.end(), 0));
   sink.character('\n');
   for (std::size_t v = 0; v < markers.size(); ++v) {
     if (markers[v] == 0) continue;
@@ -330,7 +327,7 @@ void write_msh(const MeshPiece& mesh, const std::string& path) {
   write_entities(sink, classes);
   write_nodes(sink, mesh, classes);
   write_elements(sink, mesh, classes);
-  for (std::size_t k = 0; k < at(mesh.attributes_per_point); ++k) write_attribute(sink, mesh, k);
+  for (std::int32_t k = 0; k < mesh.attributes_per_point; ++k) write_attribute(sink, mesh, k);
   if (!mesh.subdomains.empty()) write_triangle_data(sink, mesh, kSubdomainView, mesh.subdomains);
   if (!mesh.ranks.empty()) write_triangle_data(sink, mesh, kRankView, mesh.ranks);
   if (!mesh.point_markers.empty()) write_point_markers(sink, mesh.point_markers);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/id_vector.hpp"
 #include "geometry/predicates.hpp"
 
 namespace driftmesh {
@@ -27,7 +28,7 @@ class VertexRange {
  public:
   VertexRange(const MeshPiece& mesh, const std::string& path) : path_(path), count_(mesh.points.size()) {}
   void check(std::int32_t vertex, const char* what, std::size_t number) const {
-    if (vertex >= 0 && static_cast<std::size_t>(vertex) < count_) return;
+    if (to_index(vertex) < count_) return;
     throw InputError({path_, 0},
                      std::string(what) + " " + std::to_string(number) + " (counted from 0) names vertex " +
                          std::to_string(vertex) + " of " + std::to_string(count_),
@@ -63,16 +64,15 @@ void check_lengths(const MeshPiece& mesh, const std::string& path) {
   if (!mesh.numbers.empty()) check_length(mesh.numbers.size(), mesh.points.size(), "point numbers", path);
   if (!mesh.subdomains.empty()) check_length(mesh.subdomains.size(), mesh.triangles.size(), "subdomains", path);
   if (!mesh.ranks.empty()) check_length(mesh.ranks.size(), mesh.triangles.size(), "ranks", path);
-  check_length(mesh.attributes.size(), static_cast<std::size_t>(mesh.attributes_per_point) * mesh.points.size(),
-               "point attributes", path);
+  check_length(mesh.attributes.size(), mesh.attributes_per_point * mesh.points.size(), "point attributes", path);
 }
 
 double twice_total_area(const MeshPiece& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
-    const Point& p = mesh.points[static_cast<std::size_t>(a)];
-    const Point& q = mesh.points[static_cast<std::size_t>(b)];
-    const Point& r = mesh.points[static_cast<std::size_t>(c)];
+    const Point& p = mesh.points[a];
+    const Point& q = mesh.points[b];
+    const Point& r = mesh.points[c];
     sum += (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
   }
   return sum;

@@ -18,7 +18,7 @@ Edges scan_edges(RecordScanner& scanner, const NodeTable& nodes, bool& has_marke
   const std::int32_t count = scanner.header("the number of edges");
   has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
   scanner.require_room(count, "edges", has_markers ? 4 : 3);
-  Edges edges(static_cast<std::size_t>(count));
+  Edges edges(count);
   for (MeshPiece::Edge& edge : edges) {
     scanner.require_record("an edge", "the header announces " + std::to_string(count) + "; the file may be truncated");
     (void)scanner.integer("the edge number");
@@ -51,7 +51,7 @@ Edges read_marked_edges(const std::string& path, const NodeTable& nodes) {
 }
 
 std::vector<double> last_attributes(EleTable&& elements) {
-  const auto per_triangle = static_cast<std::size_t>(elements.attributes_per_triangle);
+  const std::size_t per_triangle = elements.attributes_per_triangle;
   if (per_triangle <= 1) return std::move(elements.attributes);
   std::vector<double> last;
   last.reserve(elements.triangles.size());

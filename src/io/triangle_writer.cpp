@@ -13,7 +13,7 @@ void line(FileSink& sink, std::size_t first, Numbers... rest) {
 }
 
 void write_nodes(FileSink& sink, const MeshPiece& mesh) {
-  const auto per_point = static_cast<std::size_t>(mesh.attributes_per_point);
+  const std::size_t per_point = mesh.attributes_per_point;
   const bool has_markers = !mesh.point_markers.empty();
   line(sink, mesh.points.size(), 2, per_point, has_markers ? 1 : 0);
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
@@ -73,7 +73,7 @@ void write_edges(FileSink& sink, const MeshPiece& mesh, const TriangleNeighbors&
       const std::int32_t a = mesh.triangles[t][(i + 1) % 3];
       const std::int32_t b = mesh.triangles[t][(i + 2) % 3];
       const std::int32_t edge = index.find(a, b);
-      line(sink, ++number, a + 1, b + 1, edge < 0 ? 0 : mesh.edges[static_cast<std::size_t>(edge)].marker);
+      line(sink, ++number, a + 1, b + 1, edge < 0 ? 0 : mesh.edges[edge].marker);
     }
 }
 

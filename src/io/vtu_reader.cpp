@@ -162,7 +162,7 @@ class ArrayReader {
                        "DataArray holds " + std::to_string(bytes.size()) + " bytes, not " + std::to_string(tuples) +
                            " x " + std::to_string(array.components) + " " + array.type,
                        kDamaged);
-    std::vector<To> result(static_cast<std::size_t>(values));
+    std::vector<To> result(values);
     if constexpr (std::is_same_v<To, From>) {
       if (!bytes.empty()) std::memcpy(result.data(), bytes.data(), bytes.size());
     } else {
@@ -212,8 +212,7 @@ class CellSplitter {
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < types_.size(); ++cell) {
       const std::size_t corners = corner_count(cell);
-      if (ends_[cell] != begin + static_cast<std::int64_t>(corners) ||
-          static_cast<std::size_t>(ends_[cell]) > vertices_.size())
+      if (ends_[cell] != begin + static_cast<std::int64_t>(corners) || std::cmp_greater(ends_[cell], vertices_.size()))
         throw InputError({path_, 0}, "cell " + std::to_string(cell) + " (counted from 0) has a wrong offset", kDamaged);
       const std::int32_t* const corner = vertices_.data() + begin;
       if (corners == 3) {

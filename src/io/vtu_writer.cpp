@@ -55,7 +55,7 @@ struct Counts {
 void declare_point_data(VtuFile& file, const VtuArrays& arrays, const Counts& counts) {
   file.header(arrays.numbers ? "      <PointData GlobalIds=\"global_number\">\n" : "      <PointData>\n");
   for_each_point_array(arrays, [&]<class T>(const T*, const char* name, std::int32_t components) {
-    file.declare<T>(name, counts.points * static_cast<std::size_t>(components), components);
+    file.declare<T>(name, counts.points * components, components);
   });
   file.header("      </PointData>\n");
 }
@@ -107,7 +107,7 @@ class LineValues {
   void append(FileSink& sink, const std::vector<T>& of_triangles) const {
     for (const auto& [left, right] : at_edges_) {
       const std::int32_t triangle = left >= 0 ? left : right;
-      sink.raw(triangle >= 0 ? of_triangles[static_cast<std::size_t>(triangle)] : T{0});
+      sink.raw(triangle >= 0 ? of_triangles[triangle] : T{0});
     }
   }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/growing_array.hpp"
+#include "base/id_vector.hpp"
 #include "dyadic/path.hpp"
 #include "geometry/point.hpp"
 
@@ -44,7 +45,6 @@ using HalfEdge = std::int32_t;
   return i == 0 ? 2 : i - 1;
 }
 
-inline constexpr std::int32_t kNone = -1;
 /// A half-edge must fit 31 bits.
 inline constexpr std::int64_t kMaxTriangles = (std::int64_t{1} << 29) - 1;
 

@@ -63,9 +63,7 @@ class MeshPlot {
   }
 
  private:
-  [[nodiscard]] Point corner(std::int32_t vertex) const {
-    return frame_.to_pixels(mesh_.points[static_cast<std::size_t>(vertex)]);
-  }
+  [[nodiscard]] Point corner(std::int32_t vertex) const { return frame_.to_pixels(mesh_.points[vertex]); }
 
   /// Whether colours say how much; else they say which.
   [[nodiscard]] bool is_range() const {

@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::size_t kMostPoints = 3000;  // more dots than that hide the segments
 
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
-
 Box box_of(const Pslg& pslg) {
   Box box;
   for (const Point& p : pslg.points) box.extend(p);
@@ -37,17 +33,17 @@ class Loops {
     for (const Pslg::Segment& segment : pslg.segments)
       if (segment.a == segment.b || !connect(segment.a, segment.b) || !connect(segment.b, segment.a)) return;
     for (const Pslg::Segment& segment : pslg.segments)
-      if (neighbors_[at(segment.a)][1] < 0 || neighbors_[at(segment.b)][1] < 0) return;
+      if (neighbors_[segment.a][1] < 0 || neighbors_[segment.b][1] < 0) return;
     std::vector<bool> seen(pslg.points.size(), false);
     for (const Pslg::Segment& segment : pslg.segments)
-      if (!seen[at(segment.a)]) loops.push_back(walk(segment.a, seen));
+      if (!seen[segment.a]) loops.push_back(walk(segment.a, seen));
   }
 
   std::vector<std::vector<std::int32_t>> loops;
 
  private:
   bool connect(std::int32_t from, std::int32_t to) {
-    auto& slots = neighbors_[at(from)];
+    auto& slots = neighbors_[from];
     if (slots[1] >= 0) return false;
     slots[slots[0] < 0 ? 0 : 1] = to;
     return true;
@@ -56,10 +52,10 @@ class Loops {
   std::vector<std::int32_t> walk(std::int32_t start, std::vector<bool>& seen) const {
     std::vector<std::int32_t> loop;
     for (std::int32_t v = start; v >= 0;) {
-      seen[at(v)] = true;
+      seen[v] = true;
       loop.push_back(v);
-      const auto& [first, second] = neighbors_[at(v)];
-      v = !seen[at(first)] ? first : !seen[at(second)] ? second : -1;
+      const auto& [first, second] = neighbors_[v];
+      v = !seen[first] ? first : !seen[second] ? second : -1;
     }
     return loop;
   }
@@ -124,7 +120,7 @@ class PslgPlot {
     for (const auto& loop : curves.loops) {
       cairo_new_sub_path(cairo);
       for (std::int32_t v : loop) {
-        const Point p = frame_.to_pixels(pslg_.points[at(v)]);
+        const Point p = frame_.to_pixels(pslg_.points[v]);
         cairo_line_to(cairo, p.x, p.y);
       }
       cairo_close_path(cairo);
@@ -140,7 +136,7 @@ class PslgPlot {
       LineBatch batch(canvas_, width, entry.color);
       for (const Pslg::Segment& segment : pslg_.segments)
         if (segment.marker == marker)
-          batch.add(frame_.to_pixels(pslg_.points[at(segment.a)]), frame_.to_pixels(pslg_.points[at(segment.b)]));
+          batch.add(frame_.to_pixels(pslg_.points[segment.a]), frame_.to_pixels(pslg_.points[segment.b]));
     }
   }
 

@@ -93,7 +93,7 @@ std::string friendly_number(double value, int digits) {
   if (size < 1e-3 || size >= 1e9) return power_number(value, digits);
   const int whole_digits = static_cast<int>(std::log10(std::max(size, 1.0))) + 1;
   if (size < 1e4 || digits > whole_digits) return plain_number(value, std::max(digits, whole_digits));
-  const std::string grouped = grouped_digits(static_cast<std::size_t>(std::llround(size)));
+  const std::string grouped = grouped_digits(std::llround(size));
   return value < 0 ? std::string("-").append(grouped) : grouped;
 }
 

@@ -17,9 +17,9 @@ constexpr std::size_t kBins = 60;
 
 struct Corners {
   Corners(const MeshPiece& mesh, std::size_t t)
-      : a(mesh.points[static_cast<std::size_t>(mesh.triangles[t][0])]),
-        b(mesh.points[static_cast<std::size_t>(mesh.triangles[t][1])]),
-        c(mesh.points[static_cast<std::size_t>(mesh.triangles[t][2])]) {}
+      : a(mesh.points[mesh.triangles[t][0]]),
+        b(mesh.points[mesh.triangles[t][1]]),
+        c(mesh.points[mesh.triangles[t][2]]) {}
   const Point& a;
   const Point& b;
   const Point& c;
@@ -74,7 +74,7 @@ std::array<double, 2> area_range(const MeshPiece& mesh, const Box& shown, const 
   const auto quantile = [&seen](double share) {
     const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(seen.size() - 1));
     std::nth_element(seen.begin(), seen.begin() + at, seen.end());
-    return double{seen[static_cast<std::size_t>(at)]};
+    return double{seen[at]};
   };
   const double low = quantile(0.001);
   const double high = quantile(0.999);

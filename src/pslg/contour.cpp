@@ -27,7 +27,7 @@ void visit_neighbours(const Grid& grid, std::size_t i, bool corners, Visit visit
       if ((dx == 0 && dy == 0) || (!corners && dx != 0 && dy != 0)) continue;
       if (x < 0 || y < 0 || x >= static_cast<std::int64_t>(grid.columns) || y >= static_cast<std::int64_t>(grid.rows))
         continue;
-      visit(grid.index(static_cast<std::size_t>(x), static_cast<std::size_t>(y)));
+      visit(grid.index(x, y));
     }
 }
 

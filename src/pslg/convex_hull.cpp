@@ -10,7 +10,7 @@ namespace {
 
 /// The points of `order` that lie on the lower border of the hull, collinear ones included.
 std::vector<std::int32_t> lower_border(const std::vector<Point>& points, const std::vector<std::int32_t>& order) {
-  const auto at = [&](std::int32_t i) -> const Point& { return points[static_cast<std::size_t>(i)]; };
+  const auto at = [&](std::int32_t i) -> const Point& { return points[i]; };
   std::vector<std::int32_t> border;
   for (const std::int32_t i : order) {
     while (border.size() >= 2 && orient2d(at(border[border.size() - 2]), at(border.back()), at(i)) < 0)
@@ -27,7 +27,7 @@ std::vector<Pslg::Segment> convex_hull(const std::vector<Point>& points) {
   std::vector<std::int32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
-    const Point &a = points[static_cast<std::size_t>(i)], &b = points[static_cast<std::size_t>(j)];
+    const Point &a = points[i], &b = points[j];
     return a.x != b.x ? a.x < b.x : a.y < b.y;
   });
   std::vector<std::int32_t> ring = lower_border(points, order);

@@ -111,17 +111,15 @@ Chain with_extra(const Chain& loop, std::size_t extra) {
 using Index = std::int32_t;
 
 /// Points of the unit square by the cells of a grid, those of a cell in the order of x.
-std::vector<std::vector<Index>> cells_of(const std::vector<Point>& points, std::int32_t side) {
-  std::vector<std::vector<Index>> cells(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+std::vector<std::vector<Index>> cells_of(const std::vector<Point>& points, std::size_t side) {
+  std::vector<std::vector<Index>> cells(side * side);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto column = static_cast<std::size_t>(points[i].x * side);
-    const auto row = static_cast<std::size_t>(points[i].y * side);
-    cells[row * static_cast<std::size_t>(side) + column].push_back(static_cast<Index>(i));
+    const auto column = static_cast<std::size_t>(points[i].x * static_cast<double>(side));
+    const auto row = static_cast<std::size_t>(points[i].y * static_cast<double>(side));
+    cells[row * side + column].push_back(static_cast<Index>(i));
   }
   for (auto& cell : cells)
-    std::sort(cell.begin(), cell.end(), [&](Index a, Index b) {
-      return points[static_cast<std::size_t>(a)].x < points[static_cast<std::size_t>(b)].x;
-    });
+    std::sort(cell.begin(), cell.end(), [&](Index a, Index b) { return points[a].x < points[b].x; });
   return cells;
 }
 
@@ -137,7 +135,7 @@ Pslg generate_random_polygon(const RandomPolygonOptions& o) {
   Chain loop = outline(tree, cells);
   displace(loop, o.jitter, random);
   Pslg pslg;
-  add_loop(pslg, with_extra(loop, static_cast<std::size_t>(o.vertices % 4)), 1);
+  add_loop(pslg, with_extra(loop, o.vertices % 4), 1);
   return checked(std::move(pslg), "random-polygon");
 }
 
@@ -148,7 +146,7 @@ Pslg generate_random_points(const RandomPointsOptions& o) {
                  "the number of segments must be 0 to a quarter of the points");
   SeededRandom random(o.seed);
   Pslg pslg;
-  pslg.points.reserve(static_cast<std::size_t>(o.points) + 4);
+  pslg.points.reserve(o.points + 4);
   for (std::int32_t i = 0; i < o.points; ++i) {
     const double x = random.uniform();
     pslg.points.push_back({x, random.uniform()});

@@ -147,7 +147,7 @@ Pslg generate_comb(const CombOptions& o) {
   Pslg pslg;
   add_loop(pslg, chain, 1);
   for (std::int32_t i = 0; i < o.slits; ++i)
-    for (std::int32_t k = 0; k < 3; ++k) pslg.segments[static_cast<std::size_t>(3 + 4 * i + k)].marker = 2;
+    for (std::int32_t k = 0; k < 3; ++k) pslg.segments[3 + 4 * i + k].marker = 2;
   return checked(std::move(pslg), "comb");
 }
 

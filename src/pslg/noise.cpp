@@ -34,8 +34,8 @@ GradientNoise::GradientNoise(SeededRandom& random) {
 }
 
 double GradientNoise::corner(std::int64_t x, std::int64_t y, double dx, double dy) const {
-  const std::uint8_t column = order_[static_cast<std::size_t>(x & 255)];
-  const Point& g = gradients_[order_[static_cast<std::size_t>((column + y) & 255)]];
+  const std::uint8_t column = order_[x & 255];
+  const Point& g = gradients_[order_[(column + y) & 255]];
   return g.x * dx + g.y * dy;
 }
 

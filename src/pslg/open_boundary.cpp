@@ -10,12 +10,8 @@ namespace {
 
 constexpr std::size_t kMaxNamed = 4;
 
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
-
 std::int32_t root(std::vector<std::int32_t>& parent, std::int32_t i) {
-  while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
 }
 
@@ -27,11 +23,11 @@ OpenBoundary find_open_boundary(const Pslg& pslg) {
   std::vector<std::int32_t> parent(pslg.points.size());
   std::iota(parent.begin(), parent.end(), 0);
   for (const Pslg::Segment& s : pslg.segments) {
-    ++degree[at(s.a)];
-    ++degree[at(s.b)];
+    ++degree[s.a];
+    ++degree[s.b];
     const std::int32_t a = root(parent, s.a), b = root(parent, s.b);
     result.has_loop = result.has_loop || a == b;  // joins what is joined already
-    parent[at(a)] = b;
+    parent[a] = b;
   }
   for (std::size_t i = 0; i < degree.size(); ++i)
     if (degree[i] == 1) result.open_ends.push_back(static_cast<std::int32_t>(i));
@@ -48,7 +44,7 @@ std::string describe_open_boundary(const Pslg& pslg, const RepairReport& report)
   for (std::size_t i = 0; i < named; ++i) {
     const std::int32_t v = boundary.open_ends[i];
     if (i > 0) text += i + 1 == boundary.open_ends.size() ? " and " : ", ";
-    text += vertex_name(pslg, report.original_point[at(v)], pslg.points[at(v)]);
+    text += vertex_name(pslg, report.original_point[v], pslg.points[v]);
   }
   if (named < boundary.open_ends.size())
     text += " and at " + std::to_string(boundary.open_ends.size() - named) + " more";

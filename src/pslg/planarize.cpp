@@ -20,10 +20,6 @@ namespace {
 // Of a piece that comes from no segment of the input.
 constexpr std::int32_t kHullEdge = -1, kDropped = -2;
 
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
-
 template <class Describe>
 void note(RepairItem& item, Describe describe) {
   if (item.count++ < RepairItem::kMaxExamples) item.examples.push_back(describe());
@@ -96,7 +92,7 @@ class Planarizer {
   };
 
   const std::vector<Point>& points() const { return welder_.points(); }
-  const Point& point(std::int32_t v) const { return points()[at(v)]; }
+  const Point& point(std::int32_t v) const { return points()[v]; }
 
   void weld_points();
   void start_segments();
@@ -137,7 +133,7 @@ class Planarizer {
 };
 
 std::string Planarizer::name(std::int32_t vertex) const {
-  return vertex_name(pslg_, report_.original_point[at(vertex)], point(vertex));
+  return vertex_name(pslg_, report_.original_point[vertex], point(vertex));
 }
 
 std::string Planarizer::name(const Piece& piece) const {
@@ -149,24 +145,24 @@ void Planarizer::weld_points() {
   welded_.reserve(pslg_.points.size());
   report_.original_point.reserve(pslg_.points.size());
   for (std::int32_t i = 0; i < count; ++i) {
-    const Point& p = pslg_.points[at(i)];
+    const Point& p = pslg_.points[i];
     const std::int32_t kept = welder_.add(p);
     welded_.push_back(kept);
-    if (at(kept) == report_.original_point.size()) {
+    if (std::cmp_equal(kept, report_.original_point.size())) {
       report_.original_point.push_back(i);
       copy_point_data(i);
       continue;
     }
-    if (!markers_.empty() && markers_[at(kept)] == 0) markers_[at(kept)] = pslg_.point_markers[at(i)];
+    if (!markers_.empty() && markers_[kept] == 0) markers_[kept] = pslg_.point_markers[i];
     note(point(kept) == p ? report_.duplicate_points : report_.close_points,
          [&] { return vertex_name(pslg_, i, p) + " merged into " + name(kept); });
   }
 }
 
 void Planarizer::copy_point_data(std::int32_t index) {
-  if (!pslg_.point_markers.empty()) markers_.push_back(pslg_.point_markers[at(index)]);
-  const auto stride = at(pslg_.attributes_per_point);
-  for (std::size_t k = 0; k < stride; ++k) attributes_.push_back(pslg_.attributes[at(index) * stride + k]);
+  if (!pslg_.point_markers.empty()) markers_.push_back(pslg_.point_markers[index]);
+  const std::size_t stride = pslg_.attributes_per_point;
+  for (std::size_t k = 0; k < stride; ++k) attributes_.push_back(pslg_.attributes[index * stride + k]);
 }
 
 void Planarizer::interpolate_point_data(const Piece& piece, const Point& p) {
@@ -174,10 +170,10 @@ void Planarizer::interpolate_point_data(const Piece& piece, const Point& p) {
   if (!pslg_.point_markers.empty()) markers_.push_back(piece.segment.marker);
   const Point &a = point(piece.segment.a), &b = point(piece.segment.b);
   const double t = std::hypot(p.x - a.x, p.y - a.y) / std::hypot(b.x - a.x, b.y - a.y);
-  const auto stride = at(pslg_.attributes_per_point);
+  const std::size_t stride = pslg_.attributes_per_point;
   for (std::size_t k = 0; k < stride; ++k) {
-    const double at_a = attributes_[at(piece.segment.a) * stride + k];
-    const double at_b = attributes_[at(piece.segment.b) * stride + k];
+    const double at_a = attributes_[piece.segment.a * stride + k];
+    const double at_b = attributes_[piece.segment.b * stride + k];
     attributes_.push_back((1 - t) * at_a + t * at_b);
   }
 }
@@ -186,7 +182,7 @@ void Planarizer::start_segments() {
   pieces_.reserve(pslg_.segments.size());
   std::int32_t origin = 0;
   for (const Pslg::Segment& s : pslg_.segments) {
-    const Piece piece{{welded_[at(s.a)], welded_[at(s.b)], s.marker}, origin++, true};
+    const Piece piece{{welded_[s.a], welded_[s.b], s.marker}, origin++, true};
     if (piece.segment.a != piece.segment.b)
       pieces_.push_back(piece);
     else
@@ -223,16 +219,16 @@ void Planarizer::keep_once(RepairItem& item) {
       kept = keys[i].piece;
       continue;
     }
-    const Piece& other = pieces_[at(keys[i].piece)];
-    Pslg::Segment& first = pieces_[at(kept)].segment;
+    const Piece& other = pieces_[keys[i].piece];
+    Pslg::Segment& first = pieces_[kept].segment;
     dropped.push_back(keys[i].piece);
-    note(item, [&] { return name(other) + " repeats " + name(pieces_[at(kept)]); });
+    note(item, [&] { return name(other) + " repeats " + name(pieces_[kept]); });
     if (first.marker == 0) first.marker = other.segment.marker;
     if (other.segment.marker != 0 && other.segment.marker != first.marker)
-      note(report_.marker_conflicts, [&] { return name(other) + " and " + name(pieces_[at(kept)]); });
+      note(report_.marker_conflicts, [&] { return name(other) + " and " + name(pieces_[kept]); });
   }
   if (dropped.empty()) return;
-  for (const std::int32_t i : dropped) pieces_[at(i)].origin = kDropped;
+  for (const std::int32_t i : dropped) pieces_[i].origin = kDropped;
   std::erase_if(pieces_, [](const Piece& piece) { return piece.origin == kDropped; });
 }
 
@@ -263,7 +259,7 @@ void Planarizer::find_splits() {
   const auto piece_count = narrow<std::int32_t>(pieces_.size(), "segments");
   splits_.clear();
   for (std::int32_t i = 0; i < piece_count; ++i) {
-    if (!pieces_[at(i)].fresh) continue;
+    if (!pieces_[i].fresh) continue;
     for (const PointTree& tree : point_trees_) find_points_on(i, tree);
     find_crossings_of(i, piece_tree);
   }
@@ -272,25 +268,25 @@ void Planarizer::find_splits() {
 }
 
 void Planarizer::find_points_on(std::int32_t piece, const PointTree& points) {
-  const Pslg::Segment s = pieces_[at(piece)].segment;
+  const Pslg::Segment s = pieces_[piece].segment;
   points.tree.search(NearSegment(point(s.a), point(s.b)), [&](std::int32_t i) { test_point(points.first + i, piece); });
 }
 
 void Planarizer::find_segments_through(std::int32_t vertex, const BoxTree& tree) {
   tree.visit_containing(point(vertex), [&](std::int32_t piece) {
-    if (!pieces_[at(piece)].fresh) test_point(vertex, piece);
+    if (!pieces_[piece].fresh) test_point(vertex, piece);
   });
 }
 
 void Planarizer::find_crossings_of(std::int32_t piece, const BoxTree& tree) {
-  const Pslg::Segment s = pieces_[at(piece)].segment;
+  const Pslg::Segment s = pieces_[piece].segment;
   tree.search(NearSegment(point(s.a), point(s.b)), [&](std::int32_t other) {
-    if (other > piece || !pieces_[at(other)].fresh) test_pair(piece, other);
+    if (other > piece || !pieces_[other].fresh) test_pair(piece, other);
   });
 }
 
 void Planarizer::test_point(std::int32_t vertex, std::int32_t piece) {
-  const Piece& p = pieces_[at(piece)];
+  const Piece& p = pieces_[piece];
   if (vertex == p.segment.a || vertex == p.segment.b) return;
   const OnSegment where = on_segment(point(vertex), point(p.segment.a), point(p.segment.b));
   if (where == OnSegment::no) return;
@@ -301,7 +297,7 @@ void Planarizer::test_point(std::int32_t vertex, std::int32_t piece) {
 
 // Where an end of one lies on the other, that vertex splits it and no new one is needed.
 void Planarizer::test_pair(std::int32_t piece, std::int32_t other) {
-  const Pslg::Segment s = pieces_[at(piece)].segment, t = pieces_[at(other)].segment;
+  const Pslg::Segment s = pieces_[piece].segment, t = pieces_[other].segment;
   if (s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b) return;
   const Point &a = point(s.a), &b = point(s.b), &c = point(t.a), &d = point(t.b);
   if (!cross_properly(a, b, c, d)) return;
@@ -313,17 +309,17 @@ void Planarizer::test_pair(std::int32_t piece, std::int32_t other) {
 }
 
 void Planarizer::add_crossing(std::int32_t piece, std::int32_t other) {
-  const Piece &s = pieces_[at(piece)], &t = pieces_[at(other)];
+  const Piece &s = pieces_[piece], &t = pieces_[other];
   const Point p = crossing_point(point(s.segment.a), point(s.segment.b), point(t.segment.a), point(t.segment.b));
   const std::int32_t vertex = welder_.add(p);
-  if (at(vertex) == report_.original_point.size()) interpolate_point_data(s, p);
+  if (std::cmp_equal(vertex, report_.original_point.size())) interpolate_point_data(s, p);
   add_split(piece, vertex);
   add_split(other, vertex);
   note(report_.crossings, [&] { return name(s) + " and " + name(t) + " cross at " + coordinates(p); });
 }
 
 void Planarizer::add_split(std::int32_t piece, std::int32_t vertex) {
-  const Pslg::Segment s = pieces_[at(piece)].segment;
+  const Pslg::Segment s = pieces_[piece].segment;
   if (vertex == s.a || vertex == s.b) return;
   if (++split_count_ > kMaxSplits)
     throw InputError({file_, 0}, "the segments cross or overlap more than " + std::to_string(kMaxSplits) + " times",
@@ -341,7 +337,7 @@ void Planarizer::split_segments() {
   next.reserve(pieces_.size() + splits_.size());
   auto split = splits_.begin();
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(pieces_.size()); ++i) {
-    Piece piece = pieces_[at(i)];
+    Piece piece = pieces_[i];
     piece.fresh = split != splits_.end() && split->piece == i;
     const std::int32_t end = piece.segment.b;
     for (; split != splits_.end() && split->piece == i; ++split) {

@@ -45,7 +45,7 @@ void PointWelder::search(const Cell& cell, const Point& p, std::int32_t& best) c
   const std::size_t mask = slots_.size() - 1;
   for (std::size_t slot = hash(cell) & mask; slots_[slot] >= 0; slot = (slot + 1) & mask) {
     const std::int32_t index = slots_[slot];
-    const Point& q = points_[static_cast<std::size_t>(index)];
+    const Point& q = points_[index];
     const double reach = std::max(margin, closeness(q));
     if (std::fabs(p.x - q.x) > reach || std::fabs(p.y - q.y) > reach) continue;
     if (best < 0 || p == q || index < best) best = index;
@@ -76,7 +76,7 @@ std::int32_t PointWelder::add(const Point& p) {
 
 void PointWelder::insert(std::int32_t index) {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = hash(cell_of(points_[static_cast<std::size_t>(index)])) & mask;
+  std::size_t slot = hash(cell_of(points_[index])) & mask;
   while (slots_[slot] >= 0) slot = (slot + 1) & mask;
   slots_[slot] = index;
 }

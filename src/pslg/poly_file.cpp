@@ -36,7 +36,7 @@ void scan_segments(RecordScanner& scanner, Pslg& pslg) {
   const std::int32_t count = scanner.header("the number of segments");
   const bool has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
   scanner.require_room(count, "segments", has_markers ? 4 : 3);
-  pslg.segments.reserve(static_cast<std::size_t>(count));
+  pslg.segments.reserve(count);
   for (std::int32_t i = 0; i < count; ++i) {
     scanner.require_element(i, count, "segments");
     (void)scanner.integer("the segment number");

@@ -8,7 +8,7 @@ namespace driftmesh {
 namespace {
 
 void write_points(const Pslg& pslg, LineWriter& line) {
-  const auto attributes = static_cast<std::size_t>(pslg.attributes_per_point);
+  const std::size_t attributes = pslg.attributes_per_point;
   const bool has_markers = !pslg.point_markers.empty();
   line.field(pslg.points.size()).field(2).field(attributes).field(has_markers ? 1 : 0).end();
   for (std::size_t i = 0; i < pslg.points.size(); ++i) {

@@ -48,7 +48,7 @@ bool RecordScanner::has_field() {
 }
 
 bool RecordScanner::next_line() {
-  const void* const newline = at_ == end_ ? nullptr : std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_));
+  const void* const newline = at_ == end_ ? nullptr : std::memchr(at_, '\n', end_ - at_);
   if (newline == nullptr) return false;
   at_ = static_cast<const char*>(newline) + 1;
   ++line_;
@@ -69,7 +69,7 @@ void RecordScanner::require_record(const std::string& what, const std::string& n
 std::string_view RecordScanner::take_field() {
   const char* const begin = at_;
   while (!at_end_of_field()) ++at_;
-  return {begin, static_cast<std::size_t>(at_ - begin)};
+  return std::string_view(begin, at_ - begin);
 }
 
 void RecordScanner::require_element(std::int32_t index, std::int32_t count, const char* what) {
@@ -135,9 +135,9 @@ std::int32_t RecordScanner::optional_header(const char* what, std::int32_t limit
 }
 
 void RecordScanner::require_room(std::int32_t count, const char* what, std::int32_t fields) {
-  const auto bytes_left = static_cast<std::size_t>(end_ - at_);
-  const std::size_t room = bytes_left / (2 * static_cast<std::size_t>(fields));  // a field is a blank and a digit
-  if (static_cast<std::size_t>(count) <= room) return;
+  const std::size_t bytes_left = end_ - at_;
+  const std::size_t room = bytes_left / (2 * fields);  // a field is a blank and a digit
+  if (std::cmp_less_equal(count, room)) return;
   fail("announces " + std::to_string(count) + " " + what + ", but the rest of the file has room for " +
            std::to_string(room) + " at most",
        "correct the number, or the file is truncated");

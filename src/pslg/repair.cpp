@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/id_vector.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
 #include "pslg/closeness.hpp"
@@ -11,10 +12,6 @@
 
 namespace driftmesh {
 namespace {
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 bool usable(const Point& p) {
   return in_coordinate_range(p.x) && in_coordinate_range(p.y);
@@ -27,7 +24,7 @@ void check_values(const Pslg& pslg, const std::string& file) {
   if (!pslg.point_markers.empty() && pslg.point_markers.size() != n)
     fail("there are " + std::to_string(pslg.point_markers.size()) + " markers for " + std::to_string(n) + " points",
          "give none or one for each");
-  if (pslg.attributes_per_point < 0 || pslg.attributes.size() != n * at(pslg.attributes_per_point))
+  if (pslg.attributes_per_point < 0 || pslg.attributes.size() != n * pslg.attributes_per_point)
     fail("the attributes do not match the points", "give attributes_per_point values for each point");
   for (std::size_t i = 0; i < n; ++i)
     if (!usable(pslg.points[i]))
@@ -35,7 +32,7 @@ void check_values(const Pslg& pslg, const std::string& file) {
            "scale the input");
   for (std::size_t i = 0; i < pslg.segments.size(); ++i) {
     const Pslg::Segment& s = pslg.segments[i];
-    if (s.a < 0 || s.b < 0 || at(s.a) >= n || at(s.b) >= n)
+    if (to_index(s.a) >= n || to_index(s.b) >= n)
       fail(segment_name(pslg, static_cast<std::int32_t>(i)) + " names a vertex that does not exist",
            "there are as many vertices as points");
   }
@@ -77,7 +74,7 @@ class SeedCheck {
  private:
   static std::vector<Box> boxes(const Pslg& pslg) {
     std::vector<Box> all;
-    for (const Pslg::Segment& s : pslg.segments) all.push_back(Box::around(pslg.points[at(s.a)], pslg.points[at(s.b)]));
+    for (const Pslg::Segment& s : pslg.segments) all.push_back(Box::around(pslg.points[s.a], pslg.points[s.b]));
     return all;
   }
 
@@ -85,8 +82,8 @@ class SeedCheck {
   void visit(const Box& place, Visit visit) const {
     tree_.search([&](const Box& box) { return box.overlaps(place); },
                  [&](std::int32_t i) {
-                   const Pslg::Segment& s = pslg_.segments[at(i)];
-                   visit(i, pslg_.points[at(s.a)], pslg_.points[at(s.b)]);
+                   const Pslg::Segment& s = pslg_.segments[i];
+                   visit(i, pslg_.points[s.a], pslg_.points[s.b]);
                  });
   }
 

@@ -1,5 +1,7 @@
 #include "pslg/triangle_files.hpp"
 
+#include <utility>
+
 #include "base/read_file.hpp"
 #include "pslg/record_scanner.hpp"
 
@@ -50,11 +52,11 @@ void scan_attributes(RecordScanner& scanner, std::int32_t count, std::vector<dou
 
 NodeTable scan_nodes(RecordScanner& scanner) {
   const NodeHeader header = scan_node_header(scanner);
-  const auto count = static_cast<std::size_t>(header.count);
+  const std::size_t count = header.count;
   NodeTable nodes;
   nodes.attributes_per_point = header.attributes;
   nodes.points.reserve(count);
-  nodes.attributes.reserve(count * static_cast<std::size_t>(header.attributes));
+  nodes.attributes.reserve(count * header.attributes);
   if (header.has_markers) nodes.markers.reserve(count);
   for (std::int32_t i = 0; i < header.count; ++i) {
     scanner.require_element(i, header.count, "vertices");
@@ -93,7 +95,7 @@ EleTable parse_ele(const std::string& file, std::string_view text, const NodeTab
   EleTable table;
   table.attributes_per_triangle = scanner.optional_header("the number of attributes", kMaxAttributes);
   scanner.require_room(count, "triangles", 1 + corners + table.attributes_per_triangle);
-  table.triangles.reserve(static_cast<std::size_t>(count));
+  table.triangles.reserve(count);
   for (std::int32_t i = 0; i < count; ++i) {
     scanner.require_element(i, count, "triangles");
     (void)scanner.integer("the triangle number");
@@ -110,7 +112,7 @@ std::vector<double> parse_area(const std::string& file, std::string_view text, s
   RecordScanner scanner(file, text);
   scanner.require_record("the number of triangles", "the file has no data");
   const std::int32_t count = scanner.header("the number of triangles");
-  if (static_cast<std::size_t>(count) != triangle_count)
+  if (std::cmp_not_equal(count, triangle_count))
     scanner.fail("has area bounds for " + std::to_string(count) + " triangles, but the mesh has " +
                      std::to_string(triangle_count),
                  "give the .area file that belongs to the mesh");

@@ -41,11 +41,11 @@ VertexSizeField::VertexSizeField(BackgroundMesh mesh, std::vector<double> length
 
 double VertexSizeField::edge_length(const Point& p) const {
   const BackgroundMesh::Place place = mesh_.locate(p);
-  const auto& corners = mesh_.triangles()[static_cast<std::size_t>(place.triangle)];
+  const auto& corners = mesh_.triangles()[place.triangle];
   double length = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     if (place.weight[i] == 0) continue;  // not 0 * infinity
-    const double at_corner = lengths_[static_cast<std::size_t>(corners[i])];
+    const double at_corner = lengths_[corners[i]];
     length += place.weight[i] * at_corner;
     shortest = std::min(shortest, at_corner);
     longest = std::max(longest, at_corner);
@@ -64,8 +64,7 @@ TriangleAreaField::TriangleAreaField(BackgroundMesh mesh, const std::vector<doub
 
 double TriangleAreaField::edge_length(const Point& p) const {
   double longest = 0;
-  for (const std::int32_t triangle : mesh_.triangles_at(p))
-    longest = std::max(longest, lengths_[static_cast<std::size_t>(triangle)]);
+  for (const std::int32_t triangle : mesh_.triangles_at(p)) longest = std::max(longest, lengths_[triangle]);
   return longest;
 }
 
@@ -73,7 +72,7 @@ std::vector<double> shortest_at_points(const BackgroundMesh& mesh, const std::ve
   std::vector<double> shortest(mesh.points().size(), std::numeric_limits<double>::infinity());
   for (std::size_t t = 0; t < lengths_of_triangles.size(); ++t)
     for (const std::int32_t corner : mesh.triangles()[t]) {
-      double& at_corner = shortest[static_cast<std::size_t>(corner)];
+      double& at_corner = shortest[corner];
       at_corner = std::min(at_corner, lengths_of_triangles[t]);
     }
   return shortest;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 void require_corners(const std::vector<BackgroundMesh::Triangle>& triangles, std::size_t point_count) {
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const std::int32_t corner : triangles[t])
-      if (corner < 0 || static_cast<std::size_t>(corner) >= point_count)
+      if (to_index(corner) >= point_count)
         throw Error("background mesh: triangle " + std::to_string(t) + " (counted from 0) has the corner " +
                     std::to_string(corner) + ", but there are " + std::to_string(point_count) + " points");
 }
@@ -74,9 +75,7 @@ BackgroundMesh::BackgroundMesh(std::vector<Point> points, std::vector<Triangle> 
 /// Notes what lies across each edge. An edge is on the boundary when no triangle has it in the other direction.
 void BackgroundMesh::connect(const std::vector<Edge>& edges) {
   std::vector<Triangle> neighbours(triangles_.size(), {-1, -1, -1});
-  const auto across = [&](const Edge& edge) -> std::int32_t& {
-    return neighbours[static_cast<std::size_t>(edge.triangle)][edge.corner];
-  };
+  const auto across = [&](const Edge& edge) -> std::int32_t& { return neighbours[edge.triangle][edge.corner]; };
   std::vector<Box> boxes;
   for (std::size_t first = 0, last = 0; first < edges.size(); first = last + 1) {
     last = first;
@@ -84,8 +83,7 @@ void BackgroundMesh::connect(const std::vector<Edge>& edges) {
     if (edges[first].rising == edges[last].rising) {
       boundary_.push_back(edges[first]);
       boxes.emplace_back();
-      for (const std::int32_t end : {edges[first].low, edges[first].high})
-        boxes.back().extend(points_[static_cast<std::size_t>(end)]);
+      for (const std::int32_t end : {edges[first].low, edges[first].high}) boxes.back().extend(points_[end]);
     } else if (last == first + 1) {
       across(edges[first]) = edges[last].triangle;
       across(edges[last]) = edges[first].triangle;
@@ -133,10 +131,10 @@ BackgroundMesh::Place BackgroundMesh::nearest_on_boundary(const Point& p) const 
     return std::pair(corner(edge.triangle, edge.corner), corner(edge.triangle, (edge.corner + 1U) % 3));
   };
   const std::int32_t nearest = boundary_tree_.nearest(p, [&](std::int32_t candidate) {
-    const auto [a, b] = ends(boundary_[static_cast<std::size_t>(candidate)]);
+    const auto [a, b] = ends(boundary_[candidate]);
     return squared_distance_to_segment(p, a, b);
   });
-  const Edge& edge = boundary_[static_cast<std::size_t>(nearest)];
+  const Edge& edge = boundary_[nearest];
   const auto [a, b] = ends(edge);
   const double t = nearest_on_segment(p, a, b);
   Place place{edge.triangle, {}};

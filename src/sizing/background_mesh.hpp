@@ -47,7 +47,7 @@ class BackgroundMesh {
   };
 
   [[nodiscard]] const Point& corner(std::int32_t triangle, std::size_t i) const {
-    return points_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)][i])];
+    return points_[triangles_[triangle][i]];
   }
   template <class Visit>
   void visit_triangles_with(const Point& p, Visit&& visit) const;

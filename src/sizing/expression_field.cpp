@@ -47,8 +47,7 @@ std::string bare_message(const mu::ParserError& error) {
 [[noreturn]] void fail(const mu::ParserError& error, const std::string& expression) {
   std::string what = bare_message(error);
   if (error.GetPos() >= 0)
-    what = "column " + std::to_string(std::min(static_cast<std::size_t>(error.GetPos()), expression.size()) + 1) +
-           ": " + what;
+    what = "column " + std::to_string(std::min<std::size_t>(error.GetPos(), expression.size()) + 1) + ": " + what;
   fail(expression, what, "it may use x, y, pi, e, numbers, + - * / ^ and functions such as sqrt, min, exp");
 }
 

@@ -21,14 +21,13 @@ Neighbours neighbours_along_edges(std::size_t point_count, const std::vector<std
   Neighbours result;
   result.begin.assign(point_count + 1, 0);
   for (const auto& triangle : triangles)
-    for (const std::int32_t corner : triangle) result.begin[static_cast<std::size_t>(corner) + 1] += 2;
+    for (const std::int32_t corner : triangle) result.begin[corner + 1] += 2;
   for (std::size_t i = 0; i < point_count; ++i) result.begin[i + 1] += result.begin[i];
   result.points.resize(result.begin.back());
   std::vector<std::size_t> next(result.begin.begin(), result.begin.end() - 1);
   for (const auto& triangle : triangles)
     for (std::size_t i = 0; i < 3; ++i)
-      for (const std::size_t other : {(i + 1) % 3, (i + 2) % 3})
-        result.points[next[static_cast<std::size_t>(triangle[i])]++] = triangle[other];
+      for (const std::size_t other : {(i + 1) % 3, (i + 2) % 3}) result.points[next[triangle[i]]++] = triangle[other];
   return result;
 }
 
@@ -47,7 +46,7 @@ void limit_gradation(const std::vector<Point>& points, const std::vector<std::ar
     queue.pop();
     if (length > lengths[i]) continue;
     for (std::size_t k = neighbours.begin[i]; k < neighbours.begin[i + 1]; ++k) {
-      const auto j = static_cast<std::size_t>(neighbours.points[k]);
+      const std::int32_t j = neighbours.points[k];
       const double limit = length + gradation * std::sqrt(squared_distance(points[i], points[j]));
       if (limit >= lengths[j]) continue;
       lengths[j] = limit;

@@ -37,7 +37,7 @@ BackgroundMesh background_mesh(const NodeTable& nodes, EleTable elements, const 
 
 /// The first attribute of each point.
 std::vector<double> lengths_at_points(const NodeTable& nodes, const std::string& file) {
-  const auto stride = static_cast<std::size_t>(nodes.attributes_per_point);
+  const std::size_t stride = nodes.attributes_per_point;
   if (stride == 0)
     throw InputError({file}, "its points have no attribute, which would be the target edge length",
                      "add one, or give the .area file with the area bounds of the triangles");
@@ -46,8 +46,7 @@ std::vector<double> lengths_at_points(const NodeTable& nodes, const std::string&
     lengths[i] = nodes.attributes[i * stride];
     if (!(lengths[i] > 0))
       throw InputError({file},
-                       "the target edge length at point " +
-                           std::to_string(i + static_cast<std::size_t>(nodes.first_number)) + " is " +
+                       "the target edge length at point " + std::to_string(i + nodes.first_number) + " is " +
                            std::to_string(lengths[i]),
                        "make the first attribute of every point a positive length");
   }

@@ -12,7 +12,7 @@ namespace driftmesh {
 
 TriangleWalk::TriangleWalk(const std::vector<Point>& points, const std::vector<Triangle>& triangles,
                            const std::vector<Triangle>& neighbours) {
-  const auto point = [&](std::int32_t i) { return points[static_cast<std::size_t>(i)]; };
+  const auto point = [&](std::int32_t i) { return points[i]; };
   Box all;
   for (const Triangle& triangle : triangles)
     for (const std::int32_t i : triangle) all.extend(point(i));
@@ -36,7 +36,7 @@ TriangleWalk::TriangleWalk(const std::vector<Point>& points, const std::vector<T
     for (std::size_t i = 0; i < 3; ++i) {
       node.corner[i] = point(triangles[t][i]);
       const std::int32_t neighbour = neighbours[t][i];
-      node.next[i] = neighbour < 0 ? -1 : node_of[static_cast<std::size_t>(neighbour)];
+      node.next[i] = neighbour < 0 ? -1 : node_of[neighbour];
     }
     places_.push_back(place[t]);
   }
@@ -56,7 +56,7 @@ std::size_t TriangleWalk::start_for(const Point& p) const {
   const std::size_t bucket = place >> bucket_shift_;
   const auto begin = places_.begin();
   const auto found = std::lower_bound(begin + bucket_[bucket], begin + bucket_[bucket + 1], place);
-  return std::min(static_cast<std::size_t>(found - begin), nodes_.size() - 1);
+  return std::min<std::size_t>(found - begin, nodes_.size() - 1);
 }
 
 TriangleWalk::Found TriangleWalk::find(const Point& p) const {
@@ -66,11 +66,11 @@ TriangleWalk::Found TriangleWalk::find(const Point& p) const {
     const Node& node = nodes_[at];
     const auto& [a, b, c] = node.corner;
     const std::array<double, 3> opposite{orient2d(b, c, p), orient2d(c, a, p), orient2d(a, b, p)};
-    const auto least = static_cast<std::size_t>(std::min_element(opposite.begin(), opposite.end()) - opposite.begin());
+    const std::size_t least = std::min_element(opposite.begin(), opposite.end()) - opposite.begin();
     if (opposite[least] > 0) return {node.triangle, opposite};
     const std::int32_t next = node.next[(least + 1) % 3];
     if (opposite[least] == 0 || next < 0) return {};
-    at = static_cast<std::size_t>(next);
+    at = next;
   }
   return {};
 }

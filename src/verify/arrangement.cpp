@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "base/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/arrangement_sweep.hpp"
 
@@ -31,29 +32,28 @@ Arrangement::Arrangement(std::vector<Point> points, std::vector<Link> links, std
 }
 
 std::int32_t Arrangement::tail(std::int32_t half) const {
-  const Link& link = links_[index(half) / 2];
+  const Link& link = links_[half / 2];
   return half % 2 == 0 ? link.a : link.b;
 }
 
 std::span<const std::int32_t> Arrangement::outgoing(std::int32_t point) const {
-  const auto first = index(first_outgoing_[index(point)]), last = index(first_outgoing_[index(point) + 1]);
+  const auto first = first_outgoing_[point], last = first_outgoing_[point + 1];
   return std::span(outgoing_).subspan(first, last - first);
 }
 
 // Counterclockwise from straight down (exclusive): the right half plane comes first.
 void Arrangement::sort_outgoing() {
   first_outgoing_.assign(points_.size() + 1, 0);
-  for (const Link& link : links_) ++first_outgoing_[index(link.a) + 1], ++first_outgoing_[index(link.b) + 1];
+  for (const Link& link : links_) ++first_outgoing_[link.a + 1], ++first_outgoing_[link.b + 1];
   std::partial_sum(first_outgoing_.begin(), first_outgoing_.end(), first_outgoing_.begin());
   outgoing_.resize(2 * links_.size());
   std::vector<std::int32_t> next(first_outgoing_.begin(), first_outgoing_.end() - 1);
-  for (std::int32_t half = 0; index(half) < outgoing_.size(); ++half)
-    outgoing_[index(next[index(tail(half))]++)] = half;
+  for (const std::int32_t half : first_ids<std::int32_t>(outgoing_.size())) outgoing_[next[tail(half)]++] = half;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const Point& center = points_[p];
     std::sort(outgoing_.begin() + first_outgoing_[p], outgoing_.begin() + first_outgoing_[p + 1],
               [&](std::int32_t a, std::int32_t b) {
-                const Point &to_a = points_[index(tail(a ^ 1))], &to_b = points_[index(tail(b ^ 1))];
+                const Point &to_a = points_[tail(a ^ 1)], &to_b = points_[tail(b ^ 1)];
                 const bool right_a = points_right(center, to_a), right_b = points_right(center, to_b);
                 return right_a != right_b ? right_a : orient2d(center, to_a, to_b) > 0;
               });
@@ -65,13 +65,13 @@ std::vector<std::int32_t> Arrangement::trace_loops() {
   std::vector<std::int32_t> next(outgoing_.size());  // at the head: the outgoing half-edge clockwise from the way back
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const auto fan = outgoing(static_cast<std::int32_t>(p));
-    for (std::size_t i = 0; i < fan.size(); ++i) next[index(fan[i] ^ 1)] = fan[(i + fan.size() - 1) % fan.size()];
+    for (std::size_t i = 0; i < fan.size(); ++i) next[fan[i] ^ 1] = fan[(i + fan.size() - 1) % fan.size()];
   }
   std::vector<std::int32_t> loop(outgoing_.size(), kNoLoop);
   std::int32_t loops = 0;
-  for (std::int32_t start = 0; index(start) < loop.size(); ++start) {
-    if (loop[index(start)] != kNoLoop) continue;
-    for (std::int32_t half = start; loop[index(half)] == kNoLoop; half = next[index(half)]) loop[index(half)] = loops;
+  for (const std::int32_t start : first_ids<std::int32_t>(loop.size())) {
+    if (loop[start] != kNoLoop) continue;
+    for (std::int32_t half = start; loop[half] == kNoLoop; half = next[half]) loop[half] = loops;
     ++loops;
   }
   return loop;
@@ -84,37 +84,37 @@ void Arrangement::join_faces(const std::vector<std::int32_t>& below_point,
   const std::vector<std::int32_t> loop = trace_loops();
   const std::int32_t loops = loop.empty() ? 0 : *std::max_element(loop.begin(), loop.end()) + 1;
   const std::int32_t infinity = loops;
-  DisjointSets sets(index(loops) + 1);
+  DisjointSets sets(loops + 1);
   const auto loop_above = [&](std::int32_t link) {
     if (link == ArrangementSweep::kNothing) return infinity;
-    const Link& l = links_[index(link)];
-    return loop[side(link, !points_right(points_[index(l.a)], points_[index(l.b)]))];
+    const Link& l = links_[link];
+    return loop[side(link, !points_right(points_[l.a], points_[l.b]))];
   };
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const auto fan = outgoing(static_cast<std::int32_t>(p));
-    const bool faces_left = !fan.empty() && points_right(points_[p], points_[index(tail(fan.back() ^ 1))]);
-    if (faces_left) sets.join(loop[index(fan.back())], loop_above(below_point[p]));
+    const bool faces_left = !fan.empty() && points_right(points_[p], points_[tail(fan.back() ^ 1)]);
+    if (faces_left) sets.join(loop[fan.back()], loop_above(below_point[p]));
   }
 
-  std::vector<std::int32_t> face_of_root(index(loops) + 1, -1);
-  face_of_root[index(sets.find(infinity))] = kUnbounded;
+  std::vector<std::int32_t> face_of_root(loops + 1, -1);
+  face_of_root[sets.find(infinity)] = kUnbounded;
   loops_of_face_.assign(1, 0);
   const auto face_of_loop = [&](std::int32_t l) {
-    std::int32_t& face = face_of_root[index(sets.find(l))];
+    std::int32_t& face = face_of_root[sets.find(l)];
     if (face < 0) {
       face = static_cast<std::int32_t>(loops_of_face_.size());
       loops_of_face_.push_back(0);
     }
     return face;
   };
-  for (std::int32_t l = 0; l < loops; ++l) ++loops_of_face_[index(face_of_loop(l))];
+  for (std::int32_t l = 0; l < loops; ++l) ++loops_of_face_[face_of_loop(l)];
   face_of_side_.resize(loop.size());
   for (std::size_t half = 0; half < loop.size(); ++half) face_of_side_[half] = face_of_loop(loop[half]);
   face_of_point_.assign(points_.size(), kOnBoundary);
   for (std::size_t p = 0; p < points_.size(); ++p) {
     if (!outgoing(static_cast<std::int32_t>(p)).empty()) continue;
     face_of_point_[p] = face_of_loop(loop_above(below_point[p]));
-    ++loops_of_face_[index(face_of_point_[p])];
+    ++loops_of_face_[face_of_point_[p]];
   }
   face_of_query_.reserve(below_query.size());
   for (const std::int32_t below : below_query)

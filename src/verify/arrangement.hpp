@@ -35,10 +35,10 @@ class Arrangement {
   [[nodiscard]] std::int32_t left_face(std::int32_t link) const { return face_of_side_[side(link, false)]; }
   [[nodiscard]] std::int32_t right_face(std::int32_t link) const { return face_of_side_[side(link, true)]; }
   /// The face around a point with no link, kOnBoundary for other points.
-  [[nodiscard]] std::int32_t face_of_point(std::int32_t point) const { return face_of_point_[index(point)]; }
+  [[nodiscard]] std::int32_t face_of_point(std::int32_t point) const { return face_of_point_[point]; }
   [[nodiscard]] std::int32_t face_of_query(std::size_t query) const { return face_of_query_[query]; }
   /// The number of connected parts of a face's boundary; a point with no link counts as one.
-  [[nodiscard]] std::int32_t boundary_parts(std::int32_t face) const { return loops_of_face_[index(face)]; }
+  [[nodiscard]] std::int32_t boundary_parts(std::int32_t face) const { return loops_of_face_[face]; }
 
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }
@@ -46,8 +46,7 @@ class Arrangement {
  private:
   friend class ArrangementSweep;
   // A side of a link is a half-edge: 2 * link for the way a -> b, 2 * link + 1 for b -> a, with the face on its left.
-  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-  static std::size_t side(std::int32_t link, bool reversed) { return 2 * index(link) + (reversed ? 1 : 0); }
+  static std::int32_t side(std::int32_t link, bool reversed) { return 2 * link + (reversed ? 1 : 0); }
 
   [[nodiscard]] std::int32_t tail(std::int32_t half) const;
   [[nodiscard]] std::span<const std::int32_t> outgoing(std::int32_t point) const;

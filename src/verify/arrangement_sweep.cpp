@@ -19,9 +19,8 @@ bool lexicographically_less(const Point& a, const Point& b) {
 std::vector<std::int32_t> sorted_order(std::span<const Point> points) {
   std::vector<std::int32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    return lexicographically_less(points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)]);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::int32_t a, std::int32_t b) { return lexicographically_less(points[a], points[b]); });
   return order;
 }
 
@@ -29,19 +28,16 @@ template <class KeyOf>
 void group_by(std::size_t keys, std::size_t items, const KeyOf& key_of, std::vector<std::int32_t>& first,
               std::vector<std::int32_t>& grouped) {
   first.assign(keys + 1, 0);
-  for (std::size_t i = 0; i < items; ++i) ++first[static_cast<std::size_t>(key_of(i)) + 1];
+  for (std::size_t i = 0; i < items; ++i) ++first[key_of(i) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
   grouped.resize(items);
   std::vector<std::int32_t> next(first.begin(), first.end() - 1);
-  for (std::size_t i = 0; i < items; ++i)
-    grouped[static_cast<std::size_t>(next[static_cast<std::size_t>(key_of(i))]++)] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < items; ++i) grouped[next[key_of(i)]++] = static_cast<std::int32_t>(i);
 }
 
 std::span<const std::int32_t> group(const std::vector<std::int32_t>& first, const std::vector<std::int32_t>& grouped,
                                     std::int32_t key) {
-  const auto k = static_cast<std::size_t>(key);
-  return std::span(grouped).subspan(static_cast<std::size_t>(first[k]),
-                                    static_cast<std::size_t>(first[k + 1] - first[k]));
+  return std::span(grouped).subspan(first[key], first[key + 1] - first[key]);
 }
 
 }  // namespace
@@ -68,10 +64,10 @@ void ArrangementSweep::run() {
   for (const std::int32_t point : point_order) {
     const Point& p = at(point);
     for (; query != query_order.end(); ++query) {
-      const Point& q = queries_[static_cast<std::size_t>(*query)];
+      const Point& q = queries_[*query];
       if (lexicographically_less(p, q)) break;
       const bool has_links = !group(first_low_, by_low_, point).empty() || !group(first_high_, by_high_, point).empty();
-      locate_query(static_cast<std::size_t>(*query), q == p && has_links);
+      locate_query(*query, q == p && has_links);
     }
     visit_point(point);
     if (conflict_) return;
@@ -124,24 +120,23 @@ void ArrangementSweep::visit_point(std::int32_t point) {
     return;
   }
   const std::int32_t below = above == status_.begin() ? kNothing : *std::prev(above);
-  below_point_[static_cast<std::size_t>(point)] = below;
+  below_point_[point] = below;
   start_links(point);
   if (conflict_) return;
-  const auto first = below == kNothing ? status_.begin() : std::next(place_[static_cast<std::size_t>(below)]);
+  const auto first = below == kNothing ? status_.begin() : std::next(place_[below]);
   if (first != status_.end()) check_neighbours(below, first);
   if (above != status_.end() && above != first) check_neighbours(*std::prev(above), above);
 }
 
 void ArrangementSweep::end_links(std::int32_t point) {
-  for (const std::int32_t link : group(first_high_, by_high_, point))
-    status_.erase(place_[static_cast<std::size_t>(link)]);
+  for (const std::int32_t link : group(first_high_, by_high_, point)) status_.erase(place_[link]);
 }
 
 void ArrangementSweep::start_links(std::int32_t point) {
   for (const std::int32_t link : group(first_low_, by_low_, point)) {
     const auto [place, inserted] = status_.insert(link);
     if (!inserted) return report("overlap", link, *place);
-    place_[static_cast<std::size_t>(link)] = place;
+    place_[link] = place;
   }
 }
 

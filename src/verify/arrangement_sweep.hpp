@@ -44,8 +44,8 @@ class ArrangementSweep {
   };
   using Status = std::set<std::int32_t, BelowOrder>;  // active links, lowest first
 
-  [[nodiscard]] const Point& at(std::int32_t point) const { return points_[static_cast<std::size_t>(point)]; }
-  [[nodiscard]] const Span& span(std::int32_t link) const { return spans_[static_cast<std::size_t>(link)]; }
+  [[nodiscard]] const Point& at(std::int32_t point) const { return points_[point]; }
+  [[nodiscard]] const Span& span(std::int32_t link) const { return spans_[link]; }
   [[nodiscard]] double side_of(std::int32_t link, const Point& p) const;
   [[nodiscard]] bool link_below_link(std::int32_t a, std::int32_t b) const;
   [[nodiscard]] bool meet_wrongly(std::int32_t a, std::int32_t b) const;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/id_vector.hpp"
+
 namespace driftmesh {
 
 Chains::Chains(const MeshPiece& mesh, const Subsegments& subsegments,
@@ -13,30 +15,30 @@ Chains::Chains(const MeshPiece& mesh, const Subsegments& subsegments,
   const auto count = static_cast<std::int32_t>(mesh.points.size());
   for (std::int32_t v = 0; v < count; ++v) {
     const std::size_t degree = subsegments.at(v).size();
-    ends_chain_[static_cast<std::size_t>(v)] = degree != 0 && (degree != 2 || is_corner(v));
+    ends_chain_[v] = degree != 0 && (degree != 2 || is_corner(v));
   }
   for (std::int32_t v = 0; v < count; ++v)
-    if (ends_chain_[static_cast<std::size_t>(v)])
+    if (ends_chain_[v])
       for (const std::int32_t s : subsegments.at(v)) follow(v, s);
-  for (std::int32_t s = 0; static_cast<std::size_t>(s) < subsegments.size(); ++s) {  // loops without a corner are left
-    if (taken_[static_cast<std::size_t>(s)]) continue;
-    ends_chain_[static_cast<std::size_t>(subsegments[s].a)] = 1;
+  for (const std::int32_t s : subsegments.ids()) {  // loops without a corner are left
+    if (taken_[s]) continue;
+    ends_chain_[subsegments[s].a] = 1;
     follow(subsegments[s].a, s);
   }
 }
 
 void Chains::follow(std::int32_t corner, std::int32_t subsegment) {
-  if (taken_[static_cast<std::size_t>(subsegment)]) return;
+  if (taken_[subsegment]) return;
   const auto number = static_cast<std::int32_t>(chains_.size());
   Chain& chain = chains_.emplace_back();
   chain.vertices.push_back(corner);
   for (;;) {
-    taken_[static_cast<std::size_t>(subsegment)] = 1;
+    taken_[subsegment] = 1;
     chain.subsegments.push_back(subsegment);
     const std::int32_t v = subsegments_->other_end(subsegment, chain.vertices.back());
     chain.vertices.push_back(v);
-    if (ends_chain_[static_cast<std::size_t>(v)]) return;
-    through_[static_cast<std::size_t>(v)] = number;
+    if (ends_chain_[v]) return;
+    through_[v] = number;
     const auto both = subsegments_->at(v);
     subsegment = both[0] == subsegment ? both[1] : both[0];
   }
@@ -45,9 +47,9 @@ void Chains::follow(std::int32_t corner, std::int32_t subsegment) {
 bool bends_at(const MeshPiece& mesh, const Subsegments& subsegments, std::int32_t point) {
   const auto both = subsegments.at(point);
   if (both.size() != 2) return true;
-  const Point& hub = mesh.points[static_cast<std::size_t>(point)];
-  const Point& a = mesh.points[static_cast<std::size_t>(subsegments.other_end(both[0], point))];
-  const Point& b = mesh.points[static_cast<std::size_t>(subsegments.other_end(both[1], point))];
+  const Point& hub = mesh.points[point];
+  const Point& a = mesh.points[subsegments.other_end(both[0], point)];
+  const Point& b = mesh.points[subsegments.other_end(both[1], point)];
   const double ax = a.x - hub.x, ay = a.y - hub.y, bx = b.x - hub.x, by = b.y - hub.y;
   return !(std::fabs(ax * by - ay * bx) <= 1e-6 * -(ax * bx + ay * by));
 }

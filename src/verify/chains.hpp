@@ -13,8 +13,6 @@ namespace driftmesh {
 /// that have exactly two subsegments, so it is what became of one input segment.
 class Chains {
  public:
-  static constexpr std::int32_t kNone = -1;
-
   struct Chain {
     std::vector<std::int32_t> vertices;     ///< from end to end
     std::vector<std::int32_t> subsegments;  ///< subsegments[i] joins vertices[i] and vertices[i + 1]
@@ -27,7 +25,7 @@ class Chains {
   [[nodiscard]] const std::vector<Chain>& all() const { return chains_; }
   [[nodiscard]] const Subsegments& subsegments() const { return *subsegments_; }
   /// The chain that has `point` strictly between its ends, or kNone.
-  [[nodiscard]] std::int32_t through(std::int32_t point) const { return through_[static_cast<std::size_t>(point)]; }
+  [[nodiscard]] std::int32_t through(std::int32_t point) const { return through_[point]; }
 
  private:
   void follow(std::int32_t corner, std::int32_t subsegment);

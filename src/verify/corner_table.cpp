@@ -7,13 +7,12 @@ namespace driftmesh {
 CornerTable::CornerTable(const MeshPiece& mesh) : first_(mesh.points.size() + 1), corners_(3 * mesh.triangles.size()) {
   (void)narrow<std::uint32_t>(corners_.size(), "triangle corners to check");
   for (const auto& triangle : mesh.triangles)
-    for (const std::int32_t v : triangle) ++first_[static_cast<std::size_t>(v)];
+    for (const std::int32_t v : triangle) ++first_[v];
   std::uint32_t sum = 0;
   for (std::uint32_t& entry : first_) entry = sum += entry;
   // Each entry is now the end of its group; filling backwards turns it into the beginning.
   for (std::size_t t = mesh.triangles.size(); t-- > 0;)
-    for (std::size_t k = 3; k-- > 0;)
-      corners_[--first_[static_cast<std::size_t>(mesh.triangles[t][k])]] = static_cast<std::uint32_t>(3 * t + k);
+    for (std::size_t k = 3; k-- > 0;) corners_[--first_[mesh.triangles[t][k]]] = static_cast<std::uint32_t>(3 * t + k);
 }
 
 }  // namespace driftmesh

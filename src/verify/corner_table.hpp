@@ -16,8 +16,7 @@ class CornerTable {
   explicit CornerTable(const MeshPiece& mesh);
 
   [[nodiscard]] std::span<const std::uint32_t> around(std::int32_t point) const {
-    const auto p = static_cast<std::size_t>(point);
-    return {corners_.data() + first_[p], first_[p + 1] - first_[p]};
+    return {corners_.data() + first_[point], first_[point + 1] - first_[point]};
   }
   [[nodiscard]] bool used(std::int32_t point) const { return !around(point).empty(); }
 

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/extended.hpp"
 #include "verify/point_index.hpp"
@@ -15,15 +16,11 @@ namespace {
 
 constexpr std::int32_t kNoRegion = -1;
 
-std::size_t index(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// The convex hull counterclockwise, with the points on its edges (Andrew 1979). Empty when all points are collinear.
 std::vector<std::int32_t> convex_hull(const std::vector<Point>& points) {
   std::vector<std::int32_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
-  const auto at = [&](std::int32_t i) -> const Point& { return points[index(i)]; };
+  const auto at = [&](std::int32_t i) -> const Point& { return points[i]; };
   std::sort(order.begin(), order.end(),
             [&](std::int32_t a, std::int32_t b) { return std::tie(at(a).x, at(a).y) < std::tie(at(b).x, at(b).y); });
   std::vector<std::int32_t> hull;
@@ -72,29 +69,29 @@ Domain::Domain(const Pslg& input) {
 void Domain::take_points(const Pslg& input, std::vector<std::int32_t>& number) {
   PointIndex points(input.points);
   std::vector<std::int32_t> number_of_first(input.points.size(), -1);
-  for (std::int32_t i = 0; index(i) < input.points.size(); ++i) {
-    const Point& p = input.points[index(i)];
+  for (const std::int32_t i : first_ids<std::int32_t>(input.points.size())) {
+    const Point& p = input.points[i];
     if (!in_coordinate_range(p.x) || !in_coordinate_range(p.y)) {
       conflict_ = "the point " + place_words(p) + " is outside the range of coordinates";
       return;
     }
     const std::int32_t first = points.add(i);
     if (first == i) {
-      number_of_first[index(i)] = static_cast<std::int32_t>(points_.size());
+      number_of_first[i] = static_cast<std::int32_t>(points_.size());
       points_.push_back(p);
     }
-    number.push_back(number_of_first[index(first)]);
+    number.push_back(number_of_first[first]);
   }
 }
 
 void Domain::take_segments(const Pslg& input, const std::vector<std::int32_t>& number) {
   std::vector<Segment> all;
   for (const auto& s : input.segments) {
-    if (s.a < 0 || s.b < 0 || index(s.a) >= number.size() || index(s.b) >= number.size()) {
+    if (to_index(s.a) >= number.size() || to_index(s.b) >= number.size()) {
       conflict_ = "a segment names a point that does not exist";
       return;
     }
-    const auto [a, b] = std::minmax(number[index(s.a)], number[index(s.b)]);
+    const auto [a, b] = std::minmax(number[s.a], number[s.b]);
     if (a != b) all.push_back({a, b, s.marker, 0, 0});
   }
   const auto ends = [](const Segment& s) { return std::pair(s.a, s.b); };
@@ -112,18 +109,17 @@ void Domain::take_hull() {
 }
 
 void Domain::classify(const Pslg& input, const Arrangement& arrangement) {
-  inside_.assign(index(arrangement.face_count()), 1);
+  inside_.assign(arrangement.face_count(), 1);
   inside_[Arrangement::kUnbounded] = 0;
   for (std::size_t hole = 0; hole < input.holes.size(); ++hole)
-    if (const std::int32_t face = arrangement.face_of_query(hole); face != Arrangement::kOnBoundary)
-      inside_[index(face)] = 0;
+    if (const std::int32_t face = arrangement.face_of_query(hole); face != Arrangement::kOnBoundary) inside_[face] = 0;
 
   regions_ = input.regions;
   region_of_face_.assign(inside_.size(), kNoRegion);
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     const std::int32_t face = arrangement.face_of_query(input.holes.size() + r);
     if (face == Arrangement::kOnBoundary || !inside(face)) continue;
-    region_of_face_[index(face)] = static_cast<std::int32_t>(r);
+    region_of_face_[face] = static_cast<std::int32_t>(r);
     has_regions_ = true;
   }
 
@@ -132,12 +128,12 @@ void Domain::classify(const Pslg& input, const Arrangement& arrangement) {
     Segment& s = segments_[i];
     s.left_face = arrangement.left_face(static_cast<std::int32_t>(i));
     s.right_face = arrangement.right_face(static_cast<std::int32_t>(i));
-    if (inside(s)) point_inside_[index(s.a)] = point_inside_[index(s.b)] = 1;
+    if (inside(s)) point_inside_[s.a] = point_inside_[s.b] = 1;
   }
   for (std::size_t p = 0; p < points_.size(); ++p)
     if (const std::int32_t face = arrangement.face_of_point(static_cast<std::int32_t>(p));
         face != Arrangement::kOnBoundary)
-      point_inside_[p] = inside_[index(face)];
+      point_inside_[p] = inside_[face];
 }
 
 // Euler number: points minus segments of the closed domain, plus for each open face 2 minus the parts of its boundary
@@ -149,7 +145,7 @@ void Domain::measure(const Arrangement& arrangement) {
     if (!inside(s)) continue;
     --euler_number_;
     if (inside(s.left_face) && inside(s.right_face)) continue;
-    const Point &a = points_[index(s.a)], &b = points_[index(s.b)];
+    const Point &a = points_[s.a], &b = points_[s.b];
     const long double cross = cross_extended(points_.front(), a, b);
     twice_area.add(inside(s.left_face) ? cross : -cross);
     tolerance += split_tolerance(a, b) * std::hypot(b.x - a.x, b.y - a.y);
@@ -169,8 +165,8 @@ double Domain::split_tolerance(const Point& a, const Point& b) {
 }
 
 const Pslg::Region* Domain::region_of(std::int32_t face) const {
-  const std::int32_t region = region_of_face_[index(face)];
-  return region == kNoRegion ? nullptr : &regions_[index(region)];
+  const std::int32_t region = region_of_face_[face];
+  return region == kNoRegion ? nullptr : &regions_[region];
 }
 
 }  // namespace driftmesh

@@ -32,12 +32,10 @@ class Domain {
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
 
-  [[nodiscard]] bool inside(std::int32_t face) const { return inside_[static_cast<std::size_t>(face)] != 0; }
+  [[nodiscard]] bool inside(std::int32_t face) const { return inside_[face] != 0; }
   [[nodiscard]] bool inside(const Segment& s) const { return inside(s.left_face) || inside(s.right_face); }
   /// Whether a point lies in the closed domain.
-  [[nodiscard]] bool point_inside(std::int32_t point) const {
-    return point_inside_[static_cast<std::size_t>(point)] != 0;
-  }
+  [[nodiscard]] bool point_inside(std::int32_t point) const { return point_inside_[point] != 0; }
 
   [[nodiscard]] double area() const { return area_; }
   /// How far sums of areas may differ because split points on the boundary are rounded.

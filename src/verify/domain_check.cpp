@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/id_vector.hpp"
 #include "verify/arrangement.hpp"
 #include "verify/extended.hpp"
 #include "verify/words.hpp"
@@ -14,12 +15,7 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::int32_t kNone = -1;
 constexpr std::int32_t kUnknownFace = -1;
-
-std::size_t index(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The boundary alone, its points renumbered.
 Arrangement arrange_boundary(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary) {
@@ -28,7 +24,7 @@ Arrangement arrange_boundary(const MeshPiece& mesh, const std::vector<MeshPiece:
   std::vector<Arrangement::Link> links;
   const auto take = [&](std::int32_t v) {
     const auto [entry, added] = number.try_emplace(v, static_cast<std::int32_t>(points.size()));
-    if (added) points.push_back(mesh.points[index(v)]);
+    if (added) points.push_back(mesh.points[v]);
     return entry->second;
   };
   links.reserve(boundary.size());
@@ -48,10 +44,10 @@ void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& 
     return;
   }
   enum : char { kUnseen, kCovered, kBare };
-  std::vector<char> state(index(arrangement.face_count()), kUnseen);
+  std::vector<char> state(arrangement.face_count(), kUnseen);
   state[Arrangement::kUnbounded] = kBare;
   const auto expect = [&](std::int32_t face, char expected, std::size_t edge) {
-    char& known = state[index(face)];
+    char& known = state[face];
     if (known == kUnseen) known = expected;
     if (known != expected)
       findings.add(Flaw::overlap, [&] {
@@ -71,7 +67,7 @@ std::vector<char> DomainCheck::find_corners(const MeshPiece& mesh, const Domain&
                                             const PointIndex& mesh_points) {
   std::vector<char> corner(mesh.points.size());
   for (const Point& p : domain.points())
-    if (const std::int32_t v = mesh_points.find(p); v != PointIndex::kNone) corner[index(v)] = 1;
+    if (const std::int32_t v = mesh_points.find(p); v != kNone) corner[v] = 1;
   return corner;
 }
 
@@ -88,7 +84,7 @@ DomainCheck::DomainCheck(const MeshPiece& mesh, const Domain& domain, const Poin
 
 void DomainCheck::check_points() {
   for (std::size_t p = 0; p < vertex_of_point_.size(); ++p)
-    if (domain_.point_inside(static_cast<std::int32_t>(p)) && vertex_of_point_[p] == PointIndex::kNone)
+    if (domain_.point_inside(static_cast<std::int32_t>(p)) && vertex_of_point_[p] == kNone)
       findings_.add(Flaw::point_missing, [&] {
         return fmt::format("the input point {} lies in the domain and is not a vertex",
                            place_words(domain_.points()[p]));
@@ -107,33 +103,31 @@ void DomainCheck::check_chains() {
   std::unordered_map<std::uint64_t, std::int32_t> segment_between;  // vertices of the mesh
   const auto& segments = domain_.segments();
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    const std::int32_t a = vertex_of_point_[index(segments[i].a)], b = vertex_of_point_[index(segments[i].b)];
+    const std::int32_t a = vertex_of_point_[segments[i].a], b = vertex_of_point_[segments[i].b];
     if (a != kNone && b != kNone) segment_between.emplace(key(a, b), static_cast<std::int32_t>(i));
   }
   std::vector<char> found(segments.size());
   for (std::size_t c = 0; c < chains_.all().size(); ++c) {
     const Chains::Chain& chain = chains_.all()[c];
     const auto entry = segment_between.find(key(chain.vertices.front(), chain.vertices.back()));
-    if (entry == segment_between.end() || !domain_.inside(segments[index(entry->second)]) ||
-        found[index(entry->second)]) {
+    if (entry == segment_between.end() || !domain_.inside(segments[entry->second]) || found[entry->second]) {
       findings_.add(Flaw::unknown_subsegment, [&] {
         return chain_words(chain) + (entry == segment_between.end() ? " joins points that no input segment joins"
-                                     : found[index(entry->second)]  ? " doubles another one"
+                                     : found[entry->second]         ? " doubles another one"
                                                                     : " is an input segment outside the domain");
       });
       continue;
     }
-    found[index(entry->second)] = 1;
+    found[entry->second] = 1;
     segment_of_chain_[c] = entry->second;
-    const Domain::Segment& segment = segments[index(entry->second)];
-    check_chain(chain, segment, vertex_of_point_[index(segment.a)] != chain.vertices.front());
+    const Domain::Segment& segment = segments[entry->second];
+    check_chain(chain, segment, vertex_of_point_[segment.a] != chain.vertices.front());
   }
   for (std::size_t i = 0; i < segments.size(); ++i)
     if (!found[i] && domain_.inside(segments[i]))
       findings_.add(Flaw::segment_missing, [&] {
         return fmt::format("no chain of subsegments joins the ends {} and {} of an input segment",
-                           place_words(domain_.points()[index(segments[i].a)]),
-                           place_words(domain_.points()[index(segments[i].b)]));
+                           place_words(domain_.points()[segments[i].a]), place_words(domain_.points()[segments[i].b]));
       });
 }
 
@@ -156,7 +150,7 @@ void DomainCheck::check_chain(const Chains::Chain& chain, const Domain::Segment&
 }
 
 void DomainCheck::check_side(std::int32_t subsegment, std::int32_t triangle, std::int32_t face) {
-  const bool covered = triangle != Subsegments::kNone, expected = domain_.inside(face);
+  const bool covered = triangle != kNone, expected = domain_.inside(face);
   if (covered == expected) return;
   const MeshPiece::Edge& edge = chains_.subsegments()[subsegment];
   if (expected)
@@ -165,14 +159,14 @@ void DomainCheck::check_side(std::int32_t subsegment, std::int32_t triangle, std
     });
   else
     findings_.add(face == Arrangement::kUnbounded ? Flaw::outside_filled : Flaw::hole_filled, [&] {
-      return triangle_words(mesh_, index(triangle)) + " lies " +
+      return triangle_words(mesh_, triangle) + " lies " +
              (face == Arrangement::kUnbounded ? "outside the domain" : "in a hole") + ", at " +
              edge_words(mesh_, edge.a, edge.b);
     });
 }
 
 void DomainCheck::check_straight(const Chains::Chain& chain) {
-  const auto at = [&](std::size_t i) -> const Point& { return mesh_.points[index(chain.vertices[i])]; };
+  const auto at = [&](std::size_t i) -> const Point& { return mesh_.points[chain.vertices[i]]; };
   const std::size_t last = chain.vertices.size() - 1;
   const Point &a = at(0), &b = at(last);
   const long double length = std::sqrt(dot_extended(a, b, b)), tolerance = Domain::split_tolerance(a, b);
@@ -216,14 +210,14 @@ void DomainCheck::check_euler(std::int64_t used_points, std::int64_t boundary_ed
 void DomainCheck::find_faces(DisjointSets& parts) {
   std::vector<std::int32_t> face_of_part(mesh_.triangles.size(), kUnknownFace);
   const auto note = [&](std::int32_t triangle, std::int32_t face) {
-    if (triangle != Subsegments::kNone) face_of_part[index(parts.find(triangle))] = face;
+    if (triangle != kNone) face_of_part[parts.find(triangle)] = face;
   };
   const Subsegments& subsegments = chains_.subsegments();
   for (std::size_t c = 0; c < chains_.all().size(); ++c) {
     if (segment_of_chain_[c] == kNone) continue;
     const Chains::Chain& chain = chains_.all()[c];
-    const Domain::Segment& segment = domain_.segments()[index(segment_of_chain_[c])];
-    const bool reversed = vertex_of_point_[index(segment.a)] != chain.vertices.front();
+    const Domain::Segment& segment = domain_.segments()[segment_of_chain_[c]];
+    const bool reversed = vertex_of_point_[segment.a] != chain.vertices.front();
     for (std::size_t i = 0; i < chain.subsegments.size(); ++i) {
       const std::int32_t s = chain.subsegments[i], from = chain.vertices[i];
       note(subsegments.left(s, from), reversed ? segment.right_face : segment.left_face);
@@ -231,8 +225,8 @@ void DomainCheck::find_faces(DisjointSets& parts) {
     }
   }
   face_of_triangle_.resize(mesh_.triangles.size());
-  for (std::int32_t t = 0; index(t) < face_of_triangle_.size(); ++t)
-    face_of_triangle_[index(t)] = face_of_part[index(parts.find(t))];
+  for (const std::int32_t t : first_ids<std::int32_t>(face_of_triangle_.size()))
+    face_of_triangle_[t] = face_of_part[parts.find(t)];
 }
 
 void DomainCheck::check_regions() {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/id_vector.hpp"
+
 namespace driftmesh {
 
 void Fan::gather(const MeshPiece& mesh, std::span<const std::uint32_t> corners) {
@@ -18,8 +20,8 @@ void Fan::gather(const MeshPiece& mesh, std::span<const std::uint32_t> corners) 
     const auto found = std::lower_bound(spokes_.begin(), spokes_.end(), spokes_[i].prev,
                                         [](const Spoke& spoke, std::int32_t next) { return spoke.next < next; });
     if (found == spokes_.end() || found->next != spokes_[i].prev) continue;
-    const auto j = static_cast<std::size_t>(found - spokes_.begin());
-    ccw_[i] = static_cast<std::int32_t>(j);
+    const std::int32_t j = static_cast<std::int32_t>(found - spokes_.begin());
+    ccw_[i] = j;
     cw_[j] = static_cast<std::int32_t>(i);
   }
 }
@@ -28,9 +30,7 @@ Fan::Shape Fan::shape() {
   Shape shape;
   seen_.assign(spokes_.size(), 0);
   const auto follow = [&](std::size_t start) {
-    for (auto i = static_cast<std::int32_t>(start); i != kNone && !seen_[static_cast<std::size_t>(i)];
-         i = ccw_[static_cast<std::size_t>(i)])
-      seen_[static_cast<std::size_t>(i)] = 1;
+    for (auto i = static_cast<std::int32_t>(start); i != kNone && !seen_[i]; i = ccw_[i]) seen_[i] = 1;
   };
   for (std::size_t i = 0; i < spokes_.size(); ++i)
     if (cw_[i] == kNone) ++shape.sectors, follow(i);

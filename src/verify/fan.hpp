@@ -18,8 +18,6 @@ struct Spoke {
 /// The triangles around one point, linked across the edges that they share. One object is used for all points.
 class Fan {
  public:
-  static constexpr std::int32_t kNone = -1;
-
   /// Gathers the triangles of `corners` (entries of a CornerTable) and sorts them by `next`.
   void gather(const MeshPiece& mesh, std::span<const std::uint32_t> corners);
 

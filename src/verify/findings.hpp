@@ -1,10 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "base/id_vector.hpp"
 
 namespace driftmesh {
 
@@ -44,7 +45,7 @@ enum class Flaw : std::uint8_t {
   small_angle,  ///< an angle below the bound, that nothing in the input excuses
   large_area,   ///< an area above the bound
 };
-inline constexpr std::size_t kFlawCount = static_cast<std::size_t>(Flaw::large_area) + 1;
+inline constexpr std::size_t kFlawCount = to_index(Flaw::large_area) + 1;
 
 /// The name of the kind as words: "not delaunay".
 [[nodiscard]] const char* flaw_name(Flaw flaw);
@@ -57,24 +58,22 @@ class Findings {
   /// Counts one finding; `describe` is called only when its message will be kept.
   template <class Describe>
   void add(Flaw flaw, const Describe& describe) {
-    Kind& kind = kinds_[static_cast<std::size_t>(flaw)];
+    Kind& kind = kinds_[flaw];
     if (kind.count++ < listed_per_kind_) kind.messages.push_back(describe());
   }
 
   [[nodiscard]] bool empty() const { return total() == 0; }
   [[nodiscard]] std::uint64_t total() const;
-  [[nodiscard]] std::uint64_t count(Flaw flaw) const { return kinds_[static_cast<std::size_t>(flaw)].count; }
+  [[nodiscard]] std::uint64_t count(Flaw flaw) const { return kinds_[flaw].count; }
   /// The kept messages: each names the triangle, edge or vertex, and the actual and the expected value.
-  [[nodiscard]] const std::vector<std::string>& messages(Flaw flaw) const {
-    return kinds_[static_cast<std::size_t>(flaw)].messages;
-  }
+  [[nodiscard]] const std::vector<std::string>& messages(Flaw flaw) const { return kinds_[flaw].messages; }
 
  private:
   struct Kind {
     std::uint64_t count = 0;
     std::vector<std::string> messages;
   };
-  std::array<Kind, kFlawCount> kinds_;
+  IdVector<Flaw, Kind> kinds_ = IdVector<Flaw, Kind>(kFlawCount);
   std::size_t listed_per_kind_;
 };
 

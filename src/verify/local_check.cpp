@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/point_index.hpp"
 #include "verify/words.hpp"
@@ -34,9 +35,9 @@ bool check_arrays(const MeshPiece& mesh, Findings& findings) {
   if (!mesh.subdomains.empty())
     check_length(mesh.subdomains.size(), mesh.triangles.size(), "the array of subdomains", findings);
   if (!mesh.ranks.empty()) check_length(mesh.ranks.size(), mesh.triangles.size(), "the array of ranks", findings);
-  check_length(mesh.attributes.size(), n * static_cast<std::size_t>(std::max(0, mesh.attributes_per_point)),
-               "the array of point attributes", findings);
-  const auto valid = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < n; };
+  check_length(mesh.attributes.size(), n * std::max(0, mesh.attributes_per_point), "the array of point attributes",
+               findings);
+  const auto valid = [&](std::int32_t i) { return to_index(i) < n; };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     if (!valid(a) || !valid(b) || !valid(c) || a == b || b == c || c == a)
@@ -56,10 +57,10 @@ bool check_arrays(const MeshPiece& mesh, Findings& findings) {
 
 std::size_t check_points(const MeshPiece& mesh, const CornerTable& corners, PointIndex& index, Findings& findings) {
   std::size_t used = 0;
-  for (std::int32_t i = 0; static_cast<std::size_t>(i) < mesh.points.size(); ++i) {
+  for (const std::int32_t i : first_ids<std::int32_t>(mesh.points.size())) {
     if (!corners.used(i)) continue;
     ++used;
-    const Point& p = mesh.points[static_cast<std::size_t>(i)];
+    const Point& p = mesh.points[i];
     if (!computable(p.x) || !computable(p.y)) {
       findings.add(Flaw::bad_coordinate, [&] { return point_words(mesh, i) + " is outside the range of coordinates"; });
       continue;
@@ -74,23 +75,23 @@ std::size_t check_points(const MeshPiece& mesh, const CornerTable& corners, Poin
 std::vector<MeshPiece::Edge> boundary_edges(const MeshPiece& mesh, const CornerTable& corners) {
   std::vector<MeshPiece::Edge> edges;
   Fan fan;
-  for (std::int32_t hub = 0; static_cast<std::size_t>(hub) < mesh.points.size(); ++hub) {
+  for (const std::int32_t hub : first_ids<std::int32_t>(mesh.points.size())) {
     fan.gather(mesh, corners.around(hub));
     for (std::size_t i = 0; i < fan.spokes().size(); ++i)
-      if (fan.across_next(i) == Fan::kNone) edges.push_back({hub, fan.spokes()[i].next, 0});
+      if (fan.across_next(i) == kNone) edges.push_back({hub, fan.spokes()[i].next, 0});
   }
   return edges;
 }
 
 void check_subsegments(const MeshPiece& mesh, const Subsegments& subsegments, Findings& findings) {
-  for (std::int32_t s = 0; static_cast<std::size_t>(s) < subsegments.size(); ++s) {
+  for (const std::int32_t s : subsegments.ids()) {
     const auto& [a, b, marker] = subsegments[s];
     const auto say = [&, u = a, v = b](const char* what) {
       return [&, u, v, what] { return fmt::format("subsegment {}, {}, {}", s, edge_words(mesh, u, v), what); };
     };
     if (subsegments.find(a, b) != s)
       findings.add(Flaw::duplicate_subsegment, say("is listed before"));
-    else if (subsegments.left(s, a) == Subsegments::kNone && subsegments.right(s, a) == Subsegments::kNone)
+    else if (subsegments.left(s, a) == kNone && subsegments.right(s, a) == kNone)
       findings.add(Flaw::stray_subsegment, say("is an edge of no triangle"));
   }
 }
@@ -110,7 +111,7 @@ void LocalCheck::check_orientations() {
 void LocalCheck::check_vertices(DisjointSets* parts, bool delaunay) {
   parts_ = parts;
   delaunay_ = delaunay;
-  for (std::int32_t hub = 0; static_cast<std::size_t>(hub) < mesh_.points.size(); ++hub) check_vertex(hub);
+  for (const std::int32_t hub : first_ids<std::int32_t>(mesh_.points.size())) check_vertex(hub);
 }
 
 void LocalCheck::check_vertex(std::int32_t hub) {
@@ -119,12 +120,10 @@ void LocalCheck::check_vertex(std::int32_t hub) {
   const auto spokes = fan_.spokes();
   for (std::size_t i = 0; i < spokes.size(); ++i) {
     const std::int32_t right = fan_.across_next(i);
-    if (right == Fan::kNone) boundary_.push_back({hub, spokes[i].next, 0});
+    if (right == kNone) boundary_.push_back({hub, spokes[i].next, 0});
     // An edge is looked at from its lower end.
-    if (hub < spokes[i].next)
-      check_edge(hub, spokes[i].next, &spokes[i],
-                 right == Fan::kNone ? nullptr : &spokes[static_cast<std::size_t>(right)]);
-    if (hub < spokes[i].prev && fan_.across_prev(i) == Fan::kNone) check_edge(hub, spokes[i].prev, nullptr, &spokes[i]);
+    if (hub < spokes[i].next) check_edge(hub, spokes[i].next, &spokes[i], right == kNone ? nullptr : &spokes[right]);
+    if (hub < spokes[i].prev && fan_.across_prev(i) == kNone) check_edge(hub, spokes[i].prev, nullptr, &spokes[i]);
   }
   const Fan::Shape shape = fan_.shape();
   if (shape.rings > (shape.sectors == 0 ? 1 : 0))
@@ -145,14 +144,13 @@ void LocalCheck::check_sides(std::int32_t hub) {
     if (a.prev == b.prev) {
       if (hub < a.next && hub < a.prev)
         findings_.add(Flaw::duplicate_triangle, [&] {
-          return triangle_words(mesh_, static_cast<std::size_t>(a.triangle)) + " and " +
-                 triangle_words(mesh_, static_cast<std::size_t>(b.triangle)) + " have the same corners";
+          return triangle_words(mesh_, a.triangle) + " and " + triangle_words(mesh_, b.triangle) +
+                 " have the same corners";
         });
     } else {
       findings_.add(Flaw::edge_used_twice, [&] {
-        return triangle_words(mesh_, static_cast<std::size_t>(a.triangle)) + " and " +
-               triangle_words(mesh_, static_cast<std::size_t>(b.triangle)) + " lie on the same side of " +
-               edge_words(mesh_, hub, a.next);
+        return triangle_words(mesh_, a.triangle) + " and " + triangle_words(mesh_, b.triangle) +
+               " lie on the same side of " + edge_words(mesh_, hub, a.next);
       });
     }
   }
@@ -160,13 +158,12 @@ void LocalCheck::check_sides(std::int32_t hub) {
 
 void LocalCheck::check_edge(std::int32_t u, std::int32_t v, const Spoke* left, const Spoke* right) {
   const std::int32_t s = subsegments_.find(u, v);
-  if (s != Subsegments::kNone) {
-    subsegments_.set_sides(s, u, left != nullptr ? left->triangle : Subsegments::kNone,
-                           right != nullptr ? right->triangle : Subsegments::kNone);
+  if (s != kNone) {
+    subsegments_.set_sides(s, u, left != nullptr ? left->triangle : kNone, right != nullptr ? right->triangle : kNone);
   } else if (left == nullptr || right == nullptr) {
     findings_.add(Flaw::open_edge, [&] {
       return edge_words(mesh_, u, v) + " has one triangle, " +
-             triangle_words(mesh_, static_cast<std::size_t>(left != nullptr ? left->triangle : right->triangle)) +
+             triangle_words(mesh_, (left != nullptr ? left : right)->triangle) +
              ", and is no subsegment: two triangles are expected";
     });
   } else {
@@ -179,7 +176,7 @@ void LocalCheck::check_edge(std::int32_t u, std::int32_t v, const Spoke* left, c
 }
 
 void LocalCheck::note_interface(std::int32_t u, std::int32_t v, const Spoke& left, const Spoke& right) {
-  const auto one = static_cast<std::size_t>(left.triangle), other = static_cast<std::size_t>(right.triangle);
+  const std::int32_t one = left.triangle, other = right.triangle;
   ++interfaces_.edges;
   interfaces_.not_delaunay += is_delaunay(u, v, left, right) ? 0 : 1;
   if (!mesh_.ranks.empty()) interfaces_.between_ranks += mesh_.ranks[one] != mesh_.ranks[other] ? 1 : 0;
@@ -198,8 +195,8 @@ void LocalCheck::check_delaunay(std::int32_t u, std::int32_t v, const Spoke& lef
   const double inside = incircle(at(u), at(v), at(left.prev), at(right.next));
   findings_.add(Flaw::not_delaunay, [&] {
     return edge_words(mesh_, u, v) +
-           fmt::format(" between {} and {}: ", triangle_words(mesh_, static_cast<std::size_t>(left.triangle)),
-                       triangle_words(mesh_, static_cast<std::size_t>(right.triangle))) +
+           fmt::format(" between {} and {}: ", triangle_words(mesh_, left.triangle),
+                       triangle_words(mesh_, right.triangle)) +
            fmt::format("{} lies inside the circumcircle of the first (incircle {}, expected <= 0)",
                        point_words(mesh_, right.next), inside);
   });

@@ -64,10 +64,9 @@ class LocalCheck {
   void note_interface(std::int32_t u, std::int32_t v, const Spoke& left, const Spoke& right);
   [[nodiscard]] bool is_delaunay(std::int32_t u, std::int32_t v, const Spoke& left, const Spoke& right) const;
   [[nodiscard]] bool is_interface(const Spoke& left, const Spoke& right) const {
-    return !mesh_.subdomains.empty() && mesh_.subdomains[static_cast<std::size_t>(left.triangle)] !=
-                                            mesh_.subdomains[static_cast<std::size_t>(right.triangle)];
+    return !mesh_.subdomains.empty() && mesh_.subdomains[left.triangle] != mesh_.subdomains[right.triangle];
   }
-  [[nodiscard]] const Point& at(std::int32_t point) const { return mesh_.points[static_cast<std::size_t>(point)]; }
+  [[nodiscard]] const Point& at(std::int32_t point) const { return mesh_.points[point]; }
 
   const MeshPiece& mesh_;
   const CornerTable& corners_;

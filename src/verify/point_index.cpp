@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "base/id_vector.hpp"
+
 namespace driftmesh {
 namespace {
 
@@ -19,7 +21,7 @@ PointIndex::PointIndex(std::span<const Point> points)
     : points_(points), slots_(std::bit_ceil(2 * points.size() + 1), kNone) {}
 
 std::int32_t PointIndex::add(std::int32_t i) {
-  std::int32_t& slot = slots_[slot_of(points_[static_cast<std::size_t>(i)])];
+  std::int32_t& slot = slots_[slot_of(points_[i])];
   if (slot == kNone) slot = i;
   return slot;
 }
@@ -27,7 +29,7 @@ std::int32_t PointIndex::add(std::int32_t i) {
 std::size_t PointIndex::slot_of(const Point& p) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = hash(p) & mask;
-  while (slots_[slot] != kNone && !(points_[static_cast<std::size_t>(slots_[slot])] == p)) slot = (slot + 1) & mask;
+  while (slots_[slot] != kNone && !(points_[slots_[slot]] == p)) slot = (slot + 1) & mask;
   return slot;
 }
 

@@ -11,8 +11,6 @@ namespace driftmesh {
 /// Finds points by their exact coordinates. 8 to 16 bytes a point.
 class PointIndex {
  public:
-  static constexpr std::int32_t kNone = -1;
-
   /// Points outlive the index.
   explicit PointIndex(std::span<const Point> points);
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/id_vector.hpp"
 #include "verify/extended.hpp"
 #include "verify/room.hpp"
 #include "verify/words.hpp"
@@ -23,10 +24,6 @@ constexpr double kSameDistance = 1e-6;  // relative: two vertices count as equal
 constexpr double kNarrowWedge = 1;
 constexpr double kShareOfWidth = 0.3;
 constexpr long double kDegrees = 180 / std::numbers::pi_v<long double>;
-
-std::size_t index(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// One triangle in double precision: its area and the cotangents of its angles, which fall from 0 to 180 degrees.
 struct Shape {
@@ -89,13 +86,11 @@ class QualityCheck {
   }
 
  private:
-  [[nodiscard]] const Point& corner(std::size_t t, std::size_t k) const {
-    return mesh_.points[index(mesh_.triangles[t][k])];
-  }
+  [[nodiscard]] const Point& corner(std::size_t t, std::size_t k) const { return mesh_.points[mesh_.triangles[t][k]]; }
 
   /// Sorted, in degrees.
   [[nodiscard]] std::array<double, 3> angles_of(std::int32_t triangle) const {
-    const Point &a = corner(index(triangle), 0), &b = corner(index(triangle), 1), &c = corner(index(triangle), 2);
+    const Point &a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
     std::array<double, 3> angles{angle_at(a, b, c), angle_at(b, c, a), angle_at(c, a, b)};
     std::sort(angles.begin(), angles.end());
     return angles;
@@ -168,7 +163,7 @@ class QualityCheck {
     const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
     const std::array<long double, 3> opposite{std::sqrt(dot_extended(b, c, c)), std::sqrt(dot_extended(c, a, a)),
                                               std::sqrt(dot_extended(a, b, b))};
-    const auto apex = static_cast<std::size_t>(std::min_element(opposite.begin(), opposite.end()) - opposite.begin());
+    const std::size_t apex = std::min_element(opposite.begin(), opposite.end()) - opposite.begin();
     const long double others = opposite[(apex + 1) % 3] * opposite[(apex + 2) % 3];
     const long double ratio = others / (2 * cross_extended(a, b, c));
     if (ratio <= max_ratio_ && ratio > 0) return;
@@ -194,17 +189,17 @@ class QualityCheck {
   }
 
   [[nodiscard]] bool is_subsegment(std::int32_t u, std::int32_t v) const {
-    return chains_.subsegments().find(u, v) != Subsegments::kNone;
+    return chains_.subsegments().find(u, v) != kNone;
   }
 
   // Whether p and q lie inside two chains that meet at less than 60 degrees, equally far from their common end.
   [[nodiscard]] bool is_seditious(std::int32_t p, std::int32_t q) const {
     const std::int32_t cp = chains_.through(p), cq = chains_.through(q);
-    if (cp == Chains::kNone || cq == Chains::kNone || cp == cq) return false;
-    const auto &first = chains_.all()[index(cp)].vertices, &second = chains_.all()[index(cq)].vertices;
+    if (cp == kNone || cq == kNone || cp == cq) return false;
+    const auto &first = chains_.all()[cp].vertices, &second = chains_.all()[cq].vertices;
     for (const std::int32_t apex : {first.front(), first.back()}) {
       if (apex != second.front() && apex != second.back()) continue;
-      const Point &o = mesh_.points[index(apex)], &at_p = mesh_.points[index(p)], &at_q = mesh_.points[index(q)];
+      const Point &o = mesh_.points[apex], &at_p = mesh_.points[p], &at_q = mesh_.points[q];
       const long double op = std::sqrt(dot_extended(o, at_p, at_p)), oq = std::sqrt(dot_extended(o, at_q, at_q));
       const long double rounding =
           64 * 0x1p-52L * std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(at_p.x), std::fabs(at_p.y)});
@@ -224,7 +219,7 @@ class QualityCheck {
 
   template <class Describe>
   void except(ExceptionReason reason, const Describe& describe) {
-    Quality::Exceptions& list = quality_.exceptions[static_cast<std::size_t>(reason)];
+    Quality::Exceptions& list = quality_.exceptions[reason];
     if (list.count++ < bounds_.max_listed) list.messages.push_back(describe());
   }
 

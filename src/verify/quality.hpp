@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/id_vector.hpp"
 #include "mesh/mesh_piece.hpp"
 #include "sizing/size_field.hpp"
 #include "verify/chains.hpp"
@@ -40,7 +41,7 @@ struct Quality {
   std::int32_t largest_angle_triangle = -1;
   std::int32_t largest_area_triangle = -1;
   std::array<std::uint64_t, 180> angles{};  ///< [d]: angles from d up to d + 1 degrees
-  std::array<Exceptions, kExceptionReasonCount> exceptions;
+  IdVector<ExceptionReason, Exceptions> exceptions = IdVector<ExceptionReason, Exceptions>(kExceptionReasonCount);
 
   /// The histogram in 18 bins of ten degrees.
   [[nodiscard]] std::array<std::uint64_t, 18> angles_by_ten() const;

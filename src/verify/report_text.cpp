@@ -73,17 +73,16 @@ void add_exceptions(const Quality& quality, double min_angle, Text out) {
   for (std::size_t degree = 0; degree < 180 && static_cast<double>(degree) < min_angle; ++degree)
     if (quality.angles[degree] != 0)
       fmt::format_to(out, "  {:>3} - {:>3}  {:>13}\n", degree, degree + 1, grouped(quality.angles[degree]));
-  for (std::size_t c = 0; c < kExceptionReasonCount; ++c) {
-    const auto& list = quality.exceptions[c];
+  for (const ExceptionReason reason : ids_of(quality.exceptions)) {
+    const auto& list = quality.exceptions[reason];
     if (list.count == 0) continue;
-    fmt::format_to(out, "  {}: {}\n", reason_name(static_cast<ExceptionReason>(c)), grouped(list.count));
+    fmt::format_to(out, "  {}: {}\n", reason_name(reason), grouped(list.count));
     add_list(list.messages, list.count, out);
   }
 }
 
 void add_flaws(const Findings& findings, Text out) {
-  for (std::size_t f = 0; f < kFlawCount; ++f) {
-    const auto flaw = static_cast<Flaw>(f);
+  for (const Flaw flaw : first_ids<Flaw>(kFlawCount)) {
     if (findings.count(flaw) == 0) continue;
     fmt::format_to(out, "{}: {}\n", flaw_name(flaw), grouped(findings.count(flaw)));
     add_list(findings.messages(flaw), findings.count(flaw), out);
@@ -118,8 +117,7 @@ std::string verdict_text(const VerifyReport& report, const VerifyOptions& option
   if (report.accepted()) return "accepted: " + what_was_checked(report, options);
   std::string text = "rejected: ";
   const char* separator = "";
-  for (std::size_t f = 0; f < kFlawCount; ++f) {
-    const auto flaw = static_cast<Flaw>(f);
+  for (const Flaw flaw : first_ids<Flaw>(kFlawCount)) {
     if (report.findings.count(flaw) == 0) continue;
     text += fmt::format("{}{} ({})", separator, flaw_name(flaw), grouped(report.findings.count(flaw)));
     separator = ", ";

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/extended.hpp"
 
@@ -16,10 +17,6 @@ namespace {
 constexpr double kNeighbours = 2;  // no edge longer: nothing between the corners
 constexpr double kNarrow = 2;      // rounding moves a midpoint, and moved the ends, by up to 0.71 each
 constexpr double kShort = 256;     // of a subsegment: what refinement needs to turn around in beside a vertex
-
-std::size_t index(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Between doubles of the size of the larger coordinate.
 double spacing_at(const Point& p) {
@@ -51,30 +48,30 @@ bool cross(const Point& p, const Point& q, const Point& a, const Point& b) {
 
 Room::Room(const MeshPiece& mesh, const Subsegments& subsegments) : mesh_(mesh), subsegments_(subsegments) {
   std::vector<Box> boxes;
-  for (std::int32_t s = 0; index(s) < subsegments.size(); ++s) {
+  for (const std::int32_t s : subsegments.ids()) {
     if (!is_stuck(s)) continue;
-    stuck_.push_back({mesh.points[index(subsegments[s].a)], mesh.points[index(subsegments[s].b)]});
+    stuck_.push_back({mesh.points[subsegments[s].a], mesh.points[subsegments[s].b]});
     boxes.push_back(box_around(stuck_.back().a, stuck_.back().b));
   }
   tree_ = BoxTree(boxes);
 }
 
 const Point& Room::corner(std::size_t t, std::size_t k) const {
-  return mesh_.points[index(mesh_.triangles[t][k])];
+  return mesh_.points[mesh_.triangles[t][k]];
 }
 
 bool Room::is_stuck(std::int32_t subsegment) const {
   const MeshPiece::Edge& edge = subsegments_[subsegment];
-  const Point &a = mesh_.points[index(edge.a)], &b = mesh_.points[index(edge.b)], m = midpoint(a, b);
+  const Point &a = mesh_.points[edge.a], &b = mesh_.points[edge.b], m = midpoint(a, b);
   if (m == a || m == b) return true;
   for (const std::int32_t t : {subsegments_.left(subsegment, edge.a), subsegments_.right(subsegment, edge.a)}) {
-    if (t == Subsegments::kNone) continue;
+    if (t == kNone) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t apex = mesh_.triangles[index(t)][k];
+      const std::int32_t apex = mesh_.triangles[t][k];
       if (apex == edge.a || apex == edge.b ||
           (distance(a, b) > kShort * spacing_at(m) && subsegments_.at(apex).empty()))
         continue;
-      const Point& c = mesh_.points[index(apex)];
+      const Point& c = mesh_.points[apex];
       if (std::fabs(cross_extended(a, b, c)) <= kNarrow * spacing_at(c) * distance(a, b)) return true;
     }
   }
@@ -94,7 +91,7 @@ bool Room::none_for_area(std::size_t t) const {
 bool Room::none_for(std::size_t t, double most_height) const {
   std::array<long double, 3> opposite{};
   for (std::size_t k = 0; k < 3; ++k) opposite[k] = distance(corner(t, (k + 1) % 3), corner(t, (k + 2) % 3));
-  const auto apex = static_cast<std::size_t>(std::min_element(opposite.begin(), opposite.end()) - opposite.begin());
+  const std::size_t apex = std::min_element(opposite.begin(), opposite.end()) - opposite.begin();
   const Point &a = corner(t, (apex + 1) % 3), &b = corner(t, (apex + 2) % 3), &c = corner(t, apex);
   if (*std::max_element(opposite.begin(), opposite.end()) <= kNeighbours * spacing_at(c)) return true;
   const auto height = std::min(static_cast<double>(dot_extended(c, a, b) / (2 * cross_extended(c, a, b))), most_height);
@@ -105,7 +102,7 @@ bool Room::none_for(std::size_t t, double most_height) const {
   const Box way = Box::of(std::array{a, b, c, p});
   tree_.search([&](const Box& box) { return box.overlaps(way); },
                [&](std::int32_t i) {
-                 const Segment& s = stuck_[index(i)];
+                 const Segment& s = stuck_[i];
                  none = none || in_diametral_circle(p, s.a, s.b) || cross(a, p, s.a, s.b) || cross(b, p, s.a, s.b) ||
                         cross(c, p, s.a, s.b);
                });

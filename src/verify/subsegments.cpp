@@ -12,13 +12,11 @@ Subsegments::Subsegments(std::size_t point_count, std::vector<MeshPiece::Edge> e
       first_(point_count + 1),
       by_end_(2 * edges_.size()) {
   (void)narrow<std::int32_t>(by_end_.size(), "subsegments to check");
-  for (const auto& edge : edges_)
-    ++first_[static_cast<std::size_t>(edge.a)], ++first_[static_cast<std::size_t>(edge.b)];
+  for (const auto& edge : edges_) ++first_[edge.a], ++first_[edge.b];
   std::uint32_t sum = 0;
   for (std::uint32_t& entry : first_) entry = sum += entry;
   for (std::size_t s = edges_.size(); s-- > 0;)
-    for (const std::int32_t end : {edges_[s].a, edges_[s].b})
-      by_end_[--first_[static_cast<std::size_t>(end)]] = static_cast<std::int32_t>(s);
+    for (const std::int32_t end : {edges_[s].a, edges_[s].b}) by_end_[--first_[end]] = static_cast<std::int32_t>(s);
 }
 
 std::int32_t Subsegments::find(std::int32_t u, std::int32_t v) const {
@@ -31,9 +29,9 @@ std::int32_t Subsegments::find(std::int32_t u, std::int32_t v) const {
 
 void Subsegments::set_sides(std::int32_t s, std::int32_t from, std::int32_t left, std::int32_t right) {
   if ((*this)[s].a == from)
-    sides_[static_cast<std::size_t>(s)] = {left, right};
+    sides_[s] = {left, right};
   else
-    sides_[static_cast<std::size_t>(s)] = {right, left};
+    sides_[s] = {right, left};
 }
 
 }  // namespace driftmesh

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/id_vector.hpp"
 #include "mesh/mesh_piece.hpp"
 
 namespace driftmesh {
@@ -12,17 +13,15 @@ namespace driftmesh {
 /// The constrained subsegments of a mesh, found by either end, and the triangles on their two sides.
 class Subsegments {
  public:
-  static constexpr std::int32_t kNone = -1;
-
   /// Every index of `edges` is valid.
   Subsegments(std::size_t point_count, std::vector<MeshPiece::Edge> edges);
 
   [[nodiscard]] std::size_t size() const { return edges_.size(); }
-  [[nodiscard]] const MeshPiece::Edge& operator[](std::int32_t s) const { return edges_[static_cast<std::size_t>(s)]; }
+  [[nodiscard]] IdRange<std::int32_t> ids() const { return first_ids<std::int32_t>(edges_.size()); }
+  [[nodiscard]] const MeshPiece::Edge& operator[](std::int32_t s) const { return edges_[s]; }
   /// Numbers of the subsegments that end at `point`.
   [[nodiscard]] std::span<const std::int32_t> at(std::int32_t point) const {
-    const auto p = static_cast<std::size_t>(point);
-    return std::span(by_end_).subspan(first_[p], first_[p + 1] - first_[p]);
+    return std::span(by_end_).subspan(first_[point], first_[point + 1] - first_[point]);
   }
   /// The number of the subsegment between two points, or kNone. Of a duplicate, the first.
   [[nodiscard]] std::int32_t find(std::int32_t u, std::int32_t v) const;
@@ -42,9 +41,7 @@ class Subsegments {
   [[nodiscard]] bool is_boundary(std::int32_t s) const { return (sides(s)[0] == kNone) != (sides(s)[1] == kNone); }
 
  private:
-  [[nodiscard]] const std::array<std::int32_t, 2>& sides(std::int32_t s) const {
-    return sides_[static_cast<std::size_t>(s)];
-  }
+  [[nodiscard]] const std::array<std::int32_t, 2>& sides(std::int32_t s) const { return sides_[s]; }
 
   std::vector<MeshPiece::Edge> edges_;
   std::vector<std::array<std::int32_t, 2>> sides_;  // the triangle on the left and on the right of a -> b

@@ -105,7 +105,7 @@ class Verification {
   [[nodiscard]] Chains make_chains() const {
     if (!domain_) return {mesh_, *subsegments_, [&](std::int32_t v) { return bends_at(mesh_, *subsegments_, v); }};
     const std::vector<char> corner = DomainCheck::find_corners(mesh_, *domain_, points_);
-    return {mesh_, *subsegments_, [&](std::int32_t v) { return corner[static_cast<std::size_t>(v)] != 0; }};
+    return {mesh_, *subsegments_, [&](std::int32_t v) { return corner[v] != 0; }};
   }
 
   void check_regions(DomainCheck& against) {

@@ -10,12 +10,11 @@ std::string triangle_words(const MeshPiece& mesh, std::size_t triangle) {
 }
 
 std::string point_words(const MeshPiece& mesh, std::int32_t point) {
-  return fmt::format("point {} at {}", point, place_words(mesh.points[static_cast<std::size_t>(point)]));
+  return fmt::format("point {} at {}", point, place_words(mesh.points[point]));
 }
 
 std::string edge_words(const MeshPiece& mesh, std::int32_t u, std::int32_t v) {
-  return fmt::format("edge {}-{} from {} to {}", u, v, place_words(mesh.points[static_cast<std::size_t>(u)]),
-                     place_words(mesh.points[static_cast<std::size_t>(v)]));
+  return fmt::format("edge {}-{} from {} to {}", u, v, place_words(mesh.points[u]), place_words(mesh.points[v]));
 }
 
 std::string place_words(const Point& p) {

@@ -63,7 +63,7 @@ struct GridCase {
 
   void add_chain(const Pslg::Segment& s) {
     const auto whole = [](double v) { return static_cast<int>(v); };
-    const Point &a = input.points[static_cast<std::size_t>(s.a)], &b = input.points[static_cast<std::size_t>(s.b)];
+    const Point &a = input.points[s.a], &b = input.points[s.b];
     const auto sign = [](double d) { return d > 0 ? 1 : d < 0 ? -1 : 0; };
     const int dx = sign(b.x - a.x), dy = sign(b.y - a.y);
     for (int x = whole(a.x), y = whole(a.y); x != whole(b.x) || y != whole(b.y); x += dx, y += dy)

@@ -10,10 +10,6 @@
 namespace driftmesh::oracles {
 namespace {
 
-std::size_t index(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 std::vector<ExactPoint> exact_points(const std::vector<Point>& points) {
   return {points.begin(), points.end()};
 }
@@ -69,7 +65,7 @@ class View {
     const Rational reach = entry(t, eye, way);
     if (reach < 0) return false;
     return std::none_of(walls_.begin(), walls_.end(), [&](const MeshPiece::Edge& wall) {
-      const Rational hit = ray_hit(eye, way, points_[index(wall.a)], points_[index(wall.b)]);
+      const Rational hit = ray_hit(eye, way, points_[wall.a], points_[wall.b]);
       return hit > 0 && hit <= reach;
     });
   }
@@ -79,7 +75,7 @@ class View {
 };
 
 Corners corners_of(const std::vector<ExactPoint>& points, const std::array<std::int32_t, 3>& triangle) {
-  return {points[index(triangle[0])], points[index(triangle[1])], points[index(triangle[2])]};
+  return {points[triangle[0]], points[triangle[1]], points[triangle[2]]};
 }
 
 bool holds(const Corners& t, const ExactPoint& p) {
@@ -97,7 +93,7 @@ bool covers_part(const MeshPiece& mesh, const MeshPiece::Edge& edge, const Point
   const ExactPoint from(a), way = ExactPoint(b) - from;
   const Rational length2 = dot(way, way);
   const auto place = [&](std::int32_t v, double& along) {
-    const ExactPoint off = ExactPoint(mesh.points[index(v)]) - from;
+    const ExactPoint off = ExactPoint(mesh.points[v]) - from;
     const Rational across = cross(way, off), t = dot(way, off) / length2;
     along = static_cast<double>(t);
     const Rational limit = Rational(tolerance) * Rational(tolerance) * length2;
@@ -161,7 +157,7 @@ std::vector<std::string> check_area(const MeshPiece& mesh, const std::vector<Mes
     if (twice <= 0) wrong.push_back(words("triangle ", t, " has area ", static_cast<double>(twice) / 2));
     sum += twice;
   }
-  for (const auto& edge : boundary) enclosed += cross(points[index(edge.a)], points[index(edge.b)]);
+  for (const auto& edge : boundary) enclosed += cross(points[edge.a], points[edge.b]);
   if (sum != enclosed)
     wrong.push_back(words("the triangles sum to ", static_cast<double>(sum) / 2, ", the boundary encloses ",
                           static_cast<double>(enclosed) / 2));
@@ -173,7 +169,7 @@ std::vector<std::string> check_coverage(const MeshPiece& mesh, const Pslg& input
   std::vector<std::string> wrong;
   std::vector<int> uses(mesh.edges.size(), 0);
   for (std::size_t s = 0; s < input.segments.size(); ++s) {
-    const Point &a = input.points[index(input.segments[s].a)], &b = input.points[index(input.segments[s].b)];
+    const Point &a = input.points[input.segments[s].a], &b = input.points[input.segments[s].b];
     std::vector<Piece> pieces;
     for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
       Piece piece{};
@@ -187,7 +183,7 @@ std::vector<std::string> check_coverage(const MeshPiece& mesh, const Pslg& input
     if (outside[s] && !pieces.empty()) wrong.push_back(words("segment ", s, " is outside and has subsegments"));
     if (outside[s]) continue;
     const bool whole =
-        !pieces.empty() && mesh.points[index(pieces.front().first)] == a && mesh.points[index(pieces.back().last)] == b;
+        !pieces.empty() && mesh.points[pieces.front().first] == a && mesh.points[pieces.back().last] == b;
     if (!whole) wrong.push_back(words("segment ", s, " is not covered from end to end"));
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i)
       if (pieces[i].last != pieces[i + 1].first)
@@ -202,7 +198,7 @@ int count_covering(const MeshPiece& mesh, const Point& p) {
   const ExactPoint at(p);
   int count = 0;
   for (const auto& t : mesh.triangles) {
-    const ExactPoint a(mesh.points[index(t[0])]), b(mesh.points[index(t[1])]), c(mesh.points[index(t[2])]);
+    const ExactPoint a(mesh.points[t[0]]), b(mesh.points[t[1]]), c(mesh.points[t[2]]);
     const int least = std::min({side(a, b, at), side(b, c, at), side(c, a, at)});
     if (least == 0) return -1;
     count += least > 0;
@@ -214,7 +210,7 @@ bool inside_by_parity(const Pslg& input, const std::vector<std::size_t>& boundar
   const ExactPoint at(p);
   bool inside = false;
   for (const std::size_t s : boundary_segments) {
-    const ExactPoint a(input.points[index(input.segments[s].a)]), b(input.points[index(input.segments[s].b)]);
+    const ExactPoint a(input.points[input.segments[s].a]), b(input.points[input.segments[s].b]);
     if ((a.y > at.y) == (b.y > at.y)) continue;
     const ExactPoint &low = a.y < b.y ? a : b, &high = a.y < b.y ? b : a;
     if (side(low, high, at) > 0) inside = !inside;

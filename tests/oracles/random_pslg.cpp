@@ -49,7 +49,7 @@ class Builder {
     return {shape_.offset + shape_.scale * p.x, shape_.offset + shape_.scale * p.y};
   }
   std::vector<Point>& points() { return result_.input.points; }
-  [[nodiscard]] const Point& at(std::int32_t i) const { return result_.input.points[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Point& at(std::int32_t i) const { return result_.input.points[i]; }
 
   std::int32_t take_point(const Point& p) {
     points().push_back(p);

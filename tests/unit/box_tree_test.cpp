@@ -14,7 +14,7 @@ namespace {
 /// Boxes with corners at multiples of 1/64, so that queries meet their borders and distances tie.
 std::vector<Box> random_boxes(std::mt19937_64& random, int count) {
   std::uniform_int_distribution<int> place(0, 64), extent(0, 6);
-  std::vector<Box> boxes(static_cast<std::size_t>(count));
+  std::vector<Box> boxes(count);
   for (Box& box : boxes) {
     box.low = {place(random) / 64.0, place(random) / 64.0};
     box.high = {box.low.x + extent(random) / 64.0, box.low.y + extent(random) / 64.0};
@@ -45,9 +45,7 @@ TEST_CASE("a box tree finds the boxes that contain a point and the nearest one")
       std::sort(found.begin(), found.end());
       CHECK(found == containing_one_by_one(boxes, p));
 
-      const auto distance = [&](std::int32_t item) {
-        return boxes[static_cast<std::size_t>(item)].squared_distance(p);
-      };
+      const auto distance = [&](std::int32_t item) { return boxes[item].squared_distance(p); };
       std::int32_t nearest = 0;
       for (std::int32_t k = 1; k < count; ++k)
         if (distance(k) < distance(nearest)) nearest = k;
@@ -69,8 +67,7 @@ TEST_CASE("a far outlier does not slow the search") {
         return box.overlaps(place);
       },
       [&](std::int32_t) { ++found; });
-  CHECK(found == static_cast<std::size_t>(
-                     std::count_if(boxes.begin(), boxes.end(), [&](const Box& box) { return box.overlaps(place); })));
+  CHECK(found == std::count_if(boxes.begin(), boxes.end(), [&](const Box& box) { return box.overlaps(place); }));
   CHECK(found > 0);
   CHECK(looked_at < 2000);
 }

@@ -74,3 +74,14 @@ TEST_CASE("a vector knows which numbers it has") {
   CHECK_FALSE(values.has(Pear{2}));
   CHECK_FALSE(values.has(Pear{-1}));
 }
+
+TEST_CASE("kNone is -1 as a number of any signed kind") {
+  const std::int32_t plain = kNone;
+  CHECK(plain == -1);
+  CHECK(plain == kNone);
+  CHECK(0 != kNone);
+  const IdVector<std::int32_t, int> values(3);
+  CHECK_FALSE(values.has(kNone));
+  // A label of 16 bits would come out as 65535, which may be one.
+  static_assert(!std::is_convertible_v<NoId, std::uint16_t>);
+}

@@ -49,9 +49,9 @@ MeshPiece shuffled(MeshPiece mesh, unsigned seed) {
   for (std::size_t i = 0; i < place.size(); ++i) place[i] = static_cast<std::int32_t>(i);
   std::shuffle(place.begin(), place.end(), random);
   const std::vector<Point> points = mesh.points;
-  for (std::size_t i = 0; i < points.size(); ++i) mesh.points[static_cast<std::size_t>(place[i])] = points[i];
+  for (std::size_t i = 0; i < points.size(); ++i) mesh.points[place[i]] = points[i];
   for (auto& triangle : mesh.triangles) {
-    for (std::int32_t& v : triangle) v = place[static_cast<std::size_t>(v)];
+    for (std::int32_t& v : triangle) v = place[v];
     std::rotate(triangle.begin(), triangle.begin() + random() % 3, triangle.end());
   }
   std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
@@ -85,8 +85,8 @@ TEST_CASE("Attributes of points on a segment mix those of its ends, whatever lie
   for (const MeshPiece::Edge& e : piece.edges)
     if (e.marker == 3) {
       ++on_segment;
-      CHECK(piece.attributes[static_cast<std::size_t>(e.a)] == doctest::Approx(5).epsilon(1e-12));
-      CHECK(piece.attributes[static_cast<std::size_t>(e.b)] == doctest::Approx(5).epsilon(1e-12));
+      CHECK(piece.attributes[e.a] == doctest::Approx(5).epsilon(1e-12));
+      CHECK(piece.attributes[e.b] == doctest::Approx(5).epsilon(1e-12));
     }
   CHECK(on_segment > 2);
   CHECK(*std::max_element(piece.attributes.begin(), piece.attributes.end()) == doctest::Approx(5));

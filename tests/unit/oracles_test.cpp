@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/id_vector.hpp"
 #include "oracles/grid_mesh.hpp"
 #include "oracles/mesh_oracle.hpp"
 #include "oracles/random_pslg.hpp"
@@ -95,7 +96,7 @@ TEST_CASE("random inputs are planar, and the arrangement finds the boundary that
     std::size_t boundary = 0;
     for (const auto& s : domain.segments()) boundary += domain.inside(s.left_face) != domain.inside(s.right_face);
     CHECK(boundary == random.boundary_segments.size());
-    for (std::int32_t p = 0; static_cast<std::size_t>(p) < domain.points().size(); ++p) CHECK(domain.point_inside(p));
+    for (const std::int32_t p : first_ids<std::int32_t>(domain.points().size())) CHECK(domain.point_inside(p));
     for (const auto& s : random.input.segments) inner += s.marker >= 100, dangling += s.marker == 50;
     points += random.input.points.size() > random.input.segments.size();
   }

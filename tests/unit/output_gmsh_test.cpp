@@ -82,7 +82,7 @@ struct Unordered {
   using Key = std::pair<long long, long long>;  // coordinates in units of 1e-12
   explicit Unordered(const MeshPiece& mesh) {
     const auto key = [&mesh](std::int32_t v) {
-      const Point& p = mesh.points[static_cast<std::size_t>(v)];
+      const Point& p = mesh.points[v];
       return Key{std::llround(p.x * 1e12), std::llround(p.y * 1e12)};
     };
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -200,17 +200,17 @@ TEST_CASE("a mesh that Gmsh made is read") {
     const MeshPiece mesh = read_mesh(mesh_path);
     double area = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
-      const Point& p = mesh.points[static_cast<std::size_t>(a)];
-      const Point& q = mesh.points[static_cast<std::size_t>(b)];
-      const Point& r = mesh.points[static_cast<std::size_t>(c)];
+      const Point& p = mesh.points[a];
+      const Point& q = mesh.points[b];
+      const Point& r = mesh.points[c];
       area += ((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x)) / 2;
     }
     CHECK(area == doctest::Approx(2));
     CHECK(mesh.regions == std::vector<double>(mesh.triangles.size(), 4));
     std::map<std::int32_t, double> length;
     for (const auto& edge : mesh.edges) {
-      const Point& p = mesh.points[static_cast<std::size_t>(edge.a)];
-      const Point& q = mesh.points[static_cast<std::size_t>(edge.b)];
+      const Point& p = mesh.points[edge.a];
+      const Point& q = mesh.points[edge.b];
       length[edge.marker] += std::hypot(q.x - p.x, q.y - p.y);
     }
     CHECK(length.size() == 3);

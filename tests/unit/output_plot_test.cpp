@@ -73,15 +73,14 @@ TEST_CASE("scan conversion gives every sample to exactly one triangle of a mesh"
     double area = 0;
     for (const auto& triangle : mesh.triangles) {
       ValueRaster raster(60, 60, 2, ValueRaster::Keep::last);
-      const Point& a = mesh.points[static_cast<std::size_t>(triangle[0])];
-      const Point& b = mesh.points[static_cast<std::size_t>(triangle[1])];
-      const Point& c = mesh.points[static_cast<std::size_t>(triangle[2])];
+      const Point& a = mesh.points[triangle[0]];
+      const Point& b = mesh.points[triangle[1]];
+      const Point& c = mesh.points[triangle[2]];
       raster.add_triangle(a, b, c, 1);
       area += ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
       for (int y = 0; y < 60; ++y)
         for (int x = 0; x < 60; ++x)
-          hits[static_cast<std::size_t>(60 * y + x)] +=
-              static_cast<int>(std::lround(4 * raster.pixel(x, y, viridis).coverage));
+          hits[60 * y + x] += static_cast<int>(std::lround(4 * raster.pixel(x, y, viridis).coverage));
     }
     double covered = 0;
     for (int count : hits) {

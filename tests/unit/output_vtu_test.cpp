@@ -136,7 +136,7 @@ TEST_CASE("a .vtu holds the arrays that VTK expects, where its header says") {
   REQUIRE(offsets.back() == static_cast<std::int32_t>(corners.size()));
   for (std::size_t cell = 0; cell < cells; ++cell) {
     const bool is_line = cell >= triangles;
-    const auto end = static_cast<std::size_t>(offsets[cell]);
+    const auto end = offsets[cell];
     CHECK(types[cell] == (is_line ? 3 : 5));
     if (is_line) {
       const MeshPiece::Edge& edge = mesh.edges[cell - triangles];

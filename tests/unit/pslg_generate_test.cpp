@@ -19,16 +19,12 @@ namespace {
 
 const double kPiHere = std::acos(-1.0);
 
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Signed: boundaries are counterclockwise and holes clockwise, so all segments together run around the domain.
 double area(const Pslg& pslg) {
   double twice = 0;
   const Point o = pslg.points[0];
   for (const Pslg::Segment& s : pslg.segments) {
-    const Point a = pslg.points[at(s.a)], b = pslg.points[at(s.b)];
+    const Point a = pslg.points[s.a], b = pslg.points[s.b];
     twice += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
   }
   return twice / 2;
@@ -44,7 +40,7 @@ std::map<std::int32_t, int> marker_counts(const Pslg& pslg) {
 int crossings_east(const Pslg& pslg, const Point& p) {
   int count = 0;
   for (const Pslg::Segment& s : pslg.segments) {
-    const Point a = pslg.points[at(s.a)], b = pslg.points[at(s.b)];
+    const Point a = pslg.points[s.a], b = pslg.points[s.b];
     if ((a.y > p.y) == (b.y > p.y)) continue;
     if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) ++count;
   }
@@ -91,11 +87,10 @@ TEST_CASE("pipe: bore and channels, area of the ring less the channels") {
     o.channels = channels;
     const Pslg other = generate_pipe(o);
     check_closed_model(other);
-    CHECK(other.holes.size() == at(channels) + 1);
+    CHECK(other.holes.size() == channels + 1);
   }
   for (const Pslg::Segment& s : pslg.segments)
-    CHECK(std::hypot(pslg.points[at(s.a)].x - pslg.points[at(s.b)].x, pslg.points[at(s.a)].y - pslg.points[at(s.b)].y) <
-          1.25 * o.edge);
+    CHECK(std::hypot(pslg.points[s.a].x - pslg.points[s.b].x, pslg.points[s.a].y - pslg.points[s.b].y) < 1.25 * o.edge);
 }
 
 TEST_CASE("cylinder-flow: markers of the five sides, area of the rectangle less the half disc") {
@@ -134,7 +129,7 @@ TEST_CASE("fan: the wedges have the angle, from the center and from a corner") {
     CHECK(marker_counts(pslg) == std::map<std::int32_t, int>{{1, 4}, {2, 21}});
     double last = 0;
     for (std::size_t i = 4; i < pslg.segments.size(); ++i) {
-      const Point a = pslg.points[at(pslg.segments[i].a)], b = pslg.points[at(pslg.segments[i].b)];
+      const Point a = pslg.points[pslg.segments[i].a], b = pslg.points[pslg.segments[i].b];
       const double angle = std::atan2(b.y - a.y, b.x - a.x) * 180 / kPiHere;
       if (i > 4) CHECK(angle - last == doctest::Approx(2));
       last = angle;
@@ -149,9 +144,8 @@ TEST_CASE("random-polygon: one simple loop with just so many vertices, whatever 
       CAPTURE(jitter);
       const Pslg pslg = generate_random_polygon({vertices, jitter, 5});
       check_closed_model(pslg);
-      CHECK(pslg.points.size() == at(vertices));
-      for (std::int32_t i = 0; i < vertices; ++i)
-        REQUIRE(pslg.segments[at(i)] == Pslg::Segment{i, (i + 1) % vertices, 1});
+      CHECK(pslg.points.size() == vertices);
+      for (std::int32_t i = 0; i < vertices; ++i) REQUIRE(pslg.segments[i] == Pslg::Segment{i, (i + 1) % vertices, 1});
     }
 }
 
@@ -160,8 +154,8 @@ TEST_CASE("random-points: as many points and segments as asked for, none crossin
        {std::pair{3, 0}, {4, 1}, {100, 25}, {1000, 250}, {20000, 1000}, {20000, 5000}}) {
     const RandomPointsOptions o{points, segments, 3};
     Pslg pslg = generate_random_points(o);
-    CHECK(pslg.points.size() == at(points) + 4);
-    CHECK(pslg.segments.size() == at(segments) + 4);
+    CHECK(pslg.points.size() == points + 4);
+    CHECK(pslg.segments.size() == segments + 4);
     CHECK(repair(pslg).summary() == "");
   }
 }

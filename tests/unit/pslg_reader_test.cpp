@@ -32,7 +32,7 @@ std::string without(const std::string& part, std::string text) {
 }
 
 std::size_t lines(const std::string& text) {
-  return 1 + static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  return 1 + std::count(text.begin(), text.end(), '\n');
 }
 
 const char* const kTriangle =

@@ -33,7 +33,7 @@ VertexSizeField linear_field(const FlatMesh& mesh) {
 std::vector<Point> random_points(double low, double high, int count) {
   std::mt19937_64 random(23);
   std::uniform_real_distribution<double> uniform(low, high);
-  std::vector<Point> points(static_cast<std::size_t>(count));
+  std::vector<Point> points(count);
   for (Point& p : points) p = {uniform(random), uniform(random)};
   return points;
 }
@@ -42,8 +42,7 @@ std::vector<Point> random_points(double low, double high, int count) {
 std::vector<Point> telling_points(const FlatMesh& mesh, double n) {
   std::vector<Point> points = random_points(-0.3 * n, 1.3 * n, 2000);
   points.insert(points.end(), mesh.points.begin(), mesh.points.end());
-  for (const auto& [a, b, c] : mesh.triangles)
-    points.push_back(midpoint(mesh.points[static_cast<std::size_t>(a)], mesh.points[static_cast<std::size_t>(b)]));
+  for (const auto& [a, b, c] : mesh.triangles) points.push_back(midpoint(mesh.points[a], mesh.points[b]));
   return points;
 }
 
@@ -106,8 +105,7 @@ TEST_CASE("the triangles at a point are those that a search of all of them finds
     std::vector<std::int32_t> expected;
     for (std::size_t t = 0; t < flat.triangles.size(); ++t) {
       const auto& [i, j, k] = flat.triangles[t];
-      const Point &a = flat.points[static_cast<std::size_t>(i)], &b = flat.points[static_cast<std::size_t>(j)],
-                  &c = flat.points[static_cast<std::size_t>(k)];
+      const Point &a = flat.points[i], &b = flat.points[j], &c = flat.points[k];
       const double turn = orient2d(a, b, c);
       if (orient2d(a, b, p) * turn >= 0 && orient2d(b, c, p) * turn >= 0 && orient2d(c, a, p) * turn >= 0)
         expected.push_back(static_cast<std::int32_t>(t));
@@ -146,8 +144,8 @@ TEST_CASE("gradation: no edge exceeds the limit, and no larger function keeps it
     for (const auto& t : mesh.triangles)
       for (const auto i : t)
         for (const auto j : t) {
-          const Point &p = mesh.points[static_cast<std::size_t>(i)], &q = mesh.points[static_cast<std::size_t>(j)];
-          way[static_cast<std::size_t>(i) * n + static_cast<std::size_t>(j)] = std::hypot(p.x - q.x, p.y - q.y);
+          const Point &p = mesh.points[i], &q = mesh.points[j];
+          way[i * n + j] = std::hypot(p.x - q.x, p.y - q.y);
         }
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t i = 0; i < n; ++i)

@@ -72,7 +72,7 @@ TEST_CASE("a filled hole") {
   for (int y = 3; y <= 7; ++y)
     for (int x = 4; x <= 8; ++x) {
       const std::int32_t known = point(x, y);
-      in_hole[static_cast<std::size_t>(y - 3)][static_cast<std::size_t>(x - 4)] =
+      in_hole[y - 3][x - 4] =
           known >= 0 ? known : add_point(grid.mesh, {static_cast<double>(x), static_cast<double>(y)});
     }
   for (std::size_t y = 0; y < 4; ++y)
@@ -120,11 +120,11 @@ TEST_CASE("an input point that is not a vertex") {
 
 TEST_CASE("a chain that leaves its segment") {
   GridCase grid;
-  grid.mesh.points[static_cast<std::size_t>(grid.at(6, 9))].y = 9.0000001;
+  grid.mesh.points[grid.at(6, 9)].y = 9.0000001;
   CHECK_HAS(check(grid, 0, 0), Flaw::off_segment);
   CHECK(check(grid, 0, 0).findings.messages(Flaw::off_segment).front().find("off its line") != std::string::npos);
   grid = GridCase();  // rounding is no flaw
-  grid.mesh.points[static_cast<std::size_t>(grid.at(6, 9))].y = std::nextafter(9.0, 10.0);
+  grid.mesh.points[grid.at(6, 9)].y = std::nextafter(9.0, 10.0);
   CHECK(check(grid, 0, 0).findings.count(Flaw::off_segment) == 0);
 }
 

@@ -73,16 +73,16 @@ TEST_CASE("an inverted triangle") {
 
 TEST_CASE("a vertex moved across an edge inverts a triangle; moved a little it breaks Delaunay") {
   GridCase grid;
-  grid.mesh.points[static_cast<std::size_t>(grid.at(2, 2))] = {3.5, 2};
+  grid.mesh.points[grid.at(2, 2)] = {3.5, 2};
   CHECK_HAS(check(grid), Flaw::not_counterclockwise);
   grid = GridCase();
-  grid.mesh.points[static_cast<std::size_t>(grid.at(2, 2))] = {2.25, 2.125};
+  grid.mesh.points[grid.at(2, 2)] = {2.25, 2.125};
   CHECK_ONLY(verify(grid.mesh, {}), Flaw::not_delaunay);
 }
 
 TEST_CASE("a Steiner vertex moved by one unit in the last place breaks an exact cocircularity") {
   GridCase grid;
-  grid.mesh.points[static_cast<std::size_t>(grid.at(2, 2))].x = std::nextafter(2.0, 3.0);
+  grid.mesh.points[grid.at(2, 2)].x = std::nextafter(2.0, 3.0);
   CHECK_ONLY(check(grid, 0, 0), Flaw::not_delaunay);
 }
 

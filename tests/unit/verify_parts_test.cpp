@@ -172,13 +172,13 @@ TEST_CASE("the bins of the histogram hold every angle") {
     const double angle = (d + 0.5) / 180 * std::numbers::pi;
     const VerifyReport report = verify(one_triangle({0, 0}, {1, 0}, {std::cos(angle), std::sin(angle)}), {});
     CAPTURE(d);
-    CHECK(report.quality.angles[static_cast<std::size_t>(d)] >= 1);
+    CHECK(report.quality.angles[d] >= 1);
     std::uint64_t sum = 0, tens = 0;
     for (const auto n : report.quality.angles) sum += n;
     for (const auto n : report.quality.angles_by_ten()) tens += n;
     CHECK(sum == 3);
     CHECK(tens == 3);
-    CHECK(report.quality.angles_by_ten()[static_cast<std::size_t>(d / 10)] >= 1);
+    CHECK(report.quality.angles_by_ten()[d / 10] >= 1);
   }
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("a small angle is excused where the input has it, and nowhere else") {
   MeshPiece wedge = one_triangle({0, 0}, {4, 0}, {4, 1});  // 14 degrees
   VerifyReport report = verify(wedge, options);
   CHECK(report.accepted());
-  CHECK(report.quality.exceptions[static_cast<std::size_t>(ExceptionReason::input_angle)].count == 1);
+  CHECK(report.quality.exceptions[ExceptionReason::input_angle].count == 1);
 
   // The same corner cut by a vertex: its two angles of 7 degrees are no angles of the input.
   MeshPiece cut;
@@ -235,7 +235,7 @@ TEST_CASE("a skinny triangle on a seditious edge is excused when its ends are eq
   options.check_delaunay = false;
   VerifyReport report = verify(mesh(1), options);
   CHECK(report.accepted());
-  CHECK(report.quality.exceptions[static_cast<std::size_t>(ExceptionReason::small_wedge)].count == 1);
+  CHECK(report.quality.exceptions[ExceptionReason::small_wedge].count == 1);
   CHECK(report.quality.exception_count() == 1);
   report = verify(mesh(1.01), options);
   CHECK(report.findings.count(Flaw::small_angle) == 1);
@@ -249,7 +249,7 @@ TEST_CASE("chains end at corners, at forks and at bends") {
   CHECK(plain.all().size() == 3);
   CHECK(plain.all()[0].vertices == std::vector<std::int32_t>{0, 1, 2, 3});
   CHECK(plain.through(1) == 0);
-  CHECK(plain.through(3) == Chains::kNone);
+  CHECK(plain.through(3) == kNone);
   const Chains cut(mesh, subsegments, [](std::int32_t v) { return v == 2; });
   CHECK(cut.all().size() == 4);
   CHECK(!bends_at(mesh, subsegments, 1));
@@ -290,7 +290,7 @@ TEST_CASE("a skinny triangle is excused beside a segment that doubles have no ro
     VerifyOptions options;
     options.min_angle = 20;
     options.check_delaunay = false;
-    return verify(m, options).quality.exceptions[static_cast<std::size_t>(ExceptionReason::no_room)].count;
+    return verify(m, options).quality.exceptions[ExceptionReason::no_room].count;
   };
   CHECK(excused(1, true) == 1);
   CHECK(excused(1, false) == 0);
