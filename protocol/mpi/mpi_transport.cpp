@@ -49,6 +49,14 @@ std::optional<Rank> MpiSession::launched_as() {
   return std::nullopt;
 }
 
+std::string MpiSession::library() {
+  char text[MPI_MAX_LIBRARY_VERSION_STRING];
+  int length = 0;
+  MPI_Get_library_version(text, &length);
+  const std::string all(text, static_cast<std::size_t>(length));
+  return all.substr(0, all.find_first_of(",\n"));
+}
+
 int MpiSession::ranks_on_this_machine() {
   MPI_Comm machine = MPI_COMM_NULL;
   int ranks = 1;

@@ -25,6 +25,8 @@ class MpiSession {
   [[nodiscard]] static int world();  ///< MPI_COMM_WORLD
   /// The rank as which mpirun or its like has started this process, if they did; known before MPI is initialized.
   [[nodiscard]] static std::optional<Rank> launched_as();
+  /// Which MPI this is, and its version: "Open MPI v4.1.4". Works before MPI is initialized, too.
+  [[nodiscard]] static std::string library();
   /// Ranks that share this machine's memory. All ranks call it together.
   [[nodiscard]] static int ranks_on_this_machine();
 

@@ -1,28 +1,50 @@
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "app/commands.hpp"
 #include "base/standard_streams.hpp"
+#include "cli/completion.hpp"
+#include "cli/manual_page.hpp"
+#include "cli/values.hpp"
+#include "driftmesh/version.hpp"
 #include "experiment/key_words.hpp"
 
 namespace driftmesh::app {
 namespace {
 
-cli::Option flag(const std::string& name, const std::string& help, std::function<std::string()> prints) {
-  return {.kind = cli::Option::Kind::kFlag, .name = name, .help = help, .prints = std::move(prints)};
+using Text = std::function<std::string()>;
+
+cli::Option printing(const std::string& name, const std::string& help, Text text) {
+  return {.kind = cli::Option::Kind::kFlag, .name = name, .help = help, .prints = std::move(text)};
 }
 
 }  // namespace
 
-cli::Command config_command(const cli::Command&) {
-  return {.name = "config",
-          .summary = "Print what the files of experiments can say",
-          .options = {flag("schema", "Print the JSON schema, for editors that check YAML while it is written",
+cli::Command config_command(const cli::Command& program) {
+  const auto shell = std::make_shared<std::string>();
+  return {
+      .name = "config",
+      .summary = "Print what the files of experiments can say, the manual page, or completion for a shell",
+      .options = {printing("schema", "Print the JSON schema of experiments, for editors that check YAML as it is typed",
                            experiment::json_schema),
-                      flag("keys", "Print all keys as a table in Markdown", experiment::keys_table)},
-          .examples = {"driftmesh config --schema > experiment.schema.json"},
-          .exit_codes = "0 done, 1 error, 2 wrong usage",
-          .run = [](cli::Call&) -> int { throw cli::UsageError("say what to print"); }};
+                  printing("keys", "Print all keys of experiments as a table in Markdown", experiment::keys_table),
+                  printing("man", "Print the manual page",
+                           [&program] { return cli::manual_page(program, "driftmesh " DRIFTMESH_VERSION); }),
+                  {.name = "completion",
+                   .value = "SHELL",
+                   .help = "Print the script by which a shell completes commands, options and their values",
+                   .choices = cli::completion_shells(),
+                   .take = cli::into(*shell)}},
+      .examples = {"driftmesh config --schema > experiment.schema.json", "driftmesh config --man | man -l -",
+                   "source <(driftmesh config --completion bash)"},
+      .exit_codes = "0 done, 1 error, 2 wrong usage",
+      .run = [shell, &program](cli::Call&) {
+        if (shell->empty()) throw cli::UsageError("--schema, --keys, --man or --completion is missing");
+        print(cli::completion_script(program, *shell));
+        return 0;
+      }};
 }
 
 }  // namespace driftmesh::app

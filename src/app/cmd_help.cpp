@@ -26,6 +26,13 @@ std::string help_of(const cli::Command& program, const std::vector<std::string>&
   return cli::help_text(name, *command);
 }
 
+std::vector<std::string> command_names(const cli::Command& program) {
+  std::vector<std::string> names{"help"};  // the program does not have it yet
+  for (const cli::NamedCommand& named : cli::all_commands(program))
+    if (named.command != &program) names.push_back(named.command->name);
+  return names;
+}
+
 }  // namespace
 
 cli::Command help_command(const cli::Command& program) {
@@ -35,8 +42,9 @@ cli::Command help_command(const cli::Command& program) {
           .options = {{.kind = cli::Option::Kind::kPositional,
                        .name = "command",
                        .value = "COMMAND",
-                       .help = "The command, as in: driftmesh help generate bay",
+                       .help = "Its name, as in: driftmesh help generate bay",
                        .repeats = true,
+                       .choices = command_names(program),
                        .take = cli::into(*words)}},
           .run = [words, &program](cli::Call&) {
             print(help_of(program, *words));

@@ -24,19 +24,29 @@ using namespace driftmesh::app;
 constexpr int kError = 1;
 
 std::string version_text() {
-  return "driftmesh " DRIFTMESH_VERSION "\n";
+#ifdef __clang__
+  const std::string compiler = "Clang " __clang_version__;
+#else
+  const std::string compiler = "GCC " __VERSION__;
+#endif
+  return "driftmesh " DRIFTMESH_VERSION "\ncompiler: " + compiler + "\nlibraries: " + protocol::MpiSession::library() +
+         ", " DRIFTMESH_LIBRARIES "\n";
 }
 
 cli::Command commands_of_program() {
   return {.name = "driftmesh",
-          .summary = "driftmesh: quality Delaunay meshes of planar domains",
+          .summary = "Quality Delaunay meshes of planar domains, on one core or on many ranks",
           .options = {{.kind = cli::Option::Kind::kFlag,
                        .name = "version",
                        .help = "Print the version of the program, and of what it was built with",
                        .prints = version_text}},
           .commands = {mesh_command(), check_command(), convert_command(), decompose_command(), generate_command(),
                        plot_command(), run_command()},
-          .notes = "driftmesh COMMAND --help says what each can do."};
+          .notes =
+              "driftmesh COMMAND --help says what each can do.\n\n"
+              "Wherever a file is read or written, - stands for standard input or output, and an extension behind "
+              "it for the format: -.msh, -.svg. Without one, meshes are .vtu, pictures are .png, and domains are "
+              ".poly. What is printed goes to standard error while a file goes to standard output."};
 }
 
 /// Writes what is still in buffers.

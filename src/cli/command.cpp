@@ -28,6 +28,11 @@ std::string words_of(const Call::Given& given) {
   return "--" + given.option->name + " " + quoted(given.value);
 }
 
+void add_commands(const std::string& name, const Command& command, std::vector<NamedCommand>& all) {
+  all.push_back({name, &command});
+  for (const Command& below : command.commands) add_commands(name + " " + below.name, below, all);
+}
+
 }  // namespace
 
 bool Call::has(const std::string& option) const {
@@ -51,6 +56,12 @@ std::string Call::text(const std::vector<std::string>& without) const {
     line += words_of(g);
   }
   return line;
+}
+
+std::vector<NamedCommand> all_commands(const Command& program) {
+  std::vector<NamedCommand> all;
+  add_commands(program.name, program, all);
+  return all;
 }
 
 std::string spelled(const Option& option) {

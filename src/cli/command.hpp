@@ -69,6 +69,13 @@ struct Call {
   [[nodiscard]] std::string text(const std::vector<std::string>& without = {}) const;
 };
 
+/// A command and those below it, each with its name in full, in the order of help.
+struct NamedCommand {
+  std::string name;  ///< "driftmesh generate bay"
+  const Command* command = nullptr;
+};
+[[nodiscard]] std::vector<NamedCommand> all_commands(const Command& program);
+
 /// As it is typed: "--area", or "INPUT" for an argument.
 [[nodiscard]] std::string spelled(const Option& option);
 

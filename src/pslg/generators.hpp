@@ -35,9 +35,9 @@ void visit_parameters(CylinderFlowOptions& o, Visit&& visit) {
 
 template <class Visit>
 void visit_parameters(BayOptions& o, Visit&& visit) {
-  visit("width", o.width, "Width of the region, in metres");
-  visit("height", o.height, "Height of the region, in metres");
-  visit("resolution", o.resolution, "About the distance of the coastline's points, in metres");
+  visit("width", o.width, "Width of the region, in meters");
+  visit("height", o.height, "Height of the region, in meters");
+  visit("resolution", o.resolution, "About the distance of the coastline's points, in meters");
   visit("roughness", o.roughness, "0: smooth coast, 1: very ragged");
   visit("seed", o.seed, "Another seed makes another bay");
 }

@@ -4,8 +4,8 @@
 usage: cli_test.py DRIFTMESH [unittest options]
 """
 
-import functools
 import csv
+import functools
 import json
 import os
 import pathlib
@@ -13,26 +13,10 @@ import re
 import shlex
 import signal
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
-PROGRAM = None
-MESHER_SECONDS = 120  # far more than any call here needs: a hang fails, a slow machine does not
-
-SQUARE = """4 2 0 0
-1 0 0
-2 4 0
-3 4 4
-4 0 4
-4 1
-1 1 2 1
-2 2 3 2
-3 3 4 3
-4 4 1 4
-0
-"""
+import program
+from program import MESHER_SECONDS, RANKS_ENVIRONMENT, SQUARE, Cli, main
 
 # Options that keep each kind of input small.
 KINDS = {
@@ -46,53 +30,6 @@ KINDS = {
     "random-polygon": ["--vertices", "200"],
     "random-points": ["--points", "300", "--segments", "60"],
 }
-
-
-# More ranks than cores, and root in a container, must be allowed by name. Open MPI also leaks on purpose.
-RANKS_ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                         OMPI_MCA_rmaps_base_oversubscribe="1", ASAN_OPTIONS="detect_leaks=0")
-
-
-class Cli(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def run_program(self, *arguments):
-        in_subdomains = {"-n", "--decomposition"}.intersection(arguments)
-        starts_mpi = arguments and (arguments[0] == "run" or arguments[0] == "mesh" and in_subdomains)
-        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
-                              errors="replace", timeout=MESHER_SECONDS, check=False,
-                              env=RANKS_ENVIRONMENT if starts_mpi else None)
-
-    def succeed(self, *arguments):
-        result = self.run_program(*arguments)
-        self.assertEqual(result.returncode, 0, f"{arguments}\n{result.stdout}{result.stderr}")
-        return result.stdout
-
-    def refuse(self, *arguments, code=1, says=()):
-        """The call ends with `code` and an error of few lines that contains every word of `says`."""
-        result = self.run_program(*arguments)
-        self.assertEqual(result.returncode, code, f"{arguments}\n{result.stdout}{result.stderr}")
-        errors = [line for line in result.stderr.splitlines() if line]
-        self.assertTrue(1 <= len(errors) <= 12, result.stderr)
-        for word in says:
-            self.assertIn(word, result.stderr)
-        return result
-
-    def on_ranks(self, ranks, *arguments):
-        return subprocess.run(["mpiexec", "-n", str(ranks), PROGRAM, *map(str, arguments)], cwd=self.folder,
-                              capture_output=True, text=True, errors="replace", timeout=MESHER_SECONDS, check=False,
-                              env=RANKS_ENVIRONMENT)
-
-    def write(self, name, text):
-        path = self.folder / name
-        path.write_bytes(text if isinstance(text, bytes) else text.encode())
-        return name
-
-    def files(self):
-        return sorted(path.name for path in self.folder.iterdir())
 
 
 class Pipeline(Cli):
@@ -358,15 +295,15 @@ class Errors(Cli):
                 os.mkfifo(self.folder / "out.neigh")
                 # Background jobs of a shell ignore some signals, and so would the program.
                 heed = functools.partial(signal.signal, number, signal.SIG_DFL)
-                with subprocess.Popen([PROGRAM, "mesh", "square.poly", "-o", "out.ele"], cwd=self.folder,
+                with subprocess.Popen([program.PATH, "mesh", "square.poly", "-o", "out.ele"], cwd=self.folder,
                                       preexec_fn=heed, stdout=subprocess.DEVNULL,
-                                      stderr=subprocess.DEVNULL) as program:
+                                      stderr=subprocess.DEVNULL) as mesher:
                     end = time.monotonic() + MESHER_SECONDS
                     while sum("tmp" in name for name in self.files()) < 4 and time.monotonic() < end:
                         time.sleep(0.01)
                     self.assertEqual(sum("tmp" in name for name in self.files()), 4)
-                    program.send_signal(number)
-                    self.assertEqual(program.wait(MESHER_SECONDS), -number)
+                    mesher.send_signal(number)
+                    self.assertEqual(mesher.wait(MESHER_SECONDS), -number)
                 self.assertEqual(self.files(), ["out.neigh", "square.poly"])
                 (self.folder / "out.neigh").unlink()
 
@@ -497,7 +434,7 @@ class Mesh(Cli):
             self.assertIn(message, result.stderr)
 
     def test_an_error_of_one_rank_alone_is_said(self):
-        result = subprocess.run([PROGRAM, "mesh", "square.poly", "--config", "no.yaml"], cwd=self.folder, text=True,
+        result = subprocess.run([program.PATH, "mesh", "square.poly", "--config", "no.yaml"], cwd=self.folder, text=True,
                                 capture_output=True, timeout=MESHER_SECONDS, check=False,
                                 env=dict(RANKS_ENVIRONMENT, OMPI_COMM_WORLD_RANK="1"))
         self.assertEqual((result.returncode, result.stdout), (1, ""))
@@ -842,5 +779,4 @@ class Experiments(Cli):
 
 
 if __name__ == "__main__":
-    PROGRAM = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    main()

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+
+namespace driftmesh::cli {
+
+/// The shells that completion can be had for.
+[[nodiscard]] std::vector<std::string> completion_shells();
+
+/// The script by which a shell completes the command lines of a program: its commands, the options of each, the values
+/// that an option may have, files and folders. `shell` is one of completion_shells().
+[[nodiscard]] std::string completion_script(const Command& program, const std::string& shell);
+
+// Of these, each is one.
+[[nodiscard]] std::string bash_completion(const Command& program);
+[[nodiscard]] std::string zsh_completion(const Command& program);
+[[nodiscard]] std::string fish_completion(const Command& program);
+
+}  // namespace driftmesh::cli

@@ -1,0 +1,80 @@
+#include "cli/completion.hpp"
+#include "cli/completion_words.hpp"
+
+namespace driftmesh::cli {
+namespace {
+
+// In the script, `path` is the command as far as it stands, `before` the word before the one to be completed.
+constexpr const char* kBegin = R"(# Completion of the command lines of @ for bash. Source it, or put it into
+# share/bash-completion/completions/@.
+_@() {
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} path=@
+  local options='' words='' files='' i
+  if [[ $word == '=' ]]; then # of --name=
+    word=''
+  elif [[ $before == '=' ]]; then # of --name=value
+    before=${COMP_WORDS[COMP_CWORD - 2]}
+  fi
+  for ((i = 1; i < COMP_CWORD; ++i)); do
+    case "$path ${COMP_WORDS[i]}" in
+)";
+constexpr const char* kCommands = R"(        path+=" ${COMP_WORDS[i]}" ;;
+    esac
+  done
+  case "$path:$before" in
+)";
+constexpr const char* kEnd = R"(  esac
+  if [[ $word == -?* && -n $options ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+  elif [[ -n $files ]]; then
+    compopt -o filenames 2>/dev/null
+    mapfile -t COMPREPLY < <(compgen "$files" -- "$word")
+  else
+    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+  fi
+}
+complete -F _@ @
+)";
+
+/// What a word can be that is the value of an option, or an argument.
+std::string values_of(const Option& option) {
+  if (!option.choices.empty()) return " words='" + joined(option.choices, " ") + "'";
+  if (option.completes == Option::Completes::kFile) return " files=-f";
+  if (option.completes == Option::Completes::kFolder) return " files=-d";
+  return "";
+}
+
+std::string value_case(const std::string& path, const Option& option) {
+  std::vector<std::string> patterns;
+  for (const std::string& spelling : spellings(option)) patterns.push_back("'" + path + ":" + spelling + "'");
+  return "    " + joined(patterns, " | ") + ")" + values_of(option) + " ;;\n";
+}
+
+std::string word_case(const NamedCommand& named) {
+  const Command& command = *named.command;
+  std::vector<std::string> options, words;
+  for (const Option* option : named_options(command)) options.push_back("--" + option->name);
+  for (const Command& below : command.commands) words.push_back(below.name);
+  std::string text = "    '" + named.name + ":'*) options='" + joined(options, " ") + "'";
+  if (!words.empty()) text += " words='" + joined(words, " ") + "'";
+  if (const Option* argument = argument_of(command); argument != nullptr) text += values_of(*argument);
+  return text + " ;;\n";
+}
+
+}  // namespace
+
+std::string bash_completion(const Command& program) {
+  const std::vector<NamedCommand> all = all_commands(program);
+  std::vector<std::string> paths;
+  std::string values, words;
+  for (const NamedCommand& named : all) {
+    if (named.command != &program) paths.push_back("'" + named.name + "'");
+    words += word_case(named);
+    for (const Option* option : named_options(*named.command))
+      if (option->kind == Option::Kind::kValue) values += value_case(named.name, *option);
+  }
+  const std::string known = "      " + joined(paths, " | \\\n        ") + ")\n";
+  return replaced(kBegin, '@', program.name) + known + kCommands + values + words + replaced(kEnd, '@', program.name);
+}
+
+}  // namespace driftmesh::cli
