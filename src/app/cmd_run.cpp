@@ -59,7 +59,7 @@ class Runner {
         file_(file),
         cluster_(cluster),
         folder_(command.folder.empty() ? file.base.name + ".runs" : command.folder),
-        progress_(!command.quiet && ProgressLine::possible()) {}
+        progress_(!command.quiet) {}
 
   void go() {
     make_folder(folder_);

@@ -17,9 +17,21 @@ namespace {
 constexpr auto kFirstAfter = std::chrono::milliseconds(500);
 constexpr auto kEvery = std::chrono::milliseconds(100);
 
+constexpr std::chrono::seconds kFirstLineAfter{5}, kLineAtLeastEvery{60};
+
+/// Whether stderr is a terminal that can rewrite a line.
+bool rewrites_lines() {
+  const char* const terminal = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
+}
+
 std::size_t terminal_width() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 }  // namespace
@@ -39,12 +51,7 @@ std::string refining_words(std::int64_t triangles, double forecast, double secon
   return text;
 }
 
-bool ProgressLine::possible() {
-  const char* const terminal = std::getenv("TERM");
-  return isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
-}
-
-ProgressLine::ProgressLine(bool enabled) {
+ProgressLine::ProgressLine(bool enabled) : rewrites_(rewrites_lines()) {
   if (enabled) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -77,22 +84,34 @@ void ProgressLine::end() {
 }
 
 void ProgressLine::run(const std::stop_token& stop) {
+  const Clock::time_point begin = Clock::now();
   std::unique_lock lock(mutex_);
-  wake_.wait_for(lock, stop, kFirstAfter, [] { return false; });
-  while (!stop.stop_requested()) {
-    show();
-    wake_.wait_for(lock, stop, kEvery, [] { return false; });
+  Clock::duration wait = rewrites_ ? Clock::duration(kFirstAfter) : kFirstLineAfter;
+  while (true) {
+    wake_.wait_for(lock, stop, wait, [] { return false; });
+    if (stop.stop_requested()) return;
+    if (rewrites_)
+      rewrite_line();
+    else
+      std::fprintf(stderr, "[%s] %s\n", whole_seconds_words(seconds_since(begin) - 0.5).c_str(), text().c_str());
+    wait = next_wait(begin);
   }
 }
 
-void ProgressLine::show() {
-  const double seconds = std::chrono::duration<double>(Clock::now() - since_).count();
-  std::string text = stage_;
-  if (refining_)
-    text = refining_words(triangles_, forecast_, seconds);
-  else if (seconds >= 1)
-    text += fmt::format("  {:.0f} s", seconds);
-  std::fprintf(stderr, "\r%s\033[K", text.substr(0, terminal_width() - 1).c_str());
+// Lines come as far from each other as the run is old.
+ProgressLine::Clock::duration ProgressLine::next_wait(Clock::time_point begin) const {
+  if (rewrites_) return kEvery;
+  return std::min<Clock::duration>(Clock::now() - begin, kLineAtLeastEvery);
+}
+
+std::string ProgressLine::text() const {
+  const double seconds = seconds_since(since_);
+  if (refining_) return refining_words(triangles_, forecast_, seconds);
+  return seconds >= 1 ? fmt::format("{}  {:.0f} s", stage_, seconds) : stage_;
+}
+
+void ProgressLine::rewrite_line() {
+  std::fprintf(stderr, "\r%s\033[K", text().substr(0, terminal_width() - 1).c_str());
   std::fflush(stderr);
   shown_ = true;
 }

@@ -12,8 +12,10 @@ namespace driftmesh::app {
 /// "refining  31 %  2 s left  3,400,000 of about 10,900,000 triangles  5.31 M/s"
 [[nodiscard]] std::string refining_words(std::int64_t triangles, double forecast, double seconds);
 
-/// One line on stderr that says what is going on and for how long, rewritten in place by a thread of its own, so that
-/// it shows also what reports nothing. The first half second passes in silence. Does nothing when it is not enabled.
+/// Says on stderr what is going on and for how long, by a thread of its own, so that it shows also what reports
+/// nothing. A terminal shows one line, rewritten in place after half a second of silence. Anything else, such as the
+/// pipe that mpirun makes of stderr, gets a line after 5, 10, 20, 40 and 80 seconds and then every minute. Does nothing
+/// when it is not enabled.
 class ProgressLine {
  public:
   explicit ProgressLine(bool enabled);
@@ -30,17 +32,17 @@ class ProgressLine {
   /// Erases the line for good.
   void end();
 
-  /// Whether stderr is a terminal that can rewrite a line.
-  [[nodiscard]] static bool possible();
-
  private:
   using Clock = std::chrono::steady_clock;
   void run(const std::stop_token& stop);
-  void show();
+  [[nodiscard]] Clock::duration next_wait(Clock::time_point begin) const;
+  [[nodiscard]] std::string text() const;
+  void rewrite_line();
   void erase();
 
   std::mutex mutex_;  // guards what follows, and stderr while the thread runs
   std::condition_variable_any wake_;
+  const bool rewrites_;
   std::string stage_;
   Clock::time_point since_ = Clock::now();
   bool refining_ = false;

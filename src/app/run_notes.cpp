@@ -29,7 +29,7 @@ std::string sizing_words(const SizingOptions& sizing) {
 }  // namespace
 
 RunNotes::RunNotes(const MeshOptions& options, std::string command, bool silent)
-    : progress(!silent && !options.quiet && ProgressLine::possible()),
+    : progress(!silent && !options.quiet),
       options_(options),
       quiet_(silent || options.quiet) {
   run.command = std::move(command);

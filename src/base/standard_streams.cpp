@@ -25,7 +25,7 @@ bool is_open(int descriptor) {
 }  // namespace
 
 bool is_standard_stream(std::string_view path) {
-  return path == "-" || path.starts_with("-.");
+  return path == "-" || (path.starts_with("-.") && path.find('/') == std::string_view::npos);
 }
 
 // A descriptor opened for the other direction fails like a closed one. open() takes the lowest that is free.
@@ -53,7 +53,9 @@ void print(std::string_view text) {
 
 void flush_standard_output() {
   errno = 0;
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail();
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  std::clearerr(stdout);
+  if (failed) fail();
 }
 
 }  // namespace driftmesh

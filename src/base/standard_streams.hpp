@@ -27,7 +27,7 @@ void mute_standard_output();
 /// Prints to standard output, or to standard error if standard output is taken. What is printed may stay in a buffer
 /// until flush_standard_output(). Throws FileError.
 void print(std::string_view text);
-/// Throws FileError if anything that was printed could not be written.
+/// Throws FileError, once, if anything that was printed could not be written.
 void flush_standard_output();
 
 }  // namespace driftmesh

@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/nearest_name.hpp"
 #include "base/read_file.hpp"
+#include "base/standard_streams.hpp"
 
 namespace driftmesh::experiment {
 namespace {
@@ -211,7 +212,7 @@ class Reader {
  public:
   Reader(const std::string& path, const std::vector<std::string>& settings)
       : origin_(Origin::file(path)), settings_(settings) {
-    result_.base.name = std::filesystem::path(path).stem().string();
+    result_.base.name = is_standard_stream(path) ? "experiment" : std::filesystem::path(path).stem().string();
     result_.path = path;
   }
 

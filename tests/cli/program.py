@@ -5,6 +5,7 @@ A test ends with program.main(), and is started as: NAME_test.py DRIFTMESH [unit
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -29,6 +30,11 @@ SQUARE = """4 2 0 0
 # More ranks than cores, and root in a container, must be allowed by name. Open MPI also leaks on purpose.
 RANKS_ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                          OMPI_MCA_rmaps_base_oversubscribe="1", ASAN_OPTIONS="detect_leaks=0")
+
+
+def without_progress(errors):
+    """Standard error of a run that took more than five seconds here."""
+    return re.sub(r"^\[[^]]+\] .*\n", "", errors, flags=re.MULTILINE)
 
 
 class Cli(unittest.TestCase):

@@ -183,7 +183,7 @@ class Progress(Streams):
 
     def test_plain_lines_where_there_is_no_terminal(self):
         said = self.wait_for_input(11)
-        self.assertEqual(said, "driftmesh: read  5 s\ndriftmesh: read  10 s\n")
+        self.assertEqual(said, "[5 s] read  5 s\n[10 s] read  10 s\n")
 
     def test_no_lines_if_quiet(self):
         self.assertEqual(self.wait_for_input(6, "--quiet"), "")
