@@ -25,14 +25,19 @@ constexpr std::chrono::microseconds kNap{20};
 
 constexpr std::size_t kBroadcastPart = std::size_t{1} << 30;  // MPI counts with an int
 
-}  // namespace
-
-MpiSession::MpiSession(int& argc, char**& argv) {
+/// Whether this call began MPI.
+bool begin_mpi(int* argc, char*** argv) {
   int initialized = 0, provided = 0;
   MPI_Initialized(&initialized);
-  began_ = initialized == 0;
-  if (began_) MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  if (initialized == 0) MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided);
+  return initialized == 0;
 }
+
+}  // namespace
+
+MpiSession::MpiSession() : began_(begin_mpi(nullptr, nullptr)) {}
+
+MpiSession::MpiSession(int& argc, char**& argv) : began_(begin_mpi(&argc, &argv)) {}
 
 MpiSession::~MpiSession() {
   if (began_) MPI_Finalize();
@@ -57,10 +62,10 @@ std::string MpiSession::library() {
   return all.substr(0, all.find_first_of(",\n"));
 }
 
-int MpiSession::ranks_on_this_machine() {
+int MpiSession::ranks_on_this_machine(int communicator) {
   MPI_Comm machine = MPI_COMM_NULL;
   int ranks = 1;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  MPI_Comm_split_type(MPI_Comm_f2c(communicator), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
   MPI_Comm_size(machine, &ranks);
   MPI_Comm_free(&machine);
   return ranks;

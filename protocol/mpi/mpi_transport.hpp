@@ -16,6 +16,8 @@ namespace driftmesh::protocol {
 /// initialized already, by a library, it is left to who did that to end it.
 class MpiSession {
  public:
+  MpiSession();
+  /// The same, for tests whose main function has its arguments at hand.
   MpiSession(int& argc, char**& argv);
   /// Finalizes MPI, which waits for all ranks. Not to be reached with a failure in hand: call abort instead.
   ~MpiSession();
@@ -27,8 +29,8 @@ class MpiSession {
   [[nodiscard]] static std::optional<Rank> launched_as();
   /// Which MPI this is, and its version: "Open MPI v4.1.4". Works before MPI is initialized, too.
   [[nodiscard]] static std::string library();
-  /// Ranks that share this machine's memory. All ranks call it together.
-  [[nodiscard]] static int ranks_on_this_machine();
+  /// Ranks of the communicator that share this machine's memory. All of them call it together.
+  [[nodiscard]] static int ranks_on_this_machine(int communicator);
 
   /// Prints `message` on stderr and stops all ranks; mpiexec exits with `code`. Works, as an exit of this process
   /// alone, without MPI too.

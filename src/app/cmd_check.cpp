@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/sizing_options.hpp"
+#include "app/request_line.hpp"
 #include "base/error.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "io/mesh_file.hpp"
+#include "job/check.hpp"
+#include "job/domain.hpp"
 #include "mesh/digest.hpp"
 #include "pslg/poly_file.hpp"
 #include "pslg/repair.hpp"
@@ -29,8 +31,7 @@ struct CheckOptions {
   std::string mesh;
   std::string input;
   VerifyOptions verify;
-  bool no_region_areas = false;
-  SizingOptions sizing;
+  GivenKeys bounds;
   bool quiet = false;
 };
 
@@ -63,10 +64,15 @@ VerifyReport read_and_verify(const CheckOptions& options) {
 }
 
 int run_check(CheckOptions& options) {
-  check_sizing_options(options.sizing);
-  options.verify.region_areas = !options.no_region_areas;
+  job::Request request;
+  in_words_of_options(options.bounds, {}, [&] {
+    options.bounds.apply(request);
+    job::check(request, job::kOnePiece);
+  });
+  options.verify.max_area = request.bounds.area;
+  options.verify.region_areas = request.bounds.region_areas;
   try {
-    const std::unique_ptr<SizeField> size = make_size_field(options.sizing);
+    const std::unique_ptr<SizeField> size = make_size_field(job::sizing_of(request.sizing));
     options.verify.size = size.get();
     const VerifyReport report = read_and_verify(options);
     if (!options.quiet) print(report_text(report, options.verify));
@@ -81,25 +87,13 @@ int run_check(CheckOptions& options) {
 
 std::vector<cli::Option> bound_options(CheckOptions& options) {
   constexpr const char* kGroup = "Bounds that the mesh must keep (as for driftmesh mesh)";
-  std::vector<cli::Option> all{
-      {.name = "area",
-       .letter = 'a',
-       .value = "AREA",
-       .help = "No triangle is larger than this",
-       .group = kGroup,
-       .take = cli::into(options.verify.max_area, cli::kPositive)},
-      {.name = "angle",
-       .letter = 'q',
-       .value = "DEGREES",
-       .help = "No angle is smaller than this, in degrees, but for those that the input forces",
-       .group = kGroup,
-       .take = cli::into(options.verify.min_angle, {0, 60})}};
-  std::ranges::move(sizing_options(options.sizing, kGroup), std::back_inserter(all));
-  all.push_back({.kind = cli::Option::Kind::kFlag,
-                 .name = "no-region-areas",
-                 .help = "Ignore the area bounds of the input's regions",
+  std::vector<cli::Option> all = key_options(job::kCheck, options.bounds, kGroup);
+  all.push_back({.name = "angle",
+                 .letter = 'q',
+                 .value = "DEGREES",
+                 .help = "No angle is smaller than this, except for those that the input forces",
                  .group = kGroup,
-                 .take = cli::into(options.no_region_areas)});
+                 .take = cli::into(options.verify.min_angle, {0, 60})});
   return all;
 }
 

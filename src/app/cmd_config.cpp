@@ -8,8 +8,8 @@
 #include "cli/completion.hpp"
 #include "cli/manual_page.hpp"
 #include "cli/values.hpp"
+#include "config/words.hpp"
 #include "driftmesh/version.hpp"
-#include "experiment/key_words.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -28,8 +28,8 @@ cli::Command config_command(const cli::Command& program) {
       .name = "config",
       .summary = "Print what the files of experiments can say, the manual page, or completion for a shell",
       .options = {printing("schema", "Print the JSON schema of experiments, for editors that check YAML as it is typed",
-                           experiment::json_schema),
-                  printing("keys", "Print all keys of experiments as a table in Markdown", experiment::keys_table),
+                           config::json_schema),
+                  printing("keys", "Print all keys of experiments as a table in Markdown", config::keys_table),
                   printing("man", "Print the manual page",
                            [&program] { return cli::manual_page(program, "driftmesh " DRIFTMESH_VERSION); }),
                   {.name = "completion",

@@ -8,49 +8,54 @@
 #include <string>
 
 #include "app/commands.hpp"
-#include "app/cutting_options.hpp"
 #include "app/decomposition_picture.hpp"
 #include "app/output_files.hpp"
-#include "app/sizing_options.hpp"
+#include "app/request_line.hpp"
 #include "base/error.hpp"
 #include "base/standard_streams.hpp"
 #include "base/stopwatch.hpp"
 #include "cli/values.hpp"
 #include "decompose/check_decomposition.hpp"
-#include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
 #include "decompose/presplit.hpp"
+#include "job/bounds.hpp"
+#include "job/check.hpp"
+#include "job/domain.hpp"
+#include "job/prepare.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
-#include "mesh/mesher.hpp"
-#include "pslg/poly_file.hpp"
-#include "pslg/repair.hpp"
 
 namespace driftmesh::app {
 namespace {
 
 struct DecomposeCommand {
-  std::string input;
+  GivenKeys given;
   std::string output;
   std::string picture;
-  DecomposeOptions options;
-  double area = 0;
-  bool no_region_areas = false;
-  SizingOptions sizing;
   bool quiet = false;
 };
 
-Pslg read_input(const DecomposeCommand& command) {
-  Pslg pslg = read_poly(command.input);
-  const RepairReport repairs = repair(pslg, command.input);
-  if (!command.quiet) std::cerr << repairs.summary();
-  return pslg;
-}
+/// Prints repairs, unless nothing is to be printed.
+class RepairView final : public job::Watch {
+ public:
+  explicit RepairView(bool quiet) : quiet_(quiet) {}
+  void repaired(const RepairReport& repairs) override {
+    if (!quiet_) std::cerr << repairs.summary();
+  }
 
-Triangulation prepared(const Pslg& pslg) {
-  Triangulation mesh = triangulate(pslg);
-  prepare_corners(mesh);
-  return mesh;
+ private:
+  bool quiet_;
+};
+
+job::Request request_of(const GivenKeys& given) {
+  job::Request request;
+  in_words_of_options(given, {}, [&] {
+    given.apply(request);
+    if (request.input.file.empty()) throw cli::UsageError("INPUT is missing");
+    if (request.decomposition.subdomains == 0) throw cli::UsageError("--subdomains is missing");
+    job::check(request, job::kSubdomains);
+  });
+  return request;
 }
 
 std::string summary(const Decomposition& d, const DecompositionReport& report, bool predicts, double seconds) {
@@ -70,77 +75,45 @@ std::string summary(const Decomposition& d, const DecompositionReport& report, b
   return text;
 }
 
-void run_decompose(DecomposeCommand& command) {
-  check_sizing_options(command.sizing);
-  check_outputs({}, command.picture, command.output, command.input);
-  const Pslg pslg = read_input(command);
-  const Triangulation mesh = prepared(pslg);
-  command.options.bounds = bounds_of(pslg, {.max_area = command.area, .region_areas = !command.no_region_areas});
-  const std::unique_ptr<SizeField> size = make_size_field(command.sizing);
-  command.options.bounds.size = size.get();
+void run_decompose(const DecomposeCommand& command) {
+  const job::Request request = request_of(command.given);
+  const std::string& input = request.input.file;
+  check_outputs({}, command.picture, command.output, input);
+  RepairView view(command.quiet);
+  const job::Domain domain = job::read_domain(request, {}, view);
+  Triangulation mesh = triangulate(domain.pslg);
+  prepare_corners(mesh);
+  const QualityBounds bounds = job::bounds_of(request, domain, mesh, 1);
   const Stopwatch watch;
-  const Decomposition d = decompose(mesh, command.options);
+  const Decomposition d = job::cut(request, mesh, bounds, 1);
   const double seconds = watch.seconds();
   const DecompositionReport report = check_decomposition(d);
   if (!report.valid()) throw Error("the decomposition is broken (please report this): " + report.problems[0]);
-  if (!command.output.empty()) write_decomposition(d, pslg, command.output);
+  if (!command.output.empty()) write_decomposition(d, domain.pslg, command.output);
   if (!command.picture.empty())
-    plot_decomposition(
-        d, command.picture,
-        fmt::format("{}: {} subdomains", std::filesystem::path(command.input).filename().string(), d.size()));
-  if (!command.quiet) print(summary(d, report, bounds_size(command.options.bounds), seconds));
-}
-
-std::vector<cli::Option> triangle_options(DecomposeCommand& command) {
-  constexpr const char* kGroup = "Triangles that the subdomains shall get equal numbers of (as for driftmesh mesh)";
-  std::vector<cli::Option> all{{.name = "area",
-                                .letter = 'a',
-                                .value = "AREA",
-                                .help = "No triangle is larger than this",
-                                .group = kGroup,
-                                .take = cli::into(command.area, cli::kPositive)}};
-  std::ranges::move(sizing_options(command.sizing, kGroup), std::back_inserter(all));
-  all.push_back({.kind = cli::Option::Kind::kFlag,
-                 .name = "no-region-areas",
-                 .help = "Ignore the area bounds of the input's regions",
-                 .group = kGroup,
-                 .take = cli::into(command.no_region_areas)});
-  return all;
+    plot_decomposition(d, command.picture,
+                       fmt::format("{}: {} subdomains", std::filesystem::path(input).filename().string(), d.size()));
+  if (!command.quiet) print(summary(d, report, bounds_size(bounds), seconds));
 }
 
 std::vector<cli::Option> decompose_options(DecomposeCommand& command) {
-  std::vector<cli::Option> all{{.kind = cli::Option::Kind::kPositional,
-                                .name = "input",
-                                .value = "INPUT",
-                                .help = "The domain: Triangle's .poly (its .node beside it), or .node",
-                                .required = true,
-                                .completes = cli::Option::Completes::kFile,
-                                .take = cli::into(command.input)},
-                               {.name = "subdomains",
-                                .letter = 'n',
-                                .value = "N",
-                                .help = "How many",
-                                .required = true,
-                                .take = cli::into(command.options.subdomains, {1, kMaxSubdomains})},
-                               {.name = "output",
-                                .letter = 'o',
-                                .value = "FILE",
-                                .help = "Write the decomposition (text; docs/file-formats.md)",
-                                .completes = cli::Option::Completes::kFile,
-                                .take = cli::into(command.output)},
-                               {.name = "plot",
-                                .value = "FILE",
-                                .help = "Picture in colors: .png, .svg or .pdf",
-                                .completes = cli::Option::Completes::kFile,
-                                .take = cli::into(command.picture)}};
-  std::ranges::move(
-      cutting_options({&command.options.min_angle, &command.options.skew, &command.options.seed}, "Options"),
-      std::back_inserter(all));
-  all.push_back({.kind = cli::Option::Kind::kFlag,
-                 .name = "quiet",
-                 .help = "Print nothing but errors",
-                 .take = cli::into(command.quiet)});
-  std::ranges::move(triangle_options(command), std::back_inserter(all));
+  std::vector<cli::Option> all = key_options(job::kDecompose, command.given);
+  std::ranges::move(std::vector<cli::Option>{{.name = "output",
+                                              .letter = 'o',
+                                              .value = "FILE",
+                                              .help = "Write the decomposition (text; docs/file-formats.md)",
+                                              .completes = cli::Option::Completes::kFile,
+                                              .take = cli::into(command.output)},
+                                             {.name = "plot",
+                                              .value = "FILE",
+                                              .help = "Picture in colors: .png, .svg or .pdf",
+                                              .completes = cli::Option::Completes::kFile,
+                                              .take = cli::into(command.picture)},
+                                             {.kind = cli::Option::Kind::kFlag,
+                                              .name = "quiet",
+                                              .help = "Print nothing but errors",
+                                              .take = cli::into(command.quiet)}},
+                    std::back_inserter(all));
   return all;
 }
 

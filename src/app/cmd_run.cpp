@@ -18,7 +18,7 @@
 #include "base/error.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
-#include "experiment/key_words.hpp"
+#include "config/words.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 
 namespace driftmesh::app {
@@ -50,11 +50,22 @@ void write_lb_statistics(const ExperimentRun& run, const std::filesystem::path& 
   for (const std::string& text : lb_statistics(run)) write_file(folder / fmt::format("data.{}.json", rank++), text);
 }
 
+/// Shows the refinement of a run, and what a rank has to say.
+class RunView final : public job::Watch {
+ public:
+  explicit RunView(ProgressLine& line) : line_(line) {}
+  void refining(std::int64_t triangles, double forecast) override { line_.refining(triangles, forecast); }
+  void stalled(const std::string& why) override { fmt::print(stderr, "driftmesh: {}\n", why); }
+
+ private:
+  ProgressLine& line_;
+};
+
 /// All runs of one experiment, one after the other.
 class Runner {
  public:
   /// `cluster`: for real ranks; null if none of the runs needs them.
-  Runner(const RunCommand& command, const experiment::ExperimentFile& file, RealCluster* cluster)
+  Runner(const RunCommand& command, const config::Experiment& file, RealCluster* cluster)
       : command_(command),
         file_(file),
         cluster_(cluster),
@@ -63,7 +74,7 @@ class Runner {
 
   void go() {
     make_folder(folder_);
-    write_file(folder_ / "experiment.yaml", experiment::experiment_text(file_));
+    write_file(folder_ / "experiment.yaml", config::experiment_text(file_));
     const std::size_t repetitions = static_cast<std::size_t>(file_.base.repetitions);
     const std::size_t runs = file_.points.size() * repetitions;
     for (std::size_t i = 0; i < runs; ++i) {
@@ -77,50 +88,52 @@ class Runner {
   }
 
  private:
-  void do_run(const std::string& name, const experiment::SweepPoint& point, std::int32_t repetition) {
+  void do_run(const std::string& name, const config::SweepPoint& point, std::int32_t repetition) {
     ExperimentRun run;
     run.name = name;
     run.swept = point.values;
     run.repetition = repetition;
-    run.experiment = point.experiment;
-    run.experiment.seed += repetition;
+    run.request = point.request;
+    run.request.seed += repetition;
     run.record.command = fmt::format("driftmesh run {}", command_.file);
     for (const std::string& setting : command_.settings) run.record.command += fmt::format(" --set '{}'", setting);
-    make_run(run, cluster_, [&](std::int64_t triangles, double forecast) { progress_.refining(triangles, forecast); });
+    make_run(run, cluster_, view_);
     write_file(folder_ / (name + ".json"), experiment_record(run));
-    if (run.experiment.pictures) {
+    if (run.request.pictures) {
       draw_run(run, folder_.string());
       write_file(folder_ / (name + ".trace.json"), chrome_trace(run));
     }
-    if (run.experiment.lb_phases > 0) write_lb_statistics(run, folder_ / (name + ".lb-stats"));
+    if (run.request.lb_phases > 0) write_lb_statistics(run, folder_ / (name + ".lb-stats"));
     table_.add(run);
     write_file(folder_ / "table.csv", table_.csv());
   }
 
   const RunCommand& command_;
-  const experiment::ExperimentFile& file_;
+  const config::Experiment& file_;
   RealCluster* cluster_;
   std::filesystem::path folder_;
   ProgressLine progress_;
+  RunView view_{progress_};
   ExperimentTable table_;
 };
 
-bool needs_real_ranks(const experiment::ExperimentFile& file) {
-  return std::any_of(file.points.begin(), file.points.end(),
-                     [](const experiment::SweepPoint& point) { return point.experiment.cluster == "real"; });
+bool needs_real_ranks(const config::Experiment& file) {
+  return std::any_of(file.points.begin(), file.points.end(), [](const config::SweepPoint& point) {
+    return point.request.cluster.kind == job::ClusterKind::kReal;
+  });
 }
 
 void run_experiment(const RunCommand& command) {
   std::optional<RealCluster> cluster;
   if (protocol::MpiSession::launched_as()) cluster.emplace();
   if (cluster && !cluster->leads()) return cluster->serve();
-  const experiment::ExperimentFile file = experiment::read_experiment(command.file, command.settings);
+  const config::Experiment file = config::read_experiment(command.file, command.settings);
   const auto runs = file.points.size() * static_cast<std::size_t>(file.base.repetitions);
   if (command.dry) {
-    print(experiment::experiment_text(file) + fmt::format("# {} {}\n", runs, runs == 1 ? "run" : "runs"));
+    print(config::experiment_text(file) + fmt::format("# {} {}\n", runs, runs == 1 ? "run" : "runs"));
     return;
   }
-  experiment::check_processes(file, cluster ? cluster->ranks() : 1);
+  config::check_processes(file, cluster ? cluster->ranks() : 1);
   if (!cluster && needs_real_ranks(file)) cluster.emplace();
   Runner(command, file, cluster ? &*cluster : nullptr).go();
 }

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/words.hpp"
+#include "base/words.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "picture/plot.hpp"
 

@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "app/decomposition_picture.hpp"
-#include "app/words.hpp"
+#include "base/words.hpp"
 #include "cluster/cluster_spec.hpp"
-#include "experiment/key_words.hpp"
-#include "experiment/prepare.hpp"
+#include "job/domain.hpp"
+#include "job/value.hpp"
 #include "picture/plot.hpp"
 #include "picture/plot_chart.hpp"
 
@@ -23,13 +23,13 @@ constexpr Rgb kComputing{0.25, 0.47, 0.70}, kSending{0.95, 0.61, 0.20}, kPolling
 
 std::string swept_words(const ExperimentRun& run) {
   std::string words;
-  for (const auto& [key, value] : run.swept) words += fmt::format(", {} {}", key, experiment::value_text(value));
+  for (const auto& [key, value] : run.swept) words += fmt::format(", {} {}", key, job::text_of(value));
   return words;
 }
 
 ChartText text_of(const ExperimentRun& run, std::string title) {
   return {std::move(title),
-          fmt::format("{}{}: {} triangles on {} ranks in {}", run.experiment.name, swept_words(run),
+          fmt::format("{}{}: {} triangles on {} ranks in {}", run.request.name, swept_words(run),
                       grouped(run.outcome.triangles()), run.outcome.ranks.size(), duration_words(run.outcome.makespan)),
           "", ""};
 }
@@ -51,7 +51,7 @@ void draw_times(const ExperimentRun& run, const std::string& path) {
                               std::max(run.outcome.makespan - busy, 0.0)};
     for (std::size_t i = 0; i < bars.parts.size(); ++i) bars.parts[i].heights.push_back(heights[i]);
   }
-  for (const RankGroup& group : run.experiment.groups)
+  for (const RankGroup& group : run.request.cluster.groups)
     bars.groups.push_back({group.name, static_cast<std::size_t>(group.ranks)});
   plot_chart(bars, path);
 }
@@ -116,10 +116,10 @@ void draw_run(const ExperimentRun& run, const std::string& folder) {
   draw_times(run, stem + "-time.png");
   draw_load(run, stem + "-load.png");
   plot_owners(run.plan.decomposition, run.plan.owners, stem + "-owners-before.png",
-              run.experiment.name + ": subdomains by rank, at the start");
+              run.request.name + ": subdomains by rank, at the start");
   if (run.outcome.owners != run.plan.owners)
     plot_owners(run.plan.decomposition, run.outcome.owners, stem + "-owners-after.png",
-                run.experiment.name + ": subdomains by rank, at the end");
+                run.request.name + ": subdomains by rank, at the end");
   if (!run.outcome.moves.empty()) draw_moves(run, stem + "-moves.png");
 }
 

@@ -4,34 +4,20 @@
 #include <cmath>
 
 #include "app/json_text.hpp"
-#include "app/memory.hpp"
-#include "app/rank_report.hpp"
 #include "app/summary.hpp"
 #include "base/stopwatch.hpp"
-#include "cluster/simulate.hpp"
-#include "experiment/key_words.hpp"
-#include "experiment/prepare.hpp"
+#include "config/value_json.hpp"
+#include "job/check.hpp"
+#include "job/prepare.hpp"
+#include "job/rank_report.hpp"
+#include "job/simulated.hpp"
 
 namespace driftmesh::app {
 namespace {
 
-using experiment::Json;
+using config::Json;
 
 constexpr std::size_t kRecordedSamples = 200;  // of the load over time, in a record
-
-void record_input(RunRecord& record, const experiment::Experiment& e, const experiment::Prepared& prepared) {
-  record.input_file = experiment::input_name(e);
-  record.input_points = static_cast<std::int64_t>(prepared.pslg.points.size());
-  record.input_segments = static_cast<std::int64_t>(prepared.pslg.segments.size());
-  record.input_holes = static_cast<std::int64_t>(prepared.pslg.holes.size());
-  record.input_regions = static_cast<std::int64_t>(prepared.pslg.regions.size());
-  record.repairs = prepared.repairs;
-  record.min_angle = e.angle;
-  record.max_area = prepared.plan.bounds.max_area;
-  record.sizing = e.size_expression.empty() ? e.size_background : e.size_expression;
-  record.acute_corners = prepared.acute_corners;
-  record.forecast = prepared.forecast;
-}
 
 /// Triangles a second of real ranks in this run: one with the whole of its time is taken to be as fast as any other.
 std::vector<double> measured_speeds(const ClusterRun& run, std::vector<double> shares) {
@@ -41,14 +27,18 @@ std::vector<double> measured_speeds(const ClusterRun& run, std::vector<double> s
   return shares;
 }
 
-ClusterRun run_simulated(ExperimentRun& run, const experiment::Prepared& prepared, const RunProgress& progress) {
-  SimulationObservers observers;
-  observers.progress = [&](std::int64_t triangles) { progress(triangles, prepared.forecast); };
-  observers.finished = [&](const RankLoop& rank) { add_report(run.record, report_of(rank, prepared.plan)); };
-  ClusterRun outcome = simulate(prepared.plan, experiment::cluster_of(run.experiment), {}, observers);
-  add_plan(run.record, prepared.plan);
-  run.record.peak = run.record.peak_refining = peak_memory();
-  return outcome;
+/// Speeds of the ranks, as far as they are known before the run; of real ones the ratios alone.
+std::vector<double> known_speeds(const job::Request& request, const RealCluster* cluster) {
+  return cluster == nullptr ? speeds_of(job::cluster_of(request), {}) : job::shares_of_time(request, cluster->ranks());
+}
+
+void run_real(ExperimentRun& run, RealCluster& cluster, job::Prepared&& prepared, job::Domain&& domain,
+              job::Watch& watch) {
+  run.plan = prepared.plan;
+  run.outcome = cluster.run(
+      {std::move(prepared.plan), std::move(domain.pslg), run.request.sizing, run.request.limits, run.speeds, false},
+      run.record, watch);
+  run.speeds = measured_speeds(run.outcome, run.speeds);
 }
 
 /// What is left to do on all ranks together, over time.
@@ -81,27 +71,31 @@ Json moves_json(const ClusterRun& outcome) {
 
 }  // namespace
 
-void make_run(ExperimentRun& run, RealCluster* cluster, const RunProgress& progress) {
-  const experiment::Experiment& e = run.experiment;
-  const bool real = e.cluster == "real";
-  run.speeds = !real            ? speeds_of(experiment::cluster_of(e), {})
-               : e.drag.empty() ? std::vector<double>(static_cast<std::size_t>(cluster->ranks()), 1)
-                                : e.drag;
+void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
+  const job::Request& request = run.request;
+  const bool real = request.cluster.kind == job::ClusterKind::kReal;
+  if (!real) cluster = nullptr;
+  run.speeds = known_speeds(request, cluster);
   const Stopwatch preparing;
-  experiment::Prepared prepared = experiment::prepare(e, run.speeds);
+  job::Domain domain = job::read_domain(request, {}, watch);
+  job::record_domain(run.record, request, domain);
+  const job::Limits limits = job::limits_of_all(
+      request.limits, job::find_limits(request.limits, domain.pslg, false, real ? cluster->ranks_on_machine() : 1),
+      real ? cluster->ranks() : 1);
+  job::Prepared prepared =
+      job::prepare(request, domain, {}, real ? job::kRanks : job::kSimulated, run.speeds, limits, watch);
+  job::add_prepared(run.record, prepared);
   run.record.stages.push_back({"prepare", preparing.seconds()});
-  record_input(run.record, e, prepared);
   const Stopwatch running;
   if (real) {
-    run.outcome = cluster->run({prepared.plan, experiment::sizing_of(e), run.speeds}, run.record, progress);
-    run.speeds = measured_speeds(run.outcome, run.speeds);
+    run_real(run, *cluster, std::move(prepared), std::move(domain), watch);
   } else {
-    run.outcome = run_simulated(run, prepared, progress);
+    run.outcome = job::run_simulated(request, prepared, limits, run.record, watch);
+    run.plan = std::move(prepared.plan);
   }
   run.record.stages.push_back({real ? "run" : "simulate", running.seconds()});
   run.record.seconds = preparing.seconds();
   run.record.seconds_refine = run.outcome.makespan;
-  run.plan = std::move(prepared.plan);
   run.plan.bounds.size = nullptr;
 }
 
@@ -145,9 +139,9 @@ std::string chrome_trace(const ExperimentRun& run) {
 std::string experiment_record(const ExperimentRun& run) {
   Json record = Json::parse(summary_json(run.record));
   Json swept = Json::object();
-  for (const auto& [key, value] : run.swept) swept[key] = value;
+  for (const auto& [key, value] : run.swept) swept[key] = config::json_of(value);
   record["format"] = "driftmesh experiment run";
-  record["experiment"] = experiment::experiment_json(run.experiment);
+  record["experiment"] = config::json_of(run.request, job::kExperiment);
   record["swept"] = swept;
   record["repetition"] = run.repetition;
   record["cluster"] = {{"seconds", run.outcome.makespan},

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/real_cluster.hpp"
-#include "app/run_record.hpp"
 #include "cluster/cluster_run.hpp"
-#include "experiment/experiment_file.hpp"
+#include "config/experiment.hpp"
+#include "job/record.hpp"
+#include "job/watch.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh::app {
@@ -16,21 +16,19 @@ namespace driftmesh::app {
 /// One run of an experiment.
 struct ExperimentRun {
   std::string name;  ///< of its files: "run-03"
-  std::vector<std::pair<std::string, experiment::Json>> swept;
+  std::vector<std::pair<std::string, job::Value>> swept;
   std::int32_t repetition = 0;
-  experiment::Experiment experiment;
+  job::Request request;
 
   RunPlan plan;                ///< without a size field
   std::vector<double> speeds;  ///< of the ranks, in triangles a second; of real ones, as they were in this run
   ClusterRun outcome;
-  RunRecord record;
+  job::RunRecord record;
 };
 
-using RunProgress = std::function<void(std::int64_t triangles, double forecast)>;
-
-/// Makes the run that run.experiment describes, and fills in what came out: on `cluster` if it is one for real ranks,
-/// in virtual time otherwise.
-void make_run(ExperimentRun& run, RealCluster* cluster, const RunProgress& progress);
+/// Makes the run that run.request describes, and fills in what came out: on `cluster` if it is one for real ranks, in
+/// virtual time otherwise.
+void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch);
 
 /// The slices of work of all ranks and the moves between them, as a Chrome trace, which https://ui.perfetto.dev opens.
 [[nodiscard]] std::string chrome_trace(const ExperimentRun& run);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "app/words.hpp"
-#include "experiment/key_words.hpp"
+#include "base/words.hpp"
+#include "job/value.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -112,9 +112,9 @@ std::string line_of(const std::vector<std::string>& cells, const std::vector<std
 void ExperimentTable::add(const ExperimentRun& run) {
   Row row;
   row.run = run.name;
-  for (const auto& [key, value] : run.swept) row.swept.emplace_back(key, experiment::value_text(value));
+  for (const auto& [key, value] : run.swept) row.swept.emplace_back(key, job::text_of(value));
   row.repetition = run.repetition;
-  row.policy = run.experiment.policy;
+  row.policy = run.request.balance.policy;
   row.ranks = run.outcome.ranks.size();
   row.subdomains = run.outcome.owners.size();
   row.triangles = run.outcome.triangles();

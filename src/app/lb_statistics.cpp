@@ -5,12 +5,13 @@
 #include <utility>
 
 #include "app/json_text.hpp"
+#include "config/value_json.hpp"
 #include "protocol/codec.hpp"
 
 namespace driftmesh::app {
 namespace {
 
-using experiment::Json;
+using config::Json;
 using protocol::Rank;
 
 constexpr double kSplitBytes = protocol::kSplitEntryBytes;
@@ -42,7 +43,7 @@ class Phases {
  public:
   explicit Phases(const ExperimentRun& run)
       : run_(run),
-        phases_(static_cast<std::size_t>(run.experiment.lb_phases)),
+        phases_(static_cast<std::size_t>(run.request.lb_phases)),
         length_(run.outcome.makespan / static_cast<double>(phases_.size())) {
     for (const LoadSample& s : run.outcome.samples)
       if (s.worked > 0) add_work(s);
@@ -157,7 +158,7 @@ std::vector<std::string> lb_statistics(const ExperimentRun& run) {
         {"type", "LBDatafile"},
         {"rank", rank},
         {"phases", {{"count", phases.size()}, {"skipped", none}, {"identical_to_previous", none}}},
-        {"attributes", {{"experiment", run.experiment.name}, {"triangles_per_second", run.speeds[rank]}}}};
+        {"attributes", {{"experiment", run.request.name}, {"triangles_per_second", run.speeds[rank]}}}};
     texts.push_back(json_text(Json({{"metadata", metadata}, {"phases", std::move(phases)}}), 1));
     ++rank;
   }

@@ -8,12 +8,12 @@
 #include <thread>
 
 #include "app/commands.hpp"
-#include "app/limits.hpp"
 #include "base/error.hpp"
 #include "base/standard_streams.hpp"
 #include "base/temporary_files.hpp"
 #include "cli/command_line.hpp"
 #include "driftmesh/version.hpp"
+#include "job/limits.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 
 namespace {
@@ -89,11 +89,11 @@ int run_program(int argc, char** argv) {
   try {
     return flushed(cli::run(program, argc, argv));
   } catch (const std::bad_alloc&) {
-    std::cerr << "driftmesh: " << kOutOfMemory << '\n';
-    return kStoppedByLimit;
+    std::cerr << "driftmesh: " << job::kOutOfMemory << '\n';
+    return job::kStoppedByLimit;
   } catch (const LimitError& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';
-    return kStoppedByLimit;
+    return job::kStoppedByLimit;
   } catch (const std::exception& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';
   }

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "app/words.hpp"
+#include "base/words.hpp"
 
 namespace driftmesh::app {
 namespace {

@@ -1,49 +1,38 @@
 #pragma once
 
 #include <string>
-#include <type_traits>
 
-#include "app/mesh_options.hpp"
 #include "app/progress_line.hpp"
-#include "app/run_record.hpp"
 #include "base/stopwatch.hpp"
-#include "pslg/pslg.hpp"
+#include "job/record.hpp"
+#include "job/watch.hpp"
 
 namespace driftmesh::app {
 
-/// What is noted and shown of a run of `driftmesh mesh` while it goes on, in one mesh or in parts: the stages with
-/// their times, progress, the record and its summary.
-class RunNotes {
+/// What is noted and shown of a run of `driftmesh mesh` while it goes on: the stages with their times, progress, the
+/// record and its summary.
+class RunNotes final : public job::Watch {
  public:
-  /// `silent`: this is a rank that shows nothing, whatever the options say.
-  RunNotes(const MeshOptions& options, std::string command, bool silent = false);
+  /// `command`: a command line that makes the same mesh. `silent`: this is a rank that shows nothing, whatever the
+  /// request says.
+  RunNotes(const job::Request& request, std::string command, bool silent = false);
 
-  RunRecord run;
-  ProgressLine progress;
+  job::RunRecord run;
 
-  /// Does `work` as a stage of this name.
-  template <class Work>
-  std::invoke_result_t<Work> timed(const char* stage, Work&& work) {
-    progress.begin(stage);
-    struct Note {  // also when work returns a value
-      RunNotes& notes;
-      const char* stage;
-      Stopwatch watch{};
-      ~Note() { notes.note(stage, watch.seconds()); }
-    } note{*this, stage};
-    return work();
-  }
-  void note(const char* stage, double seconds) { run.stages.push_back({stage, seconds}); }
+  void begins(const std::string& stage) override { progress_.begin(stage); }
+  void ends(const std::string& stage, double seconds) override { run.stages.push_back({stage, seconds}); }
+  void repaired(const RepairReport& repairs) override;
+  void refining(std::int64_t triangles, double forecast) override;
+  void stalled(const std::string& why) override;
+
   void note_file(const std::string& file);
-
-  /// Repairs the input, and says so.
-  void repair_input(Pslg& pslg);
   /// The summary, and the record where one is asked for.
   void finish();
 
  private:
-  const MeshOptions& options_;
-  bool quiet_;
+  job::Request::Output wanted_;
+  bool silent_;
+  ProgressLine progress_;
   Stopwatch since_start_;
 };
 

@@ -2,9 +2,11 @@
 
 #include <string>
 
-#include "app/run_record.hpp"
+#include "job/record.hpp"
 
 namespace driftmesh::app {
+
+using job::RunRecord;
 
 /// The record in words, for people: up to 100 columns, a line or a small table for each subject.
 [[nodiscard]] std::string summary_text(const RunRecord& run);

@@ -1,15 +1,15 @@
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "app/json_text.hpp"
 #include "app/summary.hpp"
+#include "config/value_json.hpp"
 #include "driftmesh/version.hpp"
+#include "job/key.hpp"
 
 namespace driftmesh::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using config::Json;
 
 constexpr int kVersion = 1;
 
@@ -114,6 +114,7 @@ std::string summary_json(const RunRecord& run) {
                  {"program", DRIFTMESH_VERSION},
                  {"command", run.command},
                  {"input", input_json(run)},
+                 {"request", config::json_of(run.request, job::kMesh)},
                  {"bounds", {{"min_angle", run.min_angle}, {"max_area", run.max_area}, {"edge_length", run.sizing}}},
                  {"mesh", mesh_json(run)},
                  {"exceptions", exceptions_json(run)},

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "app/summary.hpp"
-#include "app/words.hpp"
+#include "base/words.hpp"
 
 namespace driftmesh::app {
 namespace {

@@ -130,6 +130,13 @@ void check(const Request& request, Place place) {
 }
 
 void check_ranks(const Request& request, Place place, std::int32_t ranks) {
+  const std::int32_t wanted = request.cluster.ranks;
+  if (place != kSimulated && wanted > 0 && wanted != ranks)
+    throw KeyError("cluster.ranks",
+                   ranks == 1
+                       ? "this process is alone, not one of " + std::to_string(wanted)
+                       : "mpirun has started " + std::to_string(ranks) + " processes, not " + std::to_string(wanted),
+                   "start it with mpirun -n " + std::to_string(wanted) + ", or remove the key");
   const auto for_each_rank = [&](const std::vector<double>& values, const char* key) {
     if (!values.empty() && values.size() != static_cast<std::size_t>(ranks))
       throw KeyError(key,
@@ -141,12 +148,6 @@ void check_ranks(const Request& request, Place place, std::int32_t ranks) {
   for_each_rank(request.cluster.drag, "cluster.drag");
   require(request.lb_phases == 0 || static_cast<std::size_t>(ranks) <= kMaxVtNodes, "lb-statistics",
           "vt's files know no more than 32768 ranks", "remove it, or take fewer ranks");
-  if (place == kSimulated || request.cluster.ranks == 0 || request.cluster.ranks == ranks) return;
-  throw KeyError("cluster.ranks",
-                 ranks == 1 ? "this process is alone, not one of " + std::to_string(request.cluster.ranks)
-                            : "mpirun has started " + std::to_string(ranks) + " processes, not " +
-                                  std::to_string(request.cluster.ranks),
-                 "start it with mpirun -n " + std::to_string(request.cluster.ranks) + ", or remove the key");
 }
 
 std::map<std::string, std::string> parameters_of_policy(const Request& request) {
@@ -161,6 +162,11 @@ std::map<std::string, std::string> parameters_of_policy(const Request& request) 
     if (policy == request.balance.policy) parameters[dot == std::string::npos ? name : name.substr(dot + 1)] = value;
   }
   return parameters;
+}
+
+std::vector<double> shares_of_time(const Request& request, std::int32_t ranks) {
+  if (!request.cluster.drag.empty()) return request.cluster.drag;
+  return std::vector<double>(static_cast<std::size_t>(ranks), 1.0);
 }
 
 ClusterSpec cluster_of(const Request& request) {

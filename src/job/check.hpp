@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "cluster/cluster_spec.hpp"
 #include "job/key.hpp"
@@ -24,6 +25,9 @@ void check_ranks(const Request& request, Place place, std::int32_t ranks);
 /// The parameters of the policy: of those that name one, as zoltan.method does, only the ones that name this. Throws
 /// KeyError for a policy that does not exist.
 [[nodiscard]] std::map<std::string, std::string> parameters_of_policy(const Request& request);
+
+/// The share of its time that each of `ranks` real ranks works: 1, but where the request drags some.
+[[nodiscard]] std::vector<double> shares_of_time(const Request& request, std::int32_t ranks);
 
 /// The cluster to simulate.
 [[nodiscard]] ClusterSpec cluster_of(const Request& request);

@@ -38,8 +38,9 @@ inline constexpr Doors kMeshers = kMesh | kExperiment | kLibrary;
 struct KeyInfo {
   enum class Kind {
     kText,
-    kFile,     ///< the name of a file; in a YAML file it is relative to that file
-    kFiles,    ///< several
+    kFile,     ///< a file that is read; in a YAML file its name is relative to that file
+    kOutput,   ///< a file that is written
+    kOutputs,  ///< several
     kNumber,   ///< with a unit k, M, G or T, or none
     kInteger,  ///< the same, whole
     kFlag,

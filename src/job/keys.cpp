@@ -35,7 +35,7 @@ constexpr Kind kind_of() {
   else if constexpr (std::is_same_v<Member, std::vector<double>>)
     return Kind::kNumbers;
   else if constexpr (std::is_same_v<Member, std::vector<std::string>>)
-    return Kind::kFiles;
+    return Kind::kOutputs;
   else
     return Kind::kTable;
 }
@@ -75,6 +75,9 @@ auto unit(const char* name) {
 }
 auto file() {
   return [](KeyInfo& key) { key.kind = Kind::kFile; };
+}
+auto output_file() {
+  return [](KeyInfo& key) { key.kind = Kind::kOutput; };
 }
 auto one_of(std::vector<std::string> choices) {
   return [choices = std::move(choices)](KeyInfo& key) {
@@ -194,15 +197,15 @@ struct Section {
 };
 
 Section input_section() {
-  return {"",
+  return {"Input",
           kAnywhere,
           kMesh | kExperiment,
           {key("input.file", &R::input, &R::Input::file, "The domain: Triangle's .poly (its .node beside it), or .node",
                file(), option("input"), doors(kMesh | kDecompose | kExperiment)),
            key("input.generate", &R::input, &R::Input::generator,
-               "The domain, generated: pipe, bay, ... (see driftmesh generate --help)"),
-           key("input.parameters", &R::input, &R::Input::parameters,
-               "Parameters of the generator: {resolution: 300, seed: 7}")}};
+               "The domain, generated: pipe, bay, ... (see driftmesh generate --help)", option("generate", "KIND")),
+           key("input.parameters", &R::input, &R::Input::parameters, "Parameters of the generator: resolution=300",
+               option("generate-with", "NAME=VALUE"))}};
 }
 
 Section triangle_section() {
@@ -334,26 +337,28 @@ Section balance_section() {
 
 Section cluster_section() {
   const Names<ClusterKind> kinds = {{ClusterKind::kSimulated, "simulated"}, {ClusterKind::kReal, "real"}};
-  return {
-      "Clusters",
-      kSimulated,
-      kExperiment,
-      {choice("cluster.kind", &R::cluster, &R::Cluster::kind, kinds,
-              "Ranks in virtual time, or those that mpirun starts", places(kMany)),
-       key("cluster.ranks", &R::cluster, &R::Cluster::ranks,
-           "Number of ranks; 0: those of cluster.groups, or of mpirun", in(0, kMaxRanks), places(kMany)),
-       key("cluster.speed", &R::cluster, &R::Cluster::speed,
-           "Triangles per second that each refines; 0: 7.9 million, as the machine in docs/benchmarks.md",
-           unit("triangles/s"), from(0)),
-       groups_key(),
-       key("cluster.drag", &R::cluster, &R::Cluster::drag,
-           "Share of its speed that is left to each rank, real or simulated, as in 1,0.5; empty: all of it",
-           in(0.01, 1), option("drag", "F,F,..."), places(kMany), doors(kMesh | kExperiment)),
-       key("cluster.latency", &R::cluster, &R::Cluster::latency, "Time from the end of sending to arrival",
-           unit("seconds"), from(0)),
-       key("cluster.bandwidth", &R::cluster, &R::Cluster::bandwidth, "Bytes per second that leave a rank", above(0)),
-       key("cluster.message-overhead", &R::cluster, &R::Cluster::message_overhead,
-           "Time of a rank for each message it sends or receives", unit("seconds"), from(0))}};
+  return {"Clusters",
+          kSimulated,
+          kExperiment,
+          {choice("cluster.kind", &R::cluster, &R::Cluster::kind, kinds,
+                  "Ranks in virtual time, or those that mpirun starts", places(kMany)),
+           key("cluster.ranks", &R::cluster, &R::Cluster::ranks,
+               "Number of ranks; 0: those of cluster.groups, or of mpirun", in(0, kMaxRanks), places(kMany)),
+           key("cluster.speed", &R::cluster, &R::Cluster::speed,
+               "Triangles per second that each refines; 0: 7.9 million, as the machine in docs/benchmarks.md",
+               unit("triangles/s"), from(0)),
+           groups_key(),
+           key("cluster.drag", &R::cluster, &R::Cluster::drag,
+               "Share of its speed that is left to each rank, real or simulated, as in 1,0.5; empty: all of it",
+               in(0.01, 1), option("drag", "F,F,..."), places(kMany), doors(kMesh | kExperiment)),
+           key("cluster.latency", &R::cluster, &R::Cluster::latency,
+               "Time from the end of sending to arrival, on simulated clusters", unit("seconds"), from(0),
+               places(kMany)),
+           key("cluster.bandwidth", &R::cluster, &R::Cluster::bandwidth,
+               "Bytes per second that leave a rank, on simulated clusters", above(0), places(kMany)),
+           key("cluster.message-overhead", &R::cluster, &R::Cluster::message_overhead,
+               "Time of a rank for each message it sends or receives, on simulated clusters", unit("seconds"), from(0),
+               places(kMany))}};
 }
 
 Section output_section() {
@@ -366,9 +371,10 @@ Section output_section() {
            ".node, .ele, .poly, .edge, .neigh (each writes Triangle's whole set); can be given several times",
            option('o', "output", "FILE")),
        key("output.picture", &R::output, &R::Output::picture,
-           "Picture of the mesh: .png, .svg or .pdf (more: driftmesh plot --help)", file(), option("plot", "FILE")),
-       key("output.record", &R::output, &R::Output::record, "Write everything in the summary as JSON too", file(),
-           option("json", "FILE")),
+           "Picture of the mesh: .png, .svg or .pdf (more: driftmesh plot --help)", output_file(),
+           option("plot", "FILE")),
+       key("output.record", &R::output, &R::Output::record, "Write everything in the summary as JSON too",
+           output_file(), option("json", "FILE")),
        key("output.quiet", &R::output, &R::Output::quiet, "Print nothing but errors", option("quiet"))}};
 }
 
@@ -465,6 +471,7 @@ Value read_value(const KeyInfo& key, const std::string& text) {
   switch (key.kind) {
     case Kind::kText:
     case Kind::kFile:
+    case Kind::kOutput:
       return text;
     case Kind::kFlag:
       if (text != "true" && text != "false") fail(key, "is '" + text + "'", "it is either true or false");
@@ -478,7 +485,7 @@ Value read_value(const KeyInfo& key, const std::string& text) {
       if (std::find(key.choices.begin(), key.choices.end(), text) == key.choices.end())
         fail(key, "is '" + text + "'", "the nearest that it can be is '" + nearest_name(text, key.choices) + "'");
       return text;
-    case Kind::kFiles:
+    case Kind::kOutputs:
     case Kind::kTable:
     case Kind::kList:
       break;

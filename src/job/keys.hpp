@@ -25,8 +25,8 @@ struct KeyPath {
 /// The name of a key, of a section, or of an option at the door `door` that was probably meant.
 [[nodiscard]] std::string nearest_key(const std::string& name, Doors door);
 
-/// What a text says for a key of one value: kText, kFile, kNumber, kInteger, kFlag or kChoice; and for a kNumbers key a
-/// single one of its numbers, as double. Throws KeyError for what the key may not be.
+/// What a text says for a key of one value: kText, kFile, kOutput, kNumber, kInteger, kFlag or kChoice; and for a
+/// kNumbers key a single one of its numbers, as double. Throws KeyError for what the key may not be.
 [[nodiscard]] Value read_value(const KeyInfo& key, const std::string& text);
 
 /// Throws KeyError for a value out of the range of its key.

@@ -1,9 +1,10 @@
 #include "job/value.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 namespace driftmesh::job {
@@ -23,21 +24,17 @@ bool is_plain(const std::string& text) {
   return !text.empty() && text.find_first_not_of(kPlain) == std::string::npos;
 }
 
-std::string joined(const std::vector<std::string>& items) {
-  std::string text;
-  for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
-  return text;
-}
-
 template <class Items, class TextOf>
 std::string joined(const Items& items, const TextOf& item_text) {
   std::vector<std::string> texts;
   for (const auto& item : items) texts.push_back(item_text(item));
-  return joined(texts);
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 std::string record_text(const Record& record) {
-  return "{" + joined(record, [](const auto& field) { return field.first + ": " + text_of(field.second); }) + "}";
+  return fmt::format("{{{}}}", joined(record, [](const auto& field) {
+                       return fmt::format("{}: {}", field.first, text_of(field.second));
+                     }));
 }
 
 struct TextOf {
@@ -45,17 +42,27 @@ struct TextOf {
   std::string operator()(std::int64_t value) const { return std::to_string(value); }
   std::string operator()(double value) const { return shortest_text(value); }
   std::string operator()(const std::string& value) const { return yaml_text(value); }
-  std::string operator()(const std::vector<double>& value) const { return "[" + joined(value, shortest_text) + "]"; }
-  std::string operator()(const std::vector<std::string>& value) const { return "[" + joined(value, yaml_text) + "]"; }
-  std::string operator()(const std::map<std::string, std::string>& value) const {
-    return "{" + joined(value, [](const auto& entry) { return entry.first + ": " + yaml_text(entry.second); }) + "}";
+  std::string operator()(const std::vector<double>& value) const {
+    return fmt::format("[{}]", joined(value, shortest_text));
   }
-  std::string operator()(const std::vector<Record>& value) const { return "[" + joined(value, record_text) + "]"; }
+  std::string operator()(const std::vector<std::string>& value) const {
+    return fmt::format("[{}]", joined(value, yaml_text));
+  }
+  std::string operator()(const std::map<std::string, std::string>& value) const {
+    return fmt::format("{{{}}}", joined(value, [](const auto& entry) {
+                         return fmt::format("{}: {}", entry.first, yaml_text(entry.second));
+                       }));
+  }
+  std::string operator()(const std::vector<Record>& value) const {
+    return fmt::format("[{}]", joined(value, record_text));
+  }
 };
 
 }  // namespace
 
 std::string shortest_text(double number) {
+  constexpr double kPlain = 1e15;
+  if (std::fabs(number) < kPlain && number == std::floor(number)) return fmt::format("{:.0f}", number);
   std::array<char, 32> text;
   char* const end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
   return std::string(text.data(), end);
@@ -70,9 +77,7 @@ std::string yaml_text(const std::string& text) {
       quoted += '\\';
       quoted += c;
     } else if (static_cast<unsigned char>(c) < 0x20) {
-      std::array<char, 8> escape;
-      std::snprintf(escape.data(), escape.size(), "\\u%04x", static_cast<unsigned>(c));
-      quoted += escape.data();
+      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
     } else {
       quoted += c;
     }

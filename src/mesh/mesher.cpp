@@ -28,10 +28,14 @@ MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshP
   result.mesh = triangulate(pslg);
   result.acute_corners = prepare_corners(result.mesh);
   result.seconds_triangulate = triangulating.seconds();
+  refine_domain(result, request.max_triangles, progress);
+  return result;
+}
 
+void refine_domain(MeshResult& result, std::int64_t max_triangles, const MeshProgress& progress) {
   const Stopwatch refining;
   Refiner refiner(result.mesh, result.bounds);
-  refiner.limit_triangles(request.max_triangles);
+  refiner.limit_triangles(max_triangles);
   const double forecast = progress ? refiner.predict_triangles() : 0;
   if (progress) progress(static_cast<std::int64_t>(result.mesh.live_triangles()), forecast);
   Refiner::Status status = Refiner::Status::kBudget;
@@ -42,7 +46,6 @@ MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshP
   result.complete = status == Refiner::Status::kDone;
   result.counters = refiner.counters();
   result.seconds_refine = refining.seconds();
-  return result;
 }
 
 }  // namespace driftmesh

@@ -41,4 +41,8 @@ using MeshProgress = std::function<void(std::int64_t triangles, double forecast)
 /// one subdomain. Deterministic. Throws Error for requests out of range and for inputs that triangulate refuses.
 [[nodiscard]] MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshProgress& progress = {});
 
+/// The second half of that: refines `result.mesh`, triangulated and with its corners prepared, to `result.bounds`, and
+/// fills in the rest. Stops at `max_triangles`.
+void refine_domain(MeshResult& result, std::int64_t max_triangles, const MeshProgress& progress = {});
+
 }  // namespace driftmesh

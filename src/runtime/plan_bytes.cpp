@@ -1,5 +1,7 @@
 #include "runtime/plan_bytes.hpp"
 
+#include <utility>
+
 #include "base/byte_stream.hpp"
 #include "base/error.hpp"
 #include "runtime/plan_run.hpp"
@@ -77,7 +79,8 @@ protocol::Bytes plan_to_bytes(const RunPlan& plan) {
   return writer.take();
 }
 
-RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks) {
+RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks,
+                        std::shared_ptr<const balancer::Policy> policy) {
   ByteReader reader(bytes);
   RunPlan plan;
   transfer_plan(reader, plan);
@@ -87,7 +90,7 @@ RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks) {
     plan.balancing.parameters[name] = reader.text();
   }
   require_end(reader);
-  prepare_balancing(plan, ranks);
+  prepare_balancing(plan, ranks, std::move(policy));
   return plan;
 }
 

@@ -12,9 +12,10 @@ namespace driftmesh {
 /// memory). The size field is not in it: each rank makes its own.
 [[nodiscard]] protocol::Bytes plan_to_bytes(const RunPlan& plan);
 
-/// The plan, for so many ranks, that plan_to_bytes was given, without its size field. Throws Error if the bytes are not
-/// such a plan.
-[[nodiscard]] RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks);
+/// The plan, for so many ranks, that plan_to_bytes was given, without its size field. `policy`, if it was made with one
+/// that no name stands for. Throws Error if the bytes are not such a plan.
+[[nodiscard]] RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks,
+                                      std::shared_ptr<const balancer::Policy> policy = nullptr);
 
 /// The same for the input of a run.
 [[nodiscard]] protocol::Bytes pslg_to_bytes(const Pslg& pslg);

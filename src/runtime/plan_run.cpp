@@ -49,7 +49,8 @@ Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options,
   }
 }
 
-RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options) {
+RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options,
+                 std::shared_ptr<const balancer::Policy> policy) {
   require_possible(bounds);
   if (options.slice < 1) throw Error("a slice must be at least one insertion");
   const bool sized = bounds_size(bounds);
@@ -65,12 +66,12 @@ RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const
   plan.order = options.order;
   plan.sleep = options.sleep;
   plan.balancing = options.balancing;
-  prepare_balancing(plan, options.mapping.ranks);
+  prepare_balancing(plan, options.mapping.ranks, std::move(policy));
   return plan;
 }
 
-void prepare_balancing(RunPlan& plan, std::int32_t ranks) {
-  plan.policy = balancer::make_policy(plan.balancing.policy, plan.balancing.parameters);
+void prepare_balancing(RunPlan& plan, std::int32_t ranks, std::shared_ptr<const balancer::Policy> policy) {
+  plan.policy = policy ? std::move(policy) : balancer::make_policy(plan.balancing.policy, plan.balancing.parameters);
   if (plan.policy->placement() == balancer::Placement::kNobody) {
     plan.policy.reset();
     return;

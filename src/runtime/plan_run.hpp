@@ -41,10 +41,13 @@ struct PlanOptions {
 /// default_subdomains, or as many as the domain allows. Throws like decompose.
 [[nodiscard]] Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options, std::int32_t ranks);
 
-/// The plan of a run on a decomposition. Throws Error for options out of range or that do not go together.
-[[nodiscard]] RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options);
+/// The plan of a run on a decomposition. A policy that is given takes the place of the one that the options name.
+/// Throws Error for options out of range or that do not go together.
+[[nodiscard]] RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options,
+                               std::shared_ptr<const balancer::Policy> policy = nullptr);
 
-/// Makes the plan's layout and policy from the rest of it. Throws InputError for an unknown policy or parameter.
-void prepare_balancing(RunPlan& plan, std::int32_t ranks);
+/// Makes the plan's layout and policy from the rest of it, or takes the policy that is given. Throws InputError for an
+/// unknown policy or parameter.
+void prepare_balancing(RunPlan& plan, std::int32_t ranks, std::shared_ptr<const balancer::Policy> policy = nullptr);
 
 }  // namespace driftmesh

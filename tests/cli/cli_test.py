@@ -242,10 +242,43 @@ class Errors(Cli):
         mesh = ["mesh", "square.poly", "-n", "4", "--max-triangles", "1000", "-o", "x.vtu"]
         for area in "0.0001", "1e-300":
             self.refuse(*mesh, "--area", area, code=3, says=["more than the 1,000 of --max-triangles"])
-        self.refuse(*mesh, "--keep-incomplete", says=["--keep-incomplete"])
+        self.refuse(*mesh, "--keep-incomplete", code=2, says=["--keep-incomplete", "in one piece"])
         self.succeed("generate", "comb", "-o", "comb.poly")  # of which less is forecast than it takes
         self.refuse("mesh", "comb.poly", *mesh[2:], code=3, says=["stopped at 1,", "the 1,000 of --max-triangles"])
         self.assertEqual(self.files(), ["comb.poly", "square.poly"])
+
+    def test_what_cannot_apply_is_refused_and_not_ignored(self):
+        self.write("square.poly", SQUARE)
+        for options, place in ((["--balance", "zoltan"], "mpirun"), (["--speeds", "1,2,3"], "mpirun"),
+                               (["--balance-with", "foo=1"], "mpirun"), (["--sleep"], "--subdomains"),
+                               (["--slice", "10"], "--subdomains"), (["--presplit", "off"], "--subdomains")):
+            with self.subTest(options=options):
+                self.refuse("mesh", "square.poly", *options, "-o", "x.vtu", code=2, says=[options[0], place])
+        for options in (["--balance", "zoltan"], ["--aggregation", "3"], ["--keep-incomplete"]):
+            with self.subTest(options=options):
+                self.refuse("mesh", "square.poly", "-n", "4", *options, code=2, says=[options[0]])
+        self.refuse("decompose", "square.poly", "-n", "4", "--split-skew", "5", code=2, says=["--split-skew", "at most 1"])
+        self.assertEqual(self.files(), ["square.poly"])
+
+    def test_sizes_take_units_everywhere(self):
+        self.write("square.poly", SQUARE)
+        self.write("run.yaml", "input: square.poly\narea: 0.00002k\n")
+        digests = {self.digest_of("mesh", *call) for call in (["square.poly", "--area", "0.02"], ["--config", "run.yaml"],
+                                                              ["square.poly", "--area", "0.00002k"])}
+        self.assertEqual(len(digests), 1)
+        self.assertIn("about", self.succeed("decompose", "square.poly", "-n", "4", "--triangles", "2k"))
+
+    def digest_of(self, *arguments):
+        return re.search(r"^digest +([0-9a-f]{16})$", self.succeed(*arguments), re.MULTILINE).group(1)
+
+    def test_every_setting_of_ranks_can_be_said_to_mesh(self):
+        self.write("square.poly", SQUARE)
+        result = self.on_ranks(2, "mesh", "square.poly", "--area", "0.005", "-n", "12", "--slice", "50", "--balance", "zoltan",
+                               "--balance-look", "0.001", "--balance-gap", "0.002", "--balance-interval", "0.1",
+                               "--balance-gain", "0.05", "--json", "run.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        request = json.loads((self.folder / "run.json").read_text())["request"]
+        self.assertEqual([request[key] for key in ("run.slice", "balance.look", "balance.gain")], [50, 0.001, 0.05])
 
     def test_a_narrow_slit_stops_the_mesher_with_its_place(self):
         text = SQUARE.replace("4 2 0 0", "8 2 0 0").replace("4 0 4\n4 1\n", "4 0 4\n5 1 2\n6 3 2\n7 1 2.000001\n"
@@ -426,7 +459,7 @@ class Mesh(Cli):
                                          (["mesh", "square.poly", "--decomposition", "no.parts"], 1, "no.parts: cannot"),
                                          (["mesh", "square.poly", "--area", "1e-9", "--max-triangles", "1000"], 3,
                                           "--max-triangles"),
-                                         (["mesh", "square.poly", "--speeds", "1,2,3"], 1, "speed")):
+                                         (["mesh", "square.poly", "--speeds", "1,2,3"], 2, "--speeds")):
             (self.folder / "square.poly").write_text(SQUARE)
             result = self.on_ranks(2, *arguments)
             self.assertEqual(result.returncode, code, result.stderr)
@@ -656,8 +689,8 @@ class Experiments(Cli):
         for settings, place, message in (
                 ([], "both.yaml:4:9:", "a simulated cluster is one process, and mpirun has started 2"),
                 (real, "both.yaml:5:10:", "mpirun has started 2 processes, not 3"),
-                ([*real, "--set", "cluster.ranks=0"], "both.yaml:6:9:", "for 3 ranks, and there are 2"),
-                ([*real, "--set", "cluster.speed=1e6"], "--set cluster.speed=1e6", "the speed that it has"),
+                ([*real, "--set", "cluster.ranks=0"], "both.yaml:6:9:", "has 3 values for 2 ranks"),
+                ([*real, "--set", "cluster.speed=1e6"], "--set cluster.speed=1e6", "real ranks are as they are"),
                 (["--set", "sizing.background=missing"], "missing", "")):
             if settings[-1:] == ["sizing.background=missing"]:
                 settings = [*real, "--set", "cluster.ranks=2", "--set", "cluster.drag=[]", *settings]
@@ -668,7 +701,7 @@ class Experiments(Cli):
             self.assertIn(message, result.stderr)
             self.assertEqual(result.stdout, "")
         self.refuse("run", config, *real, says=["both.yaml:5:10:", "mpirun -n 3"])
-        self.refuse("run", config, "--set", "cluster.drag=[1, 0.5]", says=["'cluster.drag'", "one share for each rank"])
+        self.refuse("run", config, "--set", "cluster.drag=[1, 0.5]", says=["'cluster.drag'", "one for each rank"])
         self.refuse("run", config, "--set", "cluster.drag=[1, 2, 0.5]", says=["is 2", "at most 1"])
         missing = self.on_ranks(2, "run", "missing.yaml")
         self.assertEqual((missing.returncode, missing.stderr.count("driftmesh: ")), (1, 1), missing.stderr)

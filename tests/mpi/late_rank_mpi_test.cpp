@@ -4,15 +4,15 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 #include <vector>
 
-#include "balancer/mpi/mpi_council.hpp"
 #include "base/byte_stream.hpp"
-#include "distributed/assembly.hpp"
-#include "distributed/write_distributed.hpp"
+#include "job/mpi/mpi_team.hpp"
+#include "job/order.hpp"
+#include "mpi/mesh_on_ranks.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 #include "pslg/generate.hpp"
-#include "runtime/rank_loop.hpp"
 #include "support/late_plan.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
@@ -66,19 +66,6 @@ struct Deeds {
   }
 };
 
-/// The mesh that all ranks have made, on rank 0.
-MeshPiece gathered(const Pslg& input, const RunPlan& plan, const RankLoop& loop) {
-  MpiTransport transport(MpiSession::world());
-  ExchangeRunner ranks(transport);
-  PieceAssembly assembly(transport.rank(), transport.ranks(), plan.decomposition, held_by_rank(loop.subdomains()));
-  ranks.run(assembly);
-  const DistributedPiece piece = assembly.piece(input);
-  GatherPieces gathering(piece);
-  ranks.run(gathering);
-  transport.close();
-  return gathering.whole();
-}
-
 void check_mesh(const MeshPiece& mesh, const Pslg& input, const QualityBounds& bounds) {
   const VerifyOptions options{.min_angle = bounds.min_angle, .max_area = bounds.max_area};
   const VerifyReport report = verify(mesh, input, options);
@@ -109,33 +96,38 @@ void check_deeds(const LateCase& late, const std::vector<Bytes>& reports) {
 void run_with(const LateCase& late) {
   CAPTURE(late.policy);
   CAPTURE(late.rank);
-  MpiTransport transport(MpiSession::world());
+  job::MpiTeam team(MpiSession::world());
   StartingGun gun(late.rank);
-  const Pslg input = generate_holes({.columns = 3, .rows = 2});
-  const RunPlan plan = testing::late_plan(input, kTriangles, transport.ranks(), late);
-  const bool is_late = transport.rank() == late.rank;
-  if (is_late) gun.wait();
+  job::Order order;
+  order.pslg = generate_holes({.columns = 3, .rows = 2});
+  order.plan = testing::late_plan(order.pslg, kTriangles, team.ranks(), late);
+  const Pslg input = order.pslg;
+  const bool is_late = team.rank() == late.rank;
 
   Deeds deeds;
-  RankLoop::Observers observers;
-  observers.after_slice = [&](const RankLoop&, const RankLoop::Slice&) {
-    ++deeds.slices;
-    if (is_late) return;
-    gun.reached(deeds.slices);
-    std::this_thread::sleep_for(kRest);
-  };
-  const auto council = balancer::make_mpi_council(transport, plan.layout, plan.policy, plan.balancing.options);
-  RankLoop loop(transport, plan, {}, observers, council.get());
-  run_rank(transport, [&] { return loop.step(); });
-  deeds.counters = loop.protocol().counters();
-  const std::vector<Bytes> reports = transport.gather(deeds.pack());
-  const bool leads = transport.rank() == 0;
-  transport.close();
+  job::Watch watch;
+  job::RankRun run(team, std::move(order), nullptr, watch);
+  run.refine(false, {.through = [&](Transport& inner) -> Transport& {
+                       if (is_late) gun.wait();
+                       return inner;
+                     },
+                     .before_step = {},
+                     .after_slice =
+                         [&](const RankLoop::Slice&) {
+                           ++deeds.slices;
+                           if (is_late) return;
+                           gun.reached(deeds.slices);
+                           std::this_thread::sleep_for(kRest);
+                         }});
+  deeds.counters = run.loop().protocol().counters();
+  const std::vector<Bytes> reports = team.gather(deeds.pack());
+  const MeshPiece mesh = mpi_test::gathered(team, run);
   gun.close();
-  const MeshPiece mesh = gathered(input, plan, loop);
-  if (!leads) return;
-  check_deeds(late, reports);
-  check_mesh(mesh, input, plan.bounds);
+  if (team.leads()) {
+    check_deeds(late, reports);
+    check_mesh(mesh, input, run.plan().bounds);
+  }
+  team.close();
 }
 
 Rank last_rank() {

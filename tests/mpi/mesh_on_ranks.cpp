@@ -4,21 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <optional>
 #include <random>
-#include <thread>
+#include <utility>
 
-#include "balancer/mpi/mpi_council.hpp"
 #include "base/byte_stream.hpp"
-#include "distributed/assembly.hpp"
 #include "distributed/write_distributed.hpp"
+#include "job/mpi/mpi_team.hpp"
+#include "job/order.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
 #include "mesh/mesher.hpp"
 #include "protocol/delaying_transport.hpp"
-#include "protocol/mpi/mpi_transport.hpp"
-#include "runtime/rank_loop.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -130,43 +128,41 @@ void add_up(const std::vector<Bytes>& reports, std::size_t subdomains, Outcome& 
 
 }  // namespace
 
+MeshPiece gathered(job::Team& team, const job::RankRun& run) {
+  const auto channel = team.open();
+  ExchangeRunner ranks(channel->transport());
+  const DistributedPiece piece = run.assemble(ranks);
+  GatherPieces gathering(piece);
+  ranks.run(gathering);
+  channel->close();
+  return gathering.whole();
+}
+
 Outcome run(const Job& job) {
-  MpiTransport transport(MpiSession::world());
-  DelayingTransport delaying(transport, job.seed, job.delay);
+  job::MpiTeam team(MpiSession::world());
   Triangulation mesh = triangulate(job.input);
   prepare_corners(mesh);
   Outcome outcome;
-  outcome.leads = transport.rank() == 0;
+  outcome.leads = team.leads();
   outcome.bounds = bounds_of(job.input, {.max_area = summarize_angles(mesh).total_area / job.cells});
-  const RunPlan plan = plan_of(job, outcome.bounds, mesh, transport.ranks());
+  job::Order order;
+  order.plan = plan_of(job, outcome.bounds, mesh, team.ranks());
+  order.pslg = job.input;
+  order.shares.assign(static_cast<std::size_t>(team.ranks()), 1);
+  if (job.drag) order.shares[job.seed % order.shares.size()] = 0.2;
 
-  RankLoop::Observers observers;
-  const bool slow = job.drag && job.seed % static_cast<std::uint64_t>(transport.ranks()) ==
-                                    static_cast<std::uint64_t>(transport.rank());
-  if (slow)
-    observers.after_slice = [](const RankLoop&, const RankLoop::Slice& slice) {
-      std::this_thread::sleep_for(std::chrono::duration<double>(4 * slice.seconds));
-    };
-  const auto council = balancer::make_mpi_council(transport, plan.layout, plan.policy, plan.balancing.options);
-  RankLoop loop(delaying, plan, {}, observers, council.get());
-  Mover mover(job, transport.rank(), transport.ranks());
-  run_rank(delaying, [&] {
-    mover.look(loop);
-    return loop.step();
-  });
-  const std::vector<Bytes> reports = transport.gather(account_of(loop, mover).pack());
-  if (outcome.leads) add_up(reports, plan.owners.size(), outcome);
-  transport.close();
-
-  MpiTransport quiet(MpiSession::world());
-  ExchangeRunner ranks(quiet);
-  PieceAssembly assembly(quiet.rank(), quiet.ranks(), plan.decomposition, held_by_rank(loop.subdomains()));
-  ranks.run(assembly);
-  const DistributedPiece piece = assembly.piece(job.input);
-  GatherPieces gathering(piece);
-  ranks.run(gathering);
-  outcome.mesh = std::move(gathering.whole());
-  quiet.close();
+  job::Watch watch;
+  job::RankRun run(team, std::move(order), nullptr, watch);
+  Mover mover(job, team.rank(), team.ranks());
+  std::optional<DelayingTransport> delaying;
+  run.refine(false,
+             {.through = [&](Transport& inner) -> Transport& { return delaying.emplace(inner, job.seed, job.delay); },
+              .before_step = [&](RankLoop& loop) { mover.look(loop); },
+              .after_slice = {}});
+  const std::vector<Bytes> reports = team.gather(account_of(run.loop(), mover).pack());
+  if (outcome.leads) add_up(reports, run.plan().owners.size(), outcome);
+  outcome.mesh = gathered(team, run);
+  team.close();
   return outcome;
 }
 

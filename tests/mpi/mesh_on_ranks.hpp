@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "job/rank_run.hpp"
+#include "job/team.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/mesh_piece.hpp"
 #include "protocol/rank_protocol.hpp"
@@ -36,6 +38,9 @@ struct Outcome {
   std::int64_t forced = 0;              ///< of the moves, those at random
   std::vector<std::string> problems;    ///< of owners, counts and termination
 };
+
+/// The whole mesh that a team has made, on its rank 0; nothing elsewhere. All ranks together.
+[[nodiscard]] MeshPiece gathered(job::Team& team, const job::RankRun& run);
 
 /// Meshes on all ranks together, over a transport that delivers late and out of order.
 [[nodiscard]] Outcome run(const Job& job);

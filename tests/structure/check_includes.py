@@ -29,7 +29,7 @@ LIBRARIES = {
     "mpi": (r"mpi\.h", ["partition_zoltan", "transport_mpi"]),  # Zoltan's own header needs it
     "muparser": (r"muParser.*\.h", ["sizing"]),
     "threads": (r"thread|future", None),
-    "yaml": (r"yaml-cpp/.*", ["app", "experiment"]),
+    "yaml": (r"yaml-cpp/.*", ["config"]),
     "zoltan": (r"zoltan.*\.h", ["partition_zoltan"]),
 }
 

@@ -15,7 +15,7 @@ namespace {
 /// Two ranks and two subdomains, which both start on rank 0; the second one works there first and then on rank 1.
 ExperimentRun two_ranks(std::int32_t phases) {
   ExperimentRun run;
-  run.experiment.lb_phases = phases;
+  run.request.lb_phases = phases;
   run.plan.owners = {0, 0};
   run.plan.decomposition.subdomains.resize(2);
   run.plan.decomposition.subdomains[1].centroid = {3, 4};

@@ -5,10 +5,11 @@
 
 #include "app/progress_line.hpp"
 #include "app/summary.hpp"
-#include "app/words.hpp"
+#include "base/words.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::app;
+using namespace driftmesh::job;
 
 TEST_CASE("Numbers in words") {
   CHECK(grouped(0) == "0");

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "protocol/transport.hpp"
+
+namespace driftmesh::protocol {
+
+/// The transport of a rank that is alone: what it sends, it sends to itself.
+class LoneTransport final : public Transport {
+ public:
+  [[nodiscard]] Rank rank() const override { return 0; }
+  [[nodiscard]] Rank ranks() const override { return 1; }
+  void send(Rank destination, Bytes bytes) override {
+    if (destination != 0) throw LimitError("there is no rank " + std::to_string(destination) + ": rank 0 is alone");
+    sent_.push_back({0, std::move(bytes)});
+  }
+  std::optional<Received> poll() override {
+    if (sent_.empty()) return std::nullopt;
+    Received first = std::move(sent_.front());
+    sent_.pop_front();
+    return first;
+  }
+  void idle() override {}
+  [[nodiscard]] double now() const override {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+
+ private:
+  std::deque<Received> sent_;
+};
+
+}  // namespace driftmesh::protocol

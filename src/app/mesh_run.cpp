@@ -1,0 +1,176 @@
+#include "app/mesh_run.hpp"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/output_files.hpp"
+#include "app/run_notes.hpp"
+#include "base/byte_stream.hpp"
+#include "distributed/write_distributed.hpp"
+#include "io/mesh_file.hpp"
+#include "job/check.hpp"
+#include "job/domain.hpp"
+#include "job/memory.hpp"
+#include "job/mpi/mpi_team.hpp"
+#include "job/one_piece.hpp"
+#include "job/order.hpp"
+#include "job/prepare.hpp"
+#include "job/rank_run.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/interpolate_attributes.hpp"
+#include "mesh/to_piece.hpp"
+#include "picture/plot.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+using job::Request;
+using job::timed;
+using protocol::Bytes;
+
+bool writes(const Request::Output& wanted) {
+  return !wanted.meshes.empty() || !wanted.picture.empty();
+}
+
+void check_outputs_of(const Request& request, std::int32_t ranks) {
+  check_outputs(request.output.meshes, request.output.picture, request.output.record, request.input.file, ranks);
+}
+
+void draw(const Request& request, const MeshPiece& mesh) {
+  const std::string title = std::filesystem::path(job::input_name(request)).filename().string();
+  plot_mesh(mesh, request.output.picture, {.title = title});
+}
+
+// ---- In one piece ----------------------------------------------------------------------------------------------
+
+MeshPiece converted(Triangulation mesh, const Pslg& pslg) {
+  MeshPiece piece = to_piece(mesh, pslg);
+  interpolate_attributes(pslg, piece);
+  return piece;
+}
+
+void write_piece(const Request& request, const Pslg& pslg, Triangulation&& mesh, RunNotes& notes) {
+  const MeshPiece piece = timed(notes, "convert", [&] { return converted(std::move(mesh), pslg); });
+  timed(notes, "write", [&] {
+    for (const std::string& output : request.output.meshes) write_mesh(piece, output, {pslg.holes});
+  });
+  for (const std::string& output : request.output.meshes)
+    for (const std::string& file : mesh_files(output)) notes.note_file(file);
+  if (request.output.picture.empty()) return;
+  timed(notes, "plot", [&] { draw(request, piece); });
+  notes.note_file(request.output.picture);
+}
+
+int mesh_in_one_piece(const Request& request, const std::string& command) {
+  check_outputs_of(request, 0);
+  RunNotes notes(request, command);
+  const job::Domain domain = job::read_domain(request, {}, notes);
+  job::record_domain(notes.run, request, domain);
+  job::OnePiece made = job::mesh_in_one_piece(request, domain, writes(request.output), notes);
+  notes.run.forecast = made.forecast;
+  notes.run.seconds_refine = made.result.seconds_refine;
+  notes.run.peak_refining = job::peak_memory();
+  notes.run.stopped_by = made.limits.option();
+  timed(notes, "inspect", [&] { job::record_mesh(notes.run, made.result); });
+  const bool keep = request.limits.keep_incomplete;
+  if (writes(request.output) && (made.result.complete || keep))
+    write_piece(request, domain.pslg, std::move(made.result.mesh), notes);
+  notes.finish();
+  if (notes.run.complete) return 0;
+  const auto narrow = find_narrow_place(triangulate(domain.pslg));
+  std::cerr << "driftmesh: " << job::stopped_message(made.limits, notes.run.triangles, keep, narrow) << '\n';
+  return job::kStoppedByLimit;
+}
+
+// ---- In subdomains ---------------------------------------------------------------------------------------------
+
+/// What rank 0 does before all others.
+job::Order prepare_order(const Request& request, job::Place place, const job::Team& team, RunNotes& notes) {
+  job::check_ranks(request, place, team.ranks());
+  check_outputs_of(request, team.ranks());
+  job::Domain domain = job::read_domain(request, {}, notes);
+  job::record_domain(notes.run, request, domain);
+  const bool written = writes(request.output);
+  const std::vector<double> shares = job::shares_of_time(request, team.ranks());
+  const job::Limits limits = job::limits_of_all(
+      request.limits, job::find_limits(request.limits, domain.pslg, written, team.ranks_on_machine()), team.ranks());
+  job::Prepared prepared = job::prepare(request, domain, {}, place, shares, limits, notes);
+  job::add_prepared(notes.run, prepared);
+  return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, shares, written};
+}
+
+void report(job::Team& team, const job::RankRun& run, RunNotes& notes) {
+  ByteWriter writer;
+  timed(notes, "inspect", [&] { job::by_itself(team, [&] { run.report().write(writer); }); });
+  for (const Bytes& bytes : team.gather(writer.take())) {
+    ByteReader reader(bytes);
+    job::add_report(notes.run, job::RankReport::read(reader));
+  }
+  job::add_plan(notes.run, run.plan());
+}
+
+void write_pieces(const Request& request, job::Team& team, const DistributedPiece& piece, ExchangeRunner& ranks,
+                  const std::vector<Point>& holes, RunNotes& notes) {
+  timed(notes, "write", [&] { write_distributed(ranks, piece, request.output.meshes, {holes}); });
+  if (!request.output.picture.empty())
+    timed(notes, "plot", [&] {
+      GatherPieces gathering(piece);
+      ranks.run(gathering);
+      if (team.leads()) draw(request, gathering.whole());
+    });
+  if (!team.leads()) return;
+  for (const std::string& output : request.output.meshes)
+    for (const std::string& file : files_of_output(output, team.ranks())) notes.note_file(file);
+  if (!request.output.picture.empty()) notes.note_file(request.output.picture);
+}
+
+void assemble_and_write(const Request& request, job::Team& team, std::optional<job::RankRun>& run, RunNotes& notes) {
+  const std::unique_ptr<job::Channel> channel = team.open();
+  job::by_itself(team, [&] {
+    ExchangeRunner ranks(channel->transport());
+    const DistributedPiece piece = timed(notes, "assemble", [&] { return run->assemble(ranks); });
+    const std::vector<Point> holes = run->holes();
+    run.reset();  // the subdomains are not needed any more
+    write_pieces(request, team, piece, ranks, holes, notes);
+  });
+  channel->close();
+}
+
+void mesh_in_subdomains(const Request& request, job::Place place, const std::string& command, job::Team& team) {
+  const std::string start = team.alone() ? "" : "mpirun -n " + std::to_string(team.ranks()) + " ";
+  RunNotes notes(request, start + command, !team.leads());
+  std::optional<job::Order> order =
+      job::share(team, [&] { return std::optional(prepare_order(request, place, team, notes)); });
+  std::optional<job::RankRun> run(std::in_place, team, std::move(*order), nullptr, notes);
+  timed(notes, "refine", [&] { run->refine(); });
+  report(team, *run, notes);
+  if (writes(request.output)) assemble_and_write(request, team, run, notes);
+  if (team.leads()) notes.finish();
+}
+
+int mesh_on_ranks(const Request& request, const std::string& command) {
+  const protocol::MpiSession session;
+  job::MpiTeam team(protocol::MpiSession::world());
+  try {
+    mesh_in_subdomains(request, job::kRanks, command, team);
+  } catch (const job::LeaderError&) {
+    return 0;  // rank 0 has the error, and the code for it
+  }
+  team.close();
+  return 0;
+}
+
+}  // namespace
+
+int run_mesh(const Request& request, job::Place place, const std::string& command) {
+  if (place == job::kOnePiece) return mesh_in_one_piece(request, command);
+  if (place == job::kRanks) return mesh_on_ranks(request, command);
+  mesh_in_subdomains(request, place, command, *job::lone_team());
+  return 0;
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,153 @@
+#include "app/request_line.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "job/keys.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+using job::Key;
+using job::KeyError;
+using job::Value;
+using Kind = job::KeyInfo::Kind;
+using Table = std::map<std::string, std::string>;
+
+std::vector<double> numbers_of(const Key& key, const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) numbers.push_back(job::read_value(key, word).as<double>());
+  return numbers;
+}
+
+/// The value that one more word gives a key, which has `old`.
+Value given_value(const Key& key, const std::string& text, const Value& old) {
+  if (key.kind == Kind::kNumbers) return numbers_of(key, text);
+  if (key.kind == Kind::kOutputs) {
+    auto files = old.as<std::vector<std::string>>();
+    files.push_back(text);
+    return files;
+  }
+  if (key.kind == Kind::kTable) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) throw KeyError(key.name, "is '" + text + "'", "write NAME=VALUE");
+    auto table = old.as<Table>();
+    table[text.substr(0, equals)] = text.substr(equals + 1);
+    return table;
+  }
+  if (key.kind == Kind::kFlag) return !key.option.starts_with("no-");
+  return job::read_value(key, text);
+}
+
+/// What stands behind an option, once for each time that it is given.
+std::vector<std::string> words_of(const Value& value) {
+  if (const auto* files = std::get_if<std::vector<std::string>>(&value)) return *files;
+  if (const auto* text = std::get_if<std::string>(&value)) return {*text};
+  std::vector<std::string> words;
+  if (const auto* table = std::get_if<Table>(&value)) {
+    for (const auto& [name, entry] : *table) words.push_back(name + "=" + entry);
+    return words;
+  }
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+    std::string list;
+    for (const double number : *numbers) {
+      if (!list.empty()) list += ',';
+      list += job::shortest_text(number);
+    }
+    return {list};
+  }
+  return {job::text_of(value)};
+}
+
+cli::Option::Kind kind_of_option(const Key& key) {
+  if (key.name == "input.file") return cli::Option::Kind::kPositional;
+  return key.kind == Kind::kFlag ? cli::Option::Kind::kFlag : cli::Option::Kind::kValue;
+}
+
+cli::Option::Completes completes(const Key& key) {
+  const bool file = key.kind == Kind::kFile || key.kind == Kind::kOutput || key.kind == Kind::kOutputs;
+  return file ? cli::Option::Completes::kFile : cli::Option::Completes::kNothing;
+}
+
+/// Zero and nothing are said in the help of their keys, where they mean anything.
+std::string shown_default(const Key& key) {
+  const std::string text = job::text_of(key.standard);
+  const bool tells = key.kind != Kind::kFlag && text != "0" && text != "\"\"" && text != "[]" && text != "{}" &&
+                     key.name != "limits.max-triangles";
+  return tells ? text : "";
+}
+
+std::string in_words_of(const Key& key) {
+  return key.name == "input.file" ? "the input" : "--" + key.option;
+}
+
+}  // namespace
+
+void GivenKeys::apply(job::Request& request) const {
+  std::set<const Key*> seen;
+  for (const Item& item : items) {
+    const Value old = seen.insert(item.key).second ? item.key->standard : item.key->load(request);
+    item.key->store(request, given_value(*item.key, item.text, old));
+  }
+}
+
+void throw_with_option(const KeyError& error, const GivenKeys& given, const config::SourcePlaces& places) {
+  const auto by_line =
+      std::ranges::any_of(given.items, [&](const GivenKeys::Item& item) { return item.key->name == error.key(); });
+  if (!by_line && places.contains(error.key())) throw config::placed(error, places, "");
+  const Key* const key = job::find_key(error.key()).key;
+  const std::string who = key == nullptr || key->option.empty() ? error.key() : in_words_of(*key);
+  throw cli::UsageError(who + ": " + error.problem() + "; " + error.next());
+}
+
+std::vector<cli::Option> key_options(job::Door door, GivenKeys& given, const std::string& group) {
+  std::vector<cli::Option> options;
+  for (const Key& key : job::keys()) {
+    if ((key.doors & door) == 0 || key.option.empty()) continue;
+    cli::Option option;
+    option.kind = kind_of_option(key);
+    option.name = key.option;
+    option.letter = key.letter;
+    option.value = key.name == "input.file" ? "INPUT" : key.value_name;
+    option.help = key.help;
+    option.standard = shown_default(key);
+    option.group = key.name == "input.file" ? "" : group.empty() ? key.group : group;
+    option.repeats = key.kind == Kind::kOutputs || key.kind == Kind::kTable;
+    option.completes = completes(key);
+    option.choices = key.choices;
+    option.take = [&given, &key](const std::string& text) {
+      in_words_of_options(given, {}, [&] { static_cast<void>(given_value(key, text, key.standard)); });
+      given.items.push_back({&key, text});
+    };
+    options.push_back(std::move(option));
+  }
+  return options;
+}
+
+std::string command_line_of(const std::string& name, const job::Request& request, job::Door door) {
+  std::string line = name;
+  for (const Key& key : job::keys()) {
+    const Value value = key.load(request);
+    if ((key.doors & door) == 0 || key.option.empty() || value == key.standard || key.name == "output.quiet") continue;
+    if (key.kind == Kind::kFlag)
+      line += " --" + key.option;
+    else
+      for (const std::string& word : words_of(value))
+        line += (key.name == "input.file" ? " " : " --" + key.option + " ") + shell_quoted(word);
+  }
+  return line;
+}
+
+std::string shell_quoted(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace driftmesh::app

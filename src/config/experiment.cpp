@@ -1,0 +1,386 @@
+#include "config/experiment.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/nearest_name.hpp"
+#include "base/read_file.hpp"
+#include "base/standard_streams.hpp"
+#include "job/check.hpp"
+#include "job/keys.hpp"
+
+namespace driftmesh::config {
+namespace {
+
+using job::KeyError;
+using job::KeyInfo;
+using job::KeyPath;
+using job::Record;
+using job::Request;
+using job::Value;
+using Kind = job::KeyInfo::Kind;
+using Table = std::map<std::string, std::string>;
+
+/// Where a YAML text comes from: a file, or one setting of the command line.
+class Origin {
+ public:
+  static Origin file(const std::string& path) {
+    return {path, std::filesystem::path(path).parent_path().string(), true};
+  }
+  static Origin setting(const std::string& text) { return {"--set " + text, "", false}; }
+
+  [[nodiscard]] std::string place(const YAML::Mark& mark) const {
+    if (!has_lines_ || mark.is_null()) return name_;
+    return name_ + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
+  }
+  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what, const std::string& next) const {
+    throw InputError({place(mark)}, what, next);
+  }
+  [[nodiscard]] std::string resolved(const std::string& file) const {
+    return file.empty() || is_standard_stream(file) || folder_.empty()
+               ? file
+               : (std::filesystem::path(folder_) / file).string();
+  }
+  [[nodiscard]] YAML::Node parse(const std::string& text) const {
+    try {
+      return YAML::Load(text);
+    } catch (const YAML::Exception& error) {
+      fail(error.mark, error.msg, "this is not YAML");
+    }
+  }
+
+ private:
+  Origin(std::string name, std::string folder, bool has_lines)
+      : name_(std::move(name)), folder_(std::move(folder)), has_lines_(has_lines) {}
+  std::string name_;
+  std::string folder_;
+  bool has_lines_;
+};
+
+/// Turns what YAML holds into values that a key accepts.
+class Values {
+ public:
+  explicit Values(const Origin& origin) : origin_(origin) {}
+
+  [[nodiscard]] Value value(const KeyInfo& key, const YAML::Node& node) const {
+    switch (key.kind) {
+      case Kind::kTable:
+        return table(key, node);
+      case Kind::kList:
+        return list(key, node);
+      case Kind::kNumbers:
+        return numbers(key, node);
+      case Kind::kOutputs:
+        return outputs(key, node);
+      case Kind::kFile:
+        return origin_.resolved(text(key, node));
+      default:
+        return single(key, node);
+    }
+  }
+
+  [[nodiscard]] Value value(const KeyPath& path, const YAML::Node& node) const {
+    if (path.entry.empty()) return value(*path.key, node);
+    return text(path.key->name + "." + path.entry, node);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& name, const YAML::Node& node, const std::string& what,
+                         const std::string& next) const {
+    origin_.fail(node.Mark(), "'" + name + "' " + what, next);
+  }
+
+  [[nodiscard]] std::string text(const std::string& name, const YAML::Node& node) const {
+    if (!node.IsScalar()) fail(name, node, "is not a single value", "give one");
+    return node.Scalar();
+  }
+  [[nodiscard]] std::string text(const KeyInfo& key, const YAML::Node& node) const { return text(key.name, node); }
+
+  [[nodiscard]] Value single(const KeyInfo& key, const YAML::Node& node) const {
+    try {
+      return job::read_value(key, text(key, node));
+    } catch (const KeyError& error) {
+      fail(key.name, node, error.problem(), error.next());
+    }
+  }
+
+  [[nodiscard]] Table table(const KeyInfo& key, const YAML::Node& node) const {
+    if (!node.IsMap()) fail(key.name, node, "is not a table", "write for example {name: value}");
+    Table table;
+    for (const auto& entry : node) {
+      const std::string name = text(key, entry.first);
+      if (!table.emplace(name, text(key.name + "." + name, entry.second)).second)
+        fail(key.name, entry.first, "has '" + name + "' twice", "remove one of them");
+    }
+    return table;
+  }
+
+  [[nodiscard]] std::vector<double> numbers(const KeyInfo& key, const YAML::Node& node) const {
+    if (!node.IsSequence()) fail(key.name, node, "is not a list", "write for example [1, 0.5]");
+    std::vector<double> list;
+    for (const YAML::Node& item : node) list.push_back(single(key, item).as<double>());
+    return list;
+  }
+
+  [[nodiscard]] std::vector<std::string> outputs(const KeyInfo& key, const YAML::Node& node) const {
+    if (node.IsScalar()) return {node.Scalar()};
+    if (!node.IsSequence()) fail(key.name, node, "is not a list", "write for example [mesh.vtu, mesh.msh]");
+    std::vector<std::string> list;
+    for (const YAML::Node& item : node) list.push_back(text(key, item));
+    return list;
+  }
+
+  [[nodiscard]] std::vector<Record> list(const KeyInfo& key, const YAML::Node& node) const {
+    if (!node.IsSequence())
+      fail(key.name, node, "is not a list", "write for example [{" + key.fields[0].name + ": ...}]");
+    std::vector<Record> list;
+    for (const YAML::Node& item : node) list.push_back(record(key, item));
+    return list;
+  }
+
+  /// One item of a list: all fields, those that are not given with their default values.
+  [[nodiscard]] Record record(const KeyInfo& key, const YAML::Node& node) const {
+    if (!node.IsMap())
+      fail(key.name, node, "has an item that is not a table", "write for example {ranks: 4, speed: 1e6}");
+    Record record;
+    for (const KeyInfo& field : key.fields) record.emplace_back(field.name, field.standard);
+    std::set<std::string> seen;
+    for (const auto& entry : node) {
+      const std::string name = text(key, entry.first);
+      const auto field = std::ranges::find(key.fields, name, &KeyInfo::name);
+      if (field == key.fields.end()) refuse_field(key, entry.first, name);
+      if (!seen.insert(name).second) fail(key.name, entry.first, "has '" + name + "' twice", "remove one of them");
+      KeyInfo info = *field;
+      info.name = key.name + ": " + name;
+      record[static_cast<std::size_t>(field - key.fields.begin())].second = value(info, entry.second);
+    }
+    return record;
+  }
+
+  [[noreturn]] void refuse_field(const KeyInfo& key, const YAML::Node& node, const std::string& name) const {
+    std::vector<std::string> known;
+    for (const KeyInfo& field : key.fields) known.push_back(field.name);
+    fail(key.name, node, "has no field '" + name + "'", "the nearest one is '" + nearest_name(name, known) + "'");
+  }
+
+  const Origin& origin_;
+};
+
+/// Does `work`; where it finds a value wrong, the error says where that was given.
+template <class Work>
+void place_errors(const Experiment& experiment, const Work& work) {
+  try {
+    work();
+  } catch (const KeyError& error) {
+    throw placed(error, experiment.places, experiment.path);
+  }
+}
+
+bool is_section(const std::string& name) {
+  return std::ranges::any_of(job::keys(), [&](const job::Key& key) { return key.name.starts_with(name + "."); });
+}
+
+/// Reads the keys of one file, and of the settings of a command line, into a request.
+class KeyReader {
+ public:
+  using TakeOther = std::function<bool(const std::string& name, const YAML::Node& key, const YAML::Node& value)>;
+
+  /// `other` takes what is no key, if it can.
+  KeyReader(const Origin& origin, job::Door door, Request& request, SourcePlaces& places, TakeOther other = {})
+      : origin_(origin), door_(door), request_(request), places_(places), other_(std::move(other)) {}
+
+  void read_all(const YAML::Node& root) {
+    if (root.IsMap())
+      take_section("", root);
+    else if (!root.IsNull())
+      origin_.fail(root.Mark(), "not a list of 'key: value' lines", "see docs/experiments.md");
+  }
+
+  void take_key(const Origin& origin, const std::string& name, const YAML::Mark& mark, const YAML::Node& node) {
+    const KeyPath path = known_key(origin, name, mark);
+    const std::string full = path.entry.empty() ? path.key->name : path.key->name + "." + path.entry;
+    if (&origin == &origin_ && !seen_.insert(full).second)
+      origin.fail(mark, "'" + name + "' is given twice", "remove one of them");
+    if (node.IsNull()) origin.fail(mark, "'" + name + "' has no value", "give one, or remove the key");
+    job::store(request_, path, Values(origin).value(path, node));
+    places_[path.key->name] = origin.place(node.Mark());
+  }
+
+  /// The key of that name, or of the option of that name.
+  [[nodiscard]] KeyPath known_key(const Origin& origin, const std::string& name, const YAML::Mark& mark) const {
+    KeyPath path = job::find_key(name);
+    if (path.key == nullptr) path = job::find_option(name);
+    if (path.key == nullptr || (path.key->doors & door_) == 0)
+      origin.fail(mark, "unknown key '" + name + "'", "the nearest one is '" + job::nearest_key(name, door_) + "'");
+    return path;
+  }
+
+ private:
+  void take_section(const std::string& prefix, const YAML::Node& node) {
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar())
+        origin_.fail(entry.first.Mark(), "a key that is not a word", "see docs/experiments.md");
+      const std::string name = prefix + entry.first.Scalar();
+      if (other_ && other_(name, entry.first, entry.second)) continue;
+      if (is_section(name) && !is_option(name, entry.second))
+        take_subsection(name, entry.first, entry.second);
+      else
+        take_key(origin_, name, entry.first.Mark(), entry.second);
+    }
+  }
+
+  /// Some options are called as sections are; these have no single value.
+  [[nodiscard]] static bool is_option(const std::string& name, const YAML::Node& node) {
+    return !node.IsMap() && !node.IsNull() && job::find_option(name).key != nullptr;
+  }
+
+  void take_subsection(const std::string& name, const YAML::Node& key, const YAML::Node& node) {
+    if (node.IsNull()) return;
+    if (!node.IsMap())
+      origin_.fail(node.Mark(), "'" + name + "' has no single value", "give its keys, indented, below");
+    if (!seen_.insert(name).second) origin_.fail(key.Mark(), "'" + name + "' is given twice", "join the two");
+    places_[name] = origin_.place(key.Mark());
+    take_section(name + ".", node);
+  }
+
+  const Origin& origin_;
+  job::Door door_;
+  Request& request_;
+  SourcePlaces& places_;
+  TakeOther other_;
+  std::set<std::string> seen_;
+};
+
+/// Reads the file of an experiment with the settings of the command line.
+class ExperimentReader {
+ public:
+  explicit ExperimentReader(const std::string& path)
+      : origin_(Origin::file(path)),
+        keys_(origin_, job::kExperiment, result_.base, result_.places,
+              [this](const std::string& name, const YAML::Node&, const YAML::Node& value) {
+                if (name != "sweep") return false;
+                take_sweep(value);
+                return true;
+              }) {
+    if (!is_standard_stream(path)) result_.base.name = std::filesystem::path(path).stem().string();
+    result_.path = path;
+  }
+
+  Experiment read(const std::vector<std::string>& settings) {
+    keys_.read_all(origin_.parse(read_file(result_.path)));
+    for (const std::string& setting : settings) take_setting(setting);
+    combine();
+    return std::move(result_);
+  }
+
+ private:
+  void take_sweep(const YAML::Node& node) {
+    if (!node.IsMap())
+      origin_.fail(node.Mark(), "'sweep' is not a table", "write for example {cluster.ranks: [2, 4, 8]}");
+    for (const auto& entry : node) {
+      const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
+      if (std::ranges::any_of(result_.sweep, [&](const auto& axis) { return axis.key == name; }))
+        origin_.fail(entry.first.Mark(), "sweep: '" + name + "' is given twice", "join the two");
+      take_axis(origin_, name, entry.first.Mark(), entry.second);
+    }
+  }
+
+  void take_axis(const Origin& origin, const std::string& name, const YAML::Mark& mark, const YAML::Node& values) {
+    const KeyPath path = keys_.known_key(origin, name, mark);
+    if (!values.IsSequence() || values.size() == 0)
+      origin.fail(values.Mark(), "sweep: '" + name + "' has no list of values", "write for example [1, 2, 4]");
+    Experiment::Axis axis{name, {}};
+    for (const YAML::Node& value : values) axis.values.push_back(Values(origin).value(path, value));
+    result_.sweep.push_back(std::move(axis));
+    result_.places[path.key->name] = origin.place(values.Mark());
+  }
+
+  void take_setting(const std::string& setting) {
+    const Origin origin = Origin::setting(setting);
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) origin.fail({}, "no value", "write --set key=value");
+    const std::string name = setting.substr(0, equals);
+    const std::string text = setting.substr(equals + 1);
+    YAML::Node value = origin.parse(text);
+    const KeyPath path = keys_.known_key(origin, name, YAML::Mark::null_mark());
+    // YAML takes the colon of `a ? b : c` for that of a table.
+    if (value.IsMap() && path.key->kind == Kind::kText) value = YAML::Node(text);
+    std::erase_if(result_.sweep, [&](const Experiment::Axis& axis) { return axis.key == name; });
+    const bool one_list = path.key->kind == Kind::kList || path.key->kind == Kind::kNumbers;
+    if (value.IsSequence() && (!one_list || (value.size() > 0 && value[0].IsSequence())))
+      take_axis(origin, name, YAML::Mark::null_mark(), value);
+    else
+      keys_.take_key(origin, name, YAML::Mark::null_mark(), value);
+  }
+
+  /// All combinations of the sweep, each checked.
+  void combine() {
+    result_.points = {{{}, result_.base}};
+    for (const Experiment::Axis& axis : result_.sweep) {
+      std::vector<SweepPoint> next;
+      for (const SweepPoint& point : result_.points)
+        for (const Value& value : axis.values) {
+          next.push_back(point);
+          next.back().values.emplace_back(axis.key, value);
+          job::store(next.back().request, job::find_key(axis.key), value);
+        }
+      result_.points = std::move(next);
+    }
+    place_errors(result_, [&] {
+      for (const SweepPoint& point : result_.points) check_point(point.request);
+    });
+  }
+
+  static void check_point(const Request& request) {
+    if (request.input.file.empty() && request.input.generator.empty())
+      throw KeyError("input.file", "no domain is given",
+                     "name a file with input.file, or what to generate with input.generate");
+    job::check(request, job::place_of(request, job::kExperiment, false));
+  }
+
+  Experiment result_;
+  Origin origin_;
+  KeyReader keys_;
+};
+
+}  // namespace
+
+Settings read_settings(const std::string& path) {
+  Settings settings;
+  const Origin origin = Origin::file(path);
+  KeyReader(origin, job::kMesh, settings.request, settings.places).read_all(origin.parse(read_file(path)));
+  return settings;
+}
+
+Experiment read_experiment(const std::string& path, const std::vector<std::string>& settings) {
+  return ExperimentReader(path).read(settings);
+}
+
+void check_processes(const Experiment& experiment, std::int32_t processes) {
+  place_errors(experiment, [&] {
+    for (const SweepPoint& point : experiment.points) {
+      const job::Place place = job::place_of(point.request, job::kExperiment, false);
+      if (place != job::kSimulated)
+        job::check_ranks(point.request, place, processes);
+      else if (processes > 1)
+        throw KeyError(
+            "cluster.kind",
+            "a simulated cluster is one process, and mpirun has started " + std::to_string(processes) + " processes",
+            "start it without mpirun, or write kind: real");
+    }
+  });
+}
+
+InputError placed(const KeyError& error, const SourcePlaces& places, const std::string& otherwise) {
+  auto place = places.find(error.key());
+  if (place == places.end()) place = places.find(error.key().substr(0, error.key().find('.')));
+  return {
+      {place != places.end() ? place->second : otherwise}, "'" + error.key() + "': " + error.problem(), error.next()};
+}
+
+}  // namespace driftmesh::config

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "job/request.hpp"
+#include "job/value.hpp"
+
+namespace driftmesh::config {
+
+using Json = nlohmann::ordered_json;
+
+[[nodiscard]] Json json_of(const job::Value& value);
+
+/// Every key of a request that `doors` know, with its value, by its full name.
+[[nodiscard]] Json json_of(const job::Request& request, unsigned doors);
+
+}  // namespace driftmesh::config

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "config/experiment.hpp"
+
+namespace driftmesh::config {
+
+/// The JSON schema of an experiment's file, for editors that check YAML while it is written.
+[[nodiscard]] std::string json_schema();
+
+/// All keys as a table in Markdown.
+[[nodiscard]] std::string keys_table();
+
+/// A request in full: every key of an experiment with its value, as a file that says the same in any folder.
+[[nodiscard]] std::string experiment_text(const job::Request& request);
+
+/// The same with the sweep.
+[[nodiscard]] std::string experiment_text(const Experiment& experiment);
+
+}  // namespace driftmesh::config

@@ -1,0 +1,32 @@
+#include "job/bounds.hpp"
+
+#include "decompose/work.hpp"
+#include "geometry/triangle_geometry.hpp"
+#include "mesh/mesher.hpp"
+
+namespace driftmesh::job {
+namespace {
+
+double area_of(const Triangulation& mesh) {
+  double area = 0;
+  for (TriangleId t = 0; t < static_cast<TriangleId>(mesh.triangles.size()); ++t)
+    if (mesh.triangles[Triangulation::id(t)].alive())
+      area += signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  return area;
+}
+
+double area_bound_of(const Request::Bounds& bounds, const Triangulation& mesh, std::int32_t ranks) {
+  const double triangles = bounds.triangles > 0 ? bounds.triangles : bounds.triangles_per_rank * ranks;
+  return triangles > 0 ? kTrianglesPerBound * area_of(mesh) / triangles : bounds.area;
+}
+
+}  // namespace
+
+QualityBounds bounds_of(const Request& request, const Domain& domain, const Triangulation& mesh, std::int32_t ranks) {
+  return driftmesh::bounds_of(domain.pslg, {.min_angle = request.bounds.angle,
+                                            .max_area = area_bound_of(request.bounds, mesh, ranks),
+                                            .region_areas = request.bounds.region_areas,
+                                            .size = domain.size});
+}
+
+}  // namespace driftmesh::job

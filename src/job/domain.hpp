@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "balancer/policy.hpp"
+#include "decompose/decomposition.hpp"
+#include "job/request.hpp"
+#include "job/watch.hpp"
+#include "pslg/pslg.hpp"
+#include "pslg/repair_report.hpp"
+#include "sizing/make_size_field.hpp"
+
+namespace driftmesh::job {
+
+/// What a caller has in memory, in place of what a request names. Null: nothing. What pointers point at is not owned.
+struct Given {
+  const Pslg* input = nullptr;                     ///< as users feed it: it is repaired first
+  const SizeField* size = nullptr;                 ///< the same function on every rank
+  const Decomposition* decomposition = nullptr;    ///< made from the same input, after repair
+  std::shared_ptr<const balancer::Policy> policy;  ///< the same on every rank; the request's policy is not asked then
+};
+
+/// What is meshed.
+struct Domain {
+  Pslg pslg;  ///< repaired
+  RepairReport repairs;
+  std::unique_ptr<const SizeField> own_size;  ///< made for the request, or null
+  const SizeField* size = nullptr;            ///< the one to use: that one, a given one, or null
+};
+
+/// Reads or generates the domain and repairs it, and makes the size field. Throws InputError, FileError.
+[[nodiscard]] Domain read_domain(const Request& request, const Given& given, Watch& watch);
+
+/// What the request asks for of the sizes of triangles.
+[[nodiscard]] SizingOptions sizing_of(const Request::Sizing& sizing);
+
+/// The name of the domain: a file, what is generated, or "input" where a caller has it in memory.
+[[nodiscard]] std::string input_name(const Request& request);
+
+}  // namespace driftmesh::job

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "job/request.hpp"
+#include "mesh/mesher.hpp"
+#include "mesh/narrow_place.hpp"
+#include "pslg/pslg.hpp"
+
+namespace driftmesh::job {
+
+/// What the mesh of one process may cost.
+struct Limits {
+  std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop there
+  bool by_memory = false;                                ///< because of memory: max_triangles allows more
+  std::uint64_t memory = 0;                              ///< bytes that the process may take, 0: unknown
+  std::uint64_t bytes_per_triangle = 0;                  ///< what a triangle is expected to take at the worst moment
+
+  /// The option that sets the limit.
+  [[nodiscard]] std::string option() const { return by_memory ? "--max-memory" : "--max-triangles"; }
+};
+
+/// The limits that a request and the machine set for meshing `pslg`, at this moment: memory that the process has now
+/// counts as used. Free memory is shared with the other processes of the job on this machine; max_memory is that of
+/// each. `writes`: the mesh is written or drawn, too, which takes memory.
+[[nodiscard]] Limits find_limits(const Request::Limits& asked, const Pslg& pslg, bool writes,
+                                 int processes_on_machine = 1);
+
+/// The same for all of `ranks` processes together: memory is that of each, max_triangles the limit of all.
+[[nodiscard]] Limits limits_of_all(const Request::Limits& asked, Limits of_one, int ranks);
+
+/// What ends a program that a limit has stopped.
+inline constexpr int kStoppedByLimit = 3;
+
+/// What to say when memory ends before a limit does.
+inline constexpr const char* kOutOfMemory =
+    "out of memory; ask for larger triangles, or see --max-memory of driftmesh mesh";
+
+/// Throws LimitError when a forecast of the number of triangles is beyond the limit by more than forecasts err.
+/// `may_keep`: whether a mesh that was stopped can be kept.
+void check_forecast(const Limits& limits, double forecast, bool may_keep = true);
+
+/// What to tell the user whose mesh hit the limit. `narrow` is the place of the input that needs the most triangles for
+/// being narrow; it is named if it accounts for a good part of them.
+[[nodiscard]] std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept,
+                                          const std::optional<NarrowPlace>& narrow = {});
+
+}  // namespace driftmesh::job

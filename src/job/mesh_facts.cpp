@@ -1,0 +1,169 @@
+#include "job/mesh_facts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "geometry/triangle_geometry.hpp"
+#include "mesh/digest.hpp"
+
+namespace driftmesh::job {
+namespace {
+
+using Group = MeshFacts::ExceptionGroup;
+using Place = MeshFacts::Place;
+
+/// In the order in which they are shown; words for the causes follow.
+constexpr std::array kCauses{ExceptionCause::kInputAngle, ExceptionCause::kShell, ExceptionCause::kPrecision,
+                             ExceptionCause::kUnexplained};
+
+const char* cause_words(ExceptionCause cause, bool complete) {
+  switch (cause) {
+    case ExceptionCause::kInputAngle:
+      return "small angle of the input";
+    case ExceptionCause::kShell:
+      return "wedge between input segments";
+    case ExceptionCause::kPrecision:
+    case ExceptionCause::kUnexplained:
+      break;
+  }
+  return complete ? "no room between coordinates" : "not reached";
+}
+
+Point centroid(const Triangulation& mesh, TriangleId t) {
+  const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+  return {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+}
+
+/// The corner with the smallest angle: the one opposite to the shortest edge.
+const Point& sharpest_corner(const Triangulation& mesh, TriangleId t) {
+  std::array<double, 3> opposite{};
+  for (int i = 0; i < 3; ++i)
+    opposite[static_cast<std::size_t>(i)] = squared_distance(mesh.corner(t, next(i)), mesh.corner(t, previous(i)));
+  return mesh.corner(t, static_cast<int>(std::min_element(opposite.begin(), opposite.end()) - opposite.begin()));
+}
+
+/// Keeps the worst places, each once.
+void add_places(Group& group, const std::vector<Place>& places) {
+  group.places.insert(group.places.end(), places.begin(), places.end());
+  std::stable_sort(group.places.begin(), group.places.end(),
+                   [](const Place& a, const Place& b) { return a.angle < b.angle; });
+  std::vector<Place> kept;
+  for (const Place& p : group.places)
+    if (kept.size() < Group::kMaxPlaces &&
+        std::none_of(kept.begin(), kept.end(), [&](const Place& k) { return k.at == p.at; }))
+      kept.push_back(p);
+  group.places = std::move(kept);
+}
+
+void add_group(MeshFacts& facts, const Group& group) {
+  if (group.count == 0) return;
+  auto place = std::find_if(facts.exceptions.begin(), facts.exceptions.end(),
+                            [&](const Group& g) { return g.cause == group.cause; });
+  if (place == facts.exceptions.end()) place = facts.exceptions.insert(place, Group{group.cause, 0, 180, {}});
+  place->count += group.count;
+  place->worst_angle = std::min(place->worst_angle, group.worst_angle);
+  add_places(*place, group.places);
+}
+
+void add_skinny(MeshFacts& facts, const Triangulation& mesh, std::vector<Exceptions::Item> skinny, bool complete) {
+  std::stable_sort(skinny.begin(), skinny.end(),
+                   [](const auto& a, const auto& b) { return a.smallest_angle < b.smallest_angle; });
+  for (const ExceptionCause cause : kCauses) {
+    Group group{cause_words(cause, complete), 0, 180, {}};
+    for (const Exceptions::Item& item : skinny) {
+      if (item.cause != cause) continue;
+      ++group.count;
+      group.worst_angle = std::min(group.worst_angle, item.smallest_angle);
+      if (group.places.size() < Group::kMaxPlaces)
+        add_places(group, {{sharpest_corner(mesh, item.triangle), item.smallest_angle}});
+    }
+    add_group(facts, group);
+  }
+}
+
+void add_large(MeshFacts& facts, const Triangulation& mesh, const std::vector<TriangleId>& large) {
+  Group group{"area or size bound missed", static_cast<std::int64_t>(large.size()), 180, {}};
+  for (std::size_t i = 0; i < std::min(large.size(), Group::kMaxPlaces); ++i)
+    group.places.push_back({centroid(mesh, large[i])});
+  add_group(facts, group);
+}
+
+void add_shape(AngleSummary& sum, const AngleSummary& part, bool first) {
+  sum.smallest = std::min(sum.smallest, part.smallest);
+  sum.largest = std::max(sum.largest, part.largest);
+  for (std::size_t i = 0; i < sum.bins.size(); ++i) sum.bins[i] += part.bins[i];
+  sum.smallest_area = first ? part.smallest_area : std::min(sum.smallest_area, part.smallest_area);
+  sum.largest_area = std::max(sum.largest_area, part.largest_area);
+  sum.total_area += part.total_area;
+}
+
+/// The plain values of MeshFacts in one order for both directions.
+template <class Stream, class Facts>
+void transfer(Stream& stream, Facts& facts) {
+  stream.value(facts.triangles);
+  stream.value(facts.vertices);
+  stream.value(facts.subsegments);
+  stream.value(facts.counters);
+  stream.value(facts.shape);
+  stream.value(facts.digest);
+}
+
+}  // namespace
+
+void add_counters(MeshFacts& facts, const RefineCounters& counters) {
+  facts.counters.free_points += counters.free_points;
+  facts.counters.segment_points += counters.segment_points;
+  facts.counters.deleted_points += counters.deleted_points;
+  facts.counters.encroaching += counters.encroaching;
+  facts.counters.given_up += counters.given_up;
+}
+
+void add_part(MeshFacts& facts, const Triangulation& mesh, const QualityBounds& bounds, bool complete) {
+  add_shape(facts.shape, summarize_angles(mesh), facts.triangles == 0);
+  facts.triangles += static_cast<std::int64_t>(mesh.live_triangles());
+  facts.vertices += static_cast<std::int64_t>(mesh.live_vertices());
+  facts.subsegments +=
+      std::count_if(mesh.subsegments.begin(), mesh.subsegments.end(), [](const auto& s) { return s.is_leaf(); });
+  facts.digest += mesh_digest(mesh);
+  Exceptions found = find_exceptions(mesh, bounds);
+  add_skinny(facts, mesh, std::move(found.skinny), complete);
+  add_large(facts, mesh, found.large);
+}
+
+void add_facts(MeshFacts& facts, const MeshFacts& others) {
+  if (others.triangles > 0) add_shape(facts.shape, others.shape, facts.triangles == 0);
+  facts.triangles += others.triangles;
+  facts.vertices += others.vertices;
+  facts.subsegments += others.subsegments;
+  facts.digest += others.digest;
+  add_counters(facts, others.counters);
+  for (const Group& group : others.exceptions) add_group(facts, group);
+}
+
+void write_facts(ByteWriter& writer, const MeshFacts& facts) {
+  transfer(writer, facts);
+  writer.value(static_cast<std::uint64_t>(facts.exceptions.size()));
+  for (const Group& group : facts.exceptions) {
+    writer.text(group.cause);
+    writer.value(group.count);
+    writer.value(group.worst_angle);
+    writer.array(group.places);
+  }
+}
+
+MeshFacts read_facts(ByteReader& reader) {
+  MeshFacts facts;
+  transfer(reader, facts);
+  for (auto groups = reader.value<std::uint64_t>(); groups > 0; --groups) {
+    Group group;
+    group.cause = reader.text();
+    reader.value(group.count);
+    reader.value(group.worst_angle);
+    reader.array(group.places);
+    facts.exceptions.push_back(std::move(group));
+  }
+  return facts;
+}
+
+}  // namespace driftmesh::job

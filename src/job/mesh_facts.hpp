@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/byte_stream.hpp"
+#include "mesh/exceptions.hpp"
+#include "mesh/refine_counters.hpp"
+
+namespace driftmesh::job {
+
+/// What can be seen of a finished mesh, or of a part of one: the facts of parts add up to those of the whole. Angles
+/// are in degrees.
+struct MeshFacts {
+  std::int64_t triangles = 0;
+  std::int64_t vertices = 0;  ///< those that parts share count once a part
+  std::int64_t subsegments = 0;
+  RefineCounters counters;
+  AngleSummary shape;
+  std::uint64_t digest = 0;
+
+  struct Place {
+    Point at;
+    double angle = 180;
+  };
+  /// Triangles that miss a bound for the same reason.
+  struct ExceptionGroup {
+    static constexpr std::size_t kMaxPlaces = 3;
+    std::string cause;
+    std::int64_t count = 0;
+    double worst_angle = 180;   ///< of those below the angle bound
+    std::vector<Place> places;  ///< of the worst: the corners with the small angles, each once
+  };
+  std::vector<ExceptionGroup> exceptions;
+};
+
+/// Adds what `mesh`, a part refined to `bounds`, shows. `complete`: refinement was not stopped by a limit.
+void add_part(MeshFacts& facts, const Triangulation& mesh, const QualityBounds& bounds, bool complete);
+/// Adds the work that refining a part took.
+void add_counters(MeshFacts& facts, const RefineCounters& counters);
+/// Adds the facts of other parts.
+void add_facts(MeshFacts& facts, const MeshFacts& others);
+
+void write_facts(ByteWriter& writer, const MeshFacts& facts);
+[[nodiscard]] MeshFacts read_facts(ByteReader& reader);
+
+}  // namespace driftmesh::job

@@ -1,0 +1,46 @@
+#include "job/mpi/mpi_team.hpp"
+
+#include <utility>
+
+#include "balancer/mpi/mpi_council.hpp"
+
+namespace driftmesh::job {
+namespace {
+
+class MpiChannel final : public Channel {
+ public:
+  explicit MpiChannel(int communicator) : transport_(communicator) {}
+  [[nodiscard]] protocol::Transport& transport() override { return transport_; }
+  [[nodiscard]] std::unique_ptr<balancer::Council> council(const RunPlan& plan) override {
+    return balancer::make_mpi_council(transport_, plan.layout, plan.policy, plan.balancing.options);
+  }
+  void close() override { transport_.close(); }
+
+ private:
+  protocol::MpiTransport transport_;
+};
+
+}  // namespace
+
+MpiTeam::MpiTeam(int communicator)
+    : communicator_(communicator),
+      ranks_on_machine_(protocol::MpiSession::ranks_on_this_machine(communicator)),
+      control_(communicator) {}
+
+protocol::Bytes MpiTeam::broadcast(protocol::Bytes bytes) {
+  return control_.broadcast(std::move(bytes));
+}
+
+std::vector<protocol::Bytes> MpiTeam::gather(const protocol::Bytes& bytes) {
+  return control_.gather(bytes);
+}
+
+std::unique_ptr<Channel> MpiTeam::open() {
+  return std::make_unique<MpiChannel>(communicator_);
+}
+
+void MpiTeam::abort(const std::string& message, int code) {
+  protocol::MpiSession::abort(message, code);
+}
+
+}  // namespace driftmesh::job

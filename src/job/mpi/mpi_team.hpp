@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "job/team.hpp"
+#include "protocol/mpi/mpi_transport.hpp"
+
+namespace driftmesh::job {
+
+/// The ranks of an MPI communicator, named by its Fortran handle; MPI has been initialized. All of them make one and
+/// close it together.
+class MpiTeam final : public Team {
+ public:
+  explicit MpiTeam(int communicator);
+
+  [[nodiscard]] protocol::Rank rank() const override { return control_.rank(); }
+  [[nodiscard]] protocol::Rank ranks() const override { return control_.ranks(); }
+  [[nodiscard]] int ranks_on_machine() const override { return ranks_on_machine_; }
+  [[nodiscard]] protocol::Bytes broadcast(protocol::Bytes bytes) override;
+  [[nodiscard]] std::vector<protocol::Bytes> gather(const protocol::Bytes& bytes) override;
+  [[nodiscard]] std::unique_ptr<Channel> open() override;
+  [[noreturn]] void abort(const std::string& message, int code) override;
+
+  /// In good order. Without it, what others have still to say is not waited for.
+  void close() { control_.close(); }
+
+ private:
+  int communicator_;
+  int ranks_on_machine_;
+  protocol::MpiTransport control_;  // for what is said between runs
+};
+
+}  // namespace driftmesh::job

@@ -1,0 +1,97 @@
+#include "job/prepare.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "decompose/decompose.hpp"
+#include "decompose/decomposition_file.hpp"
+#include "decompose/same_input.hpp"
+#include "job/bounds.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "runtime/plan_run.hpp"
+
+namespace driftmesh::job {
+namespace {
+
+std::int32_t wanted_subdomains(const Request::Decomposition& asked, std::int32_t ranks) {
+  if (asked.subdomains > 0) return asked.subdomains;
+  return static_cast<std::int32_t>(std::min<std::int64_t>(std::int64_t{asked.subdomains_per_rank} * ranks, INT32_MAX));
+}
+
+Decomposition given_decomposition(const Decomposition& decomposition, const Pslg& input) {
+  require_same_input(decomposition, input, "the decomposition");
+  return decomposition;
+}
+
+Decomposition decomposition_of(const Request& request, const Domain& domain, const Given& given,
+                               const Triangulation& mesh, const QualityBounds& bounds, std::int32_t ranks,
+                               Watch& watch) {
+  if (given.decomposition != nullptr) return given_decomposition(*given.decomposition, domain.pslg);
+  const std::string& file = request.decomposition.file;
+  if (!file.empty()) return timed(watch, "load", [&] { return read_decomposition(file, domain.pslg); });
+  return timed(watch, "decompose", [&] { return cut(request, mesh, bounds, ranks); });
+}
+
+Balancing balancing_of(const Request& request, Place place) {
+  Balancing balancing;
+  balancing.policy = request.balance.policy;
+  balancing.parameters = parameters_of_policy(request);
+  balancing.options.look = request.balance.look;
+  balancing.options.gap = request.balance.gap;
+  balancing.options.interval = request.balance.interval;
+  balancing.options.worth.gain = request.balance.gain;
+  if (place == kSimulated) {  // what moves cost is known
+    balancing.options.cost.latency = request.cluster.latency + 2 * request.cluster.message_overhead;
+    balancing.options.cost.bandwidth = request.cluster.bandwidth;
+  }
+  return balancing;
+}
+
+PlanOptions plan_options(const Request& request, Place place, const std::vector<double>& speeds) {
+  PlanOptions options;
+  options.mapping.ranks = static_cast<std::int32_t>(speeds.size());
+  options.mapping.method = request.mapping.method;
+  if (request.mapping.by_area) options.mapping.weight = MappingWeight::kArea;
+  options.mapping.speeds = request.mapping.by_speed ? speeds : request.mapping.speeds;
+  options.presplit = request.run.presplit;
+  options.aggregation = static_cast<std::size_t>(request.run.aggregation);
+  options.slice = request.run.slice;
+  options.order = request.run.order;
+  options.sleep = request.run.sleep;
+  options.balancing = balancing_of(request, place);
+  return options;
+}
+
+}  // namespace
+
+Decomposition cut(const Request& request, const Triangulation& mesh, const QualityBounds& bounds, std::int32_t ranks) {
+  DecomposeOptions cutting;
+  cutting.subdomains = wanted_subdomains(request.decomposition, ranks);
+  cutting.min_angle = request.decomposition.separator_angle;
+  cutting.bounds = bounds;
+  cutting.skew = request.decomposition.skew;
+  cutting.seed = static_cast<std::uint64_t>(request.seed);
+  return decompose_for(mesh, cutting, ranks);
+}
+
+Prepared prepare(const Request& request, const Domain& domain, const Given& given, Place place,
+                 const std::vector<double>& speeds, const Limits& limits, Watch& watch) {
+  const auto ranks = static_cast<std::int32_t>(speeds.size());
+  Prepared prepared;
+  const Triangulation mesh = timed(watch, "triangulate", [&] {
+    Triangulation made = triangulate(domain.pslg);
+    prepared.acute_corners = prepare_corners(made);
+    return made;
+  });
+  const QualityBounds bounds = bounds_of(request, domain, mesh, ranks);
+  check_forecast(limits, forecast_triangles(mesh, bounds), false);
+  Decomposition decomposition = decomposition_of(request, domain, given, mesh, bounds, ranks, watch);
+  for (const Decomposition::Subdomain& s : decomposition.subdomains) prepared.forecast += s.predicted;
+  prepared.plan = timed(watch, "map", [&] {
+    return plan_run(std::move(decomposition), bounds, plan_options(request, place, speeds), given.policy);
+  });
+  return prepared;
+}
+
+}  // namespace driftmesh::job

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "base/byte_stream.hpp"
+#include "job/prepare.hpp"
+#include "job/record.hpp"
+#include "runtime/rank_loop.hpp"
+#include "runtime/run_plan.hpp"
+
+namespace driftmesh::job {
+
+/// What one rank of a parallel run tells rank 0 at the end.
+struct RankReport {
+  RunRecord::Rank rank;
+  MeshFacts facts;  ///< vertices and subsegments on roots count for the rank that numbers them
+
+  void write(ByteWriter& writer) const;
+  [[nodiscard]] static RankReport read(ByteReader& reader);
+};
+
+/// The report of a rank whose loop has come to its end, on `plan`.
+[[nodiscard]] RankReport report_of(const RankLoop& loop, const RunPlan& plan);
+
+/// Adds what a rank reports to the record of its run.
+void add_report(RunRecord& run, const RankReport& report);
+
+/// Adds what all ranks have in common, and none reports.
+void add_plan(RunRecord& run, const RunPlan& plan);
+
+/// Adds what preparing the run has shown.
+void add_prepared(RunRecord& run, const Prepared& prepared);
+
+}  // namespace driftmesh::job

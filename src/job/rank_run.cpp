@@ -1,0 +1,119 @@
+#include "job/rank_run.hpp"
+
+#include <utility>
+
+#include "base/byte_stream.hpp"
+#include "base/error.hpp"
+#include "distributed/assembly.hpp"
+#include "distributed/held_subdomains.hpp"
+#include "job/domain.hpp"
+#include "job/drag.hpp"
+#include "job/memory.hpp"
+#include "protocol/rank_step.hpp"
+
+namespace driftmesh::job {
+
+using protocol::Bytes;
+
+RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
+    : team_(team), order_(std::move(order)), watch_(watch) {
+  by_itself(team_, [&] {
+    if (size == nullptr) size_ = make_size_field(sizing_of(order_.sizing));
+    order_.plan.bounds.size = size != nullptr ? size : size_.get();
+    limits_ = find_limits(order_.limits, order_.pslg, order_.writes, team_.ranks_on_machine());
+    order_.plan.max_triangles = limits_.triangles;
+  });
+}
+
+void RankRun::refine(bool logs, const RankHooks& hooks) {
+  team_.meet();  // the clocks of all start together
+  channel_ = team_.open();
+  by_itself(team_, [&] {
+    if (logs) log_.emplace(channel_->transport(), order_.plan);
+    run_loop(hooks);
+    if (logs) log_->ends(*loop_);
+  });
+  channel_->close();
+}
+
+void RankRun::run_loop(const RankHooks& hooks) {
+  protocol::Transport& own = channel_->transport();
+  protocol::Transport& transport = hooks.through ? hooks.through(own) : own;
+  council_ = channel_->council(order_.plan);
+  try {
+    loop_.emplace(transport, order_.plan, CostModel{}, observers(hooks), council_.get());
+    if (log_) log_->begins(*loop_);
+    protocol::run_rank(transport, [&] {
+      if (hooks.before_step) hooks.before_step(*loop_);
+      return loop_->step();
+    });
+  } catch (const LimitError&) {
+    if (!loop_ || loop_->triangles() <= limits_.triangles) throw;
+    throw LimitError(stopped_message(limits_, loop_->triangles(), true) + ". No mesh was written");
+  }
+}
+
+RankLoop::Observers RankRun::observers(const RankHooks& hooks) {
+  RankLoop::Observers observers;
+  observers.stalled = [this](const std::string& why) { watch_.stalled(why); };
+  observers.after_slice = [this, &hooks, share = share_of_time(), forecast = forecast()](const RankLoop& loop,
+                                                                                         const RankLoop::Slice& slice) {
+    watch_.refining(loop.triangles(), forecast);
+    if (hooks.after_slice) hooks.after_slice(slice);
+    const double begin = channel_->transport().now();
+    drag(share, slice.seconds);
+    if (log_) log_->worked(loop, slice, slice.seconds + (channel_->transport().now() - begin));
+  };
+  if (!log_) return observers;
+  observers.handed_over = [this](const RankLoop& loop, const RankLoop::Passage& passage) {
+    log_->departs(loop, passage);
+  };
+  observers.settled = [this](const RankLoop& loop, const RankLoop::Passage& passage) { log_->arrives(loop, passage); };
+  return observers;
+}
+
+double RankRun::share_of_time() const {
+  return order_.shares.empty() ? 1 : order_.shares[static_cast<std::size_t>(team_.rank())];
+}
+
+double RankRun::forecast() const {
+  double forecast = 0;
+  for (std::size_t s = 0; s < order_.plan.owners.size(); ++s)
+    if (order_.plan.owners[s] == team_.rank()) forecast += order_.plan.decomposition.subdomains[s].predicted;
+  return forecast;
+}
+
+RankReport RankRun::report() const {
+  RankReport report = report_of(*loop_, order_.plan);
+  report.rank.peak = peak_memory();
+  return report;
+}
+
+DistributedPiece RankRun::assemble(ExchangeRunner& ranks) const {
+  return by_itself(team_, [&] {
+    PieceAssembly assembly(team_.rank(), team_.ranks(), order_.plan.decomposition, held_by_rank(loop_->subdomains()));
+    ranks.run(assembly);
+    return assembly.piece(order_.pslg);
+  });
+}
+
+ClusterRun run_with_log(Team& team, Order order, RunRecord& record, Watch& watch) {
+  RankRun run(team, std::move(order), nullptr, watch);
+  run.refine(true);
+  ByteWriter writer;
+  by_itself(team, [&] {
+    run.report().write(writer);
+    run.log().write(writer);
+  });
+  std::vector<RankLog> logs;
+  for (const Bytes& bytes : team.gather(writer.take())) {
+    ByteReader reader(bytes);
+    add_report(record, RankReport::read(reader));
+    logs.push_back(RankLog::read(reader));
+  }
+  if (!team.leads()) return {};
+  add_plan(record, run.plan());
+  return RankLog::join(logs);
+}
+
+}  // namespace driftmesh::job

@@ -1,0 +1,47 @@
+#include "job/record.hpp"
+
+#include <cmath>
+
+#include "job/value.hpp"
+
+namespace driftmesh::job {
+namespace {
+
+std::string sizing_words(const Request::Sizing& sizing) {
+  std::string words;
+  const auto add = [&](const std::string& what) { words += (words.empty() ? "" : ", ") + what; };
+  if (!sizing.expression.empty()) add(sizing.expression);
+  if (!sizing.background.empty()) add(sizing.background);
+  if (sizing.gradation > 0) add("gradation " + shortest_text(sizing.gradation));
+  if (sizing.shortest > 0) add("at least " + shortest_text(sizing.shortest));
+  if (sizing.longest > 0) add("at most " + shortest_text(sizing.longest));
+  return words;
+}
+
+std::int64_t count_of(std::size_t size) {
+  return static_cast<std::int64_t>(size);
+}
+
+}  // namespace
+
+void record_domain(RunRecord& run, const Request& request, const Domain& domain) {
+  run.request = request;
+  run.input_file = input_name(request);
+  run.input_points = count_of(domain.pslg.points.size());
+  run.input_segments = count_of(domain.pslg.segments.size());
+  run.input_holes = count_of(domain.pslg.holes.size());
+  run.input_regions = count_of(domain.pslg.regions.size());
+  run.repairs = domain.repairs;
+  run.min_angle = request.bounds.angle;
+  run.sizing = sizing_words(request.sizing);
+}
+
+void record_mesh(RunRecord& run, const MeshResult& result) {
+  run.complete = result.complete;
+  run.acute_corners = result.acute_corners;
+  run.max_area = result.bounds.max_area;
+  add_part(run, result.mesh, result.bounds, result.complete);
+  add_counters(run, result.counters);
+}
+
+}  // namespace driftmesh::job

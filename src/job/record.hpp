@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "job/domain.hpp"
+#include "job/mesh_facts.hpp"
+#include "job/request.hpp"
+#include "mesh/mesher.hpp"
+#include "pslg/repair_report.hpp"
+#include "runtime/rank_outcome.hpp"
+
+namespace driftmesh::job {
+
+/// What is known of the making of one mesh: what its summary and its JSON file say. Times are in seconds, memory in
+/// bytes, angles in degrees.
+struct RunRecord : MeshFacts {
+  Request request;
+  std::string command;  ///< a command line that makes the same mesh
+  std::string input_file;
+  std::int64_t input_points = 0, input_segments = 0, input_holes = 0, input_regions = 0;  ///< after repair
+  RepairReport repairs;
+
+  double min_angle = 0;
+  double max_area = 0;  ///< <= 0: no bound
+  std::string sizing;   ///< the size field in words, or empty
+
+  bool complete = true;
+  std::string stopped_by;  ///< the limit that stopped the work, if it is not complete
+  std::int32_t acute_corners = 0;
+  double forecast = 0;  ///< of triangles, before refinement
+
+  struct Stage {
+    std::string name;
+    double seconds;
+  };
+  std::vector<Stage> stages;
+  double seconds_refine = 0;
+  double seconds = 0;  ///< all stages and what lies between
+  std::uint64_t peak_refining = 0, peak = 0;
+
+  struct File {
+    std::string name;
+    std::uint64_t bytes;
+  };
+  std::vector<File> files;
+
+  /// One rank of a parallel run.
+  struct Rank : RankOutcome {
+    std::uint64_t peak = 0;
+  };
+  std::vector<Rank> ranks;  ///< empty if there were none
+  std::int32_t subdomains = 0;
+  bool presplit = false;
+
+  [[nodiscard]] double triangles_per_second() const {
+    return seconds_refine > 0 ? static_cast<double>(triangles) / seconds_refine : 0;
+  }
+};
+
+/// Fills in what was asked for, and what the domain is.
+void record_domain(RunRecord& run, const Request& request, const Domain& domain);
+
+/// Fills in what the finished mesh shows: counts, angles, areas, exceptions, digest.
+void record_mesh(RunRecord& run, const MeshResult& result);
+
+}  // namespace driftmesh::job

@@ -1,0 +1,25 @@
+#include "job/simulated.hpp"
+
+#include "base/error.hpp"
+#include "cluster/simulate.hpp"
+#include "job/check.hpp"
+#include "job/memory.hpp"
+#include "job/rank_report.hpp"
+
+namespace driftmesh::job {
+
+ClusterRun run_simulated(const Request& request, const Prepared& prepared, const Limits& limits, RunRecord& record,
+                         Watch& watch) {
+  SimulationObservers observers;
+  observers.progress = [&](std::int64_t triangles) {
+    if (triangles > limits.triangles) throw LimitError(stopped_message(limits, triangles, true) + ". No mesh was made");
+    watch.refining(triangles, prepared.forecast);
+  };
+  observers.finished = [&](const RankLoop& rank) { add_report(record, report_of(rank, prepared.plan)); };
+  ClusterRun outcome = simulate(prepared.plan, cluster_of(request), {}, observers);
+  add_plan(record, prepared.plan);
+  record.peak = record.peak_refining = peak_memory();
+  return outcome;
+}
+
+}  // namespace driftmesh::job

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "cluster/cluster_run.hpp"
+#include "job/prepare.hpp"
+#include "job/record.hpp"
+#include "job/watch.hpp"
+
+namespace driftmesh::job {
+
+/// Makes the mesh on the simulated cluster of the request, in virtual time. Adds what the ranks report to `record`.
+/// Throws LimitError when all ranks together have more triangles than `limits` allow, and what simulate throws.
+[[nodiscard]] ClusterRun run_simulated(const Request& request, const Prepared& prepared, const Limits& limits,
+                                       RunRecord& record, Watch& watch);
+
+}  // namespace driftmesh::job

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "balancer/council.hpp"
+#include "protocol/ids.hpp"
+#include "protocol/transport.hpp"
+#include "runtime/run_plan.hpp"
+
+namespace driftmesh::job {
+
+/// What refinement runs on: messages on it meet no others, and its council is there for plans that all ranks make
+/// together.
+class Channel {
+ public:
+  virtual ~Channel() = default;
+  Channel(const Channel&) = delete;
+  Channel& operator=(const Channel&) = delete;
+
+  [[nodiscard]] virtual protocol::Transport& transport() = 0;
+  /// Null if the plan's policy needs none. The channel outlives it.
+  [[nodiscard]] virtual std::unique_ptr<balancer::Council> council(const RunPlan& plan) = 0;
+  /// Ends it in good order: all that was sent has been received. All ranks together. Without it, the channel gives up,
+  /// and what is under way may be lost.
+  virtual void close() = 0;
+
+ protected:
+  Channel() = default;
+};
+
+/// The ranks that make a mesh together: this process alone, or those of a communicator (mpi/mpi_team.hpp). What all
+/// ranks do together, each calls in the same order.
+class Team {
+ public:
+  virtual ~Team() = default;
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  [[nodiscard]] virtual protocol::Rank rank() const = 0;
+  [[nodiscard]] virtual protocol::Rank ranks() const = 0;
+  [[nodiscard]] bool leads() const { return rank() == 0; }
+  [[nodiscard]] bool alone() const { return ranks() == 1; }
+  /// Ranks that share this machine's memory.
+  [[nodiscard]] virtual int ranks_on_machine() const = 0;
+
+  /// The `bytes` of rank 0, on every rank. All ranks together.
+  [[nodiscard]] virtual protocol::Bytes broadcast(protocol::Bytes bytes) = 0;
+  /// On rank 0 the bytes of every rank; nothing elsewhere. All ranks together. For reports, not for meshes.
+  [[nodiscard]] virtual std::vector<protocol::Bytes> gather(const protocol::Bytes& bytes) = 0;
+  /// Returns when all ranks have called it.
+  void meet() {
+    static_cast<void>(gather({}));
+    static_cast<void>(broadcast({}));
+  }
+  /// All ranks together.
+  [[nodiscard]] virtual std::unique_ptr<Channel> open() = 0;
+
+  /// Prints `message` and ends the whole job: all ranks wait for one that fails by itself, so it takes them with it.
+  [[noreturn]] virtual void abort(const std::string& message, int code) = 0;
+
+ protected:
+  Team() = default;
+};
+
+/// This process alone.
+[[nodiscard]] std::unique_ptr<Team> lone_team();
+
+/// Called while an exception is handled that a rank met by itself: throws it on where the rank is alone, and ends the
+/// job with its message otherwise.
+[[noreturn]] void fail_alone(Team& team);
+
+/// Does what a rank does by itself, and lets it fail_alone.
+template <class Work>
+auto by_itself(Team& team, const Work& work) {
+  try {
+    return work();
+  } catch (const std::exception&) {
+    fail_alone(team);
+  }
+}
+
+}  // namespace driftmesh::job

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "base/stopwatch.hpp"
+#include "pslg/repair_report.hpp"
+
+namespace driftmesh::job {
+
+/// Whoever wants to see how the making of a mesh goes on: a progress line, a summary, a caller of the library. What a
+/// call throws ends the work and passes through.
+class Watch {
+ public:
+  virtual ~Watch() = default;
+  Watch() = default;
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  virtual void begins(const std::string& /*stage*/) {}
+  /// Also called when the stage fails.
+  virtual void ends(const std::string& /*stage*/, double /*seconds*/) {}
+  virtual void repaired(const RepairReport& /*repairs*/) {}
+  /// Called now and then during refinement. On many ranks, `triangles` and `forecast` are of this rank.
+  virtual void refining(std::int64_t /*triangles*/, double /*forecast*/) {}
+  /// Nothing has moved on this rank for a minute.
+  virtual void stalled(const std::string& /*why*/) {}
+};
+
+/// Does `work` as a stage of this name.
+template <class Work>
+std::invoke_result_t<Work> timed(Watch& watch, const char* stage, Work&& work) {
+  watch.begins(stage);
+  struct Note {  // also when work returns a value
+    Watch& watch;
+    const char* stage;
+    Stopwatch clock{};
+    ~Note() { watch.ends(stage, clock.seconds()); }
+  } note{watch, stage};
+  return std::forward<Work>(work)();
+}
+
+}  // namespace driftmesh::job

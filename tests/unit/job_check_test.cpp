@@ -1,0 +1,97 @@
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <string>
+
+#include "job/check.hpp"
+#include "job/keys.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::job;
+
+namespace {
+
+/// The key that is refused at a place, or "" where nothing is.
+std::string refused(Place place, const std::function<void(Request&)>& change) {
+  Request request;
+  if (place == kSimulated) request.cluster.ranks = 4;
+  change(request);
+  try {
+    check(request, place);
+  } catch (const KeyError& error) {
+    CHECK(!error.next().empty());
+    return error.key();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("the defaults are right everywhere") {
+  for (const Place place : {kOnePiece, kSubdomains, kRanks, kSimulated}) CHECK(refused(place, [](Request&) {}).empty());
+}
+
+TEST_CASE("what cannot apply is refused and never ignored") {
+  const auto policy = [](Request& r) { r.balance.policy = "stealing"; };
+  CHECK(refused(kOnePiece, policy) == "balance.policy");
+  CHECK(refused(kSubdomains, policy) == "balance.policy");
+  CHECK(refused(kRanks, policy).empty());
+  CHECK(refused(kSimulated, policy).empty());
+  CHECK(refused(kOnePiece, [](Request& r) { r.mapping.speeds = {1, 2, 3}; }) == "mapping.speeds");
+  CHECK(refused(kOnePiece, [](Request& r) { r.balance.parameters = {{"foo", "one"}}; }) == "balance.parameters");
+  CHECK(refused(kOnePiece, [](Request& r) { r.run.sleep = true; }) == "run.sleep");
+  CHECK(refused(kSubdomains, [](Request& r) { r.run.sleep = true; }).empty());
+  CHECK(refused(kRanks, [](Request& r) { r.limits.keep_incomplete = true; }) == "limits.keep-incomplete");
+  CHECK(refused(kRanks, [](Request& r) { r.cluster.latency = 1; }).empty());  // a file may be for both kinds of ranks
+  CHECK(refused(kOnePiece, [](Request& r) { r.cluster.latency = 1; }) == "cluster.latency");
+  CHECK(refused(kRanks, [](Request& r) { r.cluster.groups = {{"a", 2, 1e6}}; }) == "cluster.groups");
+}
+
+TEST_CASE("every key that has no meaning at a place is refused there") {
+  for (const Key& key : keys())
+    for (const Place place : {kOnePiece, kSubdomains, kRanks, kSimulated}) {
+      const auto* const number = std::get_if<double>(&key.standard);
+      if ((key.places & place) != 0 || number == nullptr) continue;
+      CAPTURE(key.name);
+      const double other = *number + 0.01;
+      CHECK(refused(place, [&](Request& r) { key.store(r, other); }) == key.name);
+    }
+}
+
+TEST_CASE("values that a program sets are held to the ranges of the command line") {
+  CHECK(refused(kOnePiece, [](Request& r) { r.bounds.angle = 35; }) == "bounds.angle");
+  CHECK(refused(kSubdomains, [](Request& r) { r.decomposition.skew = 5; }) == "decomposition.skew");
+  CHECK(refused(kRanks, [](Request& r) { r.cluster.drag = {1, 0}; }) == "cluster.drag");
+}
+
+TEST_CASE("values that do not go together are refused") {
+  CHECK(refused(kOnePiece, [](Request& r) { r.bounds.area = r.bounds.triangles = 5; }) == "bounds.triangles");
+  CHECK(refused(kOnePiece, [](Request& r) { r.sizing.gradation = 0.2; }) == "sizing.gradation");
+  CHECK(refused(kOnePiece, [](Request& r) { r.sizing.shortest = 2, r.sizing.longest = 1; }) == "sizing.min");
+  CHECK(refused(kOnePiece, [](Request& r) { r.sizing.shortest = 2; }) == "sizing.min");
+  CHECK(refused(kOnePiece, [](Request& r) { r.input.file = r.input.generator = "pipe"; }) == "input.generate");
+  CHECK(refused(kOnePiece, [](Request& r) { r.input.generator = "pip"; }) == "input.generate");
+  CHECK(refused(kSubdomains, [](Request& r) { r.decomposition.file = "a.parts", r.decomposition.subdomains = 3; }) ==
+        "decomposition.file");
+  CHECK(refused(kRanks, [](Request& r) { r.mapping.speeds = {1}, r.mapping.by_speed = true; }) == "mapping.by-speed");
+  CHECK(refused(kSimulated, [](Request& r) { r.cluster.ranks = 0; }) == "cluster.ranks");
+  CHECK(refused(kSimulated, [](Request& r) { r.cluster.drag = {1, 1}; }) == "cluster.drag");
+}
+
+TEST_CASE("the place of a mesh follows from who asks, and for what") {
+  Request request;
+  CHECK(place_of(request, kMesh, false) == kOnePiece);
+  CHECK(place_of(request, kMesh, true) == kRanks);
+  request.decomposition.subdomains = 4;
+  CHECK(place_of(request, kMesh, false) == kSubdomains);
+  CHECK(place_of(request, kExperiment, true) == kSimulated);
+  request.cluster.kind = ClusterKind::kReal;
+  CHECK(place_of(request, kExperiment, false) == kRanks);
+}
+
+TEST_CASE("lists for ranks have a value for each") {
+  Request request;
+  request.mapping.speeds = {1, 2, 3};
+  CHECK_THROWS_AS(check_ranks(request, kRanks, 2), KeyError);
+  CHECK_NOTHROW(check_ranks(request, kRanks, 3));
+}

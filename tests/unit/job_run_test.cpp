@@ -1,0 +1,166 @@
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "job/check.hpp"
+#include "job/domain.hpp"
+#include "job/one_piece.hpp"
+#include "job/order.hpp"
+#include "job/prepare.hpp"
+#include "job/rank_run.hpp"
+#include "job/record.hpp"
+#include "job/simulated.hpp"
+#include "job/team.hpp"
+#include "mesh/digest.hpp"
+#include "pslg/generators.hpp"
+
+// The one way from a request to a mesh, at every place that needs no MPI.
+
+using namespace driftmesh;
+using namespace driftmesh::job;
+
+namespace {
+
+Request pipe() {
+  Request request;
+  request.input.generator = "pipe";
+  request.bounds.triangles = 2e4;
+  return request;
+}
+
+Prepared prepared(const Request& request, Place place, std::size_t ranks) {
+  Watch watch;
+  const Domain domain = read_domain(request, {}, watch);
+  return prepare(request, domain, {}, place, std::vector<double>(ranks, 1.0), Limits{}, watch);
+}
+
+/// The digest of the mesh in subdomains, on this process alone.
+std::uint64_t digest_alone(const Request& request) {
+  Watch watch;
+  const auto team = lone_team();
+  Domain domain = read_domain(request, {}, watch);
+  Prepared ready = prepare(request, domain, {}, kSubdomains, {1.0}, Limits{}, watch);
+  Order order;
+  order.plan = std::move(ready.plan);
+  order.pslg = std::move(domain.pslg);
+  order.sizing = request.sizing;
+  RankRun run(*team, std::move(order), nullptr, watch);
+  run.refine();
+  return run.report().facts.digest;
+}
+
+std::uint64_t digest_simulated(Request request, std::int32_t ranks) {
+  Watch watch;
+  request.cluster.ranks = ranks;
+  const Domain domain = read_domain(request, {}, watch);
+  const Prepared ready = prepare(request, domain, {}, kSimulated, speeds_of(cluster_of(request), {}), Limits{}, watch);
+  RunRecord record;
+  static_cast<void>(run_simulated(request, ready, Limits{}, record, watch));
+  return record.digest;
+}
+
+class Counting final : public Watch {
+ public:
+  void begins(const std::string& stage) override { begun.push_back(stage); }
+  void ends(const std::string& stage, double seconds) override {
+    ended.push_back(stage);
+    CHECK(seconds >= 0);
+  }
+  std::vector<std::string> begun, ended;
+};
+
+}  // namespace
+
+TEST_CASE("a prepared run has about the triangles that were asked for") {
+  CHECK(prepared(pipe(), kSubdomains, 1).forecast == doctest::Approx(2e4).epsilon(0.1));
+  Request request = pipe();
+  request.bounds.triangles = 0;
+  request.bounds.triangles_per_rank = 2e4;
+  CHECK(prepared(request, kRanks, 3).forecast == doctest::Approx(6e4).epsilon(0.1));
+  request.decomposition.subdomains_per_rank = 7;
+  CHECK(prepared(request, kRanks, 3).plan.decomposition.size() == 21);
+  request.decomposition = {};
+  request.decomposition.subdomains = 10;
+  request.mapping.method = MappingMethod::kRoundRobin;
+  const RunPlan plan = prepared(request, kRanks, 4).plan;
+  for (std::size_t s = 0; s < plan.owners.size(); ++s) CHECK(static_cast<std::size_t>(plan.owners[s]) == s % 4);
+}
+
+TEST_CASE("a mesh in one piece has about the triangles that were asked for") {
+  Counting watch;
+  const Request request = pipe();
+  const Domain domain = read_domain(request, {}, watch);
+  const OnePiece made = mesh_in_one_piece(request, domain, false, watch);
+  CHECK(made.result.complete);
+  CHECK(static_cast<double>(made.result.mesh.live_triangles()) == doctest::Approx(2e4).epsilon(0.15));
+  CHECK(watch.begun == std::vector<std::string>{"read", "repair", "size", "triangulate", "refine"});
+  CHECK(watch.ended == watch.begun);
+}
+
+TEST_CASE("the mesh in subdomains is the same here and on simulated ranks") {
+  Request request = pipe();
+  request.decomposition.subdomains = 12;
+  const std::uint64_t digest = digest_alone(request);
+  CHECK(digest_simulated(request, 1) == digest);
+  CHECK(digest_simulated(request, 3) == digest);
+  request.bounds.angle = 25;
+  CHECK(digest_alone(request) != digest);
+}
+
+TEST_CASE("an order reaches the team whole, and so does an error") {
+  const auto team = lone_team();
+  Request request = pipe();
+  request.sizing.expression = "0.1 + x";
+  Watch watch;
+  Domain domain = read_domain(request, {}, watch);
+  Order order;
+  order.pslg = domain.pslg;
+  order.sizing = request.sizing;
+  order.limits.max_triangles = 77;
+  order.shares = {0.5};
+  order.writes = true;
+  request.sizing = {};
+  request.bounds.triangles = 1000;
+  order.plan = prepared(request, kSubdomains, 1).plan;
+  const std::optional<Order> shared = share(*team, [&] { return std::optional(order); });
+  REQUIRE(shared);
+  CHECK(shared->pslg.points == order.pslg.points);
+  CHECK(shared->sizing.expression == "0.1 + x");
+  CHECK(shared->limits.max_triangles == 77);
+  CHECK(shared->shares == order.shares);
+  CHECK(shared->writes);
+  CHECK(shared->plan.decomposition == order.plan.decomposition);
+  CHECK_FALSE(share(*team, [] { return std::optional<Order>(); }));
+  CHECK_THROWS_AS(static_cast<void>(share(*team, []() -> std::optional<Order> { throw LimitError("too much"); })),
+                  LimitError);
+}
+
+TEST_CASE("limits hold wherever a mesh is made") {
+  Request request = pipe();
+  request.bounds.triangles = 1e6;
+  Watch watch;
+  const Domain domain = read_domain(request, {}, watch);
+  Limits few;
+  few.triangles = 1000;
+  CHECK_THROWS_AS(static_cast<void>(prepare(request, domain, {}, kRanks, {1.0}, few, watch)), LimitError);
+  request.limits.max_triangles = 1000;
+  CHECK_THROWS_AS(static_cast<void>(mesh_in_one_piece(request, domain, false, watch)), LimitError);
+  request.limits.keep_incomplete = true;
+  CHECK_FALSE(mesh_in_one_piece(request, domain, false, watch).result.complete);
+}
+
+TEST_CASE("what a caller has in memory takes the place of files") {
+  Request request;
+  request.bounds.area = 0.5;
+  const Pslg input = generate("holes", {{"columns", "2"}, {"rows", "2"}});
+  Given given;
+  given.input = &input;
+  Watch watch;
+  const Domain domain = read_domain(request, given, watch);
+  CHECK(domain.pslg.points.size() == input.points.size());
+  CHECK(input_name(request) == "input");
+}
