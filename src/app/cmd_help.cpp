@@ -16,8 +16,7 @@ std::string help_of(const cli::Command& program, const std::vector<std::string>&
   const cli::Command* command = &program;
   std::string name = program.name;
   for (const std::string& word : words) {
-    std::vector<std::string> known;
-    for (const cli::Command& c : command->commands) known.push_back(c.name);
+    const std::vector<std::string> known = cli::command_names(*command);
     const auto found = std::find(known.begin(), known.end(), word);
     if (found == known.end()) throw cli::UsageError("unknown command '" + word + "'" + cli::did_you_mean(word, known));
     command = &command->commands[static_cast<std::size_t>(found - known.begin())];
@@ -26,7 +25,7 @@ std::string help_of(const cli::Command& program, const std::vector<std::string>&
   return cli::help_text(name, *command);
 }
 
-std::vector<std::string> command_names(const cli::Command& program) {
+std::vector<std::string> names_of_all(const cli::Command& program) {
   std::vector<std::string> names{"help"};  // the program does not have it yet
   for (const cli::NamedCommand& named : cli::all_commands(program))
     if (named.command != &program) names.push_back(named.command->name);
@@ -44,7 +43,7 @@ cli::Command help_command(const cli::Command& program) {
                        .value = "COMMAND",
                        .help = "Its name, as in: driftmesh help generate bay",
                        .repeats = true,
-                       .choices = command_names(program),
+                       .choices = names_of_all(program),
                        .take = cli::into(*words)}},
           .run = [words, &program](cli::Call&) {
             print(help_of(program, *words));

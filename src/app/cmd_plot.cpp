@@ -123,7 +123,7 @@ std::vector<cli::Option> plot_options(PlotCommand& command) {
            .value = "PIXELS",
            .help = "Width in pixels; the height follows",
            .standard = std::to_string(command.plot.width),
-           .take = cli::into(command.plot.width)},
+           .take = cli::into(command.plot.width, {100, 20'000})},
           {.name = "size",
            .value = "WxH",
            .help = "Width and height in pixels, as 1600x900",

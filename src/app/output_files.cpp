@@ -53,7 +53,7 @@ void check_outputs(const std::vector<std::string>& meshes, const std::string& pi
     for (const std::string& file : files_of_output(mesh, ranks)) files.push_back(file);
   }
   if (!picture.empty() && !is_picture_name(picture))
-    throw InputError({picture}, "is no picture format", "use a name that ends in .png, .svg or .pdf");
+    throw InputError({picture}, "is not a picture format", "use a name that ends in .png, .svg or .pdf");
   for (const std::string& file : {picture, record})
     if (!file.empty()) files.push_back(file);
   std::set<std::string> seen;

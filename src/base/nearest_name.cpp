@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <utility>
 
 namespace driftmesh {
 namespace {
@@ -12,16 +13,18 @@ bool same_letter(char a, char b) {
   return lower(a) == lower(b);
 }
 
-/// The number of letters to insert, remove or replace to get from one word to the other.
+/// The number of letters to insert, remove, replace or exchange with the next one to get from one word to the other.
 std::size_t edit_distance(const std::string& from, const std::string& to) {
-  std::vector<std::size_t> row(to.size() + 1);
+  std::vector<std::size_t> before, last, row(to.size() + 1);  // of the table of all beginnings of the two words
   std::iota(row.begin(), row.end(), std::size_t{0});
-  for (const char letter : from) {
-    std::size_t diagonal = row[0]++;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    before = std::exchange(last, row);
+    row[0] = i + 1;
     for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t replaced = diagonal + (same_letter(letter, to[j]) ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+      const std::size_t replaced = last[j] + (same_letter(from[i], to[j]) ? 0 : 1);
+      row[j + 1] = std::min({replaced, row[j] + 1, last[j + 1] + 1});
+      if (i > 0 && j > 0 && same_letter(from[i], to[j - 1]) && same_letter(from[i - 1], to[j]))
+        row[j + 1] = std::min(row[j + 1], before[j - 1] + 1);
     }
   }
   return row.back();
@@ -41,7 +44,7 @@ std::string probable_name(const std::string& name, const std::vector<std::string
       std::find_if(known.begin(), known.end(), [&](const std::string& k) { return k.starts_with(name); });
   if (longer != known.end()) return *longer;
   const std::string nearest = nearest_name(name, known);
-  return 2 * edit_distance(name, nearest) <= nearest.size() ? nearest : "";
+  return 3 * edit_distance(name, nearest) <= nearest.size() + 1 ? nearest : "";
 }
 
 }  // namespace driftmesh

@@ -58,6 +58,12 @@ std::string Call::text(const std::vector<std::string>& without) const {
   return line;
 }
 
+std::vector<std::string> command_names(const Command& command) {
+  std::vector<std::string> names;
+  for (const Command& below : command.commands) names.push_back(below.name);
+  return names;
+}
+
 std::vector<NamedCommand> all_commands(const Command& program) {
   std::vector<NamedCommand> all;
   add_commands(program.name, program, all);

@@ -69,6 +69,9 @@ struct Call {
   [[nodiscard]] std::string text(const std::vector<std::string>& without = {}) const;
 };
 
+/// The names of the commands directly below one.
+[[nodiscard]] std::vector<std::string> command_names(const Command& command);
+
 /// A command and those below it, each with its name in full, in the order of help.
 struct NamedCommand {
   std::string name;  ///< "driftmesh generate bay"

@@ -48,12 +48,9 @@ class Parser {
   }
 
   void subcommand(const std::string& word) {
-    std::vector<std::string> names;
-    for (const Command& below : command().commands) {
+    for (const Command& below : command().commands)
       if (below.name == word) return enter(below);
-      names.push_back(below.name);
-    }
-    throw UsageError("unknown command '" + word + "'" + did_you_mean(word, names));
+    throw UsageError("unknown command '" + word + "'" + did_you_mean(word, command_names(command())));
   }
 
   // "--name", "--name VALUE" or "--name=VALUE"
@@ -112,7 +109,7 @@ class Parser {
   }
 
   void require_all() const {
-    if (!command().commands.empty()) throw UsageError("a command is missing");
+    if (!command().commands.empty()) throw UsageError("a command is missing: " + listed(command_names(command())));
     for (const Option& option : command().options)
       if (option.required && !call_.has(option.name)) throw UsageError(spelled(option) + " is missing");
   }

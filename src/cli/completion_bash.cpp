@@ -52,11 +52,10 @@ std::string value_case(const std::string& path, const Option& option) {
 
 std::string word_case(const NamedCommand& named) {
   const Command& command = *named.command;
-  std::vector<std::string> options, words;
+  std::vector<std::string> options;
   for (const Option* option : named_options(command)) options.push_back("--" + option->name);
-  for (const Command& below : command.commands) words.push_back(below.name);
   std::string text = "    '" + named.name + ":'*) options='" + joined(options, " ") + "'";
-  if (!words.empty()) text += " words='" + joined(words, " ") + "'";
+  if (!command.commands.empty()) text += " words='" + joined(command_names(command), " ") + "'";
   if (const Option* argument = argument_of(command); argument != nullptr) text += values_of(*argument);
   return text + " ;;\n";
 }

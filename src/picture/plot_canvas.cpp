@@ -31,7 +31,7 @@ std::string format_of(const std::string& path) {
 
 std::string checked_name(const std::string& path, int width, int height) {
   if (!is_picture_name(path))
-    throw InputError({path, 0}, "is no picture format", "use a name that ends in .png, .svg or .pdf");
+    throw InputError({path, 0}, "is not a picture format", "use a name that ends in .png, .svg or .pdf");
   for (int length : {width, height})
     if (length < kSmallest || length > kLargest)
       throw InputError({path, 0}, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",

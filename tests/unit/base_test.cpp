@@ -37,9 +37,18 @@ TEST_CASE("the nearest name is the one that takes the fewest changes") {
   CHECK(nearest_name("x", {}) == "");
 }
 
-TEST_CASE("a name is probably meant if half of its letters are right, or if it goes on") {
-  const std::vector<std::string> known{"mesh", "subdomains", "run"};
+TEST_CASE("two letters in the wrong order are one change") {
+  CHECK(nearest_name("ab", {"abc", "xb", "ba"}) == "abc");
+  CHECK(nearest_name("bya", {"bay", "pipe"}) == "bay");
+  CHECK(nearest_name("abcd", {"acbde", "bacd"}) == "bacd");
+}
+
+TEST_CASE("a name is probably meant if most of its letters are right, or if it goes on") {
+  const std::vector<std::string> known{"mesh", "subdomains", "run", "bay", "bash"};
   CHECK(probable_name("mseh", known) == "mesh");
+  CHECK(probable_name("bya", known) == "bay");
+  CHECK(probable_name("tcsh", known) == "");
+  CHECK(probable_name("subodmian", known) == "subdomains");
   CHECK(probable_name("sub", known) == "subdomains");
   CHECK(probable_name("publish", known) == "");
   CHECK(probable_name("xyz", known) == "");

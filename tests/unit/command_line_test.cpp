@@ -114,11 +114,11 @@ TEST_CASE("Commands lie in commands") {
 }
 
 TEST_CASE("What cannot be meant is told, with what was probably meant") {
-  CHECK(problem({}) == "a command is missing");
+  CHECK(problem({}) == "a command is missing: mesh or generate");
   CHECK(problem({"mseh"}) == "unknown command 'mseh' (did you mean mesh?)");
-  CHECK(problem({"publish"}) == "unknown command 'publish'");
+  CHECK(problem({"merge"}) == "unknown command 'merge'");
   CHECK(problem({"generate", "by"}) == "unknown command 'by' (did you mean bay?)");
-  CHECK(problem({"generate"}) == "a command is missing");
+  CHECK(problem({"generate"}) == "a command is missing: bay or comb");
   CHECK(problem({"mesh", "in.poly", "--are", "5"}) == "unknown option --are (did you mean --area?)");
   CHECK(problem({"mesh", "in.poly", "--aera=5"}) == "unknown option --aera (did you mean --area?)");
   CHECK(problem({"mesh", "in.poly", "--such"}) == "unknown option --such");
