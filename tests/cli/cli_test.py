@@ -108,7 +108,8 @@ class Pipeline(Cli):
         for options, word in ((["--color", "blue"], "blue"), (["--size", "640"], "WIDTHxHEIGHT"),
                               (["--box", "1,1,0,0"], "x0 < x1")):
             self.refuse("plot", "square.msh", "-o", "b.png", *options, code=2, says=[word])
-        self.refuse("plot", "square.msh", "-o", "b.png", "--width", "20", says=["each side may have"])
+        self.refuse("plot", "square.msh", "-o", "b.png", "--width", "20", code=2, says=["--width", "100 to 20000"])
+        self.refuse("plot", "square.msh", "-o", "b.png", "--size", "20x500", says=["each side may have"])
         self.assertEqual(self.files(), before)
 
     def test_options_may_stand_before_the_input(self):
