@@ -7,7 +7,7 @@ set -euo pipefail
 # The one list of what the project needs from Debian 12.
 packages_of() {
   case "$1" in
-    build) echo g++ cmake ninja-build pkg-config libfmt-dev nlohmann-json3-dev \
+    build) echo g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev \
       libmuparser-dev libyaml-cpp-dev libcairo2-dev libmetis-dev libtrilinos-zoltan-dev \
       libboost-serialization-dev libopenmpi-dev openmpi-bin ;;
     test) echo doctest-dev libboost-dev libcgal-dev clang-format fish gmsh man-db python3 python3-yaml spin zsh ;;

@@ -1,7 +1,10 @@
 #include "cli/command_line.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <map>
+#include <optional>
 
 #include "base/standard_streams.hpp"
 #include "cli/help_text.hpp"
@@ -9,120 +12,159 @@
 namespace driftmesh::cli {
 namespace {
 
-class Parser {
+// CLI11 takes a word that begins with a dash for options. Those that stand for a standard stream wear a mask.
+constexpr char kMask = '\x1f';
+
+std::string masked(const std::string& word) {
+  return is_standard_stream(word) ? kMask + word : word;
+}
+
+std::string unmasked(const std::string& word) {
+  return word.starts_with(kMask) ? word.substr(1) : word;
+}
+
+/// The words as CLI11 wants them. It would not see the empty value of "--name=".
+std::vector<std::string> backwards_for_cli11(const std::vector<std::string>& words) {
+  std::vector<std::string> backwards;
+  for (auto word = words.rbegin(); word != words.rend(); ++word) {
+    const bool empty_value = word->starts_with("--") && word->find('=') + 1 == word->size();
+    if (empty_value) backwards.emplace_back();
+    backwards.push_back(empty_value ? word->substr(0, word->size() - 1) : masked(*word));
+  }
+  return backwards;
+}
+
+/// As CLI11 is told of it: "-a,--area", or "input".
+std::string declared(const Option& option) {
+  if (option.kind == Option::Kind::kPositional) return option.name;
+  const std::string letter = option.letter == 0 ? "" : std::string("-") + option.letter + ",";
+  return letter + "--" + option.name;
+}
+
+/// One command of the tree as CLI11 sees it. CLI11 divides the words among commands and options; what they mean, and
+/// whether they are allowed, is decided here, in our own words.
+class Level {
  public:
-  Parser(const Command& program, const std::vector<std::string>& words, Call& call) : words_(words), call_(call) {
-    enter(program);
+  Level(const Command& command, CLI::App& app) : command_(command), app_(app) {
+    app_.set_help_flag();
+    app_.allow_extras();
+    app_.require_subcommand(0, command.commands.empty() ? 0 : 1);
+    for (const OptionGroup& group : option_groups(command))
+      for (const Option* option : group.options) options_[declare(*option)] = option;
+    for (const Command& below : command.commands) below_.emplace_back(below, *app_.add_subcommand(below.name));
   }
 
-  void parse() {
-    bool only_arguments = false;
-    while (at_ < words_.size() && !call_.prints) {
-      const std::string& word = words_[at_++];
-      if (only_arguments || !word.starts_with('-') || is_standard_stream(word))
-        argument(word);
-      else if (word == "--")
-        only_arguments = true;
-      else if (word.starts_with("--"))
-        long_option(word);
-      else
-        short_options(word);
+  /// The level that was called below this one, if any.
+  [[nodiscard]] const Level* called() const {
+    for (const Level& level : below_)
+      if (level.app_.parsed()) return &level;
+    return nullptr;
+  }
+  [[nodiscard]] const Command& command() const { return command_; }
+
+  /// Whether an option was given that prints something and ends it; `call` then says what.
+  bool prints(Call& call) const {
+    for (const auto& [known, option] : options_) {
+      if (known->count() == 0 || !(option->prints || option == &help_option())) continue;
+      call.prints = option->prints;
+      if (option == &help_option())
+        call.prints = [name = call.name, &command = command_] { return help_text(name, command); };
+      return true;
     }
-    if (!call_.prints) require_all();
+    return false;
+  }
+
+  void refuse_unknown() const {
+    std::vector<std::string> unknown = app_.remaining();
+    std::erase(unknown, "--");  // CLI11 keeps it, though it was understood
+    if (unknown.empty()) return;
+    const std::string word = unmasked(unknown.front());
+    if (word.starts_with('-') && !is_standard_stream(word)) refuse_option(word);
+    if (command_.commands.empty()) throw UsageError("unexpected argument '" + word + "'");
+    throw UsageError("unknown command '" + word + "'" + did_you_mean(word, command_names(command_)));
+  }
+
+  /// Gives the options their values, in the order of the words.
+  void give(Call& call) const {
+    std::map<const CLI::Option*, std::size_t> taken;
+    for (const CLI::Option* known : app_.parse_order()) {
+      const Option& option = *options_.at(known);
+      const std::string value = known->results().at(taken[known]++);
+      give(option, value, call);
+    }
   }
 
  private:
-  [[nodiscard]] const Command& command() const { return *call_.command; }
-
-  void enter(const Command& command) {
-    call_.name += (call_.command == nullptr ? "" : " ") + command.name;
-    call_.command = &command;
+  const CLI::Option* declare(const Option& option) {
+    if (option.kind == Option::Kind::kFlag) return app_.add_flag(declared(option))->take_all();
+    constexpr int kMany = CLI::detail::expected_max_vector_size;
+    CLI::Option* const known = app_.add_option(declared(option))->take_all();
+    if (option.kind == Option::Kind::kPositional)
+      return known->expected(1, option.repeats ? kMany : 1)->allow_extra_args(option.repeats);
+    return known->expected(1, kMany)->allow_extra_args(false);  // one value each time that it is given
   }
 
-  void argument(const std::string& word) {
-    if (!command().commands.empty()) return subcommand(word);
-    for (const Option& option : command().options)
-      if (option.kind == Option::Kind::kPositional && (option.repeats || !call_.has(option.name)))
-        return give(option, word);
-    throw UsageError("unexpected argument '" + word + "'");
-  }
-
-  void subcommand(const std::string& word) {
-    for (const Command& below : command().commands)
-      if (below.name == word) return enter(below);
-    throw UsageError("unknown command '" + word + "'" + did_you_mean(word, command_names(command())));
-  }
-
-  // "--name", "--name VALUE" or "--name=VALUE"
-  void long_option(const std::string& word) {
-    const std::size_t equals = word.find('=');
-    const std::string name = word.substr(0, equals);
-    const Option& option = find(name, [&](const Option& o) { return "--" + o.name == name; });
-    if (option.kind != Option::Kind::kFlag)
-      give(option, equals == std::string::npos ? next_word(option) : word.substr(equals + 1));
-    else if (equals == std::string::npos)
-      give(option, "");
-    else
-      throw UsageError(name + " takes no value");
-  }
-
-  // "-abc" is "-a -b -c", or "-a bc" if -a has a value.
-  void short_options(const std::string& word) {
-    for (std::size_t i = 1; i < word.size() && !call_.prints; ++i) {
-      const Option& option = find({'-', word[i]}, [&](const Option& o) { return o.letter == word[i]; });
-      if (option.kind == Option::Kind::kFlag) {
-        give(option, "");
-        continue;
-      }
-      give(option, i + 1 < word.size() ? word.substr(i + 1) : next_word(option));
-      return;
-    }
-  }
-
-  template <class Matches>
-  const Option& find(const std::string& name, const Matches& matches) const {
+  [[noreturn]] void refuse_option(const std::string& word) const {
+    const std::string name = word.substr(0, word.find('='));
     std::vector<std::string> known;
-    for (const OptionGroup& group : option_groups(command()))
-      for (const Option* option : group.options) {
-        if (option->kind == Option::Kind::kPositional) continue;
-        if (matches(*option)) return *option;
-        known.push_back(option->name);
-      }
+    for (const auto& [unused, option] : options_)
+      if (option->kind != Option::Kind::kPositional) known.push_back(option->name);
     throw UsageError("unknown option " + name +
                      (name.starts_with("--") ? did_you_mean(name.substr(2), known, "--") : ""));
   }
 
-  const std::string& next_word(const Option& option) {
-    if (at_ == words_.size()) throw UsageError(spelled(option) + " needs a value: " + option.value);
-    return words_[at_++];
-  }
-
-  void give(const Option& option, const std::string& value) {
+  static void give(const Option& option, const std::string& value, Call& call) {
+    const bool flag = option.kind == Option::Kind::kFlag;
+    if (flag && value != "true") throw UsageError(spelled(option) + " takes no value");
     try {
-      call_.give(option, value);
+      call.give(option, flag ? "" : unmasked(value));
     } catch (const UsageError& error) {
       throw UsageError(spelled(option) + ": " + error.what());
     }
-    call_.prints = option.prints;
-    if (&option == &help_option())
-      call_.prints = [name = call_.name, command = call_.command] { return help_text(name, *command); };
   }
 
-  void require_all() const {
-    if (!command().commands.empty()) throw UsageError("a command is missing: " + listed(command_names(command())));
-    for (const Option& option : command().options)
-      if (option.required && !call_.has(option.name)) throw UsageError(spelled(option) + " is missing");
-  }
-
-  const std::vector<std::string>& words_;
-  std::size_t at_ = 0;
-  Call& call_;
+  const Command& command_;
+  CLI::App& app_;
+  std::map<const CLI::Option*, const Option*> options_;
+  std::vector<Level> below_;
 };
+
+void require_all(const Call& call) {
+  if (!call.command->commands.empty())
+    throw UsageError("a command is missing: " + listed(command_names(*call.command)));
+  for (const Option& option : call.command->options)
+    if (option.required && !call.has(option.name)) throw UsageError(spelled(option) + " is missing");
+}
+
+/// What CLI11 says is wrong. Left to it is a single thing: an option at the end of the line without its value.
+[[noreturn]] void refuse_last(const std::string& word, const Command& command, const CLI::ParseError& error) {
+  for (const Option& option : command.options)
+    if (word == "--" + option.name || (option.letter != 0 && word.ends_with(option.letter)))
+      throw UsageError(spelled(option) + " needs a value: " + option.value);
+  throw UsageError(error.what());
+}
 
 }  // namespace
 
 void parse(const Command& program, const std::vector<std::string>& words, Call& call) {
-  Parser(program, words, call).parse();
+  CLI::App app;
+  const Level root(program, app);
+  std::vector<std::string> backwards = backwards_for_cli11(words);
+  std::optional<CLI::ParseError> failure;
+  try {
+    app.parse(backwards);
+  } catch (const CLI::ParseError& error) {
+    failure = error;
+  }
+  for (const Level* level = &root; level != nullptr; level = level->called()) {
+    call.name += (level == &root ? "" : " ") + level->command().name;
+    call.command = &level->command();
+    if (level->prints(call)) return;
+    level->refuse_unknown();
+    if (failure && level->called() == nullptr) refuse_last(words.back(), level->command(), *failure);
+    if (!failure) level->give(call);
+  }
+  require_all(call);
 }
 
 int run(const Command& program, int argc, const char* const* argv) {

@@ -23,6 +23,7 @@ from boxes import INCLUDE_ROOTS, TOPS, closure, cycle_in, declared_boxes, graph,
 LIBRARIES = {
     "boost_serialization": (r"boost/(archive|serialization)/.*", ["migration"]),
     "cairo": (r"cairo.*\.h", ["picture"]),
+    "cli11": (r"CLI/.*", ["cli"]),
     "fmt": (r"fmt/.*", None),
     "json": (r"nlohmann/.*", None),
     "metis": (r"metis\.h", ["decompose"]),
