@@ -97,7 +97,7 @@ void write_point_data(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arr
   if (arrays.numbers) file.array(mesh.numbers);
 }
 
-// A line shows the value of a triangle at it, so that colouring by region does not paint the lines a colour of their
+// A line shows the value of a triangle at it, so that coloring by region does not paint the lines a color of their
 // own.
 class LineValues {
  public:

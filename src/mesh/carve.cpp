@@ -110,7 +110,7 @@ void label_regions(Triangulation& mesh, const std::vector<TriangleId>& seeds) {
 void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& sides, std::size_t first_root) {
   Flood inside(mesh);
   std::vector<std::uint16_t> label(mesh.triangles.size(), 0);
-  bool labelled = false;
+  bool labeled = false;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const RootSegment& root = mesh.roots[first_root + i];
     const auto& half = mesh.subsegments[id(root.tree)].half;
@@ -120,7 +120,7 @@ void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& side
       inside.add(triangle_of(edge));
       for (std::size_t k = before; k < inside.triangles().size(); ++k)
         label[id(inside.triangles()[k])] = narrow<std::uint16_t>(side, "region label");
-      labelled |= side != 0;
+      labeled |= side != 0;
     }
   }
   Flood outside(mesh);
@@ -128,7 +128,7 @@ void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& side
     if (mesh.triangles[t].alive() && !inside.reached(static_cast<TriangleId>(t)))
       outside.add(static_cast<TriangleId>(t));
   remove_outside(mesh, outside);
-  if (!labelled) return;
+  if (!labeled) return;
   mesh.region.resize(mesh.triangles.size(), 0);
   for (std::size_t t = 0; t < label.size(); ++t) mesh.region[t] = label[t];
 }

@@ -7,7 +7,7 @@
 namespace driftmesh {
 
 /// The constrained Delaunay triangulation of the domain that a PSLG describes: everything outside its outer boundary
-/// and everything reachable from its hole points removed, triangles labelled by region.
+/// and everything reachable from its hole points removed, triangles labeled by region.
 /// Vertex origins are indices into `pslg.points`; roots stand in the order of `pslg.segments`, without those that
 /// bound no part of the domain. Region labels: 0 is "no region point", i + 1 is pslg.regions[i]; the array is empty if
 /// there are no region points. Triangles come out in Hilbert order.

@@ -18,7 +18,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kOpen = 2 * std::numbers::pi;  // stands for all sectors of 180 degrees or more
 constexpr double kAcute = 60 * kDegree * (1 - 1e-12);
 constexpr double kSharp = 20 * kDegree;
-/// Where neighbours diverge more slowly, a piece that is not aligned costs more triangles (about 2.1 / angle) than
+/// Where neighbors diverge more slowly, a piece that is not aligned costs more triangles (about 2.1 / angle) than
 /// another cut does.
 constexpr double kBundled = 0.01;
 

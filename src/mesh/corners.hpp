@@ -16,7 +16,7 @@ namespace driftmesh {
 /// two vertices lie on the same one is a comparison of their dyadic paths.
 ///
 /// A sharp cluster, one with an angle below 20 degrees, is cut on every further power of two as well, as far as each
-/// segment reaches; and where neighbours diverge by less than 0.01 radians, the longer one is also cut where the
+/// segment reaches; and where neighbors diverge by less than 0.01 radians, the longer one is also cut where the
 /// shorter one ends. Pieces that do not line up there would be refined to the distance between the segments.
 ///
 /// Returns the number of clusters. Call once, after triangulate and before refinement.

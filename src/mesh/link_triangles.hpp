@@ -4,7 +4,7 @@
 
 namespace driftmesh {
 
-/// Sets the neighbours of all triangles, and the half-edges of all leaf subsegments, from corners and ends alone: in
+/// Sets the neighbors of all triangles, and the half-edges of all leaf subsegments, from corners and ends alone: in
 /// linear time, for meshes that were stored without them. Every slot holds a triangle.
 /// Throws Error if an edge has more than two triangles, or two on one side, or none where a subsegment lies; or if it
 /// has one and no subsegment.

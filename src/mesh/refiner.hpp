@@ -17,7 +17,7 @@ namespace driftmesh {
 ///
 /// Segments are protected by diametral lenses; before one is split, the free vertices that see it under more than 90
 /// degrees are deleted (Chew 1993; both are needed for bounds above 31 degrees, and the deletion for termination when
-/// neighbours split a shared segment at any time). Triangles too large are worked off in sweeps over the mesh, from a
+/// neighbors split a shared segment at any time). Triangles too large are worked off in sweeps over the mesh, from a
 /// coarse version of the bound to the bound itself; then skinny ones, shortest edge first.
 ///
 /// The order is fixed by the mesh alone: the same input gives the same mesh. The object can be stopped after any number

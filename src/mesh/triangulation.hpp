@@ -48,7 +48,7 @@ using HalfEdge = std::int32_t;
 /// A half-edge must fit 31 bits.
 inline constexpr std::int64_t kMaxTriangles = (std::int64_t{1} << 29) - 1;
 
-/// 24 bytes: the corners counterclockwise, and opposite to each corner the twin half-edge in the neighbour (or the
+/// 24 bytes: the corners counterclockwise, and opposite to each corner the twin half-edge in the neighbor (or the
 /// constrained subsegment). A free slot has vertex[0] == kNone.
 struct Triangle {
   std::array<VertexId, 3> vertex;
@@ -99,7 +99,7 @@ inline constexpr VertexOrigin kShellEnd = std::int32_t{1} << 30;
 
 /// A constrained Delaunay triangulation: topology in flat arrays, coordinates beside it. Plain data with the few
 /// operations that keep its invariants; the algorithms on it live in files of their own (cdt, cavity, removal,
-/// refiner). Invariants between operations: every live triangle is counterclockwise; neighbours are reciprocal; each
+/// refiner). Invariants between operations: every live triangle is counterclockwise; neighbors are reciprocal; each
 /// leaf subsegment knows its half-edges and they know it.
 struct Triangulation {
   GrowingArray<Triangle> triangles;

@@ -76,7 +76,7 @@ bool knows(const Triangulation& mesh, SubsegmentId s, HalfEdge h) {
                                (segment.half[1] == h && segment.vertex[1] == a && segment.vertex[0] == b));
 }
 
-/// Whether all corners and neighbours are in range. Signs and bits are collected, and looked at once in the end.
+/// Whether all corners and neighbors are in range. Signs and bits are collected, and looked at once in the end.
 /// `dead` receives the number of free slots.
 bool handles_exist(const Triangulation& mesh, std::size_t& dead) {
   const auto edges = static_cast<std::uint32_t>(4 * mesh.triangles.size());
@@ -109,7 +109,7 @@ std::string array_fault(const Triangulation& mesh) {
   if (!mesh.region.empty() && mesh.region.size() != mesh.triangles.size())
     return "triangles and their regions differ in number";
   std::size_t dead = 0;
-  if (!handles_exist(mesh, dead)) return "a corner or neighbour of a triangle does not exist";
+  if (!handles_exist(mesh, dead)) return "a corner or neighbor of a triangle does not exist";
   const auto is_free = [&](std::size_t t) { return !mesh.triangles[t].alive(); };
   if (!lists_once(mesh.free_triangles, dead, mesh.triangles.size(), is_free))
     return "the free triangles are not listed";
@@ -137,7 +137,7 @@ std::string triangle_fault(const Triangulation& mesh) {
                      (other.vertex[previous_of_any(j)] ^ v[at(next(i))]) | (other.alive() ? 0 : 1);
       differences |= mesh.origin[id(v[at(i)])] == kDeleted ? 1 : 0;
     }
-    if (differences != 0) return "neighbours do not know each other";
+    if (differences != 0) return "neighbors do not know each other";
   }
   return "";
 }

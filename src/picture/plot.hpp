@@ -9,14 +9,14 @@
 
 namespace driftmesh {
 
-/// What a triangle's colour says.
+/// What a triangle's color says.
 enum class PlotColor {
   angle,      ///< its smallest angle, 0 to 60 degrees
   area,       ///< its area, on a logarithmic scale
   region,     ///< its region attribute
   subdomain,  ///< the subdomain that it was made in, where the mesh tells it
   rank,       ///< the rank that made it, where the mesh tells it
-  none        ///< nothing: all have one light colour
+  none        ///< nothing: all have one light color
 };
 
 enum class PlotEdges {
@@ -34,7 +34,7 @@ struct PlotOptions {
   std::string title{};
   std::string subtitle{};  ///< in place of what the mesh is: its triangles, points and angles
   bool counts = true;      ///< of triangles, in the legend of regions, subdomains and ranks
-  bool legend = true;      ///< false where colours only tell neighbours apart
+  bool legend = true;      ///< false where colors only tell neighbors apart
 };
 
 /// Whether a picture can have this name: it ends in .png, .svg or .pdf, or is "-": PNG to standard output.

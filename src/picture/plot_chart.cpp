@@ -72,7 +72,7 @@ class Chart {
   }
   void draw_base() { canvas_.line({kPlot.x, kBottom}, {kRight, kBottom}, 1.5, kFaintInk); }
 
-  /// A colour and what it stands for, from right to left above the plot.
+  /// A color and what it stands for, from right to left above the plot.
   void draw_legend(const std::vector<std::pair<Rgb, std::string>>& entries) {
     double width = 0;
     for (const auto& entry : entries) width += 46 + canvas_.text_width(entry.second, kTickText);

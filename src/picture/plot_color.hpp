@@ -11,16 +11,16 @@ struct Rgb {
   double blue = 0;
 };
 
-/// The perceptually uniform colour map viridis at t (clamped to 0..1): dark violet, blue-green, yellow. By Nathaniel
-/// Smith and Stefan van der Walt, released under CC0; here from nine of its colours, interpolated.
+/// The perceptually uniform color map viridis at t (clamped to 0..1): dark violet, blue-green, yellow. By Nathaniel
+/// Smith and Stefan van der Walt, released under CC0; here from nine of its colors, interpolated.
 [[nodiscard]] Rgb viridis(double t);
 
-/// Colours of equal lightness that differ as much as possible from their predecessors, for things without an order.
+/// Colors of equal lightness that differ as much as possible from their predecessors, for things without an order.
 [[nodiscard]] Rgb category_color(std::size_t index);
 /// Darker ones of the same hues, for lines.
 [[nodiscard]] Rgb category_line_color(std::size_t index);
 
-// The colours of everything that is not data.
+// The colors of everything that is not data.
 inline constexpr Rgb kInk{0.13, 0.14, 0.18};
 inline constexpr Rgb kFaintInk{0.45, 0.47, 0.52};
 inline constexpr Rgb kPaper{1, 1, 1};

@@ -9,7 +9,7 @@
 
 namespace driftmesh {
 
-/// A vertical bar of the colours of viridis from low to high, with ticks on its left and a histogram on its right.
+/// A vertical bar of the colors of viridis from low to high, with ticks on its left and a histogram on its right.
 struct ColorBar {
   std::string title;
   std::string unit;  ///< a second line; may be empty
@@ -19,7 +19,7 @@ struct ColorBar {
   std::vector<std::size_t> histogram;  ///< counts of equal parts from low to high
 };
 
-/// A thing without an order and its colour.
+/// A thing without an order and its color.
 struct Swatch {
   Rgb color;
   std::string label;

@@ -65,7 +65,7 @@ class MeshPlot {
  private:
   [[nodiscard]] Point corner(std::int32_t vertex) const { return frame_.to_pixels(mesh_.points[vertex]); }
 
-  /// Whether colours say how much; else they say which.
+  /// Whether colors say how much; else they say which.
   [[nodiscard]] bool is_range() const {
     return options_.color == PlotColor::angle || options_.color == PlotColor::area;
   }
@@ -93,7 +93,7 @@ class MeshPlot {
       draw_raster();
   }
 
-  // One path for each of 64 shades. The thin outline in the same colour closes the seams that antialiasing leaves
+  // One path for each of 64 shades. The thin outline in the same color closes the seams that antialiasing leaves
   // between polygons that share an edge.
   void draw_polygons() {
     std::map<int, std::vector<std::size_t>> triangles_of_shade;

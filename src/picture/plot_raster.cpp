@@ -8,7 +8,7 @@
 namespace driftmesh {
 namespace {
 
-// The first sample whose centre is at or beyond a coordinate.
+// The first sample whose center is at or beyond a coordinate.
 std::int64_t first_sample(double coordinate, std::int64_t count) {
   return static_cast<std::int64_t>(std::ceil(std::clamp(coordinate, 0.0, static_cast<double>(count)) - 0.5));
 }

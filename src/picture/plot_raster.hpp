@@ -14,7 +14,7 @@ class ValueRaster {
  public:
   /// What a sample keeps of the triangles that reach it.
   enum class Keep {
-    last,     ///< the value of the one triangle that covers its centre
+    last,     ///< the value of the one triangle that covers its center
     minimum,  ///< of all that cover it or have their centroid in it
     mean      ///< likewise
   };
@@ -25,7 +25,7 @@ class ValueRaster {
   /// Corners in pixels, y down, in either orientation. What is outside the raster is cut off.
   void add_triangle(const Point& a, const Point& b, const Point& c, float value);
 
-  /// One pixel as the mean of its samples' colours, and the share of the samples that any triangle reached.
+  /// One pixel as the mean of its samples' colors, and the share of the samples that any triangle reached.
   struct Pixel {
     Rgb color;
     double coverage = 0;

@@ -38,7 +38,7 @@ double round_step(double raw) {
   return 10 * power;
 }
 
-// The label needs all the digits in which neighbouring ticks differ.
+// The label needs all the digits in which neighboring ticks differ.
 int digits_needed(double largest, double step) {
   return std::clamp(static_cast<int>(std::floor(std::log10(largest)) - std::floor(std::log10(step))) + 1, 1, 15);
 }

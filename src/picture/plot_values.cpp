@@ -65,7 +65,7 @@ PlotValues angle_values(const MeshPiece& mesh, const Box& shown) {
 }
 
 // log10 of the smallest and largest area, without the outermost thousandth on both sides: one sliver shall not use
-// up the colours.
+// up the colors.
 std::array<double, 2> area_range(const MeshPiece& mesh, const Box& shown, const std::vector<float>& logs) {
   std::vector<float> seen;
   for (std::size_t t = 0; t < logs.size(); ++t)

@@ -12,7 +12,7 @@
 
 namespace driftmesh {
 
-/// What the triangles' colours are made of, and what the legend says about them.
+/// What the triangles' colors are made of, and what the legend says about them.
 struct PlotValues {
   std::vector<float> of_triangle;       ///< degrees, log10(area), or number of the class
   std::function<Rgb(double)> color_of;  ///< of a value

@@ -19,7 +19,7 @@ struct Components {
 
 // Negative points connect by sides, others by corners too: then curves separate components and nothing else.
 template <class Visit>
-void visit_neighbours(const Grid& grid, std::size_t i, bool corners, Visit visit) {
+void visit_neighbors(const Grid& grid, std::size_t i, bool corners, Visit visit) {
   const auto column = static_cast<std::int64_t>(i % grid.columns), row = static_cast<std::int64_t>(i / grid.columns);
   for (std::int64_t dy = -1; dy <= 1; ++dy)
     for (std::int64_t dx = -1; dx <= 1; ++dx) {
@@ -43,7 +43,7 @@ void flood(const Grid& grid, std::size_t start, Components& found) {
     open.pop_back();
     ++size;
     on_frame = on_frame || grid.on_frame(i);
-    visit_neighbours(grid, i, !negative, [&](std::size_t k) {
+    visit_neighbors(grid, i, !negative, [&](std::size_t k) {
       if (found.label[k] != kNone || grid.negative(k) != negative) return;
       found.label[k] = label;
       open.push_back(k);
@@ -80,7 +80,7 @@ void drown_small_islands(Grid& grid, std::size_t least) {
   }
 }
 
-/// Follows the curves. A curve's vertex lies on the side between two neighbouring grid points and is named by the lower
+/// Follows the curves. A curve's vertex lies on the side between two neighboring grid points and is named by the lower
 /// of them and the side's direction.
 class Tracer {
  public:

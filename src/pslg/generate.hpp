@@ -86,7 +86,7 @@ struct RandomPointsOptions {
 };
 [[nodiscard]] Pslg generate_random_points(const RandomPointsOptions& options);
 
-/// A bay with inlets, an estuary and islands; lengths in metres. Markers: 1 coast, 2 open sea, 3, 4, ... islands.
+/// A bay with inlets, an estuary and islands; lengths in meters. Markers: 1 coast, 2 open sea, 3, 4, ... islands.
 struct BayOptions {
   double width = 60e3;
   double height = 90e3;

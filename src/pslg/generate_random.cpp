@@ -31,7 +31,7 @@ class CellTree {
  public:
   CellTree(std::int32_t cells, SeededRandom& random) {
     std::unordered_set<std::uint64_t> taken{key({})};
-    std::vector<Cell> growing{{}};  // cells that may have a free neighbour
+    std::vector<Cell> growing{{}};  // cells that may have a free neighbor
     while (static_cast<std::int32_t>(taken.size()) < cells) {
       const std::size_t pick = random.below(growing.size());
       const Cell from = growing[pick];
@@ -47,7 +47,7 @@ class CellTree {
     }
   }
 
-  /// Whether the tree joins the cell to its neighbour in that direction.
+  /// Whether the tree joins the cell to its neighbor in that direction.
   [[nodiscard]] bool joined(const Cell& cell, std::size_t direction) const {
     return links_.count(link(cell, direction)) > 0;
   }
@@ -151,7 +151,7 @@ Pslg generate_random_points(const RandomPointsOptions& o) {
     const double x = random.uniform();
     pslg.points.push_back({x, random.uniform()});
   }
-  // Pairs of neighbours in the order of x, inside one cell: neither two of one cell nor of two cells meet. Of c cells
+  // Pairs of neighbors in the order of x, inside one cell: neither two of one cell nor of two cells meet. Of c cells
   // with n points in all, at least (n - c) / 2 pairs can be had: enough with c <= 1.25 m and 4 m <= n.
   const auto side = std::max(1, static_cast<std::int32_t>(std::sqrt(1.25 * o.segments)));
   const auto cells = cells_of(pslg.points, side);

@@ -23,7 +23,7 @@ class VertexSizeField final : public SizeField {
 
 /// An area bound for each triangle of a background mesh, as the .area files of Triangle hold it; the target edge length
 /// is the side of the equilateral triangle of that area. On an edge or corner between triangles the largest of their
-/// bounds holds, so that a fine triangle of the background does not reach into its neighbours; outside the mesh the
+/// bounds holds, so that a fine triangle of the background does not reach into its neighbors; outside the mesh the
 /// bound at the nearest point of its boundary.
 class TriangleAreaField final : public SizeField {
  public:

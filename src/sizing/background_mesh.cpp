@@ -74,8 +74,8 @@ BackgroundMesh::BackgroundMesh(std::vector<Point> points, std::vector<Triangle> 
 
 /// Notes what lies across each edge. An edge is on the boundary when no triangle has it in the other direction.
 void BackgroundMesh::connect(const std::vector<Edge>& edges) {
-  std::vector<Triangle> neighbours(triangles_.size(), {-1, -1, -1});
-  const auto across = [&](const Edge& edge) -> std::int32_t& { return neighbours[edge.triangle][edge.corner]; };
+  std::vector<Triangle> neighbors(triangles_.size(), {-1, -1, -1});
+  const auto across = [&](const Edge& edge) -> std::int32_t& { return neighbors[edge.triangle][edge.corner]; };
   std::vector<Box> boxes;
   for (std::size_t first = 0, last = 0; first < edges.size(); first = last + 1) {
     last = first;
@@ -90,7 +90,7 @@ void BackgroundMesh::connect(const std::vector<Edge>& edges) {
     }
   }
   boundary_tree_ = BoxTree(boxes);
-  walk_ = TriangleWalk(points_, triangles_, neighbours);
+  walk_ = TriangleWalk(points_, triangles_, neighbors);
 }
 
 template <class Visit>

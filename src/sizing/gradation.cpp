@@ -12,13 +12,13 @@ namespace {
 
 /// The points that each point shares an edge with, in one array: those of point i from begin[i] to begin[i + 1]. Most
 /// appear twice, once for each triangle at the edge.
-struct Neighbours {
+struct Neighbors {
   std::vector<std::size_t> begin;
   std::vector<std::int32_t> points;
 };
 
-Neighbours neighbours_along_edges(std::size_t point_count, const std::vector<std::array<std::int32_t, 3>>& triangles) {
-  Neighbours result;
+Neighbors neighbors_along_edges(std::size_t point_count, const std::vector<std::array<std::int32_t, 3>>& triangles) {
+  Neighbors result;
   result.begin.assign(point_count + 1, 0);
   for (const auto& triangle : triangles)
     for (const std::int32_t corner : triangle) result.begin[corner + 1] += 2;
@@ -35,7 +35,7 @@ Neighbours neighbours_along_edges(std::size_t point_count, const std::vector<std
 
 void limit_gradation(const std::vector<Point>& points, const std::vector<std::array<std::int32_t, 3>>& triangles,
                      double gradation, std::vector<double>& lengths) {
-  const Neighbours neighbours = neighbours_along_edges(points.size(), triangles);
+  const Neighbors neighbors = neighbors_along_edges(points.size(), triangles);
   // Dijkstra from all points at once: the shortest length is final and limits those around it.
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -45,8 +45,8 @@ void limit_gradation(const std::vector<Point>& points, const std::vector<std::ar
     const auto [length, i] = queue.top();
     queue.pop();
     if (length > lengths[i]) continue;
-    for (std::size_t k = neighbours.begin[i]; k < neighbours.begin[i + 1]; ++k) {
-      const std::int32_t j = neighbours.points[k];
+    for (std::size_t k = neighbors.begin[i]; k < neighbors.begin[i + 1]; ++k) {
+      const std::int32_t j = neighbors.points[k];
       const double limit = length + gradation * std::sqrt(squared_distance(points[i], points[j]));
       if (limit >= lengths[j]) continue;
       lengths[j] = limit;

@@ -11,7 +11,7 @@
 namespace driftmesh {
 
 TriangleWalk::TriangleWalk(const std::vector<Point>& points, const std::vector<Triangle>& triangles,
-                           const std::vector<Triangle>& neighbours) {
+                           const std::vector<Triangle>& neighbors) {
   const auto point = [&](std::int32_t i) { return points[i]; };
   Box all;
   for (const Triangle& triangle : triangles)
@@ -35,8 +35,8 @@ TriangleWalk::TriangleWalk(const std::vector<Point>& points, const std::vector<T
     node.triangle = static_cast<std::int32_t>(t);
     for (std::size_t i = 0; i < 3; ++i) {
       node.corner[i] = point(triangles[t][i]);
-      const std::int32_t neighbour = neighbours[t][i];
-      node.next[i] = neighbour < 0 ? -1 : node_of[neighbour];
+      const std::int32_t neighbor = neighbors[t][i];
+      node.next[i] = neighbor < 0 ? -1 : node_of[neighbor];
     }
     places_.push_back(place[t]);
   }

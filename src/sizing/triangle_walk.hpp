@@ -21,10 +21,10 @@ class TriangleWalk {
   };
 
   TriangleWalk() = default;
-  /// Counterclockwise triangles; neighbours[t][i] is the triangle across the edge from corner i of t to the next, -1
+  /// Counterclockwise triangles; neighbors[t][i] is the triangle across the edge from corner i of t to the next, -1
   /// where there is none.
   TriangleWalk(const std::vector<Point>& points, const std::vector<Triangle>& triangles,
-               const std::vector<Triangle>& neighbours);
+               const std::vector<Triangle>& neighbors);
 
   /// The triangle that has `p` in its interior, or nothing when p lies on an edge, when the way meets the boundary, or
   /// when it is long. Never wrong.

@@ -124,8 +124,8 @@ void ArrangementSweep::visit_point(std::int32_t point) {
   start_links(point);
   if (conflict_) return;
   const auto first = below == kNothing ? status_.begin() : std::next(place_[below]);
-  if (first != status_.end()) check_neighbours(below, first);
-  if (above != status_.end() && above != first) check_neighbours(*std::prev(above), above);
+  if (first != status_.end()) check_neighbors(below, first);
+  if (above != status_.end() && above != first) check_neighbors(*std::prev(above), above);
 }
 
 void ArrangementSweep::end_links(std::int32_t point) {
@@ -140,7 +140,7 @@ void ArrangementSweep::start_links(std::int32_t point) {
   }
 }
 
-void ArrangementSweep::check_neighbours(std::int32_t below, Status::iterator upper) {
+void ArrangementSweep::check_neighbors(std::int32_t below, Status::iterator upper) {
   if (below != kNothing && meet_wrongly(below, *upper)) report("cross or touch", below, *upper);
 }
 

@@ -54,7 +54,7 @@ class ArrangementSweep {
   void visit_point(std::int32_t point);
   void end_links(std::int32_t point);
   void start_links(std::int32_t point);
-  void check_neighbours(std::int32_t below, Status::iterator upper);
+  void check_neighbors(std::int32_t below, Status::iterator upper);
   void report(const char* what, std::int32_t link, std::int32_t other);
 
   std::span<const Point> points_;

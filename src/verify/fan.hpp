@@ -22,7 +22,7 @@ class Fan {
   void gather(const MeshPiece& mesh, std::span<const std::uint32_t> corners);
 
   [[nodiscard]] std::span<const Spoke> spokes() const { return spokes_; }
-  /// The spoke across the edge from the hub to prev: the neighbour in counterclockwise direction, or kNone.
+  /// The spoke across the edge from the hub to prev: the neighbor in counterclockwise direction, or kNone.
   [[nodiscard]] std::int32_t across_prev(std::size_t i) const { return ccw_[i]; }
   /// The spoke across the edge from the hub to next, or kNone.
   [[nodiscard]] std::int32_t across_next(std::size_t i) const { return cw_[i]; }

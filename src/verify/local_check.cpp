@@ -135,7 +135,7 @@ void LocalCheck::check_vertex(std::int32_t hub) {
     });
 }
 
-// Directed edges that leave the hub are equal `next` entries, neighbours in the sorted fan.
+// Directed edges that leave the hub are equal `next` entries, neighbors in the sorted fan.
 void LocalCheck::check_sides(std::int32_t hub) {
   const auto spokes = fan_.spokes();
   for (std::size_t i = 1; i < spokes.size(); ++i) {

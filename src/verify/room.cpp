@@ -14,9 +14,9 @@ namespace driftmesh {
 namespace {
 
 // In spacings of doubles at the place:
-constexpr double kNeighbours = 2;  // no edge longer: nothing between the corners
-constexpr double kNarrow = 2;      // rounding moves a midpoint, and moved the ends, by up to 0.71 each
-constexpr double kShort = 256;     // of a subsegment: what refinement needs to turn around in beside a vertex
+constexpr double kNeighbors = 2;  // no edge longer: nothing between the corners
+constexpr double kNarrow = 2;     // rounding moves a midpoint, and moved the ends, by up to 0.71 each
+constexpr double kShort = 256;    // of a subsegment: what refinement needs to turn around in beside a vertex
 
 /// Between doubles of the size of the larger coordinate.
 double spacing_at(const Point& p) {
@@ -93,7 +93,7 @@ bool Room::none_for(std::size_t t, double most_height) const {
   for (std::size_t k = 0; k < 3; ++k) opposite[k] = distance(corner(t, (k + 1) % 3), corner(t, (k + 2) % 3));
   const std::size_t apex = std::min_element(opposite.begin(), opposite.end()) - opposite.begin();
   const Point &a = corner(t, (apex + 1) % 3), &b = corner(t, (apex + 2) % 3), &c = corner(t, apex);
-  if (*std::max_element(opposite.begin(), opposite.end()) <= kNeighbours * spacing_at(c)) return true;
+  if (*std::max_element(opposite.begin(), opposite.end()) <= kNeighbors * spacing_at(c)) return true;
   const auto height = std::min(static_cast<double>(dot_extended(c, a, b) / (2 * cross_extended(c, a, b))), most_height);
   const double ex = b.x - a.x, ey = b.y - a.y;
   const Point p{a.x + (0.5 * ex - height * ey), a.y + (0.5 * ey + height * ex)};

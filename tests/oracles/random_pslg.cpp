@@ -56,7 +56,7 @@ class Builder {
     return static_cast<std::int32_t>(points().size()) - 1;
   }
 
-  /// A star-shaped polygon around the center, one vertex in each of n equal sectors; neighbours are less than half a
+  /// A star-shaped polygon around the center, one vertex in each of n equal sectors; neighbors are less than half a
   /// turn apart, so that the center is inside.
   void add_ring(const Point& center, double radius, int n, bool boundary) {
     const auto first = static_cast<std::int32_t>(points().size());

@@ -29,20 +29,20 @@ std::vector<Cell> cells_along_curve(int k) {
 
 }  // namespace
 
-TEST_CASE("the Hilbert curve visits every cell once and moves to a neighbour each time") {
+TEST_CASE("the Hilbert curve visits every cell once and moves to a neighbor each time") {
   for (int k = 1; k <= 8; ++k) {
     const std::vector<Cell> cells = cells_along_curve(k);
     CHECK(cells.front().x == 0);
     CHECK(cells.front().y == 0);
-    int steps_to_neighbour = 0;
+    int steps_to_neighbor = 0;
     for (std::size_t i = 1; i < cells.size(); ++i)
-      steps_to_neighbour +=
+      steps_to_neighbor +=
           std::abs(cells[i].x - cells[i - 1].x) + std::abs(cells[i].y - cells[i - 1].y) == 1 && cells[i].x >= 0;
-    CHECK(steps_to_neighbour == static_cast<int>(cells.size()) - 1);
+    CHECK(steps_to_neighbor == static_cast<int>(cells.size()) - 1);
   }
 }
 
-TEST_CASE("the finest cells of a square are distinct, and neighbours on the curve are neighbours in the plane") {
+TEST_CASE("the finest cells of a square are distinct, and neighbors on the curve are neighbors in the plane") {
   // Across the middle of the whole grid, where all 32 levels of the curve take part.
   std::vector<std::uint64_t> indices;
   for (std::uint32_t x = 0x7ffffff8; x < 0x80000008; ++x)

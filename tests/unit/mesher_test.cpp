@@ -46,7 +46,7 @@ TEST_CASE("a rectangle becomes two triangles") {
   check_valid(mesh);
 }
 
-TEST_CASE("holes are carved and regions labelled") {
+TEST_CASE("holes are carved and regions labeled") {
   Pslg pslg = rectangle(4, 2);
   pslg.points.push_back({2, 0});
   pslg.points.push_back({2, 2});

@@ -152,7 +152,7 @@ TEST_CASE("numbers are written as people write them") {
   CHECK(friendly_number(1e12) == "10\u00b9\u00b2");
 }
 
-TEST_CASE("viridis ends in the published colours and grows lighter all the way") {
+TEST_CASE("viridis ends in the published colors and grows lighter all the way") {
   CHECK(viridis(0).red == doctest::Approx(0x44 / 255.0));
   CHECK(viridis(-3).blue == doctest::Approx(0x54 / 255.0));
   CHECK(viridis(1).green == doctest::Approx(0xe7 / 255.0));
@@ -165,7 +165,7 @@ TEST_CASE("viridis ends in the published colours and grows lighter all the way")
   }
 }
 
-TEST_CASE("a picture shows triangles in their colours and leaves holes white") {
+TEST_CASE("a picture shows triangles in their colors and leaves holes white") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.png";
   plot_mesh(square_with_hole(), path, {.width = 800, .height = 600, .color = PlotColor::none, .title = "ring"});

@@ -99,7 +99,7 @@ TEST_CASE("the .edge file lists each edge once, with the marker of its segment")
   }
 }
 
-TEST_CASE("neighbours of a fan of 200,000 triangles around one vertex take linear time") {
+TEST_CASE("neighbors of a fan of 200,000 triangles around one vertex take linear time") {
   const TemporaryFolder folder;
   MeshPiece mesh;
   constexpr std::int32_t kSpokes = 200000;

@@ -79,7 +79,7 @@ TEST_CASE("pipe: bore and channels, area of the ring less the channels") {
   check_closed_model(pslg);
   CHECK(pslg.holes.size() == 9);
   CHECK(marker_counts(pslg).size() == 10);
-  // Bending a channel keeps its area, because it is centred on the circle along which widths are measured.
+  // Bending a channel keeps its area, because it is centerd on the circle along which widths are measured.
   const double channel = o.channel_depth * o.channel_width - (4 - kPiHere) * o.fillet * o.fillet;
   const double ring = kPiHere * (o.outer_radius * o.outer_radius - o.bore_radius * o.bore_radius);
   CHECK(area(pslg) == doctest::Approx(ring - 8 * channel).epsilon(2e-3));
@@ -160,7 +160,7 @@ TEST_CASE("random-points: as many points and segments as asked for, none crossin
   }
 }
 
-TEST_CASE("bay: one coast with open sea, islands with their holes, about 10,000 points, in metres") {
+TEST_CASE("bay: one coast with open sea, islands with their holes, about 10,000 points, in meters") {
   const Pslg bay = generate_bay({});
   check_closed_model(bay);
   CHECK(bay.points.size() > 8000);
