@@ -7,7 +7,7 @@
 
 namespace driftmesh {
 
-/// A closed axis-parallel box; without points until extended.
+/// A closed axis-parallel box, empty until extended.
 struct Box {
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};

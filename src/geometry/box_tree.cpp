@@ -14,8 +14,8 @@ struct Place {
 };
 using Places = std::vector<Place>::iterator;
 
-/// Sorts by the place of the boxes' centers on a Hilbert curve. Centers in one cell of it, as all but a far outlier
-/// are, are sorted along a finer one: the tree is good whatever the distribution.
+/// Sorts by the position of the boxes' centers along a Hilbert curve. Centers that share a cell of the curve (all but
+/// one may, if there is a distant outlier) are sorted along a finer curve, so the tree is good for any distribution.
 void sort_along_curve(Places begin, Places end, const std::vector<Box>& boxes) {
   const auto center = [&](const Place& place) { return boxes[place.item].center(); };
   Box all;

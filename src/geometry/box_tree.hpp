@@ -12,15 +12,15 @@
 namespace driftmesh {
 
 /// Boxes packed along a Hilbert curve into a tree of eight children a node (Kamel and Faloutsos, "On packing R-trees",
-/// CIKM 1993). Queries keep no state: answers depend on the query alone, and may be asked from several threads.
+/// CIKM 1993). Queries change nothing and may run in several threads at once.
 class BoxTree {
  public:
   BoxTree() = default;
   /// At most 2^31 - 1 boxes; they are copied, and named by their index in answers.
   explicit BoxTree(const std::vector<Box>& boxes);
 
-  /// Calls visit(index) for every box that passes enter(box), in an order that depends on the tree alone. enter must
-  /// accept every box that contains an accepted one.
+  /// Calls visit(index) for every box that passes enter(box), in an order that depends on the tree alone. `enter`
+  /// must accept every box that contains an accepted one.
   template <class Enter, class Visit>
   void search(Enter&& enter, Visit&& visit) const {
     if (!levels_.empty()) visit_below(levels_.size() - 1, 0, levels_.back().size(), enter, visit);

@@ -10,8 +10,8 @@ struct Point {
   friend constexpr bool operator==(const Point&, const Point&) = default;
 };
 
-/// The midpoint by the one formula that every rank uses: symmetric in its arguments, so both sides of an
-/// interface compute the same bits whatever the direction in which they see the edge.
+/// The midpoint by the one formula that every rank uses: symmetric in its arguments, so both sides of an interface
+/// compute the same bits although they see the edge in opposite directions.
 [[nodiscard]] inline Point midpoint(const Point& a, const Point& b) {
   return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
 }

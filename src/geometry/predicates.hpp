@@ -46,7 +46,7 @@ inline constexpr double kSmallestCoordinate = 0x1p-190;       ///< smallest magn
   return x == 0 || (magnitude >= kSmallestInputCoordinate && magnitude <= kMaxCoordinate);
 }
 
-/// A computed coordinate, 0 where it is too small for exact predicates. A handful of cycles, no branch.
+/// A computed coordinate, or 0 where it is too small for exact predicates. A few cycles, no branch.
 [[nodiscard]] inline double snap_to_zero(double x) {
   return std::fabs(x) < kSmallestCoordinate ? 0.0 : x;
 }

@@ -18,7 +18,7 @@ namespace driftmesh {
   return dx * dx + dy * dy;
 }
 
-/// Positive for counterclockwise corners. Exact sign is orient2d's.
+/// Positive for counterclockwise corners, but rounded: only orient2d gives the exact sign.
 [[nodiscard]] inline double signed_area(const Point& a, const Point& b, const Point& c) {
   return 0.5 * ((a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x));
 }

@@ -9,7 +9,7 @@ namespace driftmesh {
 void require_possible(const QualityBounds& bounds) {
   if (!(bounds.min_angle >= 0 && bounds.min_angle <= kMaxAngle))
     throw Error("the angle bound must lie between 0 and " + std::to_string(static_cast<int>(kMaxAngle)) +
-                " degrees: beyond, refinement need not end");
+                " degrees: refinement may not terminate above that");
   if (std::isnan(bounds.max_area)) throw Error("the area bound is not a number");
 }
 

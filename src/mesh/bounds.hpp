@@ -9,7 +9,7 @@
 
 namespace driftmesh {
 
-/// What every triangle of a finished mesh must meet.
+/// What every triangle of a finished mesh must meet. Lengths and areas are in the units of the input's coordinates.
 struct QualityBounds {
   double min_angle = 20;  ///< degrees; 0 asks for nothing
   double max_area = 0;    ///< <= 0: no bound
@@ -19,11 +19,11 @@ struct QualityBounds {
   const SizeField* size = nullptr;
 };
 
-/// Refinement terminates on every input up to about 33 degrees in practice; the theory stops earlier
-/// (docs/guarantees.md). Above kMaxAngle nothing is promised and the bound is refused.
+/// The largest angle bound that is accepted, in degrees. In practice refinement terminates on every input up to about
+/// 33 degrees; proofs stop earlier (docs/guarantees.md).
 inline constexpr double kMaxAngle = 34;
 
-/// Throws Error for bounds that are no numbers, or an angle out of range.
+/// Throws Error if a bound is NaN or the angle bound lies outside [0, kMaxAngle].
 void require_possible(const QualityBounds& bounds);
 
 /// Twice the area of the equilateral triangle with edges of length h.

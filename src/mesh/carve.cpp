@@ -19,7 +19,7 @@ bool holds(const Triangulation& mesh, TriangleId t, const Point& p) {
   return true;
 }
 
-/// The last resort of locate: constrained edges can make a walk circle.
+/// The last resort of locate(): constrained edges can send a walk in circles.
 TriangleId search_all(const Triangulation& mesh, const Point& p) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (mesh.triangles[t].alive() && holds(mesh, static_cast<TriangleId>(t), p)) return static_cast<TriangleId>(t);
@@ -106,7 +106,7 @@ void label_regions(Triangulation& mesh, const std::vector<TriangleId>& seeds) {
   throw Error("the hole points remove the whole domain: each of them must lie inside a closed ring of segments");
 }
 
-/// Everything that is not reached from an inner side is outside; those that are get the side's label.
+/// Keeps the triangles that can be reached from an inner side, labeled as that side says; all others lie outside.
 void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& sides, std::size_t first_root) {
   Flood inside(mesh);
   std::vector<std::uint16_t> label(mesh.triangles.size(), 0);
@@ -138,7 +138,7 @@ void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& side
 TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start) {
   TriangleId t = start;
   const std::size_t most = 4 * mesh.triangles.size() + 16;
-  unsigned turn = 0;  // which edge is tried first; its change keeps the walk from circling
+  unsigned turn = 0;  // which edge is tried first; varied so that the walk does not go in circles
   for (std::size_t step = 0; step < most; ++step) {
     HalfEdge out = kNone;
     bool inside = true;

@@ -13,9 +13,9 @@ namespace driftmesh {
 /// edges; kNone if the walk leaves the triangulation.
 [[nodiscard]] TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start);
 
-/// Removes the outside of a domain (what reaches the frame, the triangulation's border, without crossing a segment)
-/// and its holes from a triangulation of a box around it, drops the segments that bound nothing any more, and labels
-/// the regions. Throws Error if nothing is left.
+/// Carves a domain out of the triangulation of a box around it: removes its outside (all that can be reached from the
+/// box's border without crossing a segment) and its holes, drops the segments that no longer bound a triangle, and
+/// labels the regions. Throws Error if nothing is left.
 void carve(Triangulation& mesh, const Pslg& pslg);
 
 /// What lies left and right of a segment, seen from its first point to its second: a region label, or kNone outside the

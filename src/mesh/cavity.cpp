@@ -32,7 +32,7 @@ void Cavity::reserve(std::size_t corners) {
   slots_.resize(corners);
 }
 
-/// Doubles the room. The corners move, and the edges' pointers with them; returns `e` as it is then.
+/// Doubles the capacity. This moves the corners, and all pointers to them are adjusted; returns `e` adjusted.
 Cavity::Edge Cavity::with_more_room(const Edge& e) {
   std::vector<Corner> old = corners_;
   old.swap(corners_);  // `old` is what the edges point into
@@ -143,7 +143,8 @@ Cavity::Found Cavity::walk(TriangleId t) {
 /// triangle is met twice.
 template <bool kMindLens>
 Cavity::Found Cavity::expand(double cos_squared) {
-  // Local copies of what the loop touches: a store to one array does not force the others' addresses to be reloaded.
+  // Local copies of what the loop touches: otherwise a store to one array would force the addresses of the others to
+  // be reloaded.
   const Triangle* const triangles = mesh_.triangles.data();
   const Point* const points = mesh_.points.data();
   const double px = p_.x, py = p_.y;

@@ -23,8 +23,8 @@ namespace {
 
 constexpr auto id = &Triangulation::id;
 
-/// Four corners of a box around everything. Constrained segments will hide them from the inside of the domain, so they
-/// can be at any distance without spoiling a Delaunay property that lasts.
+/// Adds a box around all points. Constrained segments will hide its corners from the inside of the domain, so however
+/// far away they are, the final triangulation is Delaunay.
 void add_box(Triangulation& mesh, const Pslg& pslg) {
   const auto [low, high] = Box::of(pslg.points);
   const double margin = 4 * std::max({high.x - low.x, high.y - low.y, std::ldexp(std::abs(low.x), -40),
@@ -222,7 +222,7 @@ void recover_segments(Triangulation& mesh, const std::vector<Pslg::Segment>& seg
   for (const Pslg::Segment& s : segments) recovery.recover(s.a, s.b, s.marker);
 }
 
-/// The segments; those of the hull if there are none, as repair() has it.
+/// The segments, or those of the convex hull if there are none.
 std::vector<Pslg::Segment> segments_or_hull(const Pslg& pslg) {
   if (!pslg.segments.empty()) return pslg.segments;
   std::vector<Pslg::Segment> hull = convex_hull(pslg.points);

@@ -18,8 +18,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kOpen = 2 * std::numbers::pi;  // stands for all sectors of 180 degrees or more
 constexpr double kAcute = 60 * kDegree * (1 - 1e-12);
 constexpr double kSharp = 20 * kDegree;
-/// Where neighbors diverge more slowly, a piece that is not aligned costs more triangles (about 2.1 / angle) than
-/// another cut does.
+/// In radians. Between neighbors that diverge more slowly, pieces that do not line up cost more triangles (about
+/// 2.1 / angle) than another cut does.
 constexpr double kBundled = 0.01;
 
 /// Ends of segments share a circle if their distances from the apex differ by at most this share of the width between

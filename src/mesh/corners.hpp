@@ -9,7 +9,7 @@ namespace driftmesh {
 /// Prepares a triangulation for refinement at its acute corners, so that midpoint splits terminate there.
 ///
 /// Where segments meet inside the domain at less than 60 degrees, splitting one can force a split of the other, and so
-/// on for ever. The known cure is to cut all segments of such a cluster on common circles around the apex, whose radii
+/// on forever. The known cure is to cut all segments of such a cluster on common circles around the apex, whose radii
 /// are powers of two (Ruppert's shells). Here they are cut once, before refinement: at a power of two that is at most a
 /// third of the cluster's shortest segment. The piece between apex and circle becomes a root segment of its own (a
 /// shell piece, directed away from the apex). From then on plain midpoint splits stay on common circles, and whether

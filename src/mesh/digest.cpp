@@ -38,7 +38,7 @@ class Sum {
                         c = of_points_[index(triangle[2])];
     sum_ += mix(of_edge(a, b) + of_edge(b, c) + of_edge(c, a));
   }
-  /// Fetches what a triangle to come needs: most of the time would go into waiting for it.
+  /// Prefetches what a later triangle needs: otherwise most of the time would be spent waiting for memory.
   void prefetch(const std::array<std::int32_t, 3>& triangle) const {
     for (const std::int32_t i : triangle) __builtin_prefetch(of_points_.data() + i);
   }

@@ -10,7 +10,8 @@ namespace driftmesh {
 /// A 64-bit fingerprint of a mesh: of the set of its triangles, each given by the coordinates of its corners, to the
 /// last bit. It depends neither on the numbers of vertices and triangles nor on their order or first corner, so it is
 /// the same before and after writing and reading, and the digest of a mesh in parts is the sum (modulo 2^64) of theirs.
-/// Equal meshes have equal digests; different ones differ but for a chance of 2^-64. It is no defense against forgery.
+/// Equal meshes have equal digests; different meshes have equal digests with a probability of 2^-64. It does not
+/// protect against forgery.
 ///
 /// Definition, all sums modulo 2^64, with mix the finalizer of splitmix64 (Steele, Lea and Flood 2014) and coordinates
 /// as the bits of IEEE-754 doubles, -0 as 0: a point has h = mix(mix(x + 0x9E3779B97F4A7C15) + y), an edge from point a

@@ -41,8 +41,8 @@ double area_bound(const Triangulation& mesh, const QualityBounds& bounds, Triang
   return std::min(bound, twice_area_of_edge(std::min(h, bounds.size->edge_length(centroid))) / 2);
 }
 
-/// Calls visit(triangle, corner points) for every live triangle, in their order. The corners of triangles to come are
-/// fetched ahead: most of the time would go into waiting for them.
+/// Calls visit(triangle, corner points) for every live triangle, in their order. Corners are prefetched some triangles
+/// ahead: otherwise most of the time would be spent waiting for memory.
 template <class Visit>
 void visit_triangles(const Triangulation& mesh, Visit&& visit) {
   constexpr std::size_t kAhead = 16;
@@ -56,7 +56,7 @@ void visit_triangles(const Triangulation& mesh, Visit&& visit) {
   }
 }
 
-/// Signed squares of cosines order angles as cosines do, and cost no root.
+/// Signed squares of cosines order angles as the cosines do, without a square root.
 double signed_square(double x) {
   return x * std::abs(x);
 }
@@ -68,7 +68,7 @@ double degrees_of(double signed_cosine_squared) {
 }
 
 /// Bins of 10 degrees by the signed squared cosine, without a trigonometric function, a search or a branch for each of
-/// millions of angles: a table knows the bin but for the one limit that a cell may hold.
+/// millions of angles: a table of narrow cells, each with at most one limit between two bins inside it.
 class CosineBins {
  public:
   CosineBins() {

@@ -17,11 +17,11 @@ enum class ExceptionCause : std::uint8_t {
   kPrecision,    ///< coordinates have no room for a point that would help
 };
 
-/// What excuses triangle t, judged by its place alone: never kPrecision.
+/// What excuses triangle t as far as its surroundings tell: never kPrecision.
 [[nodiscard]] ExceptionCause cause_of(const Triangulation& mesh, TriangleId t);
 
-/// The triangles of a refined mesh that miss the angle or the area bound, by cause. Looks at every triangle anew and
-/// trusts nothing that the refiner remembers.
+/// The triangles of a refined mesh that miss the angle or the area bound, by cause. Examines every triangle anew and
+/// relies on nothing that the refiner has recorded.
 struct Exceptions {
   struct Item {
     TriangleId triangle;

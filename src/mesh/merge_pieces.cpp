@@ -44,7 +44,7 @@ class Merger {
       const MeshPiece& piece = pieces_[k];
       sum += piece.points.size();
       if (piece.numbers.size() != piece.points.size())
-        throw Error("piece " + std::to_string(k) + " does not tell the numbers of its points in the whole mesh");
+        throw Error("piece " + std::to_string(k) + " does not say which numbers its points have in the whole mesh");
       for (const std::int64_t number : piece.numbers) {
         if (number < 0) throw Error("piece " + std::to_string(k) + " has a point of number " + std::to_string(number));
         largest = std::max(largest, number);
@@ -57,7 +57,7 @@ class Merger {
     holder_.assign(count, {kNobody, 0});
   }
 
-  /// Numbers that go further than there are points, as when a piece is missing, cost no memory: gaps are left out.
+  /// Leaves out the gaps when numbers exceed the count of points, as they do when a piece is missing, to save memory.
   void close_ranks(std::int64_t largest) {
     for (const MeshPiece& piece : pieces_) numbers_.insert(numbers_.end(), piece.numbers.begin(), piece.numbers.end());
     std::sort(numbers_.begin(), numbers_.end());
@@ -74,7 +74,7 @@ class Merger {
     return static_cast<std::size_t>(std::lower_bound(numbers_.begin(), numbers_.end(), number) - numbers_.begin());
   }
 
-  /// An array is merged if every piece that has something to tell does.
+  /// An array is merged if every piece has it.
   void choose_arrays() {
     const auto all = [&](auto tells) { return std::all_of(pieces_.begin(), pieces_.end(), tells); };
     const bool markers = all([](const MeshPiece& p) { return p.point_markers.size() == p.points.size(); });
@@ -193,7 +193,7 @@ class Merger {
     return static_cast<std::int32_t>(place_of(piece.numbers[at(v)]));
   }
 
-  /// Sorted, so that copies follow each other. One that is twice in one piece stays so, for a check to find.
+  /// Sorted, so that copies follow each other. Duplicates within one piece stay, for a check to find.
   void take_edges() {
     struct Entry {
       MeshPiece::Edge edge;
@@ -215,7 +215,7 @@ class Merger {
   std::span<const MeshPiece> pieces_;
   MergeFaults& faults_;
   MeshPiece whole_;
-  std::vector<std::int64_t> numbers_;  // ascending, if there are too many gaps to leave them open
+  std::vector<std::int64_t> numbers_;  // ascending; empty unless gaps are left out
   std::vector<Holder> holder_;         // of each point
   bool has_regions_ = false;
   bool has_subdomains_ = false;

@@ -22,13 +22,14 @@ struct MergeFaults {
 };
 
 /// The whole mesh from its pieces: points with the same number become one, at the place of that number; a subsegment
-/// that two pieces have between the same points is taken once. Triangles come sorted by subdomain if all pieces tell
-/// them, subsegments by their ends, so the result does not depend on who had which subdomain (but for `ranks`).
+/// that two pieces have between the same points is taken once. Triangles are sorted by subdomain if all pieces list
+/// subdomains, and subsegments by their ends, so the result (except for `ranks`) does not depend on which rank held
+/// which subdomain.
 ///
-/// Where pieces contradict each other the first one holds, and `faults` says so: a point with other coordinates, marker
-/// or attributes in another piece, a number twice in one piece, numbers below the largest that no piece has (such a
-/// point is in no triangle; where they are many, points move up into the gaps). Throws Error if a piece has no numbers,
-/// or negative ones.
+/// Where pieces contradict each other, the first one counts and the contradiction is added to `faults`: a point with
+/// different coordinates, marker or attributes in another piece; a number twice in one piece; a number below the
+/// largest that no piece has (such a point is in no triangle; if there are many, the gaps are closed). Throws Error if
+/// a piece has no numbers, or negative ones.
 [[nodiscard]] MeshPiece merge_pieces(std::span<const MeshPiece> pieces, MergeFaults& faults);
 
 }  // namespace driftmesh

@@ -16,8 +16,8 @@ using TriangleNeighbors = std::vector<std::array<std::int32_t, 3>>;
 /// edge (a broken mesh), they are paired in the order in which they are listed.
 [[nodiscard]] TriangleNeighbors triangle_neighbors(const MeshPiece& mesh);
 
-/// Finds the constrained edge between two vertices in constant time; most vertices of a mesh lie on no such edge and
-/// are answered by one bit.
+/// Finds the constrained edge between two vertices in constant time. Most vertices are on no constrained edge, and one
+/// bit tells.
 class ConstrainedEdgeIndex {
  public:
   explicit ConstrainedEdgeIndex(const MeshPiece& mesh);

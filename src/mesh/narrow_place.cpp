@@ -14,7 +14,7 @@ constexpr auto id = &Triangulation::id;
 /// Measured at an angle bound of 20 degrees, for parallel segments of equal length: 2.2 to 3.7.
 constexpr double kTrianglesPerWidth = 3;
 
-/// Segment cd beside segment ab, if a piece of it lies opposite to ab on its left: the place there.
+/// The narrow place between ab and cd, if a piece of cd lies opposite to ab on its left.
 std::optional<NarrowPlace> place_between(const Point& a, const Point& b, const Point& c, const Point& d) {
   const double length = std::sqrt(squared_distance(a, b));
   const Point u{(b.x - a.x) / length, (b.y - a.y) / length};

@@ -11,13 +11,13 @@ struct NarrowPlace {
   Point at;          ///< on one of them, where they are closest
   double width;      ///< their distance there
   double length;     ///< of the piece of the one that the other runs along
-  double triangles;  ///< about as many does a mesh with good angles need between them
+  double triangles;  ///< a forecast of how many a mesh with good angles needs between them
 };
 
-/// The place of the domain that needs the most triangles to resolve the distance of two segments: along them it has to
-/// put points about as far apart as they are, whatever the area bound. `mesh` is a constrained Delaunay triangulation
-/// before refinement; pairs of segments that see each other across one of its triangles are looked at. Empty if there
-/// is no such pair.
+/// The place of the domain that needs the most triangles to resolve the distance between two segments: whatever the
+/// area bound, points along them cannot be much farther apart than the segments are. `mesh` is a constrained Delaunay
+/// triangulation before refinement; considered are pairs of segments that see each other across one of its triangles.
+/// Empty if there is no such pair.
 [[nodiscard]] std::optional<NarrowPlace> find_narrow_place(const Triangulation& mesh);
 
 }  // namespace driftmesh

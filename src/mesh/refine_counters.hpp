@@ -4,7 +4,8 @@
 
 namespace driftmesh {
 
-/// What refinement of a mesh has done so far. Only grows; goes with the mesh when it sleeps or moves.
+/// Counts of what the refinement of a mesh has done so far. They only grow, and stay with the mesh when it sleeps or
+/// moves to another rank.
 struct RefineCounters {
   std::int64_t free_points = 0;     ///< circumcenters and off-centers inserted
   std::int64_t segment_points = 0;  ///< midpoints inserted

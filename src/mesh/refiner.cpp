@@ -72,7 +72,7 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds)
 Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state)
     : mesh_(mesh), bounds_(bounds), cavity_(mesh), state_(std::move(state)) {
   require_possible(bounds);
-  // A relative margin of 1e-9 lets a reader of the file, with other roundings, see the bound met.
+  // The relative margin makes the bound hold for readers of the file, who round differently.
   const double sine = std::sin(radians(bounds.min_angle));
   sin_squared_ = sine * sine * (1 + 1e-9);
   off_center_factor_ = bounds.min_angle > 0 ? off_center_factor(bounds.min_angle) : 0;
@@ -196,7 +196,7 @@ void Refiner::enter(Stage stage) {
         if (mesh_.triangles[id(t)].alive()) note(t, shape_of(t));
       state_.deferred.clear();
       break;
-    case Stage::kDone:  // most refiners of a run are done for most of it, and small
+    case Stage::kDone:  // most refiners are done for most of a run: keep them small
       state_.skinny.clear();
       changed_ = {};
       break;
@@ -212,7 +212,7 @@ bool Refiner::wants_coarse_stage() const {
          final_size > kFinePerCoarse / 4 * static_cast<double>(mesh_.live_triangles());
 }
 
-/// Splits given segments whose lens holds a vertex from the start.
+/// Splits the next given segment if its lens holds a vertex from the start.
 bool Refiner::step_segments() {
   if (state_.next_segment == static_cast<SubsegmentId>(mesh_.subsegments.size())) return false;
   const Subsegment& s = mesh_.subsegments[id(state_.next_segment)];
@@ -324,7 +324,7 @@ bool Refiner::split(SubsegmentId s) {
   const auto [a, b] = mesh_.subsegments[id(s)].vertex;
   const Point m = midpoint(mesh_.points[id(a)], mesh_.points[id(b)]);
   if (cavity_.gather_on(s, m) != Cavity::Found::kClear) {
-    // Not tried again: the vertices deleted for it would come back and be deleted for ever.
+    // Not tried again: the vertices deleted for it would come back and be deleted again, forever.
     state_.unsplittable.insert(s);
     return false;
   }
@@ -371,8 +371,8 @@ inline void Refiner::note(TriangleId t, const Shape& s) {
     note_skinny(t, s, bound);
 }
 
-/// A long skinny triangle at the edge of a block in work leads into a block still coarse, whose turn will do away with
-/// it: it waits for the end.
+/// A long skinny triangle at the border of the current block reaches into a block that is still coarse. It will
+/// disappear when that block is refined, so it waits for the end.
 inline void Refiner::note_skinny(TriangleId t, const Shape& s, double bound) {
   if (state_.stage == Stage::kFine && s.longest > 8 * bound)
     state_.deferred.push_back(t);

@@ -17,45 +17,45 @@ namespace driftmesh {
 ///
 /// Segments are protected by diametral lenses; before one is split, the free vertices that see it under more than 90
 /// degrees are deleted (Chew 1993; both are needed for bounds above 31 degrees, and the deletion for termination when
-/// neighbors split a shared segment at any time). Triangles too large are worked off in sweeps over the mesh, from a
-/// coarse version of the bound to the bound itself; then skinny ones, shortest edge first.
+/// neighbors split a shared segment at any time). Triangles that are too large are split in sweeps over the mesh, first
+/// with a coarse version of the bound, then with the bound itself; after them skinny ones, shortest edge first.
 ///
-/// The order is fixed by the mesh alone: the same input gives the same mesh. The object can be stopped after any number
-/// of insertions and go on later, and can be told of split points in between.
+/// Deterministic: the order depends on the mesh alone. Refinement can stop after any number of insertions and continue
+/// later, and split points can be added in between.
 class Refiner {
  public:
-  /// `mesh` must outlive the refiner and be changed by nobody else while it exists. Throws Error for an angle bound
-  /// outside [0, kMaxAngle] or NaN bounds.
+  /// `mesh` must outlive the refiner, and only the refiner may change it. Throws Error if a bound is NaN or the angle
+  /// bound lies outside [0, kMaxAngle].
   Refiner(Triangulation& mesh, const QualityBounds& bounds);
 
   enum class Status {
-    kDone,    ///< every triangle meets the bounds, but for those that exceptions.hpp explains
+    kDone,    ///< every triangle meets the bounds, except for those that exceptions.hpp explains
     kBudget,  ///< stopped after the given number of insertions; call again
     kFull,    ///< the mesh has reached the limit on triangles
   };
-  /// Works for at most about `insertions` insertions.
+  /// Refines until all is done or about `insertions` points have been inserted.
   Status refine(std::int64_t insertions);
   Status refine() { return refine(INT64_MAX); }
 
   /// Stop at this many live triangles (kFull). Default: what the handles can name.
   void limit_triangles(std::int64_t most) { state_.max_triangles = std::min(most, kMaxTriangles - 64); }
 
-  /// Puts point `path` of `root` into the mesh, with the points that must exist before it (its ancestors). Nothing
-  /// happens if it is there. Returns false if the depth or the precision of coordinates does not allow it.
+  /// Inserts point `path` of `root`, after the points that must exist before it (its ancestors). Does nothing if it is
+  /// there already. Returns false if the depth or the precision of coordinates does not allow it.
   bool add_split_point(RootId root, dyadic::Path path);
 
-  /// The points that refinement itself has put on segments since the last call, in the order in which it did, each
-  /// after its ancestors; none that add_split_point put there.
+  /// The points that refinement has put on segments since the last call, in the order of insertion, so each after its
+  /// ancestors. Those that add_split_point inserted are not among them.
   [[nodiscard]] std::vector<SplitPoint> take_split_points() { return std::exchange(state_.made, {}); }
 
   [[nodiscard]] const RefineCounters& counters() const { return state_.counters; }
 
   [[nodiscard]] const RefinerState& state() const { return state_; }
-  /// Goes on from a state. Throws Error like the other, and if the state has a fault.
+  /// Continues from a state. Throws Error like the other constructor, and if the state has a fault.
   Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state);
 
-  /// A forecast of the number of triangles at the end, from the present mesh and the bounds on area and size (the angle
-  /// bound adds to it only where no area bound is active). Within a few percent for area-bounded refinement.
+  /// A forecast of the final number of triangles from the present mesh and the bounds on area and size. Within a few
+  /// percent where these bounds are active; triangles that only the angle bound requires are not forecast.
   [[nodiscard]] double predict_triangles() const;
 
  private:
@@ -74,8 +74,8 @@ class Refiner {
   [[nodiscard]] double constant_bound(TriangleId t) const;
   [[nodiscard]] double twice_area_bound(TriangleId t) const;
   [[nodiscard]] double sized_bound(TriangleId t) const;
-  /// Whether the smallest angle is below the bound: its sine is the area's double over the two longer edges' product.
-  /// Fourth powers of lengths stay in the range of doubles for all coordinates that are allowed; sixth ones would not.
+  /// Whether the smallest angle is below the bound: its sine is twice the area over the product of the two longer
+  /// edges. Fourth powers of lengths cannot overflow for any coordinate that is allowed; sixth powers could.
   [[nodiscard]] bool is_skinny(const Shape& s) const {
     return s.twice_area * s.twice_area < sin_squared_ * s.longer_two;
   }
@@ -102,7 +102,7 @@ class Refiner {
   Lens lens_;
   double sin_squared_ = 0;  // of the angle bound, with a margin for rounding
   double off_center_factor_ = 0;
-  double coarsening_ = 1;                  // all area bounds are this much larger at the moment
+  double coarsening_ = 1;                  // factor on all area bounds at present
   std::vector<double> twice_area_bounds_;  // by region label
   std::vector<TriangleId> changed_;
   RefinerState state_;

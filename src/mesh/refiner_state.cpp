@@ -17,7 +17,7 @@ bool is_sound(const Sweep& sweep, std::size_t triangles) {
          static_cast<std::size_t>(added) <= triangles && block >= 1 && are_below(sweep.again(), triangles);
 }
 
-/// Counting on overflows nothing.
+/// Further counting cannot overflow.
 bool is_sound(const RefineCounters& c) {
   constexpr std::int64_t kMost = std::int64_t{1} << 60;
   const std::array<std::int64_t, 5> all{c.free_points, c.segment_points, c.deleted_points, c.encroaching, c.given_up};
@@ -57,8 +57,8 @@ std::string RefinerState::fault(const Triangulation& mesh, const QualityBounds& 
     if (p.root < 0 || static_cast<std::size_t>(p.root) >= mesh.roots.size() || p.path == 0 ||
         dyadic::depth(p.path) > dyadic::kMaxDepth)
       return "a split point is on no root";
-  if (!is_sound(counters)) return "a counter is negative or beyond all counting";
-  if (max_triangles > kMaxTriangles - 64) return "the limit on triangles is above what handles can name";
+  if (!is_sound(counters)) return "a counter is negative or impossibly large";
+  if (max_triangles > kMaxTriangles - 64) return "the limit on triangles exceeds what handles can name";
   if (bounds.size != nullptr && size.size() < mesh.points.size()) return "the size field is missing at some vertex";
   const std::size_t labels = bounds.region_max_area.size();
   if (labels > 1 && std::any_of(mesh.region.begin(), mesh.region.end(), [&](auto label) { return label >= labels; }))

@@ -19,8 +19,8 @@ struct SplitPoint {
   dyadic::Path path;
 };
 
-/// All that a refiner knows besides its mesh and its bounds. A refiner made from a copy of the mesh, the same bounds
-/// and a copy of the state goes on exactly as the first one would: the same points in the same order.
+/// All that a refiner knows besides its mesh and its bounds. A refiner made from copies of mesh and state and the same
+/// bounds continues exactly as the original would: the same points in the same order.
 struct RefinerState {
   enum class Stage : std::uint8_t { kSegments, kCoarse, kFine, kRest, kDone };
 
@@ -30,16 +30,16 @@ struct RefinerState {
   SkinnyBuckets skinny;
   std::vector<TriangleId> deferred;               ///< skinny ones, until kRest
   std::unordered_set<SubsegmentId> unsplittable;  ///< coordinates have no room for their midpoints
-  std::vector<SplitPoint> made;                   ///< that nobody has been told of yet
+  std::vector<SplitPoint> made;                   ///< split points not yet taken by take_split_points
   GrowingArray<double> size;                      ///< the size field at each vertex; empty without one
   std::int64_t max_triangles = kMaxTriangles - 64;
   RefineCounters counters;
 
-  /// Of a refiner that has done with `mesh`, whatever the order of its slots: nothing waits.
+  /// The state of a refiner that has finished `mesh`, whatever the order of its slots: no work is queued.
   [[nodiscard]] static RefinerState at_rest(const Triangulation& mesh, const QualityBounds& bounds);
 
-  /// Whether a refiner of this mesh and these bounds can be in this state as far as memory is concerned: handles
-  /// exist, arrays have their lengths. Otherwise what is wrong; empty if all is well.
+  /// Why a refiner of this mesh and these bounds cannot be in this state without risk to memory: a handle that does not
+  /// exist, an array of the wrong length. Empty if all is well.
   [[nodiscard]] std::string fault(const Triangulation& mesh, const QualityBounds& bounds) const;
 };
 

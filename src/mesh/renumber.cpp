@@ -44,8 +44,8 @@ std::vector<bool> used_vertices(const Triangulation& mesh, const std::vector<Tri
   return used;
 }
 
-/// New ids in the order of first use by `order`, after given vertices if these come first; kNone for vertices without
-/// use.
+/// New ids in the order of first use by `order`, after the given vertices if these come first; kNone for unused
+/// vertices.
 std::vector<VertexId> vertices_by_use(const Triangulation& mesh, const std::vector<TriangleId>& order,
                                       GivenVertices given, std::vector<VertexId>& old_of_new) {
   std::vector<VertexId> new_of_old(mesh.points.size(), kNone);

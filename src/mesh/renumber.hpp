@@ -4,15 +4,15 @@
 
 namespace driftmesh {
 
-/// What becomes of the vertices that were given: input points and the ends of shell pieces.
+/// How the given vertices (input points and the ends of shell pieces) are numbered.
 enum class GivenVertices {
   kSorted,  ///< like all others
-  kFirst,   ///< they come first, in the order that they have: who knows them by number goes on to
+  kFirst,   ///< first, in their present order: a caller's numbers of them stay valid if they were first before
 };
 
-/// Drops free slots, sorts triangles along a Hilbert curve and vertices by their first use, so that what is near in the
-/// plane is near in memory. All handles change; origins, roots and paths keep their meaning. Vertices that no triangle
-/// uses are dropped.
+/// Drops free slots and unused vertices, and sorts triangles along a Hilbert curve and vertices by first use, so that
+/// what is near in the plane is near in memory. All handles of triangles and vertices change; origins, roots and paths
+/// keep their meaning.
 void renumber(Triangulation& mesh, GivenVertices given);
 
 /// Drops free slots and unused vertices, keeping the order of the rest.

@@ -98,7 +98,7 @@ inline constexpr VertexOrigin kShellEnd = std::int32_t{1} << 30;
 }
 
 /// A constrained Delaunay triangulation: topology in flat arrays, coordinates beside it. Plain data with the few
-/// operations that keep its invariants; the algorithms on it live in files of their own (cdt, cavity, removal,
+/// operations that keep its invariants; the algorithms on it live in files of their own (cdt, cavity, flips,
 /// refiner). Invariants between operations: every live triangle is counterclockwise; neighbors are reciprocal; each
 /// leaf subsegment knows its half-edges and they know it.
 struct Triangulation {
@@ -149,7 +149,7 @@ struct Triangulation {
     triangles.resize_uninitialized(size);
   }
   void remove_triangle(TriangleId t);
-  /// Makes `inner` (an edge of a live triangle, start to end counterclockwise) and what lies across it know each other.
+  /// Links `inner` (an edge of a live triangle) and what lies across it, a half-edge or a constrained subsegment.
   void link(HalfEdge inner, HalfEdge outer);
   /// A new root segment from `a` to `b` with one leaf; its half-edges are still kNone.
   RootId add_root(VertexId a, VertexId b, std::int32_t marker, std::int32_t shell);

@@ -20,7 +20,7 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// next() and previous() as tables of two bits: for indices in no order, which a branch would be guessed wrongly for.
+/// next() and previous() as tables of two bits, for indices in no order: branches on them would be mispredicted.
 std::size_t next_of_any(int i) {
   return (0b001001U >> (2 * i)) & 3U;
 }
@@ -50,7 +50,7 @@ bool lists_once(const std::vector<std::int32_t>& list, std::size_t free_count, s
 }
 
 std::string vertex_fault(const Triangulation& mesh) {
-  if (mesh.origin.size() != mesh.points.size()) return "points and origins differ in number";
+  if (mesh.origin.size() != mesh.points.size()) return "the numbers of points and origins differ";
   if (!is_in_range(mesh.points)) return "a coordinate is out of range";
   const auto lowest = -static_cast<std::int64_t>(mesh.subsegments.size());  // ~s of the last subsegment
   std::size_t deleted = 0;
@@ -61,14 +61,15 @@ std::string vertex_fault(const Triangulation& mesh) {
   }
   if (!exist) return "a vertex is the midpoint of a subsegment that does not exist";
   const auto is_free = [&](std::size_t v) { return mesh.origin[v] == kDeleted; };
-  if (!lists_once(mesh.free_vertices, deleted, mesh.points.size(), is_free)) return "the free vertices are not listed";
+  if (!lists_once(mesh.free_vertices, deleted, mesh.points.size(), is_free))
+    return "the list of free vertices is wrong";
   return "";
 }
 
 // ---- Triangles ----
 
-/// Whether half-edge h, of a live triangle, and the leaf subsegment behind it know each other.
-bool knows(const Triangulation& mesh, SubsegmentId s, HalfEdge h) {
+/// Whether half-edge h of a live triangle and leaf subsegment s are linked both ways.
+bool are_linked(const Triangulation& mesh, SubsegmentId s, HalfEdge h) {
   if (!names(s, mesh.subsegments.size())) return false;
   const Subsegment& segment = mesh.subsegments[id(s)];
   const VertexId a = mesh.edge_start(h), b = mesh.edge_end(h);
@@ -76,7 +77,7 @@ bool knows(const Triangulation& mesh, SubsegmentId s, HalfEdge h) {
                                (segment.half[1] == h && segment.vertex[1] == a && segment.vertex[0] == b));
 }
 
-/// Whether all corners and neighbors are in range. Signs and bits are collected, and looked at once in the end.
+/// Whether all corners and neighbors are in range. Signs and bits are collected and examined once at the end.
 /// `dead` receives the number of free slots.
 bool handles_exist(const Triangulation& mesh, std::size_t& dead) {
   const auto edges = static_cast<std::uint32_t>(4 * mesh.triangles.size());
@@ -107,16 +108,16 @@ bool handles_exist(const Triangulation& mesh, std::size_t& dead) {
 std::string array_fault(const Triangulation& mesh) {
   if (static_cast<std::int64_t>(mesh.triangles.size()) > kMaxTriangles) return "too many triangles";
   if (!mesh.region.empty() && mesh.region.size() != mesh.triangles.size())
-    return "triangles and their regions differ in number";
+    return "the numbers of triangles and regions differ";
   std::size_t dead = 0;
   if (!handles_exist(mesh, dead)) return "a corner or neighbor of a triangle does not exist";
   const auto is_free = [&](std::size_t t) { return !mesh.triangles[t].alive(); };
   if (!lists_once(mesh.free_triangles, dead, mesh.triangles.size(), is_free))
-    return "the free triangles are not listed";
+    return "the list of free triangles is wrong";
   return "";
 }
 
-/// Without a branch that depends on the order of the triangles: it runs over every half-edge.
+/// No branch depends on the order of the triangles: this visits every half-edge.
 std::string triangle_fault(const Triangulation& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& own = mesh.triangles[t];
@@ -128,7 +129,7 @@ std::string triangle_fault(const Triangulation& mesh) {
     for (int i = 0; i < 3; ++i) {
       const HalfEdge h = half_edge(static_cast<TriangleId>(t), i), g = own.neighbor[at(i)];
       if (is_constrained(g)) {
-        if (!knows(mesh, subsegment_of(g), h)) return "a triangle and a subsegment do not know each other";
+        if (!are_linked(mesh, subsegment_of(g), h)) return "a triangle and a subsegment are not linked both ways";
         continue;
       }
       const int j = index_of(g);
@@ -137,7 +138,7 @@ std::string triangle_fault(const Triangulation& mesh) {
                      (other.vertex[previous_of_any(j)] ^ v[at(next(i))]) | (other.alive() ? 0 : 1);
       differences |= mesh.origin[id(v[at(i)])] == kDeleted ? 1 : 0;
     }
-    if (differences != 0) return "neighbors do not know each other";
+    if (differences != 0) return "neighboring triangles are not linked both ways";
   }
   return "";
 }
@@ -185,9 +186,9 @@ std::string subsegment_fault(const Triangulation& mesh) {
     const auto s = static_cast<SubsegmentId>(i);
     if (mesh.subsegments[i].is_leaf()) {
       if (!is_at_edge(mesh, s, 0) || !is_at_edge(mesh, s, 1))
-        return "a subsegment and a triangle do not know each other";
+        return "a subsegment and a triangle are not linked both ways";
     } else {
-      if (!halves_are_right(mesh, s)) return "a subsegment is cut wrongly";
+      if (!halves_are_right(mesh, s)) return "the halves of a subsegment do not fit it";
       const std::size_t child = id(mesh.subsegments[i].child);
       if (reached[child] || reached[child + 1]) return "a subsegment lies in two trees";
       reached[child] = reached[child + 1] = true;

@@ -11,13 +11,13 @@
 
 namespace driftmesh {
 
-/// The slots of the triangle array that may hold a triangle too large, in the order in which they are looked at. There
-/// is no queue of triangles: a cursor sweeps over the array itself, so that a slot waits without being written
-/// anywhere, however often its triangle changes.
+/// The slots of the triangle array that may hold a triangle that is too large, in the order in which they are examined.
+/// There is no queue of triangles: a cursor sweeps over the array itself, so a waiting slot costs nothing however often
+/// its triangle changes.
 ///
 /// The sweep goes block by block over the `given` slots that exist at the start (sorted in space, see renumber), and
-/// after each block over the slots that were added meanwhile, so that the part of the mesh in work stays in cache.
-/// Slots behind the cursor that get a triangle in need of work are noted in a stack.
+/// after each block over the slots that were added meanwhile, so that the active part of the mesh stays in cache.
+/// Slots behind the cursor that receive a triangle that is too large go onto a stack.
 class Sweep {
  public:
   void start(TriangleId given, TriangleId block) {
@@ -51,7 +51,7 @@ class Sweep {
     return true;
   }
 
-  /// The whole state, to be stored and set again: five numbers and the stack.
+  /// The whole state, to be stored and restored: these five numbers and the stack.
   struct Places {
     TriangleId cursor, block_end, given, added, block;
   };
@@ -76,8 +76,8 @@ class Sweep {
 };
 
 /// Skinny triangles by the length of their shortest edge, in buckets a factor of sqrt(2) apart: off-centers pay off
-/// when the shortest edges come first (Ungor 2004; measured in docs/benchmarks.md). Entries are slots; whether the
-/// triangle in it still belongs there is asked when it is taken out.
+/// when the shortest edges come first (Ungor 2004; measured in docs/benchmarks.md). Entries are slots; whether a slot
+/// still holds such a triangle is checked when it is taken out.
 class SkinnyBuckets {
  public:
   static constexpr int kBuckets = 2048;
@@ -94,8 +94,8 @@ class SkinnyBuckets {
   struct Entry {
     TriangleId triangle;
     int bucket;
-    /// Whether a triangle with this shortest edge can be the one that was added. Its squared length may have been
-    /// computed in another order then, and shells make powers of two common: the next bucket counts, too.
+    /// Whether a triangle with this shortest edge can be the one that was added. Adjacent buckets count too: the
+    /// squared length may have been computed in a different order then, and shells make powers of two common.
     [[nodiscard]] bool fits(double squared_length) const { return std::abs(bucket_of(squared_length) - bucket) <= 1; }
   };
   /// Takes out an entry of the lowest bucket; triangle kNone if all are empty.
@@ -109,7 +109,7 @@ class SkinnyBuckets {
   }
   /// Empties the buckets and gives their memory back.
   void clear() { *this = {}; }
-  /// All entries: added in this order to empty buckets, they come out as they would from these.
+  /// All entries, in an order such that adding them to empty buckets restores these.
   [[nodiscard]] std::vector<Entry> entries() const {
     std::vector<Entry> all;
     for (int b = lowest_; b < end(); ++b)
@@ -120,7 +120,7 @@ class SkinnyBuckets {
  private:
   [[nodiscard]] int end() const { return first_ + static_cast<int>(buckets_.size()); }
   std::vector<TriangleId>& at(int bucket) { return buckets_[static_cast<std::size_t>(bucket - first_)]; }
-  /// Few exponents occur in one mesh, so only the range of those that did has buckets.
+  /// Few exponents occur in one mesh, so only the range that occurred has buckets.
   void make_room(int bucket) {
     if (buckets_.empty()) first_ = bucket;
     if (bucket < first_) {

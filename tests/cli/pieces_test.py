@@ -134,7 +134,7 @@ class Pieces(unittest.TestCase):
 
     def test_a_piece_without_numbers(self):
         self.right.write_bytes(vtu(RIGHT, 1).replace(b"global_number", b"another_array"))
-        self.run_program("check", "two.pvtu", code=2, says=["piece 1 does not tell the numbers of its points"])
+        self.run_program("check", "two.pvtu", code=2, says=["piece 1 does not say which numbers its points have"])
 
     def test_convert_and_plot(self):
         for name in ("whole.vtu", "whole.msh"):

@@ -183,10 +183,10 @@ TEST_CASE("each invariant of a triangulation is looked at") {
   const auto all = static_cast<std::int32_t>(sound.triangles.size());
   CHECK(fault([&](Triangulation& m) { m.points[free].x = NAN; }) == "a coordinate is out of range");
   CHECK(fault([&](Triangulation& m) { m.points[free].x = 1e90; }) == "a coordinate is out of range");
-  CHECK(fault([](Triangulation& m) { m.origin.push_back(kFree); }) == "points and origins differ in number");
+  CHECK(fault([](Triangulation& m) { m.origin.push_back(kFree); }) == "the numbers of points and origins differ");
   CHECK(fault([](Triangulation& m) { m.origin[0] = -1'000'000; }) != "");
-  CHECK(fault([](Triangulation& m) { m.free_vertices.push_back(0); }) == "the free vertices are not listed");
-  CHECK(fault([](Triangulation& m) { m.free_triangles.push_back(0); }) == "the free triangles are not listed");
+  CHECK(fault([](Triangulation& m) { m.free_vertices.push_back(0); }) == "the list of free vertices is wrong");
+  CHECK(fault([](Triangulation& m) { m.free_triangles.push_back(0); }) == "the list of free triangles is wrong");
   CHECK(fault([&](Triangulation& m) { m.triangles[live].vertex[1] = -1; }) != "");
   CHECK(fault([&](Triangulation& m) { m.triangles[live].vertex[2] = 1'000'000; }) != "");
   CHECK(fault([&](Triangulation& m) { m.triangles[live].neighbor[0] = 4 * all; }) != "");
@@ -201,7 +201,7 @@ TEST_CASE("each invariant of a triangulation is looked at") {
           t = {{t.vertex[1], t.vertex[2], t.vertex[0]}, {t.neighbor[1], t.neighbor[2], t.neighbor[0]}};
         }) != "");
   CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].path = 0; }) != "");
-  CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = 0; }) == "a subsegment is cut wrongly");
+  CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = 0; }) == "the halves of a subsegment do not fit it");
   CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = kNone; }) != "");
   CHECK(fault([](Triangulation& m) { m.roots[0].tree = 1; }) != "");
   CHECK(fault([](Triangulation& m) { m.subsegments.push_back(m.subsegments.back()); }) != "");

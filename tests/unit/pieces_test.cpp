@@ -138,7 +138,7 @@ TEST_CASE("a missing piece is found") {
   far.numbers[0] = -1;
   CHECK_THROWS_WITH_AS(check({far, right_square()}), doctest::Contains("number -1"), Error);
   far.numbers.clear();
-  CHECK_THROWS_WITH_AS(check({far, right_square()}), doctest::Contains("piece 0 does not tell"), Error);
+  CHECK_THROWS_WITH_AS(check({far, right_square()}), doctest::Contains("piece 0 does not say"), Error);
 }
 
 TEST_CASE("a piece that is there twice is found") {
