@@ -59,7 +59,7 @@ TriangleAreaField::TriangleAreaField(BackgroundMesh mesh, const std::vector<doub
   for (std::size_t t = 0; t < lengths_.size(); ++t)
     if (std::isnan(lengths_[t]))
       throw Error("background mesh: the area bound of triangle " + std::to_string(t) +
-                  " (counted from 0) is no number");
+                  " (counted from 0) is not a number");
 }
 
 double TriangleAreaField::edge_length(const Point& p) const {

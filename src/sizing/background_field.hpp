@@ -11,8 +11,8 @@ namespace driftmesh {
 /// point of its boundary.
 class VertexSizeField final : public SizeField {
  public:
-  /// One length for each point of the mesh: > 0, or +infinity for no bound, which spreads to every place whose triangle
-  /// has such a corner. Throws Error otherwise. To limit their growth see limit_gradation.
+  /// One length for each point of the mesh: > 0, or +infinity for no bound, which then holds for all of each triangle
+  /// with such a corner. Throws Error otherwise. To limit their growth see limit_gradation.
   VertexSizeField(BackgroundMesh mesh, std::vector<double> lengths);
   [[nodiscard]] double edge_length(const Point& p) const override;
 
@@ -21,7 +21,7 @@ class VertexSizeField final : public SizeField {
   std::vector<double> lengths_;
 };
 
-/// An area bound for each triangle of a background mesh, as the .area files of Triangle hold it; the target edge length
+/// An area bound for each triangle of a background mesh, as in the .area files of Triangle; the target edge length
 /// is the side of the equilateral triangle of that area. On an edge or corner between triangles the largest of their
 /// bounds holds, so that a fine triangle of the background does not reach into its neighbors; outside the mesh the
 /// bound at the nearest point of its boundary.

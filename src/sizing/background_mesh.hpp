@@ -10,13 +10,13 @@
 
 namespace driftmesh {
 
-/// Triangles that carry a size field, made for asking which of them holds a point. Any set of triangles will do: with
-/// holes, in several pieces, of either orientation. Those of no area are left out of answers.
+/// Triangles that carry a size field, indexed to find the one that contains a point. Any set of triangles will do: with
+/// holes, in several pieces, of either orientation. Triangles without area are ignored.
 class BackgroundMesh {
  public:
   using Triangle = std::array<std::int32_t, 3>;
 
-  /// A point as a convex combination of the corners of a triangle. Weights are >= 0 and sum up to 1.
+  /// A point as a convex combination of the corners of a triangle. Weights are >= 0 and sum to 1.
   struct Place {
     std::int32_t triangle;
     std::array<double, 3> weight;
@@ -29,12 +29,12 @@ class BackgroundMesh {
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
 
-  /// The place of `p` in the triangle that contains it: in the one of lowest index on a shared edge or corner. For a
+  /// The place of `p` in the triangle that contains it, the one with the lowest index on a shared edge or corner. For a
   /// point outside the mesh, the place of the nearest point of its boundary. Depends on `p` alone.
   [[nodiscard]] Place locate(const Point& p) const;
 
-  /// All triangles that contain `p`, rising: several on a shared edge or corner. For a point outside, the triangle at
-  /// the nearest point of the boundary.
+  /// All triangles that contain `p`, in ascending order: several on a shared edge or corner. For a point outside, the
+  /// triangle at the nearest point of the boundary.
   [[nodiscard]] std::vector<std::int32_t> triangles_at(const Point& p) const;
 
  private:
@@ -57,7 +57,7 @@ class BackgroundMesh {
 
   std::vector<Point> points_;
   std::vector<Triangle> triangles_;  // counterclockwise
-  TriangleWalk walk_;                // answers most questions; the trees answer the others
+  TriangleWalk walk_;                // answers most queries; the trees answer the others
   BoxTree triangle_tree_;
   std::vector<Edge> boundary_;
   BoxTree boundary_tree_;

@@ -34,7 +34,7 @@ std::string quoted(const std::string& text) {
   throw InputError({"size expression " + quoted(expression)}, what, next);
 }
 
-/// muParser's message without the position that ends many of them, and without its full stop.
+/// muParser's message without its period and without the position that many messages end in.
 std::string bare_message(const mu::ParserError& error) {
   std::string message = error.GetMsg();
   for (const char* ending : {" found at position ", " at position ", " at expression position "})
@@ -43,7 +43,7 @@ std::string bare_message(const mu::ParserError& error) {
   return message;
 }
 
-/// muParser counts positions from 0 and, at the end, past the end; they are columns from 1 here.
+/// muParser counts positions from 0, and may point past the end; columns count from 1.
 [[noreturn]] void fail(const mu::ParserError& error, const std::string& expression) {
   std::string what = bare_message(error);
   if (error.GetPos() >= 0)
@@ -57,7 +57,7 @@ std::string printed(double value) {
   return text;
 }
 
-/// muParser would take "x = 1" as an assignment and go on with another x.
+/// muParser would take "x = 1" as an assignment and continue with a different x.
 void refuse_assignment(const std::string& expression) {
   for (std::size_t i = 0; i < expression.size(); ++i) {
     if (expression[i] != '=') continue;
@@ -86,7 +86,7 @@ ExpressionField::ExpressionField(const std::string& expression, double shortest)
     parser.SetExpr(expression);
     int values = 0;
     parser.Eval(values);
-    if (values != 1) fail(expression, "has " + std::to_string(values) + " values", "a length is one value");
+    if (values != 1) fail(expression, "has " + std::to_string(values) + " values", "give a single length");
   } catch (const mu::ParserError& error) {
     fail(error, expression);
   }

@@ -8,15 +8,15 @@
 namespace driftmesh {
 
 /// The target edge length as an expression in x and y, for example "0.01 + 0.2*sqrt(x^2 + y^2)". The operators,
-/// functions and conditionals of muParser, with pi, e and hypot(a, b) besides.
+/// functions and conditionals are those of muParser, with pi, e and hypot(a, b) in addition.
 class ExpressionField final : public SizeField {
  public:
-  /// Values below `shortest` count as `shortest`. Throws InputError that names the column and the token where the
+  /// Values below `shortest` count as `shortest`. Throws InputError naming the column and the token where the
   /// expression is wrong.
   explicit ExpressionField(const std::string& expression, double shortest = 0);
   ~ExpressionField() override;
 
-  /// Throws InputError that names `p` when the value there is not a number, or not positive.
+  /// Throws InputError naming `p` if the value there is NaN or not positive.
   [[nodiscard]] double edge_length(const Point& p) const override;
 
  private:

@@ -39,7 +39,7 @@ BackgroundMesh background_mesh(const NodeTable& nodes, EleTable elements, const 
 std::vector<double> lengths_at_points(const NodeTable& nodes, const std::string& file) {
   const std::size_t stride = nodes.attributes_per_point;
   if (stride == 0)
-    throw InputError({file}, "its points have no attribute, which would be the target edge length",
+    throw InputError({file}, "its points have no attribute to take as the target edge length",
                      "add one, or give the .area file with the area bounds of the triangles");
   std::vector<double> lengths(nodes.points.size());
   for (std::size_t i = 0; i < lengths.size(); ++i) {

@@ -9,23 +9,23 @@
 
 namespace driftmesh {
 
-/// What a user may ask for about the sizes of triangles. Everything that is given holds: the shortest length wins.
+/// What a user may ask for regarding the sizes of triangles. Everything given holds: the shortest length wins.
 struct SizingOptions {
   /// A target edge length in x and y; see ExpressionField. Empty: none.
   std::string expression{};
   /// A background mesh; see read_background_field. Empty: none.
   std::string background{};
-  /// By how much the lengths of the background mesh may grow per unit of distance, > 0; absent: as they are. 0.2 to 0.3
-  /// grade well. Does not apply to the expression, which states its growth itself.
+  /// By how much the lengths of the background mesh may grow per unit of distance, > 0; absent: no limit. 0.2 to 0.3
+  /// grade well. Does not apply to the expression, which defines its own growth.
   std::optional<double> gradation{};
   double longest = std::numeric_limits<double>::infinity();  ///< target edge lengths are at most this, > 0
-  double shortest = 0;                                       ///< and at least this: what asks for less gets this
+  double shortest = 0;                                       ///< and at least this: smaller values are raised to it
 };
 
 /// The field that the options ask for; null when they ask for nothing. Throws InputError and FileError.
 [[nodiscard]] std::unique_ptr<SizeField> make_size_field(const SizingOptions& options);
 
-/// A size field from files of Triangle's kind. `path` names them by their common stem, or by one of them:
+/// A size field from files in Triangle's format. `path` is their common stem, or one of them:
 /// - mesh, mesh.node, mesh.ele: the first attribute of each point is the target edge length there, linear in between;
 /// - mesh.area: the area bound of each triangle, <= 0 for none. With a gradation the bounds first become lengths at the
 ///   points (the shortest around each), limited and linear in between; without one they hold triangle by triangle.

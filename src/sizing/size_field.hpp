@@ -4,13 +4,15 @@
 
 namespace driftmesh {
 
-/// A target edge length as a function of position. A triangle is too large when its area exceeds sqrt(3)/4 h^2 with h
-/// the smallest value of the field at its corners and centroid: the area of the equilateral triangle of that side.
+/// A target edge length as a function of position, in the units of the coordinates. A triangle is too large if its area
+/// exceeds sqrt(3)/4 h^2, the area of the equilateral triangle with edges of length h, where h is the smallest value of
+/// the field at its corners and its centroid.
 class SizeField {
  public:
   virtual ~SizeField() = default;
-  /// The target edge length at `p`: > 0, or +infinity where the field sets no bound. Depends on `p` alone: every rank
-  /// that evaluates it gets the same bits. Not safe to call on one object from two threads.
+  /// The target edge length at `p`: > 0, or +infinity where the field sets no bound. Must depend on `p` alone and
+  /// return the same bits on every rank. May throw; the exception ends the meshing and reaches the caller. Not to be
+  /// called on one object from two threads at once.
   [[nodiscard]] virtual double edge_length(const Point& p) const = 0;
 };
 

@@ -41,7 +41,7 @@ TriangleWalk::TriangleWalk(const std::vector<Point>& points, const std::vector<T
     places_.push_back(place[t]);
   }
 
-  // About one node a bucket, so that little is left to search.
+  // About one node per bucket, so that there is little left to search.
   const int bits = std::bit_width(nodes_.size());
   bucket_shift_ = 64 - bits;
   bucket_.resize((std::size_t{1} << bits) + 1);

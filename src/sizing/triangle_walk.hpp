@@ -9,14 +9,15 @@
 
 namespace driftmesh {
 
-/// Finds the triangle around a point by a short walk: from the triangle that lies nearest on a Hilbert curve, across
-/// the edges that have the point on their other side. The start depends on the point alone, and so does the answer.
+/// Finds the triangle around a point by a short walk: from the triangle that is nearest along a Hilbert curve, across
+/// edges that separate the current triangle from the point. The start depends on the point alone, and so does the
+/// answer.
 class TriangleWalk {
  public:
   using Triangle = std::array<std::int32_t, 3>;
 
   struct Found {
-    std::int32_t triangle = -1;        ///< -1: the walk could not tell
+    std::int32_t triangle = -1;        ///< -1: not found
     std::array<double, 3> opposite{};  ///< orient2d of the point and the edge opposite each corner; all > 0
   };
 
@@ -26,8 +27,8 @@ class TriangleWalk {
   TriangleWalk(const std::vector<Point>& points, const std::vector<Triangle>& triangles,
                const std::vector<Triangle>& neighbors);
 
-  /// The triangle that has `p` in its interior, or nothing when p lies on an edge, when the way meets the boundary, or
-  /// when it is long. Never wrong.
+  /// The triangle that has `p` in its interior; nothing if p lies on an edge, or if the walk meets the boundary or
+  /// takes too many steps. Never a wrong triangle.
   [[nodiscard]] Found find(const Point& p) const;
 
  private:

@@ -60,7 +60,7 @@ void Arrangement::sort_outgoing() {
   }
 }
 
-// The loop of each half-edge: what one sees on the left hand while walking along the boundary of one face.
+// The loop that each half-edge belongs to: the boundary of a face, or a part of it, walked with the face on the left.
 std::vector<std::int32_t> Arrangement::trace_loops() {
   std::vector<std::int32_t> next(outgoing_.size());  // at the head: the outgoing half-edge clockwise from the way back
   for (std::size_t p = 0; p < points_.size(); ++p) {

@@ -11,8 +11,8 @@
 
 namespace driftmesh {
 
-/// The faces that a set of straight links and points cuts the plane into, found exactly by a sweep and without a
-/// triangulation: what a mesh must cover is known independent of how it was made.
+/// The faces that a set of straight links and points cuts the plane into, found exactly by a sweep. No
+/// triangulation is involved, so what a mesh must cover is known independently of how it was made.
 class Arrangement {
  public:
   struct Link {
@@ -22,16 +22,16 @@ class Arrangement {
   static constexpr std::int32_t kUnbounded = 0;    ///< the face that reaches infinity
   static constexpr std::int32_t kOnBoundary = -1;  ///< a query point lies on a link or an end of one
 
-  /// Points are distinct, finite and in the predicates' range; every link has two different ends; `queries` are
-  /// located but are no part of the arrangement. O(n log n).
+  /// Points are distinct, finite and in the range of the predicates; every link has two different ends. `queries` are
+  /// located in the arrangement but are not part of it. O(n log n).
   Arrangement(std::vector<Point> points, std::vector<Link> links, std::vector<Point> queries = {});
 
-  /// Two features that meet where they must not (crossing or overlapping links, a link through a point), in words, if
-  /// there are any. Then nothing below may be asked.
+  /// In words, two features that meet where they must not (crossing or overlapping links, a link through a point), if
+  /// there are any. If so, nothing below may be called.
   [[nodiscard]] const std::optional<std::string>& conflict() const { return conflict_; }
 
   [[nodiscard]] std::int32_t face_count() const { return static_cast<std::int32_t>(loops_of_face_.size()); }
-  /// The face on the left of the way from a link's a to its b.
+  /// The face on the left of a link as seen from a to b.
   [[nodiscard]] std::int32_t left_face(std::int32_t link) const { return face_of_side_[side(link, false)]; }
   [[nodiscard]] std::int32_t right_face(std::int32_t link) const { return face_of_side_[side(link, true)]; }
   /// The face around a point with no link, kOnBoundary for other points.

@@ -10,7 +10,7 @@
 namespace driftmesh {
 
 /// The subsegments of a mesh put end to end: a chain runs between two corners (points of the input) through vertices
-/// that have exactly two subsegments, so it is what became of one input segment.
+/// that have exactly two subsegments, so it is what one input segment was split into.
 class Chains {
  public:
   struct Chain {
@@ -18,8 +18,8 @@ class Chains {
     std::vector<std::int32_t> subsegments;  ///< subsegments[i] joins vertices[i] and vertices[i + 1]
   };
 
-  /// `is_corner(v)`: chains end at point v. A vertex with other than two subsegments ends them in any case; a loop
-  /// without a corner is broken at one of its vertices.
+  /// Chains end at the points for which is_corner(v) holds and at all vertices that do not have exactly two
+  /// subsegments. A loop without a corner is broken at one of its vertices.
   Chains(const MeshPiece& mesh, const Subsegments& subsegments, const std::function<bool(std::int32_t)>& is_corner);
 
   [[nodiscard]] const std::vector<Chain>& all() const { return chains_; }
@@ -37,8 +37,8 @@ class Chains {
   std::vector<char> taken_;       // per subsegment
 };
 
-/// Where the two subsegments of a vertex bend by more than a millionth, or their number is not two: what can be told
-/// about the corners of an input that is not at hand.
+/// Whether a vertex does not have two subsegments, or they bend there by more than a millionth: a guess at the corners
+/// of an input that is not given.
 [[nodiscard]] bool bends_at(const MeshPiece& mesh, const Subsegments& subsegments, std::int32_t point);
 
 }  // namespace driftmesh

@@ -11,8 +11,8 @@
 namespace driftmesh {
 
 /// The part of the plane that an input asks to be meshed, from an arrangement of its segments: the unbounded face and
-/// the faces that hold a hole point are carved. Points with equal coordinates and equal segments count once. Without
-/// segments, the domain is the convex hull of the points, its border marked 1.
+/// the faces that hold a hole point are carved. Duplicate points and segments count once. Without segments, the domain
+/// is the convex hull of the points, with marker 1 on its border.
 class Domain {
  public:
   struct Segment {
@@ -25,8 +25,8 @@ class Domain {
 
   explicit Domain(const Pslg& input);
 
-  /// Why the input describes no domain (segments that cross, overlap or pass through points), if so. Then nothing
-  /// below may be asked.
+  /// Why the input describes no domain (segments that cross, overlap or pass through points), if so. If so,
+  /// nothing below may be called.
   [[nodiscard]] const std::optional<std::string>& conflict() const { return conflict_; }
 
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
@@ -38,7 +38,7 @@ class Domain {
   [[nodiscard]] bool point_inside(std::int32_t point) const { return point_inside_[point] != 0; }
 
   [[nodiscard]] double area() const { return area_; }
-  /// How far sums of areas may differ because split points on the boundary are rounded.
+  /// By how much sums of areas may differ because split points on the boundary are rounded.
   [[nodiscard]] double area_tolerance() const { return area_tolerance_; }
   /// Vertices - edges + faces of any triangulation of the domain.
   [[nodiscard]] std::int64_t euler_number() const { return euler_number_; }
@@ -46,7 +46,7 @@ class Domain {
   [[nodiscard]] static double split_tolerance(const Point& a, const Point& b);
 
   [[nodiscard]] bool has_regions() const { return has_regions_; }
-  /// The region seed that rules a face (the last of several), or null.
+  /// The region seed that lies in a face (the last one if there are several), or null.
   [[nodiscard]] const Pslg::Region* region_of(std::int32_t face) const;
 
  private:

@@ -155,7 +155,7 @@ void DomainCheck::check_side(std::int32_t subsegment, std::int32_t triangle, std
   const MeshPiece::Edge& edge = chains_.subsegments()[subsegment];
   if (expected)
     findings_.add(Flaw::not_covered, [&] {
-      return edge_words(mesh_, edge.a, edge.b) + " has no triangle on a side that lies in the domain";
+      return edge_words(mesh_, edge.a, edge.b) + " has no triangle on one side although the domain lies there";
     });
   else
     findings_.add(face == Arrangement::kUnbounded ? Flaw::outside_filled : Flaw::hole_filled, [&] {
@@ -202,7 +202,7 @@ void DomainCheck::check_euler(std::int64_t used_points, std::int64_t boundary_ed
   const auto actual = static_cast<std::int64_t>(mesh_.triangles.size());
   if (actual == expected) return;
   findings_.add(Flaw::wrong_euler, [&] {
-    return fmt::format("{} triangles; {} vertices, {} boundary edges and Euler number {} of the domain ask for {}",
+    return fmt::format("{} triangles; {} vertices, {} boundary edges and Euler number {} of the domain require {}",
                        actual, used_points, boundary_edges, domain_.euler_number(), expected);
   });
 }

@@ -13,9 +13,9 @@
 
 namespace driftmesh {
 
-/// The boundary of the mesh, directed with a triangle on the left of each edge, does not meet itself other than at
-/// points, and winds once around some faces of its arrangement and not at all around the others. With all triangles
-/// counterclockwise this proves that no point is covered twice.
+/// Checks that the boundary of the mesh, directed with a triangle on the left of each edge, meets itself at points
+/// only, and winds once around some faces of its arrangement and not at all around the others. If all triangles are
+/// counterclockwise, this proves that no point is covered twice.
 void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary, Findings& findings);
 
 /// The checks of a mesh against the domain that its input describes.
@@ -26,7 +26,7 @@ class DomainCheck {
 
   /// Every point of the domain's input is a vertex.
   void check_points();
-  /// Chains of subsegments and the domain's segments are the same; see verify.
+  /// Chains of subsegments correspond to the domain's segments; see verify.
   void check_chains();
   void check_area(double mesh_area);
   void check_euler(std::int64_t used_points, std::int64_t boundary_edges);
@@ -34,9 +34,9 @@ class DomainCheck {
   /// Finds the face of the domain that each triangle lies in. `parts` has joined triangles that share an edge which
   /// is no subsegment.
   void find_faces(DisjointSets& parts);
-  /// The region attributes of triangles, which the mesh lists; after find_faces.
+  /// The mesh lists the right region attribute for each triangle. Call after find_faces.
   void check_regions();
-  /// The area bound of the region that a triangle lies in, 0 if it has none; after find_faces.
+  /// The area bound of the region that a triangle lies in, 0 if it has none. Call after find_faces.
   [[nodiscard]] double region_area(std::size_t triangle) const;
 
   /// For each point of a mesh whether it is one of the domain's points.

@@ -28,7 +28,7 @@ class CompensatedSum {
   return ax * by - ay * bx;
 }
 
-/// The dot product of the ways from o to a and from o to b in extended precision.
+/// The dot product of a - o and b - o in extended precision.
 [[nodiscard]] inline long double dot_extended(const Point& o, const Point& a, const Point& b) {
   const long double ax = static_cast<long double>(a.x) - o.x, ay = static_cast<long double>(a.y) - o.y;
   const long double bx = static_cast<long double>(b.x) - o.x, by = static_cast<long double>(b.y) - o.y;

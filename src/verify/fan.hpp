@@ -15,7 +15,7 @@ struct Spoke {
   std::int32_t triangle = 0;
 };
 
-/// The triangles around one point, linked across the edges that they share. One object is used for all points.
+/// The triangles around one point, linked across the edges that they share. The object is reused from point to point.
 class Fan {
  public:
   /// Gathers the triangles of `corners` (entries of a CornerTable) and sorts them by `next`.

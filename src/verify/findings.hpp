@@ -13,16 +13,16 @@ namespace driftmesh {
 enum class Flaw : std::uint8_t {
   // The arrays of the piece.
   bad_array,        ///< an array has the wrong length
-  bad_index,        ///< a triangle or subsegment names a point that does not exist, or one point twice
+  bad_index,        ///< a triangle or subsegment names a point that does not exist, or the same point twice
   bad_coordinate,   ///< a used point is not finite or outside the range of the exact predicates
   duplicate_point,  ///< two used points have the same coordinates
-  pieces_disagree,  ///< a point has other coordinates, marker or attributes in another piece, or its number is missing
+  pieces_disagree,  ///< a point differs between pieces in coordinates, marker or attributes, or a number is missing
   // The triangulation.
   not_counterclockwise,  ///< a triangle is inverted or flat (exact)
   duplicate_triangle,    ///< two triangles have the same corners
   edge_used_twice,       ///< two triangles lie on the same side of an edge
   open_edge,             ///< an edge with one triangle is not a subsegment: a triangle is missing, or a T-junction
-  tangled_vertex,        ///< the triangles around a vertex are more than one closed fan
+  tangled_vertex,        ///< the triangles around a vertex form neither one closed fan nor only open ones
   stray_subsegment,      ///< a subsegment is not an edge of the mesh
   duplicate_subsegment,  ///< a subsegment is listed twice
   boundary_crosses,      ///< two subsegments of the boundary cross, overlap or touch other than at a common end
@@ -40,14 +40,14 @@ enum class Flaw : std::uint8_t {
   hole_filled,         ///< a triangle lies in a hole
   wrong_area,          ///< the triangles' areas do not sum to the area of the domain
   wrong_euler,         ///< counts of triangles, vertices and boundary edges do not fit the domain's topology
-  wrong_region,        ///< a triangle carries another region attribute than the region it lies in
+  wrong_region,        ///< a triangle does not carry the attribute of the region it lies in
   // Quality.
-  small_angle,  ///< an angle below the bound, that nothing in the input excuses
+  small_angle,  ///< an angle below the bound that nothing in the input explains
   large_area,   ///< an area above the bound
 };
 inline constexpr std::size_t kFlawCount = to_index(Flaw::large_area) + 1;
 
-/// The name of the kind as words: "not delaunay".
+/// The name of the kind in words: "not Delaunay".
 [[nodiscard]] const char* flaw_name(Flaw flaw);
 
 /// Counts every finding of each kind and keeps the messages of the first few.

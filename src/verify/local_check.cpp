@@ -121,7 +121,7 @@ void LocalCheck::check_vertex(std::int32_t hub) {
   for (std::size_t i = 0; i < spokes.size(); ++i) {
     const std::int32_t right = fan_.across_next(i);
     if (right == kNone) boundary_.push_back({hub, spokes[i].next, 0});
-    // An edge is looked at from its lower end.
+    // Each edge is checked from its lower end.
     if (hub < spokes[i].next) check_edge(hub, spokes[i].next, &spokes[i], right == kNone ? nullptr : &spokes[right]);
     if (hub < spokes[i].prev && fan_.across_prev(i) == kNone) check_edge(hub, spokes[i].prev, nullptr, &spokes[i]);
   }
@@ -164,7 +164,7 @@ void LocalCheck::check_edge(std::int32_t u, std::int32_t v, const Spoke* left, c
     findings_.add(Flaw::open_edge, [&] {
       return edge_words(mesh_, u, v) + " has one triangle, " +
              triangle_words(mesh_, (left != nullptr ? left : right)->triangle) +
-             ", and is no subsegment: two triangles are expected";
+             ", but is not a subsegment: two triangles are expected";
     });
   } else {
     if (is_interface(*left, *right))

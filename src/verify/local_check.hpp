@@ -16,24 +16,24 @@
 
 namespace driftmesh {
 
-/// Array lengths and indices. False when the other checks cannot run.
+/// Checks lengths of arrays and indices. False if the other checks cannot run.
 [[nodiscard]] bool check_arrays(const MeshPiece& mesh, Findings& findings);
 
-/// Used points are finite, in the range of the predicates and distinct. Adds them to `index`, which is of the mesh's
-/// points; returns how many are used.
+/// Checks that used points are finite, in the range of the predicates and distinct. Adds them to `index`, an index of
+/// the mesh's points. Returns how many are used.
 std::size_t check_points(const MeshPiece& mesh, const CornerTable& corners, PointIndex& index, Findings& findings);
 
-/// The edges that only one triangle has, directed so that the triangle is on their left.
+/// The edges with only one triangle, directed so that it is on their left.
 [[nodiscard]] std::vector<MeshPiece::Edge> boundary_edges(const MeshPiece& mesh, const CornerTable& corners);
 
-/// No subsegment is listed twice, or is no edge of the mesh (sides are known).
+/// Checks that every subsegment is an edge of the mesh and listed once. The subsegments know their sides.
 void check_subsegments(const MeshPiece& mesh, const Subsegments& subsegments, Findings& findings);
 
-/// The edges between triangles of different subdomains, which meet there as if a segment were between them.
+/// The edges between triangles of different subdomains, which count as constrained.
 struct Interfaces {
-  std::size_t edges = 0;                                       ///< that are no subsegments
-  std::size_t not_delaunay = 0;                                ///< of these: a segment is really needed
-  std::size_t between_ranks = 0;                               ///< of these: the subdomains' ranks differ
+  std::size_t edges = 0;          ///< that are no subsegments
+  std::size_t not_delaunay = 0;   ///< of these: Delaunay only because they count as constrained
+  std::size_t between_ranks = 0;  ///< of these: the subdomains' ranks differ
   std::set<std::pair<std::int32_t, std::int32_t>> subdomains;  ///< the pairs of subdomains that meet
 };
 
@@ -45,15 +45,15 @@ class LocalCheck {
 
   /// Every triangle is counterclockwise (exact).
   void check_orientations();
-  /// Around every vertex: each edge has one triangle on a side, an edge with one triangle is a subsegment, the fan is
-  /// closed or bounded by subsegments, and every other edge, but for those between subdomains, is locally Delaunay
-  /// (exact). Local Delaunay everywhere makes the triangulation constrained Delaunay. Fills in the sides of the
-  /// subsegments, and joins in `parts`, if given, triangles that share an edge which is no subsegment.
+  /// Around every vertex: each edge has at most one triangle on either side, an edge with one triangle is a subsegment,
+  /// the fan is closed or bounded by subsegments, and every other edge, except for those between subdomains, is locally
+  /// Delaunay (exact), which makes the triangulation constrained Delaunay. Sets the sides of the subsegments and, if
+  /// `parts` is given, joins triangles there that share an edge which is not a subsegment.
   void check_vertices(DisjointSets* parts, bool delaunay);
 
   /// After check_vertices: the edges with one triangle, directed so that it is on their left.
   [[nodiscard]] const std::vector<MeshPiece::Edge>& boundary() const { return boundary_; }
-  /// After check_vertices: what lies between subdomains, if the mesh tells them.
+  /// After check_vertices: the edges between subdomains, if the mesh lists them.
   [[nodiscard]] const Interfaces& interfaces() const { return interfaces_; }
 
  private:

@@ -11,7 +11,7 @@ namespace driftmesh {
 /// Finds points by their exact coordinates. 8 to 16 bytes a point.
 class PointIndex {
  public:
-  /// Points outlive the index.
+  /// `points` must outlive the index.
   explicit PointIndex(std::span<const Point> points);
 
   /// Adds points[i]; returns i, or the number of the point that was added before with the same coordinates.

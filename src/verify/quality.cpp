@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kSlack = 1e-9;         // relative, for rounding
 constexpr double kSameDistance = 1e-6;  // relative: two vertices count as equally far from their apex
-// In a wedge narrower than this, in degrees, distances count as equal up to a share of the wedge's width: segments that
-// hardly diverge and end almost beside each other need no points to tell their ends apart.
+// In a wedge narrower than this, in degrees, distances count as equal up to a share of the wedge's width: where
+// segments hardly diverge and end almost side by side, no points are needed to separate their ends.
 constexpr double kNarrowWedge = 1;
 constexpr double kShareOfWidth = 0.3;
 constexpr long double kDegrees = 180 / std::numbers::pi_v<long double>;
@@ -39,7 +39,7 @@ Shape shape_of(const Point& a, const Point& b, const Point& c) {
           {(abx * cax + aby * cay) * scale, (abx * bcx + aby * bcy) * scale, (bcx * cax + bcy * cay) * scale}};
 }
 
-/// The angle at o between the ways to a and b, in degrees, in extended precision.
+/// The angle at o between oa and ob in degrees, in extended precision.
 double angle_at(const Point& o, const Point& a, const Point& b) {
   return static_cast<double>(std::atan2(std::fabs(cross_extended(o, a, b)), dot_extended(o, a, b)) * kDegrees);
 }
@@ -211,7 +211,7 @@ class QualityCheck {
     return false;
   }
 
-  /// Most meshes never ask for it.
+  /// Made on demand: most meshes never need it.
   const Room& room() {
     if (!room_) room_.emplace(mesh_, chains_.subsegments());
     return *room_;

@@ -14,13 +14,13 @@
 
 namespace driftmesh {
 
-/// Why a triangle may miss a bound: its angle, or in the last case its area too.
+/// Why a triangle may miss the bound on angles or, in the last case, that on areas.
 enum class ExceptionReason : std::uint8_t {
-  input_angle,  ///< the angle is one of the input: both of its sides are subsegments
+  input_angle,  ///< the angle is given by the input: both of its sides are subsegments
   small_wedge,  ///< the shortest edge joins, at nearly the same distance from their common end, two input segments that
                 ///< meet at less than 60 degrees (a "seditious" edge: Shewchuk and Si 2014; Miller, Pav, Walkington
                 ///< 2003)
-  no_room,      ///< no doubles are left for a point that would help; see Room
+  no_room,      ///< double precision leaves no room for a point that would help; see Room
 };
 inline constexpr std::size_t kExceptionReasonCount = 3;
 [[nodiscard]] const char* reason_name(ExceptionReason reason);
@@ -56,9 +56,9 @@ struct CheckedBounds {
   std::size_t max_listed = 5;                               ///< messages kept of each cause of an exception
 };
 
-/// Measures all triangles and adds those that break a bound without an allowed cause to `findings`. The angle bound is
-/// circumradius / shortest edge <= 1 / (2 sin min_angle), with a relative slack of 1e-9 for rounding; what seems to
-/// break a bound in double precision is computed again in extended precision.
+/// Measures all triangles, and adds those that miss a bound without an accepted reason to `findings`. The angle bound
+/// is circumradius / shortest edge <= 1 / (2 sin min_angle), with a relative slack of 1e-9 for rounding; triangles that
+/// seem to miss a bound in double precision are measured again in extended precision.
 [[nodiscard]] Quality check_quality(const MeshPiece& mesh, const Chains& chains, const CheckedBounds& bounds,
                                     Findings& findings);
 

@@ -40,8 +40,8 @@ void add_counts(const VerifyReport& report, Text out) {
   fmt::format_to(out, "\ntriangles      {}\nsubsegments    {}, {} on the boundary\n", grouped(report.triangles),
                  grouped(report.subsegments), grouped(report.boundary_edges));
   if (!report.subsegments_listed)
-    fmt::format_to(out, "               the file lists no subsegments: the boundary was taken as constrained\n");
-  if (!report.regions_listed) fmt::format_to(out, "regions        not listed by the mesh, and not checked\n");
+    fmt::format_to(out, "               the file lists no subsegments; the boundary was taken as constrained\n");
+  if (!report.regions_listed) fmt::format_to(out, "regions        not listed by the mesh and not checked\n");
   fmt::format_to(out, "area           {:.17g}", report.area);
   if (report.against_input) fmt::format_to(out, ", of the input {:.17g}", report.input_area);
   fmt::format_to(out, "\nareas          {:.6g} to {:.6g}\nangles         {:.4f} to {:.4f} degrees\n",
@@ -95,7 +95,7 @@ std::string what_was_checked(const VerifyReport& report, const VerifyOptions& op
   if (report.against_input) text += ", covers the input";
   if (options.min_angle > 0) text += fmt::format(", angles of at least {} degrees", options.min_angle);
   if (const auto n = report.quality.exception_count(); n != 0)
-    text += fmt::format(" but for {} triangles that the input explains", grouped(n));
+    text += fmt::format(" except for {} triangles that the input explains", grouped(n));
   if (options.max_area > 0) text += fmt::format(", areas of at most {}", options.max_area);
   if (options.size != nullptr) text += ", sizes asked for";
   return text;

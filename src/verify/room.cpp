@@ -16,9 +16,9 @@ namespace {
 // In spacings of doubles at the place:
 constexpr double kNeighbors = 2;  // no edge longer: nothing between the corners
 constexpr double kNarrow = 2;     // rounding moves a midpoint, and moved the ends, by up to 0.71 each
-constexpr double kShort = 256;    // of a subsegment: what refinement needs to turn around in beside a vertex
+constexpr double kShort = 256;    // of a subsegment: the room that refinement needs beside a vertex
 
-/// Between doubles of the size of the larger coordinate.
+/// The spacing of doubles of the size of the larger coordinate.
 double spacing_at(const Point& p) {
   const double size = std::max(std::fabs(p.x), std::fabs(p.y));
   return std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
@@ -28,7 +28,7 @@ long double distance(const Point& a, const Point& b) {
   return std::sqrt(dot_extended(a, b, b));
 }
 
-/// The diametral circle's.
+/// The bounding box of the diametral circle.
 Box box_around(const Point& a, const Point& b) {
   const Point m = midpoint(a, b);
   return Box::around(m, m, static_cast<double>(distance(a, b) / 2) * (1 + 1e-9) + 2 * spacing_at(m));

@@ -11,10 +11,10 @@ namespace driftmesh {
 
 /// Where doubles leave no room for another point, judged by the mesh alone.
 ///
-/// Refinement that may not insert a point because it would encroach upon a subsegment has to split that one instead. A
-/// subsegment is stuck, so that this can fail, if its rounded midpoint is one of its ends, or if the third corner of a
-/// triangle beside it is within two spacings of doubles of its line: rounding may put the midpoint beyond it. That
-/// corner must be on a segment itself, where it cannot be left out, unless the subsegment is shorter than 256 spacings.
+/// Where a point would encroach upon a subsegment, refinement splits that subsegment instead. This can fail, and the
+/// subsegment is called stuck, if its rounded midpoint is one of its ends, or if the third corner of a triangle beside
+/// it is within two spacings of doubles of its line: rounding may put the midpoint beyond that corner. The corner must
+/// be on a segment itself, so that it cannot be deleted, unless the subsegment is shorter than 256 spacings.
 ///
 /// A triangle cannot be helped if none of its edges is longer than two spacings, or if the point that would help it
 /// lies in the diametral circle of a stuck subsegment or beyond it, as seen from one of the triangle's corners.

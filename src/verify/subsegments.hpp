@@ -10,7 +10,7 @@
 
 namespace driftmesh {
 
-/// The constrained subsegments of a mesh, found by either end, and the triangles on their two sides.
+/// The constrained subsegments of a mesh, indexed by both ends, and the triangles on their two sides.
 class Subsegments {
  public:
   /// Every index of `edges` is valid.
@@ -30,7 +30,7 @@ class Subsegments {
     return edge.a == point ? edge.b : edge.a;
   }
 
-  /// The triangle on the left and on the right of the way from `from` to the other end; kNone where there is none.
+  /// The triangle on the left and on the right as seen from `from` to the other end; kNone where there is none.
   [[nodiscard]] std::int32_t left(std::int32_t s, std::int32_t from) const {
     return sides(s)[(*this)[s].a == from ? 0 : 1];
   }

@@ -20,7 +20,7 @@
 namespace driftmesh {
 namespace {
 
-/// One verification: its phases in their order, and what later ones need of earlier ones.
+/// One verification: its phases in order, and what later ones need from earlier ones.
 class Verification {
  public:
   Verification(const MeshPiece& mesh, const Pslg* input, const VerifyOptions& options)
@@ -45,7 +45,7 @@ class Verification {
     report_.subsegments_listed = !mesh_.edges.empty() || mesh_.triangles.empty();
   }
 
-  /// False if there are coordinates that nothing can be computed from.
+  /// False if there are coordinates that no check could compute with.
   bool check_coordinates() {
     corners_.emplace(mesh_);
     used_points_ = check_points(mesh_, *corners_, points_, findings_);

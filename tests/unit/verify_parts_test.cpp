@@ -273,7 +273,7 @@ TEST_CASE("the report names counts, exceptions and flaws, and ends in a verdict 
   CHECK(verdict_text(report, options) == "rejected: large area (1)");
   options.max_area = 0;
   CHECK(verdict_text(verify(one_triangle({0, 0}, {4, 0}, {4, 1}), options), options) ==
-        "accepted: constrained Delaunay, angles of at least 20 degrees but for 1 triangles that the input explains");
+        "accepted: constrained Delaunay, angles of at least 20 degrees except for 1 triangles that the input explains");
 }
 
 TEST_CASE("a skinny triangle is excused beside a segment that doubles have no room to split, and nowhere else") {
