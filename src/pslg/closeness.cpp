@@ -8,7 +8,8 @@
 namespace driftmesh {
 namespace {
 
-// 113 bits hold the cross products of coordinates of similar size exactly: near-parallel segments lose nothing.
+// 113 bits hold the cross products of coordinates of similar size exactly, so nothing is lost where segments are nearly
+// parallel.
 __extension__ using Quad = __float128;
 
 bool opposite(double u, double v) {
@@ -20,7 +21,7 @@ bool in_box(const Point& p, const Point& a, const Point& b, double margin) {
          p.y >= std::min(a.y, b.y) - margin && p.y <= std::max(a.y, b.y) + margin;
 }
 
-// Into both intervals, and away from magnitudes that the predicates do not take.
+// Clamped to both intervals, and to 0 where the predicates do not accept the magnitude.
 double settle(double value, double a, double b, double c, double d) {
   const double low = std::max(std::min(a, b), std::min(c, d));
   const double high = std::min(std::max(a, b), std::max(c, d));

@@ -8,9 +8,9 @@
 namespace driftmesh {
 
 // What counts as one place. Coordinates that were computed in double precision (a point put on a segment, an end that
-// was transformed twice) miss their place by a few units in the last place. No mesh can be represented inside such a
-// gap, and no one means it. So distances below kCloseUlps units in the last place of the larger coordinate count as
-// zero: in each axis between points, and from a point to a line.
+// was transformed twice) are off by a few units in the last place. No mesh can be represented inside such a gap, and
+// nobody intends one. So distances below kCloseUlps units in the last place of the larger coordinate count as zero: in
+// each axis between points, and from a point to a line.
 
 inline constexpr double kCloseUlps = 4;
 
@@ -24,8 +24,8 @@ inline constexpr double kCloseUlps = 4;
 
 enum class OnSegment { no, exactly, closely };
 
-/// Whether `p`, which is not close to a or b, lies in the interior of the segment from a to b. What lies closely at one
-/// of its ends, by the measure of the segment, does not: else of two points there each could be on the other's segment.
+/// Whether `p`, which is not close to a or b, lies in the interior of the segment from a to b. A point that is close to
+/// an end by the measure of the segment does not: otherwise each of two points could be on the other's segment.
 [[nodiscard]] OnSegment on_segment(const Point& p, const Point& a, const Point& b);
 
 /// Whether the interiors of the segments ab and cd cross in one point (exact).

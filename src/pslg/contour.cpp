@@ -17,7 +17,7 @@ struct Components {
   std::vector<char> on_frame;
 };
 
-// Negative points connect by sides, others by corners too: then curves separate components and nothing else.
+// Negative points connect by sides, others by corners as well: then curves separate components exactly.
 template <class Visit>
 void visit_neighbors(const Grid& grid, std::size_t i, bool corners, Visit visit) {
   const auto column = static_cast<std::int64_t>(i % grid.columns), row = static_cast<std::int64_t>(i / grid.columns);
@@ -96,8 +96,8 @@ class Tracer {
   }
 
  private:
-  // Around the cell counterclockwise, a curve enters it where values turn from negative to positive and leaves it where
-  // they turn back; of two, the one before: so negative corners that face each other stay apart.
+  // Going around the cell counterclockwise, a curve enters it where values turn from negative to positive and leaves it
+  // where they last turned back, so that negative corners opposite to each other stay separate.
   void link_cell(std::size_t column, std::size_t row) {
     const std::array<std::size_t, 4> corner{grid_.index(column, row), grid_.index(column + 1, row),
                                             grid_.index(column + 1, row + 1), grid_.index(column, row + 1)};

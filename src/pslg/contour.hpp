@@ -7,7 +7,7 @@
 
 namespace driftmesh {
 
-/// Values on a grid of columns x rows points with this spacing, row by row from the origin.
+/// Values at columns x rows grid points with this spacing, row by row from the origin.
 struct Grid {
   std::size_t columns = 0;
   std::size_t rows = 0;
@@ -35,16 +35,16 @@ struct ContourLoop {
   Point outside;  ///< a point of the grid to the right of the curve, next to it
 };
 
-/// Makes the largest connected (by sides) set of negative values the only one, and every connected (by sides or
-/// corners) set of other values that does not touch the frame and has fewer than `least` points negative. The frame
-/// itself becomes positive.
+/// Keeps of the sets of negative values that are connected (by sides) only the largest, and makes small islands
+/// negative: sets of other values, connected by sides or corners, that do not touch the frame and have fewer than
+/// `least` points. The frame itself becomes positive.
 void keep_main_basin(Grid& grid, std::size_t least);
 
 /// All curves between negative and other values, by marching squares (W. Lorensen, H. Cline, SIGGRAPH 1987). They are
 /// simple and do not touch each other: each side of a cell holds one vertex at most, kept away from its ends.
 [[nodiscard]] std::vector<ContourLoop> trace_contours(const Grid& grid);
 
-/// Twice the area that the loop runs around counterclockwise, negative when clockwise.
+/// Twice the area enclosed by the loop, negative if it runs clockwise.
 [[nodiscard]] double twice_signed_area(const ContourLoop& loop);
 
 }  // namespace driftmesh

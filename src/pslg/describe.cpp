@@ -5,7 +5,7 @@
 namespace driftmesh {
 namespace {
 
-// Appending to a named string keeps gcc 12 from a false warning about overlapping copies.
+// Appending to a named string avoids a false warning of gcc 12 about overlapping copies.
 template <class Number>
 void append(std::string& text, Number value) {
   char digits[32];  // the longest double has 24 characters

@@ -11,7 +11,7 @@ namespace driftmesh {
 
 /// "(x, y)" with as many digits as the coordinates need.
 [[nodiscard]] std::string coordinates(const Point& p);
-/// "vertex 17 (x, y)"; `index` counts the points as they were read, -1 means a point that repair made.
+/// "vertex 17 (x, y)"; `index` is that of the point as it was read, -1 for a point that repair added.
 [[nodiscard]] std::string vertex_name(const Pslg& pslg, std::int32_t index, const Point& p);
 /// "segment 12".
 [[nodiscard]] std::string segment_name(const Pslg& pslg, std::int32_t index);

@@ -6,9 +6,9 @@
 
 namespace driftmesh {
 
-// Parametric inputs for demonstrations, tests and benchmarks. Each is a function of its options alone (and so of the
-// seed, where there is one), and is planar: repair() finds nothing to do. Options out of range, or that make a shape
-// overlap itself, throw InputError. Boundaries are counterclockwise, holes clockwise, every hole has a seed.
+// Parametric inputs for demonstrations, tests and benchmarks. Each depends on its options alone (including the seed, if
+// it has one) and is planar: repair() finds nothing to do. Throw InputError for options that are out of range or make
+// the shape overlap itself. Boundaries are counterclockwise, holes clockwise, and every hole has a seed.
 
 /// Cross-section of a regeneratively cooled pipe: a ring with cooling channels in its wall. Markers: 1 outside, 2 bore,
 /// 3, 4, ... channels. Lengths in one unit, say 0.1 mm.
@@ -16,7 +16,7 @@ struct PipeOptions {
   double outer_radius = 300;
   double bore_radius = 120;
   std::int32_t channels = 8;
-  double channel_depth = 90;   ///< in the direction of the radius; channels lie in the middle of the wall
+  double channel_depth = 90;   ///< radial; channels lie in the middle of the wall
   double channel_width = 110;  ///< along the circle through their middle
   double fillet = 25;          ///< radius of the rounded corners of a channel
   double edge = 7.5;           ///< longest edge of the boundary
@@ -43,10 +43,10 @@ struct FanOptions {
 };
 [[nodiscard]] Pslg generate_fan(const FanOptions& options);
 
-/// A rectangle of height 1 into which thin slits are cut from above. Markers: 1 rectangle, 2 slits.
+/// A rectangle of height 1 with thin slits cut into it from above. Markers: 1 rectangle, 2 slits.
 struct CombOptions {
   std::int32_t slits = 40;
-  double pitch = 0.1;   ///< distance of the slits
+  double pitch = 0.1;   ///< distance between slits
   double width = 1e-3;  ///< of a slit
   double depth = 0.9;
 };
@@ -90,7 +90,7 @@ struct RandomPointsOptions {
 struct BayOptions {
   double width = 60e3;
   double height = 90e3;
-  double resolution = 100;  ///< about the distance of the coastline's points
+  double resolution = 100;  ///< approximate distance between points of the coast
   double roughness = 0.5;   ///< 0: smooth coast, 1: very ragged
   std::uint64_t seed = 1;
 };

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kLand = 1.5;            // value of a point far from water
 constexpr std::size_t kLeastIsland = 5;  // grid points
-constexpr std::size_t kFrameStride = 8;  // every so many points of the straight frame are kept
+constexpr std::size_t kFrameStride = 8;  // of the points of the straight frame, one in so many is kept
 
-/// A place of a river's middle line.
+/// A point of a river's center line.
 struct Reach {
   Point at;
   double half_width = 0;
@@ -61,7 +61,7 @@ class Rivers {
   std::vector<Reach> reaches_;
 };
 
-// Lowers the grid to (distance to the middle of the river) / (half its width) - 1.
+// Lowers the grid to (distance to the center line of the river) / (half its width) - 1.
 void carve(Grid& grid, const Reach& reach) {
   const double radius = (kLand + 1) * reach.half_width;
   const auto first = [&](double v) {
@@ -91,7 +91,7 @@ Grid make_grid(const BayOptions& o) {
 }
 
 /// Below zero in the water: rivers and open sea, their shores displaced in proportion to the width of the water. On
-/// most of the grid only the sign counts, and a few octaves of noise settle it.
+/// most of the grid only the sign matters, and a few octaves of noise decide it.
 class Terrain {
  public:
   explicit Terrain(const BayOptions& o)
@@ -117,7 +117,7 @@ class Terrain {
   }
 
  private:
-  /// What is the same whatever the shore's noise is.
+  /// What does not depend on the noise of the shore.
   struct Place {
     double base;  ///< the value without noise
     Point q;      ///< where noise is looked up
@@ -142,7 +142,7 @@ class Terrain {
     return at.base + 2 * o_.roughness * shore + 10 * o_.roughness * std::max(0.0, shoal - kShoal);
   }
 
-  /// Any value of the right sign, or the value itself if the sign is hard to tell.
+  /// Any value of the right sign, or the exact value if the sign is hard to tell.
   void settle(std::size_t i) {
     const Place at = place(i);
     const GradientNoise::Range shore = noise_.fractal_range(at.q, std::min(2, octaves_), octaves_, gain());
@@ -159,7 +159,7 @@ class Terrain {
     }
   }
 
-  /// Whether a curve passes beside the point, which then depends on its value.
+  /// Whether a curve passes next to the point, so that its exact value matters.
   [[nodiscard]] bool at_shore(std::size_t i) const {
     const std::size_t column = i % grid_.columns, row = i / grid_.columns;
     const auto differs = [&](std::size_t k) { return grid_.negative(k) != grid_.negative(i); };
@@ -184,7 +184,7 @@ bool on_one_line(const Point& a, const Point& b, const Point& c) {
   return (a.x == b.x && b.x == c.x) || (a.y == b.y && b.y == c.y);
 }
 
-// The frame is straight: most of its vertices say nothing.
+// The frame is straight: most of its vertices are redundant.
 ContourLoop thinned(const ContourLoop& loop) {
   ContourLoop result{{}, loop.outside};
   const std::size_t n = loop.vertices.size();

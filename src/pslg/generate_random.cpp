@@ -69,8 +69,8 @@ class CellTree {
 };
 
 // Walks around the tree, counterclockwise, on a grid twice as fine: every quarter of every cell is visited once.
-// Quarters are numbered south-west, south-east, north-east, north-west; the way from one to the next leads along a side
-// of the cell, or through it where the tree goes on.
+// Quarters are numbered south-west, south-east, north-east, north-west; the walk from one to the next follows a side
+// of the cell, or crosses it where the tree continues.
 Chain outline(const CellTree& tree, std::int32_t cells) {
   Chain loop;
   Cell cell;
@@ -89,8 +89,8 @@ Chain outline(const CellTree& tree, std::int32_t cells) {
   return loop;
 }
 
-// Corners stay within `jitter` of their place in each axis, and so edges within `jitter` of theirs: edges without a
-// common corner were at least 1 apart and do not meet.
+// Corners, and therefore edges, stay within `jitter` of their original place in each axis: edges without a common
+// corner were at least 1 apart and cannot meet.
 void displace(Chain& loop, double jitter, SeededRandom& random) {
   for (Point& p : loop) {
     p.x += random.uniform(-jitter, jitter);
@@ -98,7 +98,7 @@ void displace(Chain& loop, double jitter, SeededRandom& random) {
   }
 }
 
-// Up to three more vertices, in the middle of the first edges.
+// Adds up to three vertices, at the midpoints of the first edges.
 Chain with_extra(const Chain& loop, std::size_t extra) {
   Chain result;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -110,7 +110,7 @@ Chain with_extra(const Chain& loop, std::size_t extra) {
 
 using Index = std::int32_t;
 
-/// Points of the unit square by the cells of a grid, those of a cell in the order of x.
+/// Points of the unit square grouped by the cells of a grid, those of a cell in the order of x.
 std::vector<std::vector<Index>> cells_of(const std::vector<Point>& points, std::size_t side) {
   std::vector<std::vector<Index>> cells(side * side);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -152,7 +152,7 @@ Pslg generate_random_points(const RandomPointsOptions& o) {
     pslg.points.push_back({x, random.uniform()});
   }
   // Pairs of neighbors in the order of x, inside one cell: neither two of one cell nor of two cells meet. Of c cells
-  // with n points in all, at least (n - c) / 2 pairs can be had: enough with c <= 1.25 m and 4 m <= n.
+  // with n points in all, there are at least (n - c) / 2 pairs: enough with c <= 1.25 m and 4 m <= n.
   const auto side = std::max(1, static_cast<std::int32_t>(std::sqrt(1.25 * o.segments)));
   const auto cells = cells_of(pslg.points, side);
   for (std::size_t k = 0; static_cast<std::int32_t>(pslg.segments.size()) < o.segments; k += 2)

@@ -10,7 +10,7 @@
 
 namespace driftmesh {
 
-// The parameters of each generated input, by the names that users know them by: visit(name, value, what it is).
+// The parameters of each generated input by their names in options and files: visit(name, value, description).
 
 template <class Visit>
 void visit_parameters(PipeOptions& o, Visit&& visit) {
@@ -37,16 +37,16 @@ template <class Visit>
 void visit_parameters(BayOptions& o, Visit&& visit) {
   visit("width", o.width, "Width of the region, in meters");
   visit("height", o.height, "Height of the region, in meters");
-  visit("resolution", o.resolution, "About the distance of the coastline's points, in meters");
+  visit("resolution", o.resolution, "Approximate distance between points of the coast, in meters");
   visit("roughness", o.roughness, "0: smooth coast, 1: very ragged");
-  visit("seed", o.seed, "Another seed makes another bay");
+  visit("seed", o.seed, "Different seeds make different bays");
 }
 
 template <class Visit>
 void visit_parameters(FanOptions& o, Visit&& visit) {
   visit("wedges", o.wedges, "Number of angles");
   visit("angle", o.angle, "Each angle, in degrees");
-  visit("corner", o.from_corner, "From a corner and not from the center");
+  visit("corner", o.from_corner, "Start from a corner instead of the center");
 }
 
 template <class Visit>
@@ -77,21 +77,21 @@ template <class Visit>
 void visit_parameters(RandomPolygonOptions& o, Visit&& visit) {
   visit("vertices", o.vertices, "Number of vertices");
   visit("jitter", o.jitter, "Largest displacement of a corner, below 0.5; edges have length 1");
-  visit("seed", o.seed, "Another seed makes another polygon");
+  visit("seed", o.seed, "Different seeds make different polygons");
 }
 
 template <class Visit>
 void visit_parameters(RandomPointsOptions& o, Visit&& visit) {
   visit("points", o.points, "Number of points, besides the corners of the square");
   visit("segments", o.segments, "Number of segments, at most a quarter of the points");
-  visit("seed", o.seed, "Another seed makes other points");
+  visit("seed", o.seed, "Different seeds make different points");
 }
 
 /// The names of all inputs that can be generated.
 [[nodiscard]] std::vector<std::string> generator_names();
 
-/// A generated input by its name and the values of some of its parameters. Throws InputError for names that are not
-/// known (with the nearest one), values that are not numbers, and what the generator refuses.
+/// A generated input by its name and the values of some of its parameters. Throws InputError for unknown names (with
+/// the nearest known one), values that are not numbers, and parameters that the generator refuses.
 [[nodiscard]] Pslg generate(const std::string& name, const std::map<std::string, std::string>& parameters);
 
 }  // namespace driftmesh

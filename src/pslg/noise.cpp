@@ -12,7 +12,7 @@ double fade(double t) {
   return t * t * t * (t * (6 * t - 15) + 10);
 }
 
-/// Without the call that std::floor is on processors of any age.
+/// Avoids std::floor, which is a library call unless the compiler may assume SSE4.1.
 std::int64_t floor_of(double t) {
   const auto whole = static_cast<std::int64_t>(t);
   return whole - (static_cast<double>(whole) > t ? 1 : 0);
@@ -47,7 +47,7 @@ double GradientNoise::operator()(const Point& p) const {
   return mix(south, north, fade(dy));
 }
 
-// Octaves are shifted, else all would be zero at the same points.
+// Octaves are shifted; otherwise all would be zero at the same points.
 double GradientNoise::octave(int i, const Point& p) const {
   const double frequency = static_cast<double>(std::int64_t{1} << i);
   return (*this)({p.x * frequency + 17.3 * i, p.y * frequency - 9.7 * i});

@@ -14,16 +14,16 @@ class GradientNoise {
  public:
   explicit GradientNoise(SeededRandom& random);
   [[nodiscard]] double operator()(const Point& p) const;
-  /// A sum of `octaves` noises, each of twice the frequency and `gain` times the height of the one before.
+  /// A sum of `octaves` noises, each with twice the frequency and `gain` times the amplitude of the one before.
   [[nodiscard]] double fractal(const Point& p, int octaves, double gain) const;
 
-  /// Where a fractal sum may lie once some of its octaves are known.
+  /// The range of a fractal sum of which some octaves are known.
   struct Range {
     double low, high;
   };
   /// Adds octaves of fractal() until it is certain that the sum is below `bound`, or all `octaves` are known.
   [[nodiscard]] bool fractal_is_below(double bound, const Point& p, int octaves, double gain) const;
-  /// What the first `known` octaves tell about fractal().
+  /// The range of fractal() after its first `known` octaves.
   [[nodiscard]] Range fractal_range(const Point& p, int known, int octaves, double gain) const;
 
  private:

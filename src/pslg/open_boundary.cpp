@@ -26,7 +26,7 @@ OpenBoundary find_open_boundary(const Pslg& pslg) {
     ++degree[s.a];
     ++degree[s.b];
     const std::int32_t a = root(parent, s.a), b = root(parent, s.b);
-    result.has_loop = result.has_loop || a == b;  // joins what is joined already
+    result.has_loop = result.has_loop || a == b;  // its ends were connected already
     parent[a] = b;
   }
   for (std::size_t i = 0; i < degree.size(); ++i)
@@ -37,7 +37,8 @@ OpenBoundary find_open_boundary(const Pslg& pslg) {
 std::string describe_open_boundary(const Pslg& pslg, const RepairReport& report) {
   const OpenBoundary boundary = find_open_boundary(pslg);
   if (pslg.segments.empty()) return "there are no segments that bound an area";
-  if (boundary.open_ends.empty()) return "every chain of segments is closed, but the holes cover all that they enclose";
+  if (boundary.open_ends.empty())
+    return "every chain of segments is closed, but the holes remove everything they enclose";
   std::string text =
       boundary.has_loop ? "the boundary is open at " : "no segments form a closed boundary; it is open at ";
   const std::size_t named = std::min(boundary.open_ends.size(), kMaxNamed);

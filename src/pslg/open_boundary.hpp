@@ -14,11 +14,11 @@ struct OpenBoundary {
   std::vector<std::int32_t> open_ends;  ///< points that are an end of exactly one segment
 };
 
-/// `pslg` was repaired.
+/// `pslg` must have been repaired.
 [[nodiscard]] OpenBoundary find_open_boundary(const Pslg& pslg);
 
-/// A sentence for the error that carving left nothing: which chains are open and where, with the vertex numbers of the
-/// user's file (`report` is that of the repair), or that every chain is closed and so holes cover all.
+/// The explanation for the error that carving left nothing: which chains are open and where, with the vertex numbers of
+/// the user's file (`report` is that of the repair), or that all chains are closed but the holes remove everything.
 [[nodiscard]] std::string describe_open_boundary(const Pslg& pslg, const RepairReport& report);
 
 }  // namespace driftmesh

@@ -17,7 +17,7 @@
 namespace driftmesh {
 namespace {
 
-// Of a piece that comes from no segment of the input.
+// The origin of a piece that comes from no segment of the input.
 constexpr std::int32_t kHullEdge = -1, kDropped = -2;
 
 template <class Describe>
@@ -25,8 +25,8 @@ void note(RepairItem& item, Describe describe) {
   if (item.count++ < RepairItem::kMaxExamples) item.examples.push_back(describe());
 }
 
-/// Accepts the boxes that come close to a segment: those that meet its box and lie not wholly on one side of its line.
-/// Rounding only lets through more.
+/// Accepts the boxes near a segment: those that meet its bounding box and do not lie entirely on one side of its line.
+/// Rounding errors can only accept more.
 class NearSegment {
  public:
   NearSegment(const Point& a, const Point& b)
@@ -50,9 +50,10 @@ class NearSegment {
   Box box_;
 };
 
-/// Works in rounds. Each finds, for segments and points that are new since the last one, which points lie on which
-/// segments and which segments cross, then splits. New points are rounded, so pieces may cross or touch what the whole
-/// segment did not: the next round sees to it. A round that finds nothing proves that the graph is planar.
+/// Works in rounds. Each round finds, for segments and points that are new since the last one, which points lie on
+/// which segments and which segments cross, then splits these. New points are rounded, so pieces may cross or touch
+/// what the whole segment did not; the next round handles that. A round that finds nothing proves that the graph is
+/// planar.
 class Planarizer {
  public:
   Planarizer(Pslg& pslg, const std::string& file, RepairReport& report)
@@ -71,7 +72,7 @@ class Planarizer {
   }
 
  private:
-  /// A segment on its way: the pieces of segment `origin` of the input.
+  /// A segment in work: a piece of segment `origin` of the input.
   struct Piece {
     Pslg::Segment segment;
     std::int32_t origin = 0;  // kHullEdge: an edge of the hull
@@ -192,13 +193,13 @@ void Planarizer::start_segments() {
   fresh_exists_ = !pieces_.empty();
 }
 
-// Points without segments mean their hull. A point may lie within rounding error of its edges, as of any other.
+// Points without segments stand for their convex hull. Like any segment, its edges may pass close to other points.
 void Planarizer::start_hull() {
   for (const Pslg::Segment& s : convex_hull(points())) pieces_.push_back({s, kHullEdge, true});
   fresh_exists_ = !pieces_.empty();
 }
 
-// Of pieces that join the same two points the first stays.
+// Of several pieces between the same two points, keeps the first.
 void Planarizer::keep_once(RepairItem& item) {
   struct Key {
     std::int32_t low, high, piece;
@@ -232,7 +233,7 @@ void Planarizer::keep_once(RepairItem& item) {
   std::erase_if(pieces_, [](const Piece& piece) { return piece.origin == kDropped; });
 }
 
-// The points that are new since the last tree.
+// Indexes the points that are new since the last tree.
 void Planarizer::add_point_tree() {
   const std::size_t first = points_in_trees();
   if (first == points().size()) return;

@@ -7,7 +7,7 @@
 
 namespace driftmesh {
 
-/// The part of repair() that makes points and segments planar; indices and coordinates were checked.
+/// The part of repair() that makes points and segments planar; indices and coordinates have been checked.
 void planarize(Pslg& pslg, const std::string& file, RepairReport& report);
 
 }  // namespace driftmesh

@@ -8,13 +8,14 @@
 
 namespace driftmesh {
 
-/// A growing set of points no two of which are close (see closeness.hpp). Constant expected time a point, whatever the
-/// distribution: cells are 64 times as large as what counts as close at their place.
+/// A growing set of points no two of which are close (see closeness.hpp). Constant expected time per point for
+/// any distribution: cells are 64 times as large as what counts as close there.
 class PointWelder {
  public:
   explicit PointWelder(std::size_t expected);
 
-  /// The index of a point of the set that `p` is close to (an equal one if there is one), or of `p` itself, added now.
+  /// The index of a point of the set that `p` is close to (an equal one if there is one); otherwise adds `p` and
+  /// returns its index.
   std::int32_t add(const Point& p);
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
 

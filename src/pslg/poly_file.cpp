@@ -58,7 +58,7 @@ void scan_holes(RecordScanner& scanner, Pslg& pslg) {
   }
 }
 
-// The section may be missing altogether.
+// The section may be missing entirely.
 void scan_regions(RecordScanner& scanner, Pslg& pslg) {
   if (!scanner.next_record()) return;
   const std::int32_t count = scanner.header("the number of regions");
@@ -80,8 +80,8 @@ Pslg parse_poly(const std::string& file, std::string_view text) {
   NodeTable nodes = scan_nodes(scanner);
   if (nodes.points.empty()) {
     if (is_standard_stream(file))
-      throw InputError({file, 0}, "leaves its vertices to a .node file, and there is none beside standard input",
-                       "put the vertices into the .poly, or name it");
+      throw InputError({file, 0}, "leaves its vertices to a .node file, but standard input has none beside it",
+                       "include the vertices, or give the path of the .poly file");
     const std::string node_file = std::filesystem::path(file).replace_extension(".node").string();
     nodes = read_node(node_file);
     require_points(node_file, nodes);

@@ -7,30 +7,37 @@
 
 namespace driftmesh {
 
-/// A planar straight line graph: the input of the mesher. Plain data; nothing here is checked (see check and
-/// repair).
+/// A planar straight line graph: the points, segments, holes and regions that describe a domain to be meshed. The
+/// domain is what the segments enclose, without the holes; without segments it is the convex hull of the points.
+/// Segments may also lie inside the domain, and become edges of the mesh there.
+///
+/// Plain data in the format of Triangle's .poly files. Nothing is checked here: repair() reports or throws what is
+/// wrong (indices and coordinates out of range, duplicates, crossings) before anything is meshed. Coordinates are in
+/// one unit of the user's; areas are in its square. Magnitudes besides 0 must lie in 7.6e-37 to 1.7e72 (see
+/// predicates.hpp).
 struct Pslg {
   struct Segment {
-    std::int32_t a = 0;  ///< index into points
-    std::int32_t b = 0;  ///< index into points
-    std::int32_t marker = 0;
+    std::int32_t a = 0;       ///< index into points
+    std::int32_t b = 0;       ///< index into points
+    std::int32_t marker = 0;  ///< passed on to the subsegments that the segment is split into; any value
     friend bool operator==(const Segment&, const Segment&) = default;
   };
   /// A seed of a region: everything reachable from `at` without crossing a segment.
   struct Region {
-    Point at;
-    double attribute = 0;
-    double max_area = 0;  ///< <= 0: no bound of its own
+    Point at;              ///< not on a segment
+    double attribute = 0;  ///< passed on to the triangles of the region; any value
+    double max_area = 0;   ///< bound on the area of its triangles; <= 0: none of its own
     friend bool operator==(const Region&, const Region&) = default;
   };
 
   std::vector<Point> points;
   std::vector<std::int32_t> point_markers;  ///< empty, or one for each point
   std::vector<double> attributes;           ///< attributes_per_point values for each point, point by point
-  std::int32_t attributes_per_point = 0;
+  std::int32_t attributes_per_point = 0;    ///< >= 0; the mesher interpolates them at the points that it adds
   std::vector<Segment> segments;
-  std::vector<Point> holes;
-  std::vector<Region> regions;
+  std::vector<Point>
+      holes;  ///< everything reachable from one of these without crossing a segment is no part of the domain
+  std::vector<Region> regions;    ///< where several lie in one region, the last one counts
   std::int32_t first_number = 1;  ///< what files and messages call points[0]: 0 or 1
 };
 

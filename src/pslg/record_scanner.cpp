@@ -20,7 +20,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-// What the user reads on a terminal: no control bytes, no kilobytes.
+// For messages on a terminal: no control bytes, no kilobytes.
 std::string quoted(std::string_view field) {
   std::string shown = "'";
   for (const char c : field.substr(0, kMaxQuotedBytes)) shown += c > ' ' && c < '\x7f' ? c : '?';
@@ -91,7 +91,8 @@ T RecordScanner::parse(const char* what) {
   const std::string_view field = take_field();
   if (error == std::errc() && stop == at_) return value;
   if (error == std::errc::result_out_of_range && stop == at_)
-    problem(std::string(what) + " " + quoted(field) + " is too large or too small", "use a number of ordinary size");
+    problem(std::string(what) + " " + quoted(field) + " is too large or too small",
+            "use a number that double precision can represent");
   else
     problem(std::string(what) + " is " + quoted(field) + ", which is not " + kKind, "correct the field");
   return T{};

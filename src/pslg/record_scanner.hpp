@@ -10,38 +10,36 @@
 
 namespace driftmesh {
 
-/// Walks a text file of the Triangle family: records are lines of fields between blanks, '#' starts a
-/// comment, empty lines do not count. Problems are collected, so that one run shows the user the first ten of
-/// them.
+/// Reads a text file in one of Triangle's formats: records are lines of fields separated by blanks, '#' starts a
+/// comment, empty lines are skipped. Problems are collected, so that one run shows the user the first ten of them.
 class RecordScanner {
  public:
   /// `text` must outlive the scanner. A byte order mark at its start is skipped.
   RecordScanner(std::string file, std::string_view text);
 
-  /// Moves to the next line that has a field; false at the end of the file.
+  /// Advances to the next line that has a field; false at the end of the file.
   bool next_record();
-  /// Moves to the next record, or throws: "the file ends where <what> is expected; <next>".
+  /// Advances to the next record, or throws: "the file ends where <what> is expected; <next>".
   void require_record(const std::string& what, const std::string& next);
-  /// Moves to the record of element `index` of the `count` that a header announced, or throws.
+  /// Advances to the record of element `index` of the `count` that a header announced, or throws.
   void require_element(std::int32_t index, std::int32_t count, const char* what);
   /// Whether the current record has another field.
   [[nodiscard]] bool has_field();
-  /// Whether a problem was noted on the current line. Its other fields then read as 0 without further
-  /// problems.
+  /// Whether the current line has a problem. Its remaining fields then read as 0 without further problems.
   [[nodiscard]] bool broken() const { return broken_line_ == line_; }
 
-  /// The next field of the record. One that is missing, is not of this kind or is out of range is noted as a
-  /// problem that begins with `what`, and reads as 0.
+  /// The next field of the record. If it is missing, not of this kind or out of range, a problem is noted that begins
+  /// with `what`, and it reads as 0.
   std::int32_t integer(const char* what);
   double number(const char* what);  ///< finite
   Point point();                    ///< both coordinates in the range of in_coordinate_range
 
-  /// A field that announces a count or a choice from 0 to `limit`; throws when it is anything else.
+  /// A field that announces a count or a choice from 0 to `limit`; throws if it is anything else.
   std::int32_t header(const char* what, std::int32_t limit = std::numeric_limits<std::int32_t>::max());
-  /// Like header(); 0 when the record has no more fields.
+  /// Like header(); 0 if the record has no more fields.
   std::int32_t optional_header(const char* what, std::int32_t limit);
-  /// Throws unless the rest of the file can hold `count` records of `fields` fields: no memory is set aside
-  /// for a number that only claims to be true.
+  /// Throws unless the rest of the file can hold `count` records of `fields` fields: no memory is
+  /// reserved on the word of a header.
   void require_room(std::int32_t count, const char* what, std::int32_t fields);
 
   /// Notes a problem on the current line; throws all problems when there are too many.

@@ -17,7 +17,7 @@ bool usable(const Point& p) {
   return in_coordinate_range(p.x) && in_coordinate_range(p.y);
 }
 
-// What the readers guarantee and a program that fills a Pslg may miss.
+// What readers guarantee but a program that fills a Pslg may get wrong.
 void check_values(const Pslg& pslg, const std::string& file) {
   const auto fail = [&](const std::string& what, const char* next) { throw InputError({file, 0}, what, next); };
   const std::size_t n = pslg.points.size();
@@ -34,20 +34,20 @@ void check_values(const Pslg& pslg, const std::string& file) {
     const Pslg::Segment& s = pslg.segments[i];
     if (to_index(s.a) >= n || to_index(s.b) >= n)
       fail(segment_name(pslg, static_cast<std::int32_t>(i)) + " names a vertex that does not exist",
-           "there are as many vertices as points");
+           "vertices are numbered as the points are");
   }
 }
 
 void check_spans_plane(const Pslg& pslg, const std::string& file) {
   if (pslg.points.size() < 3)
     throw InputError({file, 0}, "has " + std::to_string(pslg.points.size()) + " different vertices",
-                     "a mesh needs three or more");
+                     "a mesh needs at least three");
   for (const Point& p : pslg.points)
     if (orient2d(pslg.points[0], pslg.points[1], p) != 0) return;
   throw InputError({file, 0}, "all vertices lie on one line", "a mesh needs an area");
 }
 
-/// Answers where a seed lies among the segments of a planar graph.
+/// Tells where a seed lies among the segments of a planar graph.
 class SeedCheck {
  public:
   explicit SeedCheck(const Pslg& pslg) : pslg_(pslg), tree_(boxes(pslg)) {
@@ -63,8 +63,8 @@ class SeedCheck {
     return found;
   }
 
-  /// Whether nothing lies between `p` and infinity in one of the four axis directions, so that no boundary holds it.
-  /// A point deep in an inlet of the outside may escape it.
+  /// Whether nothing lies between `p` and infinity in one of the four axis directions, so that no boundary encloses it.
+  /// Not every point outside is found: one deep in an inlet may be hidden in all four.
   [[nodiscard]] bool certainly_outside(const Point& p) const {
     if (!bounds_.contains(p)) return true;
     return sees_nothing(p, {bounds_.high.x, p.y}) || sees_nothing(p, {bounds_.low.x, p.y}) ||
@@ -87,7 +87,7 @@ class SeedCheck {
                  });
   }
 
-  // A segment whose box the ray meets is met by the ray itself unless both ends of the ray lie on one side of it.
+  // The ray meets a segment whose box it meets unless both ends of the ray lie on the same side of the segment.
   [[nodiscard]] bool sees_nothing(const Point& p, const Point& far) const {
     bool nothing = true;
     visit(Box::around(p, far), [&](std::int32_t, const Point& a, const Point& b) {
@@ -106,7 +106,7 @@ void check_seed(const SeedCheck& check, const Point& seed, const std::string& na
                 const char* effect, RepairReport& report) {
   if (!usable(seed)) throw InputError({file, 0}, name + " is outside the range of coordinates", "correct it");
   if (check.segment_at(seed) >= 0)
-    throw InputError({file, 0}, name + " lies on a segment", "move it to the side that is meant");
+    throw InputError({file, 0}, name + " lies on a segment", "move it to the intended side");
   if (check.certainly_outside(seed)) report.warnings.push_back(name + " lies outside the domain; " + effect);
 }
 

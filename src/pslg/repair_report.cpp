@@ -16,10 +16,10 @@ std::array<NamedItem, 9> items_of(const RepairReport& r) {
            {&r.zero_length_segments, "segments of length zero dropped"},
            {&r.duplicate_segments, "duplicate segments dropped"},
            {&r.points_on_segments, "segments split at a vertex on them"},
-           {&r.points_close_segments, "segments led through a vertex within rounding error of them"},
-           {&r.crossings, "crossings of segments made vertices"},
+           {&r.points_close_segments, "segments bent to pass through a vertex within rounding error"},
+           {&r.crossings, "crossings of segments turned into vertices"},
            {&r.overlaps, "shared pieces of overlapping segments kept once"},
-           {&r.marker_conflicts, "markers of merged segments that differed, the first kept"}}};
+           {&r.marker_conflicts, "conflicting markers of merged segments, the first kept"}}};
 }
 
 }  // namespace

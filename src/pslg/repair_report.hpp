@@ -20,19 +20,19 @@ struct RepairReport {
   RepairItem zero_length_segments;    ///< dropped
   RepairItem duplicate_segments;      ///< dropped
   RepairItem points_on_segments;      ///< segments split at a vertex in their interior
-  RepairItem points_close_segments;   ///< segments led through a vertex within rounding error of them
+  RepairItem points_close_segments;   ///< segments bent to pass through a vertex within rounding error of them
   RepairItem crossings;               ///< both segments split at a new vertex
   RepairItem overlaps;                ///< pieces that two overlapping segments share, kept once
-  RepairItem marker_conflicts;        ///< merged segments with different markers: the first one's stays
-  std::vector<std::string> warnings;  ///< what was left as it is and may not be meant
+  RepairItem marker_conflicts;        ///< merged segments with different markers; the first marker is kept
+  std::vector<std::string> warnings;  ///< what was left unchanged but may be unintended
 
-  /// For each point of the result its index in the input, -1 for a new one.
+  /// For each point of the result, its index in the input; -1 for a new one.
   std::vector<std::int32_t> original_point;
 
   /// Whether repair() changed anything.
   [[nodiscard]] bool changed() const;
-  /// A line for each kind of repair that was made, with its examples, and one for each of the first warnings; empty
-  /// when there is none.
+  /// One line for each kind of repair that was made, with examples, and one for each of the first warnings; empty if
+  /// there are none.
   [[nodiscard]] std::string summary() const;
 };
 

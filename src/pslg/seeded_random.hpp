@@ -5,7 +5,7 @@
 
 namespace driftmesh {
 
-/// Random numbers that are the same on every platform (the standard's distributions are not).
+/// Random numbers that are the same on every platform (those of the standard's distributions are not).
 class SeededRandom {
  public:
   explicit SeededRandom(std::uint64_t seed) : engine_(seed) {}
@@ -14,7 +14,7 @@ class SeededRandom {
   /// In [0, 1), a multiple of 2^-53.
   [[nodiscard]] double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   [[nodiscard]] double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// In [0, count). The bias, below count / 2^64, does not matter here.
+  /// In [0, count). The bias, below count / 2^64, is negligible here.
   [[nodiscard]] std::uint64_t below(std::uint64_t count) { return bits() % count; }
 
  private:

@@ -21,14 +21,14 @@ NodeHeader scan_node_header(RecordScanner& scanner) {
   NodeHeader header;
   header.count = scanner.header("the number of vertices");
   if (scanner.has_field() && scanner.header("the dimension") != 2)
-    scanner.fail("the dimension is not 2", "only plane input can be meshed");
+    scanner.fail("the dimension is not 2", "only two-dimensional input can be meshed");
   header.attributes = scanner.optional_header("the number of attributes", kMaxAttributes);
   header.has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
   scanner.require_room(header.count, "vertices", 3 + header.attributes + (header.has_markers ? 1 : 0));
   return header;
 }
 
-// The number that starts a line of the vertex section.
+// Scans the number at the start of a line of the vertex section.
 void scan_node_number(RecordScanner& scanner, std::int32_t index, std::int32_t& first_number) {
   const std::int32_t number = scanner.integer("the vertex number");
   if (scanner.broken()) return;
@@ -41,7 +41,7 @@ void scan_node_number(RecordScanner& scanner, std::int32_t index, std::int32_t& 
   if (number == expected) return;
   const bool repeated = number >= first_number && number < expected;
   scanner.problem("vertex number " + std::to_string(number) + (repeated ? " appears twice" : " is out of order"),
-                  "vertices are numbered one by one and " + std::to_string(expected) + " comes here");
+                  "vertices are numbered consecutively and " + std::to_string(expected) + " is next");
 }
 
 void scan_attributes(RecordScanner& scanner, std::int32_t count, std::vector<double>& out) {

@@ -29,11 +29,11 @@ struct EleTable {
   std::int32_t attributes_per_triangle = 0;
 };
 
-// All readers: '#' comments, any blanks, CRLF; fields beyond those announced are ignored. Throw FileError
-// when a file cannot be read and InputError with up to ten messages "file:line: what; next step" for what is
-// wrong in it.
+// All readers accept '#' comments, any blanks and CRLF, and ignore fields beyond those announced. They throw FileError
+// if a file cannot be read, and InputError with up to ten messages "file:line: what; next step" for what is wrong in
+// it.
 
-/// The first point's number, 0 or 1, decides the numbering; the others must follow one by one.
+/// The first point has number 0 or 1; the others must follow consecutively.
 [[nodiscard]] NodeTable read_node(const std::string& path);
 [[nodiscard]] NodeTable parse_node(const std::string& file, std::string_view text);
 
@@ -48,8 +48,8 @@ struct EleTable {
 
 // Parts that the .poly reader shares.
 
-/// The node section that .node and .poly files begin with; `scanner` has not read anything yet. Problems stay
-/// noted in the scanner.
+/// The node section that .node and .poly files begin with; `scanner` has not read anything yet. Problems are
+/// left in the scanner.
 [[nodiscard]] NodeTable scan_nodes(RecordScanner& scanner);
 /// A field that names a vertex, as an index from 0.
 [[nodiscard]] std::int32_t scan_vertex(RecordScanner& scanner, std::size_t point_count, std::int32_t first_number);

@@ -130,14 +130,15 @@ TEST_CASE("every malformed file gets its message") {
        "size"},
       {"count_negative", ".poly:1: the number of vertices is -3; expected 0 to 2147483647"},
       {"count_not_integer", ".poly:1: the number of vertices is '3.5', which is not a whole number; correct the field"},
-      {"three_dimensions", ".poly:1: the dimension is not 2; only plane input can be meshed"},
+      {"three_dimensions", ".poly:1: the dimension is not 2; only two-dimensional input can be meshed"},
       {"attribute_bomb", ".poly:1: the number of attributes is 2000000; expected 0 to 1000"},
       {"nan_coordinate", ".poly:3: x is not finite; replace NaN and infinity by numbers or remove the record"},
       {"infinite_coordinate", ".poly:3: y is not finite; replace NaN and infinity by numbers or remove the record"},
       {"huge_coordinate",
        ".poly:3: x is outside the range of coordinates; scale the input: besides 0, magnitudes from 7.6e-37 to 1.7e72 "
        "are supported"},
-      {"overflowing_coordinate", ".poly:3: x '1e400' is too large or too small; use a number of ordinary size"},
+      {"overflowing_coordinate",
+       ".poly:3: x '1e400' is too large or too small; use a number that double precision can represent"},
       {"text_coordinate", ".poly:3: x is '1,5', which is not a number; correct the field"},
       {"missing_coordinate",
        ".poly:3: y is missing; add it or correct the number of columns that the header announces"},
@@ -147,10 +148,10 @@ TEST_CASE("every malformed file gets its message") {
        ".poly:3: the boundary marker is missing; add it or correct the number of columns that the header "
        "announces"},
       {"first_number_two", ".poly:2: the first vertex has number 2; number vertices from 0 or from 1"},
-      {"duplicate_number", ".poly:4: vertex number 2 appears twice; vertices are numbered one by one and 3 comes here"},
+      {"duplicate_number", ".poly:4: vertex number 2 appears twice; vertices are numbered consecutively and 3 is next"},
       {"out_of_order",
-       ".poly:3: vertex number 3 is out of order; vertices are numbered one by one and 2 comes here\n"
-       ".poly:4: vertex number 2 appears twice; vertices are numbered one by one and 3 comes here"},
+       ".poly:3: vertex number 3 is out of order; vertices are numbered consecutively and 2 is next\n"
+       ".poly:4: vertex number 2 appears twice; vertices are numbered consecutively and 3 is next"},
       {"vertex_out_of_range", ".poly:8: vertex 4 does not exist; vertices are numbered 1 to 3"},
       {"vertex_zero_of_one_based", ".poly:6: vertex 0 does not exist; vertices are numbered 1 to 3"},
       {"vertex_not_integer", ".poly:6: a vertex number is '2.5', which is not a whole number; correct the field"},

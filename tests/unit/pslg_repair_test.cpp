@@ -101,7 +101,7 @@ TEST_CASE("a segment is split at points on it, in order, and keeps its marker") 
   CHECK(pslg.segments == Segments{{0, 5, 1}, {5, 4, 1}, {4, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}});
 }
 
-TEST_CASE("a segment that misses a point by rounding is led through it") {
+TEST_CASE("a segment that misses a point by rounding is bent to pass through it") {
   Pslg pslg;
   const double third = 1.0 / 3;
   pslg.points = {{0, 0}, {1, 0.7}, {third, third * 0.7}, {0, 1}};
@@ -123,7 +123,7 @@ TEST_CASE("points without segments get their hull, which is no change") {
   CHECK(report.summary().empty());
 }
 
-TEST_CASE("the hull is led through points within rounding error of it, and that is reported") {
+TEST_CASE("the hull is bent to pass through points within rounding error of it, and that is reported") {
   Pslg pslg;
   pslg.points = {{0, 0}, {1.5, 0}, {1.5, 1.1}, {0.5, 1.3}, {0, 1.4000000000000001}};
   const RepairReport report = repair(pslg);
@@ -186,20 +186,20 @@ TEST_CASE("seeds that are certainly outside are reported, others are not") {
 TEST_CASE("what has no clear intent is an error") {
   Pslg pslg = square();
   pslg.holes = {{2, 0}};
-  CHECK(error_of(pslg) == "in.poly: hole 1 at (2, 0) lies on a segment; move it to the side that is meant");
+  CHECK(error_of(pslg) == "in.poly: hole 1 at (2, 0) lies on a segment; move it to the intended side");
   pslg = square();
   pslg.points[3].x = std::numeric_limits<double>::quiet_NaN();
   CHECK(error_of(pslg) == "in.poly: vertex 4 (nan, 4) is outside the range of coordinates; scale the input");
   pslg = square();
   pslg.segments[1].b = 4;
   CHECK(error_of(pslg) ==
-        "in.poly: segment 2 names a vertex that does not exist; there are as many vertices as points");
+        "in.poly: segment 2 names a vertex that does not exist; vertices are numbered as the points are");
   pslg = square();
   pslg.point_markers = {1};
   CHECK(error_of(pslg) == "in.poly: there are 1 markers for 4 points; give none or one for each");
   pslg = {};
   pslg.points = {{0, 0}, {1, 1}, {0, 0}};
-  CHECK(error_of(pslg) == "in.poly: has 2 different vertices; a mesh needs three or more");
+  CHECK(error_of(pslg) == "in.poly: has 2 different vertices; a mesh needs at least three");
   pslg.points = {{0, 0}, {1, 1}, {3, 3}, {2, 2}};
   CHECK(error_of(pslg) == "in.poly: all vertices lie on one line; a mesh needs an area");
 }
@@ -231,7 +231,7 @@ TEST_CASE("an open boundary is found and described") {
   CHECK(describe_open_boundary(pslg, report) ==
         "no segments form a closed boundary; it is open at vertex 1 (0, 0) and vertex 4 (0, 4)");
   CHECK(describe_open_boundary(square(), report) ==
-        "every chain of segments is closed, but the holes cover all that they enclose");
+        "every chain of segments is closed, but the holes remove everything they enclose");
   pslg.segments.clear();
   CHECK(describe_open_boundary(pslg, report) == "there are no segments that bound an area");
 }
