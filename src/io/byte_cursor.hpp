@@ -10,8 +10,8 @@
 
 namespace driftmesh {
 
-/// The bytes of a file in memory, read from front to back. No length found in the file is believed before the bytes
-/// for it are known to be there, so a damaged file costs an InputError and no memory.
+/// The bytes of a file in memory, read from front to back. A length found in the file is trusted only after checking
+/// that the file has that many bytes, so a damaged file causes an InputError and not a huge allocation.
 class ByteCursor {
  public:
   ByteCursor(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes) {}

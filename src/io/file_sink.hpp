@@ -16,8 +16,8 @@ namespace driftmesh {
 
 static_assert(std::endian::native == std::endian::little, "binary mesh files are written in the machine's byte order");
 
-/// Numbers on their way into one file, as text or as raw bytes, gathered into large writes. The file appears under
-/// its name when commit() is called. Errors: FileError.
+/// Writes numbers to a file, as text or as raw bytes, in large blocks. The file appears under its name when commit() is
+/// called. Errors: FileError.
 class FileSink {
  public:
   explicit FileSink(const std::string& path) : file_(path), buffer_(std::make_unique<char[]>(kBytes)) {}
@@ -40,7 +40,7 @@ class FileSink {
     std::memcpy(room(sizeof(T)), &value, sizeof(T));
     used_ += sizeof(T);
   }
-  /// The bytes of all values, past the buffer when they are many.
+  /// The bytes of all values; many of them bypass the buffer.
   template <class T>
   void raw_array(std::span<const T> values) {
     bytes(values.data(), values.size_bytes());

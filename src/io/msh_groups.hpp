@@ -10,18 +10,18 @@ namespace driftmesh {
 
 /// The name of the one surface group of a mesh without regions.
 inline constexpr std::string_view kDomainName = "domain";
-// The names of the views that say which subdomain and which rank a triangle was made in.
+// The names of the views with the subdomain and the rank in which each triangle was made.
 inline constexpr std::string_view kSubdomainView = "subdomain";
 inline constexpr std::string_view kRankView = "rank";
 
-// The names of physical groups hold the exact value: a tag cannot, being a positive integer.
+// The names of physical groups hold the exact value, which a tag, a positive integer, cannot.
 [[nodiscard]] std::string marker_group_name(std::int32_t marker);
 [[nodiscard]] std::string region_group_name(double region);
 [[nodiscard]] std::optional<std::int32_t> marker_of_group_name(std::string_view name);
 [[nodiscard]] std::optional<double> region_of_group_name(std::string_view name);
 
 /// Tags for groups of the given distinct values: the value itself where that is an integer from 1 to the largest
-/// int32, otherwise the smallest tags that are left.
+/// int32, otherwise the smallest unused tags.
 [[nodiscard]] std::vector<std::int32_t> group_tags(const std::vector<double>& values);
 
 }  // namespace driftmesh

@@ -12,7 +12,7 @@ namespace driftmesh {
 
 // The two encodings of a .msh file behind one interface, so that each section is read by one function:
 //   integer()  an int of the format       size()  a size_t of the format       real()  a double
-// Each throws InputError where the file ends or holds something else.
+// Each throws InputError if the file ends or holds something else there.
 
 /// Numbers as bytes.
 class BinaryMshInput {
@@ -26,7 +26,7 @@ class BinaryMshInput {
   ByteCursor& cursor_;
 };
 
-/// Numbers as text between blanks.
+/// Numbers as text separated by blanks.
 class TextMshInput {
  public:
   TextMshInput(const std::string& path, ByteCursor& cursor) : path_(path), cursor_(cursor) {}

@@ -74,7 +74,7 @@ class MshParser {
       fail("has sizes of " + std::to_string(size_bytes) + " bytes, not 8", "write it on a 64-bit system");
     (void)cursor_.take_line();
     if (is_binary_ && cursor_.take<std::int32_t>("$MeshFormat") != 1)
-      fail("is of the other byte order", "convert it to ASCII first");
+      fail("has the other byte order", "convert it to ASCII first");
   }
 
   void parse_physical_names() {
@@ -135,7 +135,7 @@ class MshParser {
     const double z = input.real();
     for (std::int32_t i = 0; i < parameters; ++i) (void)input.real();
     if (raw_.nodes.empty()) z_ = z;
-    if (z != z_) fail("is not planar: its nodes differ in z", "only meshes of the plane are read");
+    if (z != z_) fail("is not planar: its nodes differ in z", "only planar meshes can be read");
     raw_.nodes.push_back({x, y});
   }
 
@@ -186,7 +186,7 @@ class MshParser {
   [[noreturn]] void fail_element_type(std::int32_t type) const {
     const bool is_second_order = type == 8 || type == 9;
     fail("has elements of Gmsh's type " + std::to_string(type) + ", neither triangles (2) nor lines (1)",
-         is_second_order ? "save the mesh in first order" : "only triangle meshes are read");
+         is_second_order ? "save the mesh in first order" : "only triangle meshes can be read");
   }
 
   struct View {
@@ -210,7 +210,7 @@ class MshParser {
     return view;
   }
 
-  // Views that are not attributes of ours are passed over.
+  // Skips views that are not attributes written by write_msh.
   template <class Input>
   void parse_node_data(Input& input) {
     const View view = parse_view_header("$NodeData");

@@ -47,7 +47,7 @@ struct RawMsh {
   std::optional<std::vector<Marker>> point_markers;
 };
 
-/// Reads the sections of a file of format 4.1, ASCII or binary. Tags may name what does not exist. Errors: InputError.
+/// Reads the sections of a file of format 4.1, ASCII or binary. Tags are not checked for existence. Errors: InputError.
 [[nodiscard]] RawMsh parse_msh_sections(const std::string& path, std::string_view bytes);
 
 }  // namespace driftmesh

@@ -79,7 +79,7 @@ class MshAssembler {
     }
   }
 
-  // Only if each triangle has one; values of lines are passed over.
+  // Only if each triangle has one; values of lines are skipped.
   [[nodiscard]] std::vector<std::int32_t> values_of_triangles(const std::vector<RawMsh::ElementValue>& values) const {
     if (values.empty()) return {};
     std::vector<std::uint64_t> tags = raw_.triangles.tags;
@@ -94,7 +94,7 @@ class MshAssembler {
     return result;
   }
 
-  // The marker or region of each entity that is used: what the name of its group says, otherwise the group's tag.
+  // The marker or region of each entity that is used: from the name of its group, otherwise the group's tag.
   template <class Value, class Parse>
   std::map<std::int32_t, Value> values_of_entities(std::int32_t dimension, const std::vector<std::int32_t>& used,
                                                    Parse parse) const {

@@ -19,7 +19,7 @@ namespace {
 constexpr std::int32_t kLineType = 1;
 constexpr std::int32_t kTriangleType = 2;
 
-// The items of each group one after the other, in their own order: items[first[g]] to items[first[g + 1] - 1].
+// The items of each group in sequence, in their original order: items[first[g]] to items[first[g + 1] - 1].
 struct Grouping {
   Grouping(const std::vector<std::int32_t>& group_of_item, std::size_t groups) : first(groups + 1, 0) {
     for (std::int32_t group : group_of_item) ++first[group + 1];
@@ -36,7 +36,7 @@ struct Grouping {
   std::vector<std::int32_t> items;
 };
 
-// Numbers distinct values from 0 in the order in which they come; equal bits are equal values.
+// Numbers distinct values from 0 in the order of their first occurrence. Values are equal if their bits are.
 class DistinctValues {
  public:
   std::int32_t number(double value) {
@@ -76,7 +76,7 @@ struct Entity {
   Box box;
 };
 
-// Who belongs to which entity. Curves and surfaces are numbered from 0; nodes belong to the curves first.
+// Which entity everything belongs to. Curves and surfaces are numbered from 0; a node on both belongs to the curve.
 struct Classification {
   explicit Classification(const MeshPiece& mesh) {
     classify_edges(mesh);
@@ -285,7 +285,7 @@ void write_attribute(FileSink& sink, const MeshPiece& mesh, std::size_t k) {
   end_of_binary_section(sink, "EndNodeData");
 }
 
-// Who made the triangles, as a view on them: what physical groups cannot say without changing what solvers load.
+// Where the triangles were made, as a view on them: physical groups for this would change what solvers load.
 void write_triangle_data(FileSink& sink, const MeshPiece& mesh, std::string_view name,
                          const std::vector<std::int32_t>& values) {
   section(sink, "ElementData");

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of files with what XML has other uses for.
+/// A file name with the characters that are special in XML escaped.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {

@@ -11,7 +11,7 @@ namespace driftmesh {
 /// The name of piece `k` of the .pvtu at `path`, in the same folder: mesh.pvtu has mesh_0.vtu, mesh_1.vtu, ...
 [[nodiscard]] std::string pvtu_piece_path(const std::string& path, std::int32_t k);
 
-/// Writes the .pvtu that names `pieces` pieces, written before with the arrays given.
+/// Writes the .pvtu that names `pieces` pieces, which have been written with the given arrays.
 void write_pvtu(const std::string& path, std::int32_t pieces, const VtuArrays& arrays);
 
 /// The paths of the pieces that a .pvtu names.

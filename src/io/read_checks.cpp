@@ -12,7 +12,7 @@ namespace {
 
 const char* const kNext = "the file is damaged or was not written completely";
 
-// Of what the mesher computes; false for NaN.
+// The range of coordinates that the mesher computes; false for NaN.
 bool is_in_range(double x) {
   return x == 0 || (std::fabs(x) >= kSmallestCoordinate && std::fabs(x) <= kMaxCoordinate);
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kUnset = ~std::size_t{0};
 
-// Empty unless the tags are all the numbers of a range.
+// Empty unless the tags are consecutive numbers in some order.
 std::vector<std::size_t> order_of_range(const std::vector<std::uint64_t>& tags) {
   if (tags.empty()) return {};
   const auto [low, high] = std::minmax_element(tags.begin(), tags.end());

@@ -5,15 +5,15 @@
 
 namespace driftmesh {
 
-/// The indices of `tags` in the order of the tags; equal tags keep their order. Linear in the usual case that the
-/// tags are all the numbers of a range.
+/// The indices of `tags` in the order of the tags; equal tags keep their order. Linear in the usual case
+/// that the tags are consecutive numbers.
 [[nodiscard]] std::vector<std::size_t> order_by_tag(const std::vector<std::uint64_t>& tags);
 
 /// Finds the place of a tag among tags in ascending order.
 class TagIndex {
  public:
   explicit TagIndex(std::vector<std::uint64_t> ascending);
-  /// -1 for a tag that is not there.
+  /// -1 if there is no such tag.
   [[nodiscard]] std::int32_t find(std::uint64_t tag) const {
     if (is_range_) return tag - tags_.front() < tags_.size() ? static_cast<std::int32_t>(tag - tags_.front()) : -1;
     return search(tag);

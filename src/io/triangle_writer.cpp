@@ -54,8 +54,8 @@ void write_segments(FileSink& sink, const MeshPiece& mesh, const std::vector<Poi
   for (std::size_t i = 0; i < holes.size(); ++i) line(sink, i + 1, holes[i].x, holes[i].y);
 }
 
-// An edge of two triangles is listed by the later one, which has a smaller neighbor there; so is one of a single
-// triangle, whose neighbor is -1.
+// An edge of two triangles is listed with the later one, whose neighbor there has the smaller number; an edge of a
+// single triangle has the neighbor -1.
 bool lists_edge(const TriangleNeighbors& neighbors, std::size_t t, std::size_t i) {
   return neighbors[t][i] < static_cast<std::int32_t>(t);
 }

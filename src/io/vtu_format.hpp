@@ -11,7 +11,7 @@
 
 namespace driftmesh {
 
-/// The data arrays of a file beside the grid itself. All pieces of a .pvtu have the same.
+/// The data arrays of a file in addition to the grid itself, the same for all pieces of a .pvtu.
 struct VtuArrays {
   bool point_markers = false;
   std::int32_t attributes = 0;  ///< components
@@ -21,7 +21,7 @@ struct VtuArrays {
   bool subdomains = false;
   bool ranks = false;
 };
-/// Those that the mesh has values for.
+/// The arrays for which the mesh has values.
 [[nodiscard]] VtuArrays arrays_of(const MeshPiece& mesh);
 
 /// Calls visit(a null pointer of the type, name, components) for each array on points, in the order of the file.
@@ -45,7 +45,7 @@ void for_each_cell_array(const VtuArrays& arrays, const Visit& visit) {
   if (arrays.ranks) visit(kInt32, "rank");
 }
 
-/// What VTK calls the type.
+/// VTK's name of the type.
 template <class T>
 [[nodiscard]] constexpr const char* vtk_type_name() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
@@ -56,14 +56,14 @@ template <class T>
 
 /// One VTK unstructured grid: the triangles, then the constrained edges as line cells, as raw appended binary data.
 /// Point data "marker", "attribute" and "global_number"; cell data "marker" (0 on triangles), "region", "subdomain" and
-/// "rank" (on a line, of a triangle at it); each only where the mesh has it.
+/// "rank" (on a line, those of an adjacent triangle); each only if the mesh has it.
 void write_vtu(const MeshPiece& mesh, const std::string& path);
-/// The same with the arrays given, complete but for commit(), which puts it under its name.
+/// The same with the given arrays. The file is complete, but appears under its name only on commit().
 [[nodiscard]] std::unique_ptr<FileSink> prepare_vtu(const MeshPiece& mesh, const VtuArrays& arrays,
                                                     const std::string& path);
 
-/// Reads what write_vtu writes; other files of that kind too, as long as they hold triangles and lines as raw
-/// appended data that is not compressed.
+/// Reads what write_vtu writes, and other files of that format that hold triangles and lines as raw appended data
+/// without compression.
 [[nodiscard]] MeshPiece read_vtu(const std::string& path);
 /// The same from memory; `file` is for messages.
 [[nodiscard]] MeshPiece parse_vtu(const std::string& file, std::string_view bytes);

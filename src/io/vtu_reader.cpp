@@ -24,7 +24,7 @@ struct DataArray {
 
 using ArrayName = std::pair<std::string, std::string>;  // section (PointData, ...) and Name
 
-// What the XML says before the binary data begin.
+// What the XML before the binary data says.
 struct Header {
   std::uint64_t points = 0;
   std::uint64_t cells = 0;
@@ -190,7 +190,7 @@ class ArrayReader {
     } else if constexpr (std::is_integral_v<From>) {
       if (std::in_range<To>(value)) return static_cast<To>(value);
     }
-    throw InputError({path_, array.line}, "DataArray holds a value that does not fit its use", kDamaged);
+    throw InputError({path_, array.line}, "DataArray holds a value that is out of range for its purpose", kDamaged);
   }
 
   const std::string& path_;
@@ -198,7 +198,7 @@ class ArrayReader {
   std::string_view data_;
 };
 
-// Splits the cells into triangles and lines, each with its place among all cells.
+// Splits the cells into triangles and lines, each with its position among all cells.
 class CellSplitter {
  public:
   CellSplitter(const std::string& path, const ArrayReader& arrays, std::uint64_t cells)
@@ -252,7 +252,7 @@ void read_points(MeshPiece& mesh, const std::string& path, const ArrayReader& ar
   mesh.points.reserve(xyz.size() / 3);
   for (std::size_t i = 0; i < xyz.size(); i += 3) {
     if (xyz[i + 2] != xyz[2])
-      throw InputError({path, 0}, "is not planar: its points differ in z", "only meshes of the plane are read");
+      throw InputError({path, 0}, "is not planar: its points differ in z", "only planar meshes can be read");
     mesh.points.push_back({xyz[i], xyz[i + 1]});
   }
 }

@@ -10,8 +10,7 @@ namespace {
 constexpr std::uint8_t kLineCell = 3;
 constexpr std::uint8_t kTriangleCell = 5;
 
-// The header names every array with its offset before any array is written; the arrays then follow in the order in
-// which the header named them.
+// The header lists all arrays with their offsets; the arrays follow in the same order.
 class VtuFile {
  public:
   explicit VtuFile(FileSink& sink) : sink_(sink) {}
@@ -97,7 +96,7 @@ void write_point_data(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arr
   if (arrays.numbers) file.array(mesh.numbers);
 }
 
-// A line shows the value of a triangle at it, so that coloring by region does not paint the lines a color of their
+// A line has the value of an adjacent triangle, so that coloring by region does not show the lines in a color of their
 // own.
 class LineValues {
  public:

@@ -14,19 +14,19 @@ struct XmlTag {
   bool opens = true;  ///< false for </name>
   std::size_t line = 0;
 
-  /// The attribute's value, or `otherwise` when the tag has none of that name.
+  /// The attribute's value, or `otherwise` if the tag has none of that name.
   [[nodiscard]] std::string_view attribute(std::string_view key, std::string_view otherwise = {}) const;
 };
 
-/// Reads the tags of an XML text one by one: as much of XML as mesh headers use (no entities, no CDATA). Character
-/// data, comments and processing instructions are passed over.
+/// Reads the tags of an XML text one by one: the part of XML that mesh headers use (no entities, no CDATA). Character
+/// data, comments and processing instructions are skipped.
 class XmlScanner {
  public:
   XmlScanner(const std::string& file, std::string_view text) : file_(file), text_(text) {}
 
-  /// Reads the next tag; false at the end of the text. Error: InputError for what is not XML.
+  /// Reads the next tag; false at the end of the text. Error: InputError if the text is not XML.
   bool next(XmlTag& tag);
-  /// Where the scanner stands: just behind the last tag.
+  /// Where the scanner stands: just after the last tag.
   [[nodiscard]] std::size_t position() const { return position_; }
 
  private:

@@ -9,35 +9,35 @@
 
 namespace driftmesh {
 
-/// What a triangle's color says.
+/// What a triangle's color shows.
 enum class PlotColor {
   angle,      ///< its smallest angle, 0 to 60 degrees
   area,       ///< its area, on a logarithmic scale
   region,     ///< its region attribute
-  subdomain,  ///< the subdomain that it was made in, where the mesh tells it
-  rank,       ///< the rank that made it, where the mesh tells it
+  subdomain,  ///< the subdomain that it was made in, if the mesh lists it
+  rank,       ///< the rank that made it, if the mesh lists it
   none        ///< nothing: all have one light color
 };
 
 enum class PlotEdges {
   automatic,  ///< drawn where they are long enough to be seen; none in a density image
-  on,         ///< always drawn, however small: millions of lines take their time
+  on,         ///< always drawn, however small; slow for millions of lines
   off
 };
 
 struct PlotOptions {
   int width = 1600;  ///< pixels (points in PDF)
-  int height = 0;    ///< 0: follows from the shape of what is shown
+  int height = 0;    ///< 0: chosen to fit what is shown
   PlotColor color = PlotColor::angle;
   PlotEdges edges = PlotEdges::automatic;
-  std::optional<Box> box{};  ///< shows this part only
+  std::optional<Box> box{};  ///< the part of the plane to show; absent: everything
   std::string title{};
-  std::string subtitle{};  ///< in place of what the mesh is: its triangles, points and angles
+  std::string subtitle{};  ///< instead of the numbers of triangles and points and the angles
   bool counts = true;      ///< of triangles, in the legend of regions, subdomains and ranks
-  bool legend = true;      ///< false where colors only tell neighbors apart
+  bool legend = true;      ///< false where colors merely distinguish neighbors
 };
 
-/// Whether a picture can have this name: it ends in .png, .svg or .pdf, or is "-": PNG to standard output.
+/// Whether `path` can name a picture: it ends in .png, .svg or .pdf, or is "-" (PNG to standard output).
 [[nodiscard]] bool is_picture_name(const std::string& path);
 
 /// Draws the mesh as .png, .svg or .pdf, by the extension of `path`. Triangles of less than about two pixels on average

@@ -11,7 +11,7 @@
 #include "picture/plot.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
-// Fontconfig keeps what it has loaded until the process ends; that is no leak of ours.
+// Fontconfig keeps what it has loaded until the process ends; this is not a leak of ours.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libfontconfig";
@@ -24,7 +24,7 @@ namespace {
 constexpr int kSmallest = 100;
 constexpr int kLargest = 20000;
 
-/// ".png", ".svg" or ".pdf"; something else for what is no picture.
+/// ".png", ".svg" or ".pdf"; anything else if it is not a picture.
 std::string format_of(const std::string& path) {
   return names_no_format(path) ? ".png" : std::filesystem::path(path).extension().string();
 }

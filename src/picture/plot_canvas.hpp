@@ -29,31 +29,31 @@ struct TextStyle {
   bool halo = false;  ///< white around the letters, for text on top of lines
 };
 
-/// Where cairo's output goes. Exceptions may not pass through cairo, which is C: the message of one waits in `failure`.
+/// Receives cairo's output. Exceptions may not pass through cairo, which is C, so their messages wait in `failure`.
 struct PictureFile {
   explicit PictureFile(const std::string& path) : file(path) {}
   AtomicFile file;
   std::string failure;
 };
 
-/// The picture being drawn, with what every part of it needs; what is special goes through cairo().
+/// The picture being drawn, with the operations that all parts need; for special ones there is cairo().
 class Canvas {
  public:
-  /// Format by extension: .png, .svg or .pdf. Errors: InputError for another one or a size that is out of range,
-  /// FileError.
+  /// The extension of the path selects the format: .png, .svg or .pdf. Errors: InputError for another extension or a
+  /// size out of range, FileError.
   Canvas(const std::string& path, int width, int height);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// A drawing that scales without pixels.
+  /// Whether the format is a vector format.
   [[nodiscard]] bool is_vector() const { return !is_png_; }
   [[nodiscard]] _cairo* cairo() const { return cairo_; }
 
   void set_color(const Rgb& color, double opacity = 1);
   void fill_rect(const PixelRect& rect, const Rgb& color);
   void line(const Point& from, const Point& to, double width, const Rgb& color);
-  /// `at` is on the base line of the text.
+  /// `at` is on the baseline of the text.
   void text(const Point& at, const std::string& characters, const TextStyle& style);
   [[nodiscard]] double text_width(const std::string& characters, const TextStyle& style);
 

@@ -152,7 +152,7 @@ void plot_chart(const StackedBars& bars, const std::string& path) {
   chart.draw_y(y);
   if (count > 0) draw_bars(chart, bars, y, count);
   if (count > 1) {
-    const double half = 0.5 * kPlot.width / static_cast<double>(count);  // the number stands below the bar's middle
+    const double half = 0.5 * kPlot.width / static_cast<double>(count);  // the number is centered below the bar
     chart.draw_x({0, static_cast<double>(count - 1), kPlot.x + half, kRight - half});
   }
   chart.draw_base();
@@ -206,7 +206,7 @@ void plot_chart(const Timeline& timeline, const std::string& path) {
     cairo_fill(chart.canvas().cairo());
   }
   chart.draw_x(x);
-  // No more ticks than steps from row to row: each falls on a row.
+  // No more ticks than steps between rows, so that each falls on a row.
   if (timeline.rows > 1)
     for (const Tick& tick : linear_ticks(0, static_cast<double>(timeline.rows - 1),
                                          static_cast<int>(std::min<std::size_t>(timeline.rows - 1, 12))))

@@ -8,7 +8,7 @@
 
 namespace driftmesh {
 
-/// What every chart says about itself.
+/// What all charts have.
 struct ChartText {
   std::string title;
   std::string subtitle;
@@ -16,14 +16,14 @@ struct ChartText {
   std::string y_label;
 };
 
-/// Bars beside each other, each a stack of the same parts; what they add up to is the height.
+/// Bars side by side, each a stack of the same parts.
 struct StackedBars {
   struct Part {
     std::string name;
     Rgb color;
     std::vector<double> heights;  ///< of each bar, >= 0
   };
-  /// A run of bars with a name below them.
+  /// Consecutive bars with a name below them.
   struct Group {
     std::string name;
     std::size_t bars = 0;
@@ -48,7 +48,7 @@ struct LineChart {
   double y_from = 0;  ///< the lowest y that is shown
 };
 
-/// Time from left to right, a row for each thing that time passes for, and arrows from row to row.
+/// A timeline: time runs from left to right, each subject has a row, and arrows lead from row to row.
 struct Timeline {
   struct Arrow {
     double from_time = 0, to_time = 0;
@@ -57,12 +57,13 @@ struct Timeline {
   ChartText text;
   std::size_t rows = 0;
   double end = 0;  ///< of time
-  /// Of each row: when something was done, as pairs of times.
+  /// Of each row: the intervals of activity, as pairs of times.
   std::vector<std::vector<Point>> busy;
   std::vector<Arrow> arrows;
 };
 
-/// Draw as .png, .svg or .pdf, by the extension of `path`. Errors: InputError for an unknown extension, FileError.
+/// These draw as .png, .svg or .pdf, by the extension of `path`. Errors: InputError for an unknown extension,
+/// FileError.
 void plot_chart(const StackedBars& chart, const std::string& path);
 void plot_chart(const LineChart& chart, const std::string& path);
 void plot_chart(const Timeline& chart, const std::string& path);

@@ -32,7 +32,7 @@ Rgb from_oklch(double lightness, double chroma, double hue) {
   return from_oklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
 }
 
-// Turning by the golden ratio keeps any number of hues apart from each other.
+// Steps by the golden ratio keep any number of hues distinct.
 double category_hue(std::size_t index) {
   return 4.3 + 2 * std::numbers::pi * 0.6180339887498949 * static_cast<double>(index);
 }

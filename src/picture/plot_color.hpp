@@ -12,12 +12,12 @@ struct Rgb {
 };
 
 /// The perceptually uniform color map viridis at t (clamped to 0..1): dark violet, blue-green, yellow. By Nathaniel
-/// Smith and Stefan van der Walt, released under CC0; here from nine of its colors, interpolated.
+/// Smith and Stefan van der Walt, released under CC0; interpolated here from nine of its colors.
 [[nodiscard]] Rgb viridis(double t);
 
 /// Colors of equal lightness that differ as much as possible from their predecessors, for things without an order.
 [[nodiscard]] Rgb category_color(std::size_t index);
-/// Darker ones of the same hues, for lines.
+/// Darker colors of the same hues, for lines.
 [[nodiscard]] Rgb category_line_color(std::size_t index);
 
 // The colors of everything that is not data.

@@ -27,7 +27,7 @@ Box with_extent(Box box) {
   return box;
 }
 
-// Room for the labels of the y axis, in units; digits of the sans-serif font are about 0.64 of its size wide.
+// Space for the labels of the y axis, in units; digits of a sans-serif font are about 0.64 of its size wide.
 double left_margin(const Box& shown, double height) {
   std::size_t longest = 0;
   for (const Tick& tick : linear_ticks(shown.low.y, shown.high.y, static_cast<int>(height)))

@@ -7,21 +7,21 @@
 
 namespace driftmesh {
 
-/// Where everything in a picture goes: title above, axes left and below, legend on the right, and between them the map
-/// from the plane to pixels, with one scale for x and y.
+/// The layout of a picture: title above, axes left and below, legend on the right, and in between the plot, with one
+/// scale for x and y.
 class PlotFrame {
  public:
-  /// `shown` is the part of the plane to be seen; height 0 lets its shape decide. A box without extent gets some.
+  /// `shown` is the part of the plane to show; height 0 is chosen to fit it. A box without extent is enlarged.
   PlotFrame(const Box& shown, int width, int height, bool has_legend);
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   /// A thousandth of the picture's width, within limits: the unit of fonts, lines and gaps.
   [[nodiscard]] double unit() const { return unit_; }
-  /// Where the plane is drawn.
+  /// The rectangle of the plot.
   [[nodiscard]] const PixelRect& plot() const { return plot_; }
   [[nodiscard]] const PixelRect& legend() const { return legend_; }
-  /// The part of the plane that the plot shows; at least what was asked for.
+  /// The part of the plane that the plot shows, at least the part asked for.
   [[nodiscard]] const Box& shown() const { return shown_; }
   /// Pixels per unit of length.
   [[nodiscard]] double scale() const { return scale_; }

@@ -12,7 +12,7 @@ constexpr double kTickRoom = 46;  // units, left of the bar
 constexpr double kBarWidth = 14;
 constexpr double kHistogramWidth = 72;
 
-// Where the title's base line is, and where what it stands above begins.
+// The baseline of the title, and the top of what follows below it.
 struct LegendTop {
   double title;
   double content;

@@ -19,7 +19,7 @@ struct ColorBar {
   std::vector<std::size_t> histogram;  ///< counts of equal parts from low to high
 };
 
-/// A thing without an order and its color.
+/// A category and its color.
 struct Swatch {
   Rgb color;
   std::string label;
@@ -27,7 +27,7 @@ struct Swatch {
 
 void draw_color_bar(Canvas& canvas, const PlotFrame& frame, const ColorBar& bar);
 
-/// As many as there is room for, then how many more there are.
+/// Draws as many as there is room for, then says how many more there are.
 void draw_swatches(Canvas& canvas, const PlotFrame& frame, const std::string& title,
                    const std::vector<Swatch>& swatches);
 

@@ -7,8 +7,8 @@
 
 namespace driftmesh {
 
-/// Strokes many separate lines with one pen, a few hundred to a path: cairo is slow on paths of one line and on paths
-/// of very many.
+/// Strokes many separate lines with one pen, a few hundred per path: cairo is slow with paths of one line and with
+/// paths of very many.
 class LineBatch {
  public:
   LineBatch(Canvas& canvas, double width, const Rgb& color, double opacity = 1);

@@ -19,9 +19,9 @@
 namespace driftmesh {
 namespace {
 
-constexpr double kDenseSide = 2;               // pixels: below it triangles are no longer drawn one by one
-constexpr double kShortestLine = 2;            // pixels: an edge shorter than that is not drawn
-constexpr std::size_t kMostPolygons = 150000;  // of a vector picture; more become an image in it
+constexpr double kDenseSide = 2;               // pixels: smaller triangles are not drawn one by one
+constexpr double kShortestLine = 2;            // pixels: shorter edges are not drawn
+constexpr std::size_t kMostPolygons = 150000;  // in a vector picture; more are drawn as an embedded image
 
 Box box_of(const MeshPiece& mesh) {
   Box box;
@@ -29,7 +29,7 @@ Box box_of(const MeshPiece& mesh) {
   return box;
 }
 
-// Free room around the whole, so that boundary lines are not cut in half.
+// Space around the mesh, so that boundary lines are not cut in half.
 Box with_margin(const Box& box) {
   const double margin = 0.012 * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
   return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}};
@@ -65,7 +65,7 @@ class MeshPlot {
  private:
   [[nodiscard]] Point corner(std::int32_t vertex) const { return frame_.to_pixels(mesh_.points[vertex]); }
 
-  /// Whether colors say how much; else they say which.
+  /// Whether colors show a quantity; otherwise they show categories.
   [[nodiscard]] bool is_range() const {
     return options_.color == PlotColor::angle || options_.color == PlotColor::area;
   }
@@ -93,7 +93,7 @@ class MeshPlot {
       draw_raster();
   }
 
-  // One path for each of 64 shades. The thin outline in the same color closes the seams that antialiasing leaves
+  // One path for each of 64 shades. A thin outline in the same color closes the seams that antialiasing leaves
   // between polygons that share an edge.
   void draw_polygons() {
     std::map<int, std::vector<std::size_t>> triangles_of_shade;
@@ -164,9 +164,9 @@ class MeshPlot {
     cairo_surface_destroy(image);
   }
 
-  // Lines are as thin as their edges are short, and fade where the mesh is too fine to be seen. Each class of length
-  // (half a power of two) has its pen. An inner edge is seen from both sides and drawn from the one where its vertices
-  // ascend; an edge of one triangle is a constrained one.
+  // The shorter the edges, the thinner the lines; where the mesh is too fine to be seen, they fade. Each class of
+  // length (half a power of two) has its own pen. Inner edges are met from both sides, and drawn from the side where
+  // their vertices ascend. Edges of a single triangle are constrained.
   void draw_edges() {
     using Line = std::array<Point, 2>;
     std::map<int, std::vector<Line>> lines_of_class;

@@ -15,7 +15,7 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::size_t kMostPoints = 3000;  // more dots than that hide the segments
+constexpr std::size_t kMostPoints = 3000;  // more dots would hide the segments
 
 Box box_of(const Pslg& pslg) {
   Box box;
@@ -111,8 +111,8 @@ class PslgPlot {
     return text;
   }
 
-  // Which side of a segment is in the domain is clear without a mesh when the segments are one outer curve and one
-  // around each hole. Otherwise nothing is filled.
+  // The domain is known without a mesh if the segments form one outer curve and one curve around each hole. Otherwise
+  // nothing is filled.
   void fill_domain() {
     const Loops curves(pslg_);
     if (curves.loops.size() != pslg_.holes.size() + 1) return;

@@ -13,7 +13,7 @@ std::int64_t first_sample(double coordinate, std::int64_t count) {
   return static_cast<std::int64_t>(std::ceil(std::clamp(coordinate, 0.0, static_cast<double>(count)) - 0.5));
 }
 
-// Where an edge that is crossed by the horizontal line at y meets it.
+// The x at which an edge crosses the horizontal line at y.
 double crossing(const Point& a, const Point& b, double y) {
   return a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
 }

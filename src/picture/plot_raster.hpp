@@ -12,17 +12,17 @@ namespace driftmesh {
 /// A grid of samples to which triangles are added by scan conversion, each with a value.
 class ValueRaster {
  public:
-  /// What a sample keeps of the triangles that reach it.
+  /// Which value a sample keeps of the triangles that reach it.
   enum class Keep {
     last,     ///< the value of the one triangle that covers its center
-    minimum,  ///< of all that cover it or have their centroid in it
+    minimum,  ///< over all that cover it or have their centroid in it
     mean      ///< likewise
   };
 
   /// width x height pixels of samples_per_side^2 samples each.
   ValueRaster(int width, int height, int samples_per_side, Keep keep);
 
-  /// Corners in pixels, y down, in either orientation. What is outside the raster is cut off.
+  /// Corners in pixels, y down, in either orientation. Parts outside the raster are clipped.
   void add_triangle(const Point& a, const Point& b, const Point& c, float value);
 
   /// One pixel as the mean of its samples' colors, and the share of the samples that any triangle reached.

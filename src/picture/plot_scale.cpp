@@ -30,7 +30,7 @@ std::string power_number(double value, int digits) {
   return text.append("10").append(superscript(exponent));
 }
 
-// The step 1, 2 or 5 times a power of ten that is the smallest not below `raw`.
+// The smallest step of 1, 2 or 5 times a power of ten that is not below `raw`.
 double round_step(double raw) {
   const double power = std::pow(10, std::floor(std::log10(raw)));
   for (double multiple : {1.0, 2.0, 5.0})
@@ -38,7 +38,7 @@ double round_step(double raw) {
   return 10 * power;
 }
 
-// The label needs all the digits in which neighboring ticks differ.
+// Labels need as many digits as distinguish neighboring ticks.
 int digits_needed(double largest, double step) {
   return std::clamp(static_cast<int>(std::floor(std::log10(largest)) - std::floor(std::log10(step))) + 1, 1, 15);
 }

@@ -64,8 +64,8 @@ PlotValues angle_values(const MeshPiece& mesh, const Box& shown) {
   return result;
 }
 
-// log10 of the smallest and largest area, without the outermost thousandth on both sides: one sliver shall not use
-// up the colors.
+// log10 of the smallest and largest area, without the outermost thousandth on both sides: a single sliver must not
+// stretch the scale.
 std::array<double, 2> area_range(const MeshPiece& mesh, const Box& shown, const std::vector<float>& logs) {
   std::vector<float> seen;
   for (std::size_t t = 0; t < logs.size(); ++t)
@@ -99,7 +99,7 @@ PlotValues area_values(const MeshPiece& mesh, const Box& shown) {
   return result;
 }
 
-/// Of values without an order; one class 0 if there are none.
+/// Classes of values without an order; a single class 0 if there are no values.
 template <class Value>
 PlotValues class_values(const MeshPiece& mesh, const std::vector<Value>& of_triangle, const char* title, bool counts) {
   PlotValues result;

@@ -12,7 +12,7 @@
 
 namespace driftmesh {
 
-/// What the triangles' colors are made of, and what the legend says about them.
+/// The values behind the triangles' colors, and what the legend says about them.
 struct PlotValues {
   std::vector<float> of_triangle;       ///< degrees, log10(area), or number of the class
   std::function<Rgb(double)> color_of;  ///< of a value
@@ -21,7 +21,7 @@ struct PlotValues {
   std::vector<Swatch> swatches;         ///< for region, subdomain and rank
 };
 
-/// Angles of the whole mesh, and how much of it a part of the plane shows.
+/// The angles of the whole mesh, and how much of it is in view.
 struct PlotSummary {
   double smallest_angle = 180;  ///< degrees
   double largest_angle = 0;     ///< degrees
@@ -34,8 +34,8 @@ struct PlotSummary {
 
 [[nodiscard]] PlotSummary summarize(const MeshPiece& mesh, const Box& shown);
 
-/// The histogram and the range of areas are those of the triangles that are shown. A mesh without regions has region 0,
-/// one that does not tell subdomains or ranks has subdomain or rank 0. `counts`: swatches tell how many triangles.
+/// The histogram and the range of areas are those of the triangles in view. A mesh that does not list regions,
+/// subdomains or ranks counts as region, subdomain or rank 0. `counts`: swatches show how many triangles there are.
 [[nodiscard]] PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown, bool counts = true);
 
 }  // namespace driftmesh

@@ -35,8 +35,7 @@ struct Pslg {
   std::vector<double> attributes;           ///< attributes_per_point values for each point, point by point
   std::int32_t attributes_per_point = 0;    ///< >= 0; the mesher interpolates them at the points that it adds
   std::vector<Segment> segments;
-  std::vector<Point>
-      holes;  ///< everything reachable from one of these without crossing a segment is no part of the domain
+  std::vector<Point> holes;       ///< removes everything that can be reached from it without crossing a segment
   std::vector<Region> regions;    ///< where several lie in one region, the last one counts
   std::int32_t first_number = 1;  ///< what files and messages call points[0]: 0 or 1
 };

@@ -91,8 +91,7 @@ T RecordScanner::parse(const char* what) {
   const std::string_view field = take_field();
   if (error == std::errc() && stop == at_) return value;
   if (error == std::errc::result_out_of_range && stop == at_)
-    problem(std::string(what) + " " + quoted(field) + " is too large or too small",
-            "use a number that double precision can represent");
+    problem(std::string(what) + " " + quoted(field) + " is too large or too small", "use a number of moderate size");
   else
     problem(std::string(what) + " is " + quoted(field) + ", which is not " + kKind, "correct the field");
   return T{};

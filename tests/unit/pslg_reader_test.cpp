@@ -126,7 +126,7 @@ TEST_CASE("every malformed file gets its message") {
        ".poly:1: announces 2000000000 vertices, but the rest of the file has room for 1 at most; correct the "
        "number, or the file is truncated"},
       {"count_too_large",
-       ".poly:1: the number of vertices '4000000000' is too large or too small; use a number of ordinary "
+       ".poly:1: the number of vertices '4000000000' is too large or too small; use a number of moderate "
        "size"},
       {"count_negative", ".poly:1: the number of vertices is -3; expected 0 to 2147483647"},
       {"count_not_integer", ".poly:1: the number of vertices is '3.5', which is not a whole number; correct the field"},
@@ -138,7 +138,7 @@ TEST_CASE("every malformed file gets its message") {
        ".poly:3: x is outside the range of coordinates; scale the input: besides 0, magnitudes from 7.6e-37 to 1.7e72 "
        "are supported"},
       {"overflowing_coordinate",
-       ".poly:3: x '1e400' is too large or too small; use a number that double precision can represent"},
+       ".poly:3: x '1e400' is too large or too small; use a number of moderate size"},
       {"text_coordinate", ".poly:3: x is '1,5', which is not a number; correct the field"},
       {"missing_coordinate",
        ".poly:3: y is missing; add it or correct the number of columns that the header announces"},
