@@ -10,21 +10,21 @@
 
 namespace driftmesh {
 
-/// What the mesher is asked for.
+/// What the mesher is asked for. All bounds hold at once: the smallest area counts.
 struct MeshRequest {
-  double min_angle = 20;                            ///< degrees, 0 to kMaxAngle
-  double max_area = 0;                              ///< <= 0: no bound
+  double min_angle = 20;                            ///< bound on angles in degrees, 0 to kMaxAngle; 0: none
+  double max_area = 0;                              ///< bound on areas in squared units of the input; <= 0: none
   bool region_areas = true;                         ///< whether the regions' own area bounds hold
-  const SizeField* size = nullptr;                  ///< target edge lengths, or null; not owned
-  std::int64_t max_triangles = kMaxTriangles - 64;  ///< stop there
+  const SizeField* size = nullptr;                  ///< target edge lengths, or null; must outlive the meshing
+  std::int64_t max_triangles = kMaxTriangles - 64;  ///< refinement stops when the mesh has this many
 };
 
-/// A refined mesh with what is known of its making.
+/// A refined mesh and how it was made.
 struct MeshResult {
   Triangulation mesh;
-  QualityBounds bounds;  ///< as they were applied
-  bool complete = true;  ///< false: stopped at max_triangles; the mesh is valid but misses bounds
-  std::int32_t acute_corners = 0;
+  QualityBounds bounds;            ///< as they were applied
+  bool complete = true;            ///< false: stopped at max_triangles; the mesh is valid but misses bounds
+  std::int32_t acute_corners = 0;  ///< clusters of segments that meet at less than 60 degrees (see prepare_corners)
   RefineCounters counters;
   double seconds_triangulate = 0;  ///< constrained Delaunay triangulation, carving, corners
   double seconds_refine = 0;
@@ -33,12 +33,20 @@ struct MeshResult {
 /// The bounds that a request sets on the mesh of `pslg`, whose region labels index them.
 [[nodiscard]] QualityBounds bounds_of(const Pslg& pslg, const MeshRequest& request);
 
-/// Called before refinement and now and then during it, with the present and the forecast number of triangles. What it
-/// throws ends the work and passes through.
+/// Called before refinement and at short intervals during it with the present and the forecast number of triangles.
+/// An exception that it throws ends the meshing and reaches the caller.
 using MeshProgress = std::function<void(std::int64_t triangles, double forecast)>;
 
-/// Meshes the domain of a repaired PSLG (see repair): triangulate, prepare acute corners, refine. The whole domain as
-/// one subdomain. Deterministic. Throws Error for requests out of range and for inputs that triangulate refuses.
+/// Meshes the domain of a repaired PSLG (see repair) in one piece: triangulates it, prepares acute corners, refines.
+///
+/// The result is a constrained Delaunay mesh that conforms to the segments. Every triangle meets the bounds on angle
+/// and area except those that find_exceptions() lists with a cause: angles of the input, pairs of points on segments
+/// that meet at an acute corner, and places where double precision has no room for another point. Refinement terminates
+/// for every angle bound up to kMaxAngle in practice; docs/guarantees.md says what is proven (Shewchuk 2002; Chew 1993;
+/// Ungor 2004). Deterministic: the same input and request give the same bits.
+///
+/// Throws Error for a request out of range and for inputs that triangulate() refuses, LimitError when there are more
+/// than kMaxTriangles triangles, and whatever `request.size` or `progress` throws.
 [[nodiscard]] MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshProgress& progress = {});
 
 /// The second half of that: refines `result.mesh`, triangulated and with its corners prepared, to `result.bounds`, and

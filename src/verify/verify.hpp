@@ -12,11 +12,12 @@
 
 namespace driftmesh {
 
+/// The bounds that a mesh should meet, and what to report.
 struct VerifyOptions {
   double min_angle = 0;             ///< degrees; 0: no bound
-  double max_area = 0;              ///< 0: no bound beside those of the regions
-  bool region_areas = true;         ///< the input's regions bound the areas of their triangles
-  const SizeField* size = nullptr;  ///< target edge lengths that bound areas, or null; not owned
+  double max_area = 0;              ///< in squared units of the coordinates; 0: no bound besides those of the regions
+  bool region_areas = true;         ///< whether the input's regions bound the areas of their triangles
+  const SizeField* size = nullptr;  ///< target edge lengths that bound areas, or null; must outlive the call
   bool check_delaunay = true;       ///< false for meshes that only need to be conforming
   std::size_t max_listed = 5;       ///< messages kept of each kind of flaw and of each cause of an exception
 };
@@ -24,52 +25,58 @@ struct VerifyOptions {
 /// Everything that was checked and measured.
 struct VerifyReport {
   std::size_t points = 0;
-  std::size_t unused_points = 0;  ///< no flaw: Triangle's files may hold them
+  std::size_t unused_points = 0;  ///< in no triangle; not a flaw, as Triangle's files may contain them
   std::size_t triangles = 0;
   std::size_t subsegments = 0;
   std::size_t boundary_edges = 0;
-  bool subsegments_listed = true;  ///< false: the piece lists none, and its boundary was taken as constrained
-  bool regions_listed = true;      ///< false: the input has regions, and the piece does not say which triangle is where
-  std::size_t pieces = 0;          ///< that the mesh came in; 0: one file
-  std::size_t subdomains = 0;      ///< 0: not told by the mesh
-  std::size_t interfaces = 0;      ///< pairs of subdomains with a common edge that is no subsegment
-  std::size_t interface_edges = 0;  ///< these edges: they need not be Delaunay
+  bool subsegments_listed = true;   ///< false: the mesh lists none, so its boundary was taken as constrained
+  bool regions_listed = true;       ///< false: the input has regions, but the mesh does not list them
+  std::size_t pieces = 0;           ///< the mesh came in so many pieces; 0: in one file
+  std::size_t subdomains = 0;       ///< 0: the mesh does not list them
+  std::size_t interfaces = 0;       ///< pairs of subdomains with a common edge that is not a subsegment
+  std::size_t interface_edges = 0;  ///< these edges, which need not be Delaunay
   std::size_t interface_edges_not_delaunay = 0;
-  std::size_t rank_interface_edges = 0;  ///< of these edges: between different ranks
-  double area = 0;
-  bool against_input = false;
-  double input_area = 0;  ///< of the domain that the input describes, if against_input
+  std::size_t rank_interface_edges = 0;  ///< those of these edges that lie between different ranks
+  double area = 0;                       ///< of all triangles
+  bool against_input = false;            ///< whether the mesh was checked against its input
+  double input_area = 0;                 ///< if against_input: of the domain that the input describes
   Quality quality;
   Findings findings;
 
+  /// Whether no flaw was found. Exceptions (quality.exceptions) are not flaws.
   [[nodiscard]] bool accepted() const { return findings.empty(); }
 };
 
-/// Checks a finished mesh without knowing how it was made (exact predicates are all it shares with the mesher):
-/// - it is a triangulation: every triangle counterclockwise, edges shared by two triangles or subsegments of the
-///   boundary, the boundary free of self-intersections. Together these prove that no point of the plane is covered
-///   twice: the number of triangles over a point is the winding number of the boundary around it.
-/// - it is constrained Delaunay: no point opposite an unconstrained edge lies inside the circumcircle. Local Delaunay
-///   at every such edge implies it everywhere (Chew 1989).
-///   Edges between triangles of different subdomains (MeshPiece::subdomains) count as constrained for that.
-/// - with bounds given, areas and angles keep them; see ExceptionReason for those that may not.
-/// About 55 bytes a triangle beside the mesh. Throws LimitError above 1.4 billion triangles.
+/// Checks a finished mesh independently of how it was made (the exact predicates are all that is shared with the
+/// mesher):
+/// - it is a triangulation: every triangle is counterclockwise, every edge belongs to two triangles or is a subsegment
+/// of
+///   the boundary, and the boundary does not intersect itself. Together these prove that no point of the plane is
+///   covered twice, since the number of triangles over a point is the winding number of the boundary around it;
+/// - it is constrained Delaunay: no point opposite an unconstrained edge lies inside the circumcircle. If this holds at
+///   every such edge, it holds everywhere (Chew 1989). Edges between triangles of different subdomains
+///   (MeshPiece::subdomains) count as constrained here;
+/// - areas and angles meet the bounds of `options`; see ExceptionReason for accepted exceptions.
+/// Flaws of the mesh are reported, never thrown, whatever its arrays contain. Linear time but for the boundary, which
+/// takes O(n log n); about 55 bytes per triangle besides the mesh. Throws LimitError above 1.4 billion triangles.
 [[nodiscard]] VerifyReport verify(const MeshPiece& mesh, const VerifyOptions& options);
 
-/// Also checks the mesh against its input: `input` is planar (as repair leaves it), its exterior and holes are carved.
-/// - the domain is what an arrangement of the input segments says (no triangulation is involved): its boundary is the
-///   boundary of the mesh, so every point of it is covered once and no other;
+/// Also checks the mesh against its input, which must be planar as repair() leaves it (if not, that is reported as a
+/// flaw):
+/// - the boundary of the mesh is the boundary of the domain, found from an arrangement of the input segments without
+/// any
+///   triangulation; so every point of the domain is covered once, and nothing else is;
 /// - every input segment in the domain is one chain of subsegments with its marker, in order along it and on it up to
 ///   the rounding of repeated midpoints; there are no other subsegments;
 /// - every input point in the domain is a vertex; area, Euler number and region attributes (if listed) agree.
 /// An input without segments describes the convex hull of its points, with marker 1 all around.
 [[nodiscard]] VerifyReport verify(const MeshPiece& mesh, const Pslg& input, const VerifyOptions& options);
 
-/// The same of a mesh in pieces, and that the pieces fit: points with the same number have the same coordinates, marker
-/// and attributes to the last bit wherever they are, and all numbers from 0 on are there. Both sides of every interface
-/// then have the same points and edges if the whole passes the checks above, where points of the same place with
-/// different numbers and edges with one triangle are flaws. `input` may be null. Throws Error if pieces have no
-/// numbers.
+/// The same for a mesh in pieces, and checks that the pieces fit: points with the same number have the same
+/// coordinates, marker and attributes to the last bit in every piece, and no number from 0 on is missing. If the whole
+/// mesh also passes the checks above (where points in the same place with different numbers, and interior edges with
+/// one triangle, are flaws), both sides of every interface have the same points and edges. `input` may be null. Throws
+/// Error if a piece has no numbers.
 [[nodiscard]] VerifyReport verify_pieces(std::span<const MeshPiece> pieces, const Pslg* input,
                                          const VerifyOptions& options);
 
