@@ -337,28 +337,28 @@ Section balance_section() {
 
 Section cluster_section() {
   const Names<ClusterKind> kinds = {{ClusterKind::kSimulated, "simulated"}, {ClusterKind::kReal, "real"}};
-  return {"Clusters",
-          kSimulated,
-          kExperiment,
-          {choice("cluster.kind", &R::cluster, &R::Cluster::kind, kinds,
-                  "Ranks in virtual time, or those that mpirun starts", places(kMany)),
-           key("cluster.ranks", &R::cluster, &R::Cluster::ranks,
-               "Number of ranks; 0: those of cluster.groups, or of mpirun", in(0, kMaxRanks), places(kMany)),
-           key("cluster.speed", &R::cluster, &R::Cluster::speed,
-               "Triangles per second that each refines; 0: 7.9 million, as the machine in docs/benchmarks.md",
-               unit("triangles/s"), from(0)),
-           groups_key(),
-           key("cluster.drag", &R::cluster, &R::Cluster::drag,
-               "Share of its speed that is left to each rank, real or simulated, as in 1,0.5; empty: all of it",
-               in(0.01, 1), option("drag", "F,F,..."), places(kMany), doors(kMesh | kExperiment)),
-           key("cluster.latency", &R::cluster, &R::Cluster::latency,
-               "Time from the end of sending to arrival, on simulated clusters", unit("seconds"), from(0),
-               places(kMany)),
-           key("cluster.bandwidth", &R::cluster, &R::Cluster::bandwidth,
-               "Bytes per second that leave a rank, on simulated clusters", above(0), places(kMany)),
-           key("cluster.message-overhead", &R::cluster, &R::Cluster::message_overhead,
-               "Time of a rank for each message it sends or receives, on simulated clusters", unit("seconds"), from(0),
-               places(kMany))}};
+  return {
+      "Clusters",
+      kSimulated,
+      kExperiment,
+      {choice("cluster.kind", &R::cluster, &R::Cluster::kind, kinds,
+              "Ranks in virtual time, or those that mpirun starts", places(kMany)),
+       key("cluster.ranks", &R::cluster, &R::Cluster::ranks,
+           "Number of ranks; 0: those of cluster.groups, or of mpirun", in(0, kMaxRanks), places(kMany)),
+       key("cluster.speed", &R::cluster, &R::Cluster::speed,
+           "Triangles per second that each refines; 0: 7.9 million, as the machine in docs/benchmarks.md",
+           unit("triangles/s"), from(0)),
+       groups_key(),
+       key("cluster.drag", &R::cluster, &R::Cluster::drag,
+           "Share of its speed that is left to each rank, real or simulated, as in 1,0.5; empty: all of it",
+           in(0.01, 1), option("drag", "F,F,..."), places(kMany), doors(kMesh | kExperiment)),
+       key("cluster.latency", &R::cluster, &R::Cluster::latency,
+           "Time from the end of sending to arrival, on simulated clusters", unit("seconds"), from(0), places(kMany)),
+       key("cluster.bandwidth", &R::cluster, &R::Cluster::bandwidth,
+           "Bytes per second that leave a rank, on simulated clusters", above(0), places(kMany)),
+       key("cluster.message-overhead", &R::cluster, &R::Cluster::message_overhead,
+           "Time of a rank for each message it sends or receives, on simulated clusters", unit("seconds"), from(0),
+           places(kMany))}};
 }
 
 Section output_section() {

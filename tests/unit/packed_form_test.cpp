@@ -201,7 +201,8 @@ TEST_CASE("each invariant of a triangulation is looked at") {
           t = {{t.vertex[1], t.vertex[2], t.vertex[0]}, {t.neighbor[1], t.neighbor[2], t.neighbor[0]}};
         }) != "");
   CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].path = 0; }) != "");
-  CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = 0; }) == "the halves of a subsegment do not fit it");
+  CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = 0; }) ==
+        "the halves of a subsegment do not fit it");
   CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = kNone; }) != "");
   CHECK(fault([](Triangulation& m) { m.roots[0].tree = 1; }) != "");
   CHECK(fault([](Triangulation& m) { m.subsegments.push_back(m.subsegments.back()); }) != "");

@@ -137,8 +137,7 @@ TEST_CASE("every malformed file gets its message") {
       {"huge_coordinate",
        ".poly:3: x is outside the range of coordinates; scale the input: besides 0, magnitudes from 7.6e-37 to 1.7e72 "
        "are supported"},
-      {"overflowing_coordinate",
-       ".poly:3: x '1e400' is too large or too small; use a number of moderate size"},
+      {"overflowing_coordinate", ".poly:3: x '1e400' is too large or too small; use a number of moderate size"},
       {"text_coordinate", ".poly:3: x is '1,5', which is not a number; correct the field"},
       {"missing_coordinate",
        ".poly:3: y is missing; add it or correct the number of columns that the header announces"},
