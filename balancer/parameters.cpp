@@ -5,8 +5,8 @@
 #include <sstream>
 #include <system_error>
 
-#include "base/error.hpp"
 #include "base/nearest_name.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh::balancer {
 namespace {

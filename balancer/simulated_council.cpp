@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "balancer/plan_jointly.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh::balancer {
 

@@ -10,7 +10,7 @@
 #include <iostream>
 #include <string>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh::bench {
 namespace {

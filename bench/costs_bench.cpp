@@ -13,11 +13,11 @@
 #include <limits>
 #include <vector>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "migration/subdomain.hpp"
-#include "pslg/generate.hpp"
 #include "runtime/plan_run.hpp"
 
 using namespace driftmesh;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int32_t kNoPart = -1;
 
-double area_of(const MeshPiece& mesh, std::size_t t) {
+double area_of(const Mesh& mesh, std::size_t t) {
   const auto corner = [&](int i) { return mesh.points[static_cast<std::size_t>(mesh.triangles[t][i])]; };
   const Point a = corner(0), b = corner(1), c = corner(2);
   return 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
@@ -23,7 +23,7 @@ double area_of(const MeshPiece& mesh, std::size_t t) {
 /// Grows parts triangle by triangle, breadth first, until each has its share of the area.
 class Parts {
  public:
-  Parts(const MeshPiece& mesh, const TriangleNeighbors& neighbors, std::size_t pieces)
+  Parts(const Mesh& mesh, const TriangleNeighbors& neighbors, std::size_t pieces)
       : mesh_(mesh), neighbors_(neighbors), part_(mesh.triangles.size(), kNoPart) {
     double total = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) total += area_of(mesh, t);
@@ -49,7 +49,7 @@ class Parts {
       }
   }
 
-  const MeshPiece& mesh_;
+  const Mesh& mesh_;
   const TriangleNeighbors& neighbors_;
   std::vector<std::int32_t> part_;
   std::vector<std::vector<std::size_t>> members_;
@@ -58,7 +58,7 @@ class Parts {
 /// Builds the boundary of one part.
 class Boundary {
  public:
-  Boundary(const MeshPiece& mesh, const std::vector<Point>& holes) : mesh_(mesh) { pslg_.holes = holes; }
+  Boundary(const Mesh& mesh, const std::vector<Point>& holes) : mesh_(mesh) { pslg_.holes = holes; }
 
   void add_edge(std::int32_t a, std::int32_t b) { pslg_.segments.push_back({local(a), local(b), 1}); }
   /// Another part's triangle may lie in a hole of this one.
@@ -79,14 +79,14 @@ class Boundary {
     return at->second;
   }
 
-  const MeshPiece& mesh_;
+  const Mesh& mesh_;
   std::unordered_map<std::int32_t, std::int32_t> local_;
   Pslg pslg_;
 };
 
 }  // namespace
 
-std::vector<Pslg> cut(const MeshPiece& coarse, const std::vector<Point>& holes, std::size_t pieces) {
+std::vector<Pslg> cut(const Mesh& coarse, const std::vector<Point>& holes, std::size_t pieces) {
   const TriangleNeighbors neighbors = triangle_neighbors(coarse);
   const Parts parts(coarse, neighbors, pieces);
   std::vector<Pslg> result;

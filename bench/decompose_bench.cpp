@@ -10,15 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
+#include "driftmesh/repair.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
-#include "pslg/generate.hpp"
 #include "pslg/poly_file.hpp"
-#include "pslg/repair.hpp"
 
 using namespace driftmesh;
 

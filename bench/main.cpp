@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.hpp"
 #include "bench/models.hpp"
 #include "bench/report.hpp"
 #include "bench/suites.hpp"
 #include "cli/command_line.hpp"
 #include "cli/values.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh::bench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "pslg/pslg.hpp"
+#include "driftmesh/pslg.hpp"
 
 namespace driftmesh::bench {
 

@@ -11,11 +11,11 @@
 #include "base/keep_memory.hpp"
 #include "base/stopwatch.hpp"
 #include "decompose/decompose.hpp"
+#include "driftmesh/generate.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/digest.hpp"
 #include "migration/subdomain.hpp"
-#include "pslg/generate.hpp"
 
 using namespace driftmesh;
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "bench/cgal_mesher.hpp"
-#include "pslg/generate.hpp"
+#include "driftmesh/generate.hpp"
 #include "pslg/poly_file.hpp"
 
 namespace driftmesh::bench {

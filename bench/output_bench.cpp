@@ -15,11 +15,11 @@ namespace {
 using namespace driftmesh;
 
 /// The unit square as n x n jittered cells of two triangles: two regions, four boundary markers.
-MeshPiece square(std::int32_t n) {
+Mesh square(std::int32_t n) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> jitter(-0.2, 0.2);
   const auto place = [&](std::int32_t i) { return i % n == 0 ? i / double(n) : (i + jitter(random)) / n; };
-  MeshPiece mesh;
+  Mesh mesh;
   for (std::int32_t j = 0; j <= n; ++j)
     for (std::int32_t i = 0; i <= n; ++i) {
       const double x = place(i);
@@ -43,8 +43,8 @@ MeshPiece square(std::int32_t n) {
   return mesh;
 }
 
-const MeshPiece& mesh_of(std::int64_t triangles) {
-  static MeshPiece mesh;
+const Mesh& mesh_of(std::int64_t triangles) {
+  static Mesh mesh;
   if (static_cast<std::int64_t>(mesh.triangles.size()) < triangles)
     mesh = square(static_cast<std::int32_t>(std::sqrt(static_cast<double>(triangles) / 2)));
   return mesh;
@@ -58,7 +58,7 @@ void remove_files(const std::string& path) {
   for (const std::string& file : mesh_files(path)) std::filesystem::remove(file);
 }
 
-void report(benchmark::State& state, const MeshPiece& mesh, const std::string& path) {
+void report(benchmark::State& state, const Mesh& mesh, const std::string& path) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.triangles.size()));
   std::int64_t bytes = 0;
   for (const std::string& file : mesh_files(path)) bytes += static_cast<std::int64_t>(std::filesystem::file_size(file));
@@ -66,7 +66,7 @@ void report(benchmark::State& state, const MeshPiece& mesh, const std::string& p
 }
 
 void write(benchmark::State& state, const char* extension) {
-  const MeshPiece& mesh = mesh_of(state.range(0));
+  const Mesh& mesh = mesh_of(state.range(0));
   const std::string path = file_name(extension);
   for (auto _ : state) write_mesh(mesh, path);
   report(state, mesh, path);
@@ -74,7 +74,7 @@ void write(benchmark::State& state, const char* extension) {
 }
 
 void read(benchmark::State& state, const char* extension) {
-  const MeshPiece& mesh = mesh_of(state.range(0));
+  const Mesh& mesh = mesh_of(state.range(0));
   const std::string path = file_name(extension);
   write_mesh(mesh, path);
   for (auto _ : state) benchmark::DoNotOptimize(read_mesh(path).points.size());
@@ -83,7 +83,7 @@ void read(benchmark::State& state, const char* extension) {
 }
 
 void plot(benchmark::State& state, PlotColor color) {
-  const MeshPiece& mesh = mesh_of(state.range(0));
+  const Mesh& mesh = mesh_of(state.range(0));
   const std::string path = file_name(".png");
   for (auto _ : state) plot_mesh(mesh, path, {.color = color});
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.triangles.size()));

@@ -5,11 +5,11 @@
 #include <functional>
 #include <iostream>
 
-#include "base/error.hpp"
 #include "bench/cgal_mesher.hpp"
 #include "bench/child_process.hpp"
 #include "bench/driftmesh_mesher.hpp"
-#include "pslg/generate.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
 
 namespace driftmesh::bench {
 namespace {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "api/driftmesh.hpp"
-#include "pslg/generate.hpp"
+#include "driftmesh/generate.hpp"
 
 namespace {
 

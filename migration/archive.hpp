@@ -13,7 +13,7 @@
 #include <string>
 #include <type_traits>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "migration/packed_bytes.hpp"
 
 // Boost's binary archives on bytes in memory, for values and flat arrays of values that are bytes already. An array

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/error.hpp"
+#include "geometry/midpoint.hpp"
 #include "mesh/link_triangles.hpp"
 
 namespace driftmesh {

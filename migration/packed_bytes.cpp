@@ -4,8 +4,8 @@
 #include <cstring>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/mix.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

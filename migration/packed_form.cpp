@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "mesh/triangulation_fault.hpp"
 #include "migration/archive.hpp"
 #include "migration/packed_bytes.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
 #include "decompose/presplit.hpp"
+#include "driftmesh/error.hpp"
 #include "mesh/refiner.hpp"
 
 namespace driftmesh {

@@ -1,6 +1,6 @@
 #include "migration/triangle_code.hpp"
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 

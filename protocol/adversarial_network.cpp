@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh::protocol {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh::protocol {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
 #include "base/nearest_name.hpp"
+#include "driftmesh/error.hpp"
 
 // All policies: a line each. The one of name X is made by make_X, which lies in the policy's own file.
 #define DRIFTMESH_POLICIES(POLICY) \

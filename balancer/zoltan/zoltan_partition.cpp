@@ -9,8 +9,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh::balancer {
 namespace {

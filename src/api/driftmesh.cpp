@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "base/error.hpp"
 #include "distributed/write_distributed.hpp"
+#include "driftmesh/error.hpp"
 #include "job/check.hpp"
 #include "job/keys.hpp"
 #include "job/mpi/mpi_team.hpp"

@@ -5,8 +5,8 @@
 
 #include "decompose/decomposition.hpp"
 #include "distributed/distributed_piece.hpp"
-#include "pslg/pslg.hpp"
-#include "sizing/size_field.hpp"
+#include "driftmesh/pslg.hpp"
+#include "driftmesh/size_field.hpp"
 
 /// driftmesh inside a solver: the ranks of a job make a mesh together, and each gets its piece of it in memory.
 /// examples/laplace.cpp shows the whole way.

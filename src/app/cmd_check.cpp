@@ -9,15 +9,15 @@
 
 #include "app/commands.hpp"
 #include "app/request_line.hpp"
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
 #include "mesh/digest.hpp"
 #include "pslg/poly_file.hpp"
-#include "pslg/repair.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -36,14 +36,14 @@ struct CheckOptions {
 };
 
 /// Every piece for itself: the digest of the whole is the sum.
-std::vector<MeshPiece> read_and_digest(const CheckOptions& options) {
-  std::vector<MeshPiece> pieces;
+std::vector<Mesh> read_and_digest(const CheckOptions& options) {
+  std::vector<Mesh> pieces;
   if (is_in_pieces(options.mesh))
     pieces = read_pieces(options.mesh);
   else
     pieces.push_back(read_mesh(options.mesh));
   std::uint64_t digest = 0;
-  for (const MeshPiece& piece : pieces) digest += mesh_digest(piece);
+  for (const Mesh& piece : pieces) digest += mesh_digest(piece);
   if (!options.quiet) print(fmt::format("digest         {:016x}\n", digest));
   return pieces;
 }
@@ -57,7 +57,7 @@ std::optional<Pslg> read_and_repair(const CheckOptions& options) {
 }
 
 VerifyReport read_and_verify(const CheckOptions& options) {
-  const std::vector<MeshPiece> pieces = read_and_digest(options);
+  const std::vector<Mesh> pieces = read_and_digest(options);
   const std::optional<Pslg> input = read_and_repair(options);
   if (is_in_pieces(options.mesh)) return verify_pieces(pieces, input ? &*input : nullptr, options.verify);
   return input ? verify(pieces[0], *input, options.verify) : verify(pieces[0], options.verify);

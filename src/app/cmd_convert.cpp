@@ -3,8 +3,8 @@
 #include <string>
 
 #include "app/commands.hpp"
-#include "base/error.hpp"
 #include "cli/values.hpp"
+#include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 
 namespace driftmesh::app {

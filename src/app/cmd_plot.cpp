@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
+#include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "picture/plot.hpp"
 #include "pslg/poly_file.hpp"
@@ -67,7 +67,7 @@ bool holds_input(const std::filesystem::path& path) {
   return !std::filesystem::exists(std::filesystem::path(path).replace_extension(".ele"));
 }
 
-void check_color(const PlotCommand& command, const MeshPiece& mesh) {
+void check_color(const PlotCommand& command, const Mesh& mesh) {
   const auto refuse = [&](const char* what) {
     throw InputError({command.input, 0}, std::string("does not tell the ") + what + " of its triangles",
                      "only .pvtu, .vtu and .msh files of distributed meshes do; choose another --color");
@@ -86,7 +86,7 @@ void run_plot(const cli::Call& call, PlotCommand& command) {
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
   if (command.plot.title.empty()) command.plot.title = title_of(command.input);
   if (holds_input(input)) return plot_pslg(read_poly(command.input), command.output, command.plot);
-  const MeshPiece mesh = read_mesh(command.input);
+  const Mesh mesh = read_mesh(command.input);
   check_color(command, mesh);
   plot_mesh(mesh, command.output, command.plot);
 }

@@ -15,10 +15,10 @@
 #include "app/progress_line.hpp"
 #include "app/real_cluster.hpp"
 #include "base/atomic_file.hpp"
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "config/words.hpp"
+#include "driftmesh/error.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 
 namespace driftmesh::app {

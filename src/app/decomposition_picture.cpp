@@ -34,8 +34,8 @@ std::vector<int> color_subdomains(const Decomposition& d) {
 }
 
 /// The subdomains triangulated, in pieces of the plane that a picture can show.
-MeshPiece subdomains_as_mesh(const Decomposition& d) {
-  MeshPiece piece;
+Mesh subdomains_as_mesh(const Decomposition& d) {
+  Mesh piece;
   piece.points = d.points;
   for (std::size_t i = 0; i < d.size(); ++i) {
     const SubdomainMesh part = subdomain_triangulation(d, static_cast<SubdomainId>(i));
@@ -54,9 +54,9 @@ MeshPiece subdomains_as_mesh(const Decomposition& d) {
 
 }  // namespace
 
-MeshPiece colored_subdomains(const Decomposition& d) {
+Mesh colored_subdomains(const Decomposition& d) {
   const std::vector<int> color = color_subdomains(d);
-  MeshPiece piece = subdomains_as_mesh(d);
+  Mesh piece = subdomains_as_mesh(d);
   for (const std::int32_t s : piece.subdomains) piece.regions.push_back(color[static_cast<std::size_t>(s)] + 1);
   piece.subdomains.clear();
   return piece;
@@ -74,7 +74,7 @@ void plot_decomposition(const Decomposition& d, const std::string& path, const s
 
 void plot_owners(const Decomposition& d, const std::vector<std::int32_t>& owners, const std::string& path,
                  const std::string& title) {
-  MeshPiece piece = subdomains_as_mesh(d);
+  Mesh piece = subdomains_as_mesh(d);
   for (const std::int32_t s : piece.subdomains) piece.ranks.push_back(owners[static_cast<std::size_t>(s)]);
   PlotOptions options;
   options.color = PlotColor::rank;

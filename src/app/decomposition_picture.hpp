@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "decompose/decomposition.hpp"
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh::app {
 
 /// The subdomains as a mesh whose regions are a few colours, no two neighbours alike; its edges are the roots.
-[[nodiscard]] MeshPiece colored_subdomains(const Decomposition& decomposition);
+[[nodiscard]] Mesh colored_subdomains(const Decomposition& decomposition);
 
 /// Draws them. Throws as plot_mesh does.
 void plot_decomposition(const Decomposition& decomposition, const std::string& path, const std::string& title);

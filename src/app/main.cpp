@@ -8,10 +8,10 @@
 #include <thread>
 
 #include "app/commands.hpp"
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
 #include "base/temporary_files.hpp"
 #include "cli/command_line.hpp"
+#include "driftmesh/error.hpp"
 #include "driftmesh/version.hpp"
 #include "job/limits.hpp"
 #include "protocol/mpi/mpi_transport.hpp"

@@ -40,21 +40,21 @@ void check_outputs_of(const Request& request, std::int32_t ranks) {
   check_outputs(request.output.meshes, request.output.picture, request.output.record, request.input.file, ranks);
 }
 
-void draw(const Request& request, const MeshPiece& mesh) {
+void draw(const Request& request, const Mesh& mesh) {
   const std::string title = std::filesystem::path(job::input_name(request)).filename().string();
   plot_mesh(mesh, request.output.picture, {.title = title});
 }
 
 // ---- In one piece ----------------------------------------------------------------------------------------------
 
-MeshPiece converted(Triangulation mesh, const Pslg& pslg) {
-  MeshPiece piece = to_piece(mesh, pslg);
+Mesh converted(Triangulation mesh, const Pslg& pslg) {
+  Mesh piece = to_piece(mesh, pslg);
   interpolate_attributes(pslg, piece);
   return piece;
 }
 
 void write_piece(const Request& request, const Pslg& pslg, Triangulation&& mesh, RunNotes& notes) {
-  const MeshPiece piece = timed(notes, "convert", [&] { return converted(std::move(mesh), pslg); });
+  const Mesh piece = timed(notes, "convert", [&] { return converted(std::move(mesh), pslg); });
   timed(notes, "write", [&] {
     for (const std::string& output : request.output.meshes) write_mesh(piece, output, {pslg.holes});
   });

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "base/atomic_file.hpp"
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
+#include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "io/pvtu_format.hpp"
 #include "picture/plot.hpp"

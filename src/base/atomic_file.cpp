@@ -6,8 +6,8 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 #include <cerrno>
 #include <cstring>

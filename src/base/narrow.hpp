@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 

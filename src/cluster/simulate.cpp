@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "balancer/simulated_council.hpp"
-#include "base/error.hpp"
 #include "cluster/rank_log.hpp"
+#include "driftmesh/error.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime/rank_loop.hpp"
 

@@ -7,10 +7,10 @@
 #include <functional>
 #include <set>
 
-#include "base/error.hpp"
 #include "base/nearest_name.hpp"
 #include "base/read_file.hpp"
 #include "base/standard_streams.hpp"
+#include "driftmesh/error.hpp"
 #include "job/check.hpp"
 #include "job/keys.hpp"
 

@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "geometry/midpoint.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cavity.hpp"
 

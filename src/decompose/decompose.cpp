@@ -8,12 +8,12 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
 #include "decompose/bridges.hpp"
 #include "decompose/cut_search.hpp"
 #include "decompose/pieces.hpp"
 #include "decompose/to_decomposition.hpp"
 #include "decompose/work_samples.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

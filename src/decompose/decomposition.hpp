@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 #include "mesh/triangulation.hpp"
 
 namespace driftmesh {

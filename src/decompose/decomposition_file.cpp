@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "base/atomic_file.hpp"
-#include "base/error.hpp"
 #include "base/line_writer.hpp"
 #include "base/read_file.hpp"
 #include "decompose/check_decomposition.hpp"
 #include "decompose/same_input.hpp"
+#include "driftmesh/error.hpp"
 #include "pslg/record_scanner.hpp"
 
 namespace driftmesh {

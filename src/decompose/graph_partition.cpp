@@ -9,8 +9,8 @@
 #include <string>
 
 #include "base/assert.hpp"
-#include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
-#include "base/error.hpp"
 #include "decompose/graph_partition.hpp"
 #include "decompose/outline.hpp"
 #include "decompose/work.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {

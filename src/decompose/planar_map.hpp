@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 #include "mesh/triangulation.hpp"
 
 namespace driftmesh {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "decompose/work.hpp"
+#include "geometry/midpoint.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/mix.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

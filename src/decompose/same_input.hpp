@@ -4,7 +4,7 @@
 #include <string>
 
 #include "decompose/decomposition.hpp"
-#include "pslg/pslg.hpp"
+#include "driftmesh/pslg.hpp"
 
 namespace driftmesh {
 

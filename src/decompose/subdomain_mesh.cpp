@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/pslg.hpp"
 #include "mesh/cdt.hpp"
-#include "pslg/pslg.hpp"
 
 namespace driftmesh {
 namespace {

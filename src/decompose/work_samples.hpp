@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/triangulation.hpp"
 

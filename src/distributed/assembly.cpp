@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/byte_stream.hpp"
-#include "base/error.hpp"
 #include "distributed/piece_builder.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 

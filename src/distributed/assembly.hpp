@@ -7,7 +7,7 @@
 #include "distributed/exchange.hpp"
 #include "distributed/held_subdomains.hpp"
 #include "distributed/numbering.hpp"
-#include "pslg/pslg.hpp"
+#include "driftmesh/pslg.hpp"
 
 namespace driftmesh {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 #include "protocol/ids.hpp"
 
 namespace driftmesh {
@@ -22,7 +22,7 @@ struct DistributedPiece {
   /// With numbers, subdomains and ranks. Vertices ascend by their numbers. Numbers run from 0 to total_points - 1 over
   /// the whole mesh and depend on the decomposition and the mesh alone, not on who holds what. Triangles are sorted by
   /// subdomain. A subsegment of the input between two ranks is in the pieces of both.
-  MeshPiece mesh;
+  Mesh mesh;
   std::vector<protocol::Rank> owners;  ///< of each vertex: one of the ranks that have it, the same for all of them
   std::vector<Neighbor> neighbors;     ///< ascending by rank; every rank with a common vertex
   bool has_regions = false;            ///< the whole mesh has them, so mesh.regions has an entry for each triangle

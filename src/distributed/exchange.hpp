@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/byte_stream.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "protocol/ids.hpp"
 #include "protocol/protocol_error.hpp"
 #include "protocol/rank_step.hpp"

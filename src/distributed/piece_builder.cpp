@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/error.hpp"
 #include "mesh/interpolate_attributes.hpp"
 
 namespace driftmesh {
@@ -155,7 +155,7 @@ void PieceBuilder::set_point(std::int32_t place, const Point& p, SubdomainId i) 
 
 void PieceBuilder::add_triangles(SubdomainId i, const Triangulation& mesh, const std::vector<std::int32_t>& place,
                                  const Pslg& pslg) {
-  MeshPiece& piece = piece_.mesh;
+  Mesh& piece = piece_.mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!mesh.triangles[t].alive()) continue;
     const auto& v = mesh.triangles[t].vertex;
@@ -202,7 +202,7 @@ void PieceBuilder::mark_points(const Pslg& pslg) {
 }
 
 void PieceBuilder::set_attributes(const Pslg& pslg) {
-  MeshPiece& piece = piece_.mesh;
+  Mesh& piece = piece_.mesh;
   piece.attributes_per_point = pslg.attributes_per_point;
   if (pslg.attributes_per_point == 0 || piece.points.empty()) return;
   const auto width = id(pslg.attributes_per_point);

@@ -8,7 +8,7 @@
 #include "distributed/distributed_piece.hpp"
 #include "distributed/held_subdomains.hpp"
 #include "distributed/numbering.hpp"
-#include "pslg/pslg.hpp"
+#include "driftmesh/pslg.hpp"
 
 namespace driftmesh {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/byte_stream.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/merge_pieces.hpp"
 
@@ -17,7 +17,7 @@ using protocol::Rank;
 
 namespace {
 
-Bytes pack(const MeshPiece& mesh) {
+Bytes pack(const Mesh& mesh) {
   ByteWriter writer;
   writer.array(mesh.points);
   writer.array(mesh.triangles);
@@ -32,8 +32,8 @@ Bytes pack(const MeshPiece& mesh) {
   return writer.take();
 }
 
-MeshPiece unpack(const Mail& mail) {
-  MeshPiece mesh;
+Mesh unpack(const Mail& mail) {
+  Mesh mesh;
   read_mail(mail, [&](ByteReader& reader) {
     reader.array(mesh.points);
     reader.array(mesh.triangles);
@@ -106,7 +106,7 @@ void GatherPieces::receive(int round, std::vector<Mail> mail) {
 }
 
 void GatherPieces::merge() {
-  std::vector<MeshPiece> pieces;
+  std::vector<Mesh> pieces;
   for (Mail& mail : pieces_) {
     pieces.push_back(unpack(mail));
     mail.bytes = {};
@@ -136,7 +136,7 @@ void WritePieces::receive(int, std::vector<Mail> mail) {
   throw_first_failure(mail);
 }
 
-WriteWhole::WriteWhole(const DistributedPiece& piece, const MeshPiece& whole, std::string path, WriteOptions options)
+WriteWhole::WriteWhole(const DistributedPiece& piece, const Mesh& whole, std::string path, WriteOptions options)
     : piece_(piece), whole_(whole), path_(std::move(path)), options_(std::move(options)) {}
 
 std::vector<Mail> WriteWhole::send(int) {

@@ -24,15 +24,15 @@ class GatherPieces final : public Exchange {
   void receive(int round, std::vector<Mail> mail) override;
 
   /// After the conversation: on rank 0 the whole mesh, the same for every distribution of the same subdomains but for
-  /// MeshPiece::ranks; on others nothing.
-  [[nodiscard]] const MeshPiece& whole() const { return whole_; }
+  /// Mesh::ranks; on others nothing.
+  [[nodiscard]] const Mesh& whole() const { return whole_; }
 
  private:
   void merge();
 
   const DistributedPiece& piece_;
   std::vector<Mail> pieces_;  // as they came
-  MeshPiece whole_;
+  Mesh whole_;
 };
 
 /// Writes a mesh from all ranks at once, each its piece (mesh_0.vtu, mesh_1.vtu, ... beside mesh.pvtu). No file gets
@@ -60,7 +60,7 @@ class WritePieces final : public Exchange {
 class WriteWhole final : public Exchange {
  public:
   /// `whole` (of rank 0; ignored elsewhere) outlives the object.
-  WriteWhole(const DistributedPiece& piece, const MeshPiece& whole, std::string path, WriteOptions options = {});
+  WriteWhole(const DistributedPiece& piece, const Mesh& whole, std::string path, WriteOptions options = {});
 
   [[nodiscard]] int rounds() const override { return 1; }
   [[nodiscard]] std::vector<Mail> send(int round) override;
@@ -69,7 +69,7 @@ class WriteWhole final : public Exchange {
 
  private:
   const DistributedPiece& piece_;
-  const MeshPiece& whole_;
+  const Mesh& whole_;
   std::string path_;
   WriteOptions options_;
 };

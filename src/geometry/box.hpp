@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
+#include "geometry/midpoint.hpp"
 
 namespace driftmesh {
 

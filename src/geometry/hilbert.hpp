@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 
 namespace driftmesh {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 
 #ifdef __FAST_MATH__
 #error "exact predicates need IEEE arithmetic: do not compile with -ffast-math"

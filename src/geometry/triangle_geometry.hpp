@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 #include "geometry/predicates.hpp"
 
 namespace driftmesh {

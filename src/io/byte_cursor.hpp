@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
+#include "driftmesh/error.hpp"
 #include "io/msh_format.hpp"
 #include "io/pvtu_format.hpp"
 #include "io/triangle_format.hpp"
@@ -40,7 +40,7 @@ std::string without_extension(const std::string& path) {
 
 }  // namespace
 
-void write_mesh(const MeshPiece& mesh, const std::string& path, const WriteOptions& options) {
+void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
   switch (format_of(path)) {
     case Format::kVtu:
       return write_vtu(mesh, path);
@@ -53,7 +53,7 @@ void write_mesh(const MeshPiece& mesh, const std::string& path, const WriteOptio
   }
 }
 
-MeshPiece read_mesh(const std::string& path) {
+Mesh read_mesh(const std::string& path) {
   switch (format_of(path)) {
     case Format::kVtu:
       return read_vtu(path);

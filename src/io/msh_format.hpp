@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh {
 
@@ -11,13 +11,13 @@ namespace driftmesh {
 /// 5"), one surface entity and physical group for each region ("region 2"; "domain" for a mesh without regions). A
 /// group's tag is the value itself if that is a positive integer, otherwise an unused tag; its name holds the exact
 /// value. Point attributes are $NodeData; point markers are in a section of our own, which other readers skip.
-void write_msh(const MeshPiece& mesh, const std::string& path);
+void write_msh(const Mesh& mesh, const std::string& path);
 
 /// Reads format 4.1, ASCII or binary, as written by write_msh or Gmsh: points, triangles and lines of first order, in
 /// the order of their tags. Markers and regions come from the names of the physical groups if write_msh wrote them,
 /// otherwise from the groups' tags; they are 0 for elements in no group.
-[[nodiscard]] MeshPiece read_msh(const std::string& path);
+[[nodiscard]] Mesh read_msh(const std::string& path);
 /// The same from memory; `file` is for messages.
-[[nodiscard]] MeshPiece parse_msh(const std::string& file, std::string_view bytes);
+[[nodiscard]] Mesh parse_msh(const std::string& file, std::string_view bytes);
 
 }  // namespace driftmesh

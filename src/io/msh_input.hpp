@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 
 namespace driftmesh {

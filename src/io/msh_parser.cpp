@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/msh_groups.hpp"
 #include "io/msh_input.hpp"

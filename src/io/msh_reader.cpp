@@ -3,9 +3,9 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/narrow.hpp"
 #include "base/read_file.hpp"
+#include "driftmesh/error.hpp"
 #include "io/msh_format.hpp"
 #include "io/msh_groups.hpp"
 #include "io/msh_parser.hpp"
@@ -24,7 +24,7 @@ class MshAssembler {
         node_order_(order_by_tag(raw_.node_tags)),
         node_index_(ascending_node_tags()) {}
 
-  MeshPiece assemble() {
+  Mesh assemble() {
     place_points();
     place_edges();
     place_triangles();
@@ -146,18 +146,18 @@ class MshAssembler {
   RawMsh raw_;
   std::vector<std::size_t> node_order_;
   TagIndex node_index_;
-  MeshPiece mesh_;
+  Mesh mesh_;
 };
 
 }  // namespace
 
-MeshPiece parse_msh(const std::string& file, std::string_view bytes) {
-  MeshPiece mesh = MshAssembler(file, parse_msh_sections(file, bytes)).assemble();
+Mesh parse_msh(const std::string& file, std::string_view bytes) {
+  Mesh mesh = MshAssembler(file, parse_msh_sections(file, bytes)).assemble();
   check_read_mesh(mesh, file);
   return mesh;
 }
 
-MeshPiece read_msh(const std::string& path) {
+Mesh read_msh(const std::string& path) {
   return parse_msh(path, read_file(path));
 }
 

@@ -78,7 +78,7 @@ struct Entity {
 
 // Which entity everything belongs to. Curves and surfaces are numbered from 0; a node on both belongs to the curve.
 struct Classification {
-  explicit Classification(const MeshPiece& mesh) {
+  explicit Classification(const Mesh& mesh) {
     classify_edges(mesh);
     classify_triangles(mesh);
     find_boxes(mesh);
@@ -94,16 +94,16 @@ struct Classification {
   std::vector<std::vector<std::int32_t>> boundaries;  // the curves at each surface
 
  private:
-  void classify_edges(const MeshPiece& mesh) {
+  void classify_edges(const Mesh& mesh) {
     DistinctValues markers;
     curve_of_edge.reserve(mesh.edges.size());
-    for (const MeshPiece::Edge& edge : mesh.edges) curve_of_edge.push_back(markers.number(edge.marker));
+    for (const Mesh::Edge& edge : mesh.edges) curve_of_edge.push_back(markers.number(edge.marker));
     const std::vector<std::int32_t> tags = group_tags(markers.values);
     for (std::size_t i = 0; i < tags.size(); ++i)
       curves.push_back({tags[i], marker_group_name(static_cast<std::int32_t>(markers.values[i])), {}});
   }
 
-  void classify_triangles(const MeshPiece& mesh) {
+  void classify_triangles(const Mesh& mesh) {
     surface_of_triangle.assign(mesh.triangles.size(), 0);
     if (mesh.regions.empty()) {
       surfaces.push_back({1, std::string(kDomainName), {}});
@@ -116,7 +116,7 @@ struct Classification {
       surfaces.push_back({tags[i], region_group_name(regions.values[i]), {}});
   }
 
-  void find_boxes(const MeshPiece& mesh) {
+  void find_boxes(const Mesh& mesh) {
     for (std::size_t e = 0; e < mesh.edges.size(); ++e)
       for (std::int32_t vertex : {mesh.edges[e].a, mesh.edges[e].b})
         curves[curve_of_edge[e]].box.add(mesh.points[vertex]);
@@ -124,7 +124,7 @@ struct Classification {
       for (std::int32_t vertex : mesh.triangles[t]) surfaces[surface_of_triangle[t]].box.add(mesh.points[vertex]);
   }
 
-  void classify_nodes(const MeshPiece& mesh) {
+  void classify_nodes(const Mesh& mesh) {
     const auto first_surface = static_cast<std::int32_t>(curves.size());
     entity_of_node.assign(mesh.points.size(), first_surface);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -133,7 +133,7 @@ struct Classification {
       for (std::int32_t vertex : {mesh.edges[e].a, mesh.edges[e].b}) entity_of_node[vertex] = curve_of_edge[e];
   }
 
-  void find_boundaries(const MeshPiece& mesh) {
+  void find_boundaries(const Mesh& mesh) {
     boundaries.resize(surfaces.size());
     std::set<std::pair<std::int32_t, std::int32_t>> seen;
     const auto at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
@@ -225,7 +225,7 @@ void write_section_counts(FileSink& sink, std::size_t blocks, std::size_t items)
   write_size(sink, items);
 }
 
-void write_nodes(FileSink& sink, const MeshPiece& mesh, const Classification& classes) {
+void write_nodes(FileSink& sink, const Mesh& mesh, const Classification& classes) {
   section(sink, "Nodes");
   const Grouping grouping(classes.entity_of_node, classes.curves.size() + classes.surfaces.size());
   write_section_counts(sink, count_used(grouping), mesh.points.size());
@@ -247,7 +247,7 @@ void write_block_header(FileSink& sink, int dimension, const Entity& entity, std
   write_size(sink, count);
 }
 
-void write_elements(FileSink& sink, const MeshPiece& mesh, const Classification& classes) {
+void write_elements(FileSink& sink, const Mesh& mesh, const Classification& classes) {
   section(sink, "Elements");
   const Grouping edges(classes.curve_of_edge, classes.curves.size());
   const Grouping triangles(classes.surface_of_triangle, classes.surfaces.size());
@@ -270,7 +270,7 @@ void write_elements(FileSink& sink, const MeshPiece& mesh, const Classification&
   end_of_binary_section(sink, "EndElements");
 }
 
-void write_attribute(FileSink& sink, const MeshPiece& mesh, std::size_t k) {
+void write_attribute(FileSink& sink, const Mesh& mesh, std::size_t k) {
   section(sink, "NodeData");
   sink.text("1\n\"attribute ");
   sink.number(k + 1);
@@ -286,7 +286,7 @@ void write_attribute(FileSink& sink, const MeshPiece& mesh, std::size_t k) {
 }
 
 // Where the triangles were made, as a view on them: physical groups for this would change what solvers load.
-void write_triangle_data(FileSink& sink, const MeshPiece& mesh, std::string_view name,
+void write_triangle_data(FileSink& sink, const Mesh& mesh, std::string_view name,
                          const std::vector<std::int32_t>& values) {
   section(sink, "ElementData");
   sink.text("1\n\"");
@@ -318,7 +318,7 @@ void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& marker
 
 }  // namespace
 
-void write_msh(const MeshPiece& mesh, const std::string& path) {
+void write_msh(const Mesh& mesh, const std::string& path) {
   (void)narrow<std::int32_t>(mesh.edges.size() + mesh.triangles.size(), "elements of a .msh file");
   FileSink sink(path);
   const Classification classes(mesh);

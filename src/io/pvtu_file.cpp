@@ -1,7 +1,7 @@
 #include <filesystem>
 
-#include "base/error.hpp"
 #include "base/read_file.hpp"
+#include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "io/pvtu_format.hpp"
 #include "io/xml_scanner.hpp"
@@ -103,15 +103,15 @@ std::vector<std::string> pvtu_pieces(const std::string& path) {
   return parse_pvtu(path, read_file(path));
 }
 
-std::vector<MeshPiece> read_pieces(const std::string& path) {
-  std::vector<MeshPiece> pieces;
+std::vector<Mesh> read_pieces(const std::string& path) {
+  std::vector<Mesh> pieces;
   for (const std::string& piece : pvtu_pieces(path)) pieces.push_back(read_vtu(piece));
   return pieces;
 }
 
-MeshPiece read_pvtu(const std::string& path) {
+Mesh read_pvtu(const std::string& path) {
   MergeFaults faults;
-  MeshPiece mesh;
+  Mesh mesh;
   try {
     mesh = merge_pieces(read_pieces(path), faults);
   } catch (const InputError&) {

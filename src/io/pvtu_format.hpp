@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/mesh.hpp"
 #include "io/vtu_format.hpp"
-#include "mesh/mesh_piece.hpp"
 
 namespace driftmesh {
 
@@ -20,6 +20,6 @@ void write_pvtu(const std::string& path, std::int32_t pieces, const VtuArrays& a
 [[nodiscard]] std::vector<std::string> parse_pvtu(const std::string& file, std::string_view bytes);
 
 /// The whole mesh of a .pvtu (see merge_pieces). Throws InputError if its pieces contradict each other.
-[[nodiscard]] MeshPiece read_pvtu(const std::string& path);
+[[nodiscard]] Mesh read_pvtu(const std::string& path);
 
 }  // namespace driftmesh

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/id_vector.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
 
 namespace driftmesh {
@@ -17,7 +17,7 @@ bool is_in_range(double x) {
   return x == 0 || (std::fabs(x) >= kSmallestCoordinate && std::fabs(x) <= kMaxCoordinate);
 }
 
-void check_points(const MeshPiece& mesh, const std::string& path) {
+void check_points(const Mesh& mesh, const std::string& path) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     if (!is_in_range(mesh.points[v].x) || !is_in_range(mesh.points[v].y))
       throw InputError({path, 0}, "point " + std::to_string(v) + " (counted from 0) is not finite or out of range",
@@ -26,7 +26,7 @@ void check_points(const MeshPiece& mesh, const std::string& path) {
 
 class VertexRange {
  public:
-  VertexRange(const MeshPiece& mesh, const std::string& path) : path_(path), count_(mesh.points.size()) {}
+  VertexRange(const Mesh& mesh, const std::string& path) : path_(path), count_(mesh.points.size()) {}
   void check(std::int32_t vertex, const char* what, std::size_t number) const {
     if (to_index(vertex) < count_) return;
     throw InputError({path_, 0},
@@ -40,7 +40,7 @@ class VertexRange {
   std::size_t count_;
 };
 
-void check_indices(const MeshPiece& mesh, const std::string& path) {
+void check_indices(const Mesh& mesh, const std::string& path) {
   const VertexRange range(mesh, path);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::int32_t vertex : mesh.triangles[t]) range.check(vertex, "triangle", t);
@@ -58,7 +58,7 @@ void check_length(std::size_t length, std::size_t expected, const char* what, co
                      kNext);
 }
 
-void check_lengths(const MeshPiece& mesh, const std::string& path) {
+void check_lengths(const Mesh& mesh, const std::string& path) {
   if (!mesh.point_markers.empty()) check_length(mesh.point_markers.size(), mesh.points.size(), "point markers", path);
   if (!mesh.regions.empty()) check_length(mesh.regions.size(), mesh.triangles.size(), "regions", path);
   if (!mesh.numbers.empty()) check_length(mesh.numbers.size(), mesh.points.size(), "point numbers", path);
@@ -67,7 +67,7 @@ void check_lengths(const MeshPiece& mesh, const std::string& path) {
   check_length(mesh.attributes.size(), mesh.attributes_per_point * mesh.points.size(), "point attributes", path);
 }
 
-double twice_total_area(const MeshPiece& mesh) {
+double twice_total_area(const Mesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Point& p = mesh.points[a];
@@ -80,7 +80,7 @@ double twice_total_area(const MeshPiece& mesh) {
 
 }  // namespace
 
-void check_read_mesh(MeshPiece& mesh, const std::string& path) {
+void check_read_mesh(Mesh& mesh, const std::string& path) {
   check_points(mesh, path);
   check_indices(mesh, path);
   check_lengths(mesh, path);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh {
 
@@ -13,6 +13,6 @@ inline constexpr const char* kDamaged = "the file is damaged or was not written 
 /// of predicates.hpp, vertex indices out of range, arrays whose lengths disagree), and reverses all triangles if the
 /// total area is negative. A single inverted triangle stays as it is, for a check to find. Error: InputError naming the
 /// file.
-void check_read_mesh(MeshPiece& mesh, const std::string& path);
+void check_read_mesh(Mesh& mesh, const std::string& path);
 
 }  // namespace driftmesh

@@ -3,17 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh {
 
 /// Writes STEM.node, .ele, .poly, .edge and .neigh as Triangle defines them, numbered from 1. No older file
 /// is replaced before all are written.
-void write_triangle_format(const MeshPiece& mesh, const std::string& stem, const std::vector<Point>& holes);
+void write_triangle_format(const Mesh& mesh, const std::string& stem, const std::vector<Point>& holes);
 
 /// Reads STEM.node and STEM.ele. The constrained edges are the segments of STEM.poly if that file exists and takes
 /// its vertices from the .node file; otherwise the edges of STEM.edge whose marker is not 0, if that file exists. The
 /// last attribute of a triangle is its region.
-[[nodiscard]] MeshPiece read_triangle_format(const std::string& stem);
+[[nodiscard]] Mesh read_triangle_format(const std::string& stem);
 
 }  // namespace driftmesh

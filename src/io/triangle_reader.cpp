@@ -10,7 +10,7 @@
 namespace driftmesh {
 namespace {
 
-using Edges = std::vector<MeshPiece::Edge>;
+using Edges = std::vector<Mesh::Edge>;
 
 // The section "count has_markers" and its records "number a b marker", which .poly and .edge files share.
 Edges scan_edges(RecordScanner& scanner, const NodeTable& nodes, bool& has_markers) {
@@ -19,7 +19,7 @@ Edges scan_edges(RecordScanner& scanner, const NodeTable& nodes, bool& has_marke
   has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
   scanner.require_room(count, "edges", has_markers ? 4 : 3);
   Edges edges(count);
-  for (MeshPiece::Edge& edge : edges) {
+  for (Mesh::Edge& edge : edges) {
     scanner.require_record("an edge", "the header announces " + std::to_string(count) + "; the file may be truncated");
     (void)scanner.integer("the edge number");
     edge.a = scan_vertex(scanner, nodes.points.size(), nodes.first_number);
@@ -46,7 +46,7 @@ Edges read_marked_edges(const std::string& path, const NodeTable& nodes) {
   RecordScanner scanner(path, text);
   bool has_markers = false;
   Edges edges = scan_edges(scanner, nodes, has_markers);
-  std::erase_if(edges, [](const MeshPiece::Edge& edge) { return edge.marker == 0; });
+  std::erase_if(edges, [](const Mesh::Edge& edge) { return edge.marker == 0; });
   return edges;
 }
 
@@ -62,10 +62,10 @@ std::vector<double> last_attributes(EleTable&& elements) {
 
 }  // namespace
 
-MeshPiece read_triangle_format(const std::string& stem) {
+Mesh read_triangle_format(const std::string& stem) {
   NodeTable nodes = read_node(stem + ".node");
   EleTable elements = read_ele(stem + ".ele", nodes);
-  MeshPiece mesh;
+  Mesh mesh;
   const std::optional<Edges> segments = read_segments(stem + ".poly", nodes);
   mesh.edges = segments ? *segments : read_marked_edges(stem + ".edge", nodes);
   mesh.points = std::move(nodes.points);

@@ -12,7 +12,7 @@ void line(FileSink& sink, std::size_t first, Numbers... rest) {
   sink.character('\n');
 }
 
-void write_nodes(FileSink& sink, const MeshPiece& mesh) {
+void write_nodes(FileSink& sink, const Mesh& mesh) {
   const std::size_t per_point = mesh.attributes_per_point;
   const bool has_markers = !mesh.point_markers.empty();
   line(sink, mesh.points.size(), 2, per_point, has_markers ? 1 : 0);
@@ -34,7 +34,7 @@ void write_nodes(FileSink& sink, const MeshPiece& mesh) {
   }
 }
 
-void write_triangles(FileSink& sink, const MeshPiece& mesh) {
+void write_triangles(FileSink& sink, const Mesh& mesh) {
   line(sink, mesh.triangles.size(), 3, mesh.regions.empty() ? 0 : 1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -45,7 +45,7 @@ void write_triangles(FileSink& sink, const MeshPiece& mesh) {
   }
 }
 
-void write_segments(FileSink& sink, const MeshPiece& mesh, const std::vector<Point>& holes) {
+void write_segments(FileSink& sink, const Mesh& mesh, const std::vector<Point>& holes) {
   line(sink, 0, 2, mesh.attributes_per_point, mesh.point_markers.empty() ? 0 : 1);
   line(sink, mesh.edges.size(), 1);
   for (std::size_t i = 0; i < mesh.edges.size(); ++i)
@@ -60,7 +60,7 @@ bool lists_edge(const TriangleNeighbors& neighbors, std::size_t t, std::size_t i
   return neighbors[t][i] < static_cast<std::int32_t>(t);
 }
 
-void write_edges(FileSink& sink, const MeshPiece& mesh, const TriangleNeighbors& neighbors) {
+void write_edges(FileSink& sink, const Mesh& mesh, const TriangleNeighbors& neighbors) {
   const ConstrainedEdgeIndex index(mesh);
   std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -86,7 +86,7 @@ void write_neighbors(FileSink& sink, const TriangleNeighbors& neighbors) {
 
 }  // namespace
 
-void write_triangle_format(const MeshPiece& mesh, const std::string& stem, const std::vector<Point>& holes) {
+void write_triangle_format(const Mesh& mesh, const std::string& stem, const std::vector<Point>& holes) {
   FileSink nodes(stem + ".node");
   FileSink triangles(stem + ".ele");
   FileSink segments(stem + ".poly");

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "driftmesh/mesh.hpp"
 #include "io/file_sink.hpp"
-#include "mesh/mesh_piece.hpp"
 
 namespace driftmesh {
 
@@ -22,7 +22,7 @@ struct VtuArrays {
   bool ranks = false;
 };
 /// The arrays for which the mesh has values.
-[[nodiscard]] VtuArrays arrays_of(const MeshPiece& mesh);
+[[nodiscard]] VtuArrays arrays_of(const Mesh& mesh);
 
 /// Calls visit(a null pointer of the type, name, components) for each array on points, in the order of the file.
 template <class Visit>
@@ -57,15 +57,14 @@ template <class T>
 /// One VTK unstructured grid: the triangles, then the constrained edges as line cells, as raw appended binary data.
 /// Point data "marker", "attribute" and "global_number"; cell data "marker" (0 on triangles), "region", "subdomain" and
 /// "rank" (on a line, those of an adjacent triangle); each only if the mesh has it.
-void write_vtu(const MeshPiece& mesh, const std::string& path);
+void write_vtu(const Mesh& mesh, const std::string& path);
 /// The same with the given arrays. The file is complete, but appears under its name only on commit().
-[[nodiscard]] std::unique_ptr<FileSink> prepare_vtu(const MeshPiece& mesh, const VtuArrays& arrays,
-                                                    const std::string& path);
+[[nodiscard]] std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path);
 
 /// Reads what write_vtu writes, and other files of that format that hold triangles and lines as raw appended data
 /// without compression.
-[[nodiscard]] MeshPiece read_vtu(const std::string& path);
+[[nodiscard]] Mesh read_vtu(const std::string& path);
 /// The same from memory; `file` is for messages.
-[[nodiscard]] MeshPiece parse_vtu(const std::string& file, std::string_view bytes);
+[[nodiscard]] Mesh parse_vtu(const std::string& file, std::string_view bytes);
 
 }  // namespace driftmesh

@@ -3,8 +3,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/read_file.hpp"
+#include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/read_checks.hpp"
 #include "io/vtu_format.hpp"
@@ -118,7 +118,7 @@ class HeaderParser {
   bool seen_piece_ = false;
 };
 
-// The arrays by name, converted to the types that a MeshPiece has.
+// The arrays by name, converted to the types that a Mesh has.
 class ArrayReader {
  public:
   ArrayReader(const std::string& path, const Header& header, std::string_view data)
@@ -208,7 +208,7 @@ class CellSplitter {
         vertices_(arrays.load<std::int32_t>(arrays.get("Cells", "connectivity"),
                                             ends_.empty() ? 0 : static_cast<std::uint64_t>(ends_.back()))) {}
 
-  void split(MeshPiece& mesh) {
+  void split(Mesh& mesh) {
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < types_.size(); ++cell) {
       const std::size_t corners = corner_count(cell);
@@ -245,7 +245,7 @@ class CellSplitter {
   std::vector<std::int32_t> vertices_;
 };
 
-void read_points(MeshPiece& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
+void read_points(Mesh& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
   const DataArray& array = arrays.get("Points", "Points");
   if (array.components != 3) throw InputError({path, array.line}, "the points need NumberOfComponents=\"3\"", kDamaged);
   const std::vector<double> xyz = arrays.load<double>(array, count);
@@ -257,7 +257,7 @@ void read_points(MeshPiece& mesh, const std::string& path, const ArrayReader& ar
   }
 }
 
-void read_point_data(MeshPiece& mesh, const ArrayReader& arrays, std::uint64_t count) {
+void read_point_data(Mesh& mesh, const ArrayReader& arrays, std::uint64_t count) {
   if (const DataArray* const marker = arrays.find("PointData", "marker"))
     mesh.point_markers = arrays.load<std::int32_t>(*marker, count);
   if (const DataArray* const attribute = arrays.find("PointData", "attribute")) {
@@ -268,7 +268,7 @@ void read_point_data(MeshPiece& mesh, const ArrayReader& arrays, std::uint64_t c
     mesh.numbers = arrays.load<std::int64_t>(*number, count);
 }
 
-void read_cells(MeshPiece& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
+void read_cells(Mesh& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
   CellSplitter cells(path, arrays, count);
   cells.split(mesh);
   if (const DataArray* const marker = arrays.find("CellData", "marker")) {
@@ -289,10 +289,10 @@ void read_cells(MeshPiece& mesh, const std::string& path, const ArrayReader& arr
 
 }  // namespace
 
-MeshPiece parse_vtu(const std::string& file, std::string_view bytes) {
+Mesh parse_vtu(const std::string& file, std::string_view bytes) {
   const Header header = HeaderParser(file, bytes).parse();
   const ArrayReader arrays(file, header, bytes.substr(header.data_begin));
-  MeshPiece mesh;
+  Mesh mesh;
   read_points(mesh, file, arrays, header.points);
   read_point_data(mesh, arrays, header.points);
   read_cells(mesh, file, arrays, header.cells);
@@ -300,7 +300,7 @@ MeshPiece parse_vtu(const std::string& file, std::string_view bytes) {
   return mesh;
 }
 
-MeshPiece read_vtu(const std::string& path) {
+Mesh read_vtu(const std::string& path) {
   return parse_vtu(path, read_file(path));
 }
 

@@ -42,7 +42,7 @@ class VtuFile {
 };
 
 struct Counts {
-  explicit Counts(const MeshPiece& mesh)
+  explicit Counts(const Mesh& mesh)
       : points(mesh.points.size()),
         triangles(mesh.triangles.size()),
         lines(mesh.edges.size()),
@@ -90,7 +90,7 @@ void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts) 
   file.header("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _");
 }
 
-void write_point_data(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arrays) {
+void write_point_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays) {
   if (arrays.point_markers) file.array(mesh.point_markers);
   if (arrays.attributes > 0) file.array(mesh.attributes);
   if (arrays.numbers) file.array(mesh.numbers);
@@ -100,7 +100,7 @@ void write_point_data(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arr
 // own.
 class LineValues {
  public:
-  explicit LineValues(const MeshPiece& mesh) : at_edges_(triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh))) {}
+  explicit LineValues(const Mesh& mesh) : at_edges_(triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh))) {}
 
   template <class T>
   void append(FileSink& sink, const std::vector<T>& of_triangles) const {
@@ -114,12 +114,12 @@ class LineValues {
   std::vector<std::array<std::int32_t, 2>> at_edges_;
 };
 
-void write_cell_data(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arrays, const Counts& counts) {
+void write_cell_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const Counts& counts) {
   FileSink& sink = file.sink();
   if (arrays.cell_markers) {
     file.begin_array<std::int32_t>(counts.cells);
     for (std::size_t t = 0; t < counts.triangles; ++t) sink.raw(std::int32_t{0});
-    for (const MeshPiece::Edge& edge : mesh.edges) sink.raw(edge.marker);
+    for (const Mesh::Edge& edge : mesh.edges) sink.raw(edge.marker);
   }
   if (!arrays.regions && !arrays.subdomains && !arrays.ranks) return;
   const LineValues lines(mesh);
@@ -134,13 +134,13 @@ void write_cell_data(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arra
 }
 
 template <class Offset>
-void write_grid(VtuFile& file, const MeshPiece& mesh, const Counts& counts) {
+void write_grid(VtuFile& file, const Mesh& mesh, const Counts& counts) {
   FileSink& sink = file.sink();
   file.begin_array<double>(3 * counts.points);
   for (const Point& p : mesh.points) sink.raw(std::array<double, 3>{p.x, p.y, 0.0});
   file.begin_array<std::int32_t>(counts.connectivity);
   sink.raw_array(std::span<const std::array<std::int32_t, 3>>(mesh.triangles));
-  for (const MeshPiece::Edge& edge : mesh.edges) sink.raw(std::array<std::int32_t, 2>{edge.a, edge.b});
+  for (const Mesh::Edge& edge : mesh.edges) sink.raw(std::array<std::int32_t, 2>{edge.a, edge.b});
   file.begin_array<Offset>(counts.cells);
   Offset end = 0;
   for (std::size_t t = 0; t < counts.triangles; ++t) sink.raw(end += 3);
@@ -151,7 +151,7 @@ void write_grid(VtuFile& file, const MeshPiece& mesh, const Counts& counts) {
 }
 
 template <class Offset>
-void write_all(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arrays, const Counts& counts) {
+void write_all(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const Counts& counts) {
   write_header<Offset>(file, arrays, counts);
   write_point_data(file, mesh, arrays);
   write_cell_data(file, mesh, arrays, counts);
@@ -161,12 +161,12 @@ void write_all(VtuFile& file, const MeshPiece& mesh, const VtuArrays& arrays, co
 
 }  // namespace
 
-VtuArrays arrays_of(const MeshPiece& mesh) {
+VtuArrays arrays_of(const Mesh& mesh) {
   return {!mesh.point_markers.empty(), mesh.attributes_per_point, !mesh.numbers.empty(), !mesh.edges.empty(),
           !mesh.regions.empty(),       !mesh.subdomains.empty(),  !mesh.ranks.empty()};
 }
 
-std::unique_ptr<FileSink> prepare_vtu(const MeshPiece& mesh, const VtuArrays& arrays, const std::string& path) {
+std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path) {
   auto sink = std::make_unique<FileSink>(path);
   VtuFile file(*sink);
   const Counts counts(mesh);
@@ -177,7 +177,7 @@ std::unique_ptr<FileSink> prepare_vtu(const MeshPiece& mesh, const VtuArrays& ar
   return sink;
 }
 
-void write_vtu(const MeshPiece& mesh, const std::string& path) {
+void write_vtu(const Mesh& mesh, const std::string& path) {
   prepare_vtu(mesh, arrays_of(mesh), path)->commit();
 }
 

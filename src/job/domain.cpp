@@ -1,8 +1,8 @@
 #include "job/domain.hpp"
 
+#include "driftmesh/repair.hpp"
 #include "pslg/generators.hpp"
 #include "pslg/poly_file.hpp"
-#include "pslg/repair.hpp"
 
 namespace driftmesh::job {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "balancer/policy.hpp"
 #include "decompose/decomposition.hpp"
+#include "driftmesh/pslg.hpp"
+#include "driftmesh/repair.hpp"
 #include "job/request.hpp"
 #include "job/watch.hpp"
-#include "pslg/pslg.hpp"
-#include "pslg/repair_report.hpp"
 #include "sizing/make_size_field.hpp"
 
 namespace driftmesh::job {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
 #include "base/words.hpp"
+#include "driftmesh/error.hpp"
 #include "job/memory.hpp"
 
 namespace driftmesh::job {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "driftmesh/pslg.hpp"
 #include "job/request.hpp"
 #include "mesh/mesher.hpp"
 #include "mesh/narrow_place.hpp"
-#include "pslg/pslg.hpp"
 
 namespace driftmesh::job {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "balancer/policy.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/pslg.hpp"
 #include "job/request.hpp"
 #include "job/team.hpp"
-#include "pslg/pslg.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh::job {

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "base/byte_stream.hpp"
-#include "base/error.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/held_subdomains.hpp"
+#include "driftmesh/error.hpp"
 #include "job/domain.hpp"
 #include "job/drag.hpp"
 #include "job/memory.hpp"

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/repair.hpp"
 #include "job/domain.hpp"
 #include "job/mesh_facts.hpp"
 #include "job/request.hpp"
 #include "mesh/mesher.hpp"
-#include "pslg/repair_report.hpp"
 #include "runtime/rank_outcome.hpp"
 
 namespace driftmesh::job {

@@ -1,7 +1,7 @@
 #include "job/simulated.hpp"
 
-#include "base/error.hpp"
 #include "cluster/simulate.hpp"
+#include "driftmesh/error.hpp"
 #include "job/check.hpp"
 #include "job/memory.hpp"
 #include "job/rank_report.hpp"

@@ -4,7 +4,7 @@
 #include <new>
 
 #include "balancer/simulated_council.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "job/limits.hpp"
 #include "protocol/lone_transport.hpp"
 

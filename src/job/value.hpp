@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh::job {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/stopwatch.hpp"
-#include "pslg/repair_report.hpp"
+#include "driftmesh/repair.hpp"
 
 namespace driftmesh::job {
 

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.hpp"
 #include "decompose/graph_partition.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

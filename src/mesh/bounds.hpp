@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "sizing/size_field.hpp"
+#include "driftmesh/size_field.hpp"
 
 namespace driftmesh {
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
 
 namespace driftmesh {

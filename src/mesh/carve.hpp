@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "driftmesh/pslg.hpp"
 #include "mesh/triangulation.hpp"
-#include "pslg/pslg.hpp"
 
 namespace driftmesh {
 

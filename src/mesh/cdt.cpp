@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/assert.hpp"
-#include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/box.hpp"
 #include "geometry/hilbert.hpp"
 #include "geometry/predicates.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "driftmesh/pslg.hpp"
 #include "mesh/carve.hpp"
 #include "mesh/triangulation.hpp"
-#include "pslg/pslg.hpp"
 
 namespace driftmesh {
 

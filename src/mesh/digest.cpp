@@ -53,7 +53,7 @@ class Sum {
 
 }  // namespace
 
-std::uint64_t mesh_digest(const MeshPiece& mesh) {
+std::uint64_t mesh_digest(const Mesh& mesh) {
   Sum sum(mesh.points.data(), mesh.points.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (t + kAhead < mesh.triangles.size()) sum.prefetch(mesh.triangles[t + kAhead]);

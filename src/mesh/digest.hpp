@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 #include "mesh/triangulation.hpp"
 
 namespace driftmesh {
@@ -17,7 +17,7 @@ namespace driftmesh {
 /// as the bits of IEEE-754 doubles, -0 as 0: a point has h = mix(mix(x + 0x9E3779B97F4A7C15) + y), an edge from point a
 /// to point b has e(a, b) = mix(h(a) + 2 h(b)), a counterclockwise triangle abc has mix(e(a, b) + e(b, c) + e(c, a)),
 /// and the mesh the sum over its triangles.
-[[nodiscard]] std::uint64_t mesh_digest(const MeshPiece& mesh);
+[[nodiscard]] std::uint64_t mesh_digest(const Mesh& mesh);
 [[nodiscard]] std::uint64_t mesh_digest(const Triangulation& mesh);
 
 }  // namespace driftmesh

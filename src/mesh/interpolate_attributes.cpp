@@ -41,7 +41,7 @@ void AttributeField::evaluate(const Point& p, std::span<double> values) const {
   }
 }
 
-void interpolate_attributes(const Pslg& pslg, MeshPiece& piece) {
+void interpolate_attributes(const Pslg& pslg, Mesh& piece) {
   if (pslg.attributes_per_point == 0) return;
   const auto width = static_cast<std::size_t>(pslg.attributes_per_point);
   const AttributeField field(pslg);

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <span>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/pslg.hpp"
 #include "mesh/triangulation.hpp"
-#include "pslg/pslg.hpp"
 #include "sizing/background_mesh.hpp"
 
 namespace driftmesh {
@@ -32,6 +32,6 @@ class AttributeField {
 /// `pslg`, the repaired input that the piece was made from. Points on a segment of the input are thus interpolated
 /// between its ends; those that rounding put outside the domain get the values of the nearest point of its boundary.
 /// Points of the input (which come first, see to_piece) keep their values. Does nothing if the input has no attributes.
-void interpolate_attributes(const Pslg& pslg, MeshPiece& piece);
+void interpolate_attributes(const Pslg& pslg, Mesh& piece);
 
 }  // namespace driftmesh

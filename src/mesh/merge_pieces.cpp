@@ -5,8 +5,8 @@
 #include <bit>
 #include <tuple>
 
-#include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {
@@ -22,9 +22,9 @@ bool same_bits(double a, double b) {
 
 class Merger {
  public:
-  Merger(std::span<const MeshPiece> pieces, MergeFaults& faults) : pieces_(pieces), faults_(faults) {}
+  Merger(std::span<const Mesh> pieces, MergeFaults& faults) : pieces_(pieces), faults_(faults) {}
 
-  MeshPiece merge() {
+  Mesh merge() {
     count_points();
     choose_arrays();
     for (std::size_t k = 0; k < pieces_.size(); ++k) take_points(k);
@@ -41,7 +41,7 @@ class Merger {
     std::size_t sum = 0;
     std::int64_t largest = -1;
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
-      const MeshPiece& piece = pieces_[k];
+      const Mesh& piece = pieces_[k];
       sum += piece.points.size();
       if (piece.numbers.size() != piece.points.size())
         throw Error("piece " + std::to_string(k) + " does not say which numbers its points have in the whole mesh");
@@ -59,7 +59,7 @@ class Merger {
 
   /// Leaves out the gaps when numbers exceed the count of points, as they do when a piece is missing, to save memory.
   void close_ranks(std::int64_t largest) {
-    for (const MeshPiece& piece : pieces_) numbers_.insert(numbers_.end(), piece.numbers.begin(), piece.numbers.end());
+    for (const Mesh& piece : pieces_) numbers_.insert(numbers_.end(), piece.numbers.begin(), piece.numbers.end());
     std::sort(numbers_.begin(), numbers_.end());
     numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
     faults_.add([&] {
@@ -77,24 +77,23 @@ class Merger {
   /// An array is merged if every piece has it.
   void choose_arrays() {
     const auto all = [&](auto tells) { return std::all_of(pieces_.begin(), pieces_.end(), tells); };
-    const bool markers = all([](const MeshPiece& p) { return p.point_markers.size() == p.points.size(); });
+    const bool markers = all([](const Mesh& p) { return p.point_markers.size() == p.points.size(); });
     if (markers) whole_.point_markers.assign(whole_.points.size(), 0);
-    for (const MeshPiece& p : pieces_)
+    for (const Mesh& p : pieces_)
       whole_.attributes_per_point = std::max(whole_.attributes_per_point, p.attributes_per_point);
-    if (!all([&](const MeshPiece& p) {
-          return p.points.empty() || p.attributes_per_point == whole_.attributes_per_point;
-        })) {
+    if (!all(
+            [&](const Mesh& p) { return p.points.empty() || p.attributes_per_point == whole_.attributes_per_point; })) {
       faults_.add([] { return std::string("pieces have different numbers of attributes at a point"); });
       whole_.attributes_per_point = 0;
     }
     whole_.attributes.assign(whole_.points.size() * at(whole_.attributes_per_point), 0);
-    has_regions_ = all([](const MeshPiece& p) { return p.regions.size() == p.triangles.size(); });
-    has_subdomains_ = all([](const MeshPiece& p) { return p.subdomains.size() == p.triangles.size(); });
-    has_ranks_ = all([](const MeshPiece& p) { return p.ranks.size() == p.triangles.size(); });
+    has_regions_ = all([](const Mesh& p) { return p.regions.size() == p.triangles.size(); });
+    has_subdomains_ = all([](const Mesh& p) { return p.subdomains.size() == p.triangles.size(); });
+    has_ranks_ = all([](const Mesh& p) { return p.ranks.size() == p.triangles.size(); });
   }
 
   void take_points(std::size_t k) {
-    const MeshPiece& piece = pieces_[k];
+    const Mesh& piece = pieces_[k];
     for (std::size_t v = 0; v < piece.points.size(); ++v) {
       const std::int64_t number = piece.numbers[v];
       Holder& holder = holder_[place_of(number)];
@@ -109,7 +108,7 @@ class Merger {
     }
   }
 
-  void take_point(const MeshPiece& piece, std::size_t v, std::size_t place) {
+  void take_point(const Mesh& piece, std::size_t v, std::size_t place) {
     whole_.points[place] = piece.points[v];
     if (!whole_.point_markers.empty()) whole_.point_markers[place] = piece.point_markers[v];
     const std::size_t width = at(whole_.attributes_per_point);
@@ -122,7 +121,7 @@ class Merger {
   };
 
   void compare(const Holder& first, std::size_t k, std::size_t v) {
-    const MeshPiece &one = pieces_[at(first.piece)], &other = pieces_[k];
+    const Mesh &one = pieces_[at(first.piece)], &other = pieces_[k];
     const std::size_t u = at(first.point);
     const Point &p = one.points[u], &q = other.points[v];
     const auto say = [&](const char* what) {
@@ -158,7 +157,7 @@ class Merger {
     std::vector<Run> runs;
     std::size_t count = 0;
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
-      const MeshPiece& piece = pieces_[k];
+      const Mesh& piece = pieces_[k];
       count += piece.triangles.size();
       for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
         const std::int32_t subdomain = has_subdomains_ ? piece.subdomains[t] : 0;
@@ -175,7 +174,7 @@ class Merger {
   }
 
   void take_run(const Run& run) {
-    const MeshPiece& piece = pieces_[run.piece];
+    const Mesh& piece = pieces_[run.piece];
     for (std::size_t t = run.begin; t < run.end; ++t) {
       const auto& [a, b, c] = piece.triangles[t];
       whole_.triangles.push_back({place(piece, a), place(piece, b), place(piece, c)});
@@ -189,14 +188,14 @@ class Merger {
     if (has_ranks_) append(whole_.ranks, piece.ranks);
   }
 
-  [[nodiscard]] std::int32_t place(const MeshPiece& piece, std::int32_t v) const {
+  [[nodiscard]] std::int32_t place(const Mesh& piece, std::int32_t v) const {
     return static_cast<std::int32_t>(place_of(piece.numbers[at(v)]));
   }
 
   /// Sorted, so that copies follow each other. Duplicates within one piece stay, for a check to find.
   void take_edges() {
     struct Entry {
-      MeshPiece::Edge edge;
+      Mesh::Edge edge;
       std::size_t piece;
       [[nodiscard]] auto key() const {
         return std::tuple(std::min(edge.a, edge.b), std::max(edge.a, edge.b), edge.marker);
@@ -204,7 +203,7 @@ class Merger {
     };
     std::vector<Entry> all;
     for (std::size_t k = 0; k < pieces_.size(); ++k)
-      for (const MeshPiece::Edge& e : pieces_[k].edges)
+      for (const Mesh::Edge& e : pieces_[k].edges)
         all.push_back({{place(pieces_[k], e.a), place(pieces_[k], e.b), e.marker}, k});
     std::stable_sort(all.begin(), all.end(), [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -212,9 +211,9 @@ class Merger {
         whole_.edges.push_back(all[i].edge);
   }
 
-  std::span<const MeshPiece> pieces_;
+  std::span<const Mesh> pieces_;
   MergeFaults& faults_;
-  MeshPiece whole_;
+  Mesh whole_;
   std::vector<std::int64_t> numbers_;  // ascending; empty unless gaps are left out
   std::vector<Holder> holder_;         // of each point
   bool has_regions_ = false;
@@ -224,7 +223,7 @@ class Merger {
 
 }  // namespace
 
-MeshPiece merge_pieces(std::span<const MeshPiece> pieces, MergeFaults& faults) {
+Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults) {
   return Merger(pieces, faults).merge();
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh {
 
@@ -30,6 +30,6 @@ struct MergeFaults {
 /// different coordinates, marker or attributes in another piece; a number twice in one piece; a number below the
 /// largest that no piece has (such a point is in no triangle; if there are many, the gaps are closed). Throws Error if
 /// a piece has no numbers, or negative ones.
-[[nodiscard]] MeshPiece merge_pieces(std::span<const MeshPiece> pieces, MergeFaults& faults);
+[[nodiscard]] Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults);
 
 }  // namespace driftmesh

@@ -18,7 +18,7 @@ struct Ends {
   std::int32_t high;
 };
 
-Ends ends_of(const MeshPiece& mesh, std::uint32_t h) {
+Ends ends_of(const Mesh& mesh, std::uint32_t h) {
   const auto& triangle = mesh.triangles[h / 3];
   const std::uint32_t i = h % 3;
   const std::int32_t a = triangle[i == 2 ? 0 : i + 1];
@@ -31,7 +31,7 @@ struct Buckets {
   std::vector<std::uint32_t> half_edges;
 };
 
-Buckets bucket_by_low_vertex(const MeshPiece& mesh, std::uint32_t half_edge_count) {
+Buckets bucket_by_low_vertex(const Mesh& mesh, std::uint32_t half_edge_count) {
   Buckets buckets;
   buckets.first.assign(mesh.points.size() + 1, 0);
   for (std::uint32_t h = 0; h < half_edge_count; ++h) ++buckets.first[at(ends_of(mesh, h).low) + 1];
@@ -49,7 +49,7 @@ void link(TriangleNeighbors& neighbors, std::uint32_t g, std::uint32_t h) {
 
 }  // namespace
 
-TriangleNeighbors triangle_neighbors(const MeshPiece& mesh) {
+TriangleNeighbors triangle_neighbors(const Mesh& mesh) {
   const auto half_edge_count = narrow<std::uint32_t>(3 * mesh.triangles.size(), "edges of all triangles");
   const Buckets buckets = bucket_by_low_vertex(mesh, half_edge_count);
   TriangleNeighbors neighbors(mesh.triangles.size(), {-1, -1, -1});
@@ -71,8 +71,7 @@ TriangleNeighbors triangle_neighbors(const MeshPiece& mesh) {
   return neighbors;
 }
 
-ConstrainedEdgeIndex::ConstrainedEdgeIndex(const MeshPiece& mesh)
-    : edges_(mesh.edges), on_edge_(mesh.points.size(), false) {
+ConstrainedEdgeIndex::ConstrainedEdgeIndex(const Mesh& mesh) : edges_(mesh.edges), on_edge_(mesh.points.size(), false) {
   slots_.assign(std::bit_ceil(2 * mesh.edges.size() + 1), -1);
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const auto [low, high] = std::minmax(edges_[i].a, edges_[i].b);
@@ -92,13 +91,13 @@ std::size_t ConstrainedEdgeIndex::home_slot(std::int32_t low, std::int32_t high)
 std::int32_t ConstrainedEdgeIndex::look_up(std::int32_t a, std::int32_t b) const {
   const auto [low, high] = std::minmax(a, b);
   for (std::size_t slot = home_slot(low, high); slots_[slot] != -1; slot = (slot + 1) & (slots_.size() - 1)) {
-    const MeshPiece::Edge& edge = edges_[at(slots_[slot])];
+    const Mesh::Edge& edge = edges_[at(slots_[slot])];
     if (std::min(edge.a, edge.b) == low && std::max(edge.a, edge.b) == high) return slots_[slot];
   }
   return -1;
 }
 
-std::vector<std::array<std::int32_t, 2>> triangles_at_edges(const MeshPiece& mesh, const ConstrainedEdgeIndex& index) {
+std::vector<std::array<std::int32_t, 2>> triangles_at_edges(const Mesh& mesh, const ConstrainedEdgeIndex& index) {
   std::vector<std::array<std::int32_t, 2>> at_edges(mesh.edges.size(), {-1, -1});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& triangle = mesh.triangles[t];

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <functional>
 
+#include "driftmesh/pslg.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/refine_counters.hpp"
 #include "mesh/triangulation.hpp"
-#include "pslg/pslg.hpp"
 
 namespace driftmesh {
 

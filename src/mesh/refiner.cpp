@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "base/assert.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "geometry/midpoint.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/exceptions.hpp"
 #include "mesh/flips.hpp"

@@ -32,7 +32,7 @@ VertexOrder order_vertices(const Triangulation& mesh, std::size_t input_points) 
   return order;
 }
 
-void fill_points(const Triangulation& mesh, const Pslg& pslg, const VertexOrder& order, MeshPiece& piece) {
+void fill_points(const Triangulation& mesh, const Pslg& pslg, const VertexOrder& order, Mesh& piece) {
   piece.points.resize(order.count);
   piece.point_markers.assign(order.count, 0);
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
@@ -49,7 +49,7 @@ void fill_points(const Triangulation& mesh, const Pslg& pslg, const VertexOrder&
       piece.point_markers[k] = pslg.point_markers[id(mesh.origin[id(order.input_vertices[k])])];
 }
 
-void fill_attributes(const Triangulation& mesh, const Pslg& pslg, const VertexOrder& order, MeshPiece& piece) {
+void fill_attributes(const Triangulation& mesh, const Pslg& pslg, const VertexOrder& order, Mesh& piece) {
   const auto width = static_cast<std::size_t>(pslg.attributes_per_point);
   piece.attributes_per_point = pslg.attributes_per_point;
   piece.attributes.assign(order.count * width, 0);
@@ -60,7 +60,7 @@ void fill_attributes(const Triangulation& mesh, const Pslg& pslg, const VertexOr
   }
 }
 
-void fill_triangles(const Triangulation& mesh, const Pslg& pslg, const VertexOrder& order, MeshPiece& piece) {
+void fill_triangles(const Triangulation& mesh, const Pslg& pslg, const VertexOrder& order, Mesh& piece) {
   piece.triangles.reserve(mesh.live_triangles());
   if (!mesh.region.empty()) piece.regions.reserve(mesh.live_triangles());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -75,8 +75,8 @@ void fill_triangles(const Triangulation& mesh, const Pslg& pslg, const VertexOrd
 
 }  // namespace
 
-MeshPiece to_piece(const Triangulation& mesh, const Pslg& pslg) {
-  MeshPiece piece;
+Mesh to_piece(const Triangulation& mesh, const Pslg& pslg) {
+  Mesh piece;
   const VertexOrder order = order_vertices(mesh, pslg.points.size());
   fill_points(mesh, pslg, order, piece);
   fill_attributes(mesh, pslg, order, piece);

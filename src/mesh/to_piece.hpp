@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/pslg.hpp"
 #include "mesh/triangulation.hpp"
-#include "pslg/pslg.hpp"
 
 namespace driftmesh {
 
@@ -10,6 +10,6 @@ namespace driftmesh {
 /// their order, with their markers and attributes; then the added ones. An added point on a segment takes the segment's
 /// marker, a free one 0; the attributes of both are 0 until interpolate_attributes. Each triangle carries the attribute
 /// of its region, if there are regions.
-[[nodiscard]] MeshPiece to_piece(const Triangulation& mesh, const Pslg& pslg);
+[[nodiscard]] Mesh to_piece(const Triangulation& mesh, const Pslg& pslg);
 
 }  // namespace driftmesh

@@ -1,8 +1,8 @@
 #include "mesh/triangulation.hpp"
 
 #include "base/assert.hpp"
-#include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 

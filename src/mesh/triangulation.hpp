@@ -6,8 +6,8 @@
 
 #include "base/growing_array.hpp"
 #include "base/id_vector.hpp"
+#include "driftmesh/point.hpp"
 #include "dyadic/path.hpp"
-#include "geometry/point.hpp"
 
 namespace driftmesh {
 

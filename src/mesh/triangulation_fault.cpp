@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/midpoint.hpp"
 #include "geometry/predicates.hpp"
 
 namespace driftmesh {

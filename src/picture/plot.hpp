@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/pslg.hpp"
 #include "geometry/box.hpp"
-#include "mesh/mesh_piece.hpp"
-#include "pslg/pslg.hpp"
 
 namespace driftmesh {
 
@@ -43,7 +43,7 @@ struct PlotOptions {
 /// Draws the mesh as .png, .svg or .pdf, by the extension of `path`. Triangles of less than about two pixels on average
 /// are not drawn one by one: each pixel then shows the worst angle, or the mean of the logarithms of the areas, of the
 /// triangles in it. Errors: InputError for an unknown extension or an impossible size, FileError.
-void plot_mesh(const MeshPiece& mesh, const std::string& path, const PlotOptions& options);
+void plot_mesh(const Mesh& mesh, const std::string& path, const PlotOptions& options);
 
 /// Draws segments by marker, points (if they are not too many), holes as crosses and regions with their labels.
 void plot_pslg(const Pslg& pslg, const std::string& path, const PlotOptions& options);

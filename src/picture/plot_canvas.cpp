@@ -6,8 +6,8 @@
 
 #include <filesystem>
 
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
+#include "driftmesh/error.hpp"
 #include "picture/plot.hpp"
 
 #ifdef __SANITIZE_ADDRESS__

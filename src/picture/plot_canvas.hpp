@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/atomic_file.hpp"
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 #include "picture/plot_color.hpp"
 
 struct _cairo;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 #include "picture/plot_color.hpp"
 
 namespace driftmesh {

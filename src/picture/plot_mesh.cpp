@@ -23,7 +23,7 @@ constexpr double kDenseSide = 2;               // pixels: smaller triangles are 
 constexpr double kShortestLine = 2;            // pixels: shorter edges are not drawn
 constexpr std::size_t kMostPolygons = 150000;  // in a vector picture; more are drawn as an embedded image
 
-Box box_of(const MeshPiece& mesh) {
+Box box_of(const Mesh& mesh) {
   Box box;
   for (const Point& p : mesh.points) box.extend(p);
   return box;
@@ -37,7 +37,7 @@ Box with_margin(const Box& box) {
 
 class MeshPlot {
  public:
-  MeshPlot(const MeshPiece& mesh, const std::string& path, const PlotOptions& options)
+  MeshPlot(const Mesh& mesh, const std::string& path, const PlotOptions& options)
       : mesh_(mesh),
         options_(options),
         frame_(options.box ? *options.box : with_margin(box_of(mesh)), options.width, options.height,
@@ -193,7 +193,7 @@ class MeshPlot {
   void draw_segments() {
     const double width = (is_dense_ ? 0.7 : std::clamp(0.12 * mean_side_, 0.8, 1.8)) * frame_.unit();
     LineBatch batch(canvas_, width, kInk);
-    for (const MeshPiece::Edge& edge : mesh_.edges) batch.add(corner(edge.a), corner(edge.b));
+    for (const Mesh::Edge& edge : mesh_.edges) batch.add(corner(edge.a), corner(edge.b));
     if (mesh_.edges.empty()) add_boundary(batch);
   }
 
@@ -213,7 +213,7 @@ class MeshPlot {
     draw_color_bar(canvas_, frame_, bar);
   }
 
-  const MeshPiece& mesh_;
+  const Mesh& mesh_;
   const PlotOptions& options_;
   PlotFrame frame_;
   Canvas canvas_;
@@ -225,7 +225,7 @@ class MeshPlot {
 
 }  // namespace
 
-void plot_mesh(const MeshPiece& mesh, const std::string& path, const PlotOptions& options) {
+void plot_mesh(const Mesh& mesh, const std::string& path, const PlotOptions& options) {
   MeshPlot(mesh, path, options).draw();
 }
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 #include "picture/plot_color.hpp"
 
 namespace driftmesh {

@@ -16,7 +16,7 @@ constexpr double kBestAngle = 60;
 constexpr std::size_t kBins = 60;
 
 struct Corners {
-  Corners(const MeshPiece& mesh, std::size_t t)
+  Corners(const Mesh& mesh, std::size_t t)
       : a(mesh.points[mesh.triangles[t][0]]),
         b(mesh.points[mesh.triangles[t][1]]),
         c(mesh.points[mesh.triangles[t][2]]) {}
@@ -34,8 +34,8 @@ std::array<double, 2> extreme_angles(const Corners& t) {
           kDegrees * std::atan2(four_areas, square[0] + square[1] - square[2])};
 }
 
-std::vector<std::size_t> histogram(const MeshPiece& mesh, const Box& shown, const std::vector<float>& values,
-                                   double low, double high) {
+std::vector<std::size_t> histogram(const Mesh& mesh, const Box& shown, const std::vector<float>& values, double low,
+                                   double high) {
   std::vector<std::size_t> counts(kBins, 0);
   for (std::size_t t = 0; t < values.size(); ++t) {
     if (!is_shown(mesh, t, shown)) continue;
@@ -51,7 +51,7 @@ void set_bar_range(PlotValues& result, double low, double high) {
   result.color_of = [low, high](double value) { return viridis((value - low) / (high - low)); };
 }
 
-PlotValues angle_values(const MeshPiece& mesh, const Box& shown) {
+PlotValues angle_values(const Mesh& mesh, const Box& shown) {
   PlotValues result;
   result.of_triangle.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -66,7 +66,7 @@ PlotValues angle_values(const MeshPiece& mesh, const Box& shown) {
 
 // log10 of the smallest and largest area, without the outermost thousandth on both sides: a single sliver must not
 // stretch the scale.
-std::array<double, 2> area_range(const MeshPiece& mesh, const Box& shown, const std::vector<float>& logs) {
+std::array<double, 2> area_range(const Mesh& mesh, const Box& shown, const std::vector<float>& logs) {
   std::vector<float> seen;
   for (std::size_t t = 0; t < logs.size(); ++t)
     if (is_shown(mesh, t, shown)) seen.push_back(logs[t]);
@@ -81,7 +81,7 @@ std::array<double, 2> area_range(const MeshPiece& mesh, const Box& shown, const 
   return high - low > 0.02 ? std::array{low, high} : std::array{low - 0.1, high + 0.1};
 }
 
-PlotValues area_values(const MeshPiece& mesh, const Box& shown) {
+PlotValues area_values(const Mesh& mesh, const Box& shown) {
   PlotValues result;
   result.of_triangle.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -101,7 +101,7 @@ PlotValues area_values(const MeshPiece& mesh, const Box& shown) {
 
 /// Classes of values without an order; a single class 0 if there are no values.
 template <class Value>
-PlotValues class_values(const MeshPiece& mesh, const std::vector<Value>& of_triangle, const char* title, bool counts) {
+PlotValues class_values(const Mesh& mesh, const std::vector<Value>& of_triangle, const char* title, bool counts) {
   PlotValues result;
   result.title = counts ? std::string(title) + " (triangles)" : title;
   const auto value = [&](std::size_t t) { return of_triangle.empty() ? Value{0} : of_triangle[t]; };
@@ -122,14 +122,14 @@ PlotValues class_values(const MeshPiece& mesh, const std::vector<Value>& of_tria
 
 }  // namespace
 
-bool is_shown(const MeshPiece& mesh, std::size_t t, const Box& shown) {
+bool is_shown(const Mesh& mesh, std::size_t t, const Box& shown) {
   const Corners corners(mesh, t);
   const auto [low_x, high_x] = std::minmax({corners.a.x, corners.b.x, corners.c.x});
   const auto [low_y, high_y] = std::minmax({corners.a.y, corners.b.y, corners.c.y});
   return low_x <= shown.high.x && high_x >= shown.low.x && low_y <= shown.high.y && high_y >= shown.low.y;
 }
 
-PlotSummary summarize(const MeshPiece& mesh, const Box& shown) {
+PlotSummary summarize(const Mesh& mesh, const Box& shown) {
   PlotSummary summary;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Corners corners(mesh, t);
@@ -143,7 +143,7 @@ PlotSummary summarize(const MeshPiece& mesh, const Box& shown) {
   return summary;
 }
 
-PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown, bool counts) {
+PlotValues plot_values(const Mesh& mesh, PlotColor color, const Box& shown, bool counts) {
   switch (color) {
     case PlotColor::angle:
       return angle_values(mesh, shown);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/mesh.hpp"
 #include "geometry/box.hpp"
-#include "mesh/mesh_piece.hpp"
 #include "picture/plot.hpp"
 #include "picture/plot_legend.hpp"
 
@@ -30,12 +30,12 @@ struct PlotSummary {
 };
 
 /// Whether the box of triangle t meets the part of the plane that is shown.
-[[nodiscard]] bool is_shown(const MeshPiece& mesh, std::size_t t, const Box& shown);
+[[nodiscard]] bool is_shown(const Mesh& mesh, std::size_t t, const Box& shown);
 
-[[nodiscard]] PlotSummary summarize(const MeshPiece& mesh, const Box& shown);
+[[nodiscard]] PlotSummary summarize(const Mesh& mesh, const Box& shown);
 
 /// The histogram and the range of areas are those of the triangles in view. A mesh that does not list regions,
 /// subdomains or ranks counts as region, subdomain or rank 0. `counts`: swatches show how many triangles there are.
-[[nodiscard]] PlotValues plot_values(const MeshPiece& mesh, PlotColor color, const Box& shown, bool counts = true);
+[[nodiscard]] PlotValues plot_values(const Mesh& mesh, PlotColor color, const Box& shown, bool counts = true);
 
 }  // namespace driftmesh

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pslg/pslg.hpp"
+#include "driftmesh/pslg.hpp"
 
 namespace driftmesh {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "pslg/pslg.hpp"
+#include "driftmesh/pslg.hpp"
 
 namespace driftmesh {
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "driftmesh/generate.hpp"
 #include "pslg/contour.hpp"
-#include "pslg/generate.hpp"
 #include "pslg/noise.hpp"
 #include "pslg/seeded_random.hpp"
 #include "pslg/shape_builder.hpp"

@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "pslg/generate.hpp"
+#include "driftmesh/generate.hpp"
+#include "geometry/midpoint.hpp"
 #include "pslg/seeded_random.hpp"
 #include "pslg/shape_builder.hpp"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string>
 
-#include "pslg/generate.hpp"
+#include "driftmesh/generate.hpp"
 #include "pslg/seeded_random.hpp"
 #include "pslg/shape_builder.hpp"
 

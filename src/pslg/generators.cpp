@@ -4,8 +4,8 @@
 #include <charconv>
 #include <type_traits>
 
-#include "base/error.hpp"
 #include "base/nearest_name.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

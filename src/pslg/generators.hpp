@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pslg/generate.hpp"
-#include "pslg/pslg.hpp"
+#include "driftmesh/generate.hpp"
+#include "driftmesh/pslg.hpp"
 
 namespace driftmesh {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 #include "pslg/seeded_random.hpp"
 
 namespace driftmesh {

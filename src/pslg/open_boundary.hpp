@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pslg/pslg.hpp"
-#include "pslg/repair_report.hpp"
+#include "driftmesh/pslg.hpp"
+#include "driftmesh/repair.hpp"
 
 namespace driftmesh {
 

@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
 #include "geometry/box_tree.hpp"
 #include "pslg/closeness.hpp"
 #include "pslg/convex_hull.hpp"
 #include "pslg/describe.hpp"
 #include "pslg/point_welder.hpp"
-#include "pslg/repair.hpp"
 
 namespace driftmesh {
 namespace {

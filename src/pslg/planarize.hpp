@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "pslg/pslg.hpp"
-#include "pslg/repair_report.hpp"
+#include "driftmesh/pslg.hpp"
+#include "driftmesh/repair.hpp"
 
 namespace driftmesh {
 

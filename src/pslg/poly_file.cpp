@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/standard_streams.hpp"
+#include "driftmesh/error.hpp"
 #include "pslg/record_scanner.hpp"
 #include "pslg/triangle_files.hpp"
 

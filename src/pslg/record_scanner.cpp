@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
 
 namespace driftmesh {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 
 namespace driftmesh {
 

@@ -1,9 +1,9 @@
-#include "pslg/repair.hpp"
+#include "driftmesh/repair.hpp"
 
 #include <string>
 
-#include "base/error.hpp"
 #include "base/id_vector.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
 #include "pslg/closeness.hpp"

@@ -1,7 +1,7 @@
-#include "pslg/repair_report.hpp"
-
 #include <array>
 #include <utility>
+
+#include "driftmesh/repair.hpp"
 
 namespace driftmesh {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/narrow.hpp"
-#include "pslg/repair.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
 
 namespace driftmesh {
 

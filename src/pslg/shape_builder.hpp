@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pslg/pslg.hpp"
+#include "driftmesh/pslg.hpp"
 
 namespace driftmesh {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 
 namespace driftmesh {
 

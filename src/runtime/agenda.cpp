@@ -1,6 +1,6 @@
 #include "runtime/agenda.hpp"
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 

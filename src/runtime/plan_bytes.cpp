@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/byte_stream.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh {

@@ -2,8 +2,8 @@
 
 #include <span>
 
+#include "driftmesh/pslg.hpp"
 #include "protocol/ids.hpp"
-#include "pslg/pslg.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "balancer/policies/policy_factory.hpp"
-#include "base/error.hpp"
 #include "decompose/presplit.hpp"
 #include "decompose/work.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/refiner.hpp"
 

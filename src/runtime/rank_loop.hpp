@@ -11,7 +11,7 @@
 
 #include "balancer/controller.hpp"
 #include "balancer/speed_estimate.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "migration/subdomain.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/protocol_error.hpp"

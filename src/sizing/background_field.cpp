@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "driftmesh/size_field.hpp"
 #include "sizing/background_mesh.hpp"
-#include "sizing/size_field.hpp"
 
 namespace driftmesh {
 

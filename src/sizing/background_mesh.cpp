@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/id_vector.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
 

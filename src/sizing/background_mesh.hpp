@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "driftmesh/point.hpp"
 #include "geometry/box_tree.hpp"
-#include "geometry/point.hpp"
 #include "sizing/triangle_walk.hpp"
 
 namespace driftmesh {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sizing/size_field.hpp"
+#include "driftmesh/size_field.hpp"
 
 namespace driftmesh {
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "sizing/size_field.hpp"
+#include "driftmesh/size_field.hpp"
 
 namespace driftmesh {
 

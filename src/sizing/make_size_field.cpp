@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
+#include "driftmesh/error.hpp"
 #include "pslg/triangle_files.hpp"
 #include "sizing/background_field.hpp"
 #include "sizing/combined_field.hpp"

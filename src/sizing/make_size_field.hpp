@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "sizing/size_field.hpp"
+#include "driftmesh/size_field.hpp"
 
 namespace driftmesh {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "driftmesh/point.hpp"
 #include "geometry/hilbert.hpp"
-#include "geometry/point.hpp"
 
 namespace driftmesh {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 
 namespace driftmesh {
 

@@ -6,8 +6,7 @@
 
 namespace driftmesh {
 
-Chains::Chains(const MeshPiece& mesh, const Subsegments& subsegments,
-               const std::function<bool(std::int32_t)>& is_corner)
+Chains::Chains(const Mesh& mesh, const Subsegments& subsegments, const std::function<bool(std::int32_t)>& is_corner)
     : subsegments_(&subsegments),
       through_(mesh.points.size(), kNone),
       ends_chain_(mesh.points.size()),
@@ -44,7 +43,7 @@ void Chains::follow(std::int32_t corner, std::int32_t subsegment) {
   }
 }
 
-bool bends_at(const MeshPiece& mesh, const Subsegments& subsegments, std::int32_t point) {
+bool bends_at(const Mesh& mesh, const Subsegments& subsegments, std::int32_t point) {
   const auto both = subsegments.at(point);
   if (both.size() != 2) return true;
   const Point& hub = mesh.points[point];

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 #include "verify/subsegments.hpp"
 
 namespace driftmesh {
@@ -20,7 +20,7 @@ class Chains {
 
   /// Chains end at the points for which is_corner(v) holds and at all vertices that do not have exactly two
   /// subsegments. A loop without a corner is broken at one of its vertices.
-  Chains(const MeshPiece& mesh, const Subsegments& subsegments, const std::function<bool(std::int32_t)>& is_corner);
+  Chains(const Mesh& mesh, const Subsegments& subsegments, const std::function<bool(std::int32_t)>& is_corner);
 
   [[nodiscard]] const std::vector<Chain>& all() const { return chains_; }
   [[nodiscard]] const Subsegments& subsegments() const { return *subsegments_; }
@@ -39,6 +39,6 @@ class Chains {
 
 /// Whether a vertex does not have two subsegments, or they bend there by more than a millionth: a guess at the corners
 /// of an input that is not given.
-[[nodiscard]] bool bends_at(const MeshPiece& mesh, const Subsegments& subsegments, std::int32_t point);
+[[nodiscard]] bool bends_at(const Mesh& mesh, const Subsegments& subsegments, std::int32_t point);
 
 }  // namespace driftmesh

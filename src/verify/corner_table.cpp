@@ -4,7 +4,7 @@
 
 namespace driftmesh {
 
-CornerTable::CornerTable(const MeshPiece& mesh) : first_(mesh.points.size() + 1), corners_(3 * mesh.triangles.size()) {
+CornerTable::CornerTable(const Mesh& mesh) : first_(mesh.points.size() + 1), corners_(3 * mesh.triangles.size()) {
   (void)narrow<std::uint32_t>(corners_.size(), "triangle corners to check");
   for (const auto& triangle : mesh.triangles)
     for (const std::int32_t v : triangle) ++first_[v];

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh {
 
@@ -13,7 +13,7 @@ namespace driftmesh {
 class CornerTable {
  public:
   /// Every index of `mesh` is valid. Throws LimitError above 1.4 billion triangles.
-  explicit CornerTable(const MeshPiece& mesh);
+  explicit CornerTable(const Mesh& mesh);
 
   [[nodiscard]] std::span<const std::uint32_t> around(std::int32_t point) const {
     return {corners_.data() + first_[point], first_[point + 1] - first_[point]};

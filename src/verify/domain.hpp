@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pslg/pslg.hpp"
+#include "driftmesh/pslg.hpp"
 #include "verify/arrangement.hpp"
 
 namespace driftmesh {

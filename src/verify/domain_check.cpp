@@ -18,7 +18,7 @@ namespace {
 constexpr std::int32_t kUnknownFace = -1;
 
 /// The boundary alone, its points renumbered.
-Arrangement arrange_boundary(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary) {
+Arrangement arrange_boundary(const Mesh& mesh, const std::vector<Mesh::Edge>& boundary) {
   std::unordered_map<std::int32_t, std::int32_t> number;
   std::vector<Point> points;
   std::vector<Arrangement::Link> links;
@@ -37,7 +37,7 @@ Arrangement arrange_boundary(const MeshPiece& mesh, const std::vector<MeshPiece:
 
 }  // namespace
 
-void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary, Findings& findings) {
+void check_embedding(const Mesh& mesh, const std::vector<Mesh::Edge>& boundary, Findings& findings) {
   const Arrangement arrangement = arrange_boundary(mesh, boundary);
   if (arrangement.conflict()) {
     findings.add(Flaw::boundary_crosses, [&] { return "on the boundary " + *arrangement.conflict(); });
@@ -63,16 +63,15 @@ void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& 
   }
 }
 
-std::vector<char> DomainCheck::find_corners(const MeshPiece& mesh, const Domain& domain,
-                                            const PointIndex& mesh_points) {
+std::vector<char> DomainCheck::find_corners(const Mesh& mesh, const Domain& domain, const PointIndex& mesh_points) {
   std::vector<char> corner(mesh.points.size());
   for (const Point& p : domain.points())
     if (const std::int32_t v = mesh_points.find(p); v != kNone) corner[v] = 1;
   return corner;
 }
 
-DomainCheck::DomainCheck(const MeshPiece& mesh, const Domain& domain, const PointIndex& mesh_points,
-                         const Chains& chains, Findings& findings)
+DomainCheck::DomainCheck(const Mesh& mesh, const Domain& domain, const PointIndex& mesh_points, const Chains& chains,
+                         Findings& findings)
     : mesh_(mesh),
       domain_(domain),
       chains_(chains),
@@ -152,7 +151,7 @@ void DomainCheck::check_chain(const Chains::Chain& chain, const Domain::Segment&
 void DomainCheck::check_side(std::int32_t subsegment, std::int32_t triangle, std::int32_t face) {
   const bool covered = triangle != kNone, expected = domain_.inside(face);
   if (covered == expected) return;
-  const MeshPiece::Edge& edge = chains_.subsegments()[subsegment];
+  const Mesh::Edge& edge = chains_.subsegments()[subsegment];
   if (expected)
     findings_.add(Flaw::not_covered, [&] {
       return edge_words(mesh_, edge.a, edge.b) + " has no triangle on one side although the domain lies there";

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/disjoint_sets.hpp"
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 #include "verify/chains.hpp"
 #include "verify/domain.hpp"
 #include "verify/findings.hpp"
@@ -16,12 +16,12 @@ namespace driftmesh {
 /// Checks that the boundary of the mesh, directed with a triangle on the left of each edge, meets itself at points
 /// only, and winds once around some faces of its arrangement and not at all around the others. If all triangles are
 /// counterclockwise, this proves that no point is covered twice.
-void check_embedding(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary, Findings& findings);
+void check_embedding(const Mesh& mesh, const std::vector<Mesh::Edge>& boundary, Findings& findings);
 
 /// The checks of a mesh against the domain that its input describes.
 class DomainCheck {
  public:
-  DomainCheck(const MeshPiece& mesh, const Domain& domain, const PointIndex& mesh_points, const Chains& chains,
+  DomainCheck(const Mesh& mesh, const Domain& domain, const PointIndex& mesh_points, const Chains& chains,
               Findings& findings);
 
   /// Every point of the domain's input is a vertex.
@@ -40,7 +40,7 @@ class DomainCheck {
   [[nodiscard]] double region_area(std::size_t triangle) const;
 
   /// For each point of a mesh whether it is one of the domain's points.
-  [[nodiscard]] static std::vector<char> find_corners(const MeshPiece& mesh, const Domain& domain,
+  [[nodiscard]] static std::vector<char> find_corners(const Mesh& mesh, const Domain& domain,
                                                       const PointIndex& mesh_points);
 
  private:
@@ -49,7 +49,7 @@ class DomainCheck {
   void check_side(std::int32_t subsegment, std::int32_t triangle, std::int32_t face);
   [[nodiscard]] std::string chain_words(const Chains::Chain& chain) const;
 
-  const MeshPiece& mesh_;
+  const Mesh& mesh_;
   const Domain& domain_;
   const Chains& chains_;
   Findings& findings_;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 
 namespace driftmesh {
 

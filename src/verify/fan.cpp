@@ -6,7 +6,7 @@
 
 namespace driftmesh {
 
-void Fan::gather(const MeshPiece& mesh, std::span<const std::uint32_t> corners) {
+void Fan::gather(const Mesh& mesh, std::span<const std::uint32_t> corners) {
   spokes_.clear();
   for (const std::uint32_t corner : corners) {
     const std::uint32_t t = corner / 3, k = corner % 3;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh {
 
@@ -19,7 +19,7 @@ struct Spoke {
 class Fan {
  public:
   /// Gathers the triangles of `corners` (entries of a CornerTable) and sorts them by `next`.
-  void gather(const MeshPiece& mesh, std::span<const std::uint32_t> corners);
+  void gather(const Mesh& mesh, std::span<const std::uint32_t> corners);
 
   [[nodiscard]] std::span<const Spoke> spokes() const { return spokes_; }
   /// The spoke across the edge from the hub to prev: the neighbor in counterclockwise direction, or kNone.

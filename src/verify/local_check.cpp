@@ -28,7 +28,7 @@ bool computable(double x) {
 
 }  // namespace
 
-bool check_arrays(const MeshPiece& mesh, Findings& findings) {
+bool check_arrays(const Mesh& mesh, Findings& findings) {
   const std::size_t n = mesh.points.size();
   if (!mesh.point_markers.empty()) check_length(mesh.point_markers.size(), n, "the array of point markers", findings);
   if (!mesh.regions.empty()) check_length(mesh.regions.size(), mesh.triangles.size(), "the array of regions", findings);
@@ -55,7 +55,7 @@ bool check_arrays(const MeshPiece& mesh, Findings& findings) {
   return findings.empty();
 }
 
-std::size_t check_points(const MeshPiece& mesh, const CornerTable& corners, PointIndex& index, Findings& findings) {
+std::size_t check_points(const Mesh& mesh, const CornerTable& corners, PointIndex& index, Findings& findings) {
   std::size_t used = 0;
   for (const std::int32_t i : first_ids<std::int32_t>(mesh.points.size())) {
     if (!corners.used(i)) continue;
@@ -72,8 +72,8 @@ std::size_t check_points(const MeshPiece& mesh, const CornerTable& corners, Poin
   return used;
 }
 
-std::vector<MeshPiece::Edge> boundary_edges(const MeshPiece& mesh, const CornerTable& corners) {
-  std::vector<MeshPiece::Edge> edges;
+std::vector<Mesh::Edge> boundary_edges(const Mesh& mesh, const CornerTable& corners) {
+  std::vector<Mesh::Edge> edges;
   Fan fan;
   for (const std::int32_t hub : first_ids<std::int32_t>(mesh.points.size())) {
     fan.gather(mesh, corners.around(hub));
@@ -83,7 +83,7 @@ std::vector<MeshPiece::Edge> boundary_edges(const MeshPiece& mesh, const CornerT
   return edges;
 }
 
-void check_subsegments(const MeshPiece& mesh, const Subsegments& subsegments, Findings& findings) {
+void check_subsegments(const Mesh& mesh, const Subsegments& subsegments, Findings& findings) {
   for (const std::int32_t s : subsegments.ids()) {
     const auto& [a, b, marker] = subsegments[s];
     const auto say = [&, u = a, v = b](const char* what) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/disjoint_sets.hpp"
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 #include "verify/corner_table.hpp"
 #include "verify/fan.hpp"
 #include "verify/findings.hpp"
@@ -17,17 +17,17 @@
 namespace driftmesh {
 
 /// Checks lengths of arrays and indices. False if the other checks cannot run.
-[[nodiscard]] bool check_arrays(const MeshPiece& mesh, Findings& findings);
+[[nodiscard]] bool check_arrays(const Mesh& mesh, Findings& findings);
 
 /// Checks that used points are finite, in the range of the predicates and distinct. Adds them to `index`, an index of
 /// the mesh's points. Returns how many are used.
-std::size_t check_points(const MeshPiece& mesh, const CornerTable& corners, PointIndex& index, Findings& findings);
+std::size_t check_points(const Mesh& mesh, const CornerTable& corners, PointIndex& index, Findings& findings);
 
 /// The edges with only one triangle, directed so that it is on their left.
-[[nodiscard]] std::vector<MeshPiece::Edge> boundary_edges(const MeshPiece& mesh, const CornerTable& corners);
+[[nodiscard]] std::vector<Mesh::Edge> boundary_edges(const Mesh& mesh, const CornerTable& corners);
 
 /// Checks that every subsegment is an edge of the mesh and listed once. The subsegments know their sides.
-void check_subsegments(const MeshPiece& mesh, const Subsegments& subsegments, Findings& findings);
+void check_subsegments(const Mesh& mesh, const Subsegments& subsegments, Findings& findings);
 
 /// The edges between triangles of different subdomains, which count as constrained.
 struct Interfaces {
@@ -40,7 +40,7 @@ struct Interfaces {
 /// The checks that look at one triangle, one edge or one vertex at a time.
 class LocalCheck {
  public:
-  LocalCheck(const MeshPiece& mesh, const CornerTable& corners, Subsegments& subsegments, Findings& findings)
+  LocalCheck(const Mesh& mesh, const CornerTable& corners, Subsegments& subsegments, Findings& findings)
       : mesh_(mesh), corners_(corners), subsegments_(subsegments), findings_(findings) {}
 
   /// Every triangle is counterclockwise (exact).
@@ -52,7 +52,7 @@ class LocalCheck {
   void check_vertices(DisjointSets* parts, bool delaunay);
 
   /// After check_vertices: the edges with one triangle, directed so that it is on their left.
-  [[nodiscard]] const std::vector<MeshPiece::Edge>& boundary() const { return boundary_; }
+  [[nodiscard]] const std::vector<Mesh::Edge>& boundary() const { return boundary_; }
   /// After check_vertices: the edges between subdomains, if the mesh lists them.
   [[nodiscard]] const Interfaces& interfaces() const { return interfaces_; }
 
@@ -68,14 +68,14 @@ class LocalCheck {
   }
   [[nodiscard]] const Point& at(std::int32_t point) const { return mesh_.points[point]; }
 
-  const MeshPiece& mesh_;
+  const Mesh& mesh_;
   const CornerTable& corners_;
   Subsegments& subsegments_;
   Findings& findings_;
   Fan fan_;
   DisjointSets* parts_ = nullptr;
   bool delaunay_ = true;
-  std::vector<MeshPiece::Edge> boundary_;
+  std::vector<Mesh::Edge> boundary_;
   Interfaces interfaces_;
 };
 

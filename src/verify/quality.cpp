@@ -65,7 +65,7 @@ class DegreeBins {
 
 class QualityCheck {
  public:
-  QualityCheck(const MeshPiece& mesh, const Chains& chains, const CheckedBounds& bounds, Findings& findings)
+  QualityCheck(const Mesh& mesh, const Chains& chains, const CheckedBounds& bounds, Findings& findings)
       : mesh_(mesh), chains_(chains), bounds_(bounds), findings_(findings) {
     const long double theta = static_cast<long double>(bounds.min_angle) / kDegrees;
     max_ratio_ = bounds.min_angle > 0 ? (1 + kSlack) / (2 * std::sin(theta)) : 0;
@@ -223,7 +223,7 @@ class QualityCheck {
     if (list.count++ < bounds_.max_listed) list.messages.push_back(describe());
   }
 
-  const MeshPiece& mesh_;
+  const Mesh& mesh_;
   const Chains& chains_;
   const CheckedBounds& bounds_;
   Findings& findings_;
@@ -264,7 +264,7 @@ std::uint64_t Quality::exception_count() const {
   return sum;
 }
 
-Quality check_quality(const MeshPiece& mesh, const Chains& chains, const CheckedBounds& bounds, Findings& findings) {
+Quality check_quality(const Mesh& mesh, const Chains& chains, const CheckedBounds& bounds, Findings& findings) {
   return QualityCheck(mesh, chains, bounds, findings).run();
 }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/id_vector.hpp"
-#include "mesh/mesh_piece.hpp"
-#include "sizing/size_field.hpp"
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/size_field.hpp"
 #include "verify/chains.hpp"
 #include "verify/findings.hpp"
 
@@ -59,7 +59,7 @@ struct CheckedBounds {
 /// Measures all triangles, and adds those that miss a bound without an accepted reason to `findings`. The angle bound
 /// is circumradius / shortest edge <= 1 / (2 sin min_angle), with a relative slack of 1e-9 for rounding; triangles that
 /// seem to miss a bound in double precision are measured again in extended precision.
-[[nodiscard]] Quality check_quality(const MeshPiece& mesh, const Chains& chains, const CheckedBounds& bounds,
+[[nodiscard]] Quality check_quality(const Mesh& mesh, const Chains& chains, const CheckedBounds& bounds,
                                     Findings& findings);
 
 }  // namespace driftmesh

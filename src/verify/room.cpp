@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/id_vector.hpp"
+#include "geometry/midpoint.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/extended.hpp"
 
@@ -46,7 +47,7 @@ bool cross(const Point& p, const Point& q, const Point& a, const Point& b) {
 
 }  // namespace
 
-Room::Room(const MeshPiece& mesh, const Subsegments& subsegments) : mesh_(mesh), subsegments_(subsegments) {
+Room::Room(const Mesh& mesh, const Subsegments& subsegments) : mesh_(mesh), subsegments_(subsegments) {
   std::vector<Box> boxes;
   for (const std::int32_t s : subsegments.ids()) {
     if (!is_stuck(s)) continue;
@@ -61,7 +62,7 @@ const Point& Room::corner(std::size_t t, std::size_t k) const {
 }
 
 bool Room::is_stuck(std::int32_t subsegment) const {
-  const MeshPiece::Edge& edge = subsegments_[subsegment];
+  const Mesh::Edge& edge = subsegments_[subsegment];
   const Point &a = mesh_.points[edge.a], &b = mesh_.points[edge.b], m = midpoint(a, b);
   if (m == a || m == b) return true;
   for (const std::int32_t t : {subsegments_.left(subsegment, edge.a), subsegments_.right(subsegment, edge.a)}) {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "driftmesh/mesh.hpp"
 #include "geometry/box_tree.hpp"
-#include "mesh/mesh_piece.hpp"
 #include "verify/subsegments.hpp"
 
 namespace driftmesh {
@@ -20,7 +20,7 @@ namespace driftmesh {
 /// lies in the diametral circle of a stuck subsegment or beyond it, as seen from one of the triangle's corners.
 class Room {
  public:
-  Room(const MeshPiece& mesh, const Subsegments& subsegments);
+  Room(const Mesh& mesh, const Subsegments& subsegments);
 
   /// Whether nothing can be done about an angle of triangle t below `min_angle` degrees: for its off-center.
   [[nodiscard]] bool none_for_angle(std::size_t t, double min_angle) const;
@@ -36,7 +36,7 @@ class Room {
   [[nodiscard]] bool none_for(std::size_t t, double most_height) const;
   [[nodiscard]] const Point& corner(std::size_t t, std::size_t k) const;
 
-  const MeshPiece& mesh_;
+  const Mesh& mesh_;
   const Subsegments& subsegments_;
   std::vector<Segment> stuck_;
   BoxTree tree_;  // of the diametral circles of stuck_

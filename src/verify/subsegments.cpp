@@ -6,7 +6,7 @@
 
 namespace driftmesh {
 
-Subsegments::Subsegments(std::size_t point_count, std::vector<MeshPiece::Edge> edges)
+Subsegments::Subsegments(std::size_t point_count, std::vector<Mesh::Edge> edges)
     : edges_(std::move(edges)),
       sides_(edges_.size(), {kNone, kNone}),
       first_(point_count + 1),

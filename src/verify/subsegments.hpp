@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/id_vector.hpp"
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh {
 
@@ -14,11 +14,11 @@ namespace driftmesh {
 class Subsegments {
  public:
   /// Every index of `edges` is valid.
-  Subsegments(std::size_t point_count, std::vector<MeshPiece::Edge> edges);
+  Subsegments(std::size_t point_count, std::vector<Mesh::Edge> edges);
 
   [[nodiscard]] std::size_t size() const { return edges_.size(); }
   [[nodiscard]] IdRange<std::int32_t> ids() const { return first_ids<std::int32_t>(edges_.size()); }
-  [[nodiscard]] const MeshPiece::Edge& operator[](std::int32_t s) const { return edges_[s]; }
+  [[nodiscard]] const Mesh::Edge& operator[](std::int32_t s) const { return edges_[s]; }
   /// Numbers of the subsegments that end at `point`.
   [[nodiscard]] std::span<const std::int32_t> at(std::int32_t point) const {
     return std::span(by_end_).subspan(first_[point], first_[point + 1] - first_[point]);
@@ -26,7 +26,7 @@ class Subsegments {
   /// The number of the subsegment between two points, or kNone. Of a duplicate, the first.
   [[nodiscard]] std::int32_t find(std::int32_t u, std::int32_t v) const;
   [[nodiscard]] std::int32_t other_end(std::int32_t s, std::int32_t point) const {
-    const MeshPiece::Edge& edge = (*this)[s];
+    const Mesh::Edge& edge = (*this)[s];
     return edge.a == point ? edge.b : edge.a;
   }
 
@@ -43,7 +43,7 @@ class Subsegments {
  private:
   [[nodiscard]] const std::array<std::int32_t, 2>& sides(std::int32_t s) const { return sides_[s]; }
 
-  std::vector<MeshPiece::Edge> edges_;
+  std::vector<Mesh::Edge> edges_;
   std::vector<std::array<std::int32_t, 2>> sides_;  // the triangle on the left and on the right of a -> b
   std::vector<std::uint32_t> first_;
   std::vector<std::int32_t> by_end_;

@@ -23,7 +23,7 @@ namespace {
 /// One verification: its phases in order, and what later ones need from earlier ones.
 class Verification {
  public:
-  Verification(const MeshPiece& mesh, const Pslg* input, const VerifyOptions& options)
+  Verification(const Mesh& mesh, const Pslg* input, const VerifyOptions& options)
       : mesh_(mesh), input_(input), options_(options), findings_(options.max_listed), points_(mesh.points) {}
 
   VerifyReport run() {
@@ -121,7 +121,7 @@ class Verification {
     report_.area = report_.quality.total_area;
   }
 
-  const MeshPiece& mesh_;
+  const Mesh& mesh_;
   const Pslg* input_;
   const VerifyOptions& options_;
   VerifyReport report_;
@@ -136,17 +136,17 @@ class Verification {
 
 }  // namespace
 
-VerifyReport verify(const MeshPiece& mesh, const VerifyOptions& options) {
+VerifyReport verify(const Mesh& mesh, const VerifyOptions& options) {
   return Verification(mesh, nullptr, options).run();
 }
 
-VerifyReport verify(const MeshPiece& mesh, const Pslg& input, const VerifyOptions& options) {
+VerifyReport verify(const Mesh& mesh, const Pslg& input, const VerifyOptions& options) {
   return Verification(mesh, &input, options).run();
 }
 
-VerifyReport verify_pieces(std::span<const MeshPiece> pieces, const Pslg* input, const VerifyOptions& options) {
+VerifyReport verify_pieces(std::span<const Mesh> pieces, const Pslg* input, const VerifyOptions& options) {
   MergeFaults faults;
-  const MeshPiece whole = merge_pieces(pieces, faults);
+  const Mesh whole = merge_pieces(pieces, faults);
   VerifyReport report = Verification(whole, input, options).run();
   report.pieces = pieces.size();
   for (std::size_t i = 0; i < faults.count; ++i)

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
-#include "mesh/mesh_piece.hpp"
-#include "pslg/pslg.hpp"
-#include "sizing/size_field.hpp"
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/pslg.hpp"
+#include "driftmesh/size_field.hpp"
 #include "verify/findings.hpp"
 #include "verify/quality.hpp"
 
@@ -55,11 +55,11 @@ struct VerifyReport {
 ///   covered twice, since the number of triangles over a point is the winding number of the boundary around it;
 /// - it is constrained Delaunay: no point opposite an unconstrained edge lies inside the circumcircle. If this holds at
 ///   every such edge, it holds everywhere (Chew 1989). Edges between triangles of different subdomains
-///   (MeshPiece::subdomains) count as constrained here;
+///   (Mesh::subdomains) count as constrained here;
 /// - areas and angles meet the bounds of `options`; see ExceptionReason for accepted exceptions.
 /// Flaws of the mesh are reported, never thrown, whatever its arrays contain. Linear time but for the boundary, which
 /// takes O(n log n); about 55 bytes per triangle besides the mesh. Throws LimitError above 1.4 billion triangles.
-[[nodiscard]] VerifyReport verify(const MeshPiece& mesh, const VerifyOptions& options);
+[[nodiscard]] VerifyReport verify(const Mesh& mesh, const VerifyOptions& options);
 
 /// Also checks the mesh against its input, which must be planar as repair() leaves it (if not, that is reported as a
 /// flaw):
@@ -70,14 +70,13 @@ struct VerifyReport {
 ///   the rounding of repeated midpoints; there are no other subsegments;
 /// - every input point in the domain is a vertex; area, Euler number and region attributes (if listed) agree.
 /// An input without segments describes the convex hull of its points, with marker 1 all around.
-[[nodiscard]] VerifyReport verify(const MeshPiece& mesh, const Pslg& input, const VerifyOptions& options);
+[[nodiscard]] VerifyReport verify(const Mesh& mesh, const Pslg& input, const VerifyOptions& options);
 
 /// The same for a mesh in pieces, and checks that the pieces fit: points with the same number have the same
 /// coordinates, marker and attributes to the last bit in every piece, and no number from 0 on is missing. If the whole
 /// mesh also passes the checks above (where points in the same place with different numbers, and interior edges with
 /// one triangle, are flaws), both sides of every interface have the same points and edges. `input` may be null. Throws
 /// Error if a piece has no numbers.
-[[nodiscard]] VerifyReport verify_pieces(std::span<const MeshPiece> pieces, const Pslg* input,
-                                         const VerifyOptions& options);
+[[nodiscard]] VerifyReport verify_pieces(std::span<const Mesh> pieces, const Pslg* input, const VerifyOptions& options);
 
 }  // namespace driftmesh

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "io/msh_format.hpp"
 #include "io/pvtu_format.hpp"
 #include "io/vtu_format.hpp"
@@ -18,7 +18,7 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-void require_consistent(const MeshPiece& mesh) {
+void require_consistent(const Mesh& mesh) {
   const auto exists = [&mesh](std::int32_t v) { return v >= 0 && static_cast<std::size_t>(v) < mesh.points.size(); };
   for (const auto& triangle : mesh.triangles)
     for (const std::int32_t vertex : triangle) require(exists(vertex));

@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
 #include "pslg/open_boundary.hpp"
 #include "pslg/poly_file.hpp"
-#include "pslg/repair.hpp"
 #include "pslg/triangle_files.hpp"
 
 namespace {

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
 #include "geometry/predicates.hpp"
-#include "pslg/repair.hpp"
 
 namespace {
 

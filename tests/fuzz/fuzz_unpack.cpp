@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
-#include "base/error.hpp"
 #include "decompose/decompose.hpp"
+#include "driftmesh/error.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/digest.hpp"
 #include "migration/packed_bytes.hpp"

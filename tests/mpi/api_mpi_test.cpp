@@ -5,14 +5,14 @@
 #include <string>
 
 #include "api/driftmesh.hpp"
-#include "base/error.hpp"
 #include "decompose/decompose.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
+#include "driftmesh/size_field.hpp"
 #include "io/mesh_file.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/digest.hpp"
-#include "pslg/generate.hpp"
-#include "sizing/size_field.hpp"
 #include "temporary_folder.hpp"
 #include "verify/verify.hpp"
 
@@ -89,7 +89,7 @@ TEST_CASE("pieces of all ranks are one mesh, whichever way they are made") {
         const std::string path = shared_path(folder, name);
         write_distributed(world(), piece, path);
         if (piece.rank == 0) {
-          const MeshPiece whole = read_mesh(path);
+          const Mesh whole = read_mesh(path);
           CHECK(mesh_digest(whole) == digest);
           VerifyOptions verify_options;
           verify_options.min_angle = 25;

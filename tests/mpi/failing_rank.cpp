@@ -1,7 +1,7 @@
 // A program in which one rank fails while the others wait for it: all must stop, with one message.
 #include <exception>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 #include "protocol/rank_step.hpp"
 

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "base/byte_stream.hpp"
+#include "driftmesh/generate.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/order.hpp"
 #include "mpi/mesh_on_ranks.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
-#include "pslg/generate.hpp"
 #include "support/late_plan.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
@@ -66,7 +66,7 @@ struct Deeds {
   }
 };
 
-void check_mesh(const MeshPiece& mesh, const Pslg& input, const QualityBounds& bounds) {
+void check_mesh(const Mesh& mesh, const Pslg& input, const QualityBounds& bounds) {
   const VerifyOptions options{.min_angle = bounds.min_angle, .max_area = bounds.max_area};
   const VerifyReport report = verify(mesh, input, options);
   CHECK_MESSAGE(report.accepted(), report_text(report, options));
@@ -121,7 +121,7 @@ void run_with(const LateCase& late) {
                          }});
   deeds.counters = run.loop().protocol().counters();
   const std::vector<Bytes> reports = team.gather(deeds.pack());
-  const MeshPiece mesh = mpi_test::gathered(team, run);
+  const Mesh mesh = mpi_test::gathered(team, run);
   gun.close();
   if (team.leads()) {
     check_deeds(late, reports);

@@ -128,7 +128,7 @@ void add_up(const std::vector<Bytes>& reports, std::size_t subdomains, Outcome& 
 
 }  // namespace
 
-MeshPiece gathered(job::Team& team, const job::RankRun& run) {
+Mesh gathered(job::Team& team, const job::RankRun& run) {
   const auto channel = team.open();
   ExchangeRunner ranks(channel->transport());
   const DistributedPiece piece = run.assemble(ranks);

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/pslg.hpp"
 #include "job/rank_run.hpp"
 #include "job/team.hpp"
 #include "mesh/bounds.hpp"
-#include "mesh/mesh_piece.hpp"
 #include "protocol/rank_protocol.hpp"
-#include "pslg/pslg.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh::mpi_test {
@@ -32,7 +32,7 @@ struct Job {
 /// What rank 0 has of it at the end; on other ranks nothing but `leads`.
 struct Outcome {
   bool leads = false;
-  MeshPiece mesh;
+  Mesh mesh;
   QualityBounds bounds;
   protocol::ProtocolCounters counters;  ///< of all ranks together
   std::int64_t forced = 0;              ///< of the moves, those at random
@@ -40,7 +40,7 @@ struct Outcome {
 };
 
 /// The whole mesh that a team has made, on its rank 0; nothing elsewhere. All ranks together.
-[[nodiscard]] MeshPiece gathered(job::Team& team, const job::RankRun& run);
+[[nodiscard]] Mesh gathered(job::Team& team, const job::RankRun& run);
 
 /// Meshes on all ranks together, over a transport that delivers late and out of order.
 [[nodiscard]] Outcome run(const Job& job);

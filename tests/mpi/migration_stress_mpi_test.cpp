@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <string>
 
+#include "driftmesh/generate.hpp"
+#include "driftmesh/repair.hpp"
 #include "mpi/handle_census.hpp"
 #include "mpi/mesh_on_ranks.hpp"
-#include "pslg/generate.hpp"
-#include "pslg/repair.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::mpi_test;

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <string>
 
+#include "driftmesh/generate.hpp"
+#include "driftmesh/repair.hpp"
 #include "mesh/digest.hpp"
 #include "mpi/mesh_on_ranks.hpp"
-#include "pslg/generate.hpp"
 #include "pslg/poly_file.hpp"
-#include "pslg/repair.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::mpi_test;

@@ -2,7 +2,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 
 // Plane geometry in exact rationals, the slow and plain way: what tests compare against.
 

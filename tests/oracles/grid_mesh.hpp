@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "mesh/mesh_piece.hpp"
-#include "pslg/pslg.hpp"
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/pslg.hpp"
 
 namespace driftmesh::oracles {
 
@@ -22,7 +22,7 @@ namespace driftmesh::oracles {
 struct GridCase {
   static constexpr int kSize = 12;
   Pslg input;
-  MeshPiece mesh;
+  Mesh mesh;
 
   GridCase() {
     fill_input();

@@ -38,8 +38,7 @@ Rational entry(const Corners& t, const ExactPoint& eye, const ExactPoint& way) {
 /// What blocks the view changes only at directions towards a vertex; between two of them one ray speaks for all.
 class View {
  public:
-  View(const std::vector<ExactPoint>& points, const std::vector<MeshPiece::Edge>& walls)
-      : points_(points), walls_(walls) {}
+  View(const std::vector<ExactPoint>& points, const std::vector<Mesh::Edge>& walls) : points_(points), walls_(walls) {}
 
   [[nodiscard]] bool open(const ExactPoint& eye, const Corners& t) const {
     std::vector<ExactPoint> ways;
@@ -64,14 +63,14 @@ class View {
   [[nodiscard]] bool open_along(const ExactPoint& eye, const ExactPoint& way, const Corners& t) const {
     const Rational reach = entry(t, eye, way);
     if (reach < 0) return false;
-    return std::none_of(walls_.begin(), walls_.end(), [&](const MeshPiece::Edge& wall) {
+    return std::none_of(walls_.begin(), walls_.end(), [&](const Mesh::Edge& wall) {
       const Rational hit = ray_hit(eye, way, points_[wall.a], points_[wall.b]);
       return hit > 0 && hit <= reach;
     });
   }
 
   const std::vector<ExactPoint>& points_;
-  const std::vector<MeshPiece::Edge>& walls_;
+  const std::vector<Mesh::Edge>& walls_;
 };
 
 Corners corners_of(const std::vector<ExactPoint>& points, const std::array<std::int32_t, 3>& triangle) {
@@ -88,7 +87,7 @@ struct Piece {
 };
 
 /// The part of the segment a b that the edge covers, if both of its ends are within the tolerance of it.
-bool covers_part(const MeshPiece& mesh, const MeshPiece::Edge& edge, const Point& a, const Point& b, double tolerance,
+bool covers_part(const Mesh& mesh, const Mesh::Edge& edge, const Point& a, const Point& b, double tolerance,
                  Piece& piece) {
   const ExactPoint from(a), way = ExactPoint(b) - from;
   const Rational length2 = dot(way, way);
@@ -112,7 +111,7 @@ bool covers_part(const MeshPiece& mesh, const MeshPiece::Edge& edge, const Point
 
 }  // namespace
 
-std::vector<std::string> check_constrained_delaunay(const MeshPiece& mesh) {
+std::vector<std::string> check_constrained_delaunay(const Mesh& mesh) {
   std::vector<std::string> wrong;
   const std::vector<ExactPoint> points = exact_points(mesh.points);
   const View view(points, mesh.edges);
@@ -131,8 +130,8 @@ std::vector<std::string> check_constrained_delaunay(const MeshPiece& mesh) {
   return wrong;
 }
 
-std::vector<MeshPiece::Edge> find_boundary(const MeshPiece& mesh) {
-  std::vector<MeshPiece::Edge> boundary;
+std::vector<Mesh::Edge> find_boundary(const Mesh& mesh) {
+  std::vector<Mesh::Edge> boundary;
   for (const auto& edge : mesh.edges) {
     int left = 0, right = 0;
     for (const auto& t : mesh.triangles)
@@ -147,7 +146,7 @@ std::vector<MeshPiece::Edge> find_boundary(const MeshPiece& mesh) {
   return boundary;
 }
 
-std::vector<std::string> check_area(const MeshPiece& mesh, const std::vector<MeshPiece::Edge>& boundary) {
+std::vector<std::string> check_area(const Mesh& mesh, const std::vector<Mesh::Edge>& boundary) {
   std::vector<std::string> wrong;
   const std::vector<ExactPoint> points = exact_points(mesh.points);
   Rational sum = 0, enclosed = 0;
@@ -164,7 +163,7 @@ std::vector<std::string> check_area(const MeshPiece& mesh, const std::vector<Mes
   return wrong;
 }
 
-std::vector<std::string> check_coverage(const MeshPiece& mesh, const Pslg& input, double tolerance,
+std::vector<std::string> check_coverage(const Mesh& mesh, const Pslg& input, double tolerance,
                                         const std::vector<bool>& outside) {
   std::vector<std::string> wrong;
   std::vector<int> uses(mesh.edges.size(), 0);
@@ -194,7 +193,7 @@ std::vector<std::string> check_coverage(const MeshPiece& mesh, const Pslg& input
   return wrong;
 }
 
-int count_covering(const MeshPiece& mesh, const Point& p) {
+int count_covering(const Mesh& mesh, const Point& p) {
   const ExactPoint at(p);
   int count = 0;
   for (const auto& t : mesh.triangles) {

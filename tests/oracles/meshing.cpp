@@ -3,9 +3,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
 #include "mesh/to_piece.hpp"
-#include "pslg/repair.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -56,7 +56,7 @@ MeshingOutcome repair_mesh_and_verify(Pslg input, const MeshRequest& request) {
   try {
     repair(input);
     const MeshResult result = mesh_domain(input, request);
-    const MeshPiece piece = to_piece(result.mesh, input);
+    const Mesh piece = to_piece(result.mesh, input);
     VerifyOptions options;
     options.min_angle = result.complete ? request.min_angle : 0;
     options.max_area = result.complete ? request.max_area : 0;

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
+#include "driftmesh/pslg.hpp"
 #include "mesh/mesher.hpp"
-#include "pslg/pslg.hpp"
 
 namespace driftmesh::oracles {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/midpoint.hpp"
 #include "geometry/predicates.hpp"
 #include "oracles/mesh_oracle.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "pslg/pslg.hpp"
+#include "driftmesh/pslg.hpp"
 
 namespace driftmesh::oracles {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "support/balanced_ranks.hpp"
 
 using namespace driftmesh;

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/midpoint.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/to_piece.hpp"
 #include "oracles/mesh_oracle.hpp"
@@ -84,8 +85,8 @@ std::int32_t marker_of(const Pslg& input, const Point& a, const Point& b) {
   return marker;
 }
 
-MeshPiece to_mesh(const Cdt& cdt, const Pslg& input) {
-  MeshPiece mesh;
+Mesh to_mesh(const Cdt& cdt, const Pslg& input) {
+  Mesh mesh;
   std::map<Cdt::Vertex_handle, std::int32_t> number;
   const auto take = [&](Cdt::Vertex_handle v) {
     const auto [entry, added] = number.try_emplace(v, static_cast<std::int32_t>(mesh.points.size()));
@@ -104,7 +105,7 @@ MeshPiece to_mesh(const Cdt& cdt, const Pslg& input) {
   return mesh;
 }
 
-bool accepted(const MeshPiece& mesh, const Pslg& input) {
+bool accepted(const Mesh& mesh, const Pslg& input) {
   const VerifyReport report = verify(mesh, input, {});
   if (!report.accepted()) MESSAGE(report_text(report, {}));
   return report.accepted();
@@ -117,7 +118,7 @@ std::vector<bool> no_segment_outside(const Pslg& input) {
 using Places = std::pair<std::pair<double, double>, std::pair<double, double>>;
 
 /// The edges of a mesh by the coordinates of their ends.
-std::set<Places> edges_by_place(const MeshPiece& mesh) {
+std::set<Places> edges_by_place(const Mesh& mesh) {
   std::set<Places> edges;
   const auto place = [&](std::int32_t v) {
     const Point& p = mesh.points[static_cast<std::size_t>(v)];
@@ -129,7 +130,7 @@ std::set<Places> edges_by_place(const MeshPiece& mesh) {
 }
 
 /// Whether some edge could as well be flipped: its two triangles lie on one circle.
-bool has_choice(const MeshPiece& mesh) {
+bool has_choice(const Mesh& mesh) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> opposite;
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) opposite[{t[k], t[(k + 1) % 3]}] = t[(k + 2) % 3];
@@ -144,7 +145,7 @@ bool has_choice(const MeshPiece& mesh) {
 }
 
 /// What each kind of damage does to a mesh; false if it found no place.
-bool flip_edge(MeshPiece& mesh, std::mt19937_64& random) {
+bool flip_edge(Mesh& mesh, std::mt19937_64& random) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::size_t, std::size_t>> side;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) side[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = {t, k};
@@ -165,35 +166,35 @@ bool flip_edge(MeshPiece& mesh, std::mt19937_64& random) {
   return true;
 }
 
-bool invert(MeshPiece& mesh, std::mt19937_64& random) {
+bool invert(Mesh& mesh, std::mt19937_64& random) {
   auto& t = mesh.triangles[random() % mesh.triangles.size()];
   std::swap(t[0], t[1]);
   return true;
 }
 
-bool drop_triangle(MeshPiece& mesh, std::mt19937_64& random) {
+bool drop_triangle(Mesh& mesh, std::mt19937_64& random) {
   mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(random() % mesh.triangles.size()));
   return true;
 }
 
-bool drop_subsegment(MeshPiece& mesh, std::mt19937_64& random) {
+bool drop_subsegment(Mesh& mesh, std::mt19937_64& random) {
   mesh.edges.erase(mesh.edges.begin() + static_cast<std::ptrdiff_t>(random() % mesh.edges.size()));
   return true;
 }
 
-bool change_marker(MeshPiece& mesh, std::mt19937_64& random) {
+bool change_marker(Mesh& mesh, std::mt19937_64& random) {
   mesh.edges[random() % mesh.edges.size()].marker += 1000;
   return true;
 }
 
-bool move_point(MeshPiece& mesh, std::mt19937_64& random) {
+bool move_point(Mesh& mesh, std::mt19937_64& random) {
   const auto v = random() % mesh.points.size();
   const auto& other = mesh.points[(v + 1) % mesh.points.size()];
   mesh.points[v] = {(mesh.points[v].x + other.x) / 2, (mesh.points[v].y + other.y) / 2};
   return true;
 }
 
-bool redirect_corner(MeshPiece& mesh, std::mt19937_64& random) {
+bool redirect_corner(Mesh& mesh, std::mt19937_64& random) {
   auto& corner = mesh.triangles[random() % mesh.triangles.size()][random() % 3];
   const auto other = static_cast<std::int32_t>(random() % mesh.points.size());
   if (corner == other) return false;
@@ -210,7 +211,7 @@ TEST_CASE("CGAL's constrained Delaunay triangulations are accepted, and the orac
     const auto random = oracles::make_random_pslg(seed, oracles::make_random_shape(seed));
     Cdt cdt = cgal_triangulation(random.input);
     carve(cdt, random.input);
-    const MeshPiece mesh = to_mesh(cdt, random.input);
+    const Mesh mesh = to_mesh(cdt, random.input);
     REQUIRE(!mesh.triangles.empty());
     CHECK(accepted(mesh, random.input));
     CHECK(oracles::check_constrained_delaunay(mesh) == std::vector<std::string>{});
@@ -243,8 +244,8 @@ TEST_CASE("our constrained Delaunay triangulation has CGAL's edges") {
     CAPTURE(oracles::poly_text(random.input));
     Cdt cdt = cgal_triangulation(random.input);
     carve(cdt, random.input);
-    const MeshPiece theirs = to_mesh(cdt, random.input);
-    const MeshPiece ours = to_piece(driftmesh::triangulate(random.input), random.input);
+    const Mesh theirs = to_mesh(cdt, random.input);
+    const Mesh ours = to_piece(driftmesh::triangulate(random.input), random.input);
     REQUIRE(accepted(ours, random.input));
     if (has_choice(theirs)) continue;
     ++compared;
@@ -266,17 +267,17 @@ TEST_CASE("where four points are cocircular both triangulations are valid") {
     }
     Cdt cdt = cgal_triangulation(input);
     carve(cdt, input);
-    const MeshPiece theirs = to_mesh(cdt, input);
+    const Mesh theirs = to_mesh(cdt, input);
     CHECK(has_choice(theirs));
     CHECK(accepted(theirs, input));
-    const MeshPiece ours = to_piece(driftmesh::triangulate(input), input);
+    const Mesh ours = to_piece(driftmesh::triangulate(input), input);
     CHECK(accepted(ours, input));
     CHECK(ours.triangles.size() == theirs.triangles.size());
   }
 }
 
 TEST_CASE("random damage to CGAL's triangulations is found") {
-  using Damage = bool (*)(MeshPiece&, std::mt19937_64&);
+  using Damage = bool (*)(Mesh&, std::mt19937_64&);
   const std::vector<std::pair<const char*, Damage>> damages = {
       {"flip an edge", flip_edge},           {"invert a triangle", invert},
       {"drop a triangle", drop_triangle},    {"drop a subsegment", drop_subsegment},
@@ -291,7 +292,7 @@ TEST_CASE("random damage to CGAL's triangulations is found") {
       const auto random_input = oracles::make_random_pslg(seed, oracles::make_random_shape(seed));
       Cdt cdt = cgal_triangulation(random_input.input);
       carve(cdt, random_input.input);
-      MeshPiece mesh = to_mesh(cdt, random_input.input);
+      Mesh mesh = to_mesh(cdt, random_input.input);
       std::mt19937_64 random(seed);
       if (!damage(mesh, random)) continue;
       CHECK(!verify(mesh, random_input.input, {}).accepted());
@@ -315,7 +316,7 @@ TEST_CASE("CGAL's refined meshes are accepted with the angle bound that they wer
     for (const Point& hole : random.input.holes) holes.push_back(cgal_point(hole));
     mesher.set_seeds(holes.begin(), holes.end(), false);
     mesher.refine_mesh();
-    const MeshPiece mesh = to_mesh(cdt, random.input);
+    const Mesh mesh = to_mesh(cdt, random.input);
     REQUIRE(mesh.triangles.size() > 100);
     VerifyOptions options;
     options.region_areas = false;

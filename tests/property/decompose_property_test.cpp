@@ -4,18 +4,18 @@
 #include <random>
 #include <string>
 
-#include "base/error.hpp"
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/same_input.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
+#include "driftmesh/repair.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
 #include "oracles/meshing.hpp"
 #include "oracles/random_pslg.hpp"
 #include "property/cases.hpp"
-#include "pslg/generate.hpp"
-#include "pslg/repair.hpp"
 #include "support/refine_together.hpp"
 
 // Random domains through decomposition: the invariants, and what refinement makes of the subdomains.

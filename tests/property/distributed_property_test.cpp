@@ -24,7 +24,7 @@ namespace {
 
 using Place = std::pair<double, double>;
 
-std::set<Place> places_of(const MeshPiece& mesh) {
+std::set<Place> places_of(const Mesh& mesh) {
   std::set<Place> places;
   for (const Point& p : mesh.points) places.emplace(p.x, p.y);
   return places;
@@ -37,7 +37,7 @@ void check_numbers(const std::vector<DistributedPiece>& pieces) {
   std::map<std::int64_t, Rank> owner_of_number;
   std::int64_t triangles = 0;
   for (const DistributedPiece& piece : pieces) {
-    const MeshPiece& mesh = piece.mesh;
+    const Mesh& mesh = piece.mesh;
     triangles += static_cast<std::int64_t>(mesh.triangles.size());
     REQUIRE(mesh.numbers.size() == mesh.points.size());
     REQUIRE(piece.owners.size() == mesh.points.size());
@@ -80,7 +80,7 @@ void check_interfaces(const std::vector<DistributedPiece>& pieces) {
   }
 }
 
-void check_whole(const DistributedCase& c, const std::vector<DistributedPiece>& pieces, const MeshPiece& whole) {
+void check_whole(const DistributedCase& c, const std::vector<DistributedPiece>& pieces, const Mesh& whole) {
   std::uint64_t digest_of_parts = 0, digest_of_pieces = 0;
   for (const SubdomainMesh& part : c.parts) digest_of_parts += mesh_digest(part.mesh);
   for (const DistributedPiece& piece : pieces) digest_of_pieces += mesh_digest(piece.mesh);
@@ -106,13 +106,13 @@ TEST_CASE("random domains, dealt to random ranks, are one mesh") {
     const DistributedCase c = random_distributed_case(seed);
     CAPTURE(oracles::poly_text(c.input));
     MergeFaults faults;
-    const MeshPiece alone = merge_pieces(meshes_of(c.pieces(1, std::vector<Rank>(c.parts.size(), 0))), faults);
+    const Mesh alone = merge_pieces(meshes_of(c.pieces(1, std::vector<Rank>(c.parts.size(), 0))), faults);
     for (const Rank ranks : {1, 2, 3, 7}) {
       CAPTURE(ranks);
       const auto pieces = c.pieces(ranks, random_owners(c.parts.size(), ranks, seed));
       check_numbers(pieces);
       check_interfaces(pieces);
-      MeshPiece whole = merge_pieces(meshes_of(pieces), faults);
+      Mesh whole = merge_pieces(meshes_of(pieces), faults);
       check_whole(c, pieces, whole);
       whole.ranks = alone.ranks;
       test::check_same_mesh(whole, alone);  // whoever held what

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/repair.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/mesher.hpp"
 #include "mesh/to_piece.hpp"
 #include "oracles/mesh_oracle.hpp"
 #include "oracles/meshing.hpp"
 #include "oracles/random_pslg.hpp"
-#include "pslg/repair.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -57,7 +57,7 @@ TEST_CASE("triangulations of random inputs stand up to brute force") {
     RandomPslg random = make_random_pslg(seed, shape);
     CAPTURE(poly_text(random.input));
     REQUIRE(!repair(random.input).changed());
-    const MeshPiece mesh = to_piece(triangulate(random.input), random.input);
+    const Mesh mesh = to_piece(triangulate(random.input), random.input);
     const VerifyReport report = verify(mesh, random.input, {});
     INFO(report_text(report, {}));
     CHECK(report.accepted());
@@ -105,7 +105,7 @@ TEST_CASE("refined meshes of small random inputs cover their segments, by ration
     MeshRequest request;
     request.min_angle = 20;
     const MeshResult result = mesh_domain(random.input, request);
-    const MeshPiece mesh = to_piece(result.mesh, random.input);
+    const Mesh mesh = to_piece(result.mesh, random.input);
     const double tolerance = 64 * 0x1p-52 * (std::fabs(shape.offset) + shape.scale);
     CHECK(check_coverage(mesh, random.input, tolerance, std::vector<bool>(random.input.segments.size(), false)) ==
           kRight);

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "driftmesh/generate.hpp"
 #include "mesh/digest.hpp"
 #include "mesh/exceptions.hpp"
 #include "mesh/triangulation_fault.hpp"
 #include "migration/packed_form.hpp"
 #include "property/cases.hpp"
-#include "pslg/generate.hpp"
 #include "support/random_subdomains.hpp"
 
 // Subdomains that are packed and unpacked at random moments, against twins that stay where they are: both must come to

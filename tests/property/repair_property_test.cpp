@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pslg/repair.hpp"
+#include "driftmesh/repair.hpp"
 
 using namespace driftmesh;
 using Rational = boost::multiprecision::cpp_rational;

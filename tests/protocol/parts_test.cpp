@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "protocol/aggregator.hpp"
 #include "protocol/directory.hpp"
 #include "protocol/split_set.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "protocol/rank_step.hpp"
 #include "protocol/transport.hpp"
 

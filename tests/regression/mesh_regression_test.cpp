@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <string>
 
+#include "driftmesh/repair.hpp"
 #include "mesh/mesher.hpp"
 #include "mesh/to_piece.hpp"
 #include "pslg/poly_file.hpp"
-#include "pslg/repair.hpp"
 #include "verify/verify.hpp"
 
 using namespace driftmesh;

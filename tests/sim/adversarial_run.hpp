@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "balancer/simulated_council.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "mesh/digest.hpp"
 #include "runtime/plan_run.hpp"
 #include "runtime/rank_loop.hpp"

@@ -5,13 +5,13 @@
 #include <limits>
 #include <utility>
 
-#include "base/error.hpp"
 #include "decompose/decompose.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/digest.hpp"
 #include "migration/subdomain.hpp"
-#include "pslg/repair.hpp"
 
 namespace driftmesh::sim {
 namespace {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "decompose/decomposition.hpp"
+#include "driftmesh/pslg.hpp"
+#include "driftmesh/size_field.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/triangulation.hpp"
-#include "pslg/pslg.hpp"
-#include "sizing/size_field.hpp"
 
 namespace driftmesh::sim {
 

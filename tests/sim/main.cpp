@@ -9,11 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/standard_streams.hpp"
 #include "base/stopwatch.hpp"
 #include "cli/command_line.hpp"
 #include "cli/values.hpp"
+#include "driftmesh/error.hpp"
 #include "sim/adversarial_run.hpp"
 
 namespace {

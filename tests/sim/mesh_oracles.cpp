@@ -44,7 +44,7 @@ class Merge {
       if (edges_.insert(ends).second) piece_.edges.push_back({ends.first, ends.second, root.marker});
     }
   }
-  MeshPiece take() { return std::move(piece_); }
+  Mesh take() { return std::move(piece_); }
 
  private:
   std::int32_t number_of(const Point& p) {
@@ -55,15 +55,14 @@ class Merge {
 
   const Domain& domain_;
   const Decomposition& decomposition_;
-  MeshPiece piece_;
+  Mesh piece_;
   std::unordered_map<Point, std::int32_t, BitsOfPoint> numbers_;
   std::set<std::pair<std::int32_t, std::int32_t>> edges_;
 };
 
 }  // namespace
 
-MeshPiece merge(const Domain& domain, const Decomposition& decomposition,
-                const std::vector<const Subdomain*>& subdomains) {
+Mesh merge(const Domain& domain, const Decomposition& decomposition, const std::vector<const Subdomain*>& subdomains) {
   Merge merging(domain, decomposition);
   for (const Subdomain* s : subdomains) merging.add(*s);
   return merging.take();

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 #include "migration/subdomain.hpp"
 #include "sim/domains.hpp"
 
@@ -12,8 +12,8 @@ namespace driftmesh::sim {
 
 /// The subdomains as one mesh, put together from coordinates alone: points are the same where they are equal to the
 /// last bit.
-[[nodiscard]] MeshPiece merge(const Domain& domain, const Decomposition& decomposition,
-                              const std::vector<const Subdomain*>& subdomains);
+[[nodiscard]] Mesh merge(const Domain& domain, const Decomposition& decomposition,
+                         const std::vector<const Subdomain*>& subdomains);
 
 /// What the independent judge says to the merged mesh against the domain's input and bounds: every piece constrained
 /// Delaunay by the exact predicate, bounds met but for the exceptions that the input explains, areas summed, input

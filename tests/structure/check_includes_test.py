@@ -89,8 +89,8 @@ class BrokenProject(unittest.TestCase):
                     "reaches src/mesh/cavity.hpp -> protocol/messages.hpp, which mesh does not stand on")
 
     def test_messages_in_the_mesher_by_way_of_a_box_below(self):
-        self.include("src/base/error.hpp", "protocol/messages.hpp")
-        self.expect("reaches src/base/error.hpp -> protocol/messages.hpp, which mesh does not stand on")
+        self.include("src/base/narrow.hpp", "protocol/messages.hpp")
+        self.expect("reaches src/base/narrow.hpp -> protocol/messages.hpp, which mesh does not stand on")
 
     def test_messages_in_the_mesher_by_other_names(self):
         for header in ("<protocol/messages.hpp>", "../../protocol/messages.hpp", "mesh/../../protocol/messages.hpp"):
@@ -141,9 +141,9 @@ class BrokenProject(unittest.TestCase):
                 self.expect(f"src/mesh/cavity.cpp: reaches {header}, and the LIBS of mesh does not name {lib}")
 
     def test_library_in_the_mesher_by_way_of_a_box_below(self):
-        self.include("src/base/error.hpp", "<fmt/format.h>")
+        self.include("src/base/narrow.hpp", "<fmt/format.h>")
         self.declare("base", "LIBS", "fmt")
-        self.expect("reaches src/base/error.hpp -> fmt/format.h, and the LIBS of mesh does not name fmt")
+        self.expect("reaches src/base/narrow.hpp -> fmt/format.h, and the LIBS of mesh does not name fmt")
 
     def test_library_in_a_box_that_must_not_have_it(self):
         self.include("src/cluster/simulate.cpp", "<mpi.h>")

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh::test {
 

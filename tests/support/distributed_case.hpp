@@ -8,10 +8,10 @@
 
 #include "decompose/decompose.hpp"
 #include "distributed/assembly.hpp"
+#include "driftmesh/repair.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "oracles/random_pslg.hpp"
-#include "pslg/repair.hpp"
 #include "support/refine_together.hpp"
 
 namespace driftmesh::testing {
@@ -99,8 +99,8 @@ inline std::vector<protocol::Rank> random_owners(std::size_t subdomains, protoco
   return owners;
 }
 
-inline std::vector<MeshPiece> meshes_of(const std::vector<DistributedPiece>& pieces) {
-  std::vector<MeshPiece> meshes;
+inline std::vector<Mesh> meshes_of(const std::vector<DistributedPiece>& pieces) {
+  std::vector<Mesh> meshes;
   for (const DistributedPiece& piece : pieces) meshes.push_back(piece.mesh);
   return meshes;
 }

@@ -2,12 +2,12 @@
 
 #include <doctest/doctest.h>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh::test {
 
 /// Checks that two meshes are the same in every array and order.
-inline void check_same_mesh(const MeshPiece& actual, const MeshPiece& expected) {
+inline void check_same_mesh(const Mesh& actual, const Mesh& expected) {
   CHECK(actual.points == expected.points);
   CHECK(actual.triangles == expected.triangles);
   CHECK(actual.edges == expected.edges);

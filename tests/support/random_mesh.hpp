@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "mesh/mesh_piece.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh::test {
 
@@ -35,7 +35,7 @@ class RandomMesh {
     shuffle_triangles();
   }
 
-  [[nodiscard]] const MeshPiece& mesh() const { return mesh_; }
+  [[nodiscard]] const Mesh& mesh() const { return mesh_; }
 
  private:
   void make_names() {
@@ -131,7 +131,7 @@ class RandomMesh {
   std::int32_t rows_;
   RandomMeshParts parts_;
   std::vector<std::int32_t> names_;
-  MeshPiece mesh_;
+  Mesh mesh_;
 };
 
 }  // namespace driftmesh::test

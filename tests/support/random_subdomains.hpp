@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "decompose/decompose.hpp"
+#include "driftmesh/size_field.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
 #include "migration/subdomain.hpp"
 #include "oracles/random_pslg.hpp"
-#include "sizing/size_field.hpp"
 
 namespace driftmesh::testing {
 

@@ -13,7 +13,7 @@
 namespace driftmesh::test {
 
 /// The mesh with what is known of one that was made in subdomains, as far as the format holds it.
-inline MeshPiece in_subdomains(MeshPiece mesh, const std::string& extension) {
+inline Mesh in_subdomains(Mesh mesh, const std::string& extension) {
   if (extension == ".vtu")
     for (std::size_t v = 0; v < mesh.points.size(); ++v)
       mesh.numbers.push_back((std::int64_t{1} << 40) - 3 * static_cast<std::int64_t>(v));
@@ -35,7 +35,7 @@ inline void check_random_meshes_read_back(const std::string& extension) {
     const RandomMeshParts parts{seed % 2 == 0, seed % 3 == 0, seed % 5 != 0, static_cast<std::int32_t>(seed % 4)};
     const RandomMesh random(seed, 1 + static_cast<std::int32_t>(seed % 9), 1 + static_cast<std::int32_t>(seed % 7),
                             parts, seed % 2 == 0 ? 1e-3 : 1e6);
-    const MeshPiece mesh = seed % 4 == 1 ? in_subdomains(random.mesh(), extension) : random.mesh();
+    const Mesh mesh = seed % 4 == 1 ? in_subdomains(random.mesh(), extension) : random.mesh();
     write_mesh(mesh, path);
     check_same_mesh(read_mesh(path), mesh);
   }
@@ -45,7 +45,7 @@ inline void check_random_meshes_read_back(const std::string& extension) {
 inline void check_meshes_without_triangles_read_back(const std::string& extension) {
   const TemporaryFolder folder;
   const std::string path = folder.path() / ("mesh" + extension);
-  MeshPiece mesh;
+  Mesh mesh;
   write_mesh(mesh, path);
   check_same_mesh(read_mesh(path), mesh);
   mesh.points = {{1, 2}, {3, 4}};

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "balancer/policies/policy_factory.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "support/load_snapshots.hpp"
 
 using namespace driftmesh;

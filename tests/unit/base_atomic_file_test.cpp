@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/atomic_file.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "base/error.hpp"
 #include "base/narrow.hpp"
 #include "base/nearest_name.hpp"
+#include "driftmesh/error.hpp"
 
 using namespace driftmesh;
 

@@ -4,9 +4,9 @@
 #include <map>
 #include <numeric>
 
-#include "base/error.hpp"
 #include "cluster/simulate.hpp"
-#include "pslg/generate.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
 #include "support/plans.hpp"
 
 using namespace driftmesh;

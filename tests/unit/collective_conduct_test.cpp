@@ -5,7 +5,7 @@
 
 #include "balancer/controller.hpp"
 #include "balancer/policies/policy_factory.hpp"
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "support/load_snapshots.hpp"
 
 using namespace driftmesh;

@@ -4,11 +4,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "config/experiment.hpp"
 #include "config/value_json.hpp"
 #include "config/words.hpp"
+#include "driftmesh/error.hpp"
 #include "job/check.hpp"
 #include "job/keys.hpp"
 #include "temporary_folder.hpp"

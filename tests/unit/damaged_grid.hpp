@@ -28,7 +28,7 @@ inline std::string all_messages(const VerifyReport& report) {
   return text;
 }
 
-inline std::size_t find_triangle(const MeshPiece& mesh, std::array<std::int32_t, 3> corners) {
+inline std::size_t find_triangle(const Mesh& mesh, std::array<std::int32_t, 3> corners) {
   std::sort(corners.begin(), corners.end());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     auto sorted = mesh.triangles[t];
@@ -39,30 +39,30 @@ inline std::size_t find_triangle(const MeshPiece& mesh, std::array<std::int32_t,
   return 0;
 }
 
-inline void drop_triangle(MeshPiece& mesh, std::size_t t) {
+inline void drop_triangle(Mesh& mesh, std::size_t t) {
   mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
   mesh.regions.erase(mesh.regions.begin() + static_cast<std::ptrdiff_t>(t));
 }
 
-inline void add_triangle(MeshPiece& mesh, std::array<std::int32_t, 3> corners, double region) {
+inline void add_triangle(Mesh& mesh, std::array<std::int32_t, 3> corners, double region) {
   mesh.triangles.push_back(corners);
   mesh.regions.push_back(region);
 }
 
-inline std::int32_t add_point(MeshPiece& mesh, Point p) {
+inline std::int32_t add_point(Mesh& mesh, Point p) {
   mesh.points.push_back(p);
   mesh.point_markers.push_back(0);
   return static_cast<std::int32_t>(mesh.points.size()) - 1;
 }
 
-inline MeshPiece::Edge& subsegment(MeshPiece& mesh, std::int32_t a, std::int32_t b) {
+inline Mesh::Edge& subsegment(Mesh& mesh, std::int32_t a, std::int32_t b) {
   for (auto& edge : mesh.edges)
     if ((edge.a == a && edge.b == b) || (edge.a == b && edge.b == a)) return edge;
   FAIL("the mesh has no such subsegment");
   return mesh.edges.front();
 }
 
-inline void drop_subsegment(MeshPiece& mesh, std::int32_t a, std::int32_t b) {
+inline void drop_subsegment(Mesh& mesh, std::int32_t a, std::int32_t b) {
   mesh.edges.erase(mesh.edges.begin() + (&subsegment(mesh, a, b) - mesh.edges.data()));
 }
 

@@ -7,15 +7,15 @@
 #include <filesystem>
 #include <numbers>
 
-#include "base/error.hpp"
 #include "decompose/check_decomposition.hpp"
 #include "decompose/subdomain_mesh.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
 #include "geometry/predicates.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
 #include "pslg/poly_file.hpp"
-#include "pslg/repair.hpp"
 #include "sizing/make_size_field.hpp"
 #include "support/refine_together.hpp"
 

@@ -5,10 +5,10 @@
 #include <random>
 #include <string>
 
-#include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/same_input.hpp"
+#include "driftmesh/error.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "temporary_folder.hpp"

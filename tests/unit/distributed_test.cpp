@@ -5,13 +5,13 @@
 #include <sstream>
 
 #include "base/byte_stream.hpp"
-#include "base/error.hpp"
 #include "distributed/write_distributed.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/digest.hpp"
 #include "mesh/merge_pieces.hpp"
 #include "protocol/adversarial_network.hpp"
-#include "pslg/generate.hpp"
 #include "support/damage.hpp"
 #include "support/distributed_case.hpp"
 #include "support/mesh_equality.hpp"
@@ -160,7 +160,7 @@ TEST_CASE("two squares on two ranks: numbers, owners, what is shared") {
   CHECK(left.mesh.subdomains == std::vector<std::int32_t>(4, 0));
   CHECK(left.mesh.ranks == std::vector<std::int32_t>(4, 1));
   // The separator is no subsegment of the input.
-  CHECK(left.mesh.edges == std::vector<MeshPiece::Edge>{{0, 1, 5}, {0, 2, 8}, {2, 3, 7}});
+  CHECK(left.mesh.edges == std::vector<Mesh::Edge>{{0, 1, 5}, {0, 2, 8}, {2, 3, 7}});
   CHECK(left.mesh.point_markers == std::vector<std::int32_t>{5, 5, 8, 7, 0, 0});
 }
 
@@ -253,7 +253,7 @@ TEST_CASE("pieces are written, read, and are the mesh again") {
   ThreeWriters three(path);
   CHECK(write_all(three.exchanges) == std::vector<std::string>(3));
   CHECK(files_in(folder.path()) == std::vector<std::string>{"plate.pvtu", "plate_0.vtu", "plate_1.vtu", "plate_2.vtu"});
-  const std::vector<MeshPiece> read = read_pieces(path);
+  const std::vector<Mesh> read = read_pieces(path);
   REQUIRE(read.size() == 3);
   for (std::size_t k = 0; k < 3; ++k) check_same_mesh(read[k], three.pieces[k].mesh);
   MergeFaults faults;

@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/stopwatch.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/repair.hpp"
 #include "mesh/digest.hpp"
 #include "mesh/link_triangles.hpp"
-#include "mesh/mesh_piece.hpp"
 #include "mesh/refiner.hpp"
 #include "mesh/triangulation_fault.hpp"
 #include "property/cases.hpp"
-#include "pslg/generate.hpp"
 #include "pslg/poly_file.hpp"
-#include "pslg/repair.hpp"
 #include "support/random_subdomains.hpp"
 
 using namespace driftmesh;
@@ -66,7 +66,7 @@ std::multiset<std::string> origins_of(const SubdomainMesh& part) {
 
 /// The digest of the triangles of each region.
 std::map<std::uint16_t, std::uint64_t> digests_of(const Triangulation& mesh) {
-  std::map<std::uint16_t, MeshPiece> pieces;
+  std::map<std::uint16_t, Mesh> pieces;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (mesh.triangles[t].alive())
       pieces[mesh.region.empty() ? std::uint16_t{0} : mesh.region[t]].triangles.push_back(mesh.triangles[t].vertex);
@@ -80,7 +80,7 @@ std::map<std::uint16_t, std::uint64_t> digests_of(const Triangulation& mesh) {
 
 /// The digest by the dormant form's own iteration.
 std::uint64_t digest_of(const DormantMesh& dormant) {
-  MeshPiece piece;
+  Mesh piece;
   piece.points = dormant.points();
   dormant.visit_triangles([&](const auto& corners, std::uint16_t) { piece.triangles.push_back(corners); });
   return mesh_digest(piece);

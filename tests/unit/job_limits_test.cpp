@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "job/limits.hpp"
 #include "job/memory.hpp"
 

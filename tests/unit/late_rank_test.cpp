@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "driftmesh/generate.hpp"
 #include "mesh/exceptions.hpp"
 #include "protocol/virtual_network.hpp"
-#include "pslg/generate.hpp"
 #include "runtime/rank_loop.hpp"
 #include "support/late_plan.hpp"
 #include "support/simulated_run.hpp"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "base/error.hpp"
 #include "decompose/decompose.hpp"
+#include "driftmesh/error.hpp"
 #include "mesh/cdt.hpp"
 
 using namespace driftmesh;

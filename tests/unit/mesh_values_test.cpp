@@ -36,14 +36,14 @@ std::array<double, 2> linear(const Point& p) {
   return {3 * p.x - 2 * p.y + 1, -p.x + 0.25 * p.y};
 }
 
-MeshPiece meshed(const Pslg& pslg) {
+Mesh meshed(const Pslg& pslg) {
   MeshRequest request;
   request.max_area = 0.01;
   return to_piece(mesh_domain(pslg, request).mesh, pslg);
 }
 
 /// The same mesh, numbered differently.
-MeshPiece shuffled(MeshPiece mesh, unsigned seed) {
+Mesh shuffled(Mesh mesh, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::int32_t> place(mesh.points.size());
   for (std::size_t i = 0; i < place.size(); ++i) place[i] = static_cast<std::int32_t>(i);
@@ -64,7 +64,7 @@ TEST_CASE("Attributes that are linear in the input are so in the mesh") {
   Pslg pslg = domain();
   pslg.attributes_per_point = 2;
   for (const Point& p : pslg.points) pslg.attributes.insert(pslg.attributes.end(), {linear(p)[0], linear(p)[1]});
-  MeshPiece piece = meshed(pslg);
+  Mesh piece = meshed(pslg);
   REQUIRE(piece.points.size() > 2 * pslg.points.size());
   interpolate_attributes(pslg, piece);
   double error = 0;
@@ -79,10 +79,10 @@ TEST_CASE("Attributes of points on a segment mix those of its ends, whatever lie
   pslg.attributes_per_point = 1;
   pslg.attributes.assign(pslg.points.size(), 0);
   pslg.attributes[16] = pslg.attributes[17] = 5;  // the ends of the inner segment
-  MeshPiece piece = meshed(pslg);
+  Mesh piece = meshed(pslg);
   interpolate_attributes(pslg, piece);
   int on_segment = 0;
-  for (const MeshPiece::Edge& e : piece.edges)
+  for (const Mesh::Edge& e : piece.edges)
     if (e.marker == 3) {
       ++on_segment;
       CHECK(piece.attributes[e.a] == doctest::Approx(5).epsilon(1e-12));
@@ -98,12 +98,12 @@ TEST_CASE("The digest knows a mesh again by its triangles alone") {
   MeshRequest request;
   request.max_area = 0.01;
   const MeshResult result = mesh_domain(pslg, request);
-  const MeshPiece piece = to_piece(result.mesh, pslg);
+  const Mesh piece = to_piece(result.mesh, pslg);
   const std::uint64_t digest = mesh_digest(piece);
   CHECK(mesh_digest(result.mesh) == digest);
   for (unsigned seed = 1; seed <= 5; ++seed) CHECK(mesh_digest(shuffled(piece, seed)) == digest);
 
-  MeshPiece first = piece, second = piece;  // in two parts
+  Mesh first = piece, second = piece;  // in two parts
   first.triangles.resize(piece.triangles.size() / 3);
   second.triangles.erase(second.triangles.begin(),
                          second.triangles.begin() + static_cast<std::ptrdiff_t>(first.triangles.size()));
@@ -111,21 +111,21 @@ TEST_CASE("The digest knows a mesh again by its triangles alone") {
 }
 
 TEST_CASE("The digest changes with any bit of a coordinate, a lost triangle, a turned edge or orientation") {
-  const MeshPiece piece = meshed(domain());
+  const Mesh piece = meshed(domain());
   const std::uint64_t digest = mesh_digest(piece);
-  MeshPiece moved = piece;
+  Mesh moved = piece;
   moved.points[5].y = std::nextafter(moved.points[5].y, 10);
   CHECK(mesh_digest(moved) != digest);
-  MeshPiece less = piece;
+  Mesh less = piece;
   less.triangles.pop_back();
   CHECK(mesh_digest(less) != digest);
-  MeshPiece turned = piece;
+  Mesh turned = piece;
   std::swap(turned.triangles[0][0], turned.triangles[0][1]);
   CHECK(mesh_digest(turned) != digest);
 }
 
 TEST_CASE("The digest is the documented function") {
-  MeshPiece piece;
+  Mesh piece;
   piece.points = {{1, 0}, {0, 1}, {-0.0, 0}};
   piece.triangles = {{0, 1, 2}};
   CHECK(mesh_digest(piece) == 0xAB8CBA71EE1CDE48U);  // computed by another program from the definition

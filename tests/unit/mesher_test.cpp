@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/exceptions.hpp"
@@ -115,9 +115,9 @@ TEST_CASE("long segments are forced through many triangles, also next to the out
     }
     const Triangulation mesh = triangulate(pslg);
     check_valid(mesh);
-    const MeshPiece piece = to_piece(mesh, pslg);
+    const Mesh piece = to_piece(mesh, pslg);
     for (const Pslg::Segment& s : pslg.segments)
-      CHECK(std::count_if(piece.edges.begin(), piece.edges.end(), [&](const MeshPiece::Edge& e) {
+      CHECK(std::count_if(piece.edges.begin(), piece.edges.end(), [&](const Mesh::Edge& e) {
               return std::minmax(e.a, e.b) == std::minmax(s.a, s.b) && e.marker == s.marker;
             }) == 1);
   }
@@ -239,12 +239,12 @@ TEST_CASE("a piece has the input's points first and every subsegment once") {
   MeshRequest request;
   request.max_area = 0.01;
   const MeshResult result = mesh_domain(pslg, request);
-  const MeshPiece piece = to_piece(result.mesh, pslg);
+  const Mesh piece = to_piece(result.mesh, pslg);
   for (std::size_t i = 0; i < 4; ++i) CHECK(piece.points[i] == pslg.points[i]);
   CHECK(piece.triangles.size() == result.mesh.live_triangles());
   CHECK(piece.points.size() == result.mesh.live_vertices());
   double by_marker[5] = {};
-  for (const MeshPiece::Edge& e : piece.edges)
+  for (const Mesh::Edge& e : piece.edges)
     by_marker[e.marker] += std::sqrt(squared_distance(piece.points[id(e.a)], piece.points[id(e.b)]));
   CHECK(by_marker[1] == doctest::Approx(2));
   CHECK(by_marker[2] == doctest::Approx(1));

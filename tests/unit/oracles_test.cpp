@@ -19,8 +19,8 @@ namespace {
 
 const std::vector<std::string> kRight;
 
-MeshPiece kite(bool delaunay) {
-  MeshPiece mesh;
+Mesh kite(bool delaunay) {
+  Mesh mesh;
   mesh.points = {{0, 0}, {2, -1}, {4, 0}, {2, 1}};
   mesh.edges = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
   if (delaunay)
@@ -35,14 +35,14 @@ MeshPiece kite(bool delaunay) {
 TEST_CASE("the Delaunay oracle sees a vertex in a circle, unless a subsegment hides it") {
   CHECK(check_constrained_delaunay(kite(true)) == kRight);
   CHECK(check_constrained_delaunay(kite(false)).size() == 2);
-  MeshPiece walled = kite(false);
+  Mesh walled = kite(false);
   walled.edges.push_back({0, 2, 1});
   CHECK(check_constrained_delaunay(walled) == kRight);
 }
 
 TEST_CASE("the Delaunay oracle looks through gaps between subsegments") {
   // The eye at (0, -3) is in the circle of the triangle; two walls with a gap between them stand in the way.
-  MeshPiece mesh;
+  Mesh mesh;
   mesh.points = {{-3, 0}, {3, 0}, {0, 1}, {0, -3}, {-3, -1}, {-0.1, -1}, {0.1, -1}, {3, -1}};
   mesh.triangles = {{0, 1, 2}};
   CHECK(check_constrained_delaunay(mesh).size() == 5);
@@ -66,7 +66,7 @@ TEST_CASE("area, coverage and covering oracles on a right mesh and on damaged on
   CHECK(count_covering(right.mesh, {5.5, 4.25}) == 0);
   CHECK(count_covering(right.mesh, {1, 1}) == -1);
 
-  MeshPiece mesh = right.mesh;
+  Mesh mesh = right.mesh;
   mesh.triangles.pop_back();
   CHECK(check_area(mesh, find_boundary(right.mesh)) != kRight);
   mesh = right.mesh;

@@ -80,7 +80,7 @@ struct Msh22 {
 // A mesh whose order does not matter: Gmsh numbers nodes and elements anew.
 struct Unordered {
   using Key = std::pair<long long, long long>;  // coordinates in units of 1e-12
-  explicit Unordered(const MeshPiece& mesh) {
+  explicit Unordered(const Mesh& mesh) {
     const auto key = [&mesh](std::int32_t v) {
       const Point& p = mesh.points[v];
       return Key{std::llround(p.x * 1e12), std::llround(p.y * 1e12)};
@@ -104,7 +104,7 @@ TEST_CASE("Gmsh finds every element in its physical group") {
   if (!gmsh_is_installed()) return;
   const TemporaryFolder folder;
   const RandomMesh random(21, 9, 8);
-  const MeshPiece& mesh = random.mesh();
+  const Mesh& mesh = random.mesh();
   const std::string written = folder.path() / "mesh.msh";
   const std::string back = folder.path() / "back.msh";
   write_mesh(mesh, written);
@@ -130,7 +130,7 @@ TEST_CASE("Gmsh finds every element in its physical group") {
 TEST_CASE("Gmsh shows who made the triangles") {
   if (!gmsh_is_installed()) return;
   const TemporaryFolder folder;
-  MeshPiece mesh = RandomMesh(23, 6, 5).mesh();
+  Mesh mesh = RandomMesh(23, 6, 5).mesh();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     mesh.subdomains.push_back(static_cast<std::int32_t>(t % 11));
     mesh.ranks.push_back(static_cast<std::int32_t>(t % 11 / 4));
@@ -173,7 +173,7 @@ TEST_CASE("what Gmsh writes is read with all markers and regions") {
   for (const char* encoding : {"", " -bin"}) {
     CAPTURE(encoding);
     run_gmsh("'" + written + "' -0 -save_all -format msh41" + encoding + " -o '" + back + "'", folder.path());
-    MeshPiece read = read_mesh(back);
+    Mesh read = read_mesh(back);
     CHECK(read.attributes_per_point == 0);  // Gmsh saves views to files of their own
     read.attributes = random.mesh().attributes;
     const Unordered actual(read);
@@ -197,7 +197,7 @@ TEST_CASE("a mesh that Gmsh made is read") {
     CAPTURE(options);
     const std::string mesh_path = folder.path() / "made.msh";
     run_gmsh("'" + geometry + "' -2 -format msh41" + options + " -o '" + mesh_path + "'", folder.path());
-    const MeshPiece mesh = read_mesh(mesh_path);
+    const Mesh mesh = read_mesh(mesh_path);
     double area = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
       const Point& p = mesh.points[a];

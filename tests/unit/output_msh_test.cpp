@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "support/damage.hpp"
 #include "support/mesh_equality.hpp"
@@ -65,8 +65,8 @@ $Elements
 $EndElements
 )";
 
-MeshPiece mesh_of_gmsh_text() {
-  MeshPiece mesh;
+Mesh mesh_of_gmsh_text() {
+  Mesh mesh;
   mesh.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   mesh.edges = {{0, 1, 7}, {1, 2, 9}, {2, 3, 0}};
@@ -103,7 +103,7 @@ TEST_CASE("an empty mesh and points alone survive in .msh") {
 TEST_CASE("regions that are no positive integers keep their exact value in .msh") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.msh";
-  MeshPiece mesh;
+  Mesh mesh;
   const std::vector<double> regions = {0, -0.0, 1, 2, 0.1, 1e300, -7, 2147483647, 2147483648.0, 5e-324};
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const auto first = static_cast<std::int32_t>(mesh.points.size());
@@ -112,7 +112,7 @@ TEST_CASE("regions that are no positive integers keep their exact value in .msh"
   }
   mesh.regions = regions;
   write_mesh(mesh, path);
-  const MeshPiece read = read_mesh(path);
+  const Mesh read = read_mesh(path);
   check_same_mesh(read, mesh);
   CHECK(std::signbit(read.regions[1]));
 }

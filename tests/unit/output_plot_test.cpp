@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "io/xml_scanner.hpp"
 #include "picture/plot.hpp"
 #include "picture/plot_chart.hpp"
@@ -54,8 +54,8 @@ class Picture {
 };
 
 // The unit square with a hole in its middle third, as a ring of triangles; scaled to 3 x 3.
-MeshPiece square_with_hole() {
-  MeshPiece mesh;
+Mesh square_with_hole() {
+  Mesh mesh;
   mesh.points = {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {1, 1}, {2, 1}, {2, 2}, {1, 2}};
   mesh.triangles = {{0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
   mesh.regions = {1, 1, 2, 2, 3, 3, 4, 4};
@@ -68,7 +68,7 @@ TEST_CASE("scan conversion gives every sample to exactly one triangle of a mesh"
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     const RandomMesh random(seed, 7, 5, {}, 60);
-    const MeshPiece& mesh = random.mesh();
+    const Mesh& mesh = random.mesh();
     std::vector<int> hits(60 * 60 * 4, 0);
     double area = 0;
     for (const auto& triangle : mesh.triangles) {
@@ -219,7 +219,7 @@ TEST_CASE("a coarse mesh in SVG is made of polygons, and the file is XML") {
 TEST_CASE("meshes without anything to see, and parts beyond the mesh, are drawn without a complaint") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.png";
-  MeshPiece one_point;
+  Mesh one_point;
   one_point.points = {{1e9, -1e9}};
   for (PlotColor color : {PlotColor::angle, PlotColor::area, PlotColor::region, PlotColor::none}) {
     plot_mesh({}, path, {.width = 300, .color = color});
@@ -254,7 +254,7 @@ TEST_CASE("an input is drawn with its segments, holes and regions") {
 
 TEST_CASE("a picture that cannot be written is an error and leaves nothing behind") {
   const TemporaryFolder folder;
-  const MeshPiece mesh = square_with_hole();
+  const Mesh mesh = square_with_hole();
   CHECK_THROWS_WITH_AS(plot_mesh(mesh, folder.path() / "a.gif", {}), doctest::Contains("ends in .png, .svg or .pdf"),
                        InputError);
   CHECK_THROWS_AS(plot_mesh(mesh, folder.path() / "a.png", {.width = 5}), InputError);

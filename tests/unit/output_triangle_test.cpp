@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "support/damage.hpp"
 #include "support/mesh_equality.hpp"
@@ -37,7 +37,7 @@ VertexPair sorted(std::int32_t a, std::int32_t b) {
 }
 
 // Which triangles have each edge, by a map.
-std::map<VertexPair, std::vector<std::size_t>> triangles_by_edge(const MeshPiece& mesh) {
+std::map<VertexPair, std::vector<std::size_t>> triangles_by_edge(const Mesh& mesh) {
   std::map<VertexPair, std::vector<std::size_t>> result;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i)
@@ -54,7 +54,7 @@ TEST_CASE("Triangle's files read back as the mesh that was written") {
 TEST_CASE("the .neigh file names the triangle across each edge") {
   const TemporaryFolder folder;
   const RandomMesh random(11, 7, 6);
-  const MeshPiece& mesh = random.mesh();
+  const Mesh& mesh = random.mesh();
   write_mesh(mesh, folder.path() / "mesh.node");
   const auto rows = rows_of(folder.path() / "mesh.neigh");
   REQUIRE(rows.size() == mesh.triangles.size() + 1);
@@ -79,7 +79,7 @@ TEST_CASE("the .neigh file names the triangle across each edge") {
 TEST_CASE("the .edge file lists each edge once, with the marker of its segment") {
   const TemporaryFolder folder;
   const RandomMesh random(12, 6, 7);
-  const MeshPiece& mesh = random.mesh();
+  const Mesh& mesh = random.mesh();
   write_mesh(mesh, folder.path() / "mesh.node");
   const auto rows = rows_of(folder.path() / "mesh.edge");
   const auto by_edge = triangles_by_edge(mesh);
@@ -101,7 +101,7 @@ TEST_CASE("the .edge file lists each edge once, with the marker of its segment")
 
 TEST_CASE("neighbors of a fan of 200,000 triangles around one vertex take linear time") {
   const TemporaryFolder folder;
-  MeshPiece mesh;
+  Mesh mesh;
   constexpr std::int32_t kSpokes = 200000;
   mesh.points.push_back({0, 0});
   for (std::int32_t i = 0; i <= kSpokes; ++i) mesh.points.push_back({1.0 * i, 1.0 + 1e-3 * i});
@@ -159,7 +159,7 @@ TEST_CASE("truncated or damaged files of Triangle are errors or meshes, never a 
 }
 
 TEST_CASE("an unknown extension is refused with those that are known") {
-  const MeshPiece mesh;
+  const Mesh mesh;
   CHECK_THROWS_WITH_AS(write_mesh(mesh, "a.stl"), doctest::Contains("unknown extension '.stl'; mesh files end in"),
                        InputError);
   CHECK_THROWS_AS((void)read_mesh("mesh"), InputError);

@@ -4,7 +4,7 @@
 #include <map>
 #include <sstream>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "support/damage.hpp"
 #include "support/mesh_equality.hpp"
@@ -101,7 +101,7 @@ TEST_CASE("a .vtu holds the arrays that VTK expects, where its header says") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.vtu";
   const RandomMesh random(17, 6, 5);
-  const MeshPiece& mesh = random.mesh();
+  const Mesh& mesh = random.mesh();
   REQUIRE(mesh.edges.size() > 20);
   write_mesh(mesh, path);
   const VtuOracle file(path);
@@ -139,8 +139,8 @@ TEST_CASE("a .vtu holds the arrays that VTK expects, where its header says") {
     const auto end = offsets[cell];
     CHECK(types[cell] == (is_line ? 3 : 5));
     if (is_line) {
-      const MeshPiece::Edge& edge = mesh.edges[cell - triangles];
-      CHECK(MeshPiece::Edge{corners[end - 2], corners[end - 1], markers[cell]} == edge);
+      const Mesh::Edge& edge = mesh.edges[cell - triangles];
+      CHECK(Mesh::Edge{corners[end - 2], corners[end - 1], markers[cell]} == edge);
       CHECK((regions[cell] == 7 || regions[cell] == -1.25));
     } else {
       CHECK(std::array{corners[end - 3], corners[end - 2], corners[end - 1]} == mesh.triangles[cell]);
@@ -191,7 +191,7 @@ TEST_CASE("a .vtu of an encoding that is not read is refused with what to do") {
 TEST_CASE("a .vtu with 32-bit lengths, as other programs write, is read") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.vtu";
-  MeshPiece mesh;
+  Mesh mesh;
   mesh.points = {{0, 0}, {1, 0}, {0, 1}};
   mesh.triangles = {{0, 1, 2}};
   std::string data;

@@ -6,9 +6,9 @@
 #include <random>
 #include <string>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/mesh.hpp"
 #include "mesh/digest.hpp"
-#include "mesh/mesh_piece.hpp"
 #include "mesh/triangulation_fault.hpp"
 #include "migration/packed_bytes.hpp"
 #include "migration/subdomain.hpp"
@@ -58,7 +58,7 @@ Subdomain asleep(RandomSubdomains& world, SubdomainId id) {
 void look_at_everything(Subdomain& subdomain) {
   if (!subdomain.started()) return;
   if (subdomain.dormant()) {
-    MeshPiece piece;
+    Mesh piece;
     piece.points = subdomain.dormant_mesh().points();
     subdomain.dormant_mesh().visit_triangles(
         [&](const auto& corners, std::uint16_t) { piece.triangles.push_back(corners); });

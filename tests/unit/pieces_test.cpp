@@ -4,7 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/merge_pieces.hpp"
@@ -20,8 +20,8 @@ using namespace driftmesh::test;
 
 namespace {
 
-MeshPiece left_square() {
-  MeshPiece mesh;
+Mesh left_square() {
+  Mesh mesh;
   mesh.points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {1, 0.5}};
   mesh.numbers = {0, 1, 3, 4, 6};
   mesh.triangles = {{0, 1, 4}, {0, 4, 2}, {2, 4, 3}};
@@ -31,8 +31,8 @@ MeshPiece left_square() {
   return mesh;
 }
 
-MeshPiece right_square() {
-  MeshPiece mesh;
+Mesh right_square() {
+  Mesh mesh;
   mesh.points = {{1, 0}, {2, 0}, {1, 1}, {2, 1}, {1, 0.5}};
   mesh.numbers = {1, 2, 4, 5, 6};
   mesh.triangles = {{0, 1, 4}, {1, 3, 4}, {4, 3, 2}};
@@ -49,7 +49,7 @@ Pslg outline() {
   return pslg;
 }
 
-VerifyReport check(const std::vector<MeshPiece>& pieces) {
+VerifyReport check(const std::vector<Mesh>& pieces) {
   const Pslg input = outline();
   return verify_pieces(pieces, &input, {});
 }
@@ -74,7 +74,7 @@ TEST_CASE("two pieces that fit are one mesh") {
 }
 
 TEST_CASE("a split point that one side lacks is found") {
-  MeshPiece right = right_square();
+  Mesh right = right_square();
   right.points.pop_back();
   right.numbers.pop_back();
   right.triangles = {{0, 1, 3}, {0, 3, 2}};
@@ -87,7 +87,7 @@ TEST_CASE("a split point that one side lacks is found") {
 }
 
 TEST_CASE("a coordinate that differs in its last bit is found") {
-  MeshPiece right = right_square();
+  Mesh right = right_square();
   right.points[4].y = std::nextafter(0.5, 1);
   const VerifyReport report = check({left_square(), right});
   CHECK(report.findings.count(Flaw::pieces_disagree) == 1);
@@ -96,8 +96,8 @@ TEST_CASE("a coordinate that differs in its last bit is found") {
 }
 
 TEST_CASE("other markers and attributes of the same point are found") {
-  MeshPiece left = left_square(), right = right_square();
-  for (MeshPiece* piece : {&left, &right}) {
+  Mesh left = left_square(), right = right_square();
+  for (Mesh* piece : {&left, &right}) {
     piece->point_markers = {1, 1, 1, 1, 1};
     piece->attributes_per_point = 2;
     piece->attributes.assign(10, 0.25);
@@ -113,7 +113,7 @@ TEST_CASE("other markers and attributes of the same point are found") {
 }
 
 TEST_CASE("points of different numbers at one place of an interface are found") {
-  MeshPiece right = right_square();
+  Mesh right = right_square();
   right.numbers[4] = 7;
   const VerifyReport report = check({left_square(), right});
   CHECK(report.findings.count(Flaw::duplicate_point) == 1);
@@ -121,16 +121,15 @@ TEST_CASE("points of different numbers at one place of an interface are found") 
 }
 
 TEST_CASE("a missing piece is found") {
-  const VerifyReport report = check({left_square(), MeshPiece{}});
+  const VerifyReport report = check({left_square(), Mesh{}});
   CHECK(report.findings.messages(Flaw::pieces_disagree)[0] ==
         "numbers go up to 6, but all pieces together have 5 points: pieces are missing");
   CHECK(report.findings.count(Flaw::open_edge) == 2);
-  MeshPiece more = left_square();  // with points that no triangle uses: one number is missing, not most of them
+  Mesh more = left_square();  // with points that no triangle uses: one number is missing, not most of them
   more.points.insert(more.points.end(), {{5, 5}, {6, 6}, {7, 7}});
   more.numbers.insert(more.numbers.end(), {2, 7, 8});
-  CHECK(check({more, MeshPiece{}, left_square()}).findings.messages(Flaw::pieces_disagree)[0] ==
-        "point 5 is in no piece");
-  MeshPiece far = left_square();
+  CHECK(check({more, Mesh{}, left_square()}).findings.messages(Flaw::pieces_disagree)[0] == "point 5 is in no piece");
+  Mesh far = left_square();
   far.numbers[0] = 700'000'000'000;
   CHECK(check({far, right_square()})
             .findings.messages(Flaw::pieces_disagree)[0]
@@ -147,13 +146,13 @@ TEST_CASE("a piece that is there twice is found") {
 }
 
 TEST_CASE("a number twice in one piece is found") {
-  MeshPiece left = left_square();
+  Mesh left = left_square();
   left.numbers[4] = 0;
   CHECK(check({left, right_square()}).findings.messages(Flaw::pieces_disagree)[0] == "point 0 is twice in piece 0");
 }
 
 TEST_CASE("a subsegment between two pieces is one; with another marker it is two") {
-  MeshPiece left = left_square(), right = right_square();
+  Mesh left = left_square(), right = right_square();
   left.edges.push_back({1, 4, 9});
   left.edges.push_back({4, 3, 9});
   right.edges.push_back({2, 4, 9});
@@ -167,7 +166,7 @@ TEST_CASE("a subsegment between two pieces is one; with another marker it is two
 }
 
 TEST_CASE("an edge that is not Delaunay is a flaw inside a subdomain, and counted between two") {
-  MeshPiece mesh;
+  Mesh mesh;
   mesh.points = {{0, 0}, {2, 0}, {1, 0.5}, {1, -0.5}};
   mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
   mesh.edges = {{1, 2, 1}, {2, 0, 1}, {0, 3, 1}, {3, 1, 1}};
@@ -185,7 +184,7 @@ TEST_CASE("files of pieces: what is missing, cut off or damaged is refused by na
   const std::string path = folder.path() / "two.pvtu", piece = folder.path() / "two_1.vtu";
   write_two(path);
   MergeFaults faults;
-  const std::vector<MeshPiece> pieces{left_square(), right_square()};
+  const std::vector<Mesh> pieces{left_square(), right_square()};
   check_same_mesh(read_mesh(path), merge_pieces(pieces, faults));
 
   const DamageCount cut = read_truncated(path, [&] { (void)read_mesh(path); });
@@ -203,7 +202,7 @@ TEST_CASE("pieces that do not fit together are read for a check, and else refuse
   const TemporaryFolder folder;
   const std::string path = folder.path() / "two.pvtu";
   write_two(path);
-  MeshPiece right = right_square();
+  Mesh right = right_square();
   right.points[4].y = std::nextafter(0.5, 1);
   write_mesh(right, pvtu_piece_path(path, 1));
   CHECK(check(read_pieces(path)).findings.count(Flaw::pieces_disagree) == 1);

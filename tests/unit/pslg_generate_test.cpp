@@ -6,11 +6,11 @@
 #include <map>
 #include <string>
 
-#include "base/error.hpp"
-#include "pslg/generate.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
+#include "driftmesh/repair.hpp"
 #include "pslg/noise.hpp"
 #include "pslg/open_boundary.hpp"
-#include "pslg/repair.hpp"
 #include "pslg/seeded_random.hpp"
 
 using namespace driftmesh;

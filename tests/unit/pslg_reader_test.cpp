@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "pslg/poly_file.hpp"
 #include "pslg/triangle_files.hpp"
 #include "temporary_folder.hpp"

@@ -5,10 +5,10 @@
 #include <limits>
 #include <string>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
 #include "pslg/open_boundary.hpp"
 #include "pslg/poly_file.hpp"
-#include "pslg/repair.hpp"
 
 using namespace driftmesh;
 

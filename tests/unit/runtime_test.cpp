@@ -5,8 +5,8 @@
 #include <random>
 #include <string>
 
-#include "base/error.hpp"
 #include "decompose/presplit.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/digest.hpp"
 #include "mesh/exceptions.hpp"

@@ -6,7 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
+#include "geometry/midpoint.hpp"
 #include "geometry/predicates.hpp"
 #include "sizing/background_field.hpp"
 #include "sizing/gradation.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "sizing/combined_field.hpp"
 #include "sizing/expression_field.hpp"
 

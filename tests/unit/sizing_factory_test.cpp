@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "base/error.hpp"
+#include "driftmesh/error.hpp"
 #include "sizing/make_size_field.hpp"
 
 using namespace driftmesh;

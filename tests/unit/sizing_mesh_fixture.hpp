@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 
 namespace driftmesh::testing {
 

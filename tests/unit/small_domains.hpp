@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
+#include "driftmesh/pslg.hpp"
 #include "geometry/predicates.hpp"
 #include "mesh/triangulation.hpp"
-#include "pslg/pslg.hpp"
 
 namespace driftmesh::testing {
 

@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "geometry/midpoint.hpp"
+
 using namespace driftmesh;
 
 namespace {

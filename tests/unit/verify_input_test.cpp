@@ -98,7 +98,7 @@ TEST_CASE("a triangle outside the domain") {
   CHECK_HAS(check(grid), Flaw::unknown_subsegment);
   CHECK_HAS(check(grid), Flaw::wrong_area);
 
-  MeshPiece two;
+  Mesh two;
   two.points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
   two.triangles = {{0, 1, 2}, {1, 3, 2}};
   two.edges = {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}, {1, 3, 0}, {3, 2, 0}};
@@ -176,8 +176,8 @@ TEST_CASE("a mesh whose file lists no subsegments") {
 }
 
 TEST_CASE("an empty mesh") {
-  CHECK(verify(MeshPiece{}, {}).accepted());
-  const VerifyReport report = verify(MeshPiece{}, GridCase().input, {});
+  CHECK(verify(Mesh{}, {}).accepted());
+  const VerifyReport report = verify(Mesh{}, GridCase().input, {});
   CHECK_HAS(report, Flaw::segment_missing);
   CHECK_HAS(report, Flaw::point_missing);
   CHECK_HAS(report, Flaw::wrong_area);

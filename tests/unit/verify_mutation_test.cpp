@@ -87,7 +87,7 @@ TEST_CASE("a Steiner vertex moved by one unit in the last place breaks an exact 
 }
 
 TEST_CASE("an edge flipped against Delaunay") {
-  MeshPiece mesh;
+  Mesh mesh;
   mesh.points = {{0, 0}, {2, -1}, {4, 0}, {2, 1}};
   mesh.edges = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
   mesh.triangles = {{0, 1, 3}, {1, 2, 3}};
@@ -159,7 +159,7 @@ TEST_CASE("a crack between two copies of a point") {
 TEST_CASE("two sheets over the same place") {
   GridCase grid;
   // A second copy of the whole mesh, shifted by half a cell: each sheet is a triangulation of its own.
-  const MeshPiece sheet = grid.mesh;
+  const Mesh sheet = grid.mesh;
   const auto shift = static_cast<std::int32_t>(sheet.points.size());
   for (const Point& p : sheet.points) add_point(grid.mesh, {p.x + 0.5, p.y + 0.25});
   for (const auto& [a, b, c] : sheet.triangles) add_triangle(grid.mesh, {a + shift, b + shift, c + shift}, 10);
@@ -177,7 +177,7 @@ TEST_CASE("a sheet inside another one, no edges crossing") {
 }
 
 TEST_CASE("triangles that wind twice around a vertex") {
-  MeshPiece mesh;
+  Mesh mesh;
   mesh.points.push_back({0, 0});
   for (int i = 0; i < 10; ++i) {
     const double angle = i * 0.4 * 3.14159265358979, radius = i < 5 ? 1 : 1.25;

@@ -26,8 +26,8 @@ void add_loop(std::vector<Point>& points, std::vector<Arrangement::Link>& links,
   for (std::int32_t i = 0; i < n; ++i) links.push_back({first + i, first + (i + 1) % n});
 }
 
-MeshPiece one_triangle(Point a, Point b, Point c) {
-  MeshPiece mesh;
+Mesh one_triangle(Point a, Point b, Point c) {
+  Mesh mesh;
   mesh.points = {a, b, c};
   mesh.triangles = {{0, 1, 2}};
   mesh.edges = {{0, 1, 1}, {1, 2, 1}, {2, 0, 1}};
@@ -143,7 +143,7 @@ TEST_CASE("segments outside the domain do not count") {
   Pslg input;
   input.points = {{0, 0}, {1, 0}, {0, 1}, {5, 5}, {6, 5}};
   input.segments = {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}, {3, 4, 0}};
-  MeshPiece mesh = one_triangle({0, 0}, {1, 0}, {0, 1});
+  Mesh mesh = one_triangle({0, 0}, {1, 0}, {0, 1});
   for (auto& edge : mesh.edges) edge.marker = 0;
   CHECK(verify(mesh, input, {}).accepted());
 }
@@ -190,7 +190,7 @@ TEST_CASE("areas by a size field: its shortest length at the corners and the cen
       return std::hypot(p.x - small_at.x, p.y - small_at.y) < 0.1 ? 1 : 3;
     }
   };
-  const MeshPiece mesh = one_triangle({0, 0}, {3, 0}, {0, 2});  // area 3; 0.433 and 3.9 are the bounds
+  const Mesh mesh = one_triangle({0, 0}, {3, 0}, {0, 2});  // area 3; 0.433 and 3.9 are the bounds
   for (const Point small_at : {Point{0, 0}, Point{3, 0}, Point{0, 2}, Point{1, 2.0 / 3}}) {
     const Field field(small_at);
     VerifyOptions options;
@@ -206,13 +206,13 @@ TEST_CASE("areas by a size field: its shortest length at the corners and the cen
 TEST_CASE("a small angle is excused where the input has it, and nowhere else") {
   VerifyOptions options;
   options.min_angle = 20;
-  MeshPiece wedge = one_triangle({0, 0}, {4, 0}, {4, 1});  // 14 degrees
+  Mesh wedge = one_triangle({0, 0}, {4, 0}, {4, 1});  // 14 degrees
   VerifyReport report = verify(wedge, options);
   CHECK(report.accepted());
   CHECK(report.quality.exceptions[ExceptionReason::input_angle].count == 1);
 
   // The same corner cut by a vertex: its two angles of 7 degrees are no angles of the input.
-  MeshPiece cut;
+  Mesh cut;
   cut.points = {{0, 0}, {4, 0}, {4, 0.5}, {4, 1}};
   cut.triangles = {{0, 1, 2}, {0, 2, 3}};
   cut.edges = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
@@ -223,7 +223,7 @@ TEST_CASE("a small angle is excused where the input has it, and nowhere else") {
 TEST_CASE("a skinny triangle on a seditious edge is excused when its ends are equally far from the apex") {
   // Two segments from (0, 0) at 53 degrees with vertices p and q in their insides; the triangle p q r is skinny.
   const auto mesh = [](double distance_of_q) {
-    MeshPiece m;
+    Mesh m;
     const Point along{0.6, 0.8};
     m.points = {{0, 0}, {1, 0}, {9, 0}, {along.x * distance_of_q, along.y * distance_of_q}, {along.x * 9, along.y * 9}};
     m.triangles = {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}};
@@ -242,7 +242,7 @@ TEST_CASE("a skinny triangle on a seditious edge is excused when its ends are eq
 }
 
 TEST_CASE("chains end at corners, at forks and at bends") {
-  MeshPiece mesh;
+  Mesh mesh;
   mesh.points = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {3, 1}};
   const Subsegments subsegments(mesh.points.size(), {{0, 1, 0}, {2, 1, 0}, {2, 3, 0}, {3, 4, 0}, {3, 5, 0}});
   const Chains plain(mesh, subsegments, [](std::int32_t) { return false; });
@@ -282,7 +282,7 @@ TEST_CASE("a skinny triangle is excused beside a segment that doubles have no ro
   const double e = 0x1p-51;
   const auto excused = [&](double gap, bool c_on_segments) {
     const auto at = [&](double x, double y) { return Point{2 + x * e, 1 + y * e}; };
-    MeshPiece m;
+    Mesh m;
     m.points = {at(0, 0), at(0, 1024), at(-100, 0), at(gap, 512), at(-1024, 512)};  // a, b, q, c
     m.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 4, 2}};
     m.edges = {{0, 1, 1}, {1, 4, 1}, {4, 2, 1}, {2, 0, 1}};

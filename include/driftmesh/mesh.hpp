@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 
 namespace driftmesh {
 
@@ -15,7 +15,7 @@ namespace driftmesh {
 /// What the mesher returns is a constrained Delaunay triangulation: triangles are counterclockwise, no two overlap,
 /// every point is a corner of a triangle, and `edges` contains the whole boundary of the domain. What a reader returns
 /// is as the file has it (see read_mesh), and verify() tells whether these hold.
-struct MeshPiece {
+struct Mesh {
   /// A constrained subsegment: an edge of the mesh that is a segment of the input or a part of one.
   struct Edge {
     std::int32_t a = 0;       ///< index into points

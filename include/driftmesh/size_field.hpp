@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/point.hpp"
+#include "driftmesh/point.hpp"
 
 namespace driftmesh {
 

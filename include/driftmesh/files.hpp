@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/pslg.hpp"
+
+namespace driftmesh {
+
+/// Reads Triangle's .poly: vertices with attributes and boundary markers, segments, holes, and regions with
+/// an attribute and an area bound. A region with one value uses it for both, as Triangle does: the caller's
+/// options decide which of the two counts. A .poly with 0 vertices takes them from the .node file of the same
+/// stem. A path that ends in .node is read as points alone. Geometric faults (duplicates, crossings)
+/// are left for repair(). Throws FileError when a file cannot be read and InputError with up to
+/// ten messages "file:line: what; next step".
+[[nodiscard]] Pslg read_poly(const std::string& path);
+
+/// Writes `pslg` as .poly, numbered from pslg.first_number. Numbers are the shortest that read back to the
+/// same bits; reading the file gives an equal Pslg. The file appears only once it is complete. Throws FileError.
+void write_poly(const Pslg& pslg, const std::string& path);
+
+/// What a mesh file may hold in addition to the mesh.
+struct WriteOptions {
+  std::vector<Point> holes{};  ///< a point in each hole, for Triangle's .poly; other formats need none
+};
+
+/// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, or Triangle's .node, .ele, .poly,
+/// .edge, .neigh (any of these names the whole set); to standard output for "-" (as .vtu), "-.vtu" and "-.msh".
+/// Files appear under their names only when complete. docs/file-formats.md says what each format holds. Errors:
+/// InputError for an unknown extension, FileError.
+void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
+
+/// Reads a mesh back, from any of these formats, from standard input by the same names, or from the pieces that a .pvtu
+/// names. Everything is checked before it is used: indices are in range and counts fit the file. Triangles stay as the
+/// file lists them, so that a check sees what the file holds; only if the total area is negative are all of them
+/// reversed. Errors: InputError naming file and place, FileError.
+[[nodiscard]] Mesh read_mesh(const std::string& path);
+
+}  // namespace driftmesh
