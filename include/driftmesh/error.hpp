@@ -6,8 +6,8 @@
 
 namespace driftmesh {
 
-/// Base of every error that a user of the program may see. `what()` is one complete message: what failed, where,
-/// the likely cause and the next step. The command line prints it as it is and exits with 1.
+/// Base of all errors that the library throws. `what()` is one complete message: what failed, where, the likely cause
+/// and the next step.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -19,12 +19,12 @@ struct SourcePlace {
   std::size_t line = 0;
 };
 
-/// Something in the user's input is wrong and cannot be repaired with a clear intent.
+/// Something in the user's input is wrong, and what was intended is not clear enough to repair it.
 class InputError : public Error {
  public:
   /// Message "file:line: what; next".
   InputError(const SourcePlace& place, const std::string& what, const std::string& next);
-  /// A message that is complete already: several of the above, one a line.
+  /// A complete message: several of the above, one per line.
   explicit InputError(const std::string& message) : Error(message) {}
 };
 
@@ -34,7 +34,7 @@ class FileError : public Error {
   FileError(const std::string& file, const std::string& what);
 };
 
-/// A limit that the user set or that the data structure has (triangles, memory, depth) was reached.
+/// A limit that the user set or that a data structure has (triangles, memory, depth) was reached.
 class LimitError : public Error {
  public:
   using Error::Error;

@@ -2,7 +2,8 @@
 
 namespace driftmesh {
 
-/// A point of the plane. A coordinate that is meshed must be 0 or of a size from 7.5e-37 to 1.8e72.
+/// A point of the plane. Coordinates of an input must be 0 or have magnitudes from 7.6e-37 to 1.7e72, where the
+/// geometric predicates are exact.
 struct Point {
   double x = 0;
   double y = 0;

@@ -11,10 +11,9 @@ namespace driftmesh {
 /// domain is what the segments enclose, without the holes; without segments it is the convex hull of the points.
 /// Segments may also lie inside the domain, and become edges of the mesh there.
 ///
-/// Plain data in the format of Triangle's .poly files. Nothing is checked here: repair() reports or throws what is
-/// wrong (indices and coordinates out of range, duplicates, crossings) before anything is meshed. Coordinates are in
-/// one unit of the user's; areas are in its square. Magnitudes besides 0 must lie in 7.6e-37 to 1.7e72 (see
-/// predicates.hpp).
+/// Plain data, as in Triangle's .poly files. Nothing is checked here: before meshing, repair() fixes duplicates,
+/// overlaps and crossings, and refuses indices and coordinates out of range. Coordinates are in a unit of the user's
+/// choice, areas in its square; see Point for their range.
 struct Pslg {
   struct Segment {
     std::int32_t a = 0;       ///< index into points

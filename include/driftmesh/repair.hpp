@@ -39,7 +39,7 @@ struct RepairReport {
 };
 
 /// Makes `pslg` planar and reports what was changed. Afterwards, decided by exact predicates:
-/// - no two points are equal, or within rounding error of each other (closeness.hpp);
+/// - no two points are equal, or within rounding error of each other (a few units in the last place);
 /// - no segment has length zero, no two join the same points;
 /// - no point lies in the interior of a segment, or within rounding error of it;
 /// - no two segments meet except at a point that is an end of both.
