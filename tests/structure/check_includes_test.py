@@ -169,8 +169,8 @@ class BrokenProject(unittest.TestCase):
         self.expect("cluster: depends on picture and includes nothing of it")
 
     def test_missing_dependency(self):
-        self.undeclare("verify", "sizing")
-        self.expect("(sizing), which the DEPENDS of verify does not name")
+        self.undeclare("verify", "geometry")
+        self.expect("(geometry), which the DEPENDS of verify does not name")
 
     def test_unknown_dependency(self):
         self.declare("mesh", "DEPENDS", "meshes")
