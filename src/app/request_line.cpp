@@ -120,7 +120,11 @@ std::vector<cli::Option> key_options(job::Door door, GivenKeys& given, const std
     option.completes = completes(key);
     option.choices = key.choices;
     option.take = [&given, &key](const std::string& text) {
-      in_words_of_options(given, {}, [&] { static_cast<void>(given_value(key, text, key.standard)); });
+      try {
+        static_cast<void>(given_value(key, text, key.standard));
+      } catch (const KeyError& error) {
+        throw cli::UsageError(error.problem() + "; " + error.next());  // whoever parses puts the option before it
+      }
       given.items.push_back({&key, text});
     };
     options.push_back(std::move(option));
