@@ -75,7 +75,7 @@ Decision CollectiveConduct::think(const Situation& situation) {
 }
 
 void CollectiveConduct::say_to_all(Step step, Decision& decision) const {
-  for (Rank r = 0; r < layout_->ranks; ++r)
+  for (const Rank r : first_ids<Rank>(layout_->ranks))
     if (r != self_) decision.messages.push_back({r, protocol::JointRound{round_, step}});
 }
 

@@ -76,8 +76,8 @@ class CollectiveConduct {
 
   // Of rank 0:
   std::optional<RankNews> news_;
-  bool fresh_ = false;  // since it was last looked whether there is something to gain
-  Rank ready_ = 0;      // ranks that have answered the call
+  bool fresh_ = false;      // since it was last looked whether there is something to gain
+  std::int32_t ready_ = 0;  // ranks that have answered the call
   double start_;
   PlanningPace pace_;
 };

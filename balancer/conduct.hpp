@@ -11,7 +11,7 @@
 namespace driftmesh::balancer {
 
 /// The rank that plans for all, or calls them together.
-inline constexpr Rank kLeadingRank = 0;
+inline constexpr Rank kLeadingRank{0};
 
 struct ControllerOptions {
   double look = 1e-2;      ///< seconds between two looks at the rank's own load

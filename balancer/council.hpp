@@ -13,10 +13,10 @@ class Council {
  public:
   /// For one rank.
   struct Decision {
-    std::vector<Move> moves;        ///< that it is to make
-    std::vector<RankState> states;  ///< of all ranks, when all moves of all have been made
-    JointPlan::Coming coming;       ///< to this rank
-    bool any_moves = false;         ///< of any rank
+    std::vector<Move> moves;           ///< that it is to make
+    IdVector<Rank, RankState> states;  ///< of all ranks, when all moves of all have been made
+    JointPlan::Coming coming;          ///< to this rank
+    bool any_moves = false;            ///< of any rank
   };
 
   virtual ~Council() = default;

@@ -30,7 +30,7 @@ class Movable {
 };
 
 /// Bundles as if each were one subdomain, numbered in their order.
-LoadSnapshot as_subdomains(const std::vector<RankState>& states, std::span<const Bundle> bundles) {
+LoadSnapshot as_subdomains(const IdVector<Rank, RankState>& states, std::span<const Bundle> bundles) {
   LoadSnapshot snapshot;
   snapshot.ranks = states;
   for (const Bundle& b : bundles)
@@ -47,7 +47,7 @@ std::vector<Offer> by_number(std::span<const Offer> offers) {
 
 /// What is left of the bundles when the offers are taken out; empty ones stay.
 std::vector<Bundle> without(std::span<const Bundle> bundles, const std::vector<Offer>& offers) {
-  std::map<std::pair<Rank, Rank>, std::size_t> place;
+  std::map<std::pair<Rank, Part>, std::size_t> place;
   std::vector<Bundle> rest(bundles.begin(), bundles.end());
   for (std::size_t i = 0; i < rest.size(); ++i) place[{rest[i].holder, rest[i].part}] = i;
   for (const Offer& offer : offers) {
@@ -61,13 +61,13 @@ std::vector<Bundle> without(std::span<const Bundle> bundles, const std::vector<O
 }  // namespace
 
 LoadSnapshot own_snapshot(const Contribution& contribution, std::shared_ptr<const Layout> layout,
-                          std::vector<RankState> states) {
+                          IdVector<Rank, RankState> states) {
   return {std::move(layout), contribution.own, std::move(states)};
 }
 
-std::vector<Bundle> bundles_of(const Contribution& contribution, std::span<const Rank> parts, const MoveCost& cost) {
+std::vector<Bundle> bundles_of(const Contribution& contribution, std::span<const Part> parts, const MoveCost& cost) {
   const Movable movable(contribution, cost);
-  std::map<Rank, Bundle> of_part;
+  std::map<Part, Bundle> of_part;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const SubdomainState& s = contribution.own[i];
     if (!movable(s)) continue;
@@ -80,23 +80,23 @@ std::vector<Bundle> bundles_of(const Contribution& contribution, std::span<const
   return bundles;
 }
 
-DealtParts deal_parts(const std::vector<RankState>& states, std::span<const Bundle> bundles, double tolerance) {
+DealtParts deal_parts(const IdVector<Rank, RankState>& states, std::span<const Bundle> bundles, double tolerance) {
   const LoadSnapshot snapshot = as_subdomains(states, bundles);
-  std::vector<Rank> parts;
+  std::vector<Part> parts;
   for (const Bundle& bundle : bundles) parts.push_back(bundle.part);
   const std::vector<Rank> takers = remap_parts(snapshot, parts, tolerance);
   // A part that nobody holds any of is nobody's matter.
-  DealtParts dealt{std::vector<Rank>(states.size(), 0), states};
+  DealtParts dealt{IdVector<Part, Rank>(states.size(), Rank{0}), states};
   for (std::size_t i = 0; i < bundles.size(); ++i) {
-    dealt.rank_of[index(bundles[i].part)] = takers[i];
-    dealt.states[index(bundles[i].holder)].remaining -= bundles[i].work;
-    dealt.states[index(takers[i])].remaining += bundles[i].work;
+    dealt.rank_of[bundles[i].part] = takers[i];
+    dealt.states[bundles[i].holder].remaining -= bundles[i].work;
+    dealt.states[takers[i]].remaining += bundles[i].work;
   }
   for (RankState& state : dealt.states) state.remaining = std::max(0.0, state.remaining);
   return dealt;
 }
 
-std::vector<Offer> offers_of(const Contribution& contribution, std::span<const Rank> parts, const DealtParts& dealt,
+std::vector<Offer> offers_of(const Contribution& contribution, std::span<const Part> parts, const DealtParts& dealt,
                              const MoveCost& cost, const Dealing& dealing) {
   if (!dealing.polish) return {};
   const Movable movable(contribution, cost);
@@ -104,7 +104,7 @@ std::vector<Offer> offers_of(const Contribution& contribution, std::span<const R
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!movable(contribution.own[i])) continue;
     Offer offer{contribution.rank, parts[i], contribution.own[i]};
-    offer.subdomain.owner = dealt.rank_of[index(parts[i])];
+    offer.subdomain.owner = dealt.rank_of[parts[i]];
     easiest_first.push_back(offer);
   }
   std::sort(easiest_first.begin(), easiest_first.end(),
@@ -113,16 +113,16 @@ std::vector<Offer> offers_of(const Contribution& contribution, std::span<const R
   LoadSnapshot planned;
   planned.ranks = dealt.states;
   const double ideal = ideal_time(planned);
-  const std::vector<double> speeds = assumed_speeds(dealt.states);
-  std::vector<double> surplus;
-  for (std::size_t r = 0; r < speeds.size(); ++r) {
+  const IdVector<Rank, double> speeds = assumed_speeds(dealt.states);
+  IdVector<Rank, double> surplus;
+  for (const Rank r : ids_of(speeds)) {
     const double share = ideal * speeds[r];
     const bool too_much = dealt.states[r].remaining > share * (1 + dealing.tolerance);
     surplus.push_back(too_much ? dealt.states[r].remaining - share : 0);
   }
   std::vector<Offer> offers;
   for (const Offer& offer : easiest_first) {
-    double& left = surplus[index(offer.subdomain.owner)];
+    double& left = surplus[offer.subdomain.owner];
     if (left <= 0) continue;
     left -= offer.subdomain.remaining;
     offers.push_back(offer);
@@ -130,7 +130,7 @@ std::vector<Offer> offers_of(const Contribution& contribution, std::span<const R
   return offers;
 }
 
-DealtOffers deal_offers(const std::vector<RankState>& states, std::span<const Bundle> bundles,
+DealtOffers deal_offers(const IdVector<Rank, RankState>& states, std::span<const Bundle> bundles,
                         std::span<const Offer> offers, const DealtParts& dealt, const Dealing& dealing,
                         const MoveCost& cost) {
   DealtOffers result{by_number(offers), {}, {}};
@@ -145,7 +145,7 @@ DealtOffers deal_offers(const std::vector<RankState>& states, std::span<const Bu
   LoadSnapshot before = as_subdomains(states, rest);
   std::vector<Move> moves;
   for (std::size_t i = 0; i < rest.size(); ++i)
-    moves.push_back({static_cast<SubdomainId>(i), dealt.rank_of[index(rest[i].part)]});
+    moves.push_back({static_cast<SubdomainId>(i), dealt.rank_of[rest[i].part]});
   for (std::size_t i = 0; i < result.offers.size(); ++i) {
     SubdomainState s = result.offers[i].subdomain;
     s.id = static_cast<SubdomainId>(before.subdomains.size());
@@ -157,8 +157,8 @@ DealtOffers deal_offers(const std::vector<RankState>& states, std::span<const Bu
   return result;
 }
 
-std::vector<Move> moves_of(const Contribution& contribution, std::span<const Rank> parts,
-                           const std::vector<RankState>& states, const DealtParts& dealt, const DealtOffers& offers,
+std::vector<Move> moves_of(const Contribution& contribution, std::span<const Part> parts,
+                           const IdVector<Rank, RankState>& states, const DealtParts& dealt, const DealtOffers& offers,
                            const MoveCost& cost, const Worth& worth) {
   const Movable movable(contribution, cost);
   std::map<SubdomainId, Rank> taker_of;
@@ -170,10 +170,10 @@ std::vector<Move> moves_of(const Contribution& contribution, std::span<const Ran
     const SubdomainState& s = contribution.own[i];
     if (!movable(s)) continue;
     const auto offered = taker_of.find(s.id);
-    wanted.push_back({s.id, offered == taker_of.end() ? dealt.rank_of[index(parts[i])] : offered->second});
+    wanted.push_back({s.id, offered == taker_of.end() ? dealt.rank_of[parts[i]] : offered->second});
   }
   const double last = *std::max_element(offers.times.begin(), offers.times.end());
-  const double spare = std::max(last, ideal_time(own) * (1 + worth.slack)) - offers.times[index(contribution.rank)];
+  const double spare = std::max(last, ideal_time(own) * (1 + worth.slack)) - offers.times[contribution.rank];
   return needed_moves(own, wanted, cost, contribution.rank, spare);
 }
 
@@ -192,9 +192,9 @@ std::vector<Transfer> transfers_of(const Contribution& contribution, std::span<c
   return transfers;
 }
 
-JointPlan weigh(const std::vector<RankState>& states, std::span<const Transfer> transfers, const MoveCost& cost,
+JointPlan weigh(const IdVector<Rank, RankState>& states, std::span<const Transfer> transfers, const MoveCost& cost,
                 const Worth& worth) {
-  JointPlan plan{false, states, std::vector<JointPlan::Coming>(states.size())};
+  JointPlan plan{false, states, IdVector<Rank, JointPlan::Coming>(states.size())};
   LoadSnapshot before{nullptr, {}, states};
   std::vector<Move> moves;
   for (const Transfer& t : transfers) {
@@ -203,15 +203,15 @@ JointPlan weigh(const std::vector<RankState>& states, std::span<const Transfer> 
     moves.push_back({id, t.to});
   }
   const double now = finishing_time(before);
-  const std::vector<double> times = finishing_times(before, moves, cost);
+  const IdVector<Rank, double> times = finishing_times(before, moves, cost);
   const double saved = now - *std::max_element(times.begin(), times.end());
   plan.worth = saved > 0 && saved >= worth.gain * now && saved >= worth.seconds;
   if (!plan.worth) return plan;
   for (const Transfer& t : transfers) {
-    plan.states[index(t.from)].remaining -= t.work;
-    plan.states[index(t.to)].remaining += t.work;
-    plan.coming[index(t.to)].work += t.work;
-    plan.coming[index(t.to)].count += t.count;
+    plan.states[t.from].remaining -= t.work;
+    plan.states[t.to].remaining += t.work;
+    plan.coming[t.to].work += t.work;
+    plan.coming[t.to].count += t.count;
   }
   return plan;
 }

@@ -21,7 +21,7 @@ namespace driftmesh::balancer {
 
 /// What a rank brings: what it has to do.
 struct Contribution {
-  Rank rank = 0;
+  Rank rank{};
   RankState state;                   ///< its speed; its work, also what is still on its way to it
   std::vector<SubdomainState> own;   ///< that are here and not finished, in ascending order of their numbers
   std::vector<SubdomainId> settled;  ///< ascending: what has come lately, and stays
@@ -29,62 +29,62 @@ struct Contribution {
 
 /// The same for a policy: what a rank owns, and the states of all.
 [[nodiscard]] LoadSnapshot own_snapshot(const Contribution& contribution, std::shared_ptr<const Layout> layout,
-                                        std::vector<RankState> states);
+                                        IdVector<Rank, RankState> states);
 
 /// The subdomains of one part that one rank holds and could give away.
 struct Bundle {
-  Rank holder = 0;
-  Rank part = 0;
+  Rank holder{};
+  Part part{};
   double work = 0;
   std::uint64_t bytes = 0;
 };
 
 /// What a rank holds of which part, given the part of each of its subdomains. What is not worth its packing is left
 /// out.
-[[nodiscard]] std::vector<Bundle> bundles_of(const Contribution& contribution, std::span<const Rank> parts,
+[[nodiscard]] std::vector<Bundle> bundles_of(const Contribution& contribution, std::span<const Part> parts,
                                              const MoveCost& cost);
 
 /// Which rank takes which part, and what all will have to do then.
 struct DealtParts {
-  std::vector<Rank> rank_of;      ///< each part
-  std::vector<RankState> states;  ///< of all ranks afterwards
+  IdVector<Part, Rank> rank_of;      ///< each part
+  IdVector<Rank, RankState> states;  ///< of all ranks afterwards
 };
 
 /// Parts go to ranks as remap_parts does it.
-[[nodiscard]] DealtParts deal_parts(const std::vector<RankState>& states, std::span<const Bundle> bundles,
+[[nodiscard]] DealtParts deal_parts(const IdVector<Rank, RankState>& states, std::span<const Bundle> bundles,
                                     double tolerance);
 
 /// A single subdomain that could go elsewhere than its part.
 struct Offer {
-  Rank holder = 0;
-  Rank part = 0;
+  Rank holder{};
+  Part part{};
   SubdomainState subdomain;  ///< its owner is the rank that takes its part
 };
 
 /// Subdomains of this rank that ranks with more than their share might do without, for each as much as it has too much,
 /// if there is as much: those first that move most easily.
-[[nodiscard]] std::vector<Offer> offers_of(const Contribution& contribution, std::span<const Rank> parts,
+[[nodiscard]] std::vector<Offer> offers_of(const Contribution& contribution, std::span<const Part> parts,
                                            const DealtParts& dealt, const MoveCost& cost, const Dealing& dealing);
 
 /// What all conclude from the offers: these are dealt as deal_surplus does it.
 struct DealtOffers {
-  std::vector<Offer> offers;  ///< of all ranks, by the numbers of the subdomains
-  std::vector<Rank> takers;   ///< of each: its part's, another one, or its holder
-  std::vector<double> times;  ///< when each rank would be through if all moved that is dealt to another
+  std::vector<Offer> offers;     ///< of all ranks, by the numbers of the subdomains
+  std::vector<Rank> takers;      ///< of each: its part's, another one, or its holder
+  IdVector<Rank, double> times;  ///< when each rank would be through if all moved that is dealt to another
 };
-[[nodiscard]] DealtOffers deal_offers(const std::vector<RankState>& states, std::span<const Bundle> bundles,
+[[nodiscard]] DealtOffers deal_offers(const IdVector<Rank, RankState>& states, std::span<const Bundle> bundles,
                                       std::span<const Offer> offers, const DealtParts& dealt, const Dealing& dealing,
                                       const MoveCost& cost);
 
 /// What this rank should hand over: of what was dealt to others, what it cannot keep without being through later than
 /// the last one then, or than the ideal time and the slack of `worth`.
-[[nodiscard]] std::vector<Move> moves_of(const Contribution& contribution, std::span<const Rank> parts,
-                                         const std::vector<RankState>& states, const DealtParts& dealt,
+[[nodiscard]] std::vector<Move> moves_of(const Contribution& contribution, std::span<const Part> parts,
+                                         const IdVector<Rank, RankState>& states, const DealtParts& dealt,
                                          const DealtOffers& offers, const MoveCost& cost, const Worth& worth);
 
 /// All that one rank would hand over to another.
 struct Transfer {
-  Rank from = 0, to = 0;
+  Rank from{}, to{};
   double work = 0;
   std::uint64_t bytes = 0;
   std::int32_t count = 0;  ///< of subdomains
@@ -97,11 +97,11 @@ struct JointPlan {
     double work = 0;
     std::int32_t count = 0;  ///< of subdomains
   };
-  bool worth = false;             ///< whether they are made
-  std::vector<RankState> states;  ///< of all ranks when everything has arrived
-  std::vector<Coming> coming;     ///< what goes to each rank
+  bool worth = false;                ///< whether they are made
+  IdVector<Rank, RankState> states;  ///< of all ranks when everything has arrived
+  IdVector<Rank, Coming> coming;     ///< what goes to each rank
 };
-[[nodiscard]] JointPlan weigh(const std::vector<RankState>& states, std::span<const Transfer> transfers,
+[[nodiscard]] JointPlan weigh(const IdVector<Rank, RankState>& states, std::span<const Transfer> transfers,
                               const MoveCost& cost, const Worth& worth);
 
 }  // namespace driftmesh::balancer

@@ -16,12 +16,12 @@ double left_of(double work, double& done) {
 }  // namespace
 
 Knowledge::Knowledge(std::shared_ptr<const Layout> layout, double patience)
-    : layout_(std::move(layout)), patience_(patience), ranks_(index(layout_->ranks)) {
-  for (const Layout::Subdomain& s : layout_->subdomains) ranks_[index(s.owner)].predicted += s.predicted;
+    : layout_(std::move(layout)), patience_(patience), ranks_(to_index(layout_->ranks)) {
+  for (const Layout::Subdomain& s : layout_->subdomains) ranks_[s.owner].predicted += s.predicted;
 }
 
 void Knowledge::hear(Rank rank, const protocol::LoadReport& report, double now) {
-  Heard& heard = ranks_[index(rank)];
+  Heard& heard = ranks_[rank];
   if (heard.any && report.round <= heard.round) return;
   heard_ += heard.any ? 0 : 1;
   heard = {true, report.round, now, report.speed, {}, heard.predicted};
@@ -59,7 +59,7 @@ Rank Knowledge::owner_of(SubdomainId id) const {
 }
 
 void Knowledge::list(LoadSnapshot& snapshot, Rank rank, const std::vector<SubdomainState>& arriving, double now) const {
-  const Heard& heard = ranks_[index(rank)];
+  const Heard& heard = ranks_[rank];
   double done = heard.any ? heard.speed * std::max(0.0, now - heard.at) : 0;
   std::int32_t turn = 0;
   const auto add = [&](SubdomainId id, double work, std::uint64_t bytes) {
@@ -78,23 +78,21 @@ LoadSnapshot Knowledge::snapshot(double now, bool with_silent) const {
   std::map<Rank, std::vector<SubdomainState>> arriving;
   for (const auto& [id, planned] : planned_) arriving[planned.to].push_back(planned.load);
   static const std::vector<SubdomainState> kNone;
-  for (std::size_t r = 0; r < ranks_.size(); ++r) {
-    const auto rank = static_cast<Rank>(r);
-    const auto coming = arriving.find(rank);
+  for (const Rank r : ids_of(ranks_)) {
+    const auto coming = arriving.find(r);
     snapshot.ranks.push_back({ranks_[r].speed, 0});
-    list(snapshot, rank, coming == arriving.end() ? kNone : coming->second, now);
+    list(snapshot, r, coming == arriving.end() ? kNone : coming->second, now);
   }
   if (with_silent)
-    for (std::size_t i = 0; i < layout_->subdomains.size(); ++i) {
-      const auto id = static_cast<SubdomainId>(i);
+    for (const SubdomainId id : ids_of(layout_->subdomains)) {
       const Layout::Subdomain& s = (*layout_)[id];
-      if (!ranks_[index(s.owner)].any && !planned_.contains(id) && !claims_.contains(id))
-        snapshot.subdomains.push_back({id, s.owner, s.predicted, 0, id});
+      if (!ranks_[s.owner].any && !planned_.contains(id) && !claims_.contains(id))
+        snapshot.subdomains.push_back({id, s.owner, s.predicted, 0, to_int(id)});
     }
   std::ranges::sort(snapshot.subdomains, {}, &SubdomainState::id);
   sum_up(snapshot);
   if (!with_silent)
-    for (std::size_t r = 0; r < ranks_.size(); ++r)
+    for (const Rank r : ids_of(ranks_))
       if (!ranks_[r].any) snapshot.ranks[r].remaining = ranks_[r].predicted;
   return snapshot;
 }

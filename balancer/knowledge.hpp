@@ -46,11 +46,11 @@ class Knowledge {
     double predicted = 0;                        // of the layout, for one that has said nothing
   };
   struct Claim {
-    Rank owner = 0;
+    Rank owner{};
     protocol::Epoch epoch = 0;
   };
   struct Planned {
-    Rank from = 0, to = 0;
+    Rank from{}, to{};
     std::uint32_t plan = 0;
     double at = 0;
     SubdomainState load;
@@ -60,7 +60,7 @@ class Knowledge {
 
   std::shared_ptr<const Layout> layout_;
   double patience_;
-  std::vector<Heard> ranks_;
+  IdVector<Rank, Heard> ranks_;
   std::size_t heard_ = 0;
   std::unordered_map<SubdomainId, Claim> claims_;
   std::map<SubdomainId, Planned> planned_;

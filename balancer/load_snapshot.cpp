@@ -11,8 +11,10 @@ bool is_speed(double speed) {
   return speed > 0 && std::isfinite(speed);
 }
 
-RankState& rank_of(LoadSnapshot& snapshot, Rank rank) {
-  return snapshot.ranks[static_cast<std::size_t>(rank)];
+template <class States>
+auto* find_in(States& states, SubdomainId id) {
+  const auto place = std::ranges::lower_bound(states, id, {}, &SubdomainState::id);
+  return place == states.end() || place->id != id ? nullptr : &*place;
 }
 
 }  // namespace
@@ -22,32 +24,35 @@ bool leaves_before(const SubdomainState& a, const SubdomainState& b) {
          std::tuple(weight_class(b), -b.turn, -b.remaining, b.id);
 }
 
+std::vector<Part> present_parts(const LoadSnapshot& snapshot) {
+  std::vector<Part> parts;
+  for (const SubdomainState& s : snapshot.subdomains) parts.push_back(Part{to_int(s.owner)});
+  return parts;
+}
+
 void sum_up(LoadSnapshot& snapshot) {
   for (RankState& rank : snapshot.ranks) rank.remaining = 0;
-  for (const SubdomainState& s : snapshot.subdomains) rank_of(snapshot, s.owner).remaining += s.remaining;
+  for (const SubdomainState& s : snapshot.subdomains) snapshot.ranks[s.owner].remaining += s.remaining;
 }
 
 const SubdomainState* find(const LoadSnapshot& snapshot, SubdomainId id) {
-  const auto& all = snapshot.subdomains;
-  const auto place =
-      std::lower_bound(all.begin(), all.end(), id, [](const auto& s, SubdomainId i) { return s.id < i; });
-  return place == all.end() || place->id != id ? nullptr : &*place;
+  return find_in(snapshot.subdomains, id);
 }
 
-std::vector<double> assumed_speeds(std::span<const RankState> ranks) {
+IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankState> ranks) {
   double sum = 0;
   int known = 0;
   for (const RankState& rank : ranks)
     if (is_speed(rank.speed)) sum += rank.speed, ++known;
-  std::vector<double> speeds;
+  IdVector<Rank, double> speeds;
   for (const RankState& rank : ranks) speeds.push_back(is_speed(rank.speed) ? rank.speed : known > 0 ? sum / known : 1);
   return speeds;
 }
 
 double finishing_time(const LoadSnapshot& snapshot) {
-  const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
+  const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
   double last = 0;
-  for (std::size_t r = 0; r < speeds.size(); ++r) last = std::max(last, snapshot.ranks[r].remaining / speeds[r]);
+  for (const Rank r : ids_of(speeds)) last = std::max(last, snapshot.ranks[r].remaining / speeds[r]);
   return last;
 }
 
@@ -60,11 +65,10 @@ double ideal_time(const LoadSnapshot& snapshot) {
 
 LoadSnapshot after(LoadSnapshot snapshot, std::span<const Move> moves) {
   for (const Move& move : moves) {
-    SubdomainState& s =
-        snapshot.subdomains[static_cast<std::size_t>(find(snapshot, move.subdomain) - snapshot.subdomains.data())];
-    rank_of(snapshot, s.owner).remaining -= s.remaining;
+    SubdomainState& s = *find_in(snapshot.subdomains, move.subdomain);
+    snapshot.ranks[s.owner].remaining -= s.remaining;
     s.owner = move.destination;
-    rank_of(snapshot, s.owner).remaining += s.remaining;
+    snapshot.ranks[s.owner].remaining += s.remaining;
   }
   return snapshot;
 }

@@ -6,23 +6,15 @@
 #include <span>
 #include <vector>
 
-#include "protocol/ids.hpp"
+#include "base/ids.hpp"
 
 /// Who works on what: load, plans, and the policies that make them. Nothing here knows a transport or a clock; times
 /// are in seconds, work is in triangles.
 namespace driftmesh::balancer {
 
-using protocol::Rank;
-using protocol::SubdomainId;
-
-/// The place of a rank in a list of all ranks.
-[[nodiscard]] inline std::size_t index(Rank rank) {
-  return static_cast<std::size_t>(rank);
-}
-
 /// A subdomain that another one shares a border with.
 struct Neighbour {
-  SubdomainId subdomain = 0;
+  SubdomainId subdomain{};
   double length = 0;  ///< of the border
 };
 
@@ -31,19 +23,19 @@ struct Layout {
   struct Subdomain {
     double x = 0, y = 0;   ///< centroid
     double predicted = 0;  ///< triangles that it will have
-    Rank owner = 0;        ///< at the start
+    Rank owner{};          ///< at the start
     std::vector<Neighbour> neighbours;
   };
-  std::vector<Subdomain> subdomains;
-  Rank ranks = 1;
+  IdVector<SubdomainId, Subdomain> subdomains;
+  std::int32_t ranks = 1;
 
-  [[nodiscard]] const Subdomain& operator[](SubdomainId s) const { return subdomains[static_cast<std::size_t>(s)]; }
+  [[nodiscard]] const Subdomain& operator[](SubdomainId s) const { return subdomains[s]; }
 };
 
 /// A subdomain that is not finished.
 struct SubdomainState {
-  SubdomainId id = 0;
-  Rank owner = 0;
+  SubdomainId id{};
+  Rank owner{};
   double remaining = 0;     ///< triangles still to be made, predicted
   std::uint64_t bytes = 0;  ///< to move it
   std::int32_t turn =
@@ -63,19 +55,26 @@ struct RankState {
   double remaining = 0;  ///< of all its subdomains, also of those that the snapshot does not list
 };
 
+/// One of as many parts as there are ranks. Part p is made for rank p, as large as that is fast, and may end up on
+/// another one.
+enum class Part : std::int32_t {};
+
 /// The load at one moment, as the one who plans knows it. A rank that plans for itself may know other ranks by their
 /// sums alone, and not list their subdomains.
 struct LoadSnapshot {
   std::shared_ptr<const Layout> layout;
   std::vector<SubdomainState> subdomains;  ///< in ascending order of their numbers, each once
-  std::vector<RankState> ranks;            ///< of all ranks
+  IdVector<Rank, RankState> ranks;         ///< of all ranks
 };
 
 struct Move {
-  SubdomainId subdomain = 0;
-  Rank destination = 0;
+  SubdomainId subdomain{};
+  Rank destination{};
   friend bool operator==(const Move&, const Move&) = default;
 };
+
+/// Of each listed subdomain, the part that was made for its owner.
+[[nodiscard]] std::vector<Part> present_parts(const LoadSnapshot& snapshot);
 
 /// Sets `remaining` of each rank to the sum over the subdomains listed as its own.
 void sum_up(LoadSnapshot& snapshot);
@@ -84,7 +83,7 @@ void sum_up(LoadSnapshot& snapshot);
 [[nodiscard]] const SubdomainState* find(const LoadSnapshot& snapshot, SubdomainId id);
 
 /// The speed of each rank: where it is not known (or not a positive number), the mean of those that are; 1 if none is.
-[[nodiscard]] std::vector<double> assumed_speeds(std::span<const RankState> ranks);
+[[nodiscard]] IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankState> ranks);
 
 /// When the last rank will have finished if nothing moves: the maximum of remaining / speed.
 [[nodiscard]] double finishing_time(const LoadSnapshot& snapshot);

@@ -12,7 +12,7 @@ namespace {
 /// A move, and what it does to the two ranks' finishing times.
 struct Candidate {
   Move move;
-  Rank from = 0;
+  Rank from{};
   double giver_saves = 0;  // seconds
   double taker_spends = 0;
   double price = 0;  // cost over work, in seconds a second
@@ -23,7 +23,7 @@ class Selection {
  public:
   Selection(const LoadSnapshot& snapshot, const MoveCost& cost)
       : snapshot_(snapshot), cost_(cost), speeds_(assumed_speeds(snapshot.ranks)) {
-    for (std::size_t r = 0; r < speeds_.size(); ++r) times_.push_back(snapshot.ranks[r].remaining / speeds_[r]);
+    for (const Rank r : ids_of(speeds_)) times_.push_back(snapshot.ranks[r].remaining / speeds_[r]);
   }
 
   void consider(std::span<const Move> moves) {
@@ -32,22 +32,22 @@ class Selection {
 
   void consider(const Move& move) {
     const SubdomainState* const s = find(snapshot_, move.subdomain);
-    const bool possible = s && move.destination >= 0 && index(move.destination) < speeds_.size() &&
-                          move.destination != s->owner && !taken_twice(move.subdomain);
+    const bool possible =
+        s && speeds_.has(move.destination) && move.destination != s->owner && !taken_twice(move.subdomain);
     if (!possible) return;
-    const double giver_speed = speeds_[index(s->owner)], taker_speed = speeds_[index(move.destination)];
+    const double giver_speed = speeds_[s->owner], taker_speed = speeds_[move.destination];
     const double giving = cost_.for_giver(s->bytes, giver_speed), taking = cost_.for_taker(s->bytes, taker_speed);
     const double saved = s->remaining / giver_speed - giving;
     const double received = s->remaining / taker_speed + taking;
     if (saved <= 0) return;
     candidates_.push_back({move, s->owner, saved, received, (giving + taking) / s->remaining, true});
-    times_[index(s->owner)] -= saved;
-    times_[index(move.destination)] += received;
+    times_[s->owner] -= saved;
+    times_[move.destination] += received;
   }
 
   [[nodiscard]] double finish() const { return times_.empty() ? 0 : *std::max_element(times_.begin(), times_.end()); }
 
-  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  [[nodiscard]] const IdVector<Rank, double>& times() const { return times_; }
 
   /// Takes back what nobody needs to finish by `time`.
   void drop_needless(double time) {
@@ -57,9 +57,9 @@ class Selection {
       return std::tuple(-a->price, a->move.subdomain) < std::tuple(-b->price, b->move.subdomain);
     });
     for (Candidate* c : dearest_first) {
-      if (times_[index(c->from)] + c->giver_saves > time) continue;
-      times_[index(c->from)] += c->giver_saves;
-      times_[index(c->move.destination)] -= c->taker_spends;
+      if (times_[c->from] + c->giver_saves > time) continue;
+      times_[c->from] += c->giver_saves;
+      times_[c->move.destination] -= c->taker_spends;
       c->kept = false;
     }
   }
@@ -81,8 +81,8 @@ class Selection {
 
   const LoadSnapshot& snapshot_;
   const MoveCost& cost_;
-  std::vector<double> speeds_;
-  std::vector<double> times_;  // finishing times with the moves that are kept
+  IdVector<Rank, double> speeds_;
+  IdVector<Rank, double> times_;  // finishing times with the moves that are kept
   std::vector<Candidate> candidates_;
   std::vector<SubdomainId> taken_;  // ascending
 };
@@ -116,7 +116,8 @@ std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Mov
   return selection.kept();
 }
 
-std::vector<double> finishing_times(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost) {
+IdVector<Rank, double> finishing_times(const LoadSnapshot& snapshot, std::span<const Move> moves,
+                                       const MoveCost& cost) {
   Selection selection(snapshot, cost);
   selection.consider(moves);
   return selection.times();
@@ -126,7 +127,7 @@ std::vector<Move> needed_moves(const LoadSnapshot& snapshot, std::span<const Mov
                                Rank giver, double spare) {
   Selection selection(snapshot, cost);
   selection.consider(moves);
-  selection.drop_needless(selection.times()[index(giver)] + spare);
+  selection.drop_needless(selection.times()[giver] + spare);
   return selection.kept();
 }
 

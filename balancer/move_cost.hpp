@@ -43,8 +43,8 @@ struct Worth {
 
 /// When each rank will have finished if all of `moves` are made that are valid and cost less than they move, with what
 /// they cost.
-[[nodiscard]] std::vector<double> finishing_times(const LoadSnapshot& snapshot, std::span<const Move> moves,
-                                                  const MoveCost& cost);
+[[nodiscard]] IdVector<Rank, double> finishing_times(const LoadSnapshot& snapshot, std::span<const Move> moves,
+                                                     const MoveCost& cost);
 
 /// The same moves, all of `giver`, less those that it can keep and still be through at most so many seconds later,
 /// dearest first.

@@ -15,9 +15,10 @@ namespace driftmesh::balancer {
 /// in a step, given what those here tell, and in the same order everywhere.
 template <class FromAll>
 [[nodiscard]] std::vector<Council::Decision> plan_jointly(std::span<const Contribution> here,
-                                                          const std::vector<std::vector<Rank>>& parts,
-                                                          const std::vector<RankState>& states, const Dealing& dealing,
-                                                          const ControllerOptions& options, const FromAll& from_all) {
+                                                          const std::vector<std::vector<Part>>& parts,
+                                                          const IdVector<Rank, RankState>& states,
+                                                          const Dealing& dealing, const ControllerOptions& options,
+                                                          const FromAll& from_all) {
   const MoveCost& cost = options.cost;
   // What `tell(i)` has for rank i of those here, and then of all.
   const auto told_by_all = [&]<class Tell>(const Tell& tell) {
@@ -43,7 +44,7 @@ template <class FromAll>
   std::vector<Council::Decision> decisions;
   for (std::size_t i = 0; i < here.size(); ++i) {
     if (!plan.worth) moves[i].clear();
-    decisions.push_back({std::move(moves[i]), plan.states, plan.coming[index(here[i].rank)], plan.worth});
+    decisions.push_back({std::move(moves[i]), plan.states, plan.coming[here[i].rank], plan.worth});
   }
   return decisions;
 }

@@ -9,10 +9,10 @@ namespace {
 
 /// The snapshot with work on `self` and on the destinations of `moves` alone: what one rank can judge by itself.
 LoadSnapshot between(LoadSnapshot snapshot, Rank self, std::span<const Move> moves) {
-  std::vector<bool> concerned(snapshot.ranks.size(), false);
-  concerned[static_cast<std::size_t>(self)] = true;
-  for (const Move& move : moves) concerned[static_cast<std::size_t>(move.destination)] = true;
-  for (std::size_t r = 0; r < concerned.size(); ++r)
+  IdVector<Rank, bool> concerned(snapshot.ranks.size(), false);
+  concerned[self] = true;
+  for (const Move& move : moves) concerned[move.destination] = true;
+  for (const Rank r : ids_of(concerned))
     if (!concerned[r]) snapshot.ranks[r].remaining = 0;
   return snapshot;
 }

@@ -6,10 +6,8 @@ std::vector<Move> Policy::plan(const LoadSnapshot&, Rank) const {
   return {};
 }
 
-std::vector<Rank> Policy::parts(const LoadSnapshot& own, std::optional<int>) const {
-  std::vector<Rank> owners;
-  for (const SubdomainState& s : own.subdomains) owners.push_back(s.owner);
-  return owners;
+std::vector<Part> Policy::parts(const LoadSnapshot& own, std::optional<int>) const {
+  return present_parts(own);
 }
 
 Dealing Policy::dealing(const LoadSnapshot&) const {
@@ -20,7 +18,7 @@ bool Policy::runs_low(double) const {
   return false;
 }
 
-std::optional<Rank> Policy::victim(const LoadSnapshot&, Rank, const std::vector<bool>&) const {
+std::optional<Rank> Policy::victim(const LoadSnapshot&, Rank, const IdVector<Rank, bool>&) const {
   return std::nullopt;
 }
 

@@ -40,7 +40,7 @@ class Policy {
   /// Everybody knows the states of all ranks, and lists what it owns. `communicator` is the Fortran handle of an MPI
   /// communicator, all ranks of which call this at the same time and may wait for each other in it. Without one, this
   /// is the only call, and all subdomains are listed.
-  [[nodiscard]] virtual std::vector<Rank> parts(const LoadSnapshot& own, std::optional<int> communicator) const;
+  [[nodiscard]] virtual std::vector<Part> parts(const LoadSnapshot& own, std::optional<int> communicator) const;
   /// kCollective: what is done with the parts. Of `own` it may look at the states alone, so that all ranks do the same.
   [[nodiscard]] virtual Dealing dealing(const LoadSnapshot& own) const;
 
@@ -49,7 +49,7 @@ class Policy {
   /// kRequests: the rank that `thief` should get work from, if any. `able` says of each rank whether it has something
   /// to give. The snapshot lists no subdomains.
   [[nodiscard]] virtual std::optional<Rank> victim(const LoadSnapshot& snapshot, Rank thief,
-                                                   const std::vector<bool>& able) const;
+                                                   const IdVector<Rank, bool>& able) const;
   /// kRequests: what `self` gives to a rank that has asked; of what the snapshot lists as its own.
   [[nodiscard]] virtual std::vector<Move> give(const LoadSnapshot& snapshot, Rank self, Rank to) const;
 

@@ -9,16 +9,16 @@ constexpr double kNotable = 1.05;
 
 }  // namespace
 
-RankNews::RankNews(const Layout& layout, double now) : ranks_(static_cast<std::size_t>(layout.ranks), Heard{{}, now}) {
+RankNews::RankNews(const Layout& layout, double now) : ranks_(to_index(layout.ranks), Heard{{}, now}) {
   for (const Layout::Subdomain& s : layout.subdomains) {
-    protocol::LoadNews& news = ranks_[static_cast<std::size_t>(s.owner)].news;
+    protocol::LoadNews& news = ranks_[s.owner].news;
     news.remaining += s.predicted;
     news.spare += s.predicted;
   }
 }
 
 bool RankNews::hear(Rank rank, const protocol::LoadNews& news, double now) {
-  Heard& heard = ranks_[index(rank)];
+  Heard& heard = ranks_[rank];
   if (news.round <= heard.news.round) return false;
   const double believed = std::max(0.0, heard.news.remaining - heard.news.speed * std::max(0.0, now - heard.at));
   heard = {news, now};
@@ -26,11 +26,11 @@ bool RankNews::hear(Rank rank, const protocol::LoadNews& news, double now) {
 }
 
 void RankNews::expect(Rank from, Rank to, double work, double now) {
-  const std::vector<RankState> current = states(now);
+  const IdVector<Rank, RankState> current = states(now);
   // What it will get, a rank cannot give yet.
   const auto change = [&](Rank rank, double amount) {
-    Heard& heard = ranks_[index(rank)];
-    heard.news.remaining = std::max(0.0, current[index(rank)].remaining + amount);
+    Heard& heard = ranks_[rank];
+    heard.news.remaining = std::max(0.0, current[rank].remaining + amount);
     heard.news.spare = std::clamp(heard.news.spare + std::min(0.0, amount), 0.0, heard.news.remaining);
     heard.at = now;
   };
@@ -38,8 +38,8 @@ void RankNews::expect(Rank from, Rank to, double work, double now) {
   change(to, work);
 }
 
-void RankNews::assume(const std::vector<RankState>& states, double now) {
-  for (std::size_t r = 0; r < ranks_.size(); ++r) {
+void RankNews::assume(const IdVector<Rank, RankState>& states, double now) {
+  for (const Rank r : ids_of(ranks_)) {
     ranks_[r].news.speed = states[r].speed;
     ranks_[r].news.remaining = states[r].remaining;
     ranks_[r].at = now;
@@ -50,19 +50,18 @@ bool RankNews::complete() const {
   return std::all_of(ranks_.begin(), ranks_.end(), [](const Heard& heard) { return heard.news.round > 0; });
 }
 
-std::vector<RankState> RankNews::states(double now) const {
-  std::vector<RankState> states;
+IdVector<Rank, RankState> RankNews::states(double now) const {
+  IdVector<Rank, RankState> states;
   for (const Heard& heard : ranks_) states.push_back({heard.news.speed, heard.news.remaining});
-  const std::vector<double> speeds = assumed_speeds(states);
-  for (std::size_t r = 0; r < states.size(); ++r)
+  const IdVector<Rank, double> speeds = assumed_speeds(states);
+  for (const Rank r : ids_of(states))
     states[r].remaining = std::max(0.0, states[r].remaining - speeds[r] * std::max(0.0, now - ranks_[r].at));
   return states;
 }
 
-std::vector<bool> RankNews::able(const std::vector<RankState>& states) const {
-  std::vector<bool> able;
-  for (std::size_t r = 0; r < ranks_.size(); ++r)
-    able.push_back(std::min(ranks_[r].news.spare, states[r].remaining) > 0);
+IdVector<Rank, bool> RankNews::able(const IdVector<Rank, RankState>& states) const {
+  IdVector<Rank, bool> able;
+  for (const Rank r : ids_of(ranks_)) able.push_back(std::min(ranks_[r].news.spare, states[r].remaining) > 0);
   return able;
 }
 

@@ -22,21 +22,21 @@ class RankNews {
   void expect(Rank from, Rank to, double work, double now);
 
   /// This is what all ranks have to do at `now`, whatever they said before.
-  void assume(const std::vector<RankState>& states, double now);
+  void assume(const IdVector<Rank, RankState>& states, double now);
   /// Whether all ranks have said something.
   [[nodiscard]] bool complete() const;
 
   /// All ranks at `now`: what was heard, less what they must have done since.
-  [[nodiscard]] std::vector<RankState> states(double now) const;
+  [[nodiscard]] IdVector<Rank, RankState> states(double now) const;
   /// Of each rank, whether it has something to give. It works on that last.
-  [[nodiscard]] std::vector<bool> able(const std::vector<RankState>& states) const;
+  [[nodiscard]] IdVector<Rank, bool> able(const IdVector<Rank, RankState>& states) const;
 
  private:
   struct Heard {
     protocol::LoadNews news;
     double at = 0;
   };
-  std::vector<Heard> ranks_;
+  IdVector<Rank, Heard> ranks_;
 };
 
 }  // namespace driftmesh::balancer

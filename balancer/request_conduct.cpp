@@ -7,7 +7,7 @@
 namespace driftmesh::balancer {
 namespace {
 
-constexpr Rank kBroker = 0;
+constexpr Rank kBroker{0};
 constexpr std::uint32_t kMostRivals = 15;
 
 double seconds_of(double work, double speed) {
@@ -15,7 +15,7 @@ double seconds_of(double work, double speed) {
 }
 
 // How many idle ranks there are for each that can give, besides the one that asks.
-std::uint32_t rivals(const std::vector<RankState>& ranks, const std::vector<bool>& able) {
+std::uint32_t rivals(const IdVector<Rank, RankState>& ranks, const IdVector<Rank, bool>& able) {
   const auto idle = std::count_if(ranks.begin(), ranks.end(), [](const RankState& r) { return r.remaining <= 0; });
   const auto givers = std::count(able.begin(), able.end(), true);
   return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(0, idle - 1) / std::max<std::ptrdiff_t>(1, givers));
@@ -105,14 +105,14 @@ std::vector<Move> RequestConduct::gifts(const protocol::WorkRequest& request, co
                                         const Loads& own) const {
   LoadSnapshot snapshot;
   snapshot.layout = layout_;
-  snapshot.ranks.resize(index(layout_->ranks));
+  snapshot.ranks.resize(to_index(layout_->ranks));
   const double speed = situation.speed > 0 ? situation.speed : request.speed > 0 ? request.speed : 1;
   const double sharers = 1 + std::min(request.rivals, kMostRivals);
-  snapshot.ranks[index(request.thief)] = {request.speed > 0 ? request.speed : speed, request.remaining};
-  snapshot.ranks[index(self_)] = {sharers * speed, total_work(own)};
+  snapshot.ranks[request.thief] = {request.speed > 0 ? request.speed : speed, request.remaining};
+  snapshot.ranks[self_] = {sharers * speed, total_work(own)};
   snapshot.subdomains = states_of(self_, own);
   const std::vector<Move> moves = policy_->give(snapshot, self_, request.thief);
-  snapshot.ranks[index(self_)].speed = speed;
+  snapshot.ranks[self_].speed = speed;
   return worth_moving(snapshot, moves, options_.cost, options_.worth);
 }
 
@@ -163,8 +163,8 @@ bool RequestConduct::pass_on(protocol::WorkRequest request, const Situation& sit
   LoadSnapshot snapshot;
   snapshot.layout = layout_;
   snapshot.ranks = news_->states(situation.now);
-  snapshot.ranks[index(request.thief)] = {request.speed, request.remaining};
-  const std::vector<bool> able = news_->able(snapshot.ranks);
+  snapshot.ranks[request.thief] = {request.speed, request.remaining};
+  const IdVector<Rank, bool> able = news_->able(snapshot.ranks);
   const auto victim = policy_->victim(snapshot, request.thief, able);
   if (!victim) return false;
   request.rivals = rivals(snapshot.ranks, able);
@@ -175,11 +175,10 @@ bool RequestConduct::pass_on(protocol::WorkRequest request, const Situation& sit
     news_->expect(self_, request.thief, given, situation.now);
     return true;
   }
-  const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
-  const double giver_speed = speeds[index(*victim)] * (1 + std::min(request.rivals, kMostRivals));
+  const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
+  const double giver_speed = speeds[*victim] * (1 + std::min(request.rivals, kMostRivals));
   news_->expect(*victim, request.thief,
-                even_share(snapshot.ranks[index(*victim)], giver_speed, snapshot.ranks[index(request.thief)],
-                           speeds[index(request.thief)]),
+                even_share(snapshot.ranks[*victim], giver_speed, snapshot.ranks[request.thief], speeds[request.thief]),
                 situation.now);
   decision.messages.push_back({*victim, request});
   return true;
@@ -190,7 +189,7 @@ void RequestConduct::feed_hungry(const Situation& situation, Loads& own, Decisio
   if (!std::exchange(surprised_, false)) return;
   const std::set<Rank> hungry = hungry_;
   for (const Rank thief : hungry) {
-    const double speed = news_->states(situation.now)[index(thief)].speed;
+    const double speed = news_->states(situation.now)[thief].speed;
     if (thief == self_)
       refusals_ = 0, hungry_.erase(thief);
     else if (!pass_on({thief, 0, 0, speed, 0}, situation, own, decision))

@@ -23,7 +23,7 @@ void SimulatedCouncil::announce(std::uint32_t round, const Contribution& contrib
   own = contribution;
   std::erase_if(own.own, [&](const SubdomainState& s) { return !at.listed.insert(s.id).second; });
   // Who has announced itself here decides in no earlier round any more.
-  if (at.contributions.size() == index(layout_->ranks)) rounds_.erase(rounds_.begin(), rounds_.find(round));
+  if (at.contributions.size() == to_index(layout_->ranks)) rounds_.erase(rounds_.begin(), rounds_.find(round));
 }
 
 Council::Decision SimulatedCouncil::decide(std::uint32_t round, const Contribution& contribution) {
@@ -38,19 +38,19 @@ Council::Decision SimulatedCouncil::decide(std::uint32_t round, const Contributi
 
 bool SimulatedCouncil::in_session() const {
   const auto last = rounds_.find(last_);
-  return last != rounds_.end() && (!last->second.decided || last->second.decisions.contains(0));
+  return last != rounds_.end() && (!last->second.decided || last->second.decisions.contains(Rank{0}));
 }
 
 // Parts are made for all at once, and given to each rank for what it listed.
-std::vector<std::vector<Rank>> SimulatedCouncil::parts_of(const std::vector<Contribution>& contributions,
-                                                          const std::vector<RankState>& states) const {
+std::vector<std::vector<Part>> SimulatedCouncil::parts_of(const std::vector<Contribution>& contributions,
+                                                          const IdVector<Rank, RankState>& states) const {
   LoadSnapshot all{layout_, {}, states};
   for (const Contribution& c : contributions) all.subdomains.insert(all.subdomains.end(), c.own.begin(), c.own.end());
   std::ranges::sort(all.subdomains, {}, &SubdomainState::id);
-  const std::vector<Rank> parts = policy_->parts(all, std::nullopt);
-  std::vector<std::vector<Rank>> of_rank;
+  const std::vector<Part> parts = policy_->parts(all, std::nullopt);
+  std::vector<std::vector<Part>> of_rank;
   for (const Contribution& c : contributions) {
-    std::vector<Rank>& own = of_rank.emplace_back();
+    std::vector<Part>& own = of_rank.emplace_back();
     for (const SubdomainState& s : c.own)
       own.push_back(parts[static_cast<std::size_t>(find(all, s.id) - all.subdomains.data())]);
   }
@@ -58,10 +58,10 @@ std::vector<std::vector<Rank>> SimulatedCouncil::parts_of(const std::vector<Cont
 }
 
 void SimulatedCouncil::conclude_round(Round& round) const {
-  if (round.contributions.size() != index(layout_->ranks))
+  if (round.contributions.size() != to_index(layout_->ranks))
     throw Error("a rank decides before all have announced themselves");
   std::vector<Contribution> contributions;
-  std::vector<RankState> states;
+  IdVector<Rank, RankState> states;
   for (const auto& [rank, contribution] : round.contributions) {
     contributions.push_back(contribution);
     states.push_back(contribution.state);
@@ -70,7 +70,7 @@ void SimulatedCouncil::conclude_round(Round& round) const {
   auto decisions =
       plan_jointly(contributions, parts_of(contributions, states), states, policy_->dealing({layout_, {}, states}),
                    options_, [](const auto& told) { return told; });
-  for (const Contribution& c : contributions) round.decisions[c.rank] = std::move(decisions[index(c.rank)]);
+  for (const Contribution& c : contributions) round.decisions[c.rank] = std::move(decisions[to_index(c.rank)]);
 }
 
 std::unique_ptr<SimulatedCouncil> make_simulated_council(std::shared_ptr<const Layout> layout,

@@ -32,8 +32,8 @@ class SimulatedCouncil final : public Council {
     bool decided = false;
   };
   void conclude_round(Round& round) const;
-  [[nodiscard]] std::vector<std::vector<Rank>> parts_of(const std::vector<Contribution>& contributions,
-                                                        const std::vector<RankState>& states) const;
+  [[nodiscard]] std::vector<std::vector<Part>> parts_of(const std::vector<Contribution>& contributions,
+                                                        const IdVector<Rank, RankState>& states) const;
 
   std::shared_ptr<const Layout> layout_;
   std::shared_ptr<const Policy> policy_;

@@ -9,10 +9,9 @@ namespace {
 using Indices = std::vector<std::size_t>;
 
 /// Of each rank, the indices of its subdomains, those first that leave most easily.
-std::vector<Indices> by_owner(const LoadSnapshot& snapshot) {
-  std::vector<Indices> lists(snapshot.ranks.size());
-  for (std::size_t i = 0; i < snapshot.subdomains.size(); ++i)
-    lists[static_cast<std::size_t>(snapshot.subdomains[i].owner)].push_back(i);
+IdVector<Rank, Indices> by_owner(const LoadSnapshot& snapshot) {
+  IdVector<Rank, Indices> lists(snapshot.ranks.size());
+  for (std::size_t i = 0; i < snapshot.subdomains.size(); ++i) lists[snapshot.subdomains[i].owner].push_back(i);
   for (Indices& list : lists)
     std::sort(list.begin(), list.end(), [&](std::size_t a, std::size_t b) {
       return leaves_before(snapshot.subdomains[a], snapshot.subdomains[b]);
@@ -40,12 +39,12 @@ class Dealer {
   }
 
  private:
-  double& load(std::size_t rank) { return snapshot_.ranks[rank].remaining; }
+  double& load(Rank rank) { return snapshot_.ranks[rank].remaining; }
 
   Indices collect() {
     Indices pool;
-    const std::vector<Indices> lists = by_owner(snapshot_);
-    for (std::size_t r = 0; r < lists.size(); ++r) {
+    const IdVector<Rank, Indices> lists = by_owner(snapshot_);
+    for (const Rank r : ids_of(lists)) {
       const double share = ideal_ * speeds_[r];
       if (load(r) <= share * (1 + tolerance_)) continue;
       for (const std::size_t i : lists[r]) {
@@ -60,20 +59,20 @@ class Dealer {
   // Equal finishing times go to the owner, so that nothing moves without a reason.
   void place(std::size_t i) {
     SubdomainState& s = snapshot_.subdomains[i];
-    auto best = static_cast<std::size_t>(s.owner);
+    Rank best = s.owner;
     double earliest = (load(best) + s.remaining) / speeds_[best];
-    for (std::size_t r = 0; r < speeds_.size(); ++r) {
+    for (const Rank r : ids_of(speeds_)) {
       const double finished = (load(r) + s.remaining) / speeds_[r];
       if (finished < earliest) best = r, earliest = finished;
     }
-    s.owner = static_cast<Rank>(best);
+    s.owner = best;
     load(best) += s.remaining;
   }
 
   LoadSnapshot snapshot_;
   double tolerance_;
   double ideal_;
-  std::vector<double> speeds_;
+  IdVector<Rank, double> speeds_;
 };
 
 }  // namespace

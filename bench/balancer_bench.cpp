@@ -16,7 +16,7 @@ LoadSnapshot snapshot_of(int subdomains, int ranks) {
   Layout layout = testing::grid_layout(subdomains / rows, rows, ranks);
   std::mt19937_64 random(1);
   for (auto& s : layout.subdomains) s.predicted = 20e3 * std::uniform_real_distribution<double>(0.7, 1.3)(random);
-  std::vector<double> speeds;
+  IdVector<Rank, double> speeds;
   for (int r = 0; r < ranks; ++r) speeds.push_back(9 * r < 4 * ranks ? 110e3 : 9 * r < 5 * ranks ? 92e3 : 186e3);
   return testing::initial_snapshot(std::move(layout), speeds);
 }
@@ -26,7 +26,7 @@ void plan(benchmark::State& state, const std::string& name, const Parameters::Va
   const auto policy = make_policy(name, parameters);
   std::vector<Move> planned, worth;
   for (auto _ : state) {
-    planned = policy->plan(snapshot, 0);
+    planned = policy->plan(snapshot, Rank{0});
     worth = worth_moving(snapshot, planned, {});
     benchmark::DoNotOptimize(worth.data());
   }

@@ -52,9 +52,9 @@ Costs measure(const RunPlan& plan) {
   const SubdomainContext context{&plan.decomposition, plan.bounds, plan.presplit};
   Costs costs;
   std::vector<Subdomain> kept;  // as a rank keeps them
-  std::vector<protocol::SplitEntry> said;
-  for (std::size_t i = 0; i < plan.decomposition.size(); ++i) {
-    Subdomain& subdomain = kept.emplace_back(static_cast<SubdomainId>(i), context);
+  std::vector<SplitPoint<GlobalRootId>> said;
+  for (const SubdomainId i : ids_of(plan.decomposition.subdomains)) {
+    Subdomain& subdomain = kept.emplace_back(i, context);
     const double begin = thread_seconds();
     const SliceWork start = subdomain.work(0, said);
     const double prepared = thread_seconds();

@@ -58,18 +58,17 @@ template <class Then>
 Costs median_round(const SubdomainContext& context, Then&& then) {
   constexpr int kRounds = 11;
   std::vector<Costs> rounds(kRounds);
-  const auto n = static_cast<SubdomainId>(context.decomposition->size());
   for (Costs& costs : rounds) {
-    for (SubdomainId i = 0; i < n; ++i) {
+    for (const SubdomainId i : ids_of(context.decomposition->subdomains)) {
       Subdomain subdomain(i, context);
-      std::vector<protocol::SplitEntry> said;
+      std::vector<SplitPoint<GlobalRootId>> said;
       add_time(costs.refine, [&] { subdomain.work(INT64_MAX, said); });
       costs.triangles += static_cast<double>(subdomain.triangles());
       then(subdomain, costs);
     }
     for (double* sum : {&costs.refine, &costs.pack, &costs.unpack, &costs.sleep, &costs.wake, &costs.triangles,
                         &costs.packed_bytes, &costs.dormant_bytes})
-      *sum /= n;
+      *sum /= static_cast<double>(context.decomposition->size());
   }
   std::nth_element(rounds.begin(), rounds.begin() + kRounds / 2, rounds.end(),
                    [](const Costs& a, const Costs& b) { return a.refine < b.refine; });

@@ -46,8 +46,10 @@ class Shared {
       const auto& [rank, shared] = piece_.neighbors[n];
       const auto count = static_cast<int>(shared.size());
       std::transform(shared.begin(), shared.end(), sent_[n].begin(), [&](std::int32_t v) { return values[at(v)]; });
-      MPI_Irecv(received_[n].data(), count, MPI_DOUBLE, rank, 0, MPI_COMM_WORLD, &requests.emplace_back());
-      MPI_Isend(sent_[n].data(), count, MPI_DOUBLE, rank, 0, MPI_COMM_WORLD, &requests.emplace_back());
+      MPI_Irecv(received_[n].data(), count, MPI_DOUBLE, driftmesh::to_int(rank), 0, MPI_COMM_WORLD,
+                &requests.emplace_back());
+      MPI_Isend(sent_[n].data(), count, MPI_DOUBLE, driftmesh::to_int(rank), 0, MPI_COMM_WORLD,
+                &requests.emplace_back());
     }
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
     for (std::size_t n = 0; n < received_.size(); ++n)
@@ -157,7 +159,7 @@ double error_with(double max_area) {
   Values error(x.size());
   for (std::size_t v = 0; v < x.size(); ++v) error[v] = x[v] - exact(piece.mesh.points[v]);
   const double mean = std::sqrt(shared.dot(error, error) / static_cast<double>(piece.total_points));
-  if (piece.rank == 0)
+  if (piece.rank == driftmesh::Rank{0})
     std::printf("%lld triangles, %lld vertices on %d ranks: %d steps, error %.3g\n",
                 static_cast<long long>(piece.total_triangles), static_cast<long long>(piece.total_points), piece.ranks,
                 steps, mean);

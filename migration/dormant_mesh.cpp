@@ -83,7 +83,8 @@ std::uint8_t sides_of(const Triangulation& mesh, SubsegmentId s) {
 
 // ---- Names: each number as the difference to one that it tends to follow ----
 
-void put_names(VarintWriter out, const SubdomainMesh& part, const std::vector<VertexId>& number, std::size_t given) {
+void put_names(VarintWriter out, const SubdomainMesh& part, const IdVector<VertexId, VertexId>& number,
+               std::size_t given) {
   const Triangulation& mesh = part.mesh;
   std::int64_t last = 0;
   out.put(given);
@@ -91,17 +92,17 @@ void put_names(VarintWriter out, const SubdomainMesh& part, const std::vector<Ve
     if (is_given(o)) out.put_signed(o - std::exchange(last, o));
   out.put(part.points.size());
   last = 0;
-  for (const GlobalPointId p : part.points) out.put_signed(p - std::exchange(last, p));
+  for (const GlobalPointId p : part.points) out.put_signed(to_int(p) - std::exchange(last, to_int(p)));
   out.put(mesh.roots.size());
   std::int64_t last_end = 0, last_shell = 0, last_root = 0;
-  for (std::size_t r = 0; r < mesh.roots.size(); ++r) {
-    const RootSegment& root = mesh.roots[r];
-    const std::int64_t a = number[id(root.vertex[0])], b = number[id(root.vertex[1])];
+  for (const RootId r : ids_of(part.roots)) {
+    const RootSegment& root = mesh.roots[id(r)];
+    const std::int64_t a = number[root.vertex[0]], b = number[root.vertex[1]];
     out.put_signed(a - last_end);
     out.put_signed(b - a);
     out.put_signed(root.marker);
     out.put_signed(root.shell - std::exchange(last_shell, root.shell));
-    out.put_signed(part.roots[r] - std::exchange(last_root, part.roots[r]));
+    out.put_signed(to_int(part.roots[r]) - std::exchange(last_root, to_int(part.roots[r])));
     out.put(sides_of(mesh, root.tree));
     last_end = b;
   }
@@ -124,12 +125,12 @@ std::int32_t follow(VarintReader& in, std::int64_t last) {
 
 DormantMesh::DormantMesh(const SubdomainMesh& part) {
   const Triangulation& mesh = part.mesh;
-  std::vector<VertexId> number(mesh.points.size(), kNone);
+  IdVector<VertexId, VertexId> number(mesh.points.size(), kNone);
   std::int32_t fixed = 0;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v)
-    if (is_given(mesh.origin[v])) {
+  for (const VertexId v : ids_of(number))
+    if (is_given(mesh.origin[id(v)])) {
       number[v] = fixed++;
-      given_.push_back(mesh.points[v]);
+      given_.push_back(mesh.points[id(v)]);
     }
   put_names(VarintWriter(names_), part, number, given_.size());
   BitWriter bits(trees_);
@@ -137,13 +138,13 @@ DormantMesh::DormantMesh(const SubdomainMesh& part) {
     visit_tree(mesh, root.tree, [&](SubsegmentId s) {
       const Subsegment& segment = mesh.subsegments[id(s)];
       bits.put(!segment.is_leaf());
-      if (!segment.is_leaf()) number[id(mesh.subsegments[id(segment.child)].vertex[1])] = fixed++;
+      if (!segment.is_leaf()) number[mesh.subsegments[id(segment.child)].vertex[1]] = fixed++;
     });
   triangles_ = encode_triangles(mesh, number, fixed, border());
   has_regions_ = mesh.region.empty() ? 0 : 1;
-  free_.resize(static_cast<std::size_t>(triangles_.vertices - fixed));
-  for (std::size_t v = 0; v < mesh.points.size(); ++v)
-    if (number[v] >= fixed) free_[id(number[v] - fixed)] = mesh.points[v];
+  free_.resize(to_index(triangles_.vertices - fixed));
+  for (const VertexId v : ids_of(number))
+    if (number[v] >= fixed) free_[to_index(number[v] - fixed)] = mesh.points[id(v)];
   for (auto* list : {&names_, &trees_, &triangles_.code}) list->shrink_to_fit();
   given_.shrink_to_fit();
 }
@@ -178,7 +179,8 @@ DormantMesh::Frame DormantMesh::frame() const {
     mesh.add_vertex(p, last);
   }
   last = 0;
-  for (std::size_t n = count_of(in, names_.size()); n > 0; --n) part.points.push_back(last = follow(in, last));
+  for (std::size_t n = count_of(in, names_.size()); n > 0; --n)
+    part.points.push_back(GlobalPointId{last = follow(in, last)});
   std::int32_t last_end = 0, last_shell = 0, last_root = 0;
   for (std::size_t n = count_of(in, names_.size()); n > 0; --n) {
     const VertexId a = follow(in, last_end), b = follow(in, a);
@@ -190,7 +192,7 @@ DormantMesh::Frame DormantMesh::frame() const {
     const auto exists = [&](VertexId v) { return v >= 0 && id(v) < given_.size(); };
     if (!exists(a) || !exists(b) || sides > 3) throw Error("a root has no ends");
     mesh.add_root(a, b, marker, last_shell);
-    part.roots.push_back(last_root);
+    part.roots.push_back(GlobalRootId{last_root});
     frame.sides.push_back(static_cast<std::uint8_t>(sides));
   }
   if (!in.at_end()) throw Error("there are more names than there should be");
@@ -243,16 +245,16 @@ SubdomainMesh DormantMesh::wake() const {
   return std::move(frame.part);
 }
 
-std::vector<SubsegmentId> DormantMesh::waking_subsegments(const Triangulation& mesh) {
-  std::vector<SubsegmentId> waking(mesh.subsegments.size(), kNone);
+IdVector<SubsegmentId, SubsegmentId> DormantMesh::waking_subsegments(const Triangulation& mesh) {
+  IdVector<SubsegmentId, SubsegmentId> waking(mesh.subsegments.size(), kNone);
   auto next = static_cast<SubsegmentId>(mesh.roots.size());  // the roots' trees come first, then halves two by two
   for (std::size_t r = 0; r < mesh.roots.size(); ++r) {
-    waking[id(mesh.roots[r].tree)] = static_cast<SubsegmentId>(r);
+    waking[mesh.roots[r].tree] = static_cast<SubsegmentId>(r);
     visit_tree(mesh, mesh.roots[r].tree, [&](SubsegmentId s) {
       const SubsegmentId child = mesh.subsegments[id(s)].child;
       if (child == kNone) return;
-      waking[id(child)] = next++;
-      waking[id(child) + 1] = next++;
+      waking[child] = next++;
+      waking[child + 1] = next++;
     });
   }
   return waking;

@@ -45,7 +45,7 @@ class DormantMesh {
   /// The mesh again. Throws Error if this is not what the constructor made of a sound mesh.
   [[nodiscard]] SubdomainMesh wake() const;
   /// What subsegment s of the mesh that was given to the constructor is in the mesh that wakes.
-  [[nodiscard]] static std::vector<SubsegmentId> waking_subsegments(const Triangulation& mesh);
+  [[nodiscard]] static IdVector<SubsegmentId, SubsegmentId> waking_subsegments(const Triangulation& mesh);
 
   /// Calls transfer(field) for each field: to store and to load.
   template <class Self, class Transfer>

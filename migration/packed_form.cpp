@@ -25,6 +25,8 @@ BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::RootSegment)
 BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Sweep::Places)
 BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::RefineCounters)
 BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Point)
+BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::GlobalRootId)
+BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::GlobalPointId)
 
 namespace driftmesh {
 namespace {
@@ -50,30 +52,28 @@ bool is_path(dyadic::Path path) {
 
 // ---- Points on edges: numbers and paths apart, since a struct of both has holes ----
 
-template <class T, class Edge>
-void save_points(ArchiveWriter& out, const std::vector<T>& points, Edge T::*edge) {
-  std::vector<std::int32_t> edges;
+template <class Root>
+void save_points(ArchiveWriter& out, const std::vector<SplitPoint<Root>>& points) {
+  std::vector<std::int32_t> roots;
   std::vector<dyadic::Path> paths;
-  for (const T& p : points) {
-    edges.push_back(p.*edge);
+  for (const SplitPoint<Root>& p : points) {
+    roots.push_back(to_int(p.root));
     paths.push_back(p.path);
   }
-  out.array(edges);
+  out.array(roots);
   out.array(paths);
 }
 
-template <class T, class Edge>
-void load_points(ArchiveReader& in, std::vector<T>& points, Edge T::*edge) {
-  std::vector<std::int32_t> edges;
+template <class Root>
+void load_points(ArchiveReader& in, std::vector<SplitPoint<Root>>& points) {
+  std::vector<std::int32_t> roots;
   std::vector<dyadic::Path> paths;
-  in.array(edges);
+  in.array(roots);
   in.array(paths);
-  require(edges.size() == paths.size(), "split points without edges");
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    require(edges[i] >= 0 && is_path(paths[i]), "a split point has no place");
-    points.push_back({});
-    points.back().*edge = edges[i];
-    points.back().path = paths[i];
+  require(roots.size() == paths.size(), "split points without roots");
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    require(roots[i] >= 0 && is_path(paths[i]), "a split point has no place");
+    points.push_back({Root{roots[i]}, paths[i]});
   }
 }
 
@@ -98,8 +98,8 @@ void check_part(const SubdomainMesh& part) {
   if (const std::string fault = triangulation_fault(part.mesh); !fault.empty()) refuse(fault);
   require(part.roots.size() == part.mesh.roots.size(), "roots without numbers");
   require(std::is_sorted(part.roots.begin(), part.roots.end(), std::less_equal<>()), "roots out of order");
-  require(part.roots.empty() || part.roots.front() >= 0, "a root has no number");
-  require(std::all_of(part.points.begin(), part.points.end(), [](GlobalPointId v) { return v >= 0; }),
+  require(part.roots.empty() || part.roots.front() >= GlobalRootId{0}, "a root has no number");
+  require(std::ranges::all_of(part.points, [](GlobalPointId v) { return v >= GlobalPointId{0}; }),
           "a point has no number");
 }
 
@@ -139,7 +139,7 @@ void save_refiner(ArchiveWriter& out, const RefinerState& state, std::size_t ver
   std::vector<SubsegmentId> unsplittable(state.unsplittable.begin(), state.unsplittable.end());
   std::sort(unsplittable.begin(), unsplittable.end());
   out.array(unsplittable);
-  save_points(out, state.made, &SplitPoint::root);
+  save_points(out, state.made);
   out.array(std::span(state.size.data(), std::min(vertices, state.size.size())));
   out.value(state.max_triangles);
   out.value(state.counters);
@@ -160,7 +160,7 @@ RefinerState load_refiner(ArchiveReader& in) {
   in.array(unsplittable);
   require(std::is_sorted(unsplittable.begin(), unsplittable.end(), std::less_equal<>()), "subsegments out of order");
   state.unsplittable.insert(unsplittable.begin(), unsplittable.end());
-  load_points(in, state.made, &SplitPoint::root);
+  load_points(in, state.made);
   in.array(state.size);
   in.value(state.max_triangles);
   in.value(state.counters);
@@ -189,8 +189,7 @@ void check_dormant(const DormantBody& body) {
           "subsegments out of order");
   body.mesh.check();
   const std::size_t subsegments = body.mesh.skeleton().mesh.subsegments.size();
-  require(std::all_of(body.unsplittable.begin(), body.unsplittable.end(),
-                      [&](SubsegmentId s) { return s >= 0 && static_cast<std::size_t>(s) < subsegments; }),
+  require(std::ranges::all_of(body.unsplittable, [&](SubsegmentId s) { return to_index(s) < subsegments; }),
           "an unsplittable subsegment does not exist");
   check_part(body.mesh.wake());
 }
@@ -216,10 +215,10 @@ void load(ArchiveReader& in, SubdomainState& subdomain) {
   in.value(subdomain.id);
   in.value(refined);
   in.value(content);
-  require(subdomain.id >= 0, "it has no number");
+  require(subdomain.id >= SubdomainId{0}, "it has no number");
   require(refined <= 1 && content <= Content::kDormant, "it says what cannot be");
   subdomain.refined = refined != 0;
-  load_points(in, subdomain.pending, &protocol::SplitEntry::edge);
+  load_points(in, subdomain.pending);
   if (content == Content::kMesh) {
     SubdomainState::Body body;
     load_body(in, body);
@@ -273,7 +272,7 @@ protocol::Bytes pack(const SubdomainView& subdomain) {
     out.value(subdomain.id);
     out.value(static_cast<std::uint8_t>(subdomain.refined));
     out.value(content_of(subdomain));
-    save_points(out, subdomain.pending, &protocol::SplitEntry::edge);
+    save_points(out, subdomain.pending);
     if (subdomain.body) {
       out.value(subdomain.body->forecast);
       transfer_mesh(out, subdomain.body->part);
@@ -295,7 +294,7 @@ SubdomainState unpack(std::span<const std::byte> bytes, Source source) {
   const bool vouched_for = source == Source::kThisRun && !kCheckAll;
   if (complaint.empty() && !vouched_for) complaint = complaint_of([&] { check(subdomain); });
   if (!complaint.empty())
-    throw Error("the packed form of subdomain " + std::to_string(subdomain.id) + " is damaged: " + complaint);
+    throw Error("the packed form of subdomain " + to_string(subdomain.id) + " is damaged: " + complaint);
   return subdomain;
 }
 

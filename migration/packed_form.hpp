@@ -23,9 +23,9 @@ struct DormantBody {
 
 /// A subdomain without what all subdomains of a run share.
 struct SubdomainState {
-  SubdomainId id = 0;
-  bool refined = false;                       ///< it has met all bounds once
-  std::vector<protocol::SplitEntry> pending;  ///< points that it was told of and has not taken in
+  SubdomainId id{};
+  bool refined = false;                           ///< it has met all bounds once
+  std::vector<SplitPoint<GlobalRootId>> pending;  ///< points that it was told of and has not taken in
   struct Body {
     SubdomainMesh part;
     RefinerState refiner;
@@ -39,7 +39,7 @@ struct SubdomainState {
 struct SubdomainView {
   SubdomainId id;
   bool refined;
-  const std::vector<protocol::SplitEntry>& pending;
+  const std::vector<SplitPoint<GlobalRootId>>& pending;
   struct Body {
     const SubdomainMesh& part;
     const RefinerState& refiner;

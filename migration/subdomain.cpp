@@ -27,12 +27,12 @@ RefinerState rest_of(const DormantBody& dormant, const Triangulation& mesh, cons
 std::string misfit(const SubdomainMesh& part, std::uint16_t label, const Decomposition& d, SubdomainId i) {
   if (!std::ranges::equal(part.roots, d.roots_of(i))) return "its border is another";
   std::uint16_t last_label = 0;
-  for (const RootId r : part.roots) {
-    const Decomposition::Root& root = d.roots[static_cast<std::size_t>(r)];
+  for (const GlobalRootId r : part.roots) {
+    const Decomposition::Root& root = d.roots[r];
     last_label = std::max({last_label, root.left_region, root.right_region});
   }
   if (label > last_label) return "it has a region that is not there";
-  if (std::ranges::any_of(part.points, [&](auto v) { return static_cast<std::size_t>(v) >= d.points.size(); }))
+  if (!std::ranges::all_of(part.points, [&](GlobalPointId v) { return d.points.has(v); }))
     return "it has a point that is not there";
   return "";
 }
@@ -48,9 +48,9 @@ std::uint16_t highest_label(const SubdomainState& state) {
 
 /// Why an unpacked subdomain is none of this decomposition; empty if it is one.
 std::string misfit(const SubdomainState& state, const Decomposition& d) {
-  if (static_cast<std::size_t>(state.id) >= d.size()) return "there are only " + std::to_string(d.size());
-  for (const protocol::SplitEntry& entry : state.pending)
-    if (static_cast<std::size_t>(entry.edge) >= d.roots.size()) return "a point waits for an edge that does not exist";
+  if (!d.subdomains.has(state.id)) return "there are only " + std::to_string(d.size());
+  for (const SplitPoint<GlobalRootId>& split : state.pending)
+    if (!d.roots.has(split.root)) return "a point waits for a root that does not exist";
   if (state.body) return misfit(state.body->part, highest_label(state), d, state.id);
   if (state.dormant) return misfit(state.dormant->mesh.skeleton(), highest_label(state), d, state.id);
   return "";
@@ -92,7 +92,7 @@ double Subdomain::remaining() const {
   if (!active()) return 0;
   const double forecast = dormant_ ? dormant_->forecast
                           : body_  ? body_->forecast
-                                   : context_->decomposition->subdomains[static_cast<std::size_t>(id_)].predicted;
+                                   : context_->decomposition->subdomains[id_].predicted;
   // What is left of a subdomain that has outgrown its forecast, or met its bounds before, is a matter of single points.
   return std::max(forecast - static_cast<double>(triangles()), 1 + static_cast<double>(pending_.size()));
 }
@@ -105,10 +105,10 @@ std::int64_t Subdomain::triangles() const {
 std::uint64_t Subdomain::packed_bytes() const {
   constexpr std::uint64_t kOverhead = 200, kTriangle = 40;  // with its half of a vertex, and what refinement has queued
   return kOverhead + kTriangle * static_cast<std::uint64_t>(triangles()) +
-         sizeof(protocol::SplitEntry) * pending_.size();
+         sizeof(SplitPoint<GlobalRootId>) * pending_.size();
 }
 
-SliceWork Subdomain::work(std::int64_t insertions, std::vector<protocol::SplitEntry>& said) {
+SliceWork Subdomain::work(std::int64_t insertions, std::vector<SplitPoint<GlobalRootId>>& said) {
   SliceWork done;
   if (dormant_) done.woken = triangles();
   wake();
@@ -117,7 +117,7 @@ SliceWork Subdomain::work(std::int64_t insertions, std::vector<protocol::SplitEn
     done.prepared = triangles();
   }
   const std::int64_t points_before = points_made(counters()), triangles_before = triangles();
-  for (const protocol::SplitEntry& entry : std::exchange(pending_, {})) take_in(entry);
+  for (const SplitPoint<GlobalRootId>& split : std::exchange(pending_, {})) take_in(split);
   switch (body_->refiner.refine(insertions)) {
     case Refiner::Status::kDone:
       refined_ = true;
@@ -126,7 +126,7 @@ SliceWork Subdomain::work(std::int64_t insertions, std::vector<protocol::SplitEn
       refined_ = false;
       break;
     case Refiner::Status::kFull:
-      throw LimitError("subdomain " + std::to_string(id_) +
+      throw LimitError("subdomain " + to_string(id_) +
                        " has more triangles than can be numbered; cut the domain into more subdomains");
   }
   say_new_points(said);
@@ -141,8 +141,7 @@ void Subdomain::sleep() {
   auto dormant = std::make_unique<DormantBody>();
   dormant->mesh = DormantMesh(body_->part);
   const auto waking = DormantMesh::waking_subsegments(body_->part.mesh);
-  for (const SubsegmentId s : refiner.unsplittable)
-    dormant->unsplittable.push_back(waking[static_cast<std::size_t>(s)]);
+  for (const SubsegmentId s : refiner.unsplittable) dormant->unsplittable.push_back(waking[s]);
   std::ranges::sort(dormant->unsplittable);
   dormant->max_triangles = refiner.max_triangles;
   dormant->counters = refiner.counters;
@@ -156,17 +155,17 @@ void Subdomain::wake() {
   try {
     body_ = std::make_unique<Body>(std::move(*dormant_), context_->bounds);
   } catch (const Error& error) {
-    throw Error("the dormant form of subdomain " + std::to_string(id_) + " is damaged: " + error.what());
+    throw Error("the dormant form of subdomain " + to_string(id_) + " is damaged: " + error.what());
   }
   dormant_.reset();
 }
 
 /// Whether it holds the point already.
-bool Subdomain::sleeps_through(const protocol::SplitEntry& entry) const {
+bool Subdomain::sleeps_through(const SplitPoint<GlobalRootId>& split) const {
   const auto roots = context_->decomposition->roots_of(id_);
-  const auto place = std::ranges::lower_bound(roots, entry.edge);
-  return place != roots.end() && *place == entry.edge &&
-         dormant_->mesh.holds(static_cast<RootId>(place - roots.begin()), entry.path);
+  const auto place = std::ranges::lower_bound(roots, split.root);
+  return place != roots.end() && *place == split.root &&
+         dormant_->mesh.holds(static_cast<RootId>(place - roots.begin()), split.path);
 }
 
 protocol::Bytes Subdomain::pack() const {
@@ -180,7 +179,7 @@ Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainCon
   SubdomainState state = driftmesh::unpack(bytes, source);
   const std::string fault = misfit(state, *context.decomposition);
   if (!fault.empty())
-    throw Error("the packed form of subdomain " + std::to_string(state.id) + " is not of this decomposition: " + fault +
+    throw Error("the packed form of subdomain " + to_string(state.id) + " is not of this decomposition: " + fault +
                 "; use the one that it was packed with");
   Subdomain subdomain(state.id, context);
   subdomain.refined_ = state.refined;
@@ -189,7 +188,7 @@ Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainCon
     if (state.body) subdomain.body_ = std::make_unique<Body>(std::move(*state.body), context.bounds);
     if (state.dormant && source == Source::kUnknown) Body(DormantBody(*state.dormant), context.bounds);  // it can wake
   } catch (const Error& error) {
-    throw Error("the packed form of subdomain " + std::to_string(state.id) + " is damaged: " + error.what());
+    throw Error("the packed form of subdomain " + to_string(state.id) + " is damaged: " + error.what());
   }
   if (state.dormant) subdomain.dormant_ = std::make_unique<DormantBody>(std::move(*state.dormant));
   return subdomain;
@@ -199,27 +198,26 @@ void Subdomain::make_body() {
   const Decomposition& d = *context_->decomposition;
   body_ = std::make_unique<Body>(subdomain_triangulation(d, id_), context_->bounds);
   if (!context_->presplit) return;
-  for (const RootId root : body_->part.roots)
+  for (const GlobalRootId root : body_->part.roots)
     for (const dyadic::Path path : presplit_paths(d, root, context_->bounds)) take_in({root, path});
 }
 
-void Subdomain::take_in(const protocol::SplitEntry& entry) {
-  const std::vector<RootId>& roots = body_->part.roots;
-  const auto place = std::lower_bound(roots.begin(), roots.end(), entry.edge);
-  if (place == roots.end() || *place != entry.edge)
-    throw Error("subdomain " + std::to_string(id_) + " is told of a point on edge " + std::to_string(entry.edge) +
+void Subdomain::take_in(const SplitPoint<GlobalRootId>& split) {
+  const IdVector<RootId, GlobalRootId>& roots = body_->part.roots;
+  const auto place = std::lower_bound(roots.begin(), roots.end(), split.root);
+  if (place == roots.end() || *place != split.root)
+    throw Error("subdomain " + to_string(id_) + " is told of a point on root " + to_string(split.root) +
                 ", which is not on its border");
-  if (!body_->refiner.add_split_point(static_cast<RootId>(place - roots.begin()), entry.path))
-    throw Error("edge " + std::to_string(entry.edge) + " of the decomposition, between subdomain " +
-                std::to_string(id_) + " and a neighbour, cannot be split at depth " +
-                std::to_string(dyadic::depth(entry.path)) +
+  if (!body_->refiner.add_split_point(static_cast<RootId>(place - roots.begin()), split.path))
+    throw Error("root " + to_string(split.root) + " of the decomposition, between subdomain " + to_string(id_) +
+                " and a neighbour, cannot be split at depth " + std::to_string(dyadic::depth(split.path)) +
                 ": coordinates have no room for the point; ask for larger triangles or a smaller angle there");
 }
 
-void Subdomain::say_new_points(std::vector<protocol::SplitEntry>& said) {
-  for (const SplitPoint& p : body_->refiner.take_split_points()) {
-    const RootId root = body_->part.roots[static_cast<std::size_t>(p.root)];
-    if (context_->decomposition->roots[static_cast<std::size_t>(root)].is_interface()) said.push_back({root, p.path});
+void Subdomain::say_new_points(std::vector<SplitPoint<GlobalRootId>>& said) {
+  for (const SplitPoint<RootId>& p : body_->refiner.take_split_points()) {
+    const GlobalRootId root = body_->part.roots[p.root];
+    if (context_->decomposition->roots[root].is_interface()) said.push_back({root, p.path});
   }
 }
 

@@ -62,14 +62,14 @@ class Subdomain {
   [[nodiscard]] std::uint64_t packed_bytes() const;
 
   /// A neighbour has put a point on a shared edge.
-  void tell(const protocol::SplitEntry& entry) {
-    if (!dormant_ || !sleeps_through(entry)) pending_.push_back(entry);
+  void tell(const SplitPoint<GlobalRootId>& split) {
+    if (!dormant_ || !sleeps_through(split)) pending_.push_back(split);
   }
 
   /// Works for about so many insertions. Points put on shared edges are appended to `said`, each after its ancestors.
   /// Throws Error when a shared edge cannot be split where the neighbour has split it, LimitError at the limit of what
   /// handles can name.
-  SliceWork work(std::int64_t insertions, std::vector<protocol::SplitEntry>& said);
+  SliceWork work(std::int64_t insertions, std::vector<SplitPoint<GlobalRootId>>& said);
 
   /// Shrinks to the dormant form (see dormant_mesh.hpp), if it has worked and has nothing to do. What refinement does
   /// after waking, if anything, meets the same bounds but need not be the same to the bit as without sleep.
@@ -95,14 +95,14 @@ class Subdomain {
   struct Body;  // the mesh and its refiner
 
   void make_body();
-  [[nodiscard]] bool sleeps_through(const protocol::SplitEntry& entry) const;
-  void take_in(const protocol::SplitEntry& entry);
-  void say_new_points(std::vector<protocol::SplitEntry>& said);
+  [[nodiscard]] bool sleeps_through(const SplitPoint<GlobalRootId>& split) const;
+  void take_in(const SplitPoint<GlobalRootId>& split);
+  void say_new_points(std::vector<SplitPoint<GlobalRootId>>& said);
 
   SubdomainId id_;
   const SubdomainContext* context_;
   bool refined_ = false;
-  std::vector<protocol::SplitEntry> pending_;
+  std::vector<SplitPoint<GlobalRootId>> pending_;
   std::unique_ptr<Body> body_;  // at most one of the two
   std::unique_ptr<DormantBody> dormant_;
 };

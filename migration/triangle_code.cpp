@@ -9,20 +9,20 @@ using namespace triangle_code;
 BorderGuess::BorderGuess(std::size_t vertices, std::span<const BorderEdge> border)
     : after_(vertices, kNone), before_(vertices, kNone) {
   for (const auto [a, b] : border) {
-    after_[Triangulation::id(a)] = b;
-    before_[Triangulation::id(b)] = a;
+    after_[a] = b;
+    before_[b] = a;
   }
 }
 
 void BorderGuess::cover(VertexId a, VertexId b, VertexId v) {
   const bool closes_left = before(a) == v, closes_right = after(b) == v;
   if (!closes_left) {
-    after_[Triangulation::id(a)] = v;
-    before_[Triangulation::id(v)] = a;
+    after_[a] = v;
+    before_[v] = a;
   }
   if (!closes_right) {
-    after_[Triangulation::id(v)] = b;
-    before_[Triangulation::id(b)] = v;
+    after_[v] = b;
+    before_[b] = v;
   }
 }
 
@@ -30,7 +30,7 @@ namespace {
 
 class Encoder {
  public:
-  Encoder(const Triangulation& mesh, std::vector<VertexId>& number, std::int32_t fixed,
+  Encoder(const Triangulation& mesh, IdVector<VertexId, VertexId>& number, std::int32_t fixed,
           std::span<const BorderEdge> border)
       : mesh_(mesh),
         number_(number),
@@ -67,7 +67,7 @@ class Encoder {
     std::uint8_t bit;
   };
 
-  [[nodiscard]] VertexId number_of(VertexId v) const { return number_[Triangulation::id(v)]; }
+  [[nodiscard]] VertexId number_of(VertexId v) const { return number_[v]; }
 
   void enter(HalfEdge g) {
     const TriangleId t = triangle_of(g);
@@ -81,7 +81,7 @@ class Encoder {
   }
 
   void put_corner(VertexId a, VertexId b, VertexId apex) {
-    VertexId& v = number_[Triangulation::id(apex)];
+    VertexId& v = number_[apex];
     const Corner corner = v == kNone ? kNew : v == guess_.after(b) ? kAfter : v == guess_.before(a) ? kBefore : kNamed;
     coded_.code.push_back(static_cast<std::byte>(corner));
     if (corner == kNew) v = coded_.vertices++;
@@ -97,7 +97,7 @@ class Encoder {
   }
 
   const Triangulation& mesh_;
-  std::vector<VertexId>& number_;
+  IdVector<VertexId, VertexId>& number_;
   BorderGuess guess_;
   std::vector<bool> visited_;
   CodedTriangles coded_;
@@ -108,13 +108,13 @@ class Encoder {
 
 }  // namespace
 
-CodedTriangles encode_triangles(const Triangulation& mesh, std::vector<VertexId>& number, std::int32_t fixed,
+CodedTriangles encode_triangles(const Triangulation& mesh, IdVector<VertexId, VertexId>& number, std::int32_t fixed,
                                 std::span<const BorderEdge> border) {
   Encoder encoder(mesh, number, fixed, border);
   for (const Subsegment& s : mesh.subsegments)
     if (s.is_leaf() && (s.half[0] == kNone) != (s.half[1] == kNone))
       encoder.walk_from(s.half[0] == kNone ? s.half[1] : s.half[0]);
-  if (static_cast<std::size_t>(encoder.triangles()) != mesh.live_triangles())
+  if (to_index(encoder.triangles()) != mesh.live_triangles())
     throw Error("some triangles of a mesh cannot be reached from its border");
   return encoder.take();
 }

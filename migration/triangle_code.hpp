@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/id_vector.hpp"
 #include "base/varint.hpp"
 #include "mesh/triangulation.hpp"
 
@@ -27,13 +28,13 @@ using BorderEdge = std::array<VertexId, 2>;
 class BorderGuess {
  public:
   BorderGuess(std::size_t vertices, std::span<const BorderEdge> border);
-  [[nodiscard]] VertexId after(VertexId v) const { return after_[Triangulation::id(v)]; }
-  [[nodiscard]] VertexId before(VertexId v) const { return before_[Triangulation::id(v)]; }
+  [[nodiscard]] VertexId after(VertexId v) const { return after_[v]; }
+  [[nodiscard]] VertexId before(VertexId v) const { return before_[v]; }
   /// The triangle left of a -> b with corner v is covered now.
   void cover(VertexId a, VertexId b, VertexId v);
 
  private:
-  std::vector<VertexId> after_, before_;  // kNone where nothing is known
+  IdVector<VertexId, VertexId> after_, before_;  // kNone where nothing is known
 };
 
 /// What there is to know beside the code to read it.
@@ -47,7 +48,7 @@ struct CodedTriangles {
 /// Codes the live triangles of `mesh`. `number` gives fixed vertices their numbers and is kNone for the others, which
 /// receive theirs. `border` is that of the domain in these numbers. Throws Error if some triangles cannot be reached
 /// from the domain's border.
-[[nodiscard]] CodedTriangles encode_triangles(const Triangulation& mesh, std::vector<VertexId>& number,
+[[nodiscard]] CodedTriangles encode_triangles(const Triangulation& mesh, IdVector<VertexId, VertexId>& number,
                                               std::int32_t fixed, std::span<const BorderEdge> border);
 
 /// Calls visit(corners counterclockwise, region label) for each triangle, in the order of the walk. Throws Error for
@@ -70,7 +71,7 @@ template <class Visit>
 void decode_triangles(const CodedTriangles& coded, std::span<const BorderEdge> border, Visit&& visit) {
   using namespace triangle_code;
   VarintReader in(coded.code);
-  BorderGuess guess(static_cast<std::size_t>(coded.vertices), border);
+  BorderGuess guess(to_index(coded.vertices), border);
   std::vector<BorderEdge> entrances;
   std::int32_t met = coded.fixed;
   std::uint16_t region = 0;

@@ -12,7 +12,7 @@ class AdversarialNetwork::Endpoint final : public Transport {
  public:
   Endpoint(AdversarialNetwork& network, Rank rank) : network_(network), rank_(rank) {}
   [[nodiscard]] Rank rank() const override { return rank_; }
-  [[nodiscard]] Rank ranks() const override { return static_cast<Rank>(network_.boxes_.size()); }
+  [[nodiscard]] std::int32_t ranks() const override { return static_cast<std::int32_t>(network_.boxes_.size()); }
   void send(Rank destination, Bytes bytes) override { network_.send(rank_, destination, std::move(bytes)); }
   std::optional<Received> poll() override { return network_.poll(rank_); }
   void idle() override {}
@@ -35,9 +35,9 @@ Adversary Adversary::from_seed(std::uint64_t seed) {
   return result;
 }
 
-AdversarialNetwork::AdversarialNetwork(Rank ranks, Adversary adversary)
+AdversarialNetwork::AdversarialNetwork(std::int32_t ranks, Adversary adversary)
     : adversary_(std::move(adversary)), random_(adversary_.seed), boxes_(static_cast<std::size_t>(ranks)) {
-  for (Rank r = 0; r < ranks; ++r) endpoints_.push_back(std::make_unique<Endpoint>(*this, r));
+  for (const Rank r : first_ids<Rank>(ranks)) endpoints_.push_back(std::make_unique<Endpoint>(*this, r));
   const auto size = static_cast<std::uint64_t>(ranks);
   if (adversary_.starve && ranks > 1) {
     starved_ = static_cast<Rank>(below(size));
@@ -53,18 +53,18 @@ AdversarialNetwork::AdversarialNetwork(Rank ranks, Adversary adversary)
 AdversarialNetwork::~AdversarialNetwork() = default;
 
 Transport& AdversarialNetwork::transport(Rank rank) {
-  return *endpoints_.at(static_cast<std::size_t>(rank));
+  return *endpoints_.at(rank);
 }
 
 const std::vector<Parcel>& AdversarialNetwork::under_way(Rank destination) const {
-  return boxes_.at(static_cast<std::size_t>(destination));
+  return boxes_.at(destination);
 }
 
 void AdversarialNetwork::send(Rank source, Rank destination, Bytes bytes) {
-  if (destination < 0 || destination >= static_cast<Rank>(boxes_.size()))
-    throw LimitError("rank " + std::to_string(source) + " sends to rank " + std::to_string(destination) + " of " +
+  if (!boxes_.has(destination))
+    throw LimitError("rank " + to_string(source) + " sends to rank " + to_string(destination) + " of " +
                      std::to_string(boxes_.size()));
-  auto& box = boxes_[static_cast<std::size_t>(destination)];
+  auto& box = boxes_[destination];
   const bool copy = adversary_.may_copy && adversary_.may_copy(source, bytes) && chance(adversary_.copy);
   if (copy) box.push_back({source, bytes, serial_, true, steps_});
   box.push_back({source, std::move(bytes), serial_, false, steps_});
@@ -72,7 +72,7 @@ void AdversarialNetwork::send(Rank source, Rank destination, Bytes bytes) {
 }
 
 std::optional<Received> AdversarialNetwork::poll(Rank destination) {
-  auto& box = boxes_[static_cast<std::size_t>(destination)];
+  auto& box = boxes_[destination];
   if (box.empty() || chance(adversary_.delay)) return std::nullopt;
   const auto candidates = deliverable(box);
   if (candidates.empty()) return std::nullopt;
@@ -91,9 +91,9 @@ Urgency AdversarialNetwork::urgency(const Parcel& parcel) const {
 // Which parcels may come next: with FIFO, the oldest of each source, and none of a source whose oldest must wait.
 std::vector<std::size_t> AdversarialNetwork::deliverable(const std::vector<Parcel>& box) const {
   std::vector<std::size_t> result, first;
-  std::vector<bool> met(boxes_.size(), false);
+  IdVector<Rank, bool> met(boxes_.size(), false);
   for (std::size_t i = 0; i < box.size(); ++i) {
-    const auto source = static_cast<std::size_t>(box[i].source);
+    const Rank source = box[i].source;
     const bool in_order = !met[source] || !adversary_.fifo || box[i].is_copy;
     if (!box[i].is_copy) met[source] = true;
     if (!in_order) continue;
@@ -129,14 +129,13 @@ bool AdversarialNetwork::is_starved(Rank rank) const {
   return rank == starved_ && steps_ >= starve_from_ && steps_ < starve_to_;
 }
 
-RunResult AdversarialNetwork::run(std::span<const RankStep> steps, const std::function<void(Rank)>& after_step) {
-  const std::size_t ranks = boxes_.size();
+RunResult AdversarialNetwork::run(IdSpan<Rank, const RankStep> steps, const std::function<void(Rank)>& after_step) {
   std::vector<Rank> going;
-  for (Rank r = 0; r < static_cast<Rank>(ranks); ++r) going.push_back(r);
-  std::vector<std::uint64_t> idle_since(ranks, UINT64_MAX);  // the activity at the last idle step
+  for (const Rank r : ids_of(boxes_)) going.push_back(r);
+  IdVector<Rank, std::uint64_t> idle_since(boxes_.size(), UINT64_MAX);  // the activity at the last idle step
   const auto stalled = [&] {
-    return in_flight_ == 0 && std::all_of(going.begin(), going.end(),
-                                          [&](Rank r) { return idle_since[static_cast<std::size_t>(r)] == activity_; });
+    return in_flight_ == 0 &&
+           std::all_of(going.begin(), going.end(), [&](Rank r) { return idle_since[r] == activity_; });
   };
   while (!going.empty()) {
     if (++steps_ > adversary_.step_limit) return {RunEnd::kStepLimit, steps_};
@@ -145,8 +144,8 @@ RunResult AdversarialNetwork::run(std::span<const RankStep> steps, const std::fu
       ++counters_.starved;
       continue;
     }
-    const StepResult result = steps[static_cast<std::size_t>(rank)]();
-    idle_since[static_cast<std::size_t>(rank)] = result == StepResult::kIdle ? activity_ : UINT64_MAX;
+    const StepResult result = steps[rank]();
+    idle_since[rank] = result == StepResult::kIdle ? activity_ : UINT64_MAX;
     if (result == StepResult::kFinished) std::erase(going, rank);
     if (after_step) after_step(rank);
     if (result == StepResult::kIdle && stalled()) return {RunEnd::kStalled, steps_};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <random>
 #include <span>
 #include <vector>
@@ -46,7 +47,7 @@ struct Adversary {
 /// is repeated exactly by its seed.
 class AdversarialNetwork {
  public:
-  AdversarialNetwork(Rank ranks, Adversary adversary);
+  AdversarialNetwork(std::int32_t ranks, Adversary adversary);
   ~AdversarialNetwork();
   AdversarialNetwork(const AdversarialNetwork&) = delete;
   AdversarialNetwork& operator=(const AdversarialNetwork&) = delete;
@@ -55,7 +56,7 @@ class AdversarialNetwork {
 
   /// Steps the ranks, steps[r] for rank r, in an order drawn from the seed until all have finished or none can go on.
   /// `after_step` is called after each step with the rank that took it. What a step throws ends the run.
-  RunResult run(std::span<const RankStep> steps, const std::function<void(Rank)>& after_step = {});
+  RunResult run(IdSpan<Rank, const RankStep> steps, const std::function<void(Rank)>& after_step = {});
 
   /// What is under way to a rank, copies included.
   [[nodiscard]] const std::vector<Parcel>& under_way(Rank destination) const;
@@ -87,14 +88,14 @@ class AdversarialNetwork {
 
   Adversary adversary_;
   std::mt19937_64 random_;
-  std::vector<std::unique_ptr<Endpoint>> endpoints_;
-  std::vector<std::vector<Parcel>> boxes_;  // by destination
+  IdVector<Rank, std::unique_ptr<Endpoint>> endpoints_;
+  IdVector<Rank, std::vector<Parcel>> boxes_;  // by destination
   std::uint64_t steps_ = 0;
   std::uint64_t serial_ = 0;
   std::uint64_t in_flight_ = 0;
   std::uint64_t activity_ = 0;  // sends and deliveries so far
 
-  Rank starved_ = -1;
+  std::optional<Rank> starved_;
   std::uint64_t starve_from_ = 0, starve_to_ = 0;  // steps
   std::uint64_t held_serial_ = UINT64_MAX;
   std::uint64_t release_ = 0;  // the step at which the message held back may go

@@ -11,10 +11,11 @@ Aggregator::Aggregator(Rank self, std::size_t threshold) : self_(self), threshol
   if (threshold == 0) throw Error("aggregation of 0 SPLITs a message; give 1 to send each at once");
 }
 
-std::optional<Outgoing> Aggregator::add(Rank destination, SubdomainId to, Epoch epoch, const SplitEntry& entry) {
+std::optional<Outgoing> Aggregator::add(Rank destination, SubdomainId to, Epoch epoch,
+                                        const SplitPoint<GlobalRootId>& split) {
   auto& buffer = buffers_[destination];
   if (buffer.empty()) filled_.push_back(destination);
-  buffer.push_back({to, epoch, entry});
+  buffer.push_back({to, epoch, split});
   ++size_;
   if (buffer.size() < threshold_) return std::nullopt;
   std::erase(filled_, destination);
@@ -37,7 +38,7 @@ Outgoing Aggregator::take(Rank destination) {
   for (const Waiting& w : buffer) {
     if (batch.groups.empty() || key(w) != std::pair(batch.groups.back().to, batch.groups.back().epoch))
       batch.groups.push_back({w.to, w.epoch, self_, 0, {}});
-    batch.groups.back().entries.push_back(w.entry);
+    batch.groups.back().points.push_back(w.split);
   }
   return {destination, std::move(batch)};
 }

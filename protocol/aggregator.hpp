@@ -21,7 +21,8 @@ class Aggregator {
 
   /// Adds a SPLIT for subdomain `to`, which `destination` owns in epoch `epoch` as far as this rank knows. Returns the
   /// batch that became full by it.
-  [[nodiscard]] std::optional<Outgoing> add(Rank destination, SubdomainId to, Epoch epoch, const SplitEntry& entry);
+  [[nodiscard]] std::optional<Outgoing> add(Rank destination, SubdomainId to, Epoch epoch,
+                                            const SplitPoint<GlobalRootId>& split);
 
   /// All that waits, a message a destination.
   [[nodiscard]] std::vector<Outgoing> flush();
@@ -33,7 +34,7 @@ class Aggregator {
   struct Waiting {
     SubdomainId to;
     Epoch epoch;
-    SplitEntry entry;
+    SplitPoint<GlobalRootId> split;
   };
   Outgoing take(Rank destination);
 

@@ -20,8 +20,8 @@ namespace {
 template <class T, class Struct>
 concept Is = std::same_as<std::remove_const_t<T>, Struct>;
 
-void fields(auto& archive, Is<SplitEntry> auto& m) {
-  archive.edge(m.edge);
+void fields(auto& archive, Is<SplitPoint<GlobalRootId>> auto& m) {
+  archive.root(m.root);
   archive.path(m.path);
 }
 void fields(auto& archive, Is<SplitGroup> auto& m) {
@@ -29,7 +29,7 @@ void fields(auto& archive, Is<SplitGroup> auto& m) {
   archive.number(m.epoch);
   archive.rank(m.origin);
   archive.number(m.hops);
-  archive.list(m.entries, kSplitEntryBytes);
+  archive.list(m.points, kSplitPointBytes);
 }
 void fields(auto& archive, Is<SplitBatch> auto& m) {
   archive.list(m.groups, kSplitGroupBytes);
@@ -104,9 +104,9 @@ class Writer {
     const auto bits = static_cast<std::make_unsigned_t<T>>(value);
     for (std::size_t i = 0; i < sizeof(T); ++i) bytes_.push_back(static_cast<std::byte>(bits >> (8 * i) & 0xff));
   }
-  void edge(EdgeId value) { number(value); }
-  void rank(Rank value) { number(value); }
-  void subdomain(SubdomainId value) { number(value); }
+  void root(GlobalRootId value) { number(to_int(value)); }
+  void rank(Rank value) { number(to_int(value)); }
+  void subdomain(SubdomainId value) { number(to_int(value)); }
   void path(dyadic::Path value) { number(value); }
   void flag(bool value) { number<std::uint8_t>(value ? 1 : 0); }
   template <class Enum>
@@ -141,7 +141,7 @@ class Reader {
       bits = static_cast<std::make_unsigned_t<T>>(bits | std::to_integer<std::make_unsigned_t<T>>(taken[i]) << (8 * i));
     value = static_cast<T>(bits);
   }
-  void edge(EdgeId& value) { index(value, limits_.edges, "edge"); }
+  void root(GlobalRootId& value) { index(value, limits_.roots, "root"); }
   void rank(Rank& value) { index(value, limits_.ranks, "rank"); }
   void subdomain(SubdomainId& value) { index(value, limits_.subdomains, "subdomain"); }
   void path(dyadic::Path& value) {
@@ -193,10 +193,13 @@ class Reader {
     bytes_ = bytes_.subspan(size);
     return taken;
   }
-  void index(std::int32_t& value, std::int32_t limit, const char* what) {
-    number(value);
-    if (value < 0 || value >= limit)
-      fail(std::string(what) + " " + std::to_string(value) + " is outside 0 .. " + std::to_string(limit - 1));
+  template <IsId Id>
+  void index(Id& value, std::int32_t limit, const char* what) {
+    std::int32_t plain = 0;
+    number(plain);
+    if (plain < 0 || plain >= limit)
+      fail(std::string(what) + " " + std::to_string(plain) + " is outside 0 .. " + std::to_string(limit - 1));
+    value = static_cast<Id>(plain);
   }
 
   Rank sender_;

@@ -12,9 +12,9 @@ inline constexpr std::uint8_t kWireVersion = 1;
 
 /// What numbers in a message may name: all below these, none negative.
 struct WireLimits {
-  Rank ranks = 0;
-  SubdomainId subdomains = 0;
-  EdgeId edges = 0;
+  std::int32_t ranks = 0;
+  std::int32_t subdomains = 0;
+  std::int32_t roots = 0;  ///< of the decomposition
 };
 
 /// The bytes of a message: a byte for the version, a byte for the type (Message's index), then the fields in the order
@@ -30,8 +30,8 @@ struct WireLimits {
 /// The traffic class of an encoded message, without looking further than its type. Throws like decode.
 [[nodiscard]] Traffic traffic_of(Rank sender, std::span<const std::byte> bytes);
 
-/// How many bytes of its message a group of SPLITs takes besides its entries, and each of its entries.
+/// How many bytes of its message a group of SPLITs takes besides its points, and each of these.
 inline constexpr std::size_t kSplitGroupBytes = 20;
-inline constexpr std::size_t kSplitEntryBytes = 12;
+inline constexpr std::size_t kSplitPointBytes = 12;
 
 }  // namespace driftmesh::protocol

@@ -6,7 +6,7 @@
 namespace driftmesh::protocol {
 
 DelayingTransport::DelayingTransport(Transport& inner, std::uint64_t seed, std::uint64_t longest)
-    : TransportLayer(inner), random_(seed + static_cast<std::uint64_t>(inner.rank())), longest_(longest) {}
+    : TransportLayer(inner), random_(seed + static_cast<std::uint64_t>(to_int(inner.rank()))), longest_(longest) {}
 
 std::optional<Received> DelayingTransport::poll() {
   ++polls_;

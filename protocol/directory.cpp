@@ -6,7 +6,7 @@
 
 namespace driftmesh::protocol {
 
-Directory::Directory(Rank self, const std::vector<Rank>& owners) : self_(self) {
+Directory::Directory(Rank self, IdSpan<SubdomainId, const Rank> owners) : self_(self) {
   for (const Rank owner : owners) {
     records_.push_back({owner, 0});
     held_.push_back(owner == self);
@@ -21,16 +21,16 @@ Directory::Route Directory::route(SubdomainId s, Epoch epoch) const {
 
 Location Directory::depart(SubdomainId s, Rank destination) {
   if (!holds(s))
-    throw Error("rank " + std::to_string(self_) + " cannot give away subdomain " + std::to_string(s) +
+    throw Error("rank " + to_string(self_) + " cannot give away subdomain " + to_string(s) +
                 ", which it does not hold");
-  held_[index(s)] = false;
-  return records_[index(s)] = {destination, where(s).epoch + 1};
+  held_[s] = false;
+  return records_[s] = {destination, where(s).epoch + 1};
 }
 
 bool Directory::arrive(SubdomainId s, Epoch epoch) {
   if (route(s, epoch) != Route::kHold || where(s).epoch > epoch) return false;
-  held_[index(s)] = true;
-  records_[index(s)] = {self_, epoch};
+  held_[s] = true;
+  records_[s] = {self_, epoch};
   return true;
 }
 

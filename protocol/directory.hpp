@@ -8,7 +8,7 @@ namespace driftmesh::protocol {
 
 /// Who owns a subdomain in one of its epochs. An epoch has one owner: the owner of the epoch before chose it.
 struct Location {
-  Rank owner = 0;
+  Rank owner{};
   Epoch epoch = 0;
   friend bool operator==(const Location&, const Location&) = default;
 };
@@ -29,15 +29,15 @@ class Directory {
   enum class Route { kHere, kHold, kForward };
 
   /// `owners[s]` is the owner of subdomain s in epoch 0.
-  Directory(Rank self, const std::vector<Rank>& owners);
+  Directory(Rank self, IdSpan<SubdomainId, const Rank> owners);
 
-  [[nodiscard]] SubdomainId subdomains() const { return static_cast<SubdomainId>(records_.size()); }
-  [[nodiscard]] Location where(SubdomainId s) const { return records_.at(index(s)); }
-  [[nodiscard]] bool holds(SubdomainId s) const { return held_.at(index(s)); }
+  [[nodiscard]] std::size_t subdomains() const { return records_.size(); }
+  [[nodiscard]] Location where(SubdomainId s) const { return records_.at(s); }
+  [[nodiscard]] bool holds(SubdomainId s) const { return held_.at(s); }
   [[nodiscard]] Route route(SubdomainId s, Epoch epoch) const;
 
   /// Takes a record over without asking whether it is newer; see RankProtocol, which asks.
-  void set(SubdomainId s, const Location& location) { records_.at(index(s)) = location; }
+  void set(SubdomainId s, const Location& location) { records_.at(s) = location; }
   /// Lets go of a subdomain held here; returns its next location. Throws Error if it is not held here.
   Location depart(SubdomainId s, Rank destination);
   /// Takes over a subdomain that was handed to this rank. Returns false, and changes nothing, if that cannot be: the
@@ -45,11 +45,9 @@ class Directory {
   [[nodiscard]] bool arrive(SubdomainId s, Epoch epoch);
 
  private:
-  static std::size_t index(SubdomainId s) { return static_cast<std::size_t>(s); }
-
   Rank self_;
-  std::vector<Location> records_;
-  std::vector<bool> held_;
+  IdVector<SubdomainId, Location> records_;
+  IdVector<SubdomainId, bool> held_;
 };
 
 }  // namespace driftmesh::protocol

@@ -13,11 +13,11 @@ namespace driftmesh::protocol {
 /// The transport of a rank that is alone: what it sends, it sends to itself.
 class LoneTransport final : public Transport {
  public:
-  [[nodiscard]] Rank rank() const override { return 0; }
-  [[nodiscard]] Rank ranks() const override { return 1; }
+  [[nodiscard]] Rank rank() const override { return kSelf; }
+  [[nodiscard]] std::int32_t ranks() const override { return 1; }
   void send(Rank destination, Bytes bytes) override {
-    if (destination != 0) throw LimitError("there is no rank " + std::to_string(destination) + ": rank 0 is alone");
-    sent_.push_back({0, std::move(bytes)});
+    if (destination != kSelf) throw LimitError("there is no rank " + to_string(destination) + ": rank 0 is alone");
+    sent_.push_back({kSelf, std::move(bytes)});
   }
   std::optional<Received> poll() override {
     if (sent_.empty()) return std::nullopt;
@@ -31,6 +31,7 @@ class LoneTransport final : public Transport {
   }
 
  private:
+  static constexpr Rank kSelf{0};
   std::deque<Received> sent_;
 };
 

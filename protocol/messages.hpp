@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "dyadic/path.hpp"
+#include "dyadic/split_point.hpp"
 #include "protocol/ids.hpp"
 
 /// What ranks say to each other. The layout on the wire is in codec.cpp; the rules are in docs/protocol.md.
@@ -12,20 +12,13 @@ namespace driftmesh::protocol {
 
 // ---- Work: counted by the termination detector -----------------------------------------------------------------
 
-/// One point on a shared edge: 12 bytes on the wire.
-struct SplitEntry {
-  EdgeId edge = 0;
-  dyadic::Path path = dyadic::kWhole;
-  friend bool operator==(const SplitEntry&, const SplitEntry&) = default;
-};
-
 /// SPLITs for one subdomain, from one rank.
 struct SplitGroup {
-  SubdomainId to = 0;
+  SubdomainId to{};
   Epoch epoch = 0;         ///< of `to`, as the rank that sent or forwarded the group last believed
-  Rank origin = 0;         ///< the rank that made the points; it is told when the group had to be forwarded
+  Rank origin{};           ///< the rank that made the points; it is told when the group had to be forwarded
   std::uint32_t hops = 0;  ///< how often it was forwarded: not above `epoch`, which rises with each
-  std::vector<SplitEntry> entries;
+  std::vector<SplitPoint<GlobalRootId>> points;
   friend bool operator==(const SplitGroup&, const SplitGroup&) = default;
 };
 
@@ -41,7 +34,7 @@ inline constexpr std::uint64_t kMostPackedBytes = 1'600'000'000;
 
 /// A subdomain moves to the rank that this is sent to.
 struct HandOff {
-  SubdomainId subdomain = 0;
+  SubdomainId subdomain{};
   Epoch epoch = 0;  ///< with the receiver as owner
   Bytes packed;     ///< the packed form; opaque to the protocol
   friend bool operator==(const HandOff&, const HandOff&) = default;
@@ -51,14 +44,14 @@ struct HandOff {
 
 /// Where a subdomain is, or was a while ago.
 struct LocationUpdate {
-  SubdomainId subdomain = 0;
-  Rank owner = 0;
+  SubdomainId subdomain{};
+  Rank owner{};
   Epoch epoch = 0;
   friend bool operator==(const LocationUpdate&, const LocationUpdate&) = default;
 };
 
 struct SubdomainLoad {
-  SubdomainId subdomain = 0;
+  SubdomainId subdomain{};
   Epoch epoch = 0;          ///< with the sender as owner
   double remaining = 0;     ///< triangles still to be made, predicted
   std::uint64_t bytes = 0;  ///< of the packed form, estimated
@@ -75,8 +68,8 @@ struct LoadReport {
 };
 
 struct PlannedMove {
-  SubdomainId subdomain = 0;
-  Rank destination = 0;
+  SubdomainId subdomain{};
+  Rank destination{};
   friend bool operator==(const PlannedMove&, const PlannedMove&) = default;
 };
 
@@ -99,7 +92,7 @@ struct LoadNews {
 /// `thief` will soon have nothing to do. It asks rank 0, which passes the request on to a rank that has much. The thief
 /// gets one answer, from whoever has the request in the end.
 struct WorkRequest {
-  Rank thief = 0;
+  Rank thief{};
   std::uint32_t round = 0;  ///< of the thief's requests, from 1; 0: the thief has not asked, and waits for nothing
   double remaining = 0;     ///< what the thief has still to do
   double speed = 0;
@@ -157,7 +150,7 @@ enum class Traffic { kWork, kControl, kDetection };
 
 /// A message and the rank that it goes to.
 struct Outgoing {
-  Rank destination = 0;
+  Rank destination{};
   Message message;
 };
 

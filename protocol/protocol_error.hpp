@@ -12,7 +12,7 @@ namespace driftmesh::protocol {
 class ProtocolError : public Error {
  public:
   ProtocolError(Rank sender, const std::string& what)
-      : Error("message from rank " + std::to_string(sender) + ": " + what), sender_(sender) {}
+      : Error("message from rank " + to_string(sender) + ": " + what), sender_(sender) {}
   [[nodiscard]] Rank sender() const { return sender_; }
 
  private:

@@ -76,7 +76,7 @@ template <class Rules>
 class BasicRankProtocol {
  public:
   /// `owners[s]` is the rank of subdomain s at the start, equal on all ranks.
-  BasicRankProtocol(Rank self, Rank ranks, const std::vector<Rank>& owners,
+  BasicRankProtocol(Rank self, std::int32_t ranks, IdSpan<SubdomainId, const Rank> owners,
                     std::size_t aggregation = Aggregator::kDefaultThreshold)
       : self_(self), aggregator_(self, aggregation), directory_(self, owners), termination_(self, ranks) {}
 
@@ -93,7 +93,7 @@ class BasicRankProtocol {
   [[nodiscard]] std::string describe() const;
 
   /// A point was put on an edge shared with subdomain `to`, which is not held here (what is needs no message).
-  void send_split(SubdomainId to, const SplitEntry& entry);
+  void send_split(SubdomainId to, const SplitPoint<GlobalRootId>& split);
 
   /// Subdomain `s`, held here, moves to another rank. Everything it was sent must be inside `packed`. Moving it to this
   /// rank is the caller's no-op: throws Error.
@@ -169,36 +169,36 @@ std::size_t BasicRankProtocol<Rules>::held_groups() const {
 template <class Rules>
 std::string BasicRankProtocol<Rules>::describe() const {
   static constexpr const char* kPhases[] = {"working", "draining", "finished"};
-  std::string text = "rank " + std::to_string(self_) + ": " + kPhases[static_cast<int>(phase())] + ", probe " +
+  std::string text = "rank " + to_string(self_) + ": " + kPhases[static_cast<int>(phase())] + ", probe " +
                      std::to_string(termination_.rounds()) + (termination_.has_token() ? " with" : " without") +
                      " the token, SPLITs and hand-offs sent less handled " +
                      std::to_string(termination_.work_balance()) + ", " + std::to_string(aggregator_.size()) +
                      " SPLITs in the aggregator";
   for (const auto& [s, waiting] : held_)
-    text += ", " + std::to_string(waiting.size()) + " groups held for subdomain " + std::to_string(s);
+    text += ", " + std::to_string(waiting.size()) + " groups held for subdomain " + to_string(s);
   return text;
 }
 
 template <class Rules>
-void BasicRankProtocol<Rules>::send_split(SubdomainId to, const SplitEntry& entry) {
-  if (holds(to)) throw Error("a SPLIT for subdomain " + std::to_string(to) + ", which this rank holds, is no message");
+void BasicRankProtocol<Rules>::send_split(SubdomainId to, const SplitPoint<GlobalRootId>& split) {
+  if (holds(to)) throw Error("a SPLIT for subdomain " + to_string(to) + ", which this rank holds, is no message");
   count_sent(Station::kEntersAggregator, 1);
   ++counters_.splits_sent;
   const Location location = directory_.where(to);
-  if (auto batch = aggregator_.add(location.owner, to, location.epoch, entry)) send_batch(std::move(*batch));
+  if (auto batch = aggregator_.add(location.owner, to, location.epoch, split)) send_batch(std::move(*batch));
 }
 
 template <class Rules>
 void BasicRankProtocol<Rules>::send_batch(Outgoing batch) {
   ++counters_.batches_sent;
   for (const SplitGroup& group : std::get<SplitBatch>(batch.message).groups)
-    count_sent(Station::kLeavesAggregator, group.entries.size());
+    count_sent(Station::kLeavesAggregator, group.points.size());
   outgoing_.push_back(std::move(batch));
 }
 
 template <class Rules>
 void BasicRankProtocol<Rules>::hand_off(SubdomainId s, Rank destination, Bytes packed) {
-  if (destination == self_) throw Error("subdomain " + std::to_string(s) + " is handed to the rank that holds it");
+  if (destination == self_) throw Error("subdomain " + to_string(s) + " is handed to the rank that holds it");
   const Location next = directory_.depart(s, destination);
   count_sent(Station::kGivenAway, 1);
   ++counters_.hand_offs;
@@ -230,7 +230,7 @@ void BasicRankProtocol<Rules>::take(Rank source, SplitBatch&& batch, Delivery& d
 template <class Rules>
 void BasicRankProtocol<Rules>::take_group(Rank source, SplitGroup&& group, Delivery& delivery) {
   if (group.hops > group.epoch)
-    throw ProtocolError(source, "SPLITs for subdomain " + std::to_string(group.to) + " were forwarded " +
+    throw ProtocolError(source, "SPLITs for subdomain " + to_string(group.to) + " were forwarded " +
                                     std::to_string(group.hops) + " times; it has moved " + std::to_string(group.epoch) +
                                     " times");
   switch (directory_.route(group.to, group.epoch)) {
@@ -238,7 +238,7 @@ void BasicRankProtocol<Rules>::take_group(Rank source, SplitGroup&& group, Deliv
       return handle(Station::kReachesSubdomain, std::move(group), delivery);
     case Directory::Route::kHold:
       ++counters_.held;
-      count_handled(Station::kHeld, group.entries.size());
+      count_handled(Station::kHeld, group.points.size());
       held_[group.to].push_back(std::move(group));
       return;
     case Directory::Route::kForward:
@@ -248,9 +248,9 @@ void BasicRankProtocol<Rules>::take_group(Rank source, SplitGroup&& group, Deliv
 
 template <class Rules>
 void BasicRankProtocol<Rules>::handle(Station station, SplitGroup&& group, Delivery& delivery) {
-  count_handled(station, group.entries.size());
+  count_handled(station, group.points.size());
   counters_.most_hops = std::max<std::int64_t>(counters_.most_hops, group.hops);
-  counters_.splits_handled += static_cast<std::int64_t>(group.entries.size());
+  counters_.splits_handled += static_cast<std::int64_t>(group.points.size());
   delivery.splits.push_back(std::move(group));
 }
 
@@ -266,7 +266,7 @@ void BasicRankProtocol<Rules>::forward(Rank source, SplitGroup&& group) {
   tell(group.origin);
   if (source != group.origin) tell(source);
   ++counters_.forwarded;
-  count_sent(Station::kForwarded, group.entries.size());
+  count_sent(Station::kForwarded, group.points.size());
   group.epoch = location.epoch;
   ++group.hops;
   outgoing_.push_back({location.owner, SplitBatch{{std::move(group)}}});
@@ -276,7 +276,7 @@ template <class Rules>
 void BasicRankProtocol<Rules>::take(Rank source, HandOff&& arrival, Delivery& delivery) {
   refuse_work_after_the_end(source);
   if (!directory_.arrive(arrival.subdomain, arrival.epoch))
-    throw ProtocolError(source, "hands over subdomain " + std::to_string(arrival.subdomain) + " with epoch " +
+    throw ProtocolError(source, "hands over subdomain " + to_string(arrival.subdomain) + " with epoch " +
                                     std::to_string(arrival.epoch) + ", which is here or was here before");
   count_handled(Station::kArrives, 1);
   ++counters_.arrivals;

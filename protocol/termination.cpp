@@ -6,10 +6,15 @@
 #include "protocol/protocol_error.hpp"
 
 namespace driftmesh::protocol {
+namespace {
+
+constexpr Rank kFirst{0};  // of the ring: it starts the probes and the passes
+
+}  // namespace
 
 void Termination::work_sent(std::int64_t count) {
   if (resting_)
-    throw Error("rank " + std::to_string(self_) +
+    throw Error("rank " + to_string(self_) +
                 " sends work although it was passive and has received none since: termination could miss it");
   work_ += count;
 }
@@ -22,13 +27,13 @@ void Termination::work_handled(std::int64_t count) {
 
 // Rank 0 awaits the token of the round that it started; any other rank that of the round after its last.
 void Termination::receive(Rank source, const Token& token) {
-  const std::uint64_t due = self_ == 0 ? round_ : round_ + 1;
+  const std::uint64_t due = self_ == kFirst ? round_ : round_ + 1;
   if (token.round > due) throw ProtocolError(source, "token of round " + std::to_string(token.round) + " is not due");
   if (phase_ == Phase::kWorking && token.round == due && due != 0) token_ = token;
 }
 
 void Termination::receive(Rank source, const Terminate& terminate) {
-  const std::uint64_t due = self_ == 0 ? pass_ : pass_ + 1;
+  const std::uint64_t due = self_ == kFirst ? pass_ : pass_ + 1;
   if (terminate.pass > due)
     throw ProtocolError(source, "termination pass " + std::to_string(terminate.pass) + " is not due");
   if (phase_ == Phase::kFinished || terminate.pass != due) return;
@@ -50,10 +55,10 @@ std::optional<Outgoing> Termination::advance(bool passive) {
   switch (phase_) {
     case Phase::kWorking:
       if (!passive) return std::nullopt;
-      return self_ == 0 ? probe() : pass_token();
+      return self_ == kFirst ? probe() : pass_token();
     case Phase::kDraining:
       if (finish_due_) return finish();
-      return self_ == 0 ? fence() : pass_terminate();
+      return self_ == kFirst ? fence() : pass_terminate();
     case Phase::kFinished:
       break;
   }
@@ -93,8 +98,8 @@ std::optional<Outgoing> Termination::fence() {
   if (pass_ != 0 && !terminate_) return std::nullopt;  // it is under way
   if (terminate_) {
     if (terminate_->work != 0)
-      throw ProtocolError(ranks_ - 1, "after termination " + std::to_string(terminate_->work) +
-                                          " SPLITs or hand-offs are sent and not handled: termination was wrong");
+      throw ProtocolError(Rank{ranks_ - 1}, "after termination " + std::to_string(terminate_->work) +
+                                                " SPLITs or hand-offs are sent and not handled: termination was wrong");
     if (terminate_->control == 0) return finish();
   }
   terminate_.reset();
@@ -114,7 +119,7 @@ std::optional<Outgoing> Termination::pass_terminate() {
 std::optional<Outgoing> Termination::finish() {
   phase_ = Phase::kFinished;
   finish_due_ = false;
-  if (next() == 0) return std::nullopt;
+  if (next() == kFirst) return std::nullopt;
   return Outgoing{next(), Finish{}};
 }
 

@@ -29,7 +29,7 @@ class Termination {
     kFinished,  ///< nothing will arrive any more
   };
 
-  Termination(Rank self, Rank ranks) : self_(self), ranks_(ranks) {}
+  Termination(Rank self, std::int32_t ranks) : self_(self), ranks_(ranks) {}
 
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] std::uint64_t rounds() const { return round_; }  ///< probes that this rank has passed on or started
@@ -53,7 +53,7 @@ class Termination {
   std::optional<Outgoing> advance(bool passive);
 
  private:
-  [[nodiscard]] Rank next() const { return (self_ + 1) % ranks_; }
+  [[nodiscard]] Rank next() const { return next_in_ring(self_, ranks_); }
   void advance_alone(bool passive);
   std::optional<Outgoing> probe();
   std::optional<Outgoing> pass_token();
@@ -62,7 +62,7 @@ class Termination {
   std::optional<Outgoing> finish();
 
   Rank self_;
-  Rank ranks_;
+  std::int32_t ranks_;
   Phase phase_ = Phase::kWorking;
 
   std::int64_t work_ = 0;     // SPLITs and hand-offs sent less handled

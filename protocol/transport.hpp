@@ -7,7 +7,7 @@
 namespace driftmesh::protocol {
 
 struct Received {
-  Rank source = 0;
+  Rank source{};
   Bytes bytes;
 };
 
@@ -20,7 +20,7 @@ class Transport {
   Transport& operator=(const Transport&) = delete;
 
   [[nodiscard]] virtual Rank rank() const = 0;
-  [[nodiscard]] virtual Rank ranks() const = 0;
+  [[nodiscard]] virtual std::int32_t ranks() const = 0;
 
   /// Sends `bytes` (none is allowed) and returns without waiting for anybody. A rank may send to itself. Throws
   /// LimitError for a destination that does not exist or a message too long for the transport.

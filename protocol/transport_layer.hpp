@@ -14,7 +14,7 @@ class TransportLayer : public Transport {
   explicit TransportLayer(Transport& inner) : inner_(inner) {}
 
   [[nodiscard]] Rank rank() const override { return inner_.rank(); }
-  [[nodiscard]] Rank ranks() const override { return inner_.ranks(); }
+  [[nodiscard]] std::int32_t ranks() const override { return inner_.ranks(); }
   void send(Rank destination, Bytes bytes) override { inner_.send(destination, std::move(bytes)); }
   std::optional<Received> poll() override { return inner_.poll(); }
   void idle() override { inner_.idle(); }

@@ -23,14 +23,12 @@ class VirtualNetwork::Endpoint final : public Transport {
  public:
   Endpoint(VirtualNetwork& network, Rank rank) : network_(network), rank_(rank) {}
   [[nodiscard]] Rank rank() const override { return rank_; }
-  [[nodiscard]] Rank ranks() const override { return static_cast<Rank>(network_.ranks_.size()); }
+  [[nodiscard]] std::int32_t ranks() const override { return static_cast<std::int32_t>(network_.ranks_.size()); }
   void send(Rank destination, Bytes bytes) override { network_.send(rank_, destination, std::move(bytes)); }
   std::optional<Received> poll() override { return network_.poll(rank_); }
   void idle() override {}
   [[nodiscard]] double now() const override { return network_.clock(rank_); }
-  void spend(double seconds) override {
-    network_.state(rank_).clock += seconds / network_.cluster_.speeds[static_cast<std::size_t>(rank_)];
-  }
+  void spend(double seconds) override { network_.ranks_[rank_].clock += seconds / network_.cluster_.speeds[rank_]; }
 
  private:
   VirtualNetwork& network_;
@@ -41,14 +39,13 @@ VirtualNetwork::VirtualNetwork(VirtualCluster cluster) : cluster_(std::move(clus
   for (const double speed : cluster_.speeds) require_positive(speed, "a rank's speed");
   require_positive(cluster_.step_overhead, "the time of a step");
   if (!cluster_.link) cluster_.link = [](Rank, Rank) { return Link{}; };
-  for (std::size_t r = 0; r < ranks_.size(); ++r)
-    ranks_[r].endpoint = std::make_unique<Endpoint>(*this, static_cast<Rank>(r));
+  for (const Rank r : ids_of(ranks_)) ranks_[r].endpoint = std::make_unique<Endpoint>(*this, r);
 }
 
 VirtualNetwork::~VirtualNetwork() = default;
 
 Transport& VirtualNetwork::transport(Rank rank) {
-  return *ranks_.at(static_cast<std::size_t>(rank)).endpoint;
+  return *ranks_.at(rank).endpoint;
 }
 
 double VirtualNetwork::makespan() const {
@@ -63,11 +60,11 @@ double VirtualNetwork::wake_time(const RankState& rank) const {
 }
 
 void VirtualNetwork::send(Rank source, Rank destination, Bytes bytes) {
-  if (destination < 0 || destination >= static_cast<Rank>(ranks_.size()))
-    throw LimitError("rank " + std::to_string(source) + " sends to rank " + std::to_string(destination) + " of " +
+  if (!ranks_.has(destination))
+    throw LimitError("rank " + to_string(source) + " sends to rank " + to_string(destination) + " of " +
                      std::to_string(ranks_.size()));
-  RankState& from = state(source);
-  RankState& to = state(destination);
+  RankState& from = ranks_[source];
+  RankState& to = ranks_[destination];
   from.clock += cluster_.message_overhead;
   double arrival = from.clock;
   if (source != destination) {
@@ -86,7 +83,7 @@ void VirtualNetwork::send(Rank source, Rank destination, Bytes bytes) {
 }
 
 std::optional<Received> VirtualNetwork::poll(Rank rank) {
-  RankState& me = state(rank);
+  RankState& me = ranks_[rank];
   if (me.inbox.empty() || me.inbox.front().arrival > me.clock) return std::nullopt;
   std::pop_heap(me.inbox.begin(), me.inbox.end(), std::greater<>());
   Received message = std::move(me.inbox.back().message);
@@ -95,10 +92,10 @@ std::optional<Received> VirtualNetwork::poll(Rank rank) {
   return message;
 }
 
-RunResult VirtualNetwork::run(std::span<const RankStep> steps) {
+RunResult VirtualNetwork::run(IdSpan<Rank, const RankStep> steps) {
   agenda_.clear();
   std::size_t going = ranks_.size();
-  for (std::size_t r = 0; r < ranks_.size(); ++r) agenda_.insert({ranks_[r].clock, static_cast<Rank>(r)});
+  for (const Rank r : ids_of(ranks_)) agenda_.insert({ranks_[r].clock, r});
   std::uint64_t taken = 0;
   while (going > 0) {
     if (agenda_.empty() || agenda_.begin()->first == kNever) return {RunEnd::kStalled, taken};
@@ -106,11 +103,11 @@ RunResult VirtualNetwork::run(std::span<const RankStep> steps) {
     ++taken;
     const auto [when, rank] = *agenda_.begin();
     agenda_.erase(agenda_.begin());
-    RankState& me = state(rank);
+    RankState& me = ranks_[rank];
     me.waited += when - me.clock;
     me.clock = when;
     me.idle = false;
-    const StepResult result = steps[static_cast<std::size_t>(rank)]();
+    const StepResult result = steps[rank]();
     me.clock = std::max(me.clock, when + cluster_.step_overhead);
     me.idle = result == StepResult::kIdle;
     me.finished = result == StepResult::kFinished;

@@ -21,7 +21,7 @@ struct Link {
 /// the overhead, its messages leave one after the other at the bandwidth, and arrive a latency later; the receiver
 /// pays the overhead again.
 struct VirtualCluster {
-  std::vector<double> speeds;                    ///< of each rank, relative to the reference machine
+  IdVector<Rank, double> speeds;                 ///< of each rank, relative to the reference machine
   std::function<Link(Rank from, Rank to)> link;  ///< Link{} between all, if empty; a rank reaches itself in no time
   double message_overhead = 1e-6;                ///< seconds of a rank's time for each message sent and each received
   double step_overhead = 1e-6;                   ///< seconds that the shortest step takes; above 0
@@ -42,11 +42,11 @@ class VirtualNetwork {
   [[nodiscard]] Transport& transport(Rank rank);
 
   /// Steps the ranks until all have finished or none can go on. What a step throws ends the run.
-  RunResult run(std::span<const RankStep> steps);
+  RunResult run(IdSpan<Rank, const RankStep> steps);
 
-  [[nodiscard]] double clock(Rank rank) const { return state(rank).clock; }    ///< seconds
-  [[nodiscard]] double waited(Rank rank) const { return state(rank).waited; }  ///< seconds of the clock, idle
-  [[nodiscard]] double makespan() const;                                       ///< the latest clock
+  [[nodiscard]] double clock(Rank rank) const { return ranks_[rank].clock; }    ///< seconds
+  [[nodiscard]] double waited(Rank rank) const { return ranks_[rank].waited; }  ///< seconds of the clock, idle
+  [[nodiscard]] double makespan() const;                                        ///< the latest clock
   [[nodiscard]] std::uint64_t messages() const { return serial_; }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
@@ -67,14 +67,12 @@ class VirtualNetwork {
     bool finished = false;
     std::vector<Parcel> inbox;  // a heap, the earliest arrival first
   };
-  [[nodiscard]] const RankState& state(Rank rank) const { return ranks_[static_cast<std::size_t>(rank)]; }
-  [[nodiscard]] RankState& state(Rank rank) { return ranks_[static_cast<std::size_t>(rank)]; }
   [[nodiscard]] double wake_time(const RankState& rank) const;
   void send(Rank source, Rank destination, Bytes bytes);
   std::optional<Received> poll(Rank rank);
 
   VirtualCluster cluster_;
-  std::vector<RankState> ranks_;
+  IdVector<Rank, RankState> ranks_;
   std::set<std::pair<double, Rank>> agenda_;  // who can step, and when
   std::uint64_t serial_ = 0;
   std::uint64_t bytes_ = 0;

@@ -25,10 +25,10 @@ std::vector<T> MpiCouncil::from_all(const std::vector<T>& own) {
 }
 
 Council::Decision MpiCouncil::decide(std::uint32_t, const Contribution& contribution) {
-  const std::vector<RankState> states = from_all<RankState>({contribution.state});
+  const IdVector<Rank, RankState> states(from_all<RankState>({contribution.state}));
   const LoadSnapshot own = own_snapshot(contribution, layout_, states);
   const Dealing dealing = policy_->dealing(own);
-  const std::vector<std::vector<Rank>> parts{policy_->parts(own, transport_.communicator())};
+  const std::vector<std::vector<Part>> parts{policy_->parts(own, transport_.communicator())};
   return plan_jointly({&contribution, 1}, parts, states, dealing, options_,
                       [this](const auto& told) { return from_all(told); })
       .front();

@@ -16,13 +16,13 @@ Rank owner_of(const LoadSnapshot& snapshot, SubdomainId id) {
 }
 
 /// The ranks that each rank touches with a subdomain that is listed, in ascending order.
-std::vector<std::set<Rank>> touching_ranks(const LoadSnapshot& snapshot) {
-  std::vector<std::set<Rank>> touching(snapshot.ranks.size());
+IdVector<Rank, std::set<Rank>> touching_ranks(const LoadSnapshot& snapshot) {
+  IdVector<Rank, std::set<Rank>> touching(snapshot.ranks.size());
   for (const SubdomainState& s : snapshot.subdomains)
     for (const Neighbour& n : (*snapshot.layout)[s.id].neighbours)
       if (const Rank other = owner_of(snapshot, n.subdomain); other != s.owner) {
-        touching[index(s.owner)].insert(other);
-        touching[index(other)].insert(s.owner);
+        touching[s.owner].insert(other);
+        touching[other].insert(s.owner);
       }
   return touching;
 }
@@ -36,21 +36,21 @@ class Round {
         rate_(rate),
         touching_(touching_ranks(snapshot)),
         speeds_(assumed_speeds(snapshot.ranks)),
-        remaining_(snapshot.ranks[index(self)].remaining) {}
+        remaining_(snapshot.ranks[self].remaining) {}
 
   std::vector<Move> moves() {
-    for (const Rank other : touching_[index(self_)]) send_to(other);
+    for (const Rank other : touching_[self_]) send_to(other);
     return moves_;
   }
 
  private:
-  [[nodiscard]] double time(Rank r) const { return snapshot_.ranks[index(r)].remaining / speeds_[index(r)]; }
+  [[nodiscard]] double time(Rank r) const { return snapshot_.ranks[r].remaining / speeds_[r]; }
 
   // What flows in this round, in triangles: so little that a rank to which all its neighbours send does not get more
   // than evens it out.
   [[nodiscard]] double flow(Rank from, Rank to) const {
-    const auto degree = std::max(touching_[index(from)].size(), touching_[index(to)].size());
-    return rate_ * std::max(0.0, time(from) - time(to)) * std::min(speeds_[index(from)], speeds_[index(to)]) /
+    const auto degree = std::max(touching_[from].size(), touching_[to].size());
+    return rate_ * std::max(0.0, time(from) - time(to)) * std::min(speeds_[from], speeds_[to]) /
            static_cast<double>(degree + 1);
   }
 
@@ -59,12 +59,12 @@ class Round {
     if (wanted <= 0) return;
     double sent = 0;
     double from_others = 0;
-    for (const Rank r : touching_[index(other)])
+    for (const Rank r : touching_[other])
       if (r != self_) from_others += flow(r, other);
     for (const SubdomainState& s : easiest_first(other)) {
       // A flow that is smaller than any subdomain is rounded up if that still evens out, whatever the others send.
-      const double then = time(other) + (from_others + sent + s.remaining) / speeds_[index(other)];
-      const bool rounded_up = sent == 0 && then < (remaining_ - s.remaining) / speeds_[index(self_)];
+      const double then = time(other) + (from_others + sent + s.remaining) / speeds_[other];
+      const bool rounded_up = sent == 0 && then < (remaining_ - s.remaining) / speeds_[self_];
       if (sent + s.remaining > wanted && !rounded_up) continue;
       sent += s.remaining;
       remaining_ -= s.remaining;
@@ -97,8 +97,8 @@ class Round {
   const LoadSnapshot& snapshot_;
   Rank self_;
   double rate_;
-  std::vector<std::set<Rank>> touching_;
-  std::vector<double> speeds_;
+  IdVector<Rank, std::set<Rank>> touching_;
+  IdVector<Rank, double> speeds_;
   double remaining_;  // here, after moves_
   std::set<SubdomainId> gone_;
   std::vector<Move> moves_;

@@ -19,23 +19,23 @@ class Stealing final : public Policy {
   [[nodiscard]] bool runs_low(double seconds) const override { return seconds <= low_water_; }
 
   [[nodiscard]] std::optional<Rank> victim(const LoadSnapshot& snapshot, Rank thief,
-                                           const std::vector<bool>& able) const override {
-    const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
-    const auto finish = [&](std::size_t r) { return snapshot.ranks[r].remaining / speeds[r]; };
-    double latest = finish(index(thief));
+                                           const IdVector<Rank, bool>& able) const override {
+    const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
+    const auto finish = [&](Rank r) { return snapshot.ranks[r].remaining / speeds[r]; };
+    double latest = finish(thief);
     std::optional<Rank> found;
-    for (std::size_t r = 0; r < speeds.size(); ++r)
-      if (able[r] && r != index(thief) && finish(r) > latest) found = static_cast<Rank>(r), latest = finish(r);
+    for (const Rank r : ids_of(speeds))
+      if (able[r] && r != thief && finish(r) > latest) found = r, latest = finish(r);
     return found;
   }
 
   [[nodiscard]] std::vector<Move> give(const LoadSnapshot& snapshot, Rank self, Rank to) const override {
-    const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
-    double mine = snapshot.ranks[index(self)].remaining;
-    double theirs = snapshot.ranks[index(to)].remaining;
+    const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
+    double mine = snapshot.ranks[self].remaining;
+    double theirs = snapshot.ranks[to].remaining;
     std::vector<Move> moves;
     for (const SubdomainState& s : easiest_first(snapshot, self)) {
-      if ((theirs + s.remaining) / speeds[index(to)] >= mine / speeds[index(self)]) continue;
+      if ((theirs + s.remaining) / speeds[to] >= mine / speeds[self]) continue;
       mine -= s.remaining;
       theirs += s.remaining;
       moves.push_back({s.id, to});

@@ -140,7 +140,7 @@ void list_objects(void* data, int, int, Ids global, Ids local, int, float* weigh
 }
 
 void current_parts(void* data, int, int, int count, Ids, Ids local, int* parts, int* error) {
-  for (int i = 0; i < count; ++i) parts[i] = graph_of(data).at(local[i]).owner;
+  for (int i = 0; i < count; ++i) parts[i] = to_int(graph_of(data).at(local[i]).owner);
   *error = ZOLTAN_OK;
 }
 
@@ -224,7 +224,7 @@ void answer_questions(Zoltan_Struct* zoltan, Graph& graph, bool as_hypergraph) {
 }
 
 void set_part_sizes(Zoltan_Struct* zoltan, const LoadSnapshot& snapshot) {
-  const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
+  const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
   const double total = std::accumulate(speeds.begin(), speeds.end(), 0.0);
   std::vector<float> sizes;
   for (const double speed : speeds) sizes.push_back(static_cast<float>(speed / total));
@@ -248,15 +248,9 @@ struct Answer {
   }
 };
 
-std::vector<Rank> owners_of(const LoadSnapshot& snapshot) {
-  std::vector<Rank> owners;
-  for (const SubdomainState& s : snapshot.subdomains) owners.push_back(s.owner);
-  return owners;
-}
-
 /// What both ways have in common: by all processes of `communicator`, of which each lists its own in `snapshot`.
 template <class ProcessOf>
-std::vector<Rank> partition(MPI_Comm communicator, const LoadSnapshot& snapshot, const ZoltanParameters& parameters,
+std::vector<Part> partition(MPI_Comm communicator, const LoadSnapshot& snapshot, const ZoltanParameters& parameters,
                             const ProcessOf& process_of) {
   Zoltan zoltan(communicator);
   ZoltanParameters all = parameters;
@@ -290,8 +284,8 @@ std::vector<Rank> partition(MPI_Comm communicator, const LoadSnapshot& snapshot,
   if (result != ZOLTAN_OK && result != ZOLTAN_WARN)
     throw Error("Zoltan cannot partition with LB_METHOD = " + all["LB_METHOD"] +
                 ", LB_APPROACH = " + all["LB_APPROACH"] + "; its message stands above");
-  std::vector<Rank> parts = owners_of(snapshot);
-  for (int i = 0; i < answer.exports; ++i) parts[answer.export_local[i]] = answer.export_part[i];
+  std::vector<Part> parts = present_parts(snapshot);
+  for (int i = 0; i < answer.exports; ++i) parts[answer.export_local[i]] = Part{answer.export_part[i]};
   return parts;
 }
 
@@ -358,19 +352,19 @@ bool zoltan_accepts(const std::string& name, const std::string& value) {
   return Zoltan(MPI_COMM_SELF).set(name, value);
 }
 
-std::vector<Rank> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters) {
+std::vector<Part> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters) {
   if (snapshot.subdomains.empty()) return {};
   initialize_once();
   return partition(MPI_COMM_SELF, snapshot, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbours) {
-    std::vector<int> process_of(snapshot.layout->subdomains.size(), -1);
-    for (const SubdomainState& s : snapshot.subdomains) process_of[static_cast<std::size_t>(s.id)] = 0;
+    IdVector<SubdomainId, int> process_of(snapshot.layout->subdomains.size(), -1);
+    for (const SubdomainState& s : snapshot.subdomains) process_of[s.id] = 0;
     std::vector<int> processes;
-    for (const ZOLTAN_ID_TYPE n : neighbours) processes.push_back(process_of[n]);
+    for (const ZOLTAN_ID_TYPE n : neighbours) processes.push_back(process_of[static_cast<SubdomainId>(n)]);
     return processes;
   });
 }
 
-std::vector<Rank> zoltan_partition(const LoadSnapshot& own, const ZoltanParameters& parameters, int communicator) {
+std::vector<Part> zoltan_partition(const LoadSnapshot& own, const ZoltanParameters& parameters, int communicator) {
   initialize_once();
   const MPI_Comm all = MPI_Comm_f2c(communicator);
   const auto here = static_cast<std::int64_t>(own.subdomains.size());

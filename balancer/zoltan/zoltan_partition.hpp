@@ -21,12 +21,12 @@ using ZoltanParameters = std::map<std::string, std::string>;
 /// The part, 0 .. ranks - 1, of each listed subdomain: parts are as large as the ranks' speeds relative to each other,
 /// measured in remaining work. It runs within this process and the same arguments give the same parts. Parts may be
 /// empty. Initializes MPI if nobody has. Throws Error if Zoltan fails.
-[[nodiscard]] std::vector<Rank> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters);
+[[nodiscard]] std::vector<Part> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters);
 
 /// The same by all processes of an MPI communicator, named by its Fortran handle, at the same time: each lists its own
 /// subdomains, no one is listed twice, and the states of ranks are equal everywhere. Returns the parts of `own`. Waits
 /// for the other processes.
-[[nodiscard]] std::vector<Rank> zoltan_partition(const LoadSnapshot& own, const ZoltanParameters& parameters,
+[[nodiscard]] std::vector<Part> zoltan_partition(const LoadSnapshot& own, const ZoltanParameters& parameters,
                                                  int communicator);
 
 }  // namespace driftmesh::balancer

@@ -50,7 +50,7 @@ int MpiSession::world() {
 std::optional<Rank> MpiSession::launched_as() {
   // Open MPI, MPICH and its kin, Slurm.
   for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"})
-    if (const char* rank = std::getenv(name)) return std::atoi(rank);
+    if (const char* rank = std::getenv(name)) return Rank{std::atoi(rank)};
   return std::nullopt;
 }
 
@@ -85,16 +85,18 @@ class MpiTransport::Impl {
  public:
   explicit Impl(int communicator) {
     MPI_Comm_dup(MPI_Comm_f2c(communicator), &communicator_);
-    MPI_Comm_rank(communicator_, &rank_);
+    int rank = 0;
+    MPI_Comm_rank(communicator_, &rank);
+    rank_ = Rank{rank};
     MPI_Comm_size(communicator_, &ranks_);
   }
 
   [[nodiscard]] Rank rank() const { return rank_; }
-  [[nodiscard]] Rank ranks() const { return ranks_; }
+  [[nodiscard]] std::int32_t ranks() const { return ranks_; }
 
   void send(Rank destination, Bytes bytes) {
-    if (destination < 0 || destination >= ranks_)
-      throw LimitError("rank " + std::to_string(rank_) + " sends to rank " + std::to_string(destination) + " of " +
+    if (to_index(destination) >= to_index(ranks_))
+      throw LimitError("rank " + to_string(rank_) + " sends to rank " + to_string(destination) + " of " +
                        std::to_string(ranks_));
     const int size = narrow<int>(bytes.size(), "bytes of one message");
     if (destination == rank_) {
@@ -104,7 +106,7 @@ class MpiTransport::Impl {
     if (++sent_since_look_ > 16 + sending_.size() / 2) forget_sent();
     sending_.push_back(std::move(bytes));
     requests_.emplace_back();
-    MPI_Isend(sending_.back().data(), size, MPI_BYTE, destination, kTag, communicator_, &requests_.back());
+    MPI_Isend(sending_.back().data(), size, MPI_BYTE, to_int(destination), kTag, communicator_, &requests_.back());
   }
 
   std::optional<Received> poll() {
@@ -134,7 +136,7 @@ class MpiTransport::Impl {
 
   std::vector<Bytes> gather(const Bytes& bytes) {
     const int size = narrow<int>(bytes.size(), "bytes of a report");
-    Parts parts(rank_ == 0 ? ranks_ : 0);
+    Parts parts(rank_ == Rank{0} ? ranks_ : 0);
     MPI_Gather(&size, 1, MPI_INT, parts.sizes.data(), 1, MPI_INT, 0, communicator_);
     parts.place();
     MPI_Gatherv(bytes.data(), size, MPI_BYTE, parts.bytes.data(), parts.sizes.data(), parts.begin.data(), MPI_BYTE, 0,
@@ -224,7 +226,7 @@ class MpiTransport::Impl {
       MPI_Improbe(MPI_ANY_SOURCE, kTag, communicator_, &announced, &handle, &status);
       if (announced == 0) return std::nullopt;
       MPI_Get_count(&status, MPI_BYTE, &size);
-      Incoming incoming{{status.MPI_SOURCE, Bytes(static_cast<std::size_t>(size))}, MPI_REQUEST_NULL};
+      Incoming incoming{{Rank{status.MPI_SOURCE}, Bytes(static_cast<std::size_t>(size))}, MPI_REQUEST_NULL};
       MPI_Imrecv(incoming.message.bytes.data(), size, MPI_BYTE, &handle, &incoming.request);
       int complete = 0;
       MPI_Test(&incoming.request, &complete, MPI_STATUS_IGNORE);
@@ -255,7 +257,7 @@ class MpiTransport::Impl {
   }
 
   MPI_Comm communicator_ = MPI_COMM_NULL;
-  int rank_ = 0;
+  Rank rank_{};
   int ranks_ = 0;
   std::deque<Received> to_self_;
   std::vector<Incoming> incoming_;
@@ -276,7 +278,7 @@ MpiTransport::~MpiTransport() {
 Rank MpiTransport::rank() const {
   return impl_->rank();
 }
-Rank MpiTransport::ranks() const {
+std::int32_t MpiTransport::ranks() const {
   return impl_->ranks();
 }
 void MpiTransport::send(Rank destination, Bytes bytes) {

@@ -50,7 +50,7 @@ class MpiTransport final : public Transport {
   ~MpiTransport() override;
 
   [[nodiscard]] Rank rank() const override;
-  [[nodiscard]] Rank ranks() const override;
+  [[nodiscard]] std::int32_t ranks() const override;
   void send(Rank destination, Bytes bytes) override;
   std::optional<Received> poll() override;
   void idle() override;

@@ -34,7 +34,7 @@ job::Order prepare_order(const job::Given& given, const DistributedOptions& opti
   job::check(request, job::kRanks);
   job::Watch watch;
   job::Domain domain = job::read_domain(request, given, watch);
-  const std::vector<double> speeds(static_cast<std::size_t>(team.ranks()), 1.0);
+  const IdVector<Rank, double> speeds(to_index(team.ranks()), 1.0);
   job::Prepared prepared = job::prepare(request, domain, given, job::kRanks, speeds, job::Limits{}, watch);
   return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, {}, false};
 }

@@ -68,8 +68,8 @@ std::string summary(const Decomposition& d, const DecompositionReport& report, b
                       report.smallest_load);
   text += fmt::format("Separators       length {:.6g}, {:.3f} of the border's\n", report.separator_length,
                       report.separator_length / report.border_length);
-  if (report.smallest_at != kNone) {
-    const Point& p = d.points[static_cast<std::size_t>(report.smallest_at)];
+  if (report.smallest_at != kNoPoint) {
+    const Point& p = d.points[report.smallest_at];
     text += fmt::format("Smallest angle   {:.1f} degrees at ({:.10g}, {:.10g})\n", report.smallest_angle, p.x, p.y);
   }
   return text;

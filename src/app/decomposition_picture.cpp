@@ -11,18 +11,18 @@ namespace driftmesh::app {
 namespace {
 
 /// Greedy colouring of the subdomain graph: the least used colour that no neighbour has.
-std::vector<int> color_subdomains(const Decomposition& d) {
-  std::vector<std::vector<SubdomainId>> neighbors(d.size());
+IdVector<SubdomainId, int> color_subdomains(const Decomposition& d) {
+  IdVector<SubdomainId, std::vector<SubdomainId>> neighbors(d.size());
   for (const Interface& i : interfaces(d)) {
-    neighbors[static_cast<std::size_t>(i.first)].push_back(i.second);
-    neighbors[static_cast<std::size_t>(i.second)].push_back(i.first);
+    neighbors[i.first].push_back(i.second);
+    neighbors[i.second].push_back(i.first);
   }
-  std::vector<int> color(d.size(), -1);
+  IdVector<SubdomainId, int> color(d.size(), -1);
   std::vector<std::size_t> uses(6, 0);
-  for (std::size_t i = 0; i < d.size(); ++i) {
+  for (const SubdomainId i : ids_of(d.subdomains)) {
     std::vector<bool> taken(uses.size(), false);
     for (const SubdomainId n : neighbors[i])
-      if (const int c = color[static_cast<std::size_t>(n)]; c >= 0) taken[static_cast<std::size_t>(c)] = true;
+      if (const int c = color[n]; c >= 0) taken[to_index(c)] = true;
     std::size_t best = uses.size();
     for (std::size_t c = 0; c < uses.size(); ++c)
       if (!taken[c] && (best == uses.size() || uses[c] < uses[best])) best = c;
@@ -37,27 +37,25 @@ std::vector<int> color_subdomains(const Decomposition& d) {
 Mesh subdomains_as_mesh(const Decomposition& d) {
   Mesh piece;
   piece.points = d.points;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const SubdomainMesh part = subdomain_triangulation(d, static_cast<SubdomainId>(i));
+  for (const SubdomainId i : ids_of(d.subdomains)) {
+    const SubdomainMesh part = subdomain_triangulation(d, i);
     for (const Triangle& t : part.mesh.triangles) {
       if (!t.alive()) continue;
-      const auto global = [&](int k) {
-        return part.points[static_cast<std::size_t>(t.vertex[static_cast<std::size_t>(k)])];
-      };
-      piece.triangles.push_back({global(0), global(1), global(2)});
-      piece.subdomains.push_back(static_cast<std::int32_t>(i));
+      const auto global = [&](VertexId v) { return to_int(part.points[v]); };
+      piece.triangles.push_back({global(t.vertex[0]), global(t.vertex[1]), global(t.vertex[2])});
+      piece.subdomains.push_back(to_int(i));
     }
   }
-  for (const Decomposition::Root& r : d.roots) piece.edges.push_back({r.a, r.b, r.marker});
+  for (const Decomposition::Root& r : d.roots) piece.edges.push_back({to_int(r.a), to_int(r.b), r.marker});
   return piece;
 }
 
 }  // namespace
 
 Mesh colored_subdomains(const Decomposition& d) {
-  const std::vector<int> color = color_subdomains(d);
+  const IdVector<SubdomainId, int> color = color_subdomains(d);
   Mesh piece = subdomains_as_mesh(d);
-  for (const std::int32_t s : piece.subdomains) piece.regions.push_back(color[static_cast<std::size_t>(s)] + 1);
+  for (const std::int32_t s : piece.subdomains) piece.regions.push_back(color[SubdomainId{s}] + 1);
   piece.subdomains.clear();
   return piece;
 }
@@ -72,10 +70,10 @@ void plot_decomposition(const Decomposition& d, const std::string& path, const s
   plot_mesh(colored_subdomains(d), path, options);
 }
 
-void plot_owners(const Decomposition& d, const std::vector<std::int32_t>& owners, const std::string& path,
+void plot_owners(const Decomposition& d, const IdVector<SubdomainId, Rank>& owners, const std::string& path,
                  const std::string& title) {
   Mesh piece = subdomains_as_mesh(d);
-  for (const std::int32_t s : piece.subdomains) piece.ranks.push_back(owners[static_cast<std::size_t>(s)]);
+  for (const std::int32_t s : piece.subdomains) piece.ranks.push_back(to_int(owners[SubdomainId{s}]));
   PlotOptions options;
   options.color = PlotColor::rank;
   options.edges = PlotEdges::off;

@@ -16,7 +16,7 @@ namespace driftmesh::app {
 void plot_decomposition(const Decomposition& decomposition, const std::string& path, const std::string& title);
 
 /// Draws them with one colour for each owner. Throws as plot_mesh does.
-void plot_owners(const Decomposition& decomposition, const std::vector<std::int32_t>& owners, const std::string& path,
+void plot_owners(const Decomposition& decomposition, const IdVector<SubdomainId, Rank>& owners, const std::string& path,
                  const std::string& title);
 
 }  // namespace driftmesh::app

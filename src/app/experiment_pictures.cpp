@@ -65,11 +65,8 @@ void draw_load(const ExperimentRun& run, const std::string& path) {
   chart.text.y_label = "seconds of work, as expected";
   LineChart::Curve band{"least to most of all ranks", {0.80, 0.86, 0.93}, {}, {}};
   LineChart::Curve mean{"mean", kComputing, {}, {}};
-  std::vector<double> left(outcome.ranks.size(), 0);
-  const auto take = [&](const auto& sample) {
-    const auto rank = static_cast<std::size_t>(sample.rank);
-    left[rank] = sample.remaining / run.speeds[rank];
-  };
+  IdVector<Rank, double> left(outcome.ranks.size(), 0);
+  const auto take = [&](const LoadSample& s) { left[s.rank] = s.remaining / run.speeds[s.rank]; };
   std::for_each(outcome.samples.rbegin(), outcome.samples.rend(), take);  // at first, what the first ones say
   constexpr int kColumns = 300;
   std::size_t next = 0;
@@ -96,9 +93,9 @@ void draw_moves(const ExperimentRun& run, const std::string& path) {
   timeline.end = run.outcome.makespan;
   timeline.busy.resize(timeline.rows);
   for (const LoadSample& s : run.outcome.samples)
-    if (s.worked > 0) timeline.busy[static_cast<std::size_t>(s.rank)].push_back({s.time - s.worked, s.time});
+    if (s.worked > 0) timeline.busy[to_index(s.rank)].push_back({s.time - s.worked, s.time});
   for (const MoveRecord& m : run.outcome.moves)
-    timeline.arrows.push_back({m.left, m.arrived, static_cast<std::size_t>(m.from), static_cast<std::size_t>(m.to)});
+    timeline.arrows.push_back({m.left, m.arrived, to_index(m.from), to_index(m.to)});
   plot_chart(timeline, path);
 }
 

@@ -20,15 +20,15 @@ using config::Json;
 constexpr std::size_t kRecordedSamples = 200;  // of the load over time, in a record
 
 /// Triangles a second of real ranks in this run: one with the whole of its time is taken to be as fast as any other.
-std::vector<double> measured_speeds(const ClusterRun& run, std::vector<double> shares) {
+IdVector<Rank, double> measured_speeds(const ClusterRun& run, IdVector<Rank, double> shares) {
   double seconds = 0;  // that the work would have taken one rank
-  for (std::size_t r = 0; r < shares.size(); ++r) seconds += run.ranks[r].times.computing * shares[r];
+  for (const Rank r : ids_of(shares)) seconds += run.ranks[r].times.computing * shares[r];
   for (double& share : shares) share *= static_cast<double>(run.triangles()) / seconds;
   return shares;
 }
 
 /// Speeds of the ranks, as far as they are known before the run; of real ones the ratios alone.
-std::vector<double> known_speeds(const job::Request& request, const RealCluster* cluster) {
+IdVector<Rank, double> known_speeds(const job::Request& request, const RealCluster* cluster) {
   return cluster == nullptr ? speeds_of(job::cluster_of(request), {}) : job::shares_of_time(request, cluster->ranks());
 }
 
@@ -43,13 +43,13 @@ void run_real(ExperimentRun& run, RealCluster& cluster, job::Prepared&& prepared
 
 /// What is left to do on all ranks together, over time.
 Json load_json(const ClusterRun& outcome) {
-  std::vector<double> remaining(outcome.ranks.size(), 0);
+  IdVector<Rank, double> remaining(outcome.ranks.size(), 0);
   double total = 0;
   Json times = Json::array(), loads = Json::array();
   const std::size_t step = std::max<std::size_t>(1, outcome.samples.size() / kRecordedSamples);
   for (std::size_t i = 0; i < outcome.samples.size(); ++i) {
     const LoadSample& s = outcome.samples[i];
-    total += s.remaining - std::exchange(remaining[static_cast<std::size_t>(s.rank)], s.remaining);
+    total += s.remaining - std::exchange(remaining[s.rank], s.remaining);
     if (i % step != 0 && i + 1 != outcome.samples.size()) continue;
     times.push_back(s.time);
     loads.push_back(std::round(total));
@@ -120,7 +120,7 @@ std::string chrome_trace(const ExperimentRun& run) {
   // A move is two moments, which need a duration to be seen, and an arrow between them.
   for (std::size_t i = 0; i < run.outcome.moves.size(); ++i) {
     const MoveRecord& m = run.outcome.moves[i];
-    const std::string name = "subdomain " + std::to_string(m.subdomain);
+    const std::string name = "subdomain " + to_string(m.subdomain);
     for (const bool leaves : {true, false}) {
       const Json at = {{"pid", 0}, {"tid", leaves ? m.from : m.to}, {"ts", kMicro * (leaves ? m.left : m.arrived)}};
       Json moment = {{"ph", "X"}, {"name", name + (leaves ? " leaves" : " arrives")}, {"dur", 1}};

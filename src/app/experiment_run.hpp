@@ -20,8 +20,8 @@ struct ExperimentRun {
   std::int32_t repetition = 0;
   job::Request request;
 
-  RunPlan plan;                ///< without a size field
-  std::vector<double> speeds;  ///< of the ranks, in triangles a second; of real ones, as they were in this run
+  RunPlan plan;                   ///< without a size field
+  IdVector<Rank, double> speeds;  ///< of the ranks, in triangles a second; of real ones, as they were in this run
   ClusterRun outcome;
   job::RunRecord record;
 };

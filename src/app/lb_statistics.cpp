@@ -12,27 +12,26 @@ namespace driftmesh::app {
 namespace {
 
 using config::Json;
-using protocol::Rank;
 
-constexpr double kSplitBytes = protocol::kSplitEntryBytes;
+constexpr double kSplitBytes = protocol::kSplitPointBytes;
 constexpr int kCollection = 1;  // that all subdomains belong to
 
 // vt's numbers of objects: two bits for the kind, sixteen for the rank they are at home on, the rest their own number.
 constexpr std::int64_t kFixedObject = 1, kMovableObject = 3;
 std::int64_t object_id(std::int64_t number, Rank home, std::int64_t kind) {
-  return number << 18 | std::int64_t{home} << 2 | kind;
+  return number << 18 | std::int64_t{to_int(home)} << 2 | kind;
 }
 
 /// What happened in one phase.
 struct Phase {
   std::map<SubdomainId, std::map<Rank, double>> worked;              // seconds
   std::map<std::pair<SubdomainId, SubdomainId>, std::int64_t> told;  // points on interfaces, by from and to
-  std::vector<Rank> holder;                                          // of each subdomain, at its end
+  IdVector<SubdomainId, Rank> holder;                                // at its end
 
   /// Where a subdomain counts as a task.
   [[nodiscard]] Rank place_of(SubdomainId s) const {
     const auto work = worked.find(s);
-    if (work == worked.end()) return holder[static_cast<std::size_t>(s)];
+    if (work == worked.end()) return holder[s];
     return std::max_element(work->second.begin(), work->second.end(),
                             [](const auto& a, const auto& b) { return a.second < b.second; })
         ->first;
@@ -48,21 +47,20 @@ class Phases {
     for (const LoadSample& s : run.outcome.samples)
       if (s.worked > 0) add_work(s);
     for (const SplitRecord& s : run.outcome.splits) phases_[phase_at(s.time)].told[{s.from, s.to}] += s.points;
-    std::vector<Rank> holder = run.plan.owners;
+    IdVector<SubdomainId, Rank> holder = run.plan.owners;
     auto move = run.outcome.moves.begin();
     for (std::size_t p = 0; p < phases_.size(); ++p) {
-      for (; move != run.outcome.moves.end() && phase_at(move->left) <= p; ++move)
-        holder[static_cast<std::size_t>(move->subdomain)] = move->to;
+      for (; move != run.outcome.moves.end() && phase_at(move->left) <= p; ++move) holder[move->subdomain] = move->to;
       phases_[p].holder = holder;
     }
   }
 
   /// What each rank's file says of each phase.
-  [[nodiscard]] std::vector<Json> json() const {
-    std::vector<Json> of_rank(run_.outcome.ranks.size(), Json::array());
+  [[nodiscard]] IdVector<Rank, Json> json() const {
+    IdVector<Rank, Json> of_rank(run_.outcome.ranks.size(), Json::array());
     for (std::size_t p = 0; p < phases_.size(); ++p) {
-      std::vector<Json> parts = phase_json(phases_[p]);
-      for (std::size_t r = 0; r < parts.size(); ++r) {
+      IdVector<Rank, Json> parts = phase_json(phases_[p]);
+      for (const Rank r : ids_of(parts)) {
         parts[r]["id"] = p;
         of_rank[r].push_back(std::move(parts[r]));
       }
@@ -87,10 +85,10 @@ class Phases {
   }
 
   [[nodiscard]] Json entity(SubdomainId s) const {
-    const Rank home = run_.plan.owners[static_cast<std::size_t>(s)];
+    const Rank home = run_.plan.owners[s];
     return {{"collection_id", kCollection},
             {"home", home},
-            {"id", object_id(s + 1, home, kMovableObject)},
+            {"id", object_id(to_int(s) + 1, home, kMovableObject)},
             {"index", {s}},
             {"migratable", true},
             {"type", "object"}};
@@ -98,7 +96,7 @@ class Phases {
 
   // What describes a subdomain are attributes: of user_defined, if there is any, LBAF expects figures on memory.
   [[nodiscard]] Json task(SubdomainId s, Rank rank, double seconds) const {
-    const Decomposition::Subdomain& known = run_.plan.decomposition.subdomains[static_cast<std::size_t>(s)];
+    const Decomposition::Subdomain& known = run_.plan.decomposition.subdomains[s];
     return {
         {"entity", entity(s)},
         {"node", rank},
@@ -116,24 +114,21 @@ class Phases {
             {"time", seconds}};
   }
 
-  [[nodiscard]] std::vector<Json> phase_json(const Phase& phase) const {
+  [[nodiscard]] IdVector<Rank, Json> phase_json(const Phase& phase) const {
     // Where nothing was said, the list is empty: what checks that ends of communications are tasks asks for it.
-    std::vector<Json> of_rank(run_.outcome.ranks.size(),
-                              {{"id", 0}, {"tasks", Json::array()}, {"communications", Json::array()}});
-    std::vector<double> elsewhere(of_rank.size(), 0);
-    for (std::size_t i = 0; i < phase.holder.size(); ++i) {
-      const auto s = static_cast<SubdomainId>(i);
+    IdVector<Rank, Json> of_rank(run_.outcome.ranks.size(),
+                                 {{"id", 0}, {"tasks", Json::array()}, {"communications", Json::array()}});
+    IdVector<Rank, double> elsewhere(of_rank.size(), 0);
+    for (const SubdomainId s : ids_of(phase.holder)) {
       const Rank place = phase.place_of(s);
       double seconds = 0;
       if (const auto work = phase.worked.find(s); work != phase.worked.end())
-        for (const auto& [rank, worked] : work->second)
-          (rank == place ? seconds : elsewhere[static_cast<std::size_t>(rank)]) += worked;
-      of_rank[static_cast<std::size_t>(place)]["tasks"].push_back(task(s, place, seconds));
+        for (const auto& [rank, worked] : work->second) (rank == place ? seconds : elsewhere[rank]) += worked;
+      of_rank[place]["tasks"].push_back(task(s, place, seconds));
     }
-    for (std::size_t r = 0; r < of_rank.size(); ++r)
-      of_rank[r]["tasks"].push_back(fixed_task(static_cast<Rank>(r), elsewhere[r]));
+    for (const Rank r : ids_of(of_rank)) of_rank[r]["tasks"].push_back(fixed_task(r, elsewhere[r]));
     for (const auto& [ends, points] : phase.told)
-      of_rank[static_cast<std::size_t>(phase.place_of(ends.first))]["communications"].push_back(
+      of_rank[phase.place_of(ends.first)]["communications"].push_back(
           {{"type", "SendRecv"},
            {"from", entity(ends.first)},
            {"to", entity(ends.second)},
@@ -152,15 +147,15 @@ class Phases {
 std::vector<std::string> lb_statistics(const ExperimentRun& run) {
   std::vector<std::string> texts;
   const Json none = {{"list", Json::array()}, {"range", Json::array()}};
-  std::size_t rank = 0;
-  for (Json& phases : Phases(run).json()) {
+  IdVector<Rank, Json> of_rank = Phases(run).json();
+  for (const Rank rank : ids_of(of_rank)) {
+    Json& phases = of_rank[rank];
     const Json metadata = {
         {"type", "LBDatafile"},
         {"rank", rank},
         {"phases", {{"count", phases.size()}, {"skipped", none}, {"identical_to_previous", none}}},
         {"attributes", {{"experiment", run.request.name}, {"triangles_per_second", run.speeds[rank]}}}};
     texts.push_back(json_text(Json({{"metadata", metadata}, {"phases", std::move(phases)}}), 1));
-    ++rank;
   }
   return texts;
 }

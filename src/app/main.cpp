@@ -105,7 +105,8 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   driftmesh::hold_closed_streams();
   driftmesh::remove_temporaries_on_signals();
-  if (driftmesh::protocol::MpiSession::launched_as().value_or(0) == 0) return run_program(argc, argv);
+  if (driftmesh::protocol::MpiSession::launched_as().value_or(driftmesh::Rank{0}) == driftmesh::Rank{0})
+    return run_program(argc, argv);
   const Follower follower;
   return Follower::is_needed(argc, argv) ? follower.end(run_program(argc, argv)) : 0;
 }

@@ -95,7 +95,7 @@ job::Order prepare_order(const Request& request, job::Place place, const job::Te
   job::Domain domain = job::read_domain(request, {}, notes);
   job::record_domain(notes.run, request, domain);
   const bool written = writes(request.output);
-  const std::vector<double> shares = job::shares_of_time(request, team.ranks());
+  const IdVector<Rank, double> shares = job::shares_of_time(request, team.ranks());
   const job::Limits limits = job::limits_of_all(
       request.limits, job::find_limits(request.limits, domain.pslg, written, team.ranks_on_machine()), team.ranks());
   job::Prepared prepared = job::prepare(request, domain, {}, place, shares, limits, notes);

@@ -25,9 +25,9 @@ std::uint64_t ClusterRun::message_bytes() const {
   return sum_of(ranks, &RankOutcome::message_bytes);
 }
 
-double ideal_seconds(const ClusterRun& run, const std::vector<double>& speeds) {
+double ideal_seconds(const ClusterRun& run, const IdVector<Rank, double>& speeds) {
   double work = 0;
-  for (std::size_t r = 0; r < run.ranks.size(); ++r) work += run.ranks[r].times.computing * speeds[r];
+  for (const Rank r : ids_of(run.ranks)) work += run.ranks[r].times.computing * speeds[r];
   return work / std::accumulate(speeds.begin(), speeds.end(), 0.0);
 }
 

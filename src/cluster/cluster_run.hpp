@@ -11,25 +11,25 @@ namespace driftmesh {
 /// What one rank had to do at one moment.
 struct LoadSample {
   double time = 0;                       ///< seconds since the run began
-  protocol::Rank rank = 0;               ///< whose work changed at that time
+  Rank rank{};                           ///< whose work changed at that time
   std::int64_t triangles = 0;            ///< that its subdomains have
   double remaining = 0;                  ///< that they are expected to need still
   double worked = 0;                     ///< seconds of refinement that ended at that time
-  protocol::SubdomainId subdomain = -1;  ///< that was refined, where `worked` is above 0
+  SubdomainId subdomain = kNoSubdomain;  ///< that was refined, where `worked` is above 0
 };
 
 /// Points that a slice of work put on the interfaces of a subdomain with one neighbour.
 struct SplitRecord {
-  double time = 0;          ///< when the slice ended
-  protocol::Rank rank = 0;  ///< where the slice was done
-  protocol::SubdomainId from = 0, to = 0;
+  double time = 0;  ///< when the slice ended
+  Rank rank{};      ///< where the slice was done
+  SubdomainId from{}, to{};
   std::int32_t points = 0;
 };
 
 /// A subdomain that went from one rank to another.
 struct MoveRecord {
-  protocol::SubdomainId subdomain = 0;
-  protocol::Rank from = 0, to = 0;
+  SubdomainId subdomain{};
+  Rank from{}, to{};
   double left = 0, arrived = 0;  ///< seconds since the run began: packed and gone; unpacked
   std::uint64_t bytes = 0;       ///< its packed size
 };
@@ -37,11 +37,11 @@ struct MoveRecord {
 /// What a run on a cluster came to, real or simulated.
 struct ClusterRun {
   double makespan = 0;  ///< seconds from the start to the moment when the last rank knows that all is done
-  std::vector<RankOutcome> ranks;
+  IdVector<Rank, RankOutcome> ranks;
   std::vector<MoveRecord> moves;       ///< in the order of leaving
   std::vector<LoadSample> samples;     ///< in the order of time
   std::vector<SplitRecord> splits;     ///< in the order of time
-  std::vector<protocol::Rank> owners;  ///< of each subdomain at the end
+  IdVector<SubdomainId, Rank> owners;  ///< at the end
 
   [[nodiscard]] std::int64_t triangles() const;
   [[nodiscard]] std::uint64_t messages() const;       ///< of all ranks, termination included
@@ -50,6 +50,6 @@ struct ClusterRun {
 
 /// Seconds that the work of `run` would take if every rank computed from beginning to end: the sum of computing times
 /// by speed over the sum of speeds.
-[[nodiscard]] double ideal_seconds(const ClusterRun& run, const std::vector<double>& speeds);
+[[nodiscard]] double ideal_seconds(const ClusterRun& run, const IdVector<Rank, double>& speeds);
 
 }  // namespace driftmesh

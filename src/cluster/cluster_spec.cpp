@@ -16,8 +16,8 @@ std::int32_t ranks_of(const ClusterSpec& cluster) {
   return ranks;
 }
 
-std::vector<double> speeds_of(const ClusterSpec& cluster, const CostModel& costs) {
-  std::vector<double> speeds;
+IdVector<Rank, double> speeds_of(const ClusterSpec& cluster, const CostModel& costs) {
+  IdVector<Rank, double> speeds;
   for (const RankGroup& group : cluster.groups) {
     if (group.ranks < 1)
       throw Error("group '" + group.name + "' of the cluster has " + std::to_string(group.ranks) +
@@ -25,25 +25,24 @@ std::vector<double> speeds_of(const ClusterSpec& cluster, const CostModel& costs
     if (!(group.speed >= 0 && std::isfinite(group.speed)))
       throw Error("group '" + group.name + "' of the cluster has a speed of " + std::to_string(group.speed) +
                   " triangles a second; give one above 0, or 0 for that of the machine in docs/benchmarks.md");
-    speeds.insert(speeds.end(), static_cast<std::size_t>(group.ranks),
-                  group.speed > 0 ? group.speed : reference_speed(costs));
+    speeds.insert(speeds.end(), to_index(group.ranks), group.speed > 0 ? group.speed : reference_speed(costs));
   }
   if (speeds.empty()) throw Error("a cluster needs at least one rank");
   if (cluster.drag.empty()) return speeds;
   if (cluster.drag.size() != speeds.size())
     throw Error("the cluster has " + std::to_string(speeds.size()) + " ranks, but drag for " +
                 std::to_string(cluster.drag.size()));
-  for (std::size_t r = 0; r < speeds.size(); ++r) {
-    if (!(cluster.drag[r] > 0)) throw Error("rank " + std::to_string(r) + " of the cluster is dragged to a stop");
+  for (const Rank r : ids_of(speeds)) {
+    if (!(cluster.drag[r] > 0)) throw Error("rank " + to_string(r) + " of the cluster is dragged to a stop");
     speeds[r] *= cluster.drag[r];
   }
   return speeds;
 }
 
-std::vector<std::size_t> groups_of(const ClusterSpec& cluster) {
-  std::vector<std::size_t> groups;
+IdVector<Rank, std::size_t> groups_of(const ClusterSpec& cluster) {
+  IdVector<Rank, std::size_t> groups;
   for (std::size_t g = 0; g < cluster.groups.size(); ++g)
-    groups.insert(groups.end(), static_cast<std::size_t>(cluster.groups[g].ranks), g);
+    groups.insert(groups.end(), to_index(cluster.groups[g].ranks), g);
   return groups;
 }
 

@@ -18,9 +18,9 @@ struct RankGroup {
 /// A cluster to simulate. Its ranks are numbered through the groups. Every rank has a line of its own to all others.
 struct ClusterSpec {
   std::vector<RankGroup> groups;
-  std::vector<double> drag;  ///< of each rank, the share of its speed that is left to it; empty: all of it
-  double latency = 50e-6;    ///< seconds from the end of sending to arrival
-  double bandwidth = 1e9;    ///< bytes a second that leave a rank
+  IdVector<Rank, double> drag;  ///< the share of its speed that is left to a rank; empty: all of it
+  double latency = 50e-6;       ///< seconds from the end of sending to arrival
+  double bandwidth = 1e9;       ///< bytes a second that leave a rank
   double message_overhead =
       1e-6;  ///< seconds of a rank, whatever its speed, for each message that it sends or receives
 };
@@ -33,8 +33,8 @@ struct ClusterSpec {
 [[nodiscard]] std::int32_t ranks_of(const ClusterSpec& cluster);
 /// Triangles a second of each rank. Throws Error for a cluster without ranks, a group without ranks, speeds below 0,
 /// and drag for another number of ranks or not above 0.
-[[nodiscard]] std::vector<double> speeds_of(const ClusterSpec& cluster, const CostModel& costs);
+[[nodiscard]] IdVector<Rank, double> speeds_of(const ClusterSpec& cluster, const CostModel& costs);
 /// The group of each rank.
-[[nodiscard]] std::vector<std::size_t> groups_of(const ClusterSpec& cluster);
+[[nodiscard]] IdVector<Rank, std::size_t> groups_of(const ClusterSpec& cluster);
 
 }  // namespace driftmesh

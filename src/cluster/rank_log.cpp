@@ -22,31 +22,31 @@ void sort_by_time(std::vector<Record>& records, double Record::*time) {
 RankLog::RankLog(const protocol::Transport& transport, const RunPlan& plan)
     : transport_(&transport), plan_(&plan), start_(transport.now()) {}
 
-void RankLog::sample(const RankLoop& loop, double seconds, protocol::SubdomainId subdomain) {
+void RankLog::sample(const RankLoop& loop, double seconds, SubdomainId subdomain) {
   samples_.push_back({now(), transport_->rank(), loop.triangles(), remaining_on(loop), seconds, subdomain});
 }
 
 void RankLog::begins(const RankLoop& loop) {
-  sample(loop, 0, kNone);
+  sample(loop, 0, kNoSubdomain);
 }
 
 void RankLog::worked(const RankLoop& loop, const RankLoop::Slice& slice, double seconds) {
   sample(loop, seconds, slice.subdomain);
   told_.clear();
-  for (const protocol::SplitEntry& entry : slice.said)
-    ++told_[plan_->decomposition.roots[static_cast<std::size_t>(entry.edge)].across_from(slice.subdomain)];
+  for (const SplitPoint<GlobalRootId>& split : slice.said)
+    ++told_[plan_->decomposition.roots[split.root].across_from(slice.subdomain)];
   for (const auto& [neighbour, points] : told_)
     splits_.push_back({now(), transport_->rank(), slice.subdomain, neighbour, points});
 }
 
 void RankLog::departs(const RankLoop& loop, const RankLoop::Passage& passage) {
   departures_.push_back({now(), passage.subdomain, passage.epoch, passage.to, passage.bytes});
-  sample(loop, 0, kNone);
+  sample(loop, 0, kNoSubdomain);
 }
 
 void RankLog::arrives(const RankLoop& loop, const RankLoop::Passage& passage) {
   arrivals_.push_back({now(), passage.subdomain, passage.epoch, passage.to, passage.bytes});
-  sample(loop, 0, kNone);
+  sample(loop, 0, kNoSubdomain);
 }
 
 void RankLog::ends(const RankLoop& loop) {
@@ -77,9 +77,9 @@ RankLog RankLog::read(ByteReader& reader) {
   return log;
 }
 
-ClusterRun RankLog::join(const std::vector<RankLog>& logs) {
+ClusterRun RankLog::join(const IdVector<Rank, RankLog>& logs) {
   ClusterRun run;
-  std::map<std::pair<protocol::SubdomainId, protocol::Epoch>, double> arrived;
+  std::map<std::pair<SubdomainId, protocol::Epoch>, double> arrived;
   std::size_t subdomains = 0;
   for (const RankLog& log : logs) {
     run.makespan = std::max(run.makespan, log.end_);
@@ -90,10 +90,9 @@ ClusterRun RankLog::join(const std::vector<RankLog>& logs) {
     subdomains += log.held_.size();
   }
   run.owners.resize(subdomains);
-  for (std::size_t r = 0; r < logs.size(); ++r) {
-    const auto rank = static_cast<protocol::Rank>(r);
-    for (const protocol::SubdomainId s : logs[r].held_) run.owners[static_cast<std::size_t>(s)] = rank;
-    for (const Passage& p : logs[r].departures_)
+  for (const Rank rank : ids_of(logs)) {
+    for (const SubdomainId s : logs[rank].held_) run.owners[s] = rank;
+    for (const Passage& p : logs[rank].departures_)
       run.moves.push_back({p.subdomain, rank, p.to, p.time, arrived.at({p.subdomain, p.epoch}), p.bytes});
   }
   sort_by_time(run.moves, &MoveRecord::left);

@@ -29,19 +29,19 @@ class RankLog {
   void write(ByteWriter& writer) const;
   [[nodiscard]] static RankLog read(ByteReader& reader);
 
-  /// The run of all ranks' logs, which are given in the order of ranks.
-  [[nodiscard]] static ClusterRun join(const std::vector<RankLog>& logs);
+  /// The run of all ranks' logs.
+  [[nodiscard]] static ClusterRun join(const IdVector<Rank, RankLog>& logs);
 
  private:
   struct Passage {
     double time = 0;
-    protocol::SubdomainId subdomain = 0;
+    SubdomainId subdomain{};
     protocol::Epoch epoch = 0;
-    protocol::Rank to = 0;
+    Rank to{};
     std::uint64_t bytes = 0;
   };
   [[nodiscard]] double now() const { return transport_->now() - start_; }
-  void sample(const RankLoop& loop, double seconds, protocol::SubdomainId subdomain);
+  void sample(const RankLoop& loop, double seconds, SubdomainId subdomain);
 
   const protocol::Transport* transport_ = nullptr;
   const RunPlan* plan_ = nullptr;
@@ -51,8 +51,8 @@ class RankLog {
   std::vector<LoadSample> samples_;
   std::vector<SplitRecord> splits_;
   std::vector<Passage> departures_, arrivals_;
-  std::vector<protocol::SubdomainId> held_;             // at the end
-  std::map<protocol::SubdomainId, std::int32_t> told_;  // by the slice that is being written: points by neighbour
+  std::vector<SubdomainId> held_;             // at the end
+  std::map<SubdomainId, std::int32_t> told_;  // by the slice that is being written: points by neighbour
 };
 
 }  // namespace driftmesh

@@ -14,8 +14,6 @@
 namespace driftmesh {
 namespace {
 
-using protocol::Rank;
-
 protocol::VirtualCluster virtual_cluster(const ClusterSpec& cluster, const CostModel& costs) {
   protocol::VirtualCluster made;
   made.speeds = speeds_of(cluster, costs);
@@ -26,11 +24,11 @@ protocol::VirtualCluster virtual_cluster(const ClusterSpec& cluster, const CostM
   return made;
 }
 
-void require_fit(const RunPlan& plan, std::size_t ranks) {
+void require_fit(const RunPlan& plan, std::int32_t ranks) {
   const auto most = std::max_element(plan.owners.begin(), plan.owners.end());
-  if (most != plan.owners.end() && *most >= static_cast<Rank>(ranks))
-    throw Error("the plan has work for rank " + std::to_string(*most) + ", but the cluster has " +
-                std::to_string(ranks) + " ranks");
+  if (most != plan.owners.end() && *most >= Rank{ranks})
+    throw Error("the plan has work for rank " + to_string(*most) + ", but the cluster has " + std::to_string(ranks) +
+                " ranks");
 }
 
 /// The ranks of one run with their network.
@@ -41,11 +39,11 @@ class Simulation {
       : network_(virtual_cluster(cluster, costs)),
         council_(balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options)),
         observers_(observers) {
-    const auto ranks = static_cast<std::size_t>(ranks_of(cluster));
+    const std::int32_t ranks = ranks_of(cluster);
     require_fit(plan, ranks);
-    of_rank_.resize(ranks);
-    logs_.reserve(ranks);  // the observers refer to them
-    for (Rank r = 0; r < static_cast<Rank>(ranks); ++r) {
+    of_rank_.resize(to_index(ranks));
+    logs_.reserve(to_index(ranks));  // the observers refer to them
+    for (const Rank r : first_ids<Rank>(ranks)) {
       RankLog& log = logs_.emplace_back(network_.transport(r), plan);
       RankLoop::Observers watch;
       watch.after_slice = [this, r, &log](const RankLoop& loop, const RankLoop::Slice& slice) {
@@ -67,11 +65,11 @@ class Simulation {
   }
 
   ClusterRun run() {
-    std::vector<protocol::RankStep> steps;
+    IdVector<Rank, protocol::RankStep> steps;
     for (const auto& loop : loops_) steps.push_back([l = loop.get()] { return l->step(); });
     if (network_.run(steps).end != protocol::RunEnd::kFinished)
       throw Error("the simulated ranks wait for each other: " + describe());
-    for (std::size_t r = 0; r < loops_.size(); ++r) {
+    for (const Rank r : ids_of(loops_)) {
       logs_[r].ends(*loops_[r]);
       if (observers_.finished) observers_.finished(*loops_[r]);
     }
@@ -81,7 +79,7 @@ class Simulation {
  private:
   /// Tells what all ranks together have, now that rank `r` has so many.
   void count(Rank r, std::int64_t triangles) {
-    triangles_ += triangles - std::exchange(of_rank_[static_cast<std::size_t>(r)], triangles);
+    triangles_ += triangles - std::exchange(of_rank_[r], triangles);
     if (observers_.progress) observers_.progress(triangles_);
   }
 
@@ -95,10 +93,10 @@ class Simulation {
   protocol::VirtualNetwork network_;
   std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
   const SimulationObservers& observers_;
-  std::vector<std::int64_t> of_rank_;  // triangles of each, when it was last heard of
+  IdVector<Rank, std::int64_t> of_rank_;  // triangles of each, when it was last heard of
   std::int64_t triangles_ = 0;
-  std::vector<RankLog> logs_;
-  std::vector<std::unique_ptr<RankLoop>> loops_;
+  IdVector<Rank, RankLog> logs_;
+  IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
 };
 
 }  // namespace

@@ -13,12 +13,10 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// A root seen from one of its ends: 2 * root from a, 2 * root + 1 from b.
 using Dart = std::int32_t;
+/// A loop of darts with a subdomain on its left.
+using Border = std::int32_t;
 
 class Checker {
  public:
@@ -41,54 +39,54 @@ class Checker {
     if (report_.problems.size() < DecompositionReport::kMaxProblems) report_.problems.push_back(what);
   }
 
-  [[nodiscard]] const Decomposition::Root& root(Dart e) const { return d_.roots[at(e / 2)]; }
+  [[nodiscard]] static GlobalRootId root_of(Dart e) { return GlobalRootId{e / 2}; }
+  [[nodiscard]] const Decomposition::Root& root(Dart e) const { return d_.roots[root_of(e)]; }
   [[nodiscard]] GlobalPointId start(Dart e) const { return e % 2 == 0 ? root(e).a : root(e).b; }
   [[nodiscard]] GlobalPointId end(Dart e) const { return start(e ^ 1); }
   [[nodiscard]] SubdomainId left(Dart e) const { return e % 2 == 0 ? root(e).left : root(e).right; }
   [[nodiscard]] std::uint16_t left_region(Dart e) const {
     return e % 2 == 0 ? root(e).left_region : root(e).right_region;
   }
-  [[nodiscard]] const Point& point(GlobalPointId v) const { return d_.points[at(v)]; }
+  [[nodiscard]] const Point& point(GlobalPointId v) const { return d_.points[v]; }
   [[nodiscard]] std::string place(GlobalPointId v) const {
-    return "point " + std::to_string(v) + " (" + std::to_string(point(v).x) + ", " + std::to_string(point(v).y) + ")";
+    return "point " + to_string(v) + " (" + std::to_string(point(v).x) + ", " + std::to_string(point(v).y) + ")";
   }
 
   bool check_ranges() {
-    const auto points = static_cast<GlobalPointId>(d_.points.size());
-    const auto subdomains = static_cast<SubdomainId>(d_.size());
     if (d_.origin.size() != d_.points.size())
       problem(std::to_string(d_.points.size()) + " points but " + std::to_string(d_.origin.size()) + " origins");
     const auto in_range = [](double x) {
       return x == 0 || (std::fabs(x) >= kSmallestCoordinate && std::fabs(x) <= kMaxCoordinate);
     };
-    for (std::size_t v = 0; v < d_.points.size(); ++v)
+    for (const GlobalPointId v : ids_of(d_.points))
       if (!in_range(d_.points[v].x) || !in_range(d_.points[v].y))
-        problem("point " + std::to_string(v) + " has a coordinate out of range");
-    const auto is_subdomain = [&](SubdomainId s) { return s >= -1 && s < subdomains; };
-    for (std::size_t r = 0; r < d_.roots.size(); ++r) {
+        problem("point " + to_string(v) + " has a coordinate out of range");
+    const auto is_subdomain = [&](SubdomainId s) { return s == kNoSubdomain || d_.subdomains.has(s); };
+    for (const GlobalRootId r : ids_of(d_.roots)) {
       const Decomposition::Root& root = d_.roots[r];
-      const std::string name = "root " + std::to_string(r) + " ";
-      if (!(root.a >= 0 && root.a < root.b && root.b < points))
-        problem(name + "joins points " + std::to_string(root.a) + " and " + std::to_string(root.b) + " of " +
-                std::to_string(points));
-      if (!is_subdomain(root.left) || !is_subdomain(root.right) || (root.left == kNone && root.right == kNone))
-        problem(name + "lies between subdomains " + std::to_string(root.left) + " and " + std::to_string(root.right) +
-                " of " + std::to_string(subdomains));
-      if (root.separator && (root.left == kNone || root.right == kNone || root.left == root.right))
-        problem(name + "is a separator without two subdomains");
+      const std::string name = "root " + to_string(r) + " ";
+      if (!d_.points.has(root.a) || !d_.points.has(root.b) || root.a >= root.b)
+        problem(name + "joins points " + to_string(root.a) + " and " + to_string(root.b) + " of " +
+                std::to_string(d_.points.size()));
+      if (!is_subdomain(root.left) || !is_subdomain(root.right) ||
+          (root.left == kNoSubdomain && root.right == kNoSubdomain))
+        problem(name + "lies between subdomains " + to_string(root.left) + " and " + to_string(root.right) + " of " +
+                std::to_string(d_.size()));
+      if (root.separator && !root.is_interface()) problem(name + "is a separator without two subdomains");
     }
     return report_.problems.empty();
   }
 
   void check_crossings() {
-    std::vector<Box> boxes;
+    IdVector<GlobalRootId, Box> boxes;
     for (const Decomposition::Root& r : d_.roots) boxes.push_back(Box::around(point(r.a), point(r.b)));
     const BoxTree tree(boxes);
-    for (std::size_t r = 0; r < d_.roots.size(); ++r)
+    for (const GlobalRootId r : ids_of(d_.roots))
       tree.search([&](const Box& box) { return box.overlaps(boxes[r]); },
-                  [&](std::int32_t other) {
-                    if (at(other) > r && meet_inside(d_.roots[r], d_.roots[at(other)]))
-                      problem("roots " + std::to_string(r) + " and " + std::to_string(other) + " cross");
+                  [&](std::int32_t found) {
+                    const GlobalRootId other{found};
+                    if (other > r && meet_inside(d_.roots[r], d_.roots[other]))
+                      problem("roots " + to_string(r) + " and " + to_string(other) + " cross");
                   });
   }
 
@@ -136,12 +134,11 @@ class Checker {
 
   /// The sector from dart e counterclockwise to dart f.
   void check_sector(Dart e, Dart f) {
-    next_[at(f ^ 1)] = e;  // a border comes in along f and leaves along e, the sector on its left
-    if (left(e) != left(f ^ 1) || (left(e) != kNone && left_region(e) != left_region(f ^ 1)))
-      problem("at " + place(start(e)) + ", roots " + std::to_string(e / 2) + " and " + std::to_string(f / 2) +
-              " disagree about the subdomain between them: " + std::to_string(left(e)) + " and " +
-              std::to_string(left(f ^ 1)));
-    if (left(e) == kNone || e == f || (!root(e).separator && !root(f).separator)) return;
+    next_[f ^ 1] = e;  // a border comes in along f and leaves along e, the sector on its left
+    if (left(e) != left(f ^ 1) || (left(e) != kNoSubdomain && left_region(e) != left_region(f ^ 1)))
+      problem("at " + place(start(e)) + ", roots " + to_string(root_of(e)) + " and " + to_string(root_of(f)) +
+              " disagree about the subdomain between them: " + to_string(left(e)) + " and " + to_string(left(f ^ 1)));
+    if (left(e) == kNoSubdomain || e == f || (!root(e).separator && !root(f).separator)) return;
     const Point &o = point(start(e)), &p = point(end(e)), &q = point(end(f));
     if (orient2d(o, p, q) < 0) return;  // more than 180 degrees
     const double angle = angle_at(p, o, q) * 180 / std::numbers::pi;
@@ -153,52 +150,49 @@ class Checker {
 
   /// Follows every border: of each subdomain, one that is not connected with a hole's goes around it counterclockwise.
   void check_borders() {
-    std::vector<double> area(d_.size(), 0);
-    std::vector<SubdomainId> subdomain_of;  // of each border
-    std::vector<double> enclosed;
-    std::vector<std::int32_t> border_of(next_.size(), kNone);
-    for (std::size_t first = 0; first < next_.size(); ++first) {
-      const SubdomainId s = left(static_cast<Dart>(first));
-      if (border_of[first] != kNone || s == kNone) continue;
-      enclosed.push_back(follow(static_cast<Dart>(first), static_cast<std::int32_t>(subdomain_of.size()), border_of));
+    IdVector<SubdomainId, double> area(d_.size(), 0);
+    IdVector<Border, SubdomainId> subdomain_of;
+    IdVector<Border, double> enclosed;
+    IdVector<Dart, Border> border_of(next_.size(), kNone);
+    for (const Dart first : ids_of(next_)) {
+      const SubdomainId s = left(first);
+      if (border_of[first] != kNone || s == kNoSubdomain) continue;
+      enclosed.push_back(follow(first, subdomain_of.next_id(), border_of));
       subdomain_of.push_back(s);
-      area[at(s)] += enclosed.back();
+      area[s] += enclosed.back();
     }
-    const std::vector<int> outer = count_outer(subdomain_of, enclosed, border_of);
+    const IdVector<SubdomainId, int> outer = count_outer(subdomain_of, enclosed, border_of);
     for (const double a : area) report_.area += a;
-    for (std::size_t i = 0; i < d_.size(); ++i) {
+    for (const SubdomainId i : ids_of(d_.subdomains)) {
       if (outer[i] != 1)
-        problem("subdomain " + std::to_string(i) + " has " + std::to_string(outer[i]) +
+        problem("subdomain " + to_string(i) + " has " + std::to_string(outer[i]) +
                 " outer borders: it is not connected");
       if (!(std::fabs(area[i] - d_.subdomains[i].area) <= 1e-9 * report_.area))
-        problem("subdomain " + std::to_string(i) + " claims area " + std::to_string(d_.subdomains[i].area) +
+        problem("subdomain " + to_string(i) + " claims area " + std::to_string(d_.subdomains[i].area) +
                 ", its border encloses " + std::to_string(area[i]));
     }
   }
 
   /// The outer borders of each subdomain. Borders on both sides of a root inside the subdomain count as one; those that
   /// include the border of a hole lie inside another.
-  [[nodiscard]] std::vector<int> count_outer(const std::vector<SubdomainId>& subdomain_of,
-                                             const std::vector<double>& enclosed,
-                                             const std::vector<std::int32_t>& border_of) const {
+  [[nodiscard]] IdVector<SubdomainId, int> count_outer(const IdVector<Border, SubdomainId>& subdomain_of,
+                                                       const IdVector<Border, double>& enclosed,
+                                                       const IdVector<Dart, Border>& border_of) const {
     DisjointSets sets(enclosed.size());
-    for (Dart e = 0; at(e) < next_.size(); e += 2)
-      if (left(e) != kNone && left(e) == left(e + 1)) sets.join(border_of[at(e)], border_of[at(e + 1)]);
-    std::vector<bool> inside(enclosed.size(), false), proper(enclosed.size(), false);
-    for (std::size_t b = 0; b < enclosed.size(); ++b) {
-      const auto set = at(sets.find(static_cast<std::int32_t>(b)));
-      (enclosed[b] > 0 ? proper : inside)[set] = true;
-    }
-    std::vector<int> outer(d_.size(), 0);
-    for (std::size_t b = 0; b < enclosed.size(); ++b) outer[at(subdomain_of[b])] += proper[b] && !inside[b];
+    for (Dart e = 0; next_.has(e); e += 2)
+      if (left(e) != kNoSubdomain && left(e) == left(e + 1)) sets.join(border_of[e], border_of[e + 1]);
+    IdVector<Border, bool> inside(enclosed.size(), false), proper(enclosed.size(), false);
+    for (const Border b : ids_of(enclosed)) (enclosed[b] > 0 ? proper : inside)[sets.find(b)] = true;
+    IdVector<SubdomainId, int> outer(d_.size(), 0);
+    for (const Border b : ids_of(enclosed)) outer[subdomain_of[b]] += proper[b] && !inside[b];
     return outer;
   }
 
-  double follow(Dart first, std::int32_t border, std::vector<std::int32_t>& border_of) const {
+  double follow(Dart first, Border border, IdVector<Dart, Border>& border_of) const {
     const Point& o = point(start(first));
     double twice_area = 0;
-    for (Dart e = first; border_of[at(e)] == kNone; e = next_[at(e)]) {
-      border_of[at(e)] = border;
+    for (Dart e = first; border_of[e] == kNone; e = next_[e]) {
+      border_of[e] = border;
       const Point &a = point(start(e)), &b = point(end(e));
       twice_area += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
     }
@@ -212,18 +206,18 @@ class Checker {
     list_roots(copy);
     if (copy.root_begin != d_.root_begin || copy.root_list != d_.root_list)
       problem("the lists of roots do not agree with the sides of the roots");
-    if (d_.point_begin.size() != d_.size() + 1 || at(d_.point_begin.back()) != d_.point_list.size() ||
+    if (d_.point_begin.size() != d_.size() + 1 || to_index(d_.point_begin.back()) != d_.point_list.size() ||
         !std::is_sorted(d_.point_begin.begin(), d_.point_begin.end()) || d_.point_begin.front() != 0)
       problem("the lists of inner points are broken");
     for (const GlobalPointId v : d_.point_list)
-      if (v < 0 || at(v) >= d_.points.size()) problem("inner point " + std::to_string(v) + " does not exist");
+      if (!d_.points.has(v)) problem("inner point " + to_string(v) + " does not exist");
   }
 
   void measure() {
     for (const Decomposition::Root& r : d_.roots) {
       const double length = std::sqrt(squared_distance(point(r.a), point(r.b)));
       if (r.separator) report_.separator_length += length;
-      if (r.left == kNone || r.right == kNone) report_.border_length += length;
+      if (r.left == kNoSubdomain || r.right == kNoSubdomain) report_.border_length += length;
     }
     double work = 0, most = 0, least = kNoWork;
     for (const Decomposition::Subdomain& s : d_.subdomains) {
@@ -239,7 +233,7 @@ class Checker {
   static constexpr double kNoWork = 1e300;
   const Decomposition& d_;
   DecompositionReport report_;
-  std::vector<Dart> next_;  // along the border left of a dart
+  IdVector<Dart, Dart> next_;  // along the border left of a dart
 };
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace driftmesh {
 struct DecompositionReport {
   /// Broken invariants in words, at most kMaxProblems; empty if there are none.
   std::vector<std::string> problems;
-  double smallest_angle = 180;        ///< degrees, between a separator and any root beside it, inside the domain
-  GlobalPointId smallest_at = kNone;  ///< where
+  double smallest_angle = 180;           ///< degrees, between a separator and any root beside it, inside the domain
+  GlobalPointId smallest_at = kNoPoint;  ///< where
   std::vector<std::int32_t> angle_histogram;  ///< of those angles, in steps of 10 degrees: [0, 10), ..., [170, 180]
   double area = 0;                            ///< of all subdomains
   double border_length = 0;                   ///< of roots with the domain on one side

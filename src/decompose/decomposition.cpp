@@ -10,26 +10,25 @@ namespace driftmesh {
 
 void list_roots(Decomposition& d) {
   const auto each_side = [&](auto&& visit) {
-    for (std::size_t r = 0; r < d.roots.size(); ++r) {
+    for (const GlobalRootId r : ids_of(d.roots)) {
       const Decomposition::Root& root = d.roots[r];
-      if (root.left != kNone) visit(root.left, static_cast<RootId>(r));
-      if (root.right != kNone && root.right != root.left) visit(root.right, static_cast<RootId>(r));
+      if (root.left != kNoSubdomain) visit(root.left, r);
+      if (root.right != kNoSubdomain && root.right != root.left) visit(root.right, r);
     }
   };
   d.root_begin.assign(d.size() + 1, 0);
-  each_side([&](SubdomainId s, RootId) { ++d.root_begin[static_cast<std::size_t>(s) + 1]; });
+  each_side([&](SubdomainId s, GlobalRootId) { ++d.root_begin[to_index(s) + 1]; });
   for (std::size_t i = 0; i < d.size(); ++i) d.root_begin[i + 1] += d.root_begin[i];
-  d.root_list.assign(static_cast<std::size_t>(d.root_begin.back()), kNone);
-  std::vector<std::int32_t> end(d.root_begin.begin(), d.root_begin.end() - 1);
-  each_side(
-      [&](SubdomainId s, RootId r) { d.root_list[static_cast<std::size_t>(end[static_cast<std::size_t>(s)]++)] = r; });
+  d.root_list.resize(to_index(d.root_begin.back()));
+  IdVector<SubdomainId, std::int32_t> end(d.root_begin.begin(), d.root_begin.end() - 1);
+  each_side([&](SubdomainId s, GlobalRootId r) { d.root_list[to_index(end[s]++)] = r; });
 }
 
 std::vector<Interface> interfaces(const Decomposition& d) {
   std::vector<Interface> all;
   for (const Decomposition::Root& root : d.roots) {
-    if (root.left == kNone || root.right == kNone || root.left == root.right) continue;
-    const Point &a = d.points[static_cast<std::size_t>(root.a)], &b = d.points[static_cast<std::size_t>(root.b)];
+    if (!root.is_interface()) continue;
+    const Point &a = d.points[root.a], &b = d.points[root.b];
     all.push_back(
         {std::min(root.left, root.right), std::max(root.left, root.right), std::sqrt(squared_distance(a, b))});
   }

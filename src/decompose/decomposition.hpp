@@ -4,16 +4,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "base/ids.hpp"
 #include "driftmesh/point.hpp"
 #include "mesh/triangulation.hpp"
 
 namespace driftmesh {
 
-using SubdomainId = std::int32_t;
-/// Index of a point of a Decomposition: the same on every rank.
-using GlobalPointId = std::int32_t;
+/// A point of a Decomposition: the same on every rank.
+enum class GlobalPointId : std::int32_t {};
+inline constexpr GlobalPointId kNoPoint{-1};
+
+[[nodiscard]] inline std::string to_string(GlobalPointId point) {
+  return std::to_string(to_int(point));
+}
 
 /// A domain cut into subdomains. Plain data in flat arrays: what is mapped to ranks, saved and loaded.
 ///
@@ -23,17 +29,17 @@ using GlobalPointId = std::int32_t;
 struct Decomposition {
   /// A segment that refinement cuts at dyadic points only, as both sides do alike.
   struct Root {
-    GlobalPointId a = 0;  ///< a < b: the root's direction
-    GlobalPointId b = 0;
-    std::int32_t marker = 0;     ///< of the input segment; 0 for separators
-    std::int32_t shell = kNone;  ///< of a shell piece (see mesh/corners.hpp)
-    SubdomainId left = kNone;    ///< subdomain left of a -> b; kNone: not in the domain
-    SubdomainId right = kNone;
+    GlobalPointId a{};  ///< a < b: the root's direction
+    GlobalPointId b{};
+    std::int32_t marker = 0;          ///< of the input segment; 0 for separators
+    std::int32_t shell = kNone;       ///< of a shell piece (see mesh/corners.hpp)
+    SubdomainId left = kNoSubdomain;  ///< subdomain left of a -> b; kNoSubdomain: not in the domain
+    SubdomainId right = kNoSubdomain;
     std::uint16_t left_region = 0;  ///< label of the region on that side (see mesh/cdt.hpp), 0 without a side
     std::uint16_t right_region = 0;
     bool separator = false;  ///< made here, not on any segment of the input
     /// Whether two subdomains share it.
-    [[nodiscard]] bool is_interface() const { return left != kNone && right != kNone && left != right; }
+    [[nodiscard]] bool is_interface() const { return left != kNoSubdomain && right != kNoSubdomain && left != right; }
     /// The subdomain on the other side of an interface.
     [[nodiscard]] SubdomainId across_from(SubdomainId one) const { return left == one ? right : left; }
     friend bool operator==(const Root&, const Root&) = default;
@@ -46,32 +52,30 @@ struct Decomposition {
     friend bool operator==(const Subdomain&, const Subdomain&) = default;
   };
 
-  std::vector<Point> points;
+  IdVector<GlobalPointId, Point> points;
   /// Of each point: the index of an input point, a shell end (see triangulation.hpp), or kNone for a separator's end.
-  std::vector<VertexOrigin> origin;
-  std::vector<Root> roots;
-  std::vector<Subdomain> subdomains;
+  IdVector<GlobalPointId, VertexOrigin> origin;
+  IdVector<GlobalRootId, Root> roots;
+  IdVector<SubdomainId, Subdomain> subdomains;
   /// Roots of subdomain i, ascending: root_list[root_begin[i]] up to root_begin[i + 1]. A root inside the subdomain
   /// (both sides) stands there once.
   std::vector<std::int32_t> root_begin{0};
-  std::vector<RootId> root_list;
+  std::vector<GlobalRootId> root_list;
   /// Points inside subdomain i that are on no root (isolated input points), the same way.
   std::vector<std::int32_t> point_begin{0};
   std::vector<GlobalPointId> point_list;
 
   [[nodiscard]] std::size_t size() const { return subdomains.size(); }
-  [[nodiscard]] std::span<const RootId> roots_of(SubdomainId i) const { return slice(root_begin, root_list, i); }
+  [[nodiscard]] std::span<const GlobalRootId> roots_of(SubdomainId i) const { return slice(root_begin, root_list, i); }
   [[nodiscard]] std::span<const GlobalPointId> inner_points_of(SubdomainId i) const {
     return slice(point_begin, point_list, i);
   }
   friend bool operator==(const Decomposition&, const Decomposition&) = default;
 
  private:
-  static std::span<const std::int32_t> slice(const std::vector<std::int32_t>& begin,
-                                             const std::vector<std::int32_t>& list, std::int32_t i) {
-    const auto at = static_cast<std::size_t>(i);
-    return std::span(list).subspan(static_cast<std::size_t>(begin[at]),
-                                   static_cast<std::size_t>(begin[at + 1] - begin[at]));
+  template <class T>
+  static std::span<const T> slice(const std::vector<std::int32_t>& begin, const std::vector<T>& list, SubdomainId i) {
+    return {list.data() + begin[to_index(i)], list.data() + begin[to_index(i) + 1]};
   }
 };
 

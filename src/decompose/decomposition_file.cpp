@@ -66,7 +66,7 @@ class Parser {
   }
 
   void read_points() {
-    d_.points.reserve(static_cast<std::size_t>(points_));
+    d_.points.reserve(to_index(points_));
     for (std::int32_t i = 0; i < points_; ++i) {
       in_.require_element(i, points_, "points");
       const double x = in_.number("x"), y = in_.number("y");
@@ -76,16 +76,16 @@ class Parser {
   }
 
   void read_roots() {
-    d_.roots.reserve(static_cast<std::size_t>(roots_));
+    d_.roots.reserve(to_index(roots_));
     for (std::int32_t i = 0; i < roots_; ++i) {
       in_.require_element(i, roots_, "roots");
       Decomposition::Root r;
-      r.a = integer("first point of a root", 0, points_ - 1);
-      r.b = integer("second point of a root", 0, points_ - 1);
+      r.a = GlobalPointId{integer("first point of a root", 0, points_ - 1)};
+      r.b = GlobalPointId{integer("second point of a root", 0, points_ - 1)};
       r.marker = in_.integer("marker of a root");
       r.shell = integer("shell of a root", kNone, kMostRecords);
-      r.left = integer("subdomain left of a root", kNone, subdomains_ - 1);
-      r.right = integer("subdomain right of a root", kNone, subdomains_ - 1);
+      r.left = SubdomainId{integer("subdomain left of a root", to_int(kNoSubdomain), subdomains_ - 1)};
+      r.right = SubdomainId{integer("subdomain right of a root", to_int(kNoSubdomain), subdomains_ - 1)};
       r.left_region = static_cast<std::uint16_t>(integer("region left of a root", 0, kMostRegion));
       r.right_region = static_cast<std::uint16_t>(integer("region right of a root", 0, kMostRegion));
       r.separator = integer("kind of a root", 0, 1) == 1;
@@ -108,16 +108,16 @@ class Parser {
   }
 
   void read_inner_points() {
-    d_.point_begin.assign(static_cast<std::size_t>(subdomains_) + 1, 0);
-    std::vector<std::pair<SubdomainId, GlobalPointId>> inner;
+    d_.point_begin.assign(d_.size() + 1, 0);
+    std::pair<SubdomainId, GlobalPointId> last{kNoSubdomain, kNoPoint};
     for (std::int32_t i = 0; i < inner_points_; ++i) {
       in_.require_element(i, inner_points_, "inner points");
-      const SubdomainId subdomain = integer("subdomain of an inner point", 0, subdomains_ - 1);
-      inner.emplace_back(subdomain, integer("inner point", 0, points_ - 1));
-      if (i > 0 && inner[static_cast<std::size_t>(i)] <= inner[static_cast<std::size_t>(i) - 1])
+      const SubdomainId subdomain{integer("subdomain of an inner point", 0, subdomains_ - 1)};
+      const GlobalPointId point{integer("inner point", 0, points_ - 1)};
+      if (std::pair(subdomain, point) <= std::exchange(last, {subdomain, point}))
         in_.problem("inner points are not in ascending order", "sort them by subdomain and number");
-      ++d_.point_begin[static_cast<std::size_t>(subdomain) + 1];
-      d_.point_list.push_back(inner.back().second);
+      ++d_.point_begin[to_index(subdomain) + 1];
+      d_.point_list.push_back(point);
     }
     for (std::size_t i = 1; i < d_.point_begin.size(); ++i) d_.point_begin[i] += d_.point_begin[i - 1];
   }
@@ -147,19 +147,20 @@ void write_decomposition(const Decomposition& d, const Pslg& input, const std::s
   line.field(d.points.size()).field(d.roots.size()).field(d.size()).field(d.point_list.size());
   line.field(input_digest(input)).end();
   file.write("# points: x y origin\n");
-  for (std::size_t v = 0; v < d.points.size(); ++v)
+  for (const GlobalPointId v : ids_of(d.points))
     line.field(d.points[v].x).field(d.points[v].y).field(d.origin[v]).end();
   file.write("# roots: a b marker shell left right left-region right-region separator\n");
   for (const Decomposition::Root& r : d.roots) {
-    line.field(r.a).field(r.b).field(r.marker).field(r.shell).field(r.left).field(r.right);
+    line.field(to_int(r.a)).field(to_int(r.b)).field(r.marker).field(r.shell);
+    line.field(to_int(r.left)).field(to_int(r.right));
     line.field(r.left_region).field(r.right_region).field(r.separator ? 1 : 0).end();
   }
   file.write("# subdomains: area work x y region\n");
   for (const Decomposition::Subdomain& s : d.subdomains)
     line.field(s.area).field(s.predicted).field(s.centroid.x).field(s.centroid.y).field(s.region).end();
   file.write("# inner points: subdomain point\n");
-  for (std::size_t i = 0; i < d.size(); ++i)
-    for (const GlobalPointId v : d.inner_points_of(static_cast<SubdomainId>(i))) line.field(i).field(v).end();
+  for (const SubdomainId i : ids_of(d.subdomains))
+    for (const GlobalPointId v : d.inner_points_of(i)) line.field(to_int(i)).field(to_int(v)).end();
   file.commit();
 }
 

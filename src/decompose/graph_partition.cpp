@@ -39,10 +39,10 @@ std::mutex one_at_a_time;
 
 }  // namespace
 
-std::vector<std::int32_t> partition_graph(const WeightedGraph& graph, const std::vector<double>& shares,
-                                          PartitionMethod method, std::int32_t seed) {
+IdVector<std::int32_t, std::int32_t> partition_graph(const WeightedGraph& graph, const std::vector<double>& shares,
+                                                     PartitionMethod method, std::int32_t seed) {
   DM_ASSERT(!shares.empty() && graph.begin.size() == graph.size() + 1);
-  std::vector<idx_t> part(graph.size(), 0);
+  IdVector<std::int32_t, idx_t> part(graph.size(), 0);
   if (shares.size() == 1 || graph.size() < 2) return part;
   idx_t vertices = narrow<idx_t>(graph.size(), "vertices of a graph"), constraints = 1, cut = 0;
   idx_t parts = narrow<idx_t>(shares.size(), "parts of a graph");

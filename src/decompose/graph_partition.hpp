@@ -3,14 +3,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/id_vector.hpp"
+
 namespace driftmesh {
 
 /// An undirected graph with weights. Each edge stands at both of its ends.
 struct WeightedGraph {
-  std::vector<std::int32_t> begin{0};  ///< neighbours of vertex v: from begin[v] up to begin[v + 1]
-  std::vector<std::int32_t> neighbor;
-  std::vector<double> edge_weight;    ///< one for each entry of neighbor, > 0
-  std::vector<double> vertex_weight;  ///< >= 0
+  IdVector<std::int32_t, std::int32_t> begin{0};  ///< neighbours of vertex v: from begin[v] up to begin[v + 1]
+  IdVector<std::int32_t, std::int32_t> neighbor;
+  IdVector<std::int32_t, double> edge_weight;    ///< one for each entry of neighbor, > 0
+  IdVector<std::int32_t, double> vertex_weight;  ///< >= 0
   [[nodiscard]] std::size_t size() const { return vertex_weight.size(); }
 };
 
@@ -22,7 +24,8 @@ enum class PartitionMethod {
 /// Cuts a graph into parts of the given shares of the weight (any positive scale, one for each part), with little edge
 /// weight between them. A part may come out empty or in several pieces. Deterministic for a seed, whatever other
 /// threads do; one call at a time works, others wait. Uses METIS (Karypis and Kumar 1998). Throws Error if METIS fails.
-[[nodiscard]] std::vector<std::int32_t> partition_graph(const WeightedGraph& graph, const std::vector<double>& shares,
-                                                        PartitionMethod method, std::int32_t seed = 1);
+[[nodiscard]] IdVector<std::int32_t, std::int32_t> partition_graph(const WeightedGraph& graph,
+                                                                   const std::vector<double>& shares,
+                                                                   PartitionMethod method, std::int32_t seed = 1);
 
 }  // namespace driftmesh

@@ -18,15 +18,11 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Pieces that touch along walls, by connected part of the domain.
-DisjointSets connected_parts(const PlanarMap& map, const std::vector<std::int32_t>& piece_of, std::size_t pieces) {
+DisjointSets connected_parts(const PlanarMap& map, const IdVector<SideId, PieceId>& piece_of, std::size_t pieces) {
   DisjointSets sets(pieces);
-  for (SideId h = 0; at(h) < map.sides.size(); h += 2)
-    if (piece_of[at(h)] != kNone && piece_of[at(h + 1)] != kNone) sets.join(piece_of[at(h)], piece_of[at(h + 1)]);
+  for (SideId h = 0; map.sides.has(h); h += 2)
+    if (piece_of[h] != kNone && piece_of[h + 1] != kNone) sets.join(piece_of[h], piece_of[h + 1]);
   return sets;
 }
 
@@ -55,17 +51,17 @@ std::vector<std::int32_t> round_shares(const std::vector<double>& weights, std::
 
 /// Pieces as vertices, weighted by work; edges weighted by the length of the walls between two pieces.
 WeightedGraph graph_of(const PlanarMap& map, const std::vector<Piece>& pieces) {
-  const std::vector<std::int32_t> piece_of = label_sides(map, pieces);
-  std::map<std::pair<std::int32_t, std::int32_t>, double> shared;
-  for (SideId h = 0; at(h) < map.sides.size(); ++h) {
-    const std::int32_t left = piece_of[at(h)], right = piece_of[at(PlanarMap::twin(h))];
+  const IdVector<SideId, PieceId> piece_of = label_sides(map, pieces);
+  std::map<std::pair<PieceId, PieceId>, double> shared;
+  for (const SideId h : ids_of(map.sides)) {
+    const PieceId left = piece_of[h], right = piece_of[PlanarMap::twin(h)];
     if (left == kNone || right == kNone || left == right) continue;
     shared[{left, right}] += std::sqrt(squared_distance(map.at(map.start(h)), map.at(map.end(h))));
   }
   WeightedGraph graph;
   graph.begin.assign(pieces.size() + 1, 0);
   for (const auto& [pair, length] : shared) {
-    ++graph.begin[at(pair.first) + 1];
+    ++graph.begin[pair.first + 1];
     graph.neighbor.push_back(pair.second);
     graph.edge_weight.push_back(length);
   }
@@ -76,8 +72,8 @@ WeightedGraph graph_of(const PlanarMap& map, const std::vector<Piece>& pieces) {
 
 template <class Visit>
 void for_each_edge(const WeightedGraph& graph, Visit&& visit) {
-  for (std::int32_t v = 0; at(v) < graph.size(); ++v)
-    for (auto k = at(graph.begin[at(v)]); k < at(graph.begin[at(v) + 1]); ++k) visit(v, graph.neighbor[k]);
+  for (const std::int32_t v : ids_of(graph.vertex_weight))
+    for (std::int32_t k = graph.begin[v]; k < graph.begin[v + 1]; ++k) visit(v, graph.neighbor[k]);
 }
 
 /// Groups of pieces, the lightest first, with the groups that each touches.
@@ -85,8 +81,8 @@ class Groups {
  public:
   explicit Groups(const WeightedGraph& graph)
       : sets_(graph.size()), work_(graph.vertex_weight), touching_(graph.size()) {
-    for (std::size_t i = 0; i < graph.size(); ++i) by_work_.emplace(work_[i], static_cast<std::int32_t>(i));
-    for_each_edge(graph, [&](std::int32_t v, std::int32_t w) { touching_[at(v)].insert(w); });
+    for (const std::int32_t i : ids_of(work_)) by_work_.emplace(work_[i], i);
+    for_each_edge(graph, [&](std::int32_t v, std::int32_t w) { touching_[v].insert(w); });
   }
 
   [[nodiscard]] std::size_t count() const { return by_work_.size() + finished_; }
@@ -110,7 +106,7 @@ class Groups {
   void join_pieces(std::int32_t piece, std::int32_t other) {
     const std::int32_t group = sets_.find(piece), second = sets_.find(other);
     if (group == second) return;
-    by_work_.erase({work_[at(group)], group});
+    by_work_.erase({work_[group], group});
     join(group, second);
   }
 
@@ -119,29 +115,29 @@ class Groups {
  private:
   std::int32_t lightest_neighbor(std::int32_t group) {
     std::int32_t best = kNone;
-    for (const std::int32_t n : touching_[at(group)])
-      if (best == kNone || work_[at(n)] < work_[at(best)]) best = n;
+    for (const std::int32_t n : touching_[group])
+      if (best == kNone || work_[n] < work_[best]) best = n;
     return best;
   }
 
   void join(std::int32_t group, std::int32_t other) {
-    by_work_.erase({work_[at(other)], other});
+    by_work_.erase({work_[other], other});
     sets_.join(group, other);
     const std::int32_t kept = sets_.find(group), gone = kept == group ? other : group;
-    work_[at(kept)] += work_[at(gone)];
-    for (const std::int32_t n : touching_[at(gone)]) {
-      touching_[at(n)].erase(gone);
+    work_[kept] += work_[gone];
+    for (const std::int32_t n : touching_[gone]) {
+      touching_[n].erase(gone);
       if (n == kept) continue;
-      touching_[at(n)].insert(kept);
-      touching_[at(kept)].insert(n);
+      touching_[n].insert(kept);
+      touching_[kept].insert(n);
     }
-    touching_[at(gone)].clear();
-    by_work_.emplace(work_[at(kept)], kept);
+    touching_[gone].clear();
+    by_work_.emplace(work_[kept], kept);
   }
 
   DisjointSets sets_;
-  std::vector<double> work_;
-  std::vector<std::set<std::int32_t>> touching_;
+  IdVector<std::int32_t, double> work_;
+  IdVector<std::int32_t, std::set<std::int32_t>> touching_;
   std::set<std::pair<double, std::int32_t>> by_work_;
   std::size_t finished_ = 0;
 };
@@ -149,25 +145,26 @@ class Groups {
 /// Where there are many more pieces than groups, METIS says which belong together. Its parts need not be connected:
 /// their connected pieces become groups. Nothing is joined if it leaves parts empty.
 void join_by_partition(const WeightedGraph& graph, std::int32_t count, Groups& groups) {
-  const std::vector<std::int32_t> part = partition_graph(
-      graph, std::vector<double>(at(count), 1.0), count <= 8 ? PartitionMethod::kRecursive : PartitionMethod::kDirect);
+  const IdVector<PieceId, std::int32_t> part =
+      partition_graph(graph, std::vector<double>(to_index(count), 1.0),
+                      count <= 8 ? PartitionMethod::kRecursive : PartitionMethod::kDirect);
   DisjointSets sets(graph.size());
   std::size_t left = graph.size();
-  for_each_edge(graph, [&](std::int32_t v, std::int32_t w) { left -= part[at(v)] == part[at(w)] && sets.join(v, w); });
-  if (left < at(count)) return;
+  for_each_edge(graph, [&](std::int32_t v, std::int32_t w) { left -= part[v] == part[w] && sets.join(v, w); });
+  if (left < to_index(count)) return;
   for_each_edge(graph, [&](std::int32_t v, std::int32_t w) {
-    if (part[at(v)] == part[at(w)]) groups.join_pieces(v, w);
+    if (part[v] == part[w]) groups.join_pieces(v, w);
   });
 }
 
 }  // namespace
 
-std::vector<std::int32_t> label_sides(const PlanarMap& map, const std::vector<Piece>& pieces) {
-  std::vector<std::int32_t> piece_of(map.sides.size(), kNone);
+IdVector<SideId, PieceId> label_sides(const PlanarMap& map, const std::vector<Piece>& pieces) {
+  IdVector<SideId, PieceId> piece_of(map.sides.size(), kNone);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     SideId h = pieces[i].side;
     do {
-      piece_of[at(h)] = static_cast<std::int32_t>(i);
+      piece_of[h] = static_cast<PieceId>(i);
       h = map.side(h).next;
     } while (h != pieces[i].side);
   }
@@ -176,10 +173,10 @@ std::vector<std::int32_t> label_sides(const PlanarMap& map, const std::vector<Pi
 
 std::vector<Piece> find_pieces(const PlanarMap& map, const QualityBounds& bounds) {
   std::vector<Piece> pieces;
-  std::vector<bool> seen(map.sides.size(), false);
-  for (SideId first = 0; at(first) < map.sides.size(); ++first) {
-    if (seen[at(first)] || !map.side(first).in_domain()) continue;
-    for (SideId h = first; !seen[at(h)]; h = map.side(h).next) seen[at(h)] = true;
+  IdVector<SideId, bool> seen(map.sides.size(), false);
+  for (const SideId first : ids_of(map.sides)) {
+    if (seen[first] || !map.side(first).in_domain()) continue;
+    for (SideId h = first; !seen[h]; h = map.side(h).next) seen[h] = true;
     Piece piece;
     piece.side = first;
     piece.area = measure_piece(map, first).area;
@@ -191,10 +188,10 @@ std::vector<Piece> find_pieces(const PlanarMap& map, const QualityBounds& bounds
 
 void allot_parts(const PlanarMap& map, std::vector<Piece>& pieces, std::int32_t parts) {
   DisjointSets sets = connected_parts(map, label_sides(map, pieces), pieces.size());
-  std::vector<std::vector<std::size_t>> members(pieces.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i) members[at(sets.find(static_cast<std::int32_t>(i)))].push_back(i);
+  IdVector<PieceId, std::vector<std::size_t>> members(pieces.size());
+  for (const PieceId i : ids_of(members)) members[sets.find(i)].push_back(to_index(i));
   std::erase_if(members, [](const auto& m) { return m.empty(); });
-  if (members.size() > at(parts))
+  if (members.size() > to_index(parts))
     throw Error("the domain consists of " + std::to_string(members.size()) +
                 " parts that do not touch: it cannot become " + std::to_string(parts) +
                 " connected subdomains; ask for at least " + std::to_string(members.size()));
@@ -215,18 +212,18 @@ void allot_parts(const PlanarMap& map, std::vector<Piece>& pieces, std::int32_t 
 std::vector<std::int32_t> group_pieces(const PlanarMap& map, const std::vector<Piece>& pieces, std::int32_t count) {
   std::vector<std::int32_t> group_of(pieces.size());
   std::iota(group_of.begin(), group_of.end(), 0);
-  if (pieces.size() <= at(count)) return group_of;
+  if (pieces.size() <= to_index(count)) return group_of;
   const WeightedGraph graph = graph_of(map, pieces);
   Groups groups(graph);
-  if (pieces.size() > 2 * at(count)) join_by_partition(graph, count, groups);
-  while (groups.count() > at(count) && groups.join_lightest()) {
+  if (pieces.size() > 2 * to_index(count)) join_by_partition(graph, count, groups);
+  while (groups.count() > to_index(count) && groups.join_lightest()) {
   }
-  std::vector<std::int32_t> number(pieces.size(), kNone);
+  IdVector<PieceId, std::int32_t> number(pieces.size(), kNone);
   std::int32_t numbers = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    std::int32_t& n = number[at(groups.group_of(static_cast<std::int32_t>(i)))];
+  for (const PieceId i : ids_of(number)) {
+    std::int32_t& n = number[groups.group_of(i)];
     if (n == kNone) n = numbers++;
-    group_of[i] = n;
+    group_of[to_index(i)] = n;
   }
   return group_of;
 }

@@ -8,6 +8,9 @@
 
 namespace driftmesh {
 
+/// The index of a piece in a list of all.
+using PieceId = std::int32_t;
+
 /// A piece of the domain, with one loop of the map as its border.
 struct Piece {
   SideId side = kNone;     ///< one side of its loop
@@ -24,7 +27,7 @@ struct Piece {
 void allot_parts(const PlanarMap& map, std::vector<Piece>& pieces, std::int32_t parts);
 
 /// For each side in the domain the index of the piece it belongs to, kNone for the others.
-[[nodiscard]] std::vector<std::int32_t> label_sides(const PlanarMap& map, const std::vector<Piece>& pieces);
+[[nodiscard]] IdVector<SideId, PieceId> label_sides(const PlanarMap& map, const std::vector<Piece>& pieces);
 
 /// Groups pieces that touch into `count` subdomains: by a graph partition where there are many more of them; then,
 /// while there are more groups, the lightest is joined with the neighbour that is lightest itself. Returns the

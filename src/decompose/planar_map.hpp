@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/id_vector.hpp"
 #include "driftmesh/point.hpp"
 #include "mesh/triangulation.hpp"
 
@@ -12,6 +13,7 @@ namespace driftmesh {
 
 /// One side of a wall: the half-edge h and its twin h ^ 1 run along the same wall in opposite directions.
 using SideId = std::int32_t;
+using WallId = std::int32_t;
 
 /// The walls of a domain (its segments, and the separators made so far) as half-edges. Each side in the domain belongs
 /// to a loop with a piece of the domain on its left; a piece whose border is connected has one loop. A wall can have
@@ -32,19 +34,19 @@ class PlanarMap {
     [[nodiscard]] bool in_domain() const { return next != kNone; }
   };
 
-  std::vector<Point> points;
-  std::vector<VertexOrigin> origin;  ///< of each point: index of an input point, shell end, or kNone
-  std::vector<Wall> walls;
-  std::vector<Side> sides;  ///< two for each wall
+  IdVector<VertexId, Point> points;
+  IdVector<VertexId, VertexOrigin> origin;  ///< of each point: index of an input point, shell end, or kNone
+  IdVector<WallId, Wall> walls;
+  IdVector<SideId, Side> sides;  ///< two for each wall
 
   static constexpr SideId twin(SideId h) { return h ^ 1; }
-  [[nodiscard]] Side& side(SideId h) { return sides[static_cast<std::size_t>(h)]; }
-  [[nodiscard]] const Side& side(SideId h) const { return sides[static_cast<std::size_t>(h)]; }
-  [[nodiscard]] Wall& wall(SideId h) { return walls[static_cast<std::size_t>(h / 2)]; }
-  [[nodiscard]] const Wall& wall(SideId h) const { return walls[static_cast<std::size_t>(h / 2)]; }
+  [[nodiscard]] Side& side(SideId h) { return sides[h]; }
+  [[nodiscard]] const Side& side(SideId h) const { return sides[h]; }
+  [[nodiscard]] Wall& wall(SideId h) { return walls[h / 2]; }
+  [[nodiscard]] const Wall& wall(SideId h) const { return walls[h / 2]; }
   [[nodiscard]] VertexId start(SideId h) const { return side(h).origin; }
   [[nodiscard]] VertexId end(SideId h) const { return side(twin(h)).origin; }
-  [[nodiscard]] const Point& at(VertexId v) const { return points[static_cast<std::size_t>(v)]; }
+  [[nodiscard]] const Point& at(VertexId v) const { return points[v]; }
 
   VertexId add_point(const Point& p, VertexOrigin what);
   /// A wall with sides a -> b and b -> a, not linked to anything. Returns the first.

@@ -41,12 +41,12 @@ bool bounds_size(const QualityBounds& bounds) {
                      [](double area) { return area > 0; });
 }
 
-std::vector<dyadic::Path> presplit_paths(const Decomposition& d, RootId root, const QualityBounds& bounds) {
+std::vector<dyadic::Path> presplit_paths(const Decomposition& d, GlobalRootId root, const QualityBounds& bounds) {
   std::vector<dyadic::Path> paths;
-  const Decomposition::Root& r = d.roots[static_cast<std::size_t>(root)];
+  const Decomposition::Root& r = d.roots[root];
   if (!r.is_interface() || !bounds_size(bounds)) return paths;
   const Spacing spacing{std::min(area_bound(bounds, r.left_region), area_bound(bounds, r.right_region)), bounds.size};
-  cut(spacing, d.points[static_cast<std::size_t>(r.a)], d.points[static_cast<std::size_t>(r.b)], dyadic::kWhole, paths);
+  cut(spacing, d.points[r.a], d.points[r.b], dyadic::kWhole, paths);
   return paths;
 }
 

@@ -21,7 +21,7 @@ inline constexpr double kPresplitSpacing = 1.5196;
 ///
 /// With a uniform area bound, refinement then splits interfaces only where features or small angles ask for more; after
 /// Linardakis and Chrisochoides (2006), who decouple subdomains by discretizing interfaces beforehand.
-[[nodiscard]] std::vector<dyadic::Path> presplit_paths(const Decomposition& decomposition, RootId root,
+[[nodiscard]] std::vector<dyadic::Path> presplit_paths(const Decomposition& decomposition, GlobalRootId root,
                                                        const QualityBounds& bounds);
 
 /// Whether the bounds say anything about size, without which presplitting has nothing to go by.

@@ -32,25 +32,25 @@ class Condenser {
 class Chains {
  public:
   explicit Chains(const Decomposition& d) : d_(d), at_(d.points.size()) {
-    for (std::size_t r = 0; r < d.roots.size(); ++r)
+    for (const GlobalRootId r : ids_of(d.roots))
       if (!d.roots[r].separator)
-        for (const GlobalPointId v : {d.roots[r].a, d.roots[r].b}) at_[static_cast<std::size_t>(v)].push_back(r);
+        for (const GlobalPointId v : {d.roots[r].a, d.roots[r].b}) at_[v].push_back(r);
   }
 
   template <class Visit>
   void visit(Visit&& visit) const {
-    for (std::size_t v = 0; v < at_.size(); ++v)
+    for (const GlobalPointId v : ids_of(at_))
       if (is_input(d_.origin[v]))
-        for (const std::size_t r : at_[v])
+        for (const GlobalRootId r : at_[v])
           if (const std::int32_t end = follow(v, r); end != kNone) visit(d_.origin[v], end, d_.roots[r].marker);
   }
 
  private:
   /// Along root `r` from point `v` to the next point of the input; kNone if there is none.
-  [[nodiscard]] std::int32_t follow(std::size_t v, std::size_t r) const {
+  [[nodiscard]] std::int32_t follow(GlobalPointId v, GlobalRootId r) const {
     for (std::size_t steps = 0; steps < d_.roots.size(); ++steps) {
       const Decomposition::Root& root = d_.roots[r];
-      v = static_cast<std::size_t>(static_cast<std::size_t>(root.a) == v ? root.b : root.a);
+      v = root.a == v ? root.b : root.a;
       if (is_input(d_.origin[v])) return d_.origin[v];
       if (at_[v].size() != 2) return kNone;
       r = at_[v][0] == r ? at_[v][1] : at_[v][0];
@@ -59,7 +59,7 @@ class Chains {
   }
 
   const Decomposition& d_;
-  std::vector<std::vector<std::size_t>> at_;  // the roots at each point
+  IdVector<GlobalPointId, std::vector<GlobalRootId>> at_;  // the roots at each point
 };
 
 }  // namespace
@@ -85,11 +85,11 @@ void refuse_as_another(const std::string& file, const std::string& why) {
 
 void require_same_input(const Decomposition& d, const Pslg& input, const std::string& file) {
   const auto point = [](std::int32_t i) { return "point " + std::to_string(i); };
-  for (std::size_t v = 0; v < d.points.size(); ++v) {
+  for (const GlobalPointId v : ids_of(d.points)) {
     if (!is_input(d.origin[v])) continue;
-    const auto i = static_cast<std::size_t>(d.origin[v]);
+    const std::size_t i = to_index(d.origin[v]);
     if (i >= input.points.size() || !(input.points[i] == d.points[v]))
-      refuse_as_another(file, ": its point " + std::to_string(v) + " is not " + point(d.origin[v]) + " of the input");
+      refuse_as_another(file, ": its point " + to_string(v) + " is not " + point(d.origin[v]) + " of the input");
   }
   for (const Decomposition::Root& r : d.roots)
     if (std::max(r.left_region, r.right_region) > input.regions.size())

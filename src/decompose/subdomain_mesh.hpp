@@ -13,8 +13,8 @@ struct SubdomainMesh {
   /// points[v]. The origin of a vertex is that GlobalPointId, or the shell end that the decomposition names. Regions
   /// are labelled as in the whole domain.
   Triangulation mesh;
-  std::vector<RootId> roots;
-  std::vector<GlobalPointId> points;
+  IdVector<RootId, GlobalRootId> roots;
+  IdVector<VertexId, GlobalPointId> points;
 };
 
 /// The constrained Delaunay triangulation of subdomain `i`. Throws Error if the decomposition is broken there.

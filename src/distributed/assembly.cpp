@@ -1,7 +1,6 @@
 #include "distributed/assembly.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -11,15 +10,11 @@
 
 namespace driftmesh {
 
-using protocol::Rank;
-
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 struct HeldEntry {
-  SubdomainId subdomain = 0;
-  Rank rank = 0;
+  SubdomainId subdomain{};
+  Rank rank{};
   std::int64_t points = 0;
   std::int64_t triangles = 0;
 };
@@ -55,25 +50,24 @@ std::vector<NumberedRoot> read_roots(const Mail& mail) {
   return roots;
 }
 
-[[noreturn]] void wrong_holders(std::size_t subdomain, const std::vector<HeldEntry>& entries) {
+[[noreturn]] void wrong_holders(SubdomainId subdomain, const std::vector<HeldEntry>& entries) {
   std::string ranks;
   for (const HeldEntry& entry : entries)
-    if (id(entry.subdomain) == subdomain) ranks += (ranks.empty() ? "" : " and ") + std::to_string(entry.rank);
-  throw Error("subdomain " + std::to_string(subdomain) + " is held by " +
-              (ranks.empty() ? "no rank" : "ranks " + ranks) + ": migration lost or copied it");
+    if (entry.subdomain == subdomain) ranks += (ranks.empty() ? "" : " and ") + to_string(entry.rank);
+  throw Error("subdomain " + to_string(subdomain) + " is held by " + (ranks.empty() ? "no rank" : "ranks " + ranks) +
+              ": migration lost or copied it");
 }
 
-std::string root_words(const Decomposition& d, RootId r) {
-  const Decomposition::Root& root = d.roots[id(r)];
-  return "root " + std::to_string(r) + " between subdomains " + std::to_string(root.left) + " and " +
-         std::to_string(root.right);
+std::string root_words(const Decomposition& d, GlobalRootId r) {
+  const Decomposition::Root& root = d.roots[r];
+  return "root " + to_string(r) + " between subdomains " + to_string(root.left) + " and " + to_string(root.right);
 }
 
 std::string holds_words(Rank rank, const protocol::SplitDigest& splits) {
-  return "rank " + std::to_string(rank) + " has " + std::to_string(splits.count) + " points on it";
+  return "rank " + to_string(rank) + " has " + std::to_string(splits.count) + " points on it";
 }
 
-[[noreturn]] void do_not_conform(const Decomposition& d, RootId r, Rank one, const protocol::SplitDigest& of_one,
+[[noreturn]] void do_not_conform(const Decomposition& d, GlobalRootId r, Rank one, const protocol::SplitDigest& of_one,
                                  Rank other, const protocol::SplitDigest& of_other) {
   throw Error("the mesh does not conform at " + root_words(d, r) + ": " + holds_words(one, of_one) + ", " +
               holds_words(other, of_other) +
@@ -82,7 +76,7 @@ std::string holds_words(Rank rank, const protocol::SplitDigest& splits) {
 
 }  // namespace
 
-PieceAssembly::PieceAssembly(Rank rank, Rank ranks, const Decomposition& decomposition, HeldSubdomains held)
+PieceAssembly::PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, HeldSubdomains held)
     : rank_(rank),
       ranks_(ranks),
       decomposition_(decomposition),
@@ -111,10 +105,7 @@ std::vector<Mail> PieceAssembly::send(int round) {
 }
 
 std::vector<Rank> PieceAssembly::senders(int round) const {
-  if (round != 0) return neighbors_;
-  std::vector<Rank> all(static_cast<std::size_t>(ranks_));
-  std::iota(all.begin(), all.end(), 0);
-  return all;
+  return round == 0 ? all_ranks(ranks_) : neighbors_;
 }
 
 void PieceAssembly::receive(int round, std::vector<Mail> mail) {
@@ -136,7 +127,7 @@ std::vector<Mail> PieceAssembly::announce() const {
   }
   const protocol::Bytes message = writer.take();
   std::vector<Mail> mail;
-  for (Rank to = 0; to < ranks_; ++to) mail.push_back({to, message});
+  for (const Rank to : first_ids<Rank>(ranks_)) mail.push_back({to, message});
   return mail;
 }
 
@@ -145,10 +136,13 @@ void PieceAssembly::learn_subdomains(const std::vector<Mail>& mail) {
   for (const Mail& message : mail) read_announcement(message, entries);
   std::stable_sort(entries.begin(), entries.end(),
                    [](const auto& a, const auto& b) { return a.subdomain < b.subdomain; });
-  const std::size_t count = decomposition_.size();
-  for (std::size_t i = 0; i < std::max(count, entries.size()); ++i)
-    if (i >= entries.size() || id(entries[i].subdomain) != i)
-      wrong_holders(i < entries.size() ? std::min(i, id(entries[i].subdomain)) : i, entries);
+  auto entry_of = entries.begin();
+  for (const SubdomainId i : ids_of(decomposition_.subdomains)) {
+    if (entry_of == entries.end()) wrong_holders(i, entries);
+    if (entry_of->subdomain != i) wrong_holders(std::min(i, entry_of->subdomain), entries);
+    ++entry_of;
+  }
+  if (entry_of != entries.end()) wrong_holders(entry_of->subdomain, entries);
 
   subdomains_.points = static_cast<std::int64_t>(decomposition_.points.size());
   for (const HeldEntry& entry : entries) {
@@ -161,9 +155,9 @@ void PieceAssembly::learn_subdomains(const std::vector<Mail>& mail) {
 
 void PieceAssembly::number_owned_roots() {
   for (const SubdomainCensus& census : census_) {
-    std::int64_t next = subdomains_.first_number[id(census.id)];
+    std::int64_t next = subdomains_.first_number[census.id];
     for (const SubdomainCensus::Root& r : census.roots) {
-      if (owner_of(decomposition_.roots[id(r.root)]) != census.id) continue;
+      if (owner_of(decomposition_.roots[r.root]) != census.id) continue;
       find_root(roots_, r.root)->first_number = next;
       next += static_cast<std::int64_t>(r.splits.count);
     }
@@ -173,9 +167,9 @@ void PieceAssembly::number_owned_roots() {
 std::vector<Mail> PieceAssembly::describe_roots() {
   std::map<Rank, std::vector<const NumberedRoot*>> shared;
   for (const NumberedRoot& r : roots_) {
-    const Decomposition::Root& root = decomposition_.roots[id(r.root)];
+    const Decomposition::Root& root = decomposition_.roots[r.root];
     for (const SubdomainId side : {root.left, root.right})
-      if (side != kNone && holder(side) != rank_) shared[holder(side)].push_back(&r);
+      if (side != kNoSubdomain && holder(side) != rank_) shared[holder(side)].push_back(&r);
   }
   std::vector<Mail> mail;
   for (const auto& [to, roots] : shared) {
@@ -192,8 +186,8 @@ void PieceAssembly::learn_roots(const Mail& mail) {
   for (const NumberedRoot& theirs : read_roots(mail)) {
     NumberedRoot* const own = find_root(roots_, theirs.root);
     if (own == nullptr)
-      throw protocol::ProtocolError(mail.rank, "it describes root " + std::to_string(theirs.root) + ", which rank " +
-                                                   std::to_string(rank_) +
+      throw protocol::ProtocolError(mail.rank, "it describes root " + to_string(theirs.root) + ", which rank " +
+                                                   to_string(rank_) +
                                                    " does not have; start all ranks with the same decomposition");
     if (!(theirs.splits == own->splits))
       do_not_conform(decomposition_, own->root, rank_, own->splits, mail.rank, theirs.splits);

@@ -23,11 +23,11 @@ namespace driftmesh {
 class PieceAssembly final : public Exchange {
  public:
   /// The decomposition outlives the object. `held` is called here and in piece().
-  PieceAssembly(protocol::Rank rank, protocol::Rank ranks, const Decomposition& decomposition, HeldSubdomains held);
+  PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, HeldSubdomains held);
 
   [[nodiscard]] int rounds() const override { return 2; }
   [[nodiscard]] std::vector<Mail> send(int round) override;
-  [[nodiscard]] std::vector<protocol::Rank> senders(int round) const override;
+  [[nodiscard]] std::vector<Rank> senders(int round) const override;
   void receive(int round, std::vector<Mail> mail) override;
 
   /// After the conversation. `pslg` is the (repaired) input that the decomposition was made from: markers, attributes
@@ -35,7 +35,7 @@ class PieceAssembly final : public Exchange {
   [[nodiscard]] DistributedPiece piece(const Pslg& pslg) const;
 
  private:
-  [[nodiscard]] protocol::Rank holder(SubdomainId i) const { return subdomains_.rank[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Rank holder(SubdomainId i) const { return subdomains_.rank[i]; }
   [[nodiscard]] std::vector<Mail> announce() const;
   [[nodiscard]] std::vector<Mail> describe_roots();
   void learn_subdomains(const std::vector<Mail>& mail);
@@ -43,14 +43,14 @@ class PieceAssembly final : public Exchange {
   void compare_own_sides() const;
   void learn_roots(const Mail& mail);
 
-  protocol::Rank rank_;
-  protocol::Rank ranks_;
+  Rank rank_;
+  std::int32_t ranks_;
   const Decomposition& decomposition_;
   HeldSubdomains held_;
   std::vector<SubdomainCensus> census_;
   SubdomainTable subdomains_;
-  std::vector<NumberedRoot> roots_;        // of this rank, ascending
-  std::vector<protocol::Rank> neighbors_;  // ranks with a common root, ascending
+  std::vector<NumberedRoot> roots_;  // of this rank, ascending
+  std::vector<Rank> neighbors_;      // ranks with a common root, ascending
 };
 
 }  // namespace driftmesh

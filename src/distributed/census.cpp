@@ -8,16 +8,14 @@
 namespace driftmesh {
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 SubdomainCensus census_of(SubdomainId i, const SubdomainMesh& part) {
   SubdomainCensus census;
   census.id = i;
   census.triangles = static_cast<std::int64_t>(part.mesh.live_triangles());
   census.free_points = std::count(part.mesh.origin.begin(), part.mesh.origin.end(), kFree);
-  for (std::size_t r = 0; r < part.roots.size(); ++r) {
+  for (const RootId r : ids_of(part.roots)) {
     SubdomainCensus::Root root{part.roots[r], {}};
-    visit_splits(part.mesh, static_cast<RootId>(r), [&](dyadic::Path path, VertexId) { root.splits.add(path); });
+    visit_splits(part.mesh, r, [&](dyadic::Path path, VertexId) { root.splits.add(path); });
     census.roots.push_back(root);
   }
   return census;
@@ -28,11 +26,11 @@ SubdomainCensus census_of(SubdomainId i, const SubdomainMesh& part) {
 std::vector<SubdomainCensus> take_census(const Decomposition& decomposition, const HeldSubdomains& held) {
   std::vector<SubdomainCensus> all;
   held([&](SubdomainId i, const SubdomainMesh& part) {
-    if (i < 0 || id(i) >= decomposition.size() || (!all.empty() && i <= all.back().id))
-      throw Error("subdomain " + std::to_string(i) + " is shown out of order, or is none of the decomposition");
+    if (!decomposition.subdomains.has(i) || (!all.empty() && i <= all.back().id))
+      throw Error("subdomain " + to_string(i) + " is shown out of order, or is none of the decomposition");
     const auto roots = decomposition.roots_of(i);
     if (!std::equal(roots.begin(), roots.end(), part.roots.begin(), part.roots.end()))
-      throw Error("subdomain " + std::to_string(i) + " does not have the roots that the decomposition gives it");
+      throw Error("subdomain " + to_string(i) + " does not have the roots that the decomposition gives it");
     all.push_back(census_of(i, part));
   });
   return all;
@@ -41,7 +39,7 @@ std::vector<SubdomainCensus> take_census(const Decomposition& decomposition, con
 std::int64_t owned_points(const Decomposition& decomposition, const SubdomainCensus& census) {
   std::int64_t count = census.free_points;
   for (const SubdomainCensus::Root& r : census.roots)
-    if (owner_of(decomposition.roots[id(r.root)]) == census.id) count += static_cast<std::int64_t>(r.splits.count);
+    if (owner_of(decomposition.roots[r.root]) == census.id) count += static_cast<std::int64_t>(r.splits.count);
   return count;
 }
 

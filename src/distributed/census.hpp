@@ -11,10 +11,10 @@ namespace driftmesh {
 /// How many vertices a subdomain has of each kind, and which.
 struct SubdomainCensus {
   struct Root {
-    RootId root = 0;               ///< of the decomposition
+    GlobalRootId root{};
     protocol::SplitDigest splits;  ///< of the points on it
   };
-  SubdomainId id = 0;
+  SubdomainId id{};
   std::int64_t free_points = 0;  ///< on no root
   std::int64_t triangles = 0;
   std::vector<Root> roots;  ///< ascending

@@ -8,7 +8,6 @@ namespace driftmesh {
 
 using protocol::Bytes;
 using protocol::ProtocolError;
-using protocol::Rank;
 using protocol::StepResult;
 
 namespace {
@@ -105,18 +104,17 @@ void ExchangeRunner::keep(protocol::Received message) {
   --arriving.missing;
 }
 
-void exchange_directly(std::span<Exchange* const> ranks) {
+void exchange_directly(IdSpan<Rank, Exchange* const> ranks) {
   if (ranks.empty()) return;
-  for (int round = 0; round < ranks[0]->rounds(); ++round) {
-    std::vector<std::vector<Mail>> boxes(ranks.size());
-    for (std::size_t r = 0; r < ranks.size(); ++r)
-      for (Mail& mail : ranks[r]->send(round))
-        boxes.at(static_cast<std::size_t>(mail.rank)).push_back({static_cast<Rank>(r), std::move(mail.bytes)});
-    for (std::size_t r = 0; r < ranks.size(); ++r) {
+  for (int round = 0; round < ranks.front()->rounds(); ++round) {
+    IdVector<Rank, std::vector<Mail>> boxes(ranks.size());
+    for (const Rank r : ids_of(ranks))
+      for (Mail& mail : ranks[r]->send(round)) boxes.at(mail.rank).push_back({r, std::move(mail.bytes)});
+    for (const Rank r : ids_of(ranks)) {
       std::vector<Rank> sources;
       for (const Mail& mail : boxes[r]) sources.push_back(mail.rank);
       if (sources != ranks[r]->senders(round))
-        throw Error("rank " + std::to_string(r) + " has messages from other ranks than it expects, in round " +
+        throw Error("rank " + to_string(r) + " has messages from other ranks than it expects, in round " +
                     std::to_string(round));
       ranks[r]->receive(round, std::move(boxes[r]));
     }

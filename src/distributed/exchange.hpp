@@ -17,9 +17,15 @@ namespace driftmesh {
 
 /// A message and the rank at its other end: the one that it goes to, or the one that it came from.
 struct Mail {
-  protocol::Rank rank = 0;
+  Rank rank{};
   protocol::Bytes bytes;
 };
+
+/// The ranks 0 .. ranks - 1.
+[[nodiscard]] inline std::vector<Rank> all_ranks(std::int32_t ranks) {
+  const auto all = first_ids<Rank>(ranks);
+  return {all.begin(), all.end()};
+}
 
 /// Has `read(ByteReader&)` read a message, to its end. An Error in it becomes a ProtocolError that names the sender.
 template <class Read>
@@ -46,7 +52,7 @@ class Exchange {
   /// What this rank sends in a round. Rounds come in ascending order, each after the one before was received.
   [[nodiscard]] virtual std::vector<Mail> send(int round) = 0;
   /// The ranks whose messages of this round come here, ascending. Asked after send(round).
-  [[nodiscard]] virtual std::vector<protocol::Rank> senders(int round) const = 0;
+  [[nodiscard]] virtual std::vector<Rank> senders(int round) const = 0;
   /// `mail` is ascending by rank and has one message from each sender. Throws Error for what must not come.
   virtual void receive(int round, std::vector<Mail> mail) = 0;
 
@@ -79,7 +85,7 @@ class ExchangeRunner {
 
     [[nodiscard]] protocol::Bytes joined() &&;
   };
-  using Arrivals = std::map<protocol::Rank, Arriving>;
+  using Arrivals = std::map<Rank, Arriving>;
 
   void begin_round(Exchange& exchange);
   bool end_round(Exchange& exchange);
@@ -90,12 +96,12 @@ class ExchangeRunner {
   std::size_t part_;
   int round_ = 0;  // of the present conversation
   bool sent_ = false;
-  std::vector<protocol::Rank> senders_;
+  std::vector<Rank> senders_;
   std::uint32_t serial_ = 0;                   // of the present round, over all conversations
   std::map<std::uint32_t, Arrivals> arrived_;  // by round and sender
 };
 
 /// The whole conversation between ranks of this process, ranks[r] being rank r.
-void exchange_directly(std::span<Exchange* const> ranks);
+void exchange_directly(IdSpan<Rank, Exchange* const> ranks);
 
 }  // namespace driftmesh

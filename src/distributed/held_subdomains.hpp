@@ -15,7 +15,7 @@ using ShowSubdomain = std::function<void(SubdomainId, const SubdomainMesh&)>;
 using HeldSubdomains = std::function<void(const ShowSubdomain&)>;
 
 struct HeldSubdomain {
-  SubdomainId id = 0;
+  SubdomainId id{};
   const SubdomainMesh* mesh = nullptr;  ///< not owned
 };
 /// Subdomains that lie in memory, given in any order.
@@ -31,7 +31,7 @@ void visit_splits(const Triangulation& mesh, RootId root, const std::function<vo
 
 /// The subdomain whose rank numbers the points on a root: the left one if there is one.
 [[nodiscard]] inline SubdomainId owner_of(const Decomposition::Root& root) {
-  return root.left != kNone ? root.left : root.right;
+  return root.left != kNoSubdomain ? root.left : root.right;
 }
 
 }  // namespace driftmesh

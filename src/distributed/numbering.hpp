@@ -13,15 +13,15 @@ namespace driftmesh {
 /// decomposition; then, subdomain by subdomain, the points on the roots that it owns (root by root, in order of
 /// position), and those inside it.
 struct SubdomainTable {
-  std::vector<protocol::Rank> rank;        ///< that holds it
-  std::vector<std::int64_t> first_number;  ///< of its own vertices
-  std::int64_t points = 0;                 ///< of the whole mesh
-  std::int64_t triangles = 0;              ///< of the whole mesh
+  IdVector<SubdomainId, Rank> rank;                  ///< that holds it
+  IdVector<SubdomainId, std::int64_t> first_number;  ///< of its own vertices
+  std::int64_t points = 0;                           ///< of the whole mesh
+  std::int64_t triangles = 0;                        ///< of the whole mesh
 };
 
 /// The points on a root, as the rank at one or both of its sides has them.
 struct NumberedRoot {
-  RootId root = 0;
+  GlobalRootId root{};
   protocol::SplitDigest splits;
   std::int64_t first_number = -1;  ///< of the points, in order of position; -1 while it is not known
 };

@@ -10,8 +10,6 @@
 
 namespace driftmesh {
 
-using protocol::Rank;
-
 namespace {
 
 constexpr auto id = &Triangulation::id;
@@ -23,9 +21,9 @@ bool has_regions(const Decomposition& d) {
 
 }  // namespace
 
-NumberedRoot* find_root(std::span<NumberedRoot> roots, RootId root) {
+NumberedRoot* find_root(std::span<NumberedRoot> roots, GlobalRootId root) {
   const auto found = std::lower_bound(roots.begin(), roots.end(), root,
-                                      [](const NumberedRoot& r, RootId wanted) { return r.root < wanted; });
+                                      [](const NumberedRoot& r, GlobalRootId wanted) { return r.root < wanted; });
   return found != roots.end() && found->root == root ? &*found : nullptr;
 }
 
@@ -50,7 +48,7 @@ DistributedPiece PieceBuilder::build(const HeldSubdomains& held, const Pslg& psl
   place_added_points();
   reserve_triangles();
   held([&](SubdomainId i, const SubdomainMesh& part) { add_subdomain(i, part, pslg); });
-  piece_.mesh.ranks.assign(piece_.mesh.triangles.size(), rank_);
+  piece_.mesh.ranks.assign(piece_.mesh.triangles.size(), to_int(rank_));
   mark_points(pslg);
   set_attributes(pslg);
   find_sharers();
@@ -59,16 +57,15 @@ DistributedPiece PieceBuilder::build(const HeldSubdomains& held, const Pslg& psl
 
 void PieceBuilder::place_decomposition_points() {
   for (const SubdomainCensus& census : census_) {
-    for (const RootId r : decomposition_.roots_of(census.id))
-      for (const GlobalPointId v : {decomposition_.roots[id(r)].a, decomposition_.roots[id(r)].b})
-        place_of_corner_[id(v)] = 0;
-    for (const GlobalPointId v : decomposition_.inner_points_of(census.id)) place_of_corner_[id(v)] = 0;
+    for (const GlobalRootId r : decomposition_.roots_of(census.id))
+      for (const GlobalPointId v : {decomposition_.roots[r].a, decomposition_.roots[r].b}) place_of_corner_[v] = 0;
+    for (const GlobalPointId v : decomposition_.inner_points_of(census.id)) place_of_corner_[v] = 0;
   }
-  for (std::size_t v = 0; v < place_of_corner_.size(); ++v) {
+  for (const GlobalPointId v : ids_of(place_of_corner_)) {
     if (place_of_corner_[v] == kNone) continue;
-    place_of_corner_[v] = static_cast<std::int32_t>(corners_.size());
-    corners_.push_back(static_cast<GlobalPointId>(v));
-    piece_.mesh.numbers.push_back(static_cast<std::int64_t>(v));
+    place_of_corner_[v] = corners_.next_id();
+    corners_.push_back(v);
+    piece_.mesh.numbers.push_back(to_int(v));
     piece_.mesh.points.push_back(decomposition_.points[v]);
   }
   piece_.owners.assign(corners_.size(), rank_);
@@ -81,29 +78,29 @@ void PieceBuilder::place_added_points() {
     std::int64_t first_number;
     std::int64_t count;
     Rank owner;
-    std::int32_t* place;
+    Place* place;
   };
   std::vector<Block> blocks;
   for (const NumberedRoot& r : roots_)
     blocks.push_back({r.first_number, static_cast<std::int64_t>(r.splits.count),
-                      holder(owner_of(decomposition_.roots[id(r.root)])), &place_of_root_[id(r.root)]});
+                      holder(owner_of(decomposition_.roots[r.root])), &place_of_root_[r.root]});
   for (std::size_t k = 0; k < census_.size(); ++k) {
     const SubdomainId i = census_[k].id;
     const std::int64_t on_roots = owned_points(decomposition_, census_[k]) - census_[k].free_points;
-    blocks.push_back({subdomains_.first_number[id(i)] + on_roots, census_[k].free_points, rank_, &place_of_free_[k]});
+    blocks.push_back({subdomains_.first_number[i] + on_roots, census_[k].free_points, rank_, &place_of_free_[k]});
   }
   std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) {
     return std::pair(a.first_number, a.count) < std::pair(b.first_number, b.count);
   });
   std::int64_t added = 0;
   for (const Block& block : blocks) added += block.count;
-  piece_.mesh.numbers.reserve(piece_.mesh.numbers.size() + static_cast<std::size_t>(added));
+  piece_.mesh.numbers.reserve(piece_.mesh.numbers.size() + to_index(added));
   for (const Block& block : blocks) {
-    *block.place = narrow<std::int32_t>(piece_.mesh.numbers.size(), "vertices on one rank");
+    *block.place = narrow<Place>(piece_.mesh.numbers.size(), "vertices on one rank");
     for (std::int64_t k = 0; k < block.count; ++k) piece_.mesh.numbers.push_back(block.first_number + k);
     piece_.owners.resize(piece_.mesh.numbers.size(), block.owner);
   }
-  (void)narrow<std::int32_t>(piece_.mesh.numbers.size(), "vertices on one rank");
+  (void)narrow<Place>(piece_.mesh.numbers.size(), "vertices on one rank");
   piece_.mesh.points.resize(piece_.mesh.numbers.size());
   piece_.mesh.point_markers.assign(piece_.mesh.numbers.size(), 0);
   is_placed_.resize(piece_.mesh.numbers.size(), false);
@@ -112,75 +109,76 @@ void PieceBuilder::place_added_points() {
 /// Growing arrays of this size step by step would touch twice the memory, which takes longer than filling them.
 void PieceBuilder::reserve_triangles() {
   std::size_t triangles = 0;
-  for (const SubdomainCensus& census : census_) triangles += static_cast<std::size_t>(census.triangles);
+  for (const SubdomainCensus& census : census_) triangles += to_index(census.triangles);
   piece_.mesh.triangles.reserve(triangles);
   piece_.mesh.subdomains.reserve(triangles);
   if (piece_.has_regions) piece_.mesh.regions.reserve(triangles);
 }
 
 void PieceBuilder::add_subdomain(SubdomainId i, const SubdomainMesh& part, const Pslg& pslg) {
-  const std::vector<std::int32_t> place = place_vertices(i, part);
+  const IdVector<VertexId, Place> place = place_vertices(i, part);
   add_triangles(i, part.mesh, place, pslg);
   add_edges(i, part, place);
 }
 
 /// Where each vertex of the subdomain's mesh is in the piece.
-std::vector<std::int32_t> PieceBuilder::place_vertices(SubdomainId i, const SubdomainMesh& part) {
+IdVector<VertexId, PieceBuilder::Place> PieceBuilder::place_vertices(SubdomainId i, const SubdomainMesh& part) {
   const Triangulation& mesh = part.mesh;
-  std::vector<std::int32_t> place(mesh.points.size(), kNone);
-  for (std::size_t v = 0; v < part.points.size(); ++v) place[v] = place_of_corner_[id(part.points[v])];
-  for (std::size_t r = 0; r < part.roots.size(); ++r) {
-    std::int32_t next = place_of_root_[id(part.roots[r])];
-    visit_splits(mesh, static_cast<RootId>(r), [&](dyadic::Path, VertexId v) { place[id(v)] = next++; });
+  IdVector<VertexId, Place> place(mesh.points.size(), kNone);
+  for (const VertexId v : ids_of(part.points)) place[v] = place_of_corner_[part.points[v]];
+  for (const RootId r : ids_of(part.roots)) {
+    Place next = place_of_root_[part.roots[r]];
+    visit_splits(mesh, r, [&](dyadic::Path, VertexId v) { place[v] = next++; });
   }
   const auto census = std::lower_bound(census_.begin(), census_.end(), i,
                                        [](const SubdomainCensus& c, SubdomainId wanted) { return c.id < wanted; });
-  std::int32_t next_free = place_of_free_[static_cast<std::size_t>(census - census_.begin())];
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (mesh.origin[v] == kFree) place[v] = next_free++;
-    if (mesh.origin[v] != kDeleted) set_point(place[v], mesh.points[v], i);
+  Place next_free = place_of_free_[to_index(census - census_.begin())];
+  for (const VertexId v : ids_of(place)) {
+    if (mesh.origin[id(v)] == kFree) place[v] = next_free++;
+    if (mesh.origin[id(v)] != kDeleted) set_point(place[v], mesh.points[id(v)], i);
   }
   return place;
 }
 
-void PieceBuilder::set_point(std::int32_t place, const Point& p, SubdomainId i) {
-  const std::size_t v = id(place);
-  Point& point = piece_.mesh.points[v];
-  if (is_placed_[v] && !(point == p))
-    throw Error("point " + std::to_string(piece_.mesh.numbers[v]) + " of the mesh has other coordinates in subdomain " +
-                std::to_string(i) + " than in its neighbour on the same rank");
+void PieceBuilder::set_point(Place place, const Point& p, SubdomainId i) {
+  Point& point = piece_.mesh.points[id(place)];
+  if (is_placed_[place] && !(point == p))
+    throw Error("point " + std::to_string(piece_.mesh.numbers[id(place)]) +
+                " of the mesh has other coordinates in subdomain " + to_string(i) +
+                " than in its neighbour on the same rank");
   point = p;
-  is_placed_[v] = true;
+  is_placed_[place] = true;
 }
 
-void PieceBuilder::add_triangles(SubdomainId i, const Triangulation& mesh, const std::vector<std::int32_t>& place,
+void PieceBuilder::add_triangles(SubdomainId i, const Triangulation& mesh, const IdVector<VertexId, Place>& place,
                                  const Pslg& pslg) {
   Mesh& piece = piece_.mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!mesh.triangles[t].alive()) continue;
     const auto& v = mesh.triangles[t].vertex;
-    piece.triangles.push_back({place[id(v[0])], place[id(v[1])], place[id(v[2])]});
+    piece.triangles.push_back({place[v[0]], place[v[1]], place[v[2]]});
     if (!piece_.has_regions) continue;
     const std::size_t label = mesh.region.empty() ? 0 : mesh.region[t];
     piece.regions.push_back(label == 0 ? 0 : pslg.regions.at(label - 1).attribute);
   }
   (void)narrow<std::int32_t>(piece.triangles.size(), "triangles on one rank");
-  piece.subdomains.resize(piece.triangles.size(), i);
+  piece.subdomains.resize(piece.triangles.size(), to_int(i));
 }
 
 /// The subsegments of the input. One between two subdomains of this rank is taken from the side that owns it.
-void PieceBuilder::add_edges(SubdomainId i, const SubdomainMesh& part, const std::vector<std::int32_t>& place) {
-  for (std::size_t r = 0; r < part.roots.size(); ++r) {
-    const Decomposition::Root& root = decomposition_.roots[id(part.roots[r])];
+void PieceBuilder::add_edges(SubdomainId i, const SubdomainMesh& part, const IdVector<VertexId, Place>& place) {
+  for (const RootId r : ids_of(part.roots)) {
+    const Decomposition::Root& root = decomposition_.roots[part.roots[r]];
     const SubdomainId owner = owner_of(root);
     if (root.separator || (owner != i && holder(owner) == rank_)) continue;
-    std::int32_t from = place[id(part.mesh.roots[r].vertex[0])];
+    const auto& ends = part.mesh.roots[id(r)].vertex;
+    Place from = place[ends[0]];
     const auto add = [&](VertexId to) {
-      piece_.mesh.edges.push_back({from, place[id(to)], root.marker});
-      from = place[id(to)];
+      piece_.mesh.edges.push_back({from, place[to], root.marker});
+      from = place[to];
     };
-    visit_splits(part.mesh, static_cast<RootId>(r), [&](dyadic::Path, VertexId v) { add(v); });
-    add(part.mesh.roots[r].vertex[1]);
+    visit_splits(part.mesh, r, [&](dyadic::Path, VertexId v) { add(v); });
+    add(ends[1]);
   }
 }
 
@@ -189,15 +187,15 @@ void PieceBuilder::add_edges(SubdomainId i, const SubdomainMesh& part, const std
 void PieceBuilder::mark_points(const Pslg& pslg) {
   auto& markers = piece_.mesh.point_markers;
   for (const NumberedRoot& r : roots_)
-    std::fill_n(markers.begin() + place_of_root_[id(r.root)], r.splits.count, decomposition_.roots[id(r.root)].marker);
+    std::fill_n(markers.begin() + place_of_root_[r.root], r.splits.count, decomposition_.roots[r.root].marker);
   for (const Decomposition::Root& root : decomposition_.roots)
     for (const GlobalPointId v : {root.a, root.b})
-      if (place_of_corner_[id(v)] != kNone && markers[id(place_of_corner_[id(v)])] == 0)
-        markers[id(place_of_corner_[id(v)])] = root.marker;
+      if (const Place place = place_of_corner_[v]; place != kNone && markers[id(place)] == 0)
+        markers[id(place)] = root.marker;
   if (pslg.point_markers.empty()) return;
-  for (std::size_t k = 0; k < corners_.size(); ++k) {
-    const VertexOrigin origin = decomposition_.origin[id(corners_[k])];
-    if (is_input(origin)) markers[k] = pslg.point_markers.at(id(origin));
+  for (const Place k : ids_of(corners_)) {
+    const VertexOrigin origin = decomposition_.origin[corners_[k]];
+    if (is_input(origin)) markers[id(k)] = pslg.point_markers.at(id(origin));
   }
 }
 
@@ -210,7 +208,8 @@ void PieceBuilder::set_attributes(const Pslg& pslg) {
   piece.attributes.resize(piece.points.size() * width);
   for (std::size_t v = 0; v < piece.points.size(); ++v) {
     const std::span values = std::span(piece.attributes).subspan(v * width, width);
-    const VertexOrigin origin = v < corners_.size() ? decomposition_.origin[id(corners_[v])] : kFree;
+    const auto place = static_cast<Place>(v);
+    const VertexOrigin origin = corners_.has(place) ? decomposition_.origin[corners_[place]] : kFree;
     if (is_input(origin))
       std::copy_n(pslg.attributes.begin() + static_cast<std::ptrdiff_t>(id(origin) * width), width, values.begin());
     else
@@ -221,25 +220,25 @@ void PieceBuilder::set_attributes(const Pslg& pslg) {
 /// Who has which vertex follows from who holds which subdomain. A corner belongs to the rank of the lowest subdomain
 /// at it.
 void PieceBuilder::find_sharers() {
-  std::vector<std::pair<Rank, std::int32_t>> shared;
-  std::vector<SubdomainId> lowest(corners_.size(), INT32_MAX);
+  std::vector<std::pair<Rank, Place>> shared;
+  IdVector<Place, SubdomainId> lowest(corners_.size(), kNoSubdomain);
   for (const Decomposition::Root& root : decomposition_.roots)
     for (const GlobalPointId v : {root.a, root.b}) {
-      const std::int32_t place = place_of_corner_[id(v)];
+      const Place place = place_of_corner_[v];
       if (place == kNone) continue;
       for (const SubdomainId side : {root.left, root.right}) {
-        if (side == kNone) continue;
-        lowest[id(place)] = std::min(lowest[id(place)], side);
+        if (side == kNoSubdomain) continue;
+        lowest[place] = lowest[place] == kNoSubdomain ? side : std::min(lowest[place], side);
         if (holder(side) != rank_) shared.emplace_back(holder(side), place);
       }
     }
-  for (std::size_t k = 0; k < corners_.size(); ++k)
-    if (lowest[k] != INT32_MAX) piece_.owners[k] = holder(lowest[k]);
+  for (const Place k : ids_of(lowest))
+    if (lowest[k] != kNoSubdomain) piece_.owners[id(k)] = holder(lowest[k]);
   for (const NumberedRoot& r : roots_)
-    for (const SubdomainId side : {decomposition_.roots[id(r.root)].left, decomposition_.roots[id(r.root)].right})
-      if (side != kNone && holder(side) != rank_)
-        for (std::int32_t k = 0; k < static_cast<std::int32_t>(r.splits.count); ++k)
-          shared.emplace_back(holder(side), place_of_root_[id(r.root)] + k);
+    for (const SubdomainId side : {decomposition_.roots[r.root].left, decomposition_.roots[r.root].right})
+      if (side != kNoSubdomain && holder(side) != rank_)
+        for (Place k = 0; k < static_cast<Place>(r.splits.count); ++k)
+          shared.emplace_back(holder(side), place_of_root_[r.root] + k);
   std::sort(shared.begin(), shared.end());
   shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
   for (const auto& [rank, place] : shared) {

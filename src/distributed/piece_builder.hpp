@@ -13,43 +13,45 @@
 namespace driftmesh {
 
 /// The entry of a root in a list that ascends, or null.
-[[nodiscard]] NumberedRoot* find_root(std::span<NumberedRoot> roots, RootId root);
+[[nodiscard]] NumberedRoot* find_root(std::span<NumberedRoot> roots, GlobalRootId root);
 
 /// Joins a rank's subdomains to one piece. Everything that ranks must agree on has been agreed on before.
 class PieceBuilder {
  public:
-  PieceBuilder(protocol::Rank rank, const Decomposition& decomposition, const SubdomainTable& subdomains,
+  PieceBuilder(Rank rank, const Decomposition& decomposition, const SubdomainTable& subdomains,
                std::span<const NumberedRoot> roots, std::span<const SubdomainCensus> census);
 
   [[nodiscard]] DistributedPiece build(const HeldSubdomains& held, const Pslg& pslg);
 
  private:
-  [[nodiscard]] protocol::Rank holder(SubdomainId i) const { return subdomains_.rank[static_cast<std::size_t>(i)]; }
+  using Place = std::int32_t;  // of a vertex in the piece
+
+  [[nodiscard]] Rank holder(SubdomainId i) const { return subdomains_.rank[i]; }
   void place_decomposition_points();
   void place_added_points();
   void reserve_triangles();
   void add_subdomain(SubdomainId i, const SubdomainMesh& part, const Pslg& pslg);
-  [[nodiscard]] std::vector<std::int32_t> place_vertices(SubdomainId i, const SubdomainMesh& part);
-  void set_point(std::int32_t place, const Point& p, SubdomainId i);
-  void add_triangles(SubdomainId i, const Triangulation& mesh, const std::vector<std::int32_t>& place,
+  [[nodiscard]] IdVector<VertexId, Place> place_vertices(SubdomainId i, const SubdomainMesh& part);
+  void set_point(Place place, const Point& p, SubdomainId i);
+  void add_triangles(SubdomainId i, const Triangulation& mesh, const IdVector<VertexId, Place>& place,
                      const Pslg& pslg);
-  void add_edges(SubdomainId i, const SubdomainMesh& part, const std::vector<std::int32_t>& place);
+  void add_edges(SubdomainId i, const SubdomainMesh& part, const IdVector<VertexId, Place>& place);
   void mark_points(const Pslg& pslg);
   void set_attributes(const Pslg& pslg);
   void find_sharers();
 
-  protocol::Rank rank_;
+  Rank rank_;
   const Decomposition& decomposition_;
   const SubdomainTable& subdomains_;
   std::span<const NumberedRoot> roots_;
   std::span<const SubdomainCensus> census_;
 
   DistributedPiece piece_;
-  std::vector<GlobalPointId> corners_;         // points of the decomposition in this piece: its first vertices
-  std::vector<std::int32_t> place_of_corner_;  // of each point of the decomposition; kNone elsewhere
-  std::vector<std::int32_t> place_of_root_;    // of each root of the decomposition: of the first point on it
-  std::vector<std::int32_t> place_of_free_;    // of the first inner point of each subdomain in the census
-  std::vector<bool> is_placed_;                // vertices whose coordinates are known
+  IdVector<Place, GlobalPointId> corners_;          // points of the decomposition here: the first vertices
+  IdVector<GlobalPointId, Place> place_of_corner_;  // kNone elsewhere
+  IdVector<GlobalRootId, Place> place_of_root_;     // of the first point on each root here
+  std::vector<Place> place_of_free_;                // of the first inner point of each subdomain in the census
+  IdVector<Place, bool> is_placed_;                 // whose coordinates are known
 };
 
 }  // namespace driftmesh

@@ -1,7 +1,6 @@
 #include "distributed/write_distributed.hpp"
 
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -13,9 +12,10 @@
 namespace driftmesh {
 
 using protocol::Bytes;
-using protocol::Rank;
 
 namespace {
+
+constexpr Rank kWriter{0};  // of files of the whole mesh
 
 Bytes pack(const Mesh& mesh) {
   ByteWriter writer;
@@ -49,14 +49,8 @@ Mesh unpack(const Mail& mail) {
   return mesh;
 }
 
-std::vector<Rank> all_of(Rank ranks) {
-  std::vector<Rank> all(static_cast<std::size_t>(ranks));
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
 /// What became of a rank's work, for all to know: empty if it went well, else the error.
-std::vector<Mail> status_to_all(Rank ranks, const std::function<void()>& work) {
+std::vector<Mail> status_to_all(std::int32_t ranks, const std::function<void()>& work) {
   std::string status;
   try {
     work();
@@ -66,14 +60,14 @@ std::vector<Mail> status_to_all(Rank ranks, const std::function<void()>& work) {
   }
   const auto* const first = reinterpret_cast<const std::byte*>(status.data());
   std::vector<Mail> mail;
-  for (Rank to = 0; to < ranks; ++to) mail.push_back({to, Bytes(first, first + status.size())});
+  for (const Rank to : first_ids<Rank>(ranks)) mail.push_back({to, Bytes(first, first + status.size())});
   return mail;
 }
 
 void throw_first_failure(const std::vector<Mail>& statuses) {
   for (const Mail& mail : statuses) {
     if (mail.bytes.empty()) continue;
-    std::string what = "rank " + std::to_string(mail.rank) + ": ";
+    std::string what = "rank " + to_string(mail.rank) + ": ";
     for (const std::byte b : mail.bytes) what += static_cast<char>(b);
     throw Error(what);
   }
@@ -88,14 +82,14 @@ VtuArrays arrays_of_pieces(const DistributedPiece& piece) {
 
 std::vector<Mail> GatherPieces::send(int round) {
   std::vector<Mail> mail;
-  if (round == 0) mail.push_back({0, pack(piece_.mesh)});
-  if (round == 1 && piece_.rank == 0) mail = status_to_all(piece_.ranks, [&] { merge(); });
+  if (round == 0) mail.push_back({kWriter, pack(piece_.mesh)});
+  if (round == 1 && piece_.rank == kWriter) mail = status_to_all(piece_.ranks, [&] { merge(); });
   return mail;
 }
 
 std::vector<Rank> GatherPieces::senders(int round) const {
-  if (round == 1) return {0};
-  return piece_.rank == 0 ? all_of(piece_.ranks) : std::vector<Rank>();
+  if (round == 1) return {kWriter};
+  return piece_.rank == kWriter ? all_ranks(piece_.ranks) : std::vector<Rank>();
 }
 
 void GatherPieces::receive(int round, std::vector<Mail> mail) {
@@ -123,13 +117,14 @@ std::vector<Mail> WritePieces::send(int round) {
 }
 
 void WritePieces::write_or_commit(int round) {
-  if (round == 0) file_ = prepare_vtu(piece_.mesh, arrays_of_pieces(piece_), pvtu_piece_path(path_, piece_.rank));
+  if (round == 0)
+    file_ = prepare_vtu(piece_.mesh, arrays_of_pieces(piece_), pvtu_piece_path(path_, to_int(piece_.rank)));
   if (round == 1) file_->commit();
-  if (round == 2 && piece_.rank == 0) write_pvtu(path_, piece_.ranks, arrays_of_pieces(piece_));
+  if (round == 2 && piece_.rank == kWriter) write_pvtu(path_, piece_.ranks, arrays_of_pieces(piece_));
 }
 
 std::vector<Rank> WritePieces::senders(int) const {
-  return all_of(piece_.ranks);
+  return all_ranks(piece_.ranks);
 }
 
 void WritePieces::receive(int, std::vector<Mail> mail) {
@@ -140,12 +135,12 @@ WriteWhole::WriteWhole(const DistributedPiece& piece, const Mesh& whole, std::st
     : piece_(piece), whole_(whole), path_(std::move(path)), options_(std::move(options)) {}
 
 std::vector<Mail> WriteWhole::send(int) {
-  if (piece_.rank != 0) return {};
+  if (piece_.rank != kWriter) return {};
   return status_to_all(piece_.ranks, [&] { write_mesh(whole_, path_, options_); });
 }
 
 std::vector<Rank> WriteWhole::senders(int) const {
-  return {0};
+  return {kWriter};
 }
 
 void WriteWhole::receive(int, std::vector<Mail> mail) {

@@ -20,7 +20,7 @@ class GatherPieces final : public Exchange {
 
   [[nodiscard]] int rounds() const override { return 2; }
   [[nodiscard]] std::vector<Mail> send(int round) override;
-  [[nodiscard]] std::vector<protocol::Rank> senders(int round) const override;
+  [[nodiscard]] std::vector<Rank> senders(int round) const override;
   void receive(int round, std::vector<Mail> mail) override;
 
   /// After the conversation: on rank 0 the whole mesh, the same for every distribution of the same subdomains but for
@@ -45,7 +45,7 @@ class WritePieces final : public Exchange {
 
   [[nodiscard]] int rounds() const override { return 3; }
   [[nodiscard]] std::vector<Mail> send(int round) override;
-  [[nodiscard]] std::vector<protocol::Rank> senders(int round) const override;
+  [[nodiscard]] std::vector<Rank> senders(int round) const override;
   void receive(int round, std::vector<Mail> mail) override;
 
  private:
@@ -64,7 +64,7 @@ class WriteWhole final : public Exchange {
 
   [[nodiscard]] int rounds() const override { return 1; }
   [[nodiscard]] std::vector<Mail> send(int round) override;
-  [[nodiscard]] std::vector<protocol::Rank> senders(int round) const override;
+  [[nodiscard]] std::vector<Rank> senders(int round) const override;
   void receive(int round, std::vector<Mail> mail) override;
 
  private:

@@ -164,9 +164,9 @@ std::map<std::string, std::string> parameters_of_policy(const Request& request) 
   return parameters;
 }
 
-std::vector<double> shares_of_time(const Request& request, std::int32_t ranks) {
-  if (!request.cluster.drag.empty()) return request.cluster.drag;
-  return std::vector<double>(static_cast<std::size_t>(ranks), 1.0);
+IdVector<Rank, double> shares_of_time(const Request& request, std::int32_t ranks) {
+  if (!request.cluster.drag.empty()) return IdVector<Rank, double>(request.cluster.drag);
+  return IdVector<Rank, double>(to_index(ranks), 1.0);
 }
 
 ClusterSpec cluster_of(const Request& request) {
@@ -174,7 +174,7 @@ ClusterSpec cluster_of(const Request& request) {
   ClusterSpec cluster;
   cluster.groups = c.groups;
   if (cluster.groups.empty()) cluster.groups = {{"all", c.ranks, c.speed}};
-  cluster.drag = c.drag;
+  cluster.drag = IdVector<Rank, double>(c.drag);
   cluster.latency = c.latency;
   cluster.bandwidth = c.bandwidth;
   cluster.message_overhead = c.message_overhead;

@@ -27,7 +27,7 @@ void check_ranks(const Request& request, Place place, std::int32_t ranks);
 [[nodiscard]] std::map<std::string, std::string> parameters_of_policy(const Request& request);
 
 /// The share of its time that each of `ranks` real ranks works: 1, but where the request drags some.
-[[nodiscard]] std::vector<double> shares_of_time(const Request& request, std::int32_t ranks);
+[[nodiscard]] IdVector<Rank, double> shares_of_time(const Request& request, std::int32_t ranks);
 
 /// The cluster to simulate.
 [[nodiscard]] ClusterSpec cluster_of(const Request& request);

@@ -22,8 +22,8 @@ struct Order {
   Pslg pslg;     ///< repaired
   Request::Sizing sizing;
   Request::Limits limits;
-  std::vector<double> shares;  ///< of its time that each rank works, for experiments; empty: all of it
-  bool writes = false;         ///< the mesh is written or drawn afterwards
+  IdVector<Rank, double> shares;  ///< of its time that each rank works, for experiments; empty: all of it
+  bool writes = false;            ///< the mesh is written or drawn afterwards
 };
 
 /// An error of rank 0, as the others hear of it: the message is the same.

@@ -48,12 +48,12 @@ Balancing balancing_of(const Request& request, Place place) {
   return balancing;
 }
 
-PlanOptions plan_options(const Request& request, Place place, const std::vector<double>& speeds) {
+PlanOptions plan_options(const Request& request, Place place, const IdVector<Rank, double>& speeds) {
   PlanOptions options;
   options.mapping.ranks = static_cast<std::int32_t>(speeds.size());
   options.mapping.method = request.mapping.method;
   if (request.mapping.by_area) options.mapping.weight = MappingWeight::kArea;
-  options.mapping.speeds = request.mapping.by_speed ? speeds : request.mapping.speeds;
+  options.mapping.speeds = request.mapping.by_speed ? speeds : IdVector<Rank, double>(request.mapping.speeds);
   options.presplit = request.run.presplit;
   options.aggregation = static_cast<std::size_t>(request.run.aggregation);
   options.slice = request.run.slice;
@@ -76,7 +76,7 @@ Decomposition cut(const Request& request, const Triangulation& mesh, const Quali
 }
 
 Prepared prepare(const Request& request, const Domain& domain, const Given& given, Place place,
-                 const std::vector<double>& speeds, const Limits& limits, Watch& watch) {
+                 const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch) {
   const auto ranks = static_cast<std::int32_t>(speeds.size());
   Prepared prepared;
   const Triangulation mesh = timed(watch, "triangulate", [&] {

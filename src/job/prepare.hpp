@@ -26,7 +26,7 @@ struct Prepared {
 /// of which only the ratios count. Throws Error for what the domain and the bounds do not allow, LimitError if far more
 /// triangles than `limits` are to be expected, InputError and FileError for a decomposition that is read.
 [[nodiscard]] Prepared prepare(const Request& request, const Domain& domain, const Given& given, Place place,
-                               const std::vector<double>& speeds, const Limits& limits, Watch& watch);
+                               const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch);
 
 /// The domain cut as the request says, on so many ranks.
 [[nodiscard]] Decomposition cut(const Request& request, const Triangulation& mesh, const QualityBounds& bounds,

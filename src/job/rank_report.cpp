@@ -13,7 +13,7 @@ namespace {
 std::int64_t owned_subsegments(const Decomposition& d, const SubdomainCensus& census) {
   std::int64_t count = 0;
   for (const SubdomainCensus::Root& r : census.roots) {
-    const Decomposition::Root& root = d.roots[static_cast<std::size_t>(r.root)];
+    const Decomposition::Root& root = d.roots[r.root];
     if (!root.separator && owner_of(root) == census.id) count += static_cast<std::int64_t>(r.splits.count) + 1;
   }
   return count;

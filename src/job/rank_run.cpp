@@ -73,12 +73,12 @@ RankLoop::Observers RankRun::observers(const RankHooks& hooks) {
 }
 
 double RankRun::share_of_time() const {
-  return order_.shares.empty() ? 1 : order_.shares[static_cast<std::size_t>(team_.rank())];
+  return order_.shares.empty() ? 1 : order_.shares[team_.rank()];
 }
 
 double RankRun::forecast() const {
   double forecast = 0;
-  for (std::size_t s = 0; s < order_.plan.owners.size(); ++s)
+  for (const SubdomainId s : ids_of(order_.plan.owners))
     if (order_.plan.owners[s] == team_.rank()) forecast += order_.plan.decomposition.subdomains[s].predicted;
   return forecast;
 }
@@ -105,7 +105,7 @@ ClusterRun run_with_log(Team& team, Order order, RunRecord& record, Watch& watch
     run.report().write(writer);
     run.log().write(writer);
   });
-  std::vector<RankLog> logs;
+  IdVector<Rank, RankLog> logs;
   for (const Bytes& bytes : team.gather(writer.take())) {
     ByteReader reader(bytes);
     add_report(record, RankReport::read(reader));

@@ -25,8 +25,8 @@ class LoneChannel final : public Channel {
 
 class LoneTeam final : public Team {
  public:
-  [[nodiscard]] protocol::Rank rank() const override { return 0; }
-  [[nodiscard]] protocol::Rank ranks() const override { return 1; }
+  [[nodiscard]] Rank rank() const override { return Rank{0}; }
+  [[nodiscard]] std::int32_t ranks() const override { return 1; }
   [[nodiscard]] int ranks_on_machine() const override { return 1; }
   [[nodiscard]] protocol::Bytes broadcast(protocol::Bytes bytes) override { return bytes; }
   [[nodiscard]] std::vector<protocol::Bytes> gather(const protocol::Bytes& bytes) override { return {bytes}; }
@@ -42,7 +42,7 @@ std::unique_ptr<Team> lone_team() {
 
 void fail_alone(Team& team) {
   if (team.alone()) throw;
-  const std::string who = "driftmesh: rank " + std::to_string(team.rank()) + ": ";
+  const std::string who = "driftmesh: rank " + to_string(team.rank()) + ": ";
   try {
     throw;
   } catch (const LimitError& error) {

@@ -39,9 +39,9 @@ class Team {
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  [[nodiscard]] virtual protocol::Rank rank() const = 0;
-  [[nodiscard]] virtual protocol::Rank ranks() const = 0;
-  [[nodiscard]] bool leads() const { return rank() == 0; }
+  [[nodiscard]] virtual Rank rank() const = 0;
+  [[nodiscard]] virtual std::int32_t ranks() const = 0;
+  [[nodiscard]] bool leads() const { return rank() == Rank{0}; }
   [[nodiscard]] bool alone() const { return ranks() == 1; }
   /// Ranks that share this machine's memory.
   [[nodiscard]] virtual int ranks_on_machine() const = 0;

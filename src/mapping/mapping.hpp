@@ -4,14 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "base/ids.hpp"
 #include "decompose/decomposition.hpp"
 
 namespace driftmesh {
 
-using RankId = std::int32_t;
-
 /// The rank of each subdomain.
-using Assignment = std::vector<RankId>;
+using Assignment = IdVector<SubdomainId, Rank>;
 
 enum class MappingMethod {
   kGraph,       ///< balanced work, short interfaces between ranks (METIS)
@@ -31,7 +30,7 @@ enum class MappingWeight {
 struct MappingOptions {
   std::int32_t ranks = 1;
   /// Relative speed of each rank: work is dealt in proportion (round-robin ignores it). Empty: all equal.
-  std::vector<double> speeds;
+  IdVector<Rank, double> speeds;
   MappingMethod method = MappingMethod::kGraph;
   MappingWeight weight = MappingWeight::kWork;
 };

@@ -338,7 +338,7 @@ bool Refiner::split(SubsegmentId s) {
 }
 
 bool Refiner::split_and_tell(SubsegmentId s) {
-  const SplitPoint point{mesh_.subsegments[id(s)].root, mesh_.subsegments[id(s)].path};
+  const SplitPoint<RootId> point{mesh_.subsegments[id(s)].root, mesh_.subsegments[id(s)].path};
   if (!split(s)) return false;
   state_.made.push_back(point);
   return true;

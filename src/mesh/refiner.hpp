@@ -46,7 +46,7 @@ class Refiner {
 
   /// The points that refinement has put on segments since the last call, in the order of insertion, so each after its
   /// ancestors. Those that add_split_point inserted are not among them.
-  [[nodiscard]] std::vector<SplitPoint> take_split_points() { return std::exchange(state_.made, {}); }
+  [[nodiscard]] std::vector<SplitPoint<RootId>> take_split_points() { return std::exchange(state_.made, {}); }
 
   [[nodiscard]] const RefineCounters& counters() const { return state_.counters; }
 

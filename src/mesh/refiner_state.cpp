@@ -53,7 +53,7 @@ std::string RefinerState::fault(const Triangulation& mesh, const QualityBounds& 
   if (!is_sound(skinny, triangles)) return "a skinny triangle does not exist";
   if (!are_below(deferred, triangles)) return "a deferred triangle does not exist";
   if (!are_below(kept_whole, subsegments)) return "an unsplittable subsegment does not exist";
-  for (const SplitPoint& p : made)
+  for (const SplitPoint<RootId>& p : made)
     if (p.root < 0 || static_cast<std::size_t>(p.root) >= mesh.roots.size() || p.path == 0 ||
         dyadic::depth(p.path) > dyadic::kMaxDepth)
       return "a split point is on no root";

@@ -6,18 +6,13 @@
 #include <vector>
 
 #include "base/growing_array.hpp"
+#include "dyadic/split_point.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/refine_counters.hpp"
 #include "mesh/triangulation.hpp"
 #include "mesh/worklist.hpp"
 
 namespace driftmesh {
-
-/// A point that refinement put on a root segment: what a SPLIT message says.
-struct SplitPoint {
-  RootId root;
-  dyadic::Path path;
-};
 
 /// All that a refiner knows besides its mesh and its bounds. A refiner made from copies of mesh and state and the same
 /// bounds continues exactly as the original would: the same points in the same order.
@@ -30,7 +25,7 @@ struct RefinerState {
   SkinnyBuckets skinny;
   std::vector<TriangleId> deferred;               ///< skinny ones, until kRest
   std::unordered_set<SubsegmentId> unsplittable;  ///< coordinates have no room for their midpoints
-  std::vector<SplitPoint> made;                   ///< split points not yet taken by take_split_points
+  std::vector<SplitPoint<RootId>> made;           ///< split points not yet taken by take_split_points
   GrowingArray<double> size;                      ///< the size field at each vertex; empty without one
   std::int64_t max_triangles = kMaxTriangles - 64;
   RefineCounters counters;

@@ -13,26 +13,24 @@ WorkOrder work_order(const std::string& name) {
 
 void Agenda::put(const Item& item) {
   remove(item.id);
-  const auto at = static_cast<std::size_t>(item.id);
-  if (at >= place_.size()) place_.resize(at + 1);
-  place_[at] = place_of(item);
-  queue_.insert(*place_[at]);
+  if (!place_.has(item.id)) place_.resize(to_index(item.id) + 1);
+  place_[item.id] = place_of(item);
+  queue_.insert(*place_[item.id]);
 }
 
-void Agenda::remove(protocol::SubdomainId id) {
-  const auto at = static_cast<std::size_t>(id);
-  if (at >= place_.size() || !place_[at]) return;
-  queue_.erase(*place_[at]);
-  place_[at].reset();
+void Agenda::remove(SubdomainId id) {
+  if (!place_.has(id) || !place_[id]) return;
+  queue_.erase(*place_[id]);
+  place_[id].reset();
 }
 
-std::optional<protocol::SubdomainId> Agenda::first() const {
+std::optional<SubdomainId> Agenda::first() const {
   if (queue_.empty()) return std::nullopt;
   return queue_.begin()->id;
 }
 
-std::vector<protocol::SubdomainId> Agenda::in_order() const {
-  std::vector<protocol::SubdomainId> ids;
+std::vector<SubdomainId> Agenda::in_order() const {
+  std::vector<SubdomainId> ids;
   for (const Place& place : queue_) ids.push_back(place.id);
   return ids;
 }

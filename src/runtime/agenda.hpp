@@ -27,7 +27,7 @@ class Agenda {
   explicit Agenda(WorkOrder order) : order_(order) {}
 
   struct Item {
-    protocol::SubdomainId id = 0;
+    SubdomainId id{};
     bool begun = false;       ///< has worked, and has not met its bounds yet
     bool refined = false;     ///< has met its bounds before
     double remaining = 0;     ///< triangles to be made
@@ -35,11 +35,11 @@ class Agenda {
   };
   /// Enters a subdomain, or changes its place.
   void put(const Item& item);
-  void remove(protocol::SubdomainId id);
+  void remove(SubdomainId id);
   /// The subdomain to work on next.
-  [[nodiscard]] std::optional<protocol::SubdomainId> first() const;
+  [[nodiscard]] std::optional<SubdomainId> first() const;
   /// All of them, in that order.
-  [[nodiscard]] std::vector<protocol::SubdomainId> in_order() const;
+  [[nodiscard]] std::vector<SubdomainId> in_order() const;
   [[nodiscard]] bool empty() const { return queue_.empty(); }
   [[nodiscard]] std::size_t size() const { return queue_.size(); }
 
@@ -47,7 +47,7 @@ class Agenda {
   struct Place {
     int tier;
     double urgency;  // more is earlier
-    protocol::SubdomainId id;
+    SubdomainId id;
     friend bool operator<(const Place& a, const Place& b) {
       if (a.tier != b.tier) return a.tier < b.tier;
       if (a.urgency != b.urgency) return a.urgency > b.urgency;
@@ -58,7 +58,7 @@ class Agenda {
 
   WorkOrder order_;
   std::set<Place> queue_;
-  std::vector<std::optional<Place>> place_;  // by subdomain
+  IdVector<SubdomainId, std::optional<Place>> place_;
 };
 
 }  // namespace driftmesh

@@ -78,13 +78,13 @@ void prepare_balancing(RunPlan& plan, std::int32_t ranks, std::shared_ptr<const 
   }
   const auto layout = std::make_shared<balancer::Layout>();
   layout->ranks = ranks;
-  for (std::size_t s = 0; s < plan.owners.size(); ++s) {
+  for (const SubdomainId s : ids_of(plan.owners)) {
     const Decomposition::Subdomain& known = plan.decomposition.subdomains[s];
     layout->subdomains.push_back({known.centroid.x, known.centroid.y, known.predicted, plan.owners[s], {}});
   }
   for (const Interface& i : interfaces(plan.decomposition)) {
-    layout->subdomains[static_cast<std::size_t>(i.first)].neighbours.push_back({i.second, i.length});
-    layout->subdomains[static_cast<std::size_t>(i.second)].neighbours.push_back({i.first, i.length});
+    layout->subdomains[i.first].neighbours.push_back({i.second, i.length});
+    layout->subdomains[i.second].neighbours.push_back({i.first, i.length});
   }
   plan.layout = layout;
 }

@@ -35,15 +35,15 @@ class BasicRankLoop {
  public:
   /// A slice of work that was done.
   struct Slice {
-    SubdomainId subdomain = 0;
+    SubdomainId subdomain{};
     double seconds = 0;
-    std::span<const protocol::SplitEntry> said;  ///< points that it put on interfaces
+    std::span<const SplitPoint<GlobalRootId>> said;  ///< points that it put on interfaces
   };
   /// A subdomain that leaves this rank or has come to it; `epoch` is the one that begins with this move.
   struct Passage {
-    SubdomainId subdomain = 0;
+    SubdomainId subdomain{};
     protocol::Epoch epoch = 0;
-    protocol::Rank to = 0;
+    Rank to{};
     std::size_t bytes = 0;  ///< its packed size
   };
   /// What the loop tells its surroundings; each may be empty.
@@ -64,14 +64,14 @@ class BasicRankLoop {
         costs_(costs),
         observers_(std::move(observers)),
         protocol_(transport.rank(), transport.ranks(), plan.owners, plan.aggregation),
-        limits_{transport.ranks(), static_cast<protocol::SubdomainId>(plan.owners.size()),
-                static_cast<protocol::EdgeId>(plan.decomposition.roots.size())},
+        limits_{transport.ranks(), static_cast<std::int32_t>(plan.owners.size()),
+                static_cast<std::int32_t>(plan.decomposition.roots.size())},
         agenda_(plan.order),
         clock_(transport.now()) {
     if (plan.policy)
       controller_.emplace(transport.rank(), plan.layout, plan.policy, plan.balancing.options, clock_, council);
-    for (std::size_t s = 0; s < plan.owners.size(); ++s)
-      if (plan.owners[s] == transport.rank()) put(Subdomain(static_cast<SubdomainId>(s), context_));
+    for (const SubdomainId s : ids_of(plan.owners))
+      if (plan.owners[s] == transport.rank()) put(Subdomain(s, context_));
   }
   BasicRankLoop(const BasicRankLoop&) = delete;
   BasicRankLoop& operator=(const BasicRankLoop&) = delete;
@@ -79,7 +79,7 @@ class BasicRankLoop {
   /// Subdomain `id` goes to rank `to`, packed, with everything it was told. Between steps only, and not once this rank
   /// has nothing to do: then it may make no work for others (docs/protocol.md, rule 6). False, and nothing happens, if
   /// the subdomain is not here, is finished, would stay, or is too large for one message.
-  bool hand_over(SubdomainId id, protocol::Rank to) {
+  bool hand_over(SubdomainId id, Rank to) {
     const auto place = subdomains_.find(id);
     if (to == transport_.rank() || place == subdomains_.end() || !place->second.active()) return false;
     if (place->second.packed_bytes() > protocol::kMostPackedBytes) return false;
@@ -151,14 +151,14 @@ class BasicRankLoop {
       if (delivery.advice && controller_) controller_->receive(received->source, std::move(*delivery.advice), clock_);
       for (const protocol::SplitGroup& group : delivery.splits) {
         Subdomain& subdomain = subdomains_.at(group.to);
-        for (const protocol::SplitEntry& entry : group.entries) subdomain.tell(entry);
+        for (const SplitPoint<GlobalRootId>& split : group.points) subdomain.tell(split);
         reschedule(subdomain);
       }
     }
     return heard;
   }
 
-  void settle(const protocol::HandOff& arrival, protocol::Rank sender) {
+  void settle(const protocol::HandOff& arrival, Rank sender) {
     charge(&RankTimes::polling);
     try {
       put(Subdomain::unpack(arrival.packed, context_, Source::kThisRun));
@@ -183,7 +183,7 @@ class BasicRankLoop {
     const SliceWork done = subdomain.work(plan_.slice, said_);
     triangles_ += subdomain.triangles() - before;
     if (triangles_ > plan_.max_triangles)
-      throw LimitError("rank " + std::to_string(transport_.rank()) + " has more than " +
+      throw LimitError("rank " + to_string(transport_.rank()) + " has more than " +
                        std::to_string(plan_.max_triangles) + " triangles");
     transport_.spend(static_cast<double>(done.points) * costs_.point +
                      (done.prepared > 0 ? costs_.start + static_cast<double>(done.prepared) * costs_.prepared : 0));
@@ -194,7 +194,7 @@ class BasicRankLoop {
       transport_.spend(static_cast<double>(subdomain.triangles()) * costs_.asleep);
     }
     interface_splits_ += static_cast<std::int64_t>(said_.size());
-    for (const protocol::SplitEntry& entry : said_) tell_across(*id, entry);
+    for (const SplitPoint<GlobalRootId>& split : said_) tell_across(*id, split);
     if (observers_.after_slice) observers_.after_slice(*this, {*id, transport_.now() - start, said_});
     speed_.add({static_cast<double>(done.triangles), transport_.now() - start, done.prepared > 0, !subdomain.active()});
     return true;
@@ -227,11 +227,11 @@ class BasicRankLoop {
     return own;
   }
 
-  void tell_across(SubdomainId from, const protocol::SplitEntry& entry) {
-    const SubdomainId to = plan_.decomposition.roots[static_cast<std::size_t>(entry.edge)].across_from(from);
-    if (!protocol_.holds(to)) return protocol_.send_split(to, entry);
+  void tell_across(SubdomainId from, const SplitPoint<GlobalRootId>& split) {
+    const SubdomainId to = plan_.decomposition.roots[split.root].across_from(from);
+    if (!protocol_.holds(to)) return protocol_.send_split(to, split);
     Subdomain& neighbor = subdomains_.at(to);
-    neighbor.tell(entry);
+    neighbor.tell(split);
     reschedule(neighbor);
   }
 
@@ -281,7 +281,7 @@ class BasicRankLoop {
   std::optional<balancer::Controller> controller_;
   balancer::SpeedEstimate speed_;
   bool worked_ = false;  // in the last step
-  std::vector<protocol::SplitEntry> said_;
+  std::vector<SplitPoint<GlobalRootId>> said_;
   std::int64_t triangles_ = 0;
   std::int64_t interface_splits_ = 0;
   std::uint64_t messages_ = 0, message_bytes_ = 0;

@@ -27,7 +27,7 @@ struct Balancing {
 /// What every rank of a parallel run knows from the start, equal on all of them.
 struct RunPlan {
   Decomposition decomposition;
-  std::vector<protocol::Rank> owners;  ///< of each subdomain at the start
+  IdVector<SubdomainId, Rank> owners;  ///< at the start
   QualityBounds bounds;
   bool presplit = false;
   std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;  ///< SPLITs in one message at most

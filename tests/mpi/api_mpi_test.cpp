@@ -88,7 +88,7 @@ TEST_CASE("pieces of all ranks are one mesh, whichever way they are made") {
       for (const char* name : {"mesh.pvtu", "mesh.msh"}) {
         const std::string path = shared_path(folder, name);
         write_distributed(world(), piece, path);
-        if (piece.rank == 0) {
+        if (piece.rank == Rank{0}) {
           const Mesh whole = read_mesh(path);
           CHECK(mesh_digest(whole) == digest);
           VerifyOptions verify_options;

@@ -55,7 +55,7 @@ Parameters::Values collective(const std::string& method, const std::string& appr
 TEST_CASE("on all ranks at once: even in the end, and what everybody believes is so") {
   protocol::MpiTransport transport(protocol::MpiSession::world());
   const auto ranks = static_cast<std::size_t>(transport.ranks());
-  std::vector<double> speeds{1e5, 2e5, 3e5, 1e5};
+  IdVector<Rank, double> speeds{1e5, 2e5, 3e5, 1e5};
   speeds.resize(ranks);
   for (const bool lopsided : {false, true})
     for (const std::string method : {"rcb", "hsfc", "graph", "hypergraph"})
@@ -65,7 +65,7 @@ TEST_CASE("on all ranks at once: even in the end, and what everybody believes is
         CAPTURE(approach);
         Layout layout = grid_layout(30, 30, transport.ranks());
         for (auto& s : layout.subdomains)
-          if (lopsided) s.owner = transport.ranks() - 1;
+          if (lopsided) s.owner = Rank{transport.ranks() - 1};
         const LoadSnapshot snapshot = initial_snapshot(std::move(layout), speeds);
         const auto contributions = contributions_of(snapshot);
         const auto decisions = hold_round(transport, collective(method, approach), snapshot, contributions);
@@ -84,8 +84,8 @@ TEST_CASE("random loads, finished neighbours, ranks without any") {
     std::mt19937_64 random(seed);
     Layout layout =
         grid_layout(1 + static_cast<int>(random() % 12), 1 + static_cast<int>(random() % 12), transport.ranks());
-    std::vector<double> speeds;
-    for (Rank r = 0; r < transport.ranks(); ++r) speeds.push_back(static_cast<double>(random() % 4) * 1e4);
+    IdVector<Rank, double> speeds;
+    while (speeds.size() < to_index(transport.ranks())) speeds.push_back(static_cast<double>(random() % 4) * 1e4);
     for (auto& s : layout.subdomains) {
       const std::uint64_t kind = random() % 4;
       s.predicted = kind == 0 ? 0 : kind == 1 ? 1e-3 : static_cast<double>(random() % 5000);

@@ -13,11 +13,11 @@ int main(int argc, char** argv) {
   MpiTransport transport(MpiSession::world());
   try {
     run_rank(transport, [&] {
-      if (transport.rank() == 1) throw Error("subdomain 7: the size field is not above 0 at (1, 2)");
+      if (transport.rank() == Rank{1}) throw Error("subdomain 7: the size field is not above 0 at (1, 2)");
       return transport.poll() ? StepResult::kFinished : StepResult::kIdle;
     });
     transport.close();
   } catch (const std::exception& error) {
-    MpiSession::abort("driftmesh: rank " + std::to_string(transport.rank()) + ": " + error.what());
+    MpiSession::abort("driftmesh: rank " + to_string(transport.rank()) + ": " + error.what());
   }
 }

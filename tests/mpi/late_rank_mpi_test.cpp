@@ -37,7 +37,8 @@ class StartingGun {
     while (!transport_.poll()) std::this_thread::sleep_for(kRest);
   }
   void reached(int slices) {
-    if (slices == kHeadStart && transport_.rank() == (late_ + 1) % transport_.ranks()) transport_.send(late_, {});
+    if (slices == kHeadStart && transport_.rank() == next_in_ring(late_, transport_.ranks()))
+      transport_.send(late_, {});
   }
   void close() { transport_.close(); }
 
@@ -132,7 +133,7 @@ void run_with(const LateCase& late) {
 
 Rank last_rank() {
   MpiTransport transport(MpiSession::world());
-  const Rank last = transport.ranks() - 1;
+  const Rank last{transport.ranks() - 1};
   transport.close();
   return last;
 }
@@ -145,7 +146,7 @@ TEST_CASE("a rank that joins late with nothing is given work") {
 }
 
 TEST_CASE("the rank that plans for all, and begins to look for the end, may join late") {
-  for (const char* policy : {"none", "zoltan", "collective", "greedy"}) run_with({policy, 0});
+  for (const char* policy : {"none", "zoltan", "collective", "greedy"}) run_with({policy, Rank{0}});
 }
 
 TEST_CASE("a rank that joins late with one subdomain is given more") {

@@ -28,7 +28,7 @@ using namespace driftmesh::protocol;
 /// Moves random subdomains of this rank that have work to random ranks, every second time that it is asked.
 class Mover {
  public:
-  Mover(const Job& job, Rank self, Rank ranks)
+  Mover(const Job& job, Rank self, std::int32_t ranks)
       : wanted_(job.moves), ranks_(ranks), random_(job.seed * 131 + static_cast<std::uint64_t>(self)) {}
 
   void look(RankLoop& loop) {
@@ -44,12 +44,12 @@ class Mover {
 
  private:
   bool wanted_;
-  Rank ranks_;
+  std::int32_t ranks_;
   std::mt19937_64 random_;
   std::int64_t moved_ = 0;
 };
 
-RunPlan plan_of(const Job& job, const QualityBounds& bounds, const Triangulation& mesh, Rank ranks) {
+RunPlan plan_of(const Job& job, const QualityBounds& bounds, const Triangulation& mesh, std::int32_t ranks) {
   DecomposeOptions cutting;
   cutting.subdomains = job.subdomains;
   cutting.bounds = bounds;
@@ -148,8 +148,8 @@ Outcome run(const Job& job) {
   job::Order order;
   order.plan = plan_of(job, outcome.bounds, mesh, team.ranks());
   order.pslg = job.input;
-  order.shares.assign(static_cast<std::size_t>(team.ranks()), 1);
-  if (job.drag) order.shares[job.seed % order.shares.size()] = 0.2;
+  order.shares.assign(to_index(team.ranks()), 1);
+  if (job.drag) order.shares[static_cast<Rank>(job.seed % order.shares.size())] = 0.2;
 
   job::Watch watch;
   job::RankRun run(team, std::move(order), nullptr, watch);

@@ -24,8 +24,7 @@ std::vector<std::uint64_t> summary(const World& world, const ToyRank<>& rank) {
     for (const auto& [edge, paths] : subdomain.points()) {
       SplitDigest digest;
       for (const auto path : paths) digest.add(path);
-      const auto e = static_cast<std::size_t>(edge);
-      values[e] += world.edges[e].one == id ? digest.sum : 0 - digest.sum;
+      values[to_index(edge)] += world.edges[edge].one == id ? digest.sum : 0 - digest.sum;
       values[world.edges.size() + 1] += digest.count;
     }
   }

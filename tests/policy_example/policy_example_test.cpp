@@ -20,10 +20,10 @@ TEST_CASE("the factory makes the policy of the page") {
 
 TEST_CASE("it evens out pairs of ranks") {
   const LoadSnapshot s = testing::initial_snapshot(testing::grid_layout(40, 1, 4), {100, 100, 300, 300});
-  const auto moves = make_policy("pairs")->plan(s, 0);
+  const auto moves = make_policy("pairs")->plan(s, Rank{0});
   CHECK(!moves.empty());
   CHECK(testing::time_with(s, moves) < 1.25 * ideal_time(s));
-  CHECK(make_policy("pairs", {{"share", "0"}})->plan(s, 0).empty());
+  CHECK(make_policy("pairs", {{"share", "0"}})->plan(s, Rank{0}).empty());
 }
 
 TEST_CASE("it balances whole runs") {
@@ -31,7 +31,7 @@ TEST_CASE("it balances whole runs") {
   cluster.speeds = {1e6, 1e6, 1e6, 3e6, 2e6, 1e6, 3e6, 2e6};
   testing::Layout layout = testing::grid_layout(20, 20, 8);
   for (auto& s : layout.subdomains) s.predicted = 50e3;
-  const std::vector<testing::Job> jobs(400, testing::Job{0, 50e3, 50e3});
+  const testing::Jobs jobs(400, testing::Job{0, 50e3, 50e3});
   const auto none = testing::run_jobs(cluster, layout, jobs, "none");
   const auto pairs = testing::run_jobs(cluster, layout, jobs, "pairs");
   CHECK(pairs.complete);

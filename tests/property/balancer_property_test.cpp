@@ -20,23 +20,22 @@ namespace {
 void check_valid(const LoadSnapshot& snapshot, const std::vector<Move>& moves) {
   std::set<SubdomainId> moved;
   for (const Move& move : moves) {
-    CAPTURE(move.subdomain);
+    CAPTURE(to_int(move.subdomain));
     const SubdomainState* const s = find(snapshot, move.subdomain);
     REQUIRE(s != nullptr);
     REQUIRE(move.destination != s->owner);
-    REQUIRE(move.destination >= 0);
-    REQUIRE(static_cast<std::size_t>(move.destination) < snapshot.ranks.size());
+    REQUIRE(snapshot.ranks.has(move.destination));
     REQUIRE(moved.insert(move.subdomain).second);
   }
 }
 
 // What all ranks together would do with a policy that plans at every rank.
 std::vector<Move> plan_of_all(const Policy& policy, const LoadSnapshot& snapshot) {
-  if (policy.placement() != Placement::kNeighbours) return policy.plan(snapshot, 0);
+  if (policy.placement() != Placement::kNeighbours) return policy.plan(snapshot, Rank{0});
   std::vector<Move> moves;
-  for (std::size_t r = 0; r < snapshot.ranks.size(); ++r)
-    for (const Move& move : policy.plan(snapshot, static_cast<Rank>(r))) {
-      REQUIRE(find(snapshot, move.subdomain)->owner == static_cast<Rank>(r));
+  for (const Rank r : ids_of(snapshot.ranks))
+    for (const Move& move : policy.plan(snapshot, r)) {
+      REQUIRE(find(snapshot, move.subdomain)->owner == r);
       moves.push_back(move);
     }
   return moves;
@@ -116,7 +115,7 @@ TEST_CASE("greedy plans take at most three times as long as dealing everything a
     CAPTURE(seed);
     std::mt19937_64 one(seed);
     const LoadSnapshot snapshot = random_snapshot(one);
-    REQUIRE(time_with(snapshot, policy->plan(snapshot, 0)) <= 3 * time_dealt_anew(snapshot) * (1 + 1e-12));
+    REQUIRE(time_with(snapshot, policy->plan(snapshot, Rank{0})) <= 3 * time_dealt_anew(snapshot) * (1 + 1e-12));
   }
 }
 
@@ -131,12 +130,12 @@ TEST_CASE("gifts make the pair finish earlier, and thieves get work from others"
     const LoadSnapshot snapshot = random_snapshot(one);
     const auto ranks = snapshot.ranks.size();
     const Rank self = static_cast<Rank>(one() % ranks), other = static_cast<Rank>(one() % ranks);
-    std::vector<bool> able(ranks);
-    for (std::size_t r = 0; r < ranks; ++r) able[r] = one() % 2 == 0;
+    IdVector<Rank, bool> able(ranks);
+    for (const Rank r : ids_of(able)) able[r] = one() % 2 == 0;
     if (const auto victim = policy->victim(snapshot, self, able)) {
       ++asked;
       REQUIRE(*victim != self);
-      REQUIRE(able[static_cast<std::size_t>(*victim)]);
+      REQUIRE(able[*victim]);
     }
     if (other == self) continue;
     const auto moves = policy->give(snapshot, self, other);

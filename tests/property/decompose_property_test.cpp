@@ -39,10 +39,10 @@ double total_area(const Triangulation& mesh) {
 std::string check_triangulations(const Decomposition& d) {
   double whole = 0;
   for (const auto& s : d.subdomains) whole += s.area;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const SubdomainMesh part = subdomain_triangulation(d, static_cast<SubdomainId>(i));
+  for (const SubdomainId i : ids_of(d.subdomains)) {
+    const SubdomainMesh part = subdomain_triangulation(d, i);
     if (!(std::fabs(total_area(part.mesh) - d.subdomains[i].area) <= 1e-9 * whole))
-      return "subdomain " + std::to_string(i) + " is triangulated to area " + std::to_string(total_area(part.mesh)) +
+      return "subdomain " + to_string(i) + " is triangulated to area " + std::to_string(total_area(part.mesh)) +
              " instead of " + std::to_string(d.subdomains[i].area);
   }
   return "";

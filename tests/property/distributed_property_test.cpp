@@ -18,7 +18,6 @@
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
-using protocol::Rank;
 
 namespace {
 
@@ -106,8 +105,9 @@ TEST_CASE("random domains, dealt to random ranks, are one mesh") {
     const DistributedCase c = random_distributed_case(seed);
     CAPTURE(oracles::poly_text(c.input));
     MergeFaults faults;
-    const Mesh alone = merge_pieces(meshes_of(c.pieces(1, std::vector<Rank>(c.parts.size(), 0))), faults);
-    for (const Rank ranks : {1, 2, 3, 7}) {
+    const Mesh alone =
+        merge_pieces(meshes_of(c.pieces(1, IdVector<SubdomainId, Rank>(c.parts.size(), Rank{0}))), faults);
+    for (const std::int32_t ranks : {1, 2, 3, 7}) {
       CAPTURE(ranks);
       const auto pieces = c.pieces(ranks, random_owners(c.parts.size(), ranks, seed));
       check_numbers(pieces);
@@ -135,16 +135,16 @@ TEST_CASE("subdomains that sleep are shown as if they did not") {
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     CAPTURE(seed);
     const DistributedCase c = random_distributed_case(seed);
-    std::vector<DormantMesh> asleep;
+    IdVector<SubdomainId, DormantMesh> asleep;
     for (const SubdomainMesh& part : c.parts) asleep.emplace_back(part);
-    std::vector<std::unique_ptr<PieceAssembly>> all;
-    for (Rank r = 0; r < 2; ++r)
+    IdVector<Rank, std::unique_ptr<PieceAssembly>> all;
+    for (const Rank r : first_ids<Rank>(2))
       all.push_back(std::make_unique<PieceAssembly>(r, 2, c.decomposition, [&, r](const ShowSubdomain& show) {
-        for (std::size_t i = 0; i < asleep.size(); ++i)
-          if (static_cast<Rank>(i % 2) == r) show(static_cast<SubdomainId>(i), asleep[i].wake());
+        for (const SubdomainId i : ids_of(asleep))
+          if (Rank{to_int(i) % 2} == r) show(i, asleep[i].wake());
       }));
-    exchange_directly(std::vector<Exchange*>{all[0].get(), all[1].get()});
-    const std::vector<DistributedPiece> pieces{all[0]->piece(c.input), all[1]->piece(c.input)};
+    exchange_directly(IdVector<Rank, Exchange*>{all.front().get(), all.back().get()});
+    const IdVector<Rank, DistributedPiece> pieces{all.front()->piece(c.input), all.back()->piece(c.input)};
     check_numbers(pieces);
     check_interfaces(pieces);
     MergeFaults faults;
@@ -158,18 +158,18 @@ TEST_CASE("messages may come in any order") {
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     CAPTURE(seed);
     const DistributedCase c = random_distributed_case(seed % 5 + 1);
-    const auto ranks = static_cast<Rank>(2 + seed % 6);
-    const std::vector<Rank> owners = random_owners(c.parts.size(), ranks, seed);
+    const auto ranks = static_cast<std::int32_t>(2 + seed % 6);
+    const IdVector<SubdomainId, Rank> owners = random_owners(c.parts.size(), ranks, seed);
     const auto all = c.assemblies(ranks, owners);
     protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
     const std::size_t part = seed % 2 == 0 ? ExchangeRunner::kPart : 20 + seed;  // whole, or in many parts
-    std::vector<ExchangeRunner> runners;
-    for (Rank r = 0; r < ranks; ++r) runners.emplace_back(network.transport(r), part);
-    std::vector<protocol::RankStep> steps;
-    for (std::size_t r = 0; r < all.size(); ++r) steps.push_back([&, r] { return runners[r].step(*all[r]); });
+    IdVector<Rank, ExchangeRunner> runners;
+    for (const Rank r : first_ids<Rank>(ranks)) runners.emplace_back(network.transport(r), part);
+    IdVector<Rank, protocol::RankStep> steps;
+    for (const Rank r : ids_of(all)) steps.push_back([&, r] { return runners[r].step(*all[r]); });
     REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);
     const auto expected = c.pieces(ranks, owners);
-    for (std::size_t r = 0; r < all.size(); ++r) test::check_same_mesh(all[r]->piece(c.input).mesh, expected[r].mesh);
+    for (const Rank r : ids_of(all)) test::check_same_mesh(all[r]->piece(c.input).mesh, expected[r].mesh);
     reordered += network.counters().reordered;
   }
   CHECK(reordered > 0);

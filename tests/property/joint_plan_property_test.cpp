@@ -59,7 +59,7 @@ TEST_CASE("what all ranks decide is valid, repeatable, believed by all, and fini
 }
 
 TEST_CASE("many subdomains on ranks of three speeds come out even, however they lay before") {
-  const std::vector<double> speeds{1e5, 1e5, 2e5, 2e5, 2e5, 3e5, 3e5, 1e5};
+  const IdVector<Rank, double> speeds{1e5, 1e5, 2e5, 2e5, 2e5, 3e5, 3e5, 1e5};
   for (const bool lopsided : {false, true})
     for (const std::string method : {"rcb", "hsfc", "graph", "hypergraph"})
       for (const std::string approach : {"repartition", "partition", "refine"}) {
@@ -68,7 +68,7 @@ TEST_CASE("many subdomains on ranks of three speeds come out even, however they 
         CAPTURE(approach);
         Layout layout = grid_layout(40, 40, 8);
         for (auto& s : layout.subdomains)
-          if (lopsided) s.owner = 5;
+          if (lopsided) s.owner = Rank{5};
         const LoadSnapshot snapshot = initial_snapshot(std::move(layout), speeds);
         const auto contributions = contributions_of(snapshot);
         const auto decisions =
@@ -97,10 +97,10 @@ TEST_CASE("a subdomain that two ranks list, because it has moved between their a
   for (std::size_t i = 30; i < 50; ++i) {
     contributions[1].own.insert(contributions[1].own.begin() + static_cast<std::ptrdiff_t>(i - 30),
                                 contributions[0].own[i]);
-    contributions[1].own[i - 30].owner = 1;
+    contributions[1].own[i - 30].owner = Rank{1};
   }
   const auto decisions = hold_round(zoltan({}), snapshot, contributions);
-  std::vector<int> planned(100);
-  for (const Move& move : all_moves(decisions)) ++planned[static_cast<std::size_t>(move.subdomain)];
+  IdVector<SubdomainId, int> planned(100);
+  for (const Move& move : all_moves(decisions)) ++planned[move.subdomain];
   CHECK(*std::max_element(planned.begin(), planned.end()) == 1);
 }

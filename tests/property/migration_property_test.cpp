@@ -75,13 +75,13 @@ bool same_counters(const Subdomain& a, const Subdomain& b) {
 Outcome live_and_move(RandomSubdomains& world, SubdomainId id, const Move& move) {
   Outcome outcome;
   Subdomain stays(id, world.context()), moves(id, world.context());
-  std::vector<protocol::SplitEntry> said_by_one, said_by_other;
+  std::vector<SplitPoint<GlobalRootId>> said_by_one, said_by_other;
   auto& random = world.random();
   for (int quiet = 0; quiet < 3;) {
     for (auto points = random() % 3; points > 1 && quiet == 0; --points) {
-      const protocol::SplitEntry entry = world.split_of(id, 5);
-      stays.tell(entry);
-      moves.tell(entry);
+      const SplitPoint<GlobalRootId> split = world.split_of(id, 5);
+      stays.tell(split);
+      moves.tell(split);
     }
     for (auto times = random() % 4; times > 1; --times) {
       note_moment(moves, outcome);
@@ -98,9 +98,9 @@ Outcome live_and_move(RandomSubdomains& world, SubdomainId id, const Move& move)
     if (!outcome.difference.empty()) return outcome;
     if (!stays.active()) ++quiet;  // split points wake it once or twice
     if (quiet == 1 && random() % 2 == 0) {
-      const protocol::SplitEntry entry = world.split_of(id, 7);
-      stays.tell(entry);
-      moves.tell(entry);
+      const SplitPoint<GlobalRootId> split = world.split_of(id, 7);
+      stays.tell(split);
+      moves.tell(split);
     }
   }
   if (mesh_digest(stays.mesh().mesh) != mesh_digest(moves.mesh().mesh)) outcome.difference = "digests";
@@ -135,7 +135,7 @@ TEST_CASE("a pack that forgets the points to be taken in is found out") {
   int found = 0, lives = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed, ++lives) {
     RandomSubdomains world(seed, 3, 300);
-    found += !live_and_move(world, 0, move_without_pending).difference.empty();
+    found += !live_and_move(world, SubdomainId{0}, move_without_pending).difference.empty();
   }
   CHECK(found > lives / 2);
 }
@@ -150,7 +150,7 @@ TEST_CASE("a subdomain that sleeps whenever it can is finished as well, and hold
     auto& random = world.random();
     const auto id = static_cast<SubdomainId>(random() % static_cast<std::uint64_t>(world.size()));
     Subdomain subdomain(id, world.context());
-    std::vector<protocol::SplitEntry> said, told;
+    std::vector<SplitPoint<GlobalRootId>> said, told;
     for (int round = 0; round < 12; ++round) {
       while (subdomain.active()) subdomain.work(1000, said);
       const std::uint64_t digest = mesh_digest(subdomain.mesh().mesh);
@@ -178,9 +178,9 @@ TEST_CASE("a subdomain that sleeps whenever it can is finished as well, and hold
     }
     while (subdomain.active()) subdomain.work(1000, said);
     const SubdomainMesh& part = subdomain.mesh();
-    for (const protocol::SplitEntry& entry : told) {
-      const auto root = static_cast<RootId>(std::ranges::lower_bound(part.roots, entry.edge) - part.roots.begin());
-      CHECK(!part.mesh.subsegments[Triangulation::id(part.mesh.descend(root, entry.path))].is_leaf());
+    for (const SplitPoint<GlobalRootId>& split : told) {
+      const auto root = static_cast<RootId>(std::ranges::lower_bound(part.roots, split.root) - part.roots.begin());
+      CHECK(!part.mesh.subsegments[Triangulation::id(part.mesh.descend(root, split.path))].is_leaf());
     }
     const Exceptions exceptions = find_exceptions(part.mesh, world.context().bounds);
     CHECK(exceptions.large.empty());
@@ -202,14 +202,14 @@ TEST_CASE("large subdomains, in the stage of blocks, come out the same") {
   DecomposeOptions options;
   options.subdomains = 1;
   const Decomposition d = decompose(mesh, options);
-  const RadialField field(d.points[0], 1e-3, 1e-3);
+  const RadialField field(d.points.front(), 1e-3, 1e-3);
   for (const bool sized : {false, true}) {
     CAPTURE(sized);
     SubdomainContext context{&d, {}, false};
-    context.bounds.max_area = d.subdomains[0].area / 280'000;
+    context.bounds.max_area = d.subdomains.front().area / 280'000;
     if (sized) context.bounds.size = &field;
-    Subdomain stays(0, context), moves(0, context);
-    std::vector<protocol::SplitEntry> said;
+    Subdomain stays(SubdomainId{0}, context), moves(SubdomainId{0}, context);
+    std::vector<SplitPoint<GlobalRootId>> said;
     std::set<RefinerState::Stage> stages;
     for (const std::int64_t slice : {1, 40, 200, 600, 1000, 1000, 1000, 50'000, 50'000}) {
       stays.work(slice, said);
@@ -223,8 +223,8 @@ TEST_CASE("large subdomains, in the stage of blocks, come out the same") {
     }
     CHECK(stays.pack() == moves.pack());
     const SubdomainMesh& part = moves.mesh();
-    for (std::size_t v = 0; v < part.points.size(); ++v)  // also after vertices were sorted
-      CHECK(part.mesh.points[v] == d.points[Triangulation::id(part.points[v])]);
+    for (const VertexId v : ids_of(part.points))  // also after vertices were sorted
+      CHECK(part.mesh.points[Triangulation::id(v)] == d.points[part.points[v]]);
     CHECK(stages.contains(RefinerState::Stage::kCoarse));
     CHECK(stages.contains(RefinerState::Stage::kFine));
   }

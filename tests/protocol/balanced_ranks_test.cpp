@@ -7,12 +7,13 @@
 
 #include "property/cases.hpp"
 #include "protocol/adversarial_network.hpp"
+#include "support/id_literals.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::balancer;
 using driftmesh::testing::Cluster;
 using driftmesh::testing::grid_layout;
-using driftmesh::testing::Job;
+using driftmesh::testing::Jobs;
 using driftmesh::testing::Outcome;
 using driftmesh::testing::run_jobs;
 
@@ -21,10 +22,10 @@ namespace {
 const std::vector<std::string> kPolicies{"none", "diffusion", "greedy", "zoltan", "collective", "stealing"};
 
 /// Jobs as a layout predicts them, the prediction wrong by up to `error`.
-std::vector<Job> jobs_of(Layout& layout, double work, double error, std::uint64_t seed) {
+Jobs jobs_of(Layout& layout, double work, double error, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> factor(1 - error, 1 + error);
-  std::vector<Job> jobs;
+  Jobs jobs;
   for (auto& s : layout.subdomains) {
     s.predicted = work;
     jobs.push_back({0, std::floor(work * factor(random)), work});
@@ -49,8 +50,7 @@ Cluster published_cluster() {
   return cluster;
 }
 
-Outcome run_and_show(const std::string& policy, const Cluster& cluster, const Layout& layout,
-                     const std::vector<Job>& jobs) {
+Outcome run_and_show(const std::string& policy, const Cluster& cluster, const Layout& layout, const Jobs& jobs) {
   ControllerOptions options;
   options.cost.bandwidth = cluster.bandwidth;
   const Outcome o = run_jobs(cluster, layout, jobs, policy, {}, options);
@@ -65,7 +65,7 @@ Outcome run_and_show(const std::string& policy, const Cluster& cluster, const La
 
 TEST_CASE("the published cluster, three kinds of nodes with equal shares of the triangles") {
   const Cluster cluster = published_cluster();
-  Layout layout = grid_layout(72, 56 / kShrink, static_cast<Rank>(cluster.speeds.size()));
+  Layout layout = grid_layout(72, 56 / kShrink, static_cast<std::int32_t>(cluster.speeds.size()));
   const auto jobs = jobs_of(layout, 350e3, 0.1, 1);
   std::map<std::string, double> time;
   double ideal = 0;
@@ -105,7 +105,7 @@ TEST_CASE("all work on one rank of many") {
     Cluster cluster;
     cluster.speeds.assign(16, 1e6);
     Layout layout = grid_layout(20, 20, 16);
-    for (auto& s : layout.subdomains) s.owner = on_the_first ? 0 : 11;
+    for (auto& s : layout.subdomains) s.owner = on_the_first ? 0_rank : 11_rank;
     const auto jobs = jobs_of(layout, 25e3, 0.1, 3);
     for (const char* policy : {"greedy", "zoltan", "collective", "stealing"}) {
       CAPTURE(policy);
@@ -116,11 +116,11 @@ TEST_CASE("all work on one rank of many") {
 
 TEST_CASE("runs end in good order whatever there is to do") {
   for (const std::string& policy : kPolicies)
-    for (const Rank ranks : {1, 2, 7}) {
+    for (const std::int32_t ranks : {1, 2, 7}) {
       CAPTURE(policy);
       CAPTURE(ranks);
       Cluster cluster;
-      cluster.speeds.assign(static_cast<std::size_t>(ranks), 1e6);
+      cluster.speeds.assign(to_index(ranks), 1e6);
       Layout one = grid_layout(1, 1, ranks);
       CHECK(run_jobs(cluster, one, jobs_of(one, 1e6, 0, 4), policy).complete);
       Layout few = grid_layout(3, 1, ranks);
@@ -157,9 +157,10 @@ TEST_CASE("random clusters and loads: every run is complete, and none takes much
     const std::uint64_t seed = random();
     CAPTURE(seed);
     random.seed(seed);
-    const Rank ranks = static_cast<Rank>(1 + below(12));
+    const auto ranks = static_cast<std::int32_t>(1 + below(12));
     Cluster cluster;
-    for (Rank r = 0; r < ranks; ++r) cluster.speeds.push_back(std::exp(static_cast<double>(below(300)) / 100) * 1e5);
+    while (cluster.speeds.size() < to_index(ranks))
+      cluster.speeds.push_back(std::exp(static_cast<double>(below(300)) / 100) * 1e5);
     cluster.latency = std::pow(10, -static_cast<double>(below(5)) - 2);
     cluster.slice = static_cast<double>(1 + below(20000));
     Layout layout = grid_layout(static_cast<int>(1 + below(15)), static_cast<int>(1 + below(15)), ranks);
@@ -198,7 +199,7 @@ TEST_CASE("among adversarial ranks every request is answered, nothing is lost, a
     const std::uint64_t seed = random();
     CAPTURE(seed);
     std::mt19937_64 one(seed);
-    const Rank ranks = static_cast<Rank>(1 + one() % 9);
+    const auto ranks = static_cast<std::int32_t>(1 + one() % 9);
     Layout layout = grid_layout(static_cast<int>(1 + one() % 9), static_cast<int>(1 + one() % 9), ranks);
     const bool lopsided = one() % 2 == 0;
     for (auto& s : layout.subdomains)
@@ -226,7 +227,7 @@ TEST_CASE("a thousand ranks of three speeds") {
   Cluster cluster;
   const int ranks = 1024 / kShrink;
   for (int r = 0; r < ranks; ++r) cluster.speeds.push_back(r < ranks / 2 ? 2e6 : r < ranks * 3 / 4 ? 1e6 : 3e6);
-  Layout layout = grid_layout(160, 64 / kShrink, static_cast<Rank>(ranks));
+  Layout layout = grid_layout(160, 64 / kShrink, ranks);
   const auto jobs = jobs_of(layout, 200e3, 0.1, 5);
   for (const char* policy : {"greedy", "stealing"}) {
     CAPTURE(policy);

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "protocol/random_message.hpp"
+#include "support/id_literals.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::protocol;
@@ -11,7 +12,7 @@ using protocol::testing::RandomMessage;
 
 namespace {
 
-constexpr Rank kSender = 5;
+constexpr Rank kSender{5};
 
 std::string error_of(const Bytes& bytes, const WireLimits& limits = kLimits) {
   try {
@@ -81,15 +82,16 @@ TEST_CASE("damaged bytes are refused, or are another message that is understood 
 }
 
 TEST_CASE("a SPLIT is 12 bytes on the wire") {
-  SplitBatch batch{{SplitGroup{3, 1, 2, 0, {}}}};
+  SplitBatch batch{{SplitGroup{3_sub, 1, 2_rank, 0, {}}}};
   const std::size_t empty = encode(batch).size();
   CHECK(empty == 2 + 4 + kSplitGroupBytes + 4 - 4);
-  for (dyadic::Path path = 1; path <= 512; ++path) batch.groups[0].entries.push_back({static_cast<EdgeId>(path), path});
-  CHECK(encode(batch).size() == empty + 512 * kSplitEntryBytes);
+  for (dyadic::Path path = 1; path <= 512; ++path)
+    batch.groups[0].points.push_back({static_cast<GlobalRootId>(path), path});
+  CHECK(encode(batch).size() == empty + 512 * kSplitPointBytes);
 }
 
 TEST_CASE("the layout is little-endian and fixed") {
-  const Bytes bytes = encode(LocationUpdate{0x01, 0x02, 0x0a0b0c0d});
+  const Bytes bytes = encode(LocationUpdate{0x01_sub, 0x02_rank, 0x0a0b0c0d});
   const std::vector<int> expected{1, 2, 1, 0, 0, 0, 2, 0, 0, 0, 0x0d, 0x0c, 0x0b, 0x0a};
   REQUIRE(bytes.size() == expected.size());
   for (std::size_t i = 0; i < bytes.size(); ++i) CHECK(std::to_integer<int>(bytes[i]) == expected[i]);
@@ -105,13 +107,13 @@ TEST_CASE("refusals say what is wrong") {
         "message from rank 5: has version 9 where this program speaks 1; start the same build on every rank");
   CHECK(with(Finish{}, 1, 200) == "message from rank 5: has the unknown type 200");
   CHECK(with(Token{1, 2, true}, 18, 2) == "message from rank 5: flag of value 2");
-  CHECK(with(LocationUpdate{1, 2, 3}, 2, 100) == "message from rank 5: subdomain 100 is outside 0 .. 99");
-  CHECK(with(LocationUpdate{1, 2, 3}, 9, 0xff) == "message from rank 5: rank -16777214 is outside 0 .. 6");
-  CHECK(error_of(encode(SplitBatch{{{1, 1, 1, 0, {{1, 0}}}}})) ==
+  CHECK(with(LocationUpdate{1_sub, 2_rank, 3}, 2, 100) == "message from rank 5: subdomain 100 is outside 0 .. 99");
+  CHECK(with(LocationUpdate{1_sub, 2_rank, 3}, 9, 0xff) == "message from rank 5: rank -16777214 is outside 0 .. 6");
+  CHECK(error_of(encode(SplitBatch{{{1_sub, 1, 1_rank, 0, {{1_root, 0}}}}})) ==
         "message from rank 5: split path 0 is none, or deeper than 60");
   CHECK(error_of(encode(LoadReport{1, 0, -1.0, {}})) == "message from rank 5: an amount is negative or not finite");
   CHECK(error_of(encode(LoadNews{1, 1.0, 2.0, -0.5})) == "message from rank 5: an amount is negative or not finite");
-  CHECK(error_of(encode(WorkRequest{7, 1, 1.0, 2.0, 0})) == "message from rank 5: rank 7 is outside 0 .. 6");
+  CHECK(error_of(encode(WorkRequest{7_rank, 1, 1.0, 2.0, 0})) == "message from rank 5: rank 7 is outside 0 .. 6");
   CHECK(with(JointRound{1, JointRound::Stage::kStart}, 6, 3) == "message from rank 5: choice 3 does not exist");
   CHECK(error_of({}) == "message from rank 5: ends too early");
 }

@@ -9,52 +9,55 @@
 #include "protocol/aggregator.hpp"
 #include "protocol/directory.hpp"
 #include "protocol/split_set.hpp"
+#include "support/id_literals.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::protocol;
 
 TEST_CASE("an aggregator sends a batch at its threshold and keeps what is below it") {
-  Aggregator aggregator(0, 3);
-  CHECK(!aggregator.add(1, 10, 0, {1, 1}));
-  CHECK(!aggregator.add(2, 20, 0, {2, 1}));
-  CHECK(!aggregator.add(1, 11, 0, {3, 1}));
+  Aggregator aggregator(0_rank, 3);
+  CHECK(!aggregator.add(1_rank, 10_sub, 0, {1_root, 1}));
+  CHECK(!aggregator.add(2_rank, 20_sub, 0, {2_root, 1}));
+  CHECK(!aggregator.add(1_rank, 11_sub, 0, {3_root, 1}));
   CHECK(aggregator.size() == 3);
-  const auto full = aggregator.add(1, 10, 0, {1, 2});
+  const auto full = aggregator.add(1_rank, 10_sub, 0, {1_root, 2});
   REQUIRE(full);
-  CHECK(full->destination == 1);
-  CHECK(full->message == Message(SplitBatch{{{10, 0, 0, 0, {{1, 1}, {1, 2}}}, {11, 0, 0, 0, {{3, 1}}}}}));
+  CHECK(full->destination == 1_rank);
+  CHECK(full->message == Message(SplitBatch{{{10_sub, 0, 0_rank, 0, {{1_root, 1}, {1_root, 2}}},
+                                             {11_sub, 0, 0_rank, 0, {{3_root, 1}}}}}));
   CHECK(aggregator.size() == 1);
   const auto rest = aggregator.flush();
   REQUIRE(rest.size() == 1);
-  CHECK(rest[0].destination == 2);
+  CHECK(rest[0].destination == 2_rank);
   CHECK(aggregator.empty());
   CHECK(aggregator.flush().empty());
 }
 
 TEST_CASE("an aggregator loses nothing, and keeps epochs apart") {
-  Aggregator aggregator(3, 16);
+  Aggregator aggregator(3_rank, 16);
   std::mt19937_64 random(11);
-  std::multiset<std::tuple<Rank, SubdomainId, Epoch, EdgeId>> put, got;
+  std::multiset<std::tuple<Rank, SubdomainId, Epoch, GlobalRootId>> put, got;
   const auto collect = [&](const Outgoing& batch) {
     std::set<std::pair<SubdomainId, Epoch>> groups;
     for (const SplitGroup& group : std::get<SplitBatch>(batch.message).groups) {
-      CHECK(group.origin == 3);
+      CHECK(group.origin == 3_rank);
       CHECK(groups.emplace(group.to, group.epoch).second);
-      for (const SplitEntry& entry : group.entries) got.emplace(batch.destination, group.to, group.epoch, entry.edge);
+      for (const SplitPoint<GlobalRootId>& split : group.points)
+        got.emplace(batch.destination, group.to, group.epoch, split.root);
     }
   };
-  for (EdgeId edge = 0; edge < 1000; ++edge) {
+  for (const GlobalRootId root : first_ids<GlobalRootId>(1000)) {
     const auto destination = static_cast<Rank>(random() % 5);
     const auto to = static_cast<SubdomainId>(random() % 6);
     const auto epoch = static_cast<Epoch>(random() % 2);
-    put.emplace(destination, to, epoch, edge);
-    if (const auto batch = aggregator.add(destination, to, epoch, {edge, 1})) collect(*batch);
-    if (edge % 97 == 0)
+    put.emplace(destination, to, epoch, root);
+    if (const auto batch = aggregator.add(destination, to, epoch, {root, 1})) collect(*batch);
+    if (to_int(root) % 97 == 0)
       for (const Outgoing& batch : aggregator.flush()) collect(batch);
   }
   for (const Outgoing& batch : aggregator.flush()) collect(batch);
   CHECK(put == got);
-  CHECK_THROWS_AS(Aggregator(0, 0), Error);
+  CHECK_THROWS_AS(Aggregator(0_rank, 0), Error);
 }
 
 namespace {
@@ -115,32 +118,32 @@ TEST_CASE("forwarding reaches the owner, epochs rise along the way, and hops are
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     CAPTURE(seed);
     std::mt19937_64 random(seed);
-    const auto ranks = static_cast<Rank>(2 + random() % 6);
+    const auto ranks = static_cast<std::int32_t>(2 + random() % 6);
     const auto any_rank = [&] { return static_cast<Rank>(random() % static_cast<std::uint64_t>(ranks)); };
-    std::vector<Directory> directories;
+    IdVector<Rank, Directory> directories;
     std::vector<Rank> history{any_rank()};
-    for (Rank r = 0; r < ranks; ++r) directories.emplace_back(r, history);
+    for (const Rank r : first_ids<Rank>(ranks)) directories.emplace_back(r, IdVector<SubdomainId, Rank>(history));
     for (auto moves = random() % 12; moves > 0; --moves) {
       const Rank from = history.back(), to = any_rank();
       if (to == from) continue;
-      const Location next = directories[static_cast<std::size_t>(from)].depart(0, to);
+      const Location next = directories[from].depart(0_sub, to);
       CHECK(next == Location{to, static_cast<Epoch>(history.size())});
       history.push_back(to);
-      REQUIRE(directories[static_cast<std::size_t>(to)].arrive(0, next.epoch));
-      CHECK(!directories[static_cast<std::size_t>(to)].arrive(0, next.epoch));
+      REQUIRE(directories[to].arrive(0_sub, next.epoch));
+      CHECK(!directories[to].arrive(0_sub, next.epoch));
     }
     const auto last = static_cast<Epoch>(history.size() - 1);
-    for (Rank sender = 0; sender < ranks; ++sender) {
-      Location target = directories[static_cast<std::size_t>(sender)].where(0);
+    for (const Rank sender : first_ids<Rank>(ranks)) {
+      Location target = directories[sender].where(0_sub);
       const Epoch sent_with = target.epoch;
       Epoch hops = 0;
       for (;;) {
-        const Directory& here = directories[static_cast<std::size_t>(target.owner)];
-        const auto route = here.route(0, target.epoch);
+        const Directory& here = directories[target.owner];
+        const auto route = here.route(0_sub, target.epoch);
         REQUIRE(route != Directory::Route::kHold);  // nothing is under way
         if (route == Directory::Route::kHere) break;
-        REQUIRE(here.where(0).epoch > target.epoch);
-        target = here.where(0);
+        REQUIRE(here.where(0_sub).epoch > target.epoch);
+        target = here.where(0_sub);
         ++hops, ++forwards;
       }
       CHECK(target.owner == history.back());
@@ -151,17 +154,18 @@ TEST_CASE("forwarding reaches the owner, epochs rise along the way, and hops are
 }
 
 TEST_CASE("a message that is ahead of its subdomain is held") {
-  Directory directory(2, {0, 2});
-  CHECK(directory.route(0, 0) == Directory::Route::kForward);  // a stray
-  CHECK(directory.route(0, 1) == Directory::Route::kHold);     // somebody knows of a move to here that has not arrived
-  directory.set(0, {2, 3});
-  CHECK(directory.route(0, 1) == Directory::Route::kHold);
-  CHECK(!directory.arrive(0, 2));  // epoch 3 is here already by the record
-  CHECK(directory.arrive(0, 3));
-  CHECK(directory.route(0, 1) == Directory::Route::kHere);
-  CHECK(directory.depart(0, 1) == Location{1, 4});
-  CHECK(directory.route(0, 3) == Directory::Route::kForward);
-  CHECK(directory.route(0, 5) == Directory::Route::kHold);
-  CHECK_THROWS_AS(directory.depart(0, 1), Error);
-  CHECK(!directory.arrive(1, 0));
+  const IdVector<SubdomainId, Rank> owners{0_rank, 2_rank};
+  Directory directory(2_rank, owners);
+  CHECK(directory.route(0_sub, 0) == Directory::Route::kForward);  // a stray
+  CHECK(directory.route(0_sub, 1) == Directory::Route::kHold);  // somebody knows of a move to here that has not arrived
+  directory.set(0_sub, {2_rank, 3});
+  CHECK(directory.route(0_sub, 1) == Directory::Route::kHold);
+  CHECK(!directory.arrive(0_sub, 2));  // epoch 3 is here already by the record
+  CHECK(directory.arrive(0_sub, 3));
+  CHECK(directory.route(0_sub, 1) == Directory::Route::kHere);
+  CHECK(directory.depart(0_sub, 1_rank) == Location{1_rank, 4});
+  CHECK(directory.route(0_sub, 3) == Directory::Route::kForward);
+  CHECK(directory.route(0_sub, 5) == Directory::Route::kHold);
+  CHECK_THROWS_AS(directory.depart(0_sub, 1_rank), Error);
+  CHECK(!directory.arrive(1_sub, 0));
 }

@@ -7,7 +7,7 @@
 
 namespace driftmesh::protocol::testing {
 
-inline constexpr WireLimits kLimits{.ranks = 7, .subdomains = 100, .edges = 1000};
+inline constexpr WireLimits kLimits{.ranks = 7, .subdomains = 100, .roots = 1000};
 
 /// Messages of every type, with numbers over their whole range.
 class RandomMessage {
@@ -70,7 +70,7 @@ class RandomMessage {
     for (auto n = below(6); n > 0; --n) {
       const auto depth = below(dyadic::kMaxDepth + 1);
       const dyadic::Path path = (dyadic::Path{1} << depth) | below(std::uint64_t{1} << depth);
-      result.entries.push_back({static_cast<EdgeId>(below(static_cast<std::uint64_t>(kLimits.edges))), path});
+      result.points.push_back({static_cast<GlobalRootId>(below(static_cast<std::uint64_t>(kLimits.roots))), path});
     }
     return result;
   }

@@ -8,6 +8,7 @@
 #include "protocol/delaying_transport.hpp"
 #include "protocol/transport_contract.hpp"
 #include "protocol/virtual_network.hpp"
+#include "support/id_literals.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::protocol;
@@ -15,25 +16,26 @@ using namespace driftmesh::protocol;
 namespace {
 
 template <class Network>
-std::vector<RankStep> steps_on(Network& network, Rank ranks, const contract::Program& program) {
-  std::vector<RankStep> steps;
-  for (Rank r = 0; r < ranks; ++r) steps.push_back(program(network.transport(r)));
+IdVector<Rank, RankStep> steps_on(Network& network, std::int32_t ranks, const contract::Program& program) {
+  IdVector<Rank, RankStep> steps;
+  for (const Rank r : first_ids<Rank>(ranks)) steps.push_back(program(network.transport(r)));
   return steps;
 }
 
 // Rank 0 sends `count` numbered messages to rank 1, which returns the order in which they arrive.
 std::vector<int> order_of_arrival(AdversarialNetwork& network, int count) {
   std::vector<int> order;
-  const std::vector<RankStep> steps{[&] {
-                                      for (int i = 0; i < count; ++i) network.transport(0).send(1, Bytes{std::byte(i)});
-                                      return StepResult::kFinished;
-                                    },
-                                    [&] {
-                                      if (const auto message = network.transport(1).poll())
-                                        order.push_back(std::to_integer<int>(message->bytes[0]));
-                                      return order.size() == static_cast<std::size_t>(count) ? StepResult::kFinished
-                                                                                             : StepResult::kIdle;
-                                    }};
+  const IdVector<Rank, RankStep> steps{[&] {
+                                         for (int i = 0; i < count; ++i)
+                                           network.transport(0_rank).send(1_rank, Bytes{std::byte(i)});
+                                         return StepResult::kFinished;
+                                       },
+                                       [&] {
+                                         if (const auto message = network.transport(1_rank).poll())
+                                           order.push_back(std::to_integer<int>(message->bytes[0]));
+                                         return order.size() == static_cast<std::size_t>(count) ? StepResult::kFinished
+                                                                                                : StepResult::kIdle;
+                                       }};
   CHECK(network.run(steps).end == RunEnd::kFinished);
   return order;
 }
@@ -42,7 +44,7 @@ std::vector<int> order_of_arrival(AdversarialNetwork& network, int count) {
 
 TEST_CASE("the adversarial network keeps the contract") {
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
-    const Rank ranks = static_cast<Rank>(seed % 4) + 1;
+    const auto ranks = static_cast<std::int32_t>(seed % 4 + 1);
     CAPTURE(seed);
     contract::check_transport_contract([&](const contract::Program& program) {
       AdversarialNetwork network(ranks, Adversary::from_seed(seed));
@@ -56,10 +58,10 @@ TEST_CASE("virtual ranks keep the contract") {
   for (std::size_t ranks = 1; ranks <= 5; ++ranks) {
     CAPTURE(ranks);
     contract::check_transport_contract([&](const contract::Program& program) {
-      VirtualCluster cluster{.speeds = std::vector<double>(ranks, 1.0), .link = {}};
+      VirtualCluster cluster{.speeds = IdVector<Rank, double>(ranks, 1.0), .link = {}};
       cluster.speeds.back() = 0.25;
       VirtualNetwork network(cluster);
-      REQUIRE(network.run(steps_on(network, static_cast<Rank>(ranks), program)).end == RunEnd::kFinished);
+      REQUIRE(network.run(steps_on(network, static_cast<std::int32_t>(ranks), program)).end == RunEnd::kFinished);
     });
   }
 }
@@ -71,8 +73,8 @@ TEST_CASE("a delaying transport keeps the contract, and reorders") {
     contract::check_transport_contract([&](const contract::Program& program) {
       VirtualNetwork network({.speeds = {1, 1, 2}, .link = {}});
       std::vector<std::unique_ptr<DelayingTransport>> delaying;
-      std::vector<RankStep> steps;
-      for (Rank r = 0; r < 3; ++r) {
+      IdVector<Rank, RankStep> steps;
+      for (const Rank r : first_ids<Rank>(3)) {
         delaying.push_back(std::make_unique<DelayingTransport>(network.transport(r), seed, 20));
         // A virtual rank that waits is woken by arrivals only, not by the end of a delay.
         steps.push_back([step = program(*delaying.back())] {
@@ -83,8 +85,8 @@ TEST_CASE("a delaying transport keeps the contract, and reorders") {
       REQUIRE(network.run(steps).end == RunEnd::kFinished);
     });
     AdversarialNetwork inner(1, {.seed = seed, .fifo = true, .may_copy = {}});
-    DelayingTransport delaying(inner.transport(0), seed, 10);
-    for (int i = 0; i < 10; ++i) delaying.send(0, Bytes{std::byte(i)});
+    DelayingTransport delaying(inner.transport(0_rank), seed, 10);
+    for (int i = 0; i < 10; ++i) delaying.send(0_rank, Bytes{std::byte(i)});
     int last = -1;
     for (int got = 0; got < 10;)
       if (const auto message = delaying.poll()) {
@@ -122,9 +124,9 @@ TEST_CASE("the adversary does what it says, and the same again from the same see
 TEST_CASE("the adversary copies only what it may") {
   Adversary adversary{.seed = 5, .copy = 0.5, .may_copy = [](Rank, auto bytes) { return bytes[0] == std::byte{1}; }};
   AdversarialNetwork network(1, adversary);
-  Transport& transport = network.transport(0);
+  Transport& transport = network.transport(0_rank);
   std::array<int, 2> got{};
-  for (int i = 0; i < 200; ++i) transport.send(0, Bytes{std::byte(i % 2)});
+  for (int i = 0; i < 200; ++i) transport.send(0_rank, Bytes{std::byte(i % 2)});
   for (int i = 0; i < 2000; ++i)
     if (const auto message = transport.poll()) ++got[std::to_integer<std::size_t>(message->bytes[0])];
   CHECK(got[0] == 100);
@@ -141,8 +143,8 @@ TEST_CASE("what is urgent comes first, and what must wait waits") {
     return parcel.bytes[0] == std::byte{1} ? Urgency::kFirst : Urgency::kAnyTime;
   };
   AdversarialNetwork network(1, adversary);
-  Transport& transport = network.transport(0);
-  for (int i = 0; i < 30; ++i) transport.send(0, Bytes{std::byte(i % 3)});
+  Transport& transport = network.transport(0_rank);
+  for (int i = 0; i < 30; ++i) transport.send(0_rank, Bytes{std::byte(i % 3)});
   std::vector<int> order;
   const auto poll = [&] {
     for (int i = 0; i < 300; ++i)
@@ -159,10 +161,10 @@ TEST_CASE("what is urgent comes first, and what must wait waits") {
 }
 
 TEST_CASE("ranks that wait for each other stall, and are told") {
-  const std::vector<RankStep> waiting(3, [] { return StepResult::kIdle; });
+  const IdVector<Rank, RankStep> waiting(3, [] { return StepResult::kIdle; });
   CHECK(AdversarialNetwork(3, {.seed = 3, .may_copy = {}}).run(waiting).end == RunEnd::kStalled);
   CHECK(VirtualNetwork({.speeds = {1, 1, 1}, .link = {}}).run(waiting).end == RunEnd::kStalled);
-  const std::vector<RankStep> busy(3, [] { return StepResult::kBusy; });
+  const IdVector<Rank, RankStep> busy(3, [] { return StepResult::kBusy; });
   CHECK(AdversarialNetwork(3, {.seed = 3, .may_copy = {}, .step_limit = 100}).run(busy).end == RunEnd::kStepLimit);
   CHECK(VirtualNetwork({.speeds = {1}, .link = {}, .step_limit = 100}).run(busy).end == RunEnd::kStepLimit);
 }
@@ -172,38 +174,38 @@ TEST_CASE("virtual time is what the cluster's figures say") {
   VirtualCluster cluster{.speeds = {0.5, 2}, .link = [](Rank, Rank) { return Link{0.25, 1e6}; }};
   cluster.message_overhead = 0.125;
   VirtualNetwork network(cluster);
-  const std::vector<RankStep> steps{[&] {
-                                      network.transport(0).spend(3);
-                                      network.transport(0).send(1, Bytes(500'000));
-                                      network.transport(0).send(1, Bytes(500'000));
-                                      return StepResult::kFinished;
-                                    },
-                                    [&, got = 0]() mutable {
-                                      if (network.transport(1).poll()) ++got;
-                                      if (got < 2) return StepResult::kIdle;
-                                      network.transport(1).spend(1);
-                                      return StepResult::kFinished;
-                                    }};
+  const IdVector<Rank, RankStep> steps{[&] {
+                                         network.transport(0_rank).spend(3);
+                                         network.transport(0_rank).send(1_rank, Bytes(500'000));
+                                         network.transport(0_rank).send(1_rank, Bytes(500'000));
+                                         return StepResult::kFinished;
+                                       },
+                                       [&, got = 0]() mutable {
+                                         if (network.transport(1_rank).poll()) ++got;
+                                         if (got < 2) return StepResult::kIdle;
+                                         network.transport(1_rank).spend(1);
+                                         return StepResult::kFinished;
+                                       }};
   CHECK(network.run(steps).end == RunEnd::kFinished);
-  CHECK(network.clock(0) == doctest::Approx(6 + 2 * 0.125));
+  CHECK(network.clock(0_rank) == doctest::Approx(6 + 2 * 0.125));
   // The second message leaves when the first has left, at 6.125 + 0.5; it is there at 7.375, and is taken in at 7.5.
-  CHECK(network.clock(1) == doctest::Approx(6.125 + 0.5 + 0.5 + 0.25 + 0.125 + 0.5));
-  CHECK(network.waited(1) == doctest::Approx(7.375 - 0.125).epsilon(1e-4));
-  CHECK(network.makespan() == network.clock(1));
+  CHECK(network.clock(1_rank) == doctest::Approx(6.125 + 0.5 + 0.5 + 0.25 + 0.125 + 0.5));
+  CHECK(network.waited(1_rank) == doctest::Approx(7.375 - 0.125).epsilon(1e-4));
+  CHECK(network.makespan() == network.clock(1_rank));
   CHECK(network.bytes() == 1'000'000);
   CHECK_THROWS_AS(VirtualNetwork({.speeds = {1, 0}, .link = {}}), Error);
 }
 
 TEST_CASE("equal ranks with equal work end together, whatever their number") {
   for (const std::size_t ranks : {1u, 10u, 1000u}) {
-    VirtualNetwork network({.speeds = std::vector<double>(ranks, 1.0), .link = {}});
+    VirtualNetwork network({.speeds = IdVector<Rank, double>(ranks, 1.0), .link = {}});
     const auto program = [](Transport& transport) -> RankStep {
       return [&transport, slices = 0]() mutable {
         transport.spend(0.001);
         return ++slices == 50 ? StepResult::kFinished : StepResult::kBusy;
       };
     };
-    CHECK(network.run(steps_on(network, static_cast<Rank>(ranks), program)).steps == 50 * ranks);
+    CHECK(network.run(steps_on(network, static_cast<std::int32_t>(ranks), program)).steps == 50 * ranks);
     CHECK(network.makespan() == doctest::Approx(0.05));
   }
 }

@@ -20,11 +20,11 @@ class ToyRank {
       : transport_(transport),
         world_(world),
         protocol_(transport.rank(), transport.ranks(), world.owners, world.aggregation),
-        random_{world.seed * 7919 + static_cast<std::uint64_t>(transport.rank())},
+        random_{world.seed * 7919 + static_cast<std::uint64_t>(to_int(transport.rank()))},
         moves_left_(world.moves),
         advice_left_(world.moves) {
-    for (std::size_t s = 0; s < world.owners.size(); ++s)
-      if (world.owners[s] == transport.rank()) put(Subdomain(world, static_cast<SubdomainId>(s)));
+    for (const SubdomainId s : ids_of(world.owners))
+      if (world.owners[s] == transport.rank()) put(Subdomain(world, s));
   }
 
   StepResult step() {
@@ -65,7 +65,7 @@ class ToyRank {
       auto delivery = protocol_.receive(received->source, decode(received->source, received->bytes, world_.limits()));
       if (delivery.arrival) put(Subdomain(delivery.arrival->subdomain, delivery.arrival->packed));
       for (const SplitGroup& group : delivery.splits)
-        for (const SplitEntry& entry : group.entries) subdomains_.at(group.to).tell(entry);
+        for (const SplitPoint<GlobalRootId>& split : group.points) subdomains_.at(group.to).tell(split);
     }
     return heard;
   }
@@ -77,20 +77,20 @@ class ToyRank {
       if (subdomain.active()) active.push_back(&subdomain);
     if (active.empty()) return false;
     Subdomain& subdomain = *active[random_.below(active.size())];
-    std::vector<SplitEntry> said;
+    std::vector<SplitPoint<GlobalRootId>> said;
     subdomain.template work<Mesh>(said);
-    for (const SplitEntry& entry : said) {
-      const Edge edge = world_.edges[static_cast<std::size_t>(entry.edge)];
-      tell(edge.one == subdomain.id() ? edge.other : edge.one, entry);
+    for (const SplitPoint<GlobalRootId>& split : said) {
+      const Edge edge = world_.edges[split.root];
+      tell(edge.one == subdomain.id() ? edge.other : edge.one, split);
     }
     return true;
   }
 
-  void tell(SubdomainId to, const SplitEntry& entry) {
+  void tell(SubdomainId to, const SplitPoint<GlobalRootId>& split) {
     if (protocol_.holds(to))
-      subdomains_.at(to).tell(entry);
+      subdomains_.at(to).tell(split);
     else
-      protocol_.send_split(to, entry);
+      protocol_.send_split(to, split);
   }
 
   void balance() {

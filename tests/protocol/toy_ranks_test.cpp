@@ -10,6 +10,7 @@
 #include "protocol/toy_rank.hpp"
 #include "protocol/virtual_network.hpp"
 #include "support/broken_rules.hpp"
+#include "support/id_literals.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::protocol;
@@ -26,13 +27,13 @@ struct Tally {
 template <class Rules, class Mesh>
 class Run {
  public:
-  Run(std::uint64_t seed, Rank ranks) : world_(seed, ranks), network_(ranks, adversary(seed)) {
-    for (Rank r = 0; r < ranks; ++r) ranks_.push_back(std::make_unique<Toy>(network_.transport(r), world_));
+  Run(std::uint64_t seed, std::int32_t ranks) : world_(seed, ranks), network_(ranks, adversary(seed)) {
+    for (const Rank r : first_ids<Rank>(ranks)) ranks_.push_back(std::make_unique<Toy>(network_.transport(r), world_));
   }
 
   // The first thing that went wrong, or nothing.
   std::string verdict(Tally& tally) {
-    std::vector<RankStep> steps;
+    IdVector<Rank, RankStep> steps;
     for (auto& rank : ranks_) steps.push_back([this, &rank] { return watched(*rank); });
     try {
       const RunResult result = network_.run(steps);
@@ -65,7 +66,7 @@ class Run {
     if (rank.broken()) throw Wrong{"a point without its parent"};
     const bool quiet = !work_anywhere();
     if (!quiet && rank.protocol().phase() != Termination::Phase::kWorking) throw Wrong{"terminated too early"};
-    const std::uint64_t rounds = ranks_[0]->protocol().termination().rounds();
+    const std::uint64_t rounds = ranks_[0_rank]->protocol().termination().rounds();
     if (quiet && !rounds_when_quiet_) rounds_when_quiet_ = rounds;
     if (quiet && rounds > *rounds_when_quiet_ + 2) throw Wrong{"terminated too late"};
     if (!quiet && rounds_when_quiet_) throw Wrong{"work out of nothing"};
@@ -76,7 +77,7 @@ class Run {
   bool work_anywhere() {
     for (const auto& rank : ranks_)
       if (rank->at_work()) return true;
-    for (Rank r = 0; r < world_.ranks; ++r)
+    for (const Rank r : first_ids<Rank>(world_.ranks))
       for (const auto& parcel : network_.under_way(r))
         if (traffic_of(parcel.source, parcel.bytes) == Traffic::kWork) return true;
     return false;
@@ -89,10 +90,9 @@ class Run {
       for (const auto& [id, subdomain] : rank->subdomains())
         if (!all.emplace(id, &subdomain).second) return "a subdomain with two owners";
     if (all.size() != world_.owners.size()) return "a subdomain is lost";
-    for (std::size_t e = 0; e < world_.edges.size(); ++e) {
-      const auto edge = static_cast<EdgeId>(e);
-      auto one = all.at(world_.edges[e].one)->points().at(edge);
-      auto other = all.at(world_.edges[e].other)->points().at(edge);
+    for (const GlobalRootId e : ids_of(world_.edges)) {
+      auto one = all.at(world_.edges[e].one)->points().at(e);
+      auto other = all.at(world_.edges[e].other)->points().at(e);
       std::sort(one.begin(), one.end());
       std::sort(other.begin(), other.end());
       if (one != other) return "the two sides of an edge differ";
@@ -113,18 +113,18 @@ class Run {
     tally.copies += network_.counters().copies;
     tally.starved += network_.counters().starved;
     tally.held_back += network_.counters().held;
-    tally.late_rounds = std::max(
-        tally.late_rounds, ranks_[0]->protocol().termination().rounds() - rounds_when_quiet_.value_or(UINT64_MAX / 2));
+    tally.late_rounds = std::max(tally.late_rounds, ranks_[0_rank]->protocol().termination().rounds() -
+                                                        rounds_when_quiet_.value_or(UINT64_MAX / 2));
   }
 
   World world_;
   AdversarialNetwork network_;
-  std::vector<std::unique_ptr<Toy>> ranks_;
+  IdVector<Rank, std::unique_ptr<Toy>> ranks_;
   std::optional<std::uint64_t> rounds_when_quiet_;
 };
 
-Rank ranks_for(std::uint64_t seed) {
-  static constexpr std::array<Rank, 8> kRanks{2, 3, 4, 1, 5, 2, 8, 16};
+std::int32_t ranks_for(std::uint64_t seed) {
+  static constexpr std::array<std::int32_t, 8> kRanks{2, 3, 4, 1, 5, 2, 8, 16};
   return kRanks[seed % kRanks.size()];
 }
 
@@ -222,12 +222,12 @@ TEST_CASE("mutation: a point that is there is inserted again") {
 
 TEST_CASE("the same ranks in virtual time") {
   for (const std::size_t count : {1u, 4u, 64u}) {
-    const World world(9, static_cast<Rank>(count));
-    VirtualCluster cluster{.speeds = std::vector<double>(count, 1.0), .link = {}};
+    const World world(9, static_cast<std::int32_t>(count));
+    VirtualCluster cluster{.speeds = IdVector<Rank, double>(count, 1.0), .link = {}};
     VirtualNetwork network(cluster);
     std::vector<std::unique_ptr<ToyRank<>>> ranks;
-    std::vector<RankStep> steps;
-    for (Rank r = 0; r < static_cast<Rank>(count); ++r) {
+    IdVector<Rank, RankStep> steps;
+    for (const Rank r : first_ids<Rank>(count)) {
       ranks.push_back(std::make_unique<ToyRank<>>(network.transport(r), world));
       steps.push_back([&network, r, rank = ranks.back().get()] {
         const StepResult result = rank->step();

@@ -30,7 +30,7 @@ struct Edge {
 
 /// What all ranks know at the start, drawn from a seed.
 struct World {
-  World(std::uint64_t from_seed, Rank rank_count) : seed(from_seed), ranks(rank_count) {
+  World(std::uint64_t from_seed, std::int32_t rank_count) : seed(from_seed), ranks(rank_count) {
     Random random{from_seed * 977 + 5};
     const auto subdomains = 2 + random.below(3 * static_cast<std::uint64_t>(ranks) + 2);
     for (std::uint64_t s = 0; s < subdomains; ++s)
@@ -49,13 +49,13 @@ struct World {
     edges.push_back({static_cast<SubdomainId>(a), static_cast<SubdomainId>(b)});
   }
   [[nodiscard]] WireLimits limits() const {
-    return {ranks, static_cast<SubdomainId>(owners.size()), static_cast<EdgeId>(edges.size())};
+    return {ranks, static_cast<std::int32_t>(owners.size()), static_cast<std::int32_t>(edges.size())};
   }
 
   std::uint64_t seed;
-  Rank ranks;
-  std::vector<Rank> owners;  // by subdomain
-  std::vector<Edge> edges;
+  std::int32_t ranks;
+  IdVector<SubdomainId, Rank> owners;
+  IdVector<GlobalRootId, Edge> edges;
   std::size_t aggregation = 1;
   std::uint64_t splits = 0;  // that a subdomain makes of its own accord
   std::uint64_t moves = 0;   // that a rank makes
@@ -71,9 +71,10 @@ struct SoundMesh {
 class Subdomain {
  public:
   Subdomain() = default;
-  Subdomain(const World& world, SubdomainId id) : id_(id), random_{world.seed * 31 + static_cast<std::uint64_t>(id)} {
-    for (std::size_t e = 0; e < world.edges.size(); ++e)
-      if (world.edges[e].one == id || world.edges[e].other == id) points_[static_cast<EdgeId>(e)];
+  Subdomain(const World& world, SubdomainId id)
+      : id_(id), random_{world.seed * 31 + static_cast<std::uint64_t>(to_int(id))} {
+    for (const GlobalRootId e : ids_of(world.edges))
+      if (world.edges[e].one == id || world.edges[e].other == id) points_[e];
     due_ = world.splits;
     answers_ = world.splits;
   }
@@ -81,19 +82,19 @@ class Subdomain {
   [[nodiscard]] SubdomainId id() const { return id_; }
   [[nodiscard]] bool active() const { return due_ > 0 || !pending_.empty(); }
   [[nodiscard]] bool broken() const { return broken_; }
-  void tell(const SplitEntry& entry) { pending_.push_back(entry); }
+  void tell(const SplitPoint<GlobalRootId>& split) { pending_.push_back(split); }
 
   /// The points on each of its edges in the order in which they came.
-  using Points = std::map<EdgeId, std::vector<dyadic::Path>>;
+  using Points = std::map<GlobalRootId, std::vector<dyadic::Path>>;
   [[nodiscard]] const Points& points() const { return points_; }
 
   /// One unit of work; what its neighbours are to be told is appended to `said`.
   template <class Mesh>
-  void work(std::vector<SplitEntry>& said) {
+  void work(std::vector<SplitPoint<GlobalRootId>>& said) {
     if (!pending_.empty()) {
-      const SplitEntry entry = pending_.back();
+      const SplitPoint<GlobalRootId> split = pending_.back();
       pending_.pop_back();
-      receive<Mesh>(entry);
+      receive<Mesh>(split);
       return;
     }
     --due_;
@@ -108,10 +109,10 @@ class Subdomain {
 
   [[nodiscard]] Bytes pack() const {
     std::vector<std::uint64_t> words{random_.state, due_, answers_, pending_.size(), points_.size()};
-    for (const SplitEntry& entry : pending_)
-      words.insert(words.end(), {static_cast<std::uint64_t>(entry.edge), entry.path});
+    for (const SplitPoint<GlobalRootId>& split : pending_)
+      words.insert(words.end(), {static_cast<std::uint64_t>(to_int(split.root)), split.path});
     for (const auto& [edge, paths] : points_) {
-      words.insert(words.end(), {static_cast<std::uint64_t>(edge), paths.size()});
+      words.insert(words.end(), {static_cast<std::uint64_t>(to_int(edge)), paths.size()});
       words.insert(words.end(), paths.begin(), paths.end());
     }
     Bytes bytes(words.size() * sizeof(std::uint64_t));
@@ -127,9 +128,10 @@ class Subdomain {
     due_ = *word++;
     answers_ = *word++;
     const auto pending = *word++, edges = *word++;
-    for (std::uint64_t i = 0; i < pending; ++i, word += 2) pending_.push_back({static_cast<EdgeId>(word[0]), word[1]});
+    for (std::uint64_t i = 0; i < pending; ++i, word += 2)
+      pending_.push_back({static_cast<GlobalRootId>(word[0]), word[1]});
     for (std::uint64_t i = 0; i < edges; ++i) {
-      auto& paths = points_[static_cast<EdgeId>(*word++)];
+      auto& paths = points_[static_cast<GlobalRootId>(*word++)];
       const auto count = static_cast<std::ptrdiff_t>(*word++);
       paths.assign(word, word + count);
       word += count;
@@ -142,11 +144,11 @@ class Subdomain {
   }
 
   template <class Mesh>
-  void receive(const SplitEntry& entry) {
-    auto& paths = points_[entry.edge];
+  void receive(const SplitPoint<GlobalRootId>& split) {
+    auto& paths = points_[split.root];
     bool news = false;
-    for (int up = dyadic::depth(entry.path); up >= 0; --up) {
-      const dyadic::Path path = entry.path >> up;
+    for (int up = dyadic::depth(split.path); up >= 0; --up) {
+      const dyadic::Path path = split.path >> up;
       if (up > 0 && !Mesh::replays_ancestors()) continue;
       if (knows(paths, path) && !(up == 0 && Mesh::inserts_again())) continue;
       if (path != dyadic::kWhole && !knows(paths, path >> 1)) broken_ = true;  // no interval to put the point on
@@ -156,12 +158,12 @@ class Subdomain {
     if (news && answers_ > 0 && random_.chance(60)) --answers_, ++due_;
   }
 
-  SubdomainId id_ = 0;
+  SubdomainId id_{};
   Random random_;
   std::uint64_t due_ = 0;      // splits to be made
   std::uint64_t answers_ = 0;  // splits that may become due by what the neighbours do
   bool broken_ = false;
-  std::vector<SplitEntry> pending_;
+  std::vector<SplitPoint<GlobalRootId>> pending_;
   Points points_;
 };
 

@@ -11,6 +11,7 @@
 #include "driftmesh/error.hpp"
 #include "protocol/rank_step.hpp"
 #include "protocol/transport.hpp"
+#include "support/id_literals.hpp"
 
 /// What every Transport keeps to, as tests. Whoever implements one calls check_transport_contract with a function that
 /// runs a program on all ranks (of this process), each on a fresh transport.
@@ -21,7 +22,8 @@ using RunProgram = std::function<void(const Program&)>;
 
 /// Bytes that follow from who sends them to whom, and from their number between the two.
 inline Bytes content(Rank source, Rank destination, std::uint64_t number, std::size_t size) {
-  auto state = static_cast<std::uint32_t>(source * 1000 + destination) * 7919u + static_cast<std::uint32_t>(number);
+  auto state = static_cast<std::uint32_t>(to_int(source) * 1000 + to_int(destination)) * 7919u +
+               static_cast<std::uint32_t>(number);
   Bytes bytes(size);
   for (std::byte& byte : bytes) byte = std::byte((state = state * 1664525u + 1013904223u) >> 24);
   return bytes;
@@ -33,16 +35,16 @@ class Exchange {
  public:
   Exchange(Transport& transport, std::vector<std::size_t> sizes, bool reluctant)
       : transport_(transport), sizes_(std::move(sizes)), reluctant_(reluctant) {
-    for (Rank source = 0; source < transport_.ranks(); ++source)
+    for (const Rank source : first_ids<Rank>(transport_.ranks()))
       for (std::uint64_t number = 0; number < sizes_.size(); ++number)
         ++expected_[{source, content(source, transport_.rank(), number, sizes_[number])}];
-    awaited_ = sizes_.size() * static_cast<std::size_t>(transport_.ranks());
+    awaited_ = sizes_.size() * to_index(transport_.ranks());
   }
 
   StepResult step() {
     if (next_ < sizes_.size()) {
       do {
-        for (Rank to = 0; to < transport_.ranks(); ++to)
+        for (const Rank to : first_ids<Rank>(transport_.ranks()))
           transport_.send(to, content(transport_.rank(), to, next_, sizes_[next_]));
       } while (++next_ < sizes_.size() && reluctant_);
       if (next_ < sizes_.size()) return take(), StepResult::kBusy;
@@ -57,8 +59,8 @@ class Exchange {
     if (!message) return false;
     const auto found = expected_.find({message->source, message->bytes});
     const bool due = found != expected_.end() && found->second > 0;
-    REQUIRE_MESSAGE(due, "rank ", transport_.rank(), " got ", message->bytes.size(), " bytes from rank ",
-                    message->source, " that nobody sent, or sent twice");
+    REQUIRE_MESSAGE(due, "rank ", to_int(transport_.rank()), " got ", message->bytes.size(), " bytes from rank ",
+                    to_int(message->source), " that nobody sent, or sent twice");
     --found->second;
     --awaited_;
     return true;
@@ -95,13 +97,13 @@ inline void many_small_messages(const RunProgram& run) {
 inline void a_message_goes_around(const RunProgram& run) {
   run([](Transport& transport) {
     return [&transport, hops = 0, started = false]() mutable {
-      const Rank next = (transport.rank() + 1) % transport.ranks();
-      if (transport.rank() == 0 && !std::exchange(started, true)) transport.send(next, Bytes(1));
+      const Rank next = next_in_ring(transport.rank(), transport.ranks());
+      if (transport.rank() == 0_rank && !std::exchange(started, true)) transport.send(next, Bytes(1));
       const auto message = transport.poll();
       if (!message) return StepResult::kIdle;
-      REQUIRE(message->source == (transport.rank() + transport.ranks() - 1) % transport.ranks());
+      REQUIRE(next_in_ring(message->source, transport.ranks()) == transport.rank());
       const bool last = ++hops == 50;
-      if (!last || transport.rank() != 0) transport.send(next, Bytes(1));
+      if (!last || transport.rank() != 0_rank) transport.send(next, Bytes(1));
       return last ? StepResult::kFinished : StepResult::kBusy;
     };
   });
@@ -119,10 +121,10 @@ inline void nothing_comes_of_nothing(const RunProgram& run) {
 inline void wrong_destinations_are_errors(const RunProgram& run) {
   run([](Transport& transport) {
     return [&transport] {
-      REQUIRE(transport.rank() >= 0);
-      REQUIRE(transport.rank() < transport.ranks());
-      CHECK_THROWS_AS(transport.send(-1, Bytes(3)), LimitError);
-      CHECK_THROWS_AS(transport.send(transport.ranks(), Bytes(3)), LimitError);
+      REQUIRE(transport.rank() >= 0_rank);
+      REQUIRE(transport.rank() < Rank{transport.ranks()});
+      CHECK_THROWS_AS(transport.send(Rank{-1}, Bytes(3)), LimitError);
+      CHECK_THROWS_AS(transport.send(Rank{transport.ranks()}, Bytes(3)), LimitError);
       return StepResult::kFinished;
     };
   });

@@ -75,7 +75,7 @@ class AdversarialRun {
         witness_(scenario.ranks, static_cast<std::size_t>(scenario.subdomains), [this] { return is_quiet(); }) {
     make_plan();
     council_ = balancer::make_simulated_council(plan_.layout, plan_.policy, plan_.balancing.options);
-    for (protocol::Rank r = 0; r < scenario.ranks; ++r)
+    for (const Rank r : first_ids<Rank>(scenario.ranks))
       loops_.push_back(std::make_unique<Loop>(transport_of(r, wrap), plan_, costs_of(r), typename Loop::Observers{},
                                               council_.get()));
     arrivals_seen_.resize(loops_.size());
@@ -105,7 +105,7 @@ class AdversarialRun {
 
   void make_plan() {
     plan_.decomposition = domain_.cut(scenario_.subdomains);
-    const protocol::Rank only = mover_.any_rank();
+    const Rank only = mover_.any_rank();
     for (std::size_t s = 0; s < plan_.decomposition.size(); ++s)
       plan_.owners.push_back(scenario_.lopsided ? only : mover_.any_rank());
     plan_.bounds = domain_.bounds();
@@ -128,11 +128,11 @@ class AdversarialRun {
   }
 
   /// Time for policies: a step takes one unit, an insertion a tenth, or up to a whole one on a slow rank.
-  [[nodiscard]] CostModel costs_of(protocol::Rank r) const {
+  [[nodiscard]] CostModel costs_of(Rank r) const {
     CostModel costs;
     costs.start = 1;
     costs.prepared = 0;
-    costs.point = 0.1 * static_cast<double>(1 + (scenario_.seed + 7 * static_cast<std::uint64_t>(r)) % 10);
+    costs.point = 0.1 * static_cast<double>(1 + (scenario_.seed + 7 * static_cast<std::uint64_t>(to_int(r))) % 10);
     return costs;
   }
 
@@ -171,8 +171,8 @@ class AdversarialRun {
     return result;
   }
 
-  protocol::Transport& transport_of(protocol::Rank r, const Wrap& wrap) {
-    const auto loop = [this, r]() -> const Loop& { return *loops_[static_cast<std::size_t>(r)]; };
+  protocol::Transport& transport_of(Rank r, const Wrap& wrap) {
+    const auto loop = [this, r]() -> const Loop& { return *loops_[r]; };
     protocol::Transport* transport = &network_.transport(r);
     const auto put_on = [&](std::unique_ptr<protocol::Transport> layer) {
       layers_.push_back(std::move(layer));
@@ -190,8 +190,8 @@ class AdversarialRun {
 
   /// To the end of the run. False if it does not come to a good one.
   bool go() {
-    std::vector<protocol::RankStep> steps;
-    for (protocol::Rank r = 0; r < scenario_.ranks; ++r) steps.push_back([this, r] { return step(r); });
+    IdVector<Rank, protocol::RankStep> steps;
+    for (const Rank r : first_ids<Rank>(scenario_.ranks)) steps.push_back([this, r] { return step(r); });
     try {
       const protocol::RunResult result = network_.run(steps);
       outcome_.steps = result.steps;
@@ -208,8 +208,8 @@ class AdversarialRun {
     return outcome_.failure().empty();
   }
 
-  protocol::StepResult step(protocol::Rank r) {
-    Loop& loop = *loops_[static_cast<std::size_t>(r)];
+  protocol::StepResult step(Rank r) {
+    Loop& loop = *loops_[r];
     mover_.before_step(loop, r);
     const protocol::StepResult result = loop.step();
     watch_owners(r);
@@ -218,15 +218,15 @@ class AdversarialRun {
   }
 
   /// A subdomain that arrives lives nowhere else.
-  void watch_owners(protocol::Rank r) {
-    const Loop& loop = *loops_[static_cast<std::size_t>(r)];
+  void watch_owners(Rank r) {
+    const Loop& loop = *loops_[r];
     const std::int64_t arrivals = loop.protocol().counters().arrivals;
-    std::int64_t& seen = arrivals_seen_[static_cast<std::size_t>(r)];
+    std::int64_t& seen = arrivals_seen_[r];
     if (std::exchange(seen, arrivals) == arrivals) return;
     for (const auto& [id, subdomain] : loop.subdomains())
       for (const auto& other : loops_)
         if (other.get() != &loop && other->subdomains().contains(id))
-          throw Wrong{{"one live owner", "subdomain " + std::to_string(id) + " lives on two ranks"}};
+          throw Wrong{{"one live owner", "subdomain " + to_string(id) + " lives on two ranks"}};
   }
 
   void watch_termination() {
@@ -237,7 +237,7 @@ class AdversarialRun {
         if (loop->protocol().phase() != protocol::Termination::Phase::kWorking) wrong("too early");
       return;
     }
-    const std::uint64_t rounds = loops_[0]->protocol().termination().rounds();
+    const std::uint64_t rounds = loops_.front()->protocol().termination().rounds();
     if (!quiet_since_) quiet_since_ = rounds;
     if (rounds > *quiet_since_ + 2) wrong("too late");
     outcome_.late_rounds = rounds - *quiet_since_;
@@ -246,7 +246,7 @@ class AdversarialRun {
   [[nodiscard]] bool work_anywhere() {
     for (const auto& loop : loops_)
       if (loop->at_work()) return true;
-    for (protocol::Rank r = 0; r < scenario_.ranks; ++r)
+    for (const Rank r : first_ids<Rank>(scenario_.ranks))
       for (const auto& parcel : network_.under_way(r))
         if (protocol::traffic_of(parcel.source, parcel.bytes) == protocol::Traffic::kWork) return true;
     return false;
@@ -282,16 +282,16 @@ class AdversarialRun {
   }
 
   [[nodiscard]] std::string owners_at_the_end() const {
-    std::vector<int> owners(plan_.decomposition.size());
+    IdVector<SubdomainId, int> owners(plan_.decomposition.size());
     for (const auto& loop : loops_)
-      for (std::size_t s = 0; s < owners.size(); ++s) {
-        const bool here = loop->subdomains().contains(static_cast<SubdomainId>(s));
+      for (const SubdomainId s : ids_of(owners)) {
+        const bool here = loop->subdomains().contains(s);
         owners[s] += here ? 1 : 0;
-        if (here != loop->protocol().holds(static_cast<SubdomainId>(s)))
-          return "the directory of a rank is wrong about subdomain " + std::to_string(s);
+        if (here != loop->protocol().holds(s))
+          return "the directory of a rank is wrong about subdomain " + to_string(s);
       }
-    for (std::size_t s = 0; s < owners.size(); ++s)
-      if (owners[s] != 1) return "subdomain " + std::to_string(s) + " has " + std::to_string(owners[s]) + " owners";
+    for (const SubdomainId s : ids_of(owners))
+      if (owners[s] != 1) return "subdomain " + to_string(s) + " has " + std::to_string(owners[s]) + " owners";
     return {};
   }
 
@@ -344,8 +344,8 @@ class AdversarialRun {
   Witness witness_;
   std::vector<std::unique_ptr<protocol::Transport>> layers_;  // between ranks and network
   std::unique_ptr<balancer::SimulatedCouncil> council_;       // if the policy asks for one
-  std::vector<std::unique_ptr<Loop>> loops_;
-  std::vector<std::int64_t> arrivals_seen_;
+  IdVector<Rank, std::unique_ptr<Loop>> loops_;
+  IdVector<Rank, std::int64_t> arrivals_seen_;
   std::optional<std::uint64_t> quiet_since_;  // probes that were out or over then
   Outcome outcome_;
 };

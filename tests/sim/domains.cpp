@@ -144,8 +144,8 @@ std::optional<std::uint64_t> Domain::digest_alone(std::int32_t subdomains) {
   const Decomposition& decomposition = cut(subdomains);
   const SubdomainContext context{&decomposition, bounds_, true};
   std::uint64_t sum = 0;
-  std::vector<protocol::SplitEntry> said;
-  for (SubdomainId s = 0; s < static_cast<SubdomainId>(decomposition.size()); ++s) {
+  std::vector<SplitPoint<GlobalRootId>> said;
+  for (const SubdomainId s : first_ids<SubdomainId>(decomposition.size())) {
     Subdomain subdomain(s, context);
     subdomain.work(std::numeric_limits<std::int64_t>::max(), said);
     sum += mesh_digest(subdomain.mesh().mesh);

@@ -31,14 +31,14 @@ class Merge {
       if (!mesh.triangles[t].alive()) continue;
       const auto& v = mesh.triangles[t].vertex;
       piece_.triangles.push_back({number(v[0]), number(v[1]), number(v[2])});
-      piece_.subdomains.push_back(subdomain.id());
+      piece_.subdomains.push_back(to_int(subdomain.id()));
       if (domain_.input().regions.empty()) continue;
       const std::size_t label = mesh.region.empty() ? 0 : mesh.region[t];
       piece_.regions.push_back(label == 0 ? 0 : domain_.input().regions[label - 1].attribute);
     }
     for (const Subsegment& s : mesh.subsegments) {
       if (!s.is_leaf()) continue;
-      const Decomposition::Root& root = decomposition_.roots[id(subdomain.mesh().roots[id(s.root)])];
+      const Decomposition::Root& root = decomposition_.roots[subdomain.mesh().roots[s.root]];
       if (root.separator) continue;
       const std::pair<std::int32_t, std::int32_t> ends = std::minmax(number(s.vertex[0]), number(s.vertex[1]));
       if (edges_.insert(ends).second) piece_.edges.push_back({ends.first, ends.second, root.marker});

@@ -17,15 +17,15 @@ class Mover {
  public:
   explicit Mover(const Scenario& scenario)
       : scenario_(scenario), random_(scenario.seed * 31 + 7), left_(scenario.most_moves) {
-    ball_ = static_cast<protocol::SubdomainId>(below(static_cast<std::uint64_t>(scenario.subdomains)));
+    ball_ = static_cast<SubdomainId>(below(static_cast<std::uint64_t>(scenario.subdomains)));
     if (scenario.mover == "ping-pong" || scenario.mover == "rotation") left_ = 10 * left_;
   }
 
   /// Any rank, at random.
-  protocol::Rank any_rank() { return static_cast<protocol::Rank>(below(static_cast<std::uint64_t>(scenario_.ranks))); }
+  Rank any_rank() { return static_cast<Rank>(below(static_cast<std::uint64_t>(scenario_.ranks))); }
 
   /// Called before a rank polls.
-  void before_step(Loop& loop, protocol::Rank rank) {
+  void before_step(Loop& loop, Rank rank) {
     if (left_ <= 0 || scenario_.ranks == 1) return;
     if (scenario_.mover == "ping-pong")
       play(loop, rank);
@@ -40,14 +40,14 @@ class Mover {
   [[nodiscard]] const Deeds& deeds() const { return deeds_; }
 
  private:
-  bool hand_over(Loop& loop, protocol::SubdomainId s, protocol::Rank to) {
+  bool hand_over(Loop& loop, SubdomainId s, Rank to) {
     const bool moved = loop.hand_over(s, to);
     if (moved) --left_;
     return moved;
   }
 
-  [[nodiscard]] static std::vector<protocol::SubdomainId> active(const Loop& loop) {
-    std::vector<protocol::SubdomainId> result;
+  [[nodiscard]] static std::vector<SubdomainId> active(const Loop& loop) {
+    std::vector<SubdomainId> result;
     for (const auto& [id, subdomain] : loop.subdomains())
       if (subdomain.active()) result.push_back(id);
     return result;
@@ -59,26 +59,26 @@ class Mover {
   }
 
   // One subdomain goes back and forth as long as it has work.
-  void play(Loop& loop, protocol::Rank rank) {
+  void play(Loop& loop, Rank rank) {
     const auto from = came_from_.find(rank);
-    const protocol::Rank to = from == came_from_.end() ? (rank + 1) % scenario_.ranks : from->second;
+    const Rank to = from == came_from_.end() ? next_in_ring(rank, scenario_.ranks) : from->second;
     if (!hand_over(loop, ball_, to)) return;
     if (from != came_from_.end()) ++deeds_.returns;
     came_from_[to] = rank;
   }
 
-  void rotate(Loop& loop, protocol::Rank rank) {
+  void rotate(Loop& loop, Rank rank) {
     const auto all = active(loop);
-    for (const protocol::SubdomainId s : all) hand_over(loop, s, (rank + 1) % scenario_.ranks);
+    for (const SubdomainId s : all) hand_over(loop, s, next_in_ring(rank, scenario_.ranks));
     if (!all.empty()) ++deeds_.rotations;
   }
 
   // The case that Safra's colours are for: the token will not come by that rank again.
-  void follow_token(Loop& loop, protocol::Rank rank) {
-    if (rank == 0 || !loop.protocol().termination().has_token()) return;
+  void follow_token(Loop& loop, Rank rank) {
+    if (rank == Rank{0} || !loop.protocol().termination().has_token()) return;
     const auto all = active(loop);
     if (all.empty()) return;
-    const auto to = static_cast<protocol::Rank>(below(static_cast<std::uint64_t>(rank)));
+    const auto to = static_cast<Rank>(below(static_cast<std::uint64_t>(to_int(rank))));
     if (hand_over(loop, all[below(all.size())], to)) ++deeds_.behind_token;
   }
 
@@ -88,8 +88,8 @@ class Mover {
   const Scenario& scenario_;
   std::mt19937_64 random_;
   std::int64_t left_;  // moves
-  protocol::SubdomainId ball_;
-  std::map<protocol::Rank, protocol::Rank> came_from_;  // the ball, to each rank when it last did
+  SubdomainId ball_;
+  std::map<Rank, Rank> came_from_;  // the ball, to each rank when it last did
   Deeds deeds_;
 };
 

@@ -46,7 +46,7 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
   Scenario s;
   s.seed = seed;
   s.domain = choice.domain.value_or(one_of(domain_names()));
-  s.ranks = choice.ranks.value_or(one_of(std::array<protocol::Rank, 12>{1, 2, 2, 3, 3, 4, 5, 6, 8, 11, 13, 16}));
+  s.ranks = choice.ranks.value_or(one_of(std::array<std::int32_t, 12>{1, 2, 2, 3, 3, 4, 5, 6, 8, 11, 13, 16}));
   s.subdomains = one_of(std::array{4, 7, 12});
   s.presplit = choice.presplit.value_or(random() % 3 == 0);
   s.aggregation = choice.aggregation.value_or(one_of(std::array<std::size_t, 5>{1, 2, 7, 30, 512}));
@@ -57,7 +57,7 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
   s.sleep = random() % 3 == 0;
   s.adversary = protocol::Adversary::from_seed(seed);
   s.adversary.step_limit = 200'000;
-  s.adversary.may_copy = [](protocol::Rank source, auto bytes) {
+  s.adversary.may_copy = [](Rank source, auto bytes) {
     return protocol::traffic_of(source, bytes) == protocol::Traffic::kDetection;
   };
   s.mover = one_of(mover_names());

@@ -14,7 +14,7 @@ namespace driftmesh::sim {
 /// What of a scenario is not left to the seed.
 struct Choice {
   std::optional<std::string> domain;
-  std::optional<protocol::Rank> ranks;
+  std::optional<std::int32_t> ranks;
   std::optional<bool> presplit;
   std::optional<std::size_t> aggregation;
   std::optional<std::string> mover;
@@ -36,7 +36,7 @@ enum class Mischief {
 struct Scenario {
   std::uint64_t seed = 1;
   std::string domain;
-  protocol::Rank ranks = 1;
+  std::int32_t ranks = 1;
   std::int32_t subdomains = 1;
   bool presplit = false;
   std::size_t aggregation = 1;

@@ -56,7 +56,7 @@ TEST_CASE("the schedules are hard ones, on every domain and number of ranks") {
   Deeds deeds;
   protocol::AdversarialNetwork::Counters network;
   std::set<std::string> compared, shapes, movers;
-  std::set<protocol::Rank> ranks;
+  std::set<std::int32_t> ranks;
   std::uint64_t late_rounds = 0;
   std::int64_t smallest = INT64_MAX, asleep = 0;
   const auto seeds =

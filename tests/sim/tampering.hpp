@@ -16,13 +16,13 @@
 namespace driftmesh::sim {
 
 /// Whether the point is in the subdomain's mesh.
-inline bool has_point(const Subdomain& subdomain, const protocol::SplitEntry& entry) {
+inline bool has_point(const Subdomain& subdomain, const SplitPoint<GlobalRootId>& split) {
   if (!subdomain.started() || subdomain.dormant()) return false;
   const auto& roots = subdomain.mesh().roots;
-  const auto place = std::lower_bound(roots.begin(), roots.end(), entry.edge);
+  const auto place = std::lower_bound(roots.begin(), roots.end(), split.root);
   const Triangulation& mesh = subdomain.mesh().mesh;
-  const SubsegmentId s = mesh.descend(static_cast<RootId>(place - roots.begin()), entry.path);
-  return mesh.subsegments[Triangulation::id(s)].path == entry.path && !mesh.subsegments[Triangulation::id(s)].is_leaf();
+  const SubsegmentId s = mesh.descend(static_cast<RootId>(place - roots.begin()), split.path);
+  return mesh.subsegments[Triangulation::id(s)].path == split.path && !mesh.subsegments[Triangulation::id(s)].is_leaf();
 }
 
 /// Takes in SPLITs for one subdomain in a wrong way: changes what it is told. Their number must stay, since ranks count
@@ -32,24 +32,24 @@ using Tampering = void (*)(protocol::SplitGroup& group, const Subdomain& receive
 /// As a mesh that puts no missing ancestors in before a point: the point cannot be inserted, and is dropped (another of
 /// the same group stands in for it).
 inline void drop_orphans(protocol::SplitGroup& group, const Subdomain& receiver) {
-  const auto orphan = [&](const protocol::SplitEntry& entry) {
-    const protocol::SplitEntry parent{entry.edge, entry.path >> 1};
+  const auto orphan = [&](const SplitPoint<GlobalRootId>& split) {
+    const SplitPoint<GlobalRootId> parent{split.root, split.path >> 1};
     return parent.path != 0 && !has_point(receiver, parent) &&
-           std::find(group.entries.begin(), group.entries.end(), parent) == group.entries.end();
+           std::find(group.points.begin(), group.points.end(), parent) == group.points.end();
   };
-  const auto sound = std::find_if_not(group.entries.begin(), group.entries.end(), orphan);
-  if (sound == group.entries.end()) return;
-  const protocol::SplitEntry stand_in = *sound;
-  std::vector<protocol::SplitEntry> heeded = group.entries;
-  for (protocol::SplitEntry& entry : heeded)
-    if (orphan(entry)) entry = stand_in;
-  group.entries = std::move(heeded);
+  const auto sound = std::find_if_not(group.points.begin(), group.points.end(), orphan);
+  if (sound == group.points.end()) return;
+  const SplitPoint<GlobalRootId> stand_in = *sound;
+  std::vector<SplitPoint<GlobalRootId>> heeded = group.points;
+  for (SplitPoint<GlobalRootId>& split : heeded)
+    if (orphan(split)) split = stand_in;
+  group.points = std::move(heeded);
 }
 
 /// As a mesh that does not see that a point is there already, and cuts the half that lies there instead.
 inline void insert_again(protocol::SplitGroup& group, const Subdomain& receiver) {
-  for (protocol::SplitEntry& entry : group.entries)
-    if (has_point(receiver, entry)) entry.path *= 2;
+  for (SplitPoint<GlobalRootId>& split : group.points)
+    if (has_point(receiver, split)) split.path *= 2;
 }
 
 /// Changes what a rank is told of SPLITs.
@@ -97,7 +97,7 @@ class UnwelcomingTransport final : public protocol::TransportLayer {
   UnwelcomingTransport(protocol::Transport& inner, protocol::WireLimits limits)
       : TransportLayer(inner), limits_(limits) {}
 
-  void send(protocol::Rank destination, protocol::Bytes bytes) override {
+  void send(Rank destination, protocol::Bytes bytes) override {
     if (is<protocol::HandOff>(bytes)) known_.insert(subdomain_of(rank(), bytes));
     TransportLayer::send(destination, std::move(bytes));
   }
@@ -108,7 +108,7 @@ class UnwelcomingTransport final : public protocol::TransportLayer {
   }
 
  private:
-  [[nodiscard]] SubdomainId subdomain_of(protocol::Rank source, const protocol::Bytes& bytes) const {
+  [[nodiscard]] SubdomainId subdomain_of(Rank source, const protocol::Bytes& bytes) const {
     return std::get<protocol::HandOff>(protocol::decode(source, bytes, limits_)).subdomain;
   }
 
@@ -122,7 +122,7 @@ class ForgetfulTransport final : public protocol::TransportLayer {
   ForgetfulTransport(protocol::Transport& inner, protocol::WireLimits limits)
       : TransportLayer(inner), limits_(limits) {}
 
-  void send(protocol::Rank destination, protocol::Bytes bytes) override {
+  void send(Rank destination, protocol::Bytes bytes) override {
     if (is<protocol::HandOff>(bytes)) {
       auto leaving = std::get<protocol::HandOff>(protocol::decode(rank(), bytes, limits_));
       leaving.packed = without_pending(leaving.packed);
@@ -150,8 +150,8 @@ class RecolouringTransport final : public protocol::TransportLayer {
   RecolouringTransport(protocol::Transport& inner, bool black, Forwarded forwarded)
       : TransportLayer(inner), black_(black), forwarded_(std::move(forwarded)) {}
 
-  void send(protocol::Rank destination, protocol::Bytes bytes) override {
-    if (rank() != 0 && is<protocol::Token>(bytes)) {
+  void send(Rank destination, protocol::Bytes bytes) override {
+    if (rank() != Rank{0} && is<protocol::Token>(bytes)) {
       auto token = std::get<protocol::Token>(protocol::decode(rank(), bytes, {}));
       if (forwarded_() != std::exchange(known_, forwarded_())) token.black = came_black_ || black_;
       bytes = protocol::encode(token);

@@ -30,16 +30,16 @@ template <class T>
 class Witness {
  public:
   /// `work_is_over`: whether by the truth it is; asked at any time.
-  Witness(protocol::Rank ranks, std::size_t subdomains, std::function<bool()> work_is_over)
-      : ranks_(static_cast<std::size_t>(ranks)), moves_(subdomains), work_is_over_(std::move(work_is_over)) {}
+  Witness(std::int32_t ranks, std::size_t subdomains, std::function<bool()> work_is_over)
+      : ranks_(to_index(ranks)), moves_(subdomains), work_is_over_(std::move(work_is_over)) {}
 
   /// `rank` sends; `counters` are its protocol's at that moment.
-  void sent(protocol::Rank rank, const protocol::Bytes& bytes, const protocol::ProtocolCounters& counters) {
+  void sent(Rank rank, const protocol::Bytes& bytes, const protocol::ProtocolCounters& counters) {
     ++clock_;
     if (is<protocol::Token>(bytes)) return token_passed(rank, decoded<protocol::Token>(bytes), counters);
     if (is<protocol::HandOff>(bytes)) {
-      const protocol::SubdomainId s = decoded<protocol::HandOff>(bytes).subdomain;
-      ++moves_.at(index(s));
+      const SubdomainId s = decoded<protocol::HandOff>(bytes).subdomain;
+      ++moves_.at(s);
       under_way_[s] = clock_;
     } else if (is<protocol::SplitBatch>(bytes)) {
       const auto batch = decoded<protocol::SplitBatch>(bytes);
@@ -48,11 +48,10 @@ class Witness {
   }
 
   /// `rank` receives; `holds` says of a subdomain whether it is there.
-  void received(protocol::Rank rank, const protocol::Bytes& bytes,
-                const std::function<bool(protocol::SubdomainId)>& holds) {
+  void received(Rank rank, const protocol::Bytes& bytes, const std::function<bool(SubdomainId)>& holds) {
     if (is<protocol::Token>(bytes)) {
       const auto token = decoded<protocol::Token>(bytes);
-      ranks_[index(rank)].tokens[token.round] = token;
+      ranks_[rank].tokens[token.round] = token;
     } else if (is<protocol::HandOff>(bytes)) {
       arrived(decoded<protocol::HandOff>(bytes).subdomain);
     } else if (is<protocol::SplitBatch>(bytes)) {
@@ -74,29 +73,25 @@ class Witness {
 
  private:
   // A group of SPLITs on one leg of its way. Each point is announced once, so that no other group begins with it.
-  using Leg = std::tuple<protocol::SubdomainId, protocol::EdgeId, dyadic::Path, std::uint32_t>;
+  using Leg = std::tuple<SubdomainId, GlobalRootId, dyadic::Path, std::uint32_t>;
   struct OfRank {
     std::map<std::uint64_t, protocol::Token> tokens;  // received, by round
     std::int64_t handled = 0;                         // when the last one was passed on
-    std::map<std::tuple<protocol::SubdomainId, protocol::Rank, protocol::Epoch>, int> locations;
+    std::map<std::tuple<SubdomainId, Rank, protocol::Epoch>, int> locations;
   };
 
   template <class T>
-  static std::size_t index(T number) {
-    return static_cast<std::size_t>(number);
-  }
-  template <class T>
   static T decoded(const protocol::Bytes& bytes) {
-    return std::get<T>(protocol::decode(0, bytes, {1 << 20, 1 << 20, 1 << 20}));
+    return std::get<T>(protocol::decode(Rank{0}, bytes, {1 << 20, 1 << 20, 1 << 20}));
   }
   static Leg leg(const protocol::SplitGroup& group) {
-    return {group.to, group.entries.front().edge, group.entries.front().path, group.hops};
+    return {group.to, group.points.front().root, group.points.front().path, group.hops};
   }
 
   // Rules 2, 3 and 4: a rank adds its own count, and blackens the token if it has handled anything since the last one.
-  void token_passed(protocol::Rank rank, const protocol::Token& token, const protocol::ProtocolCounters& counters) {
-    if (rank == 0) return;
-    OfRank& known = ranks_[index(rank)];
+  void token_passed(Rank rank, const protocol::Token& token, const protocol::ProtocolCounters& counters) {
+    if (rank == Rank{0}) return;
+    OfRank& known = ranks_[rank];
     const protocol::Token& came = known.tokens.at(token.round);
     const std::int64_t handled = counters.splits_handled + counters.arrivals;
     const bool has_handled = std::exchange(known.handled, handled) != handled;
@@ -118,12 +113,12 @@ class Witness {
     deeds_.most_hops = std::max<std::int64_t>(deeds_.most_hops, group.hops);
     Leg first = leg(group);
     std::get<3>(first) = 0;
-    if (group.hops > group.epoch - first_epoch_.at(first) || group.epoch > moves_.at(index(group.to)))
+    if (group.hops > group.epoch - first_epoch_.at(first) || group.epoch > moves_.at(group.to))
       complain(hops_problem_, group.origin,
                "has sent SPLITs that were forwarded more often than their subdomain moved");
   }
 
-  void arrived(protocol::SubdomainId s) {
+  void arrived(SubdomainId s) {
     const std::uint64_t left = under_way_.at(s);
     under_way_.erase(s);
     for (const auto& [leg, sent] : splits_[s])
@@ -133,22 +128,21 @@ class Witness {
       }
   }
 
-  void located(protocol::Rank rank, const protocol::LocationUpdate& update) {
+  void located(Rank rank, const protocol::LocationUpdate& update) {
     if (work_is_over_()) ++deeds_.late_locations;
-    if (update.epoch < moves_.at(index(update.subdomain))) ++deeds_.outdated_locations;
-    if (++ranks_[index(rank)].locations[{update.subdomain, update.owner, update.epoch}] > 1)
-      ++deeds_.repeated_locations;
+    if (update.epoch < moves_.at(update.subdomain)) ++deeds_.outdated_locations;
+    if (++ranks_[rank].locations[{update.subdomain, update.owner, update.epoch}] > 1) ++deeds_.repeated_locations;
   }
 
-  static void complain(std::string& problem, protocol::Rank rank, const char* what) {
-    if (problem.empty()) problem = "rank " + std::to_string(rank) + " " + what;
+  static void complain(std::string& problem, Rank rank, const char* what) {
+    if (problem.empty()) problem = "rank " + to_string(rank) + " " + what;
   }
 
   std::uint64_t clock_ = 0;  // sends so far
-  std::vector<OfRank> ranks_;
-  std::vector<protocol::Epoch> moves_;                                    // of each subdomain
-  std::map<protocol::SubdomainId, std::uint64_t> under_way_;              // when they left
-  std::map<protocol::SubdomainId, std::map<Leg, std::uint64_t>> splits_;  // under way, and when they were sent
+  IdVector<Rank, OfRank> ranks_;
+  IdVector<SubdomainId, protocol::Epoch> moves_;
+  std::map<SubdomainId, std::uint64_t> under_way_;              // when they left
+  std::map<SubdomainId, std::map<Leg, std::uint64_t>> splits_;  // under way, and when they were sent
   std::map<Leg, protocol::Epoch> first_epoch_;
   std::function<bool()> work_is_over_;
   Deeds deeds_;
@@ -158,12 +152,12 @@ class Witness {
 /// Between a rank and its network: lets the witness see both ways, and lets time pass by the work that is done.
 class WitnessedTransport final : public protocol::TransportLayer {
  public:
-  using Holds = std::function<bool(protocol::SubdomainId)>;
+  using Holds = std::function<bool(SubdomainId)>;
   using Counters = std::function<const protocol::ProtocolCounters&()>;
   WitnessedTransport(protocol::Transport& inner, Witness& witness, Holds holds, Counters counters)
       : TransportLayer(inner), witness_(witness), holds_(std::move(holds)), counters_(std::move(counters)) {}
 
-  void send(protocol::Rank destination, protocol::Bytes bytes) override {
+  void send(Rank destination, protocol::Bytes bytes) override {
     witness_.sent(rank(), bytes, counters_());
     TransportLayer::send(destination, std::move(bytes));
   }

@@ -29,27 +29,28 @@ struct Job {
   [[nodiscard]] std::uint64_t bytes() const { return 40 + static_cast<std::uint64_t>(16 * done); }
 };
 
+using Jobs = IdVector<SubdomainId, Job>;
+
 /// A rank that does its jobs one after the other, with the real protocol, codec and controller.
 class WorkingRank {
  public:
   struct Counts {
     int moves = 0;
-    std::map<protocol::SubdomainId, int> moves_of;
+    std::map<SubdomainId, int> moves_of;
     double done = 0;
   };
 
-  WorkingRank(protocol::Transport& transport, std::shared_ptr<const balancer::Layout> layout,
-              const std::vector<Job>& jobs, std::shared_ptr<const balancer::Policy> policy,
-              const balancer::ControllerOptions& options, balancer::Council* council, double slice,
-              double given_speed = 0)
+  WorkingRank(protocol::Transport& transport, std::shared_ptr<const balancer::Layout> layout, const Jobs& jobs,
+              std::shared_ptr<const balancer::Policy> policy, const balancer::ControllerOptions& options,
+              balancer::Council* council, double slice, double given_speed = 0)
       : transport_(transport),
         protocol_(transport.rank(), transport.ranks(), owners_of(*layout)),
-        limits_{transport.ranks(), static_cast<SubdomainId>(jobs.size()), 1},
+        limits_{transport.ranks(), static_cast<std::int32_t>(jobs.size()), 1},
         controller_(transport.rank(), layout, std::move(policy), options, transport.now(), council),
         slice_(slice),
         given_speed_(given_speed) {
-    for (std::size_t i = 0; i < jobs.size(); ++i)
-      if (layout->subdomains[i].owner == transport.rank()) jobs_[static_cast<SubdomainId>(i)] = jobs[i];
+    for (const SubdomainId i : ids_of(jobs))
+      if ((*layout)[i].owner == transport.rank()) jobs_[i] = jobs[i];
   }
 
   protocol::StepResult step() {
@@ -68,8 +69,8 @@ class WorkingRank {
   double last_work = 0;  // the time when it last had something to do
 
  private:
-  static std::vector<Rank> owners_of(const balancer::Layout& layout) {
-    std::vector<Rank> owners;
+  static IdVector<SubdomainId, Rank> owners_of(const balancer::Layout& layout) {
+    IdVector<SubdomainId, Rank> owners;
     for (const auto& s : layout.subdomains) owners.push_back(s.owner);
     return owners;
   }
@@ -145,7 +146,7 @@ class WorkingRank {
 };
 
 struct Cluster {
-  std::vector<double> speeds;  // triangles a second
+  IdVector<Rank, double> speeds;  // triangles a second
   double latency = 50e-6;
   double bandwidth = 1e9;
   double slice = 16384;
@@ -165,36 +166,36 @@ struct Outcome {
 class WorkingRanks {
  public:
   template <class Network>
-  WorkingRanks(Network& network, const balancer::Layout& layout, const std::vector<Job>& jobs,
-               const std::string& policy, const balancer::Parameters::Values& parameters,
-               const balancer::ControllerOptions& options, double slice, double given_speed = 0)
+  WorkingRanks(Network& network, const balancer::Layout& layout, const Jobs& jobs, const std::string& policy,
+               const balancer::Parameters::Values& parameters, const balancer::ControllerOptions& options, double slice,
+               double given_speed = 0)
       : jobs_(jobs) {
     const auto shared_layout = std::make_shared<const balancer::Layout>(layout);
     PolicyCalled called = policy_called(policy);
     called.parameters.insert(parameters.begin(), parameters.end());
     const std::shared_ptr<const balancer::Policy> shared_policy = balancer::make_policy(called.name, called.parameters);
     council_ = balancer::make_simulated_council(shared_layout, shared_policy, options);
-    for (Rank r = 0; r < layout.ranks; ++r) {
+    for (const Rank r : first_ids<Rank>(layout.ranks)) {
       ranks_.push_back(std::make_unique<WorkingRank>(network.transport(r), shared_layout, jobs, shared_policy, options,
                                                      council_.get(), slice, given_speed));
       steps_.emplace_back([rank = ranks_.back().get()] { return rank->step(); });
     }
   }
-  [[nodiscard]] const std::vector<protocol::RankStep>& steps() const { return steps_; }
+  [[nodiscard]] const IdVector<Rank, protocol::RankStep>& steps() const { return steps_; }
 
   /// Found by looking at the jobs, wherever they are.
   [[nodiscard]] Outcome outcome(protocol::RunEnd end) const {
     Outcome outcome;
     outcome.complete = end == protocol::RunEnd::kFinished;
-    std::vector<int> found(jobs_.size(), 0);
+    IdVector<SubdomainId, int> found(jobs_.size(), 0);
     std::map<SubdomainId, int> moves_of;
     for (const auto& rank : ranks_) {
       outcome.time = std::max(outcome.time, rank->last_work);
       outcome.moves += rank->counts().moves;
       for (const auto& [id, n] : rank->counts().moves_of) moves_of[id] += n;
       for (const auto& [id, job] : rank->jobs()) {
-        ++found[static_cast<std::size_t>(id)];
-        if (job.done != jobs_[static_cast<std::size_t>(id)].work) outcome.complete = false;
+        ++found[id];
+        if (job.done != jobs_[id].work) outcome.complete = false;
       }
     }
     for (const auto& [id, n] : moves_of) outcome.most_moves_of_one = std::max(outcome.most_moves_of_one, n);
@@ -203,14 +204,14 @@ class WorkingRanks {
   }
 
  private:
-  const std::vector<Job>& jobs_;
+  const Jobs& jobs_;
   std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
   std::vector<std::unique_ptr<WorkingRank>> ranks_;
-  std::vector<protocol::RankStep> steps_;
+  IdVector<Rank, protocol::RankStep> steps_;
 };
 
 /// Runs jobs on simulated ranks in simulated time until the protocol says that it is over.
-inline Outcome run_jobs(const Cluster& cluster, const balancer::Layout& layout, const std::vector<Job>& jobs,
+inline Outcome run_jobs(const Cluster& cluster, const balancer::Layout& layout, const Jobs& jobs,
                         const std::string& policy, const balancer::Parameters::Values& parameters = {},
                         const balancer::ControllerOptions& options = {}) {
   protocol::VirtualNetwork network({cluster.speeds,

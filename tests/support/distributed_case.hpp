@@ -21,7 +21,7 @@ struct DistributedCase {
   Pslg input;
   QualityBounds bounds;
   Decomposition decomposition;
-  std::vector<SubdomainMesh> parts;
+  IdVector<SubdomainId, SubdomainMesh> parts;
 
   DistributedCase(Pslg pslg, std::int32_t subdomains, const QualityBounds& asked) : input(std::move(pslg)) {
     bounds = asked;
@@ -33,30 +33,30 @@ struct DistributedCase {
     parts = refine_together(decomposition, bounds).parts;
   }
 
-  [[nodiscard]] HeldSubdomains held_by(protocol::Rank rank, const std::vector<protocol::Rank>& owners) const {
+  [[nodiscard]] HeldSubdomains held_by(Rank rank, const IdVector<SubdomainId, Rank>& owners) const {
     std::vector<HeldSubdomain> held;
-    for (std::size_t i = parts.size(); i-- > 0;)
-      if (owners[i] == rank) held.push_back({static_cast<SubdomainId>(i), &parts[i]});
+    for (const SubdomainId i : ids_of(parts))
+      if (owners[i] == rank) held.insert(held.begin(), {i, &parts[i]});
     return held_in_memory(std::move(held));
   }
 
   /// One assembly for each rank, before any message.
-  [[nodiscard]] std::vector<std::unique_ptr<PieceAssembly>> assemblies(
-      protocol::Rank ranks, const std::vector<protocol::Rank>& owners) const {
-    std::vector<std::unique_ptr<PieceAssembly>> all;
-    for (protocol::Rank r = 0; r < ranks; ++r)
+  [[nodiscard]] IdVector<Rank, std::unique_ptr<PieceAssembly>> assemblies(
+      std::int32_t ranks, const IdVector<SubdomainId, Rank>& owners) const {
+    IdVector<Rank, std::unique_ptr<PieceAssembly>> all;
+    for (const Rank r : first_ids<Rank>(ranks))
       all.push_back(std::make_unique<PieceAssembly>(r, ranks, decomposition, held_by(r, owners)));
     return all;
   }
 
   /// The pieces of all ranks, which talk directly.
-  [[nodiscard]] std::vector<DistributedPiece> pieces(protocol::Rank ranks,
-                                                     const std::vector<protocol::Rank>& owners) const {
+  [[nodiscard]] IdVector<Rank, DistributedPiece> pieces(std::int32_t ranks,
+                                                        const IdVector<SubdomainId, Rank>& owners) const {
     const auto all = assemblies(ranks, owners);
-    std::vector<Exchange*> exchanges;
+    IdVector<Rank, Exchange*> exchanges;
     for (const auto& assembly : all) exchanges.push_back(assembly.get());
     exchange_directly(exchanges);
-    std::vector<DistributedPiece> result;
+    IdVector<Rank, DistributedPiece> result;
     for (const auto& assembly : all) result.push_back(assembly->piece(input));
     return result;
   }
@@ -91,11 +91,11 @@ inline DistributedCase random_distributed_case(std::uint64_t seed) {
   return {std::move(input), static_cast<std::int32_t>(1 + random() % 12), bounds};
 }
 
-inline std::vector<protocol::Rank> random_owners(std::size_t subdomains, protocol::Rank ranks, std::uint64_t seed) {
+inline IdVector<SubdomainId, Rank> random_owners(std::size_t subdomains, std::int32_t ranks, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  std::vector<protocol::Rank> owners;
+  IdVector<SubdomainId, Rank> owners;
   for (std::size_t i = 0; i < subdomains; ++i)
-    owners.push_back(static_cast<protocol::Rank>(random() % static_cast<std::uint64_t>(ranks)));
+    owners.push_back(static_cast<Rank>(random() % static_cast<std::uint64_t>(ranks)));
   return owners;
 }
 

@@ -12,10 +12,9 @@ namespace driftmesh::testing {
 inline std::vector<balancer::Contribution> contributions_of(const LoadSnapshot& snapshot,
                                                             std::mt19937_64* random = nullptr) {
   std::vector<balancer::Contribution> all;
-  for (std::size_t r = 0; r < snapshot.ranks.size(); ++r)
-    all.push_back({static_cast<Rank>(r), snapshot.ranks[r], {}, {}});
+  for (const Rank r : ids_of(snapshot.ranks)) all.push_back({r, snapshot.ranks[r], {}, {}});
   for (const balancer::SubdomainState& s : snapshot.subdomains) {
-    balancer::Contribution& owner = all[static_cast<std::size_t>(s.owner)];
+    balancer::Contribution& owner = all[to_index(s.owner)];
     owner.own.push_back(s);
     if (random && (*random)() % 5 == 0) owner.settled.push_back(s.id);
   }
@@ -34,33 +33,32 @@ inline std::vector<balancer::Move> all_moves(const std::vector<balancer::Council
 /// what the moves lead to.
 inline std::string problem_of(const LoadSnapshot& snapshot, const std::vector<balancer::Contribution>& contributions,
                               const std::vector<balancer::Council::Decision>& decisions) {
-  std::vector<double> work;
-  std::vector<std::int32_t> coming(decisions.size());
+  IdVector<Rank, double> work;
+  IdVector<Rank, std::int32_t> coming(decisions.size());
   for (const balancer::RankState& state : snapshot.ranks) work.push_back(state.remaining);
-  const auto at = [](Rank r) { return static_cast<std::size_t>(r); };
   bool any = false;
-  for (std::size_t r = 0; r < decisions.size(); ++r) {
-    SubdomainId last = -1;
-    for (const balancer::Move& move : decisions[r].moves) {
+  for (const Rank r : ids_of(coming)) {
+    SubdomainId last = kNoSubdomain;
+    for (const balancer::Move& move : decisions[to_index(r)].moves) {
       const balancer::SubdomainState* const s = balancer::find(snapshot, move.subdomain);
-      const auto& settled = contributions[r].settled;
-      if (!s || s->owner != static_cast<Rank>(r)) return "a rank moves what it does not own";
-      if (move.destination == s->owner || move.destination < 0 || at(move.destination) >= work.size())
-        return "a move to nowhere";
+      const auto& settled = contributions[to_index(r)].settled;
+      if (!s || s->owner != r) return "a rank moves what it does not own";
+      if (move.destination == s->owner || !work.has(move.destination)) return "a move to nowhere";
       if (move.subdomain <= last) return "moves are not in order, or one is there twice";
       if (std::binary_search(settled.begin(), settled.end(), move.subdomain)) return "what came just now moves on";
       last = move.subdomain;
       work[r] -= s->remaining;
-      work[at(move.destination)] += s->remaining;
-      ++coming[at(move.destination)];
+      work[move.destination] += s->remaining;
+      ++coming[move.destination];
       any = true;
     }
   }
-  for (std::size_t r = 0; r < decisions.size(); ++r) {
-    if (decisions[r].any_moves != any) return "a rank is wrong about whether anything moves";
-    if (decisions[r].coming.count != coming[r]) return "a rank waits for more or less than comes";
-    for (std::size_t i = 0; i < work.size(); ++i)
-      if (std::abs(decisions[r].states[i].remaining - work[i]) > 1e-9 * (1 + std::abs(work[i])))
+  for (const Rank r : ids_of(coming)) {
+    const balancer::Council::Decision& decision = decisions[to_index(r)];
+    if (decision.any_moves != any) return "a rank is wrong about whether anything moves";
+    if (decision.coming.count != coming[r]) return "a rank waits for more or less than comes";
+    for (const Rank i : ids_of(work))
+      if (std::abs(decision.states[i].remaining - work[i]) > 1e-9 * (1 + std::abs(work[i])))
         return "the states that were planned are not those that the moves lead to";
   }
   return {};

@@ -19,24 +19,24 @@ enum class Start {
 /// One rank that joins a run late.
 struct LateCase {
   std::string policy;
-  protocol::Rank rank = 0;
+  Rank rank{};
   Start start = Start::kNothing;
 };
 
 /// Who starts with which of so many subdomains: dealt in turn, so that neighbours have much to tell each other, and of
 /// what would be the late rank's all but what it starts with to the others.
-inline std::vector<protocol::Rank> late_owners(std::size_t subdomains, protocol::Rank ranks, const LateCase& late) {
+inline IdVector<SubdomainId, Rank> late_owners(std::size_t subdomains, std::int32_t ranks, const LateCase& late) {
   const std::size_t kept = late.start == Start::kShare ? subdomains : late.start == Start::kOneSubdomain ? 1 : 0;
-  std::vector<protocol::Rank> owners;
-  protocol::Rank turn = 0;
-  for (std::size_t of_late = 0; owners.size() < subdomains; turn = (turn + 1) % ranks)
+  IdVector<SubdomainId, Rank> owners;
+  Rank turn{};
+  for (std::size_t of_late = 0; owners.size() < subdomains; turn = next_in_ring(turn, ranks))
     if (turn != late.rank || of_late++ < kept) owners.push_back(turn);
   return owners;
 }
 
 /// The plan of a run that makes about so many triangles of `input`, in subdomains of several slices. Policies look
 /// often and report often, so that they do something within tenths of a second.
-inline RunPlan late_plan(const Pslg& input, double triangles, protocol::Rank ranks, const LateCase& late) {
+inline RunPlan late_plan(const Pslg& input, double triangles, std::int32_t ranks, const LateCase& late) {
   const double area = summarize_angles(triangulate(input)).total_area;
   RunPlan plan = plan_for(input, {20, 1.5 * area / triangles, {}, nullptr}, ranks, 40, Presplit::kOff);
   plan.owners = late_owners(plan.owners.size(), ranks, late);

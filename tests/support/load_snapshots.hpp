@@ -10,11 +10,9 @@ namespace driftmesh::testing {
 
 using balancer::Layout;
 using balancer::LoadSnapshot;
-using balancer::Rank;
-using balancer::SubdomainId;
 
 /// A square of columns x rows subdomains, each as large as the other, dealt to the ranks in blocks of consecutive ones.
-inline Layout grid_layout(int columns, int rows, Rank ranks) {
+inline Layout grid_layout(int columns, int rows, std::int32_t ranks) {
   Layout layout;
   layout.ranks = ranks;
   const int count = columns * rows;
@@ -34,13 +32,12 @@ inline Layout grid_layout(int columns, int rows, Rank ranks) {
 }
 
 /// All subdomains of the layout at its owners, with the predicted work, at these speeds.
-inline LoadSnapshot initial_snapshot(Layout layout, const std::vector<double>& speeds) {
+inline LoadSnapshot initial_snapshot(Layout layout, const IdVector<Rank, double>& speeds) {
   LoadSnapshot snapshot;
-  std::vector<std::int32_t> turns(speeds.size(), 0);
-  for (std::size_t i = 0; i < layout.subdomains.size(); ++i) {
+  IdVector<Rank, std::int32_t> turns(speeds.size(), 0);
+  for (const SubdomainId i : ids_of(layout.subdomains)) {
     const Rank owner = layout.subdomains[i].owner;
-    snapshot.subdomains.push_back({static_cast<SubdomainId>(i), owner, layout.subdomains[i].predicted, 100,
-                                   turns[static_cast<std::size_t>(owner)]++});
+    snapshot.subdomains.push_back({i, owner, layout[i].predicted, 100, turns[owner]++});
   }
   for (const double speed : speeds) snapshot.ranks.push_back({speed, 0});
   snapshot.layout = std::make_shared<Layout>(std::move(layout));
@@ -53,14 +50,14 @@ inline LoadSnapshot initial_snapshot(Layout layout, const std::vector<double>& s
 inline LoadSnapshot random_snapshot(std::mt19937_64& random) {
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<std::uint64_t>(n)); };
   const auto unit = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
-  const Rank ranks = 1 + below(below(4) == 0 ? 40 : 8);
+  const std::int32_t ranks = 1 + below(below(4) == 0 ? 40 : 8);
   Layout layout = grid_layout(1 + below(12), 1 + below(12), ranks);
   for (auto& s : layout.subdomains) {
     s.predicted = std::exp(8 * unit());
-    if (below(3) == 0) s.owner = below(ranks);
+    if (below(3) == 0) s.owner = Rank{below(ranks)};
   }
-  std::vector<double> speeds;
-  for (Rank r = 0; r < ranks; ++r) speeds.push_back(below(8) == 0 ? 0 : std::exp(3 * unit()));
+  IdVector<Rank, double> speeds;
+  while (speeds.size() < to_index(ranks)) speeds.push_back(below(8) == 0 ? 0 : std::exp(3 * unit()));
   LoadSnapshot snapshot = initial_snapshot(std::move(layout), speeds);
   const int finished = below(3) == 0 ? 100 : below(100);
   std::erase_if(snapshot.subdomains, [&](const auto&) { return below(100) < finished && below(2) == 0; });
@@ -79,15 +76,15 @@ inline double time_with(const LoadSnapshot& snapshot, const std::vector<balancer
   int known = 0;
   for (const auto& rank : snapshot.ranks)
     if (rank.speed > 0) sum += rank.speed, ++known;
-  std::vector<double> work(snapshot.ranks.size(), 0.0);
+  IdVector<Rank, double> work(snapshot.ranks.size(), 0.0);
   for (const auto& s : snapshot.subdomains) {
     Rank owner = s.owner;
     for (const auto& move : moves)
       if (move.subdomain == s.id) owner = move.destination;
-    work[static_cast<std::size_t>(owner)] += s.remaining;
+    work[owner] += s.remaining;
   }
   double last = 0;
-  for (std::size_t r = 0; r < work.size(); ++r) {
+  for (const Rank r : ids_of(work)) {
     const double speed = snapshot.ranks[r].speed > 0 ? snapshot.ranks[r].speed : known > 0 ? sum / known : 1;
     last = std::max(last, work[r] / speed);
   }

@@ -48,12 +48,12 @@ class RandomSubdomains {
   RandomSubdomains& operator=(const RandomSubdomains&) = delete;
 
   [[nodiscard]] const SubdomainContext& context() const { return context_; }
-  [[nodiscard]] SubdomainId size() const { return static_cast<SubdomainId>(decomposition_.size()); }
+  [[nodiscard]] std::size_t size() const { return decomposition_.size(); }
   [[nodiscard]] std::mt19937_64& random() { return random_; }
   /// A point down to `deepest` halvings that a neighbour might put on the border of subdomain i.
-  [[nodiscard]] protocol::SplitEntry split_of(SubdomainId i, int deepest) {
+  [[nodiscard]] SplitPoint<GlobalRootId> split_of(SubdomainId i, int deepest) {
     const auto roots = decomposition_.roots_of(i);
-    const RootId root = roots[random_() % roots.size()];
+    const GlobalRootId root = roots[random_() % roots.size()];
     return {root, 1 + random_() % ((std::uint64_t{1} << deepest) - 1)};
   }
 
@@ -69,7 +69,7 @@ class RandomSubdomains {
     }
     if (random_() % 3 != 0) return;
     const double h = std::sqrt(area / triangles);
-    field_ = std::make_unique<RadialField>(decomposition_.points[0], h / 2, 0.1);
+    field_ = std::make_unique<RadialField>(decomposition_.points.front(), h / 2, 0.1);
     bounds.size = field_.get();
   }
 

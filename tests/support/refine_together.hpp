@@ -17,7 +17,7 @@ namespace driftmesh::testing {
 /// Refines all subdomains of a decomposition in one place, as ranks would: each alone, then split points on shared
 /// roots are exchanged until nothing changes.
 struct RefinedTogether {
-  std::vector<SubdomainMesh> parts;
+  IdVector<SubdomainId, SubdomainMesh> parts;
   int rounds = 0;             ///< of exchanges that brought something new
   std::size_t exchanged = 0;  ///< split points that one side had before the other
   std::size_t refused = 0;    ///< split points that the other side could not take
@@ -26,27 +26,26 @@ struct RefinedTogether {
 
 inline RefinedTogether refine_together(const Decomposition& d, const QualityBounds& bounds, int most_rounds = 100) {
   RefinedTogether result;
-  std::vector<std::unique_ptr<Refiner>> refiners;
-  for (std::size_t i = 0; i < d.size(); ++i)
-    result.parts.push_back(subdomain_triangulation(d, static_cast<SubdomainId>(i)));
+  IdVector<SubdomainId, std::unique_ptr<Refiner>> refiners;
+  for (const SubdomainId i : ids_of(d.subdomains)) result.parts.push_back(subdomain_triangulation(d, i));
   for (SubdomainMesh& part : result.parts) {
     refiners.push_back(std::make_unique<Refiner>(part.mesh, bounds));
     refiners.back()->refine();
   }
   for (bool changed = true; changed && result.rounds < most_rounds;) {
     changed = false;
-    std::map<RootId, std::set<dyadic::Path>> all;
-    std::vector<SplitPoints> own;
+    std::map<GlobalRootId, std::set<dyadic::Path>> all;
+    IdVector<SubdomainId, SplitPoints> own;
     for (const SubdomainMesh& part : result.parts) {
       own.push_back(split_points(part));
       for (const auto& [root, points] : own.back())
         for (const auto& point : points) all[root].insert(point.first);
     }
-    for (std::size_t i = 0; i < d.size(); ++i)
-      for (std::size_t r = 0; r < result.parts[i].roots.size(); ++r)
+    for (const SubdomainId i : ids_of(d.subdomains))
+      for (const RootId r : ids_of(result.parts[i].roots))
         for (const dyadic::Path path : all[result.parts[i].roots[r]]) {
           if (own[i][result.parts[i].roots[r]].contains(path)) continue;
-          result.refused += !refiners[i]->add_split_point(static_cast<RootId>(r), path);
+          result.refused += !refiners[i]->add_split_point(r, path);
           ++result.exchanged;
           changed = true;
         }
@@ -54,9 +53,9 @@ inline RefinedTogether refine_together(const Decomposition& d, const QualityBoun
     for (auto& refiner : refiners) refiner->refine();
   }
   SplitPoints first;
-  for (std::size_t i = 0; i < d.size(); ++i)
-    for (const RootId r : not_conforming_roots(result.parts[i], first))
-      result.not_conforming.push_back("root " + std::to_string(r) + " in subdomain " + std::to_string(i));
+  for (const SubdomainId i : ids_of(d.subdomains))
+    for (const GlobalRootId r : not_conforming_roots(result.parts[i], first))
+      result.not_conforming.push_back("root " + to_string(r) + " in subdomain " + to_string(i));
   return result;
 }
 

@@ -19,13 +19,13 @@ template <class Rules = protocol::SoundRules>
 struct SimulatedRanks {
   using Loop = BasicRankLoop<Rules>;
   std::unique_ptr<balancer::Council> council;
-  std::vector<std::unique_ptr<Loop>> loops;
-  std::vector<protocol::RankStep> steps;
+  IdVector<Rank, std::unique_ptr<Loop>> loops;
+  IdVector<Rank, protocol::RankStep> steps;
 
   template <class Network>
-  SimulatedRanks(Network& network, protocol::Rank ranks, const RunPlan& plan, const CostModel& costs = {}) {
+  SimulatedRanks(Network& network, std::int32_t ranks, const RunPlan& plan, const CostModel& costs = {}) {
     council = balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options);
-    for (protocol::Rank r = 0; r < ranks; ++r)
+    for (const Rank r : first_ids<Rank>(ranks))
       loops.push_back(
           std::make_unique<Loop>(network.transport(r), plan, costs, typename Loop::Observers{}, council.get()));
     for (const auto& loop : loops) steps.push_back([l = loop.get()] { return l->step(); });
@@ -47,14 +47,13 @@ inline std::vector<std::string> conformity_problems(const Decomposition& d,
   std::set<SubdomainId> seen;
   SplitPoints first;
   for (const Subdomain* s : subdomains) {
-    if (!seen.insert(s->id()).second) problems.push_back("subdomain " + std::to_string(s->id()) + " lives twice");
+    if (!seen.insert(s->id()).second) problems.push_back("subdomain " + to_string(s->id()) + " lives twice");
     if (!s->started() || s->active()) {
-      problems.push_back("subdomain " + std::to_string(s->id()) + " is not finished");
+      problems.push_back("subdomain " + to_string(s->id()) + " is not finished");
       continue;
     }
-    for (const RootId r : not_conforming_roots(s->mesh(), first))
-      problems.push_back("root " + std::to_string(r) + " of subdomain " + std::to_string(s->id()) +
-                         " does not conform");
+    for (const GlobalRootId r : not_conforming_roots(s->mesh(), first))
+      problems.push_back("root " + to_string(r) + " of subdomain " + to_string(s->id()) + " does not conform");
   }
   if (seen.size() != d.size()) problems.push_back(std::to_string(d.size() - seen.size()) + " subdomains are missing");
   return problems;

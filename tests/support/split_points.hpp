@@ -8,24 +8,24 @@
 namespace driftmesh::testing {
 
 /// Of each root: its split points by their names, with coordinates.
-using SplitPoints = std::map<RootId, std::map<dyadic::Path, Point>>;
+using SplitPoints = std::map<GlobalRootId, std::map<dyadic::Path, Point>>;
 
 inline SplitPoints split_points(const SubdomainMesh& part) {
   SplitPoints points;
   for (const Subsegment& s : part.mesh.subsegments)
     if (!s.is_leaf()) {
       const VertexId middle = part.mesh.subsegments[Triangulation::id(s.child)].vertex[1];
-      points[part.roots[Triangulation::id(s.root)]][s.path] = part.mesh.points[Triangulation::id(middle)];
+      points[part.roots[s.root]][s.path] = part.mesh.points[Triangulation::id(middle)];
     }
   return points;
 }
 
 /// The roots of this part whose split points are not those that the part before had there. `first` has the points of
 /// the parts before, and gets those of this one.
-inline std::vector<RootId> not_conforming_roots(const SubdomainMesh& part, SplitPoints& first) {
-  std::vector<RootId> differing;
+inline std::vector<GlobalRootId> not_conforming_roots(const SubdomainMesh& part, SplitPoints& first) {
+  std::vector<GlobalRootId> differing;
   SplitPoints own = split_points(part);
-  for (const RootId r : part.roots) {
+  for (const GlobalRootId r : part.roots) {
     const auto [entry, is_new] = first.emplace(r, own[r]);
     if (!is_new && entry->second != own[r]) differing.push_back(r);
   }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/lb_statistics.hpp"
+#include "support/id_literals.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::app;
@@ -16,15 +17,15 @@ namespace {
 ExperimentRun two_ranks(std::int32_t phases) {
   ExperimentRun run;
   run.request.lb_phases = phases;
-  run.plan.owners = {0, 0};
+  run.plan.owners = {0_rank, 0_rank};
   run.plan.decomposition.subdomains.resize(2);
-  run.plan.decomposition.subdomains[1].centroid = {3, 4};
+  run.plan.decomposition.subdomains[1_sub].centroid = {3, 4};
   run.speeds = {1e6, 2e6};
   run.outcome.makespan = 8;
   run.outcome.ranks.resize(2);
-  run.outcome.moves = {{1, 0, 1, 3.0, 3.5, 100}};
-  run.outcome.samples = {{2, 0, 0, 0, 2.0, 0}, {3, 0, 0, 0, 1.0, 1}, {7, 1, 0, 0, 3.5, 1}};
-  run.outcome.splits = {{2, 0, 0, 1, 5}, {7, 1, 1, 0, 2}};
+  run.outcome.moves = {{1_sub, 0_rank, 1_rank, 3.0, 3.5, 100}};
+  run.outcome.samples = {{2, 0_rank, 0, 0, 2.0, 0_sub}, {3, 0_rank, 0, 0, 1.0, 1_sub}, {7, 1_rank, 0, 0, 3.5, 1_sub}};
+  run.outcome.splits = {{2, 0_rank, 0_sub, 1_sub, 5}, {7, 1_rank, 1_sub, 0_sub, 2}};
   return run;
 }
 

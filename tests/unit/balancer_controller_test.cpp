@@ -4,6 +4,7 @@
 #include "balancer/knowledge.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "balancer/report_rule.hpp"
+#include "support/id_literals.hpp"
 #include "support/load_snapshots.hpp"
 
 using namespace driftmesh;
@@ -17,9 +18,9 @@ namespace {
 using Loads = std::vector<SubdomainLoad>;
 
 // Subdomains first .. last, of equal work, in epoch 0.
-Loads loads_of(SubdomainId first, SubdomainId last, double work) {
+Loads loads_of(std::int32_t first, std::int32_t last, double work) {
   Loads loads;
-  for (SubdomainId s = first; s <= last; ++s) loads.push_back({s, 0, work, 40});
+  for (std::int32_t s = first; s <= last; ++s) loads.push_back({SubdomainId{s}, 0, work, 40});
   return loads;
 }
 
@@ -58,84 +59,85 @@ TEST_CASE("a rank that works as it said has nothing to report") {
 
 TEST_CASE("what is known of a rank goes on as it said, in the order it said") {
   Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
-  CHECK(knowledge.snapshot(0, true).ranks[0].remaining == 2000);  // as the layout predicts
-  knowledge.hear(0, {1, 0, 100, {{1, 0, 500, 40}, {0, 0, 300, 40}}}, 1);
+  CHECK(knowledge.snapshot(0, true).ranks[0_rank].remaining == 2000);  // as the layout predicts
+  knowledge.hear(0_rank, {1, 0, 100, {{1_sub, 0, 500, 40}, {0_sub, 0, 300, 40}}}, 1);
   CHECK(!knowledge.complete());
   const LoadSnapshot s = knowledge.snapshot(7, true);
-  CHECK(find(s, 1) == nullptr);
-  CHECK(find(s, 0)->remaining == 200);
-  CHECK(find(s, 0)->owner == 0);
-  CHECK(s.ranks[0].remaining == 200);
-  CHECK(s.ranks[1].remaining == 2000);
-  CHECK(knowledge.snapshot(7, false).ranks[1].remaining == 2000);
+  CHECK(find(s, 1_sub) == nullptr);
+  CHECK(find(s, 0_sub)->remaining == 200);
+  CHECK(find(s, 0_sub)->owner == 0_rank);
+  CHECK(s.ranks[0_rank].remaining == 200);
+  CHECK(s.ranks[1_rank].remaining == 2000);
+  CHECK(knowledge.snapshot(7, false).ranks[1_rank].remaining == 2000);
   CHECK(knowledge.snapshot(7, false).subdomains.size() == 1);
 }
 
 TEST_CASE("late reports cannot move a subdomain back") {
   Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
-  knowledge.hear(1, {1, 0, 100, {{0, 1, 500, 40}, {2, 0, 500, 40}}}, 1);  // 0 has moved there
-  knowledge.hear(0, {1, 0, 100, {{0, 0, 900, 40}, {1, 0, 900, 40}}}, 2);  // sent before it did
+  knowledge.hear(1_rank, {1, 0, 100, {{0_sub, 1, 500, 40}, {2_sub, 0, 500, 40}}}, 1);  // 0 has moved there
+  knowledge.hear(0_rank, {1, 0, 100, {{0_sub, 0, 900, 40}, {1_sub, 0, 900, 40}}}, 2);  // sent before it did
   CHECK(knowledge.complete());
-  CHECK(knowledge.owner_of(0) == 1);
+  CHECK(knowledge.owner_of(0_sub) == 1_rank);
   const LoadSnapshot s = knowledge.snapshot(2, true);
-  CHECK(find(s, 0)->owner == 1);
-  CHECK(s.ranks[0].remaining == 900);
-  knowledge.hear(1, {1, 0, 100, {}}, 2);  // again, or an older one
-  CHECK(find(knowledge.snapshot(2, true), 0)->owner == 1);
+  CHECK(find(s, 0_sub)->owner == 1_rank);
+  CHECK(s.ranks[0_rank].remaining == 900);
+  knowledge.hear(1_rank, {1, 0, 100, {}}, 2);  // again, or an older one
+  CHECK(find(knowledge.snapshot(2, true), 0_sub)->owner == 1_rank);
 }
 
 TEST_CASE("planned moves count as made until it is known whether they were") {
   Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
-  knowledge.hear(0, {1, 0, 100, loads_of(0, 1, 1000)}, 0);
-  knowledge.hear(1, {1, 0, 100, loads_of(2, 3, 1000)}, 0);
+  knowledge.hear(0_rank, {1, 0, 100, loads_of(0, 1, 1000)}, 0);
+  knowledge.hear(1_rank, {1, 0, 100, loads_of(2, 3, 1000)}, 0);
   const LoadSnapshot before = knowledge.snapshot(0, true);
-  knowledge.expect(std::vector<Move>{{0, 1}, {1, 1}}, before, 1, 0);
-  CHECK(knowledge.snapshot(0, true).ranks[1].remaining == 4000);
-  CHECK(knowledge.in_motion(0));
+  knowledge.expect(std::vector<Move>{{0_sub, 1_rank}, {1_sub, 1_rank}}, before, 1, 0);
+  CHECK(knowledge.snapshot(0, true).ranks[1_rank].remaining == 4000);
+  CHECK(knowledge.in_motion(0_sub));
   // Rank 0 has followed the plan as for 0, and kept 1.
-  knowledge.hear(0, {2, 1, 100, loads_of(1, 1, 1000)}, 0);
-  CHECK(!knowledge.in_motion(1));
-  CHECK(knowledge.in_motion(0));
-  CHECK(find(knowledge.snapshot(0, true), 1)->owner == 0);
-  CHECK(find(knowledge.snapshot(0, true), 0)->owner == 1);
+  knowledge.hear(0_rank, {2, 1, 100, loads_of(1, 1, 1000)}, 0);
+  CHECK(!knowledge.in_motion(1_sub));
+  CHECK(knowledge.in_motion(0_sub));
+  CHECK(find(knowledge.snapshot(0, true), 1_sub)->owner == 0_rank);
+  CHECK(find(knowledge.snapshot(0, true), 0_sub)->owner == 1_rank);
   // It has arrived.
-  knowledge.hear(1, {2, 0, 100, {{2, 0, 1000, 40}, {3, 0, 1000, 40}, {0, 1, 800, 40}}}, 0);
-  CHECK(!knowledge.in_motion(0));
-  CHECK(find(knowledge.snapshot(0, true), 0)->remaining == 800);
+  knowledge.hear(1_rank, {2, 0, 100, {{2_sub, 0, 1000, 40}, {3_sub, 0, 1000, 40}, {0_sub, 1, 800, 40}}}, 0);
+  CHECK(!knowledge.in_motion(0_sub));
+  CHECK(find(knowledge.snapshot(0, true), 0_sub)->remaining == 800);
 }
 
 TEST_CASE("a planned move of which nothing is heard is forgotten") {
   Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
-  knowledge.hear(0, {1, 0, 0, loads_of(0, 1, 1000)}, 0);
-  knowledge.expect(std::vector<Move>{{0, 1}}, knowledge.snapshot(0, true), 1, 0);
-  knowledge.hear(1, {1, 0, 0, loads_of(2, 3, 1000)}, 9);
-  CHECK(knowledge.in_motion(0));
-  knowledge.hear(1, {2, 0, 0, loads_of(2, 3, 1000)}, 11);
-  CHECK(!knowledge.in_motion(0));
+  knowledge.hear(0_rank, {1, 0, 0, loads_of(0, 1, 1000)}, 0);
+  knowledge.expect(std::vector<Move>{{0_sub, 1_rank}}, knowledge.snapshot(0, true), 1, 0);
+  knowledge.hear(1_rank, {1, 0, 0, loads_of(2, 3, 1000)}, 9);
+  CHECK(knowledge.in_motion(0_sub));
+  knowledge.hear(1_rank, {2, 0, 0, loads_of(2, 3, 1000)}, 11);
+  CHECK(!knowledge.in_motion(0_sub));
 }
 
 TEST_CASE("the leader plans when all have reported, and a rank follows") {
   const Layout layout = grid_layout(12, 1, 2);
-  Controller leader = controller_of(0, layout, "greedy", 100), other = controller_of(1, layout, "greedy", 100);
+  Controller leader = controller_of(0_rank, layout, "greedy", 100),
+             other = controller_of(1_rank, layout, "greedy", 100);
   CHECK(leader.due(100));
   CHECK(leader.think(100, loads_of(0, 5, 1000), 400).moves.empty());
   CHECK(!leader.due(100.001));
 
   const Decision report = other.think(100, loads_of(6, 11, 1000), 100);
   REQUIRE(sent<LoadReport>(report).size() == 1);
-  CHECK(sent<LoadReport>(report)[0].first == 0);
-  leader.receive(1, report.messages[0].message, 100.1);
+  CHECK(sent<LoadReport>(report)[0].first == 0_rank);
+  leader.receive(1_rank, report.messages[0].message, 100.1);
   CHECK(leader.due(100.1));
   const Decision decision = leader.think(100.1, loads_of(0, 5, 1000), 400);
   CHECK(decision.planned);
   CHECK(decision.moves.empty());
   const auto plans = sent<protocol::Plan>(decision);
   REQUIRE(plans.size() == 1);
-  CHECK(plans[0].first == 1);
+  CHECK(plans[0].first == 1_rank);
   CHECK(plans[0].second.moves.size() == 4);
 
   // What is not here, or finished, or costs more than it is worth, stays.
-  other.receive(0, plans[0].second, 100.2);
+  other.receive(0_rank, plans[0].second, 100.2);
   CHECK(other.waiting());
   Loads here = loads_of(6, 11, 1000);
   here.pop_back();
@@ -154,13 +156,13 @@ TEST_CASE("a rank without work sends none, whatever it is told") {
   const Layout layout = grid_layout(12, 1, 3);
   for (const std::string& policy : policy_names()) {
     CAPTURE(policy);
-    for (Rank self = 0; self < 3; ++self) {
+    for (const Rank self : first_ids<Rank>(3)) {
       Controller c = controller_of(self, layout, policy);
-      c.receive(2, protocol::Plan{1, {{0, 1}, {4, 2}, {9, 0}}}, 0);
-      c.receive(2, LoadReport{1, 0, 10, loads_of(8, 11, 1e6)}, 0);
-      c.receive(2, protocol::LoadNews{1, 4e6, 3e6, 10}, 0);
-      c.receive(2, protocol::WorkRequest{2, 1, 0, 10, 0}, 0);
-      c.receive(2, protocol::WorkAnswer{7, {{3, self}}}, 0);
+      c.receive(2_rank, protocol::Plan{1, {{0_sub, 1_rank}, {4_sub, 2_rank}, {9_sub, 0_rank}}}, 0);
+      c.receive(2_rank, LoadReport{1, 0, 10, loads_of(8, 11, 1e6)}, 0);
+      c.receive(2_rank, protocol::LoadNews{1, 4e6, 3e6, 10}, 0);
+      c.receive(2_rank, protocol::WorkRequest{2_rank, 1, 0, 10, 0}, 0);
+      c.receive(2_rank, protocol::WorkAnswer{7, {{3_sub, self}}}, 0);
       CHECK(c.think(0.1, {}, 100).moves.empty());
     }
   }
@@ -168,32 +170,32 @@ TEST_CASE("a rank without work sends none, whatever it is told") {
 
 TEST_CASE("a rank that runs low asks, and waits for the answer") {
   const Layout layout = grid_layout(12, 1, 3);
-  Controller broker = controller_of(0, layout, "stealing"), thief = controller_of(1, layout, "stealing"),
-             victim = controller_of(2, layout, "stealing");
-  broker.receive(2, protocol::LoadNews{1, 4000, 3000, 100}, 1);
+  Controller broker = controller_of(0_rank, layout, "stealing"), thief = controller_of(1_rank, layout, "stealing"),
+             victim = controller_of(2_rank, layout, "stealing");
+  broker.receive(2_rank, protocol::LoadNews{1, 4000, 3000, 100}, 1);
   CHECK(broker.think(1, loads_of(0, 1, 1000), 1000).moves.empty());
 
   const auto request = sent<protocol::WorkRequest>(thief.think(1, loads_of(4, 4, 10), 300));
   REQUIRE(request.size() == 1);
-  CHECK(request[0].first == 0);
+  CHECK(request[0].first == 0_rank);
   CHECK(thief.waiting());
 
-  broker.receive(1, request[0].second, 1);
+  broker.receive(1_rank, request[0].second, 1);
   CHECK(broker.waiting());
   const auto passed_on = sent<protocol::WorkRequest>(broker.think(1, loads_of(0, 1, 1000), 1000));
   CHECK(!broker.waiting());
   REQUIRE(passed_on.size() == 1);
-  CHECK(passed_on[0].first == 2);
+  CHECK(passed_on[0].first == 2_rank);
 
-  victim.receive(0, passed_on[0].second, 1);
+  victim.receive(0_rank, passed_on[0].second, 1);
   const Decision gift = victim.think(1, loads_of(8, 11, 1000), 100);
   const auto answer = sent<protocol::WorkAnswer>(gift);
   REQUIRE(answer.size() == 1);
-  CHECK(answer[0].first == 1);
+  CHECK(answer[0].first == 1_rank);
   CHECK(gift.moves.size() == 3);
-  for (const Move& move : gift.moves) CHECK(move.destination == 1);
+  for (const Move& move : gift.moves) CHECK(move.destination == 1_rank);
 
-  thief.receive(2, answer[0].second, 1);
+  thief.receive(2_rank, answer[0].second, 1);
   CHECK(!thief.waiting());
   CHECK(sent<protocol::WorkRequest>(thief.think(1.5, loads_of(4, 4, 5), 300)).empty());  // there is some on its way
 }
@@ -202,51 +204,51 @@ TEST_CASE("a rank asks again when all that was promised has come, though it was 
   const Layout layout = grid_layout(12, 1, 3);
   for (const bool answer_first : {true, false}) {
     CAPTURE(answer_first);
-    Controller thief = controller_of(1, layout, "stealing");
+    Controller thief = controller_of(1_rank, layout, "stealing");
     const auto request = sent<protocol::WorkRequest>(thief.think(1, loads_of(4, 4, 10), 300));
     REQUIRE(request.size() == 1);
-    const protocol::WorkAnswer answer{request[0].second.round, {{8, 1}, {9, 1}}};
-    if (answer_first) thief.receive(2, answer, 1);
-    thief.arrived(8, 1, 1);
+    const protocol::WorkAnswer answer{request[0].second.round, {{8_sub, 1_rank}, {9_sub, 1_rank}}};
+    if (answer_first) thief.receive(2_rank, answer, 1);
+    thief.arrived(8_sub, 1, 1);
     CHECK(sent<protocol::WorkRequest>(thief.think(1.01, {}, 300)).empty());
-    thief.arrived(9, 1, 1);
-    if (!answer_first) thief.receive(2, answer, 1);
+    thief.arrived(9_sub, 1, 1);
+    if (!answer_first) thief.receive(2_rank, answer, 1);
     CHECK(sent<protocol::WorkRequest>(thief.think(1.02, {}, 300)).size() == 1);
   }
 }
 
 TEST_CASE("who planned a move hears that it was made, though the subdomain was finished at once") {
   const Layout layout = grid_layout(12, 1, 2);
-  Controller rank = controller_of(1, layout, "greedy");
+  Controller rank = controller_of(1_rank, layout, "greedy");
   CHECK(sent<LoadReport>(rank.think(1, loads_of(6, 11, 1000), 300)).size() == 1);
-  rank.arrived(3, 1, 1);
+  rank.arrived(3_sub, 1, 1);
   const auto report = sent<LoadReport>(rank.think(2, loads_of(6, 11, 950), 300));
   REQUIRE(report.size() == 1);
   REQUIRE(report[0].second.loads.size() == 7);
-  CHECK(report[0].second.loads.back() == SubdomainLoad{3, 1, 0, 0});
+  CHECK(report[0].second.loads.back() == SubdomainLoad{3_sub, 1, 0, 0});
 
   Knowledge knowledge(std::make_shared<Layout>(layout), 3);
-  knowledge.hear(0, {1, 0, 300, loads_of(0, 5, 1000)}, 1);
-  knowledge.hear(1, {1, 0, 300, loads_of(6, 11, 1000)}, 1);
-  knowledge.expect(std::vector<Move>{{3, 1}}, knowledge.snapshot(1, true), 1, 1);
-  CHECK(knowledge.in_motion(3));
-  knowledge.hear(1, {2, 0, 300, report[0].second.loads}, 2);
-  CHECK(!knowledge.in_motion(3));
-  CHECK(knowledge.owner_of(3) == 1);
-  CHECK(knowledge.snapshot(2, true).ranks[1].remaining == doctest::Approx(6 * 950));
+  knowledge.hear(0_rank, {1, 0, 300, loads_of(0, 5, 1000)}, 1);
+  knowledge.hear(1_rank, {1, 0, 300, loads_of(6, 11, 1000)}, 1);
+  knowledge.expect(std::vector<Move>{{3_sub, 1_rank}}, knowledge.snapshot(1, true), 1, 1);
+  CHECK(knowledge.in_motion(3_sub));
+  knowledge.hear(1_rank, {2, 0, 300, report[0].second.loads}, 2);
+  CHECK(!knowledge.in_motion(3_sub));
+  CHECK(knowledge.owner_of(3_sub) == 1_rank);
+  CHECK(knowledge.snapshot(2, true).ranks[1_rank].remaining == doctest::Approx(6 * 950));
 }
 
 TEST_CASE("a refused rank does not ask without end, and is thought of later") {
   const Layout layout = grid_layout(12, 1, 2);
-  Controller broker = controller_of(0, layout, "stealing"), thief = controller_of(1, layout, "stealing");
+  Controller broker = controller_of(0_rank, layout, "stealing"), thief = controller_of(1_rank, layout, "stealing");
   const auto request = sent<protocol::WorkRequest>(thief.think(1, {}, 300));
   REQUIRE(request.size() == 1);
-  broker.receive(1, protocol::LoadNews{1, 0, 0, 300}, 1);
-  broker.receive(1, request[0].second, 1);
+  broker.receive(1_rank, protocol::LoadNews{1, 0, 0, 300}, 1);
+  broker.receive(1_rank, request[0].second, 1);
   const auto refusal = sent<protocol::WorkAnswer>(broker.think(1, {}, 1000));
   REQUIRE(refusal.size() == 1);
   CHECK(refusal[0].second.moves.empty());
-  thief.receive(0, refusal[0].second, 1);
+  thief.receive(0_rank, refusal[0].second, 1);
   CHECK(!thief.waiting());
   for (int i = 0; i < 100; ++i) CHECK(sent<protocol::WorkRequest>(thief.think(2 + i, {}, 300)).empty());
 

@@ -4,6 +4,7 @@
 
 #include "balancer/policies/policy_factory.hpp"
 #include "driftmesh/error.hpp"
+#include "support/id_literals.hpp"
 #include "support/load_snapshots.hpp"
 
 using namespace driftmesh;
@@ -61,24 +62,24 @@ TEST_CASE("none leaves everything where it is") {
   const auto policy = make_policy("none");
   CHECK(policy->placement() == Placement::kNobody);
   const LoadSnapshot s = initial_snapshot(grid_layout(6, 6, 2), {1, 100});
-  CHECK(policy->plan(s, 0).empty());
+  CHECK(policy->plan(s, 0_rank).empty());
   CHECK(!policy->runs_low(0));
-  CHECK(!policy->victim(s, 1, {true, true}));
-  CHECK(policy->give(s, 0, 1).empty());
+  CHECK(!policy->victim(s, 1_rank, {true, true}));
+  CHECK(policy->give(s, 0_rank, 1_rank).empty());
 }
 
 TEST_CASE("greedy moves no more than it must") {
   const auto policy = make_policy("greedy");
   CHECK(policy->placement() == Placement::kLeader);
   const LoadSnapshot s = initial_snapshot(grid_layout(10, 10, 4), {100, 100, 100, 200});
-  const auto moves = policy->plan(s, 0);
+  const auto moves = policy->plan(s, 0_rank);
   CHECK(moves.size() == 15);
-  for (const Move& move : moves) CHECK(move.destination == 3);
+  for (const Move& move : moves) CHECK(move.destination == 3_rank);
   CHECK(time_with(s, moves) == 200);
 }
 
 TEST_CASE("zoltan balances work over speed with every method and approach") {
-  const std::vector<double> speeds{110, 110, 92, 186, 186, 110, 186, 92};
+  const IdVector<Rank, double> speeds{110, 110, 92, 186, 186, 110, 186, 92};
   const LoadSnapshot s = initial_snapshot(grid_layout(16, 14, 8), speeds);
   for (const char* method : {"rcb", "hsfc", "graph", "hypergraph"})
     for (const char* approach : {"partition", "repartition", "refine"}) {
@@ -86,28 +87,28 @@ TEST_CASE("zoltan balances work over speed with every method and approach") {
       CAPTURE(approach);
       const auto policy = make_policy("zoltan", {{"method", method}, {"approach", approach}});
       CHECK(policy->placement() == Placement::kLeader);
-      const auto moves = policy->plan(s, 0);
+      const auto moves = policy->plan(s, 0_rank);
       CHECK(time_with(s, moves) < 1.06 * ideal_time(s));
-      CHECK(policy->plan(s, 0) == moves);  // a pure function
+      CHECK(policy->plan(s, 0_rank) == moves);  // a pure function
     }
 }
 
 TEST_CASE("zoltan's graphs keep borders between ranks short, and repartition moves less than partition") {
   const LoadSnapshot s = initial_snapshot(grid_layout(40, 40, 8), {1, 1, 1, 1, 2, 2, 2, 2});
   const auto moves_of = [&](const char* approach) {
-    return make_policy("zoltan", {{"method", "graph"}, {"approach", approach}})->plan(s, 0);
+    return make_policy("zoltan", {{"method", "graph"}, {"approach", approach}})->plan(s, 0_rank);
   };
   const auto moves = moves_of("partition");
   LoadSnapshot scattered = s;
-  for (auto& subdomain : scattered.subdomains) subdomain.owner = subdomain.id % 8;
+  for (auto& subdomain : scattered.subdomains) subdomain.owner = Rank{to_int(subdomain.id) % 8};
   CHECK(cut_length(after(s, moves)) < 0.15 * cut_length(scattered));
   CHECK(moves_of("repartition").size() < moves.size());
 }
 
 TEST_CASE("zoltan takes its own parameters") {
   const LoadSnapshot s = initial_snapshot(grid_layout(20, 20, 4), {1, 1, 1, 3});
-  const auto strict = make_policy("zoltan", {{"polish", "false"}, {"IMBALANCE_TOL", "1.01"}})->plan(s, 0);
-  const auto loose = make_policy("zoltan", {{"polish", "false"}, {"IMBALANCE_TOL", "1.5"}})->plan(s, 0);
+  const auto strict = make_policy("zoltan", {{"polish", "false"}, {"IMBALANCE_TOL", "1.01"}})->plan(s, 0_rank);
+  const auto loose = make_policy("zoltan", {{"polish", "false"}, {"IMBALANCE_TOL", "1.5"}})->plan(s, 0_rank);
   CHECK(time_with(s, strict) < time_with(s, loose));
 }
 
@@ -115,14 +116,14 @@ TEST_CASE("zoltan copes with fewer subdomains than ranks, none, and one rank") {
   for (const char* method : {"rcb", "hsfc", "graph", "hypergraph"}) {
     CAPTURE(method);
     const auto policy = make_policy("zoltan", {{"method", method}});
-    LoadSnapshot few = initial_snapshot(grid_layout(3, 1, 12), std::vector<double>(12, 1.0));
-    for (auto& subdomain : few.subdomains) subdomain.owner = 5;
+    LoadSnapshot few = initial_snapshot(grid_layout(3, 1, 12), IdVector<Rank, double>(12, 1.0));
+    for (auto& subdomain : few.subdomains) subdomain.owner = 5_rank;
     sum_up(few);
-    CHECK(time_with(few, policy->plan(few, 0)) <= finishing_time(few));
+    CHECK(time_with(few, policy->plan(few, 0_rank)) <= finishing_time(few));
     few.subdomains.clear();
     sum_up(few);
-    CHECK(policy->plan(few, 0).empty());
-    CHECK(policy->plan(initial_snapshot(grid_layout(4, 4, 1), {1}), 0).empty());
+    CHECK(policy->plan(few, 0_rank).empty());
+    CHECK(policy->plan(initial_snapshot(grid_layout(4, 4, 1), {1}), 0_rank).empty());
   }
 }
 
@@ -131,15 +132,15 @@ TEST_CASE("diffusion sends work to the neighbours that finish earlier") {
   CHECK(policy->placement() == Placement::kNeighbours);
   // Three ranks in a row, the first one ten times as fast as the others.
   const LoadSnapshot s = initial_snapshot(grid_layout(90, 10, 3), {1000, 100, 100});
-  CHECK(policy->plan(s, 0).empty());
-  const auto moves = policy->plan(s, 1);
+  CHECK(policy->plan(s, 0_rank).empty());
+  const auto moves = policy->plan(s, 1_rank);
   CHECK(!moves.empty());
   std::set<SubdomainId> first_row;
   for (const Move& move : moves) {
-    CHECK(move.destination == 0);
-    CHECK(find(s, move.subdomain)->owner == 1);
+    CHECK(move.destination == 0_rank);
+    CHECK(find(s, move.subdomain)->owner == 1_rank);
   }
-  CHECK(policy->plan(s, 2).empty());  // rank 0 is not its neighbour, and rank 1 has as much as it has
+  CHECK(policy->plan(s, 2_rank).empty());  // rank 0 is not its neighbour, and rank 1 has as much as it has
 }
 
 TEST_CASE("repeated diffusion evens out a chain of ranks") {
@@ -148,7 +149,7 @@ TEST_CASE("repeated diffusion evens out a chain of ranks") {
   const double before = finishing_time(s) / ideal_time(s);
   for (int round = 0; round < 100; ++round) {
     std::vector<Move> moves;
-    for (Rank r = 0; r < 6; ++r)
+    for (const Rank r : first_ids<Rank>(6))
       for (const Move& move : policy->plan(s, r)) moves.push_back(move);
     s = after(s, moves);
   }
@@ -163,27 +164,27 @@ TEST_CASE("a rank that runs low gets work from the one that will finish last") {
   CHECK(policy->runs_low(0.4));
   CHECK(!policy->runs_low(0.6));
   LoadSnapshot s = initial_snapshot(grid_layout(12, 1, 4), {1000, 1000, 1000, 1000});
-  const std::vector<bool> all(4, true);
-  s.ranks[1].remaining = 400;
-  s.ranks[2].remaining = 8000;
-  s.ranks[3].remaining = 9000;
-  CHECK(policy->victim(s, 1, all) == 3);
-  CHECK(policy->victim(s, 1, {true, true, true, false}) == 2);  // rank 3 has nothing to give
-  s.ranks[3].speed = 1e6;
-  CHECK(policy->victim(s, 1, all) == 2);  // rank 3 is so fast that it needs no help
-  s.ranks[3].speed = 0;
-  CHECK(policy->victim(s, 1, all) == 3);  // probably as fast as the others
-  s.ranks[0].remaining = s.ranks[2].remaining = s.ranks[3].remaining = 400;
-  CHECK(!policy->victim(s, 1, all));  // they will not finish later
+  const IdVector<Rank, bool> all(4, true);
+  s.ranks[1_rank].remaining = 400;
+  s.ranks[2_rank].remaining = 8000;
+  s.ranks[3_rank].remaining = 9000;
+  CHECK(policy->victim(s, 1_rank, all) == 3_rank);
+  CHECK(policy->victim(s, 1_rank, {true, true, true, false}) == 2_rank);  // rank 3 has nothing to give
+  s.ranks[3_rank].speed = 1e6;
+  CHECK(policy->victim(s, 1_rank, all) == 2_rank);  // rank 3 is so fast that it needs no help
+  s.ranks[3_rank].speed = 0;
+  CHECK(policy->victim(s, 1_rank, all) == 3_rank);  // probably as fast as the others
+  s.ranks[0_rank].remaining = s.ranks[2_rank].remaining = s.ranks[3_rank].remaining = 400;
+  CHECK(!policy->victim(s, 1_rank, all));  // they will not finish later
 }
 
 TEST_CASE("a rank gives as long as the other one finishes that earlier") {
   const auto policy = make_policy("stealing");
   LoadSnapshot s = initial_snapshot(grid_layout(20, 1, 2), {100, 300});
-  s.ranks[1].remaining = 0;
-  const auto moves = policy->give(s, 0, 1);
+  s.ranks[1_rank].remaining = 0;
+  const auto moves = policy->give(s, 0_rank, 1_rank);
   CHECK(moves.size() == 8);  // of 10: 20 s against 26.7 s; with a ninth it would be 10 s against 30 s
-  for (const Move& move : moves) CHECK(move.destination == 1);
-  s.ranks[1].remaining = 1e6;
-  CHECK(policy->give(s, 0, 1).empty());
+  for (const Move& move : moves) CHECK(move.destination == 1_rank);
+  s.ranks[1_rank].remaining = 1e6;
+  CHECK(policy->give(s, 0_rank, 1_rank).empty());
 }

@@ -5,6 +5,7 @@
 #include "balancer/speed_estimate.hpp"
 #include "balancer/surplus.hpp"
 #include "protocol/messages.hpp"
+#include "support/id_literals.hpp"
 #include "support/load_snapshots.hpp"
 
 using namespace driftmesh;
@@ -12,22 +13,38 @@ using namespace driftmesh::balancer;
 using driftmesh::testing::grid_layout;
 using driftmesh::testing::initial_snapshot;
 
+namespace {
+
+std::vector<Part> parts_of(std::initializer_list<std::int32_t> numbers) {
+  std::vector<Part> parts;
+  for (const std::int32_t n : numbers) parts.push_back(Part{n});
+  return parts;
+}
+
+std::vector<Rank> ranks_of(std::initializer_list<std::int32_t> numbers) {
+  std::vector<Rank> ranks;
+  for (const std::int32_t n : numbers) ranks.push_back(Rank{n});
+  return ranks;
+}
+
+}  // namespace
+
 TEST_CASE("the finishing time is that of the slowest rank for its work") {
   const LoadSnapshot s = initial_snapshot(grid_layout(8, 1, 2), {1000, 250});
   CHECK(finishing_time(s) == 16);
   CHECK(ideal_time(s) == 8000.0 / 1250);
-  const LoadSnapshot better = after(s, std::vector<Move>{{4, 0}, {5, 0}});
+  const LoadSnapshot better = after(s, std::vector<Move>{{4_sub, 0_rank}, {5_sub, 0_rank}});
   CHECK(finishing_time(better) == 8);
-  CHECK(moves_between(s, better) == std::vector<Move>{{4, 0}, {5, 0}});
+  CHECK(moves_between(s, better) == std::vector<Move>{{4_sub, 0_rank}, {5_sub, 0_rank}});
 }
 
 TEST_CASE("unknown and impossible speeds count as the mean of the others") {
-  std::vector<RankState> ranks(4);
-  CHECK(assumed_speeds(ranks) == std::vector<double>{1, 1, 1, 1});
-  ranks[1].speed = 100;
-  ranks[2].speed = 300;
-  ranks[3].speed = -5;
-  CHECK(assumed_speeds(ranks) == std::vector<double>{200, 100, 300, 200});
+  IdVector<Rank, RankState> ranks(4);
+  CHECK(assumed_speeds(ranks) == IdVector<Rank, double>{1, 1, 1, 1});
+  ranks[1_rank].speed = 100;
+  ranks[2_rank].speed = 300;
+  ranks[3_rank].speed = -5;
+  CHECK(assumed_speeds(ranks) == IdVector<Rank, double>{200, 100, 300, 200});
   CHECK(finishing_time(LoadSnapshot{}) == 0);
   CHECK(ideal_time(LoadSnapshot{}) == 0);
 }
@@ -35,9 +52,9 @@ TEST_CASE("unknown and impossible speeds count as the mean of the others") {
 TEST_CASE("subdomains are found by number, if they are listed") {
   LoadSnapshot s = initial_snapshot(grid_layout(5, 1, 1), {1});
   s.subdomains.erase(s.subdomains.begin() + 2);
-  CHECK(find(s, 3)->id == 3);
-  CHECK(find(s, 2) == nullptr);
-  CHECK(find(s, 9) == nullptr);
+  CHECK(find(s, 3_sub)->id == 3_sub);
+  CHECK(find(s, 2_sub) == nullptr);
+  CHECK(find(s, 9_sub) == nullptr);
 }
 
 TEST_CASE("a speed is known after a while, and follows what happens") {
@@ -81,35 +98,35 @@ TEST_CASE("surplus goes to who finishes it first") {
 
 TEST_CASE("parts go to the ranks that hold most of their work") {
   const LoadSnapshot s = initial_snapshot(grid_layout(9, 1, 3), {100, 100, 100});
-  const std::vector<Rank> parts{2, 2, 2, 0, 0, 0, 1, 1, 1};
-  CHECK(remap_parts(s, parts, 0.02) == std::vector<Rank>{0, 0, 0, 1, 1, 1, 2, 2, 2});
+  const std::vector<Part> parts = parts_of({2, 2, 2, 0, 0, 0, 1, 1, 1});
+  CHECK(remap_parts(s, parts, 0.02) == ranks_of({0, 0, 0, 1, 1, 1, 2, 2, 2}));
 }
 
 TEST_CASE("a part that is too large for a slow rank does not go there") {
   const LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {100, 400});
   // Part 1, of 8 subdomains, holds all that rank 0 has; rank 0 is too slow for it.
-  const std::vector<Rank> parts{1, 1, 1, 1, 1, 1, 1, 1, 0, 0};
-  CHECK(remap_parts(s, parts, 0.02) == parts);
+  CHECK(remap_parts(s, parts_of({1, 1, 1, 1, 1, 1, 1, 1, 0, 0}), 0.02) == ranks_of({1, 1, 1, 1, 1, 1, 1, 1, 0, 0}));
 }
 
 TEST_CASE("moves that gain nothing are not worth making") {
   const LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {100, 100});
-  CHECK(worth_moving(s, std::vector<Move>{{0, 1}}, {}).empty());          // makes it worse
-  CHECK(worth_moving(s, std::vector<Move>{{0, 1}, {9, 0}}, {}).empty());  // an exchange
+  CHECK(worth_moving(s, std::vector<Move>{{0_sub, 1_rank}}, {}).empty());                   // makes it worse
+  CHECK(worth_moving(s, std::vector<Move>{{0_sub, 1_rank}, {9_sub, 0_rank}}, {}).empty());  // an exchange
   CHECK(worth_moving(s, std::vector<Move>{}, {}).empty());
 }
 
 TEST_CASE("moves that are not valid are left out") {
   const LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {100, 400});
-  const std::vector<Move> plan{{0, 1}, {0, 1}, {1, 0}, {99, 1}, {2, 7}, {3, -1}, {4, 1}, {5, 1}};
-  CHECK(worth_moving(s, plan, {}) == std::vector<Move>{{0, 1}, {4, 1}});
+  const std::vector<Move> plan{{0_sub, 1_rank}, {0_sub, 1_rank},   {1_sub, 0_rank}, {99_sub, 1_rank},
+                               {2_sub, 7_rank}, {3_sub, Rank{-1}}, {4_sub, 1_rank}, {5_sub, 1_rank}};
+  CHECK(worth_moving(s, plan, {}) == std::vector<Move>{{0_sub, 1_rank}, {4_sub, 1_rank}});
 }
 
 TEST_CASE("what costs more to move than to finish stays") {
   LoadSnapshot s = initial_snapshot(grid_layout(4, 1, 2), {1000, 1000});
   s.subdomains[2].remaining = s.subdomains[3].remaining = 0;
   sum_up(s);
-  const std::vector<Move> plan{{0, 1}};
+  const std::vector<Move> plan{{0_sub, 1_rank}};
   CHECK(worth_moving(s, plan, {}) == plan);
   // In the time that a byte takes to pack these ranks make 0.015 triangles.
   s.subdomains[0].bytes = 80'000;  // 1.2 s to pack, for 1 s of work
@@ -120,21 +137,21 @@ TEST_CASE("what costs more to move than to finish stays") {
 
 TEST_CASE("what one message cannot carry stays, however much there is to gain") {
   LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {1e6, 1e6});
-  for (SubdomainState& subdomain : s.subdomains) subdomain.remaining = subdomain.owner == 0 ? 1e12 : 0;
+  for (SubdomainState& subdomain : s.subdomains) subdomain.remaining = subdomain.owner == 0_rank ? 1e12 : 0;
   sum_up(s);
-  const std::vector<Move> plan{{0, 1}, {1, 1}};
+  const std::vector<Move> plan{{0_sub, 1_rank}, {1_sub, 1_rank}};
   CHECK(worth_moving(s, plan, {}) == plan);
   s.subdomains[0].bytes = protocol::kMostPackedBytes + 1;
-  CHECK(worth_moving(s, plan, {}) == std::vector<Move>{{1, 1}});
+  CHECK(worth_moving(s, plan, {}) == std::vector<Move>{{1_sub, 1_rank}});
 }
 
 TEST_CASE("a rank keeps what it can in its spare time, and first what is dear to move") {
   LoadSnapshot s = initial_snapshot(grid_layout(6, 1, 2), {1000, 1000});
   s.subdomains[1].bytes = 5'000;
-  const std::vector<Move> plan{{0, 1}, {1, 1}, {2, 1}};
-  CHECK(needed_moves(s, plan, {}, 0, 0.5) == plan);  // each is a second of work
-  CHECK(needed_moves(s, plan, {}, 0, 1.1) == std::vector<Move>{{0, 1}, {2, 1}});
-  CHECK(needed_moves(s, plan, {}, 0, 5).empty());
+  const std::vector<Move> plan{{0_sub, 1_rank}, {1_sub, 1_rank}, {2_sub, 1_rank}};
+  CHECK(needed_moves(s, plan, {}, 0_rank, 0.5) == plan);  // each is a second of work
+  CHECK(needed_moves(s, plan, {}, 0_rank, 1.1) == std::vector<Move>{{0_sub, 1_rank}, {2_sub, 1_rank}});
+  CHECK(needed_moves(s, plan, {}, 0_rank, 5).empty());
 }
 
 TEST_CASE("what a fast rank packs in no time is dear on a slow one") {
@@ -143,7 +160,7 @@ TEST_CASE("what a fast rank packs in no time is dear on a slow one") {
     for (SubdomainState& subdomain : s.subdomains) subdomain.remaining *= speed / 1000, subdomain.bytes = 1'000'000;
     s.subdomains[2].remaining = s.subdomains[3].remaining = 0;
     sum_up(s);
-    return worth_moving(s, std::vector<Move>{{0, 1}}, {}).size();
+    return worth_moving(s, std::vector<Move>{{0_sub, 1_rank}}, {}).size();
   };
   CHECK(moves(1e6) == 1);  // 1 s of work either way
   CHECK(moves(1e3) == 0);
@@ -157,5 +174,5 @@ TEST_CASE("of moves that are not needed the dear ones are dropped") {
   s.subdomains[2].remaining = 2000;
   sum_up(s);
   // Rank 1 has 3 s of work, the others 1.1 and 0. Moving the small heavy one as well gains nothing.
-  CHECK(worth_moving(s, std::vector<Move>{{1, 2}, {3, 2}}, {}) == std::vector<Move>{{3, 2}});
+  CHECK(worth_moving(s, std::vector<Move>{{1_sub, 2_rank}, {3_sub, 2_rank}}, {}) == std::vector<Move>{{3_sub, 2_rank}});
 }

@@ -34,11 +34,11 @@ TEST_CASE("speeds and groups follow the numbers of the ranks") {
   cluster.groups = {{"slow", 2, 100e3}, {"as here", 1, 0}};
   const CostModel costs;
   CHECK(ranks_of(cluster) == 3);
-  CHECK(speeds_of(cluster, costs) == std::vector<double>{100e3, 100e3, reference_speed(costs)});
+  CHECK(speeds_of(cluster, costs) == IdVector<Rank, double>{100e3, 100e3, reference_speed(costs)});
   CHECK(groups_of(cluster) == std::vector<std::size_t>{0, 0, 1});
   CHECK_THROWS_AS(static_cast<void>(speeds_of({}, costs)), Error);
   cluster.drag = {1, 0.5, 0.1};
-  CHECK(speeds_of(cluster, costs) == std::vector<double>{100e3, 50e3, 0.1 * reference_speed(costs)});
+  CHECK(speeds_of(cluster, costs) == IdVector<Rank, double>{100e3, 50e3, 0.1 * reference_speed(costs)});
   cluster.drag = {1, 1};
   CHECK_THROWS_AS(static_cast<void>(speeds_of(cluster, costs)), Error);
   cluster.drag = {1, 0, 1};
@@ -66,13 +66,13 @@ TEST_CASE("a simulated run is the same each time, and its figures belong togethe
   CHECK(last_progress == triangles);
   CHECK(run.owners == plan.owners);
   std::int64_t sent = 0, handled = 0;
-  for (std::size_t r = 0; r < run.ranks.size(); ++r) {
+  for (const Rank r : ids_of(run.ranks)) {
     const RankOutcome& rank = run.ranks[r];
     sent += rank.counters.splits_sent;
     handled += rank.counters.splits_handled;
     CHECK(rank.times.total() <= run.makespan * (1 + 1e-9));
     CHECK(rank.times.total() > 0.99 * run.makespan - 1e-3);
-    CHECK(rank.subdomains == std::count(plan.owners.begin(), plan.owners.end(), static_cast<protocol::Rank>(r)));
+    CHECK(rank.subdomains == std::count(plan.owners.begin(), plan.owners.end(), r));
   }
   CHECK(sent > 0);
   CHECK(sent == handled);
@@ -85,7 +85,7 @@ TEST_CASE("a simulated run is the same each time, and its figures belong togethe
 TEST_CASE("samples show the load of each rank go from its forecast to nothing") {
   const RunPlan plan = pipe_plan(40e3, 4, 40, Presplit::kOn);
   const ClusterRun run = simulate(plan, equal_ranks(4));
-  std::map<protocol::Rank, LoadSample> first, last;
+  std::map<Rank, LoadSample> first, last;
   double time = 0;
   for (const LoadSample& s : run.samples) {
     CHECK(s.time >= time);
@@ -96,12 +96,12 @@ TEST_CASE("samples show the load of each rank go from its forecast to nothing") 
   REQUIRE(last.size() == 4);
   for (const auto& [rank, sample] : last) {
     double forecast = 0;
-    for (std::size_t s = 0; s < plan.owners.size(); ++s)
+    for (const SubdomainId s : ids_of(plan.owners))
       if (plan.owners[s] == rank) forecast += plan.decomposition.subdomains[s].predicted;
     CHECK(first[rank].remaining == doctest::Approx(forecast));
     CHECK(first[rank].triangles == 0);
     CHECK(sample.remaining == 0);
-    CHECK(sample.triangles == run.ranks[static_cast<std::size_t>(rank)].triangles);
+    CHECK(sample.triangles == run.ranks[rank].triangles);
   }
 }
 
@@ -112,8 +112,8 @@ TEST_CASE("a rank of half the speed computes twice as long") {
   const double speed = reference_speed({});
   cluster.groups = {{"fast", 1, speed}, {"slow", 1, speed / 2}};
   const ClusterRun unequal = simulate(plan, cluster);
-  CHECK(unequal.ranks[0].times.computing == doctest::Approx(equal.ranks[0].times.computing));
-  CHECK(unequal.ranks[1].times.computing == doctest::Approx(2 * equal.ranks[1].times.computing));
+  CHECK(unequal.ranks.front().times.computing == doctest::Approx(equal.ranks.front().times.computing));
+  CHECK(unequal.ranks.back().times.computing == doctest::Approx(2 * equal.ranks.back().times.computing));
   CHECK(unequal.makespan == doctest::Approx(2 * equal.makespan).epsilon(0.1));
   CHECK(ideal_seconds(unequal, {2, 1}) == doctest::Approx(4.0 / 3 * equal.makespan).epsilon(0.1));
 }

@@ -6,6 +6,7 @@
 #include "balancer/controller.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "driftmesh/error.hpp"
+#include "support/id_literals.hpp"
 #include "support/load_snapshots.hpp"
 
 using namespace driftmesh;
@@ -31,9 +32,9 @@ class ScriptedCouncil final : public Council {
   }
 };
 
-std::vector<SubdomainLoad> loads_of(SubdomainId first, SubdomainId last, double each) {
+std::vector<SubdomainLoad> loads_of(std::int32_t first, std::int32_t last, double each) {
   std::vector<SubdomainLoad> loads;
-  for (SubdomainId id = first; id <= last; ++id) loads.push_back({id, 0, each, 40});
+  for (std::int32_t id = first; id <= last; ++id) loads.push_back({SubdomainId{id}, 0, each, 40});
   return loads;
 }
 
@@ -54,17 +55,17 @@ struct Bench {
   /// A round is called and started for a rank that has this to do; it decides when it thinks next.
   static void begin_round(CollectiveConduct& rank, std::uint32_t number, double now,
                           const std::vector<SubdomainLoad>& loads) {
-    rank.receive(0, JointRound{number, Stage::kCall}, now);
+    rank.receive(0_rank, JointRound{number, Stage::kCall}, now);
     static_cast<void>(rank.think({now, loads, 300}));
-    rank.receive(0, JointRound{number, Stage::kStart}, now);
+    rank.receive(0_rank, JointRound{number, Stage::kStart}, now);
   }
   CollectiveConduct rank(Rank self) { return {self, layout, ControllerOptions{}, council, 0}; }
   /// Rank 0 after everybody has reported: rank 2 has much, the others little.
   CollectiveConduct leader_that_knows() {
-    CollectiveConduct leader = rank(0);
+    CollectiveConduct leader = rank(0_rank);
     static_cast<void>(leader.think({0.01, loads_of(0, 0, 100), 300}));
-    leader.receive(1, LoadNews{1, 100, 0, 300}, 0.02);
-    leader.receive(2, LoadNews{1, 4000, 3000, 300}, 0.02);
+    leader.receive(1_rank, LoadNews{1, 100, 0, 300}, 0.02);
+    leader.receive(2_rank, LoadNews{1, 4000, 3000, 300}, 0.02);
     return leader;
   }
 };
@@ -76,18 +77,18 @@ TEST_CASE("rank 0 calls when there is something to gain, and lets all start when
   CollectiveConduct leader = bench.leader_that_knows();
   const auto call = sent<JointRound>(leader.think({0.05, loads_of(0, 0, 100), 300}));
   REQUIRE(call.size() == 2);
-  CHECK(call[0] == std::pair<Rank, JointRound>{1, {1, Stage::kCall}});
-  CHECK(call[1] == std::pair<Rank, JointRound>{2, {1, Stage::kCall}});
+  CHECK(call[0] == std::pair<Rank, JointRound>{1_rank, {1, Stage::kCall}});
+  CHECK(call[1] == std::pair<Rank, JointRound>{2_rank, {1, Stage::kCall}});
   CHECK(leader.waiting());
   CHECK(bench.council.announced.size() == 1);
 
-  leader.receive(1, JointRound{1, Stage::kReady}, 0.06);
+  leader.receive(1_rank, JointRound{1, Stage::kReady}, 0.06);
   CHECK(sent<JointRound>(leader.think({0.06, loads_of(0, 0, 100), 300})).empty());
   CHECK(!leader.pressing());
-  leader.receive(2, JointRound{1, Stage::kReady}, 0.07);
+  leader.receive(2_rank, JointRound{1, Stage::kReady}, 0.07);
   const auto start = sent<JointRound>(leader.think({0.07, loads_of(0, 0, 100), 300}));
   REQUIRE(start.size() == 2);
-  CHECK(start[1] == std::pair<Rank, JointRound>{2, {1, Stage::kStart}});
+  CHECK(start[1] == std::pair<Rank, JointRound>{2_rank, {1, Stage::kStart}});
   // The others must hear of the start before rank 0 waits for them.
   CHECK(bench.council.brought.empty());
   CHECK(leader.pressing());
@@ -103,47 +104,47 @@ TEST_CASE("rank 0 calls when there is something to gain, and lets all start when
 
 TEST_CASE("rank 0 calls nobody while all is even, and not before all have said how fast they are") {
   Bench bench;
-  CollectiveConduct even = bench.rank(0);
-  for (const Rank r : {1, 2}) even.receive(r, LoadNews{1, 4000, 3000, 300}, 0.02);
+  CollectiveConduct even = bench.rank(0_rank);
+  for (const Rank r : {1_rank, 2_rank}) even.receive(r, LoadNews{1, 4000, 3000, 300}, 0.02);
   CHECK(sent<JointRound>(even.think({0.05, loads_of(0, 3, 1000), 300})).empty());
   CHECK(!even.waiting());
 
-  CollectiveConduct early = bench.rank(0);
-  early.receive(2, LoadNews{1, 40000, 3000, 300}, 0.02);
+  CollectiveConduct early = bench.rank(0_rank);
+  early.receive(2_rank, LoadNews{1, 40000, 3000, 300}, 0.02);
   CHECK(sent<JointRound>(early.think({0.05, loads_of(0, 0, 100), 300})).empty());
   CHECK(sent<JointRound>(early.think({1.5, loads_of(0, 0, 100), 300})).size() == 2);
 }
 
 TEST_CASE("a rank answers a call once, goes on, and hands over what was decided of what it still has") {
   Bench bench;
-  CollectiveConduct rank = bench.rank(2);
-  rank.receive(0, JointRound{1, Stage::kCall}, 1);
+  CollectiveConduct rank = bench.rank(2_rank);
+  rank.receive(0_rank, JointRound{1, Stage::kCall}, 1);
   CHECK(rank.waiting());  // the run does not end around it
   const auto answer = sent<JointRound>(rank.think({1, loads_of(8, 11, 1000), 300}));
   REQUIRE(answer.size() == 1);
-  CHECK(answer[0] == std::pair<Rank, JointRound>{0, {1, Stage::kReady}});
-  rank.receive(0, JointRound{1, Stage::kCall}, 1);
+  CHECK(answer[0] == std::pair<Rank, JointRound>{0_rank, {1, Stage::kReady}});
+  rank.receive(0_rank, JointRound{1, Stage::kCall}, 1);
   CHECK(sent<JointRound>(rank.think({1.01, loads_of(8, 11, 990), 300})).empty());
   REQUIRE(bench.council.announced.size() == 2);
   CHECK(bench.council.announced[1].state.remaining == 4 * 990);
 
-  rank.receive(0, JointRound{1, Stage::kStart}, 1.02);
+  rank.receive(0_rank, JointRound{1, Stage::kStart}, 1.02);
   CHECK(rank.pressing());
-  bench.council.next.moves = {{8, 0}, {9, 1}};
+  bench.council.next.moves = {{8_sub, 0_rank}, {9_sub, 1_rank}};
   const Decision decided = rank.think({1.02, loads_of(9, 11, 980), 300});  // 8 is finished
-  CHECK(decided.moves == std::vector<Move>{{9, 1}});
+  CHECK(decided.moves == std::vector<Move>{{9_sub, 1_rank}});
   CHECK(sent<LoadNews>(decided).empty());  // what leaves is still in the list
   CHECK(!rank.waiting());
   const auto news = sent<LoadNews>(rank.think({1.05, loads_of(10, 11, 970), 300}));
   REQUIRE(news.size() == 1);
   CHECK(news[0].second.remaining == 2 * 970);
-  rank.receive(0, JointRound{1, Stage::kStart}, 1.03);
+  rank.receive(0_rank, JointRound{1, Stage::kStart}, 1.03);
   CHECK(!rank.pressing());
 }
 
 TEST_CASE("what has just come stays, and what is coming is brought as work") {
   Bench bench;
-  CollectiveConduct rank = bench.rank(1);
+  CollectiveConduct rank = bench.rank(1_rank);
   const auto round = [&](std::uint32_t number, double now) {
     Bench::begin_round(rank, number, now, loads_of(4, 5, 100));
     return rank.think({now, loads_of(4, 5, 100), 300});
@@ -151,10 +152,10 @@ TEST_CASE("what has just come stays, and what is coming is brought as work") {
   bench.council.next.coming = {1000, 2};
   CHECK(sent<LoadNews>(round(1, 1)).empty());  // rank 0 knows better than what is here now
   bench.council.next.coming = {0, 0};
-  rank.arrived(5, 1.1);
+  rank.arrived(5_sub, 1.1);
   static_cast<void>(round(2, 1.1));
   CHECK(bench.council.brought[1].state.remaining == 200 + 500);
-  CHECK(bench.council.brought[1].settled == std::vector<SubdomainId>{5});
+  CHECK(bench.council.brought[1].settled == std::vector<SubdomainId>{5_sub});
   static_cast<void>(round(3, 1.2));  // the one before has promised nothing, and takes nothing back
   CHECK(bench.council.brought[2].state.remaining == 200 + 500);
   static_cast<void>(round(4, 4.5));
@@ -164,10 +165,10 @@ TEST_CASE("what has just come stays, and what is coming is brought as work") {
 
 TEST_CASE("what comes before the decision that promises it is not waited for") {
   Bench bench;
-  CollectiveConduct rank = bench.rank(1);
+  CollectiveConduct rank = bench.rank(1_rank);
   Bench::begin_round(rank, 1, 1, {});
-  rank.arrived(8, 1.1);
-  rank.arrived(9, 1.1);
+  rank.arrived(8_sub, 1.1);
+  rank.arrived(9_sub, 1.1);
   bench.council.next.coming = {2000, 2};
   static_cast<void>(rank.think({1.1, loads_of(8, 9, 1000), 300}));
   const auto news = sent<LoadNews>(rank.think({1.2, loads_of(8, 9, 1000), 300}));
@@ -177,7 +178,7 @@ TEST_CASE("what comes before the decision that promises it is not waited for") {
 
 TEST_CASE("work that was promised and never came is not waited for without end") {
   Bench bench;
-  CollectiveConduct rank = bench.rank(1);
+  CollectiveConduct rank = bench.rank(1_rank);
   Bench::begin_round(rank, 1, 1, {});
   bench.council.next.coming = {1000, 2};
   static_cast<void>(rank.think({1, {}, 300}));
@@ -187,7 +188,7 @@ TEST_CASE("work that was promised and never came is not waited for without end")
 
 TEST_CASE("a controller of such a policy wants a council; one rank alone needs none") {
   Bench bench;
-  CHECK_THROWS_AS(Controller(0, bench.layout, bench.policy, ControllerOptions{}, 0), Error);
-  Controller alone(0, std::make_shared<const Layout>(grid_layout(3, 1, 1)), bench.policy, ControllerOptions{}, 0);
+  CHECK_THROWS_AS(Controller(0_rank, bench.layout, bench.policy, ControllerOptions{}, 0), Error);
+  Controller alone(0_rank, std::make_shared<const Layout>(grid_layout(3, 1, 1)), bench.policy, ControllerOptions{}, 0);
   CHECK(!alone.due(1));
 }

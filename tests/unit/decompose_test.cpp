@@ -82,16 +82,16 @@ DecompositionReport check_whole(const Decomposition& d, const Triangulation& mes
   const DecompositionReport report = check_decomposition(d);
   CHECK(first_problem(report) == "");
   CHECK(report.area == doctest::Approx(area_of(mesh)).epsilon(1e-12));
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const SubdomainMesh part = subdomain_triangulation(d, static_cast<SubdomainId>(i));
+  for (const SubdomainId i : ids_of(d.subdomains)) {
+    const SubdomainMesh part = subdomain_triangulation(d, i);
     REQUIRE(area_of(part.mesh) == doctest::Approx(d.subdomains[i].area).epsilon(1e-9));
-    for (std::size_t r = 0; r < part.roots.size(); ++r) {
-      const Decomposition::Root& root = d.roots[static_cast<std::size_t>(part.roots[r])];
-      const RootSegment& local = part.mesh.roots[r];
+    for (const RootId r : ids_of(part.roots)) {
+      const Decomposition::Root& root = d.roots[part.roots[r]];
+      const RootSegment& local = part.mesh.roots[to_index(r)];
       REQUIRE(local.marker == root.marker);
       REQUIRE(local.shell == root.shell);
-      REQUIRE(part.mesh.points[Triangulation::id(local.vertex[0])] == d.points[Triangulation::id(root.a)]);
-      REQUIRE(part.mesh.points[Triangulation::id(local.vertex[1])] == d.points[Triangulation::id(root.b)]);
+      REQUIRE(part.mesh.points[Triangulation::id(local.vertex[0])] == d.points[root.a]);
+      REQUIRE(part.mesh.points[Triangulation::id(local.vertex[1])] == d.points[root.b]);
     }
   }
   return report;
@@ -162,8 +162,7 @@ TEST_CASE("segments inside are borders or stay inside, and keep marker and regio
     check_whole(d, mesh, static_cast<std::size_t>(n));
     double by_marker[8] = {}, area_by_region[4] = {};
     for (const auto& r : d.roots)
-      by_marker[r.marker] += std::hypot(d.points[Triangulation::id(r.a)].x - d.points[Triangulation::id(r.b)].x,
-                                        d.points[Triangulation::id(r.a)].y - d.points[Triangulation::id(r.b)].y);
+      by_marker[r.marker] += std::hypot(d.points[r.a].x - d.points[r.b].x, d.points[r.a].y - d.points[r.b].y);
     CHECK(by_marker[5] == doctest::Approx(40 * 0.6 * std::sin(std::numbers::pi / 20)));
     CHECK(by_marker[6] == doctest::Approx(16 * 0.1 * std::sin(std::numbers::pi / 8)));
     CHECK(by_marker[7] == doctest::Approx(std::hypot(0.2, 1)));
@@ -237,8 +236,8 @@ TEST_CASE("work follows a sizing function, as refinement shows") {
   CHECK(report.smallest_angle >= 60 - 1e-9);
   CHECK(report.largest_load <= 1.45);
   double predicted = 0, most = 0, all = 0, largest_area = 0;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    SubdomainMesh part = subdomain_triangulation(d, static_cast<SubdomainId>(i));
+  for (const SubdomainId i : ids_of(d.subdomains)) {
+    SubdomainMesh part = subdomain_triangulation(d, i);
     Refiner(part.mesh, options.bounds).refine();
     const auto triangles = static_cast<double>(part.mesh.live_triangles());
     most = std::max(most, triangles);

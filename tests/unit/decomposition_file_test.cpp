@@ -87,10 +87,10 @@ TEST_CASE("a broken decomposition is refused with what is broken") {
                          InputError);
   };
   Decomposition broken = d;
-  broken.points[broken.points.size() / 2].x += 100;
+  broken.points[static_cast<GlobalPointId>(broken.points.size() / 2)].x += 100;
   refused(broken, "broken");
   broken = d;
-  broken.subdomains[3].area *= 1.5;
+  broken.subdomains[SubdomainId{3}].area *= 1.5;
   refused(broken, "claims area");
   broken = d;
   for (auto& root : broken.roots)

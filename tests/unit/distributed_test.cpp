@@ -14,6 +14,7 @@
 #include "protocol/adversarial_network.hpp"
 #include "support/damage.hpp"
 #include "support/distributed_case.hpp"
+#include "support/id_literals.hpp"
 #include "support/mesh_equality.hpp"
 #include "temporary_folder.hpp"
 #include "verify/verify.hpp"
@@ -21,7 +22,6 @@
 using namespace driftmesh;
 using namespace driftmesh::testing;
 using namespace driftmesh::test;
-using protocol::Rank;
 
 namespace {
 
@@ -30,10 +30,16 @@ Decomposition two_squares() {
   Decomposition d;
   d.points = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}};
   d.origin = {0, kNone, 1, 2, kNone, 3};
-  d.roots = {{0, 1, 5, kNone, 0, kNone, 0, 0, false}, {1, 2, 5, kNone, 1, kNone, 0, 0, false},
-             {0, 3, 8, kNone, kNone, 0, 0, 0, false}, {2, 5, 6, kNone, 1, kNone, 0, 0, false},
-             {3, 4, 7, kNone, kNone, 0, 0, 0, false}, {4, 5, 7, kNone, kNone, 1, 0, 0, false},
-             {1, 4, 0, kNone, 0, 1, 0, 0, true}};
+  const auto root = [&](std::int32_t from, std::int32_t to, std::int32_t marker, SubdomainId left, SubdomainId right) {
+    d.roots.push_back({GlobalPointId{from}, GlobalPointId{to}, marker, kNone, left, right, 0, 0, marker == 0});
+  };
+  root(0, 1, 5, 0_sub, kNoSubdomain);
+  root(1, 2, 5, 1_sub, kNoSubdomain);
+  root(0, 3, 8, kNoSubdomain, 0_sub);
+  root(2, 5, 6, 1_sub, kNoSubdomain);
+  root(3, 4, 7, kNoSubdomain, 0_sub);
+  root(4, 5, 7, kNoSubdomain, 1_sub);
+  root(1, 4, 0, 0_sub, 1_sub);
   d.subdomains.resize(2);
   list_roots(d);
   d.point_begin = {0, 0, 0};
@@ -47,27 +53,27 @@ Pslg two_squares_input() {
   return pslg;
 }
 
-void split(SubdomainMesh& part, RootId global, std::initializer_list<dyadic::Path> paths) {
+void split(SubdomainMesh& part, GlobalRootId global, std::initializer_list<dyadic::Path> paths) {
   Refiner refiner(part.mesh, {});
   const auto local = std::find(part.roots.begin(), part.roots.end(), global) - part.roots.begin();
   for (const dyadic::Path path : paths) REQUIRE(refiner.add_split_point(static_cast<RootId>(local), path));
 }
 
-constexpr RootId kSeparator = 6;
+constexpr GlobalRootId kSeparator{6};
 
 /// Both squares with their separator split alike, and no other point.
 struct TwoSquares {
   Decomposition d = two_squares();
-  std::vector<SubdomainMesh> parts{subdomain_triangulation(d, 0), subdomain_triangulation(d, 1)};
+  IdVector<SubdomainId, SubdomainMesh> parts{subdomain_triangulation(d, 0_sub), subdomain_triangulation(d, 1_sub)};
 
   HeldSubdomains held(std::initializer_list<SubdomainId> ids) {
     std::vector<HeldSubdomain> list;
-    for (const SubdomainId i : ids) list.push_back({i, &parts[static_cast<std::size_t>(i)]});
+    for (const SubdomainId i : ids) list.push_back({i, &parts[i]});
     return held_in_memory(list);
   }
 };
 
-void talk(std::vector<Exchange*> ranks) {
+void talk(const IdVector<Rank, Exchange*>& ranks) {
   exchange_directly(ranks);
 }
 
@@ -94,13 +100,13 @@ DistributedCase plate(std::int32_t subdomains) {
 }
 
 /// What happens when all ranks write: each message that one of them throws, or "".
-std::vector<std::string> write_all(std::vector<Exchange*> ranks) {
-  protocol::AdversarialNetwork network(static_cast<Rank>(ranks.size()), protocol::Adversary::from_seed(3));
-  std::vector<ExchangeRunner> runners;
-  for (std::size_t r = 0; r < ranks.size(); ++r) runners.emplace_back(network.transport(static_cast<Rank>(r)));
-  std::vector<std::string> messages(ranks.size());
-  std::vector<protocol::RankStep> steps;
-  for (std::size_t r = 0; r < ranks.size(); ++r)
+std::vector<std::string> write_all(const IdVector<Rank, Exchange*>& ranks) {
+  protocol::AdversarialNetwork network(static_cast<std::int32_t>(ranks.size()), protocol::Adversary::from_seed(3));
+  IdVector<Rank, ExchangeRunner> runners;
+  for (const Rank r : ids_of(ranks)) runners.emplace_back(network.transport(r));
+  IdVector<Rank, std::string> messages(ranks.size());
+  IdVector<Rank, protocol::RankStep> steps;
+  for (const Rank r : ids_of(ranks))
     steps.push_back([&, r] {
       try {
         return runners[r].step(*ranks[r]);
@@ -129,7 +135,7 @@ struct ThreeWriters {
   DistributedCase c = plate(9);
   std::vector<DistributedPiece> pieces = c.pieces(3, random_owners(c.parts.size(), 3, 5));
   std::vector<std::unique_ptr<WritePieces>> writers;
-  std::vector<Exchange*> exchanges;
+  IdVector<Rank, Exchange*> exchanges;
 };
 
 }  // namespace
@@ -137,7 +143,7 @@ struct ThreeWriters {
 TEST_CASE("two squares on two ranks: numbers, owners, what is shared") {
   TwoSquares squares;
   for (SubdomainMesh& part : squares.parts) split(part, kSeparator, {1, 2});
-  PieceAssembly one(0, 2, squares.d, squares.held({1})), other(1, 2, squares.d, squares.held({0}));
+  PieceAssembly one(0_rank, 2, squares.d, squares.held({1_sub})), other(1_rank, 2, squares.d, squares.held({0_sub}));
   talk({&one, &other});
   const DistributedPiece right = one.piece(two_squares_input()), left = other.piece(two_squares_input());
 
@@ -147,12 +153,12 @@ TEST_CASE("two squares on two ranks: numbers, owners, what is shared") {
   CHECK(left.mesh.points[4] == Point{1, 0.25});
   CHECK(left.mesh.points[5] == Point{1, 0.5});
   // Subdomain 0 is left of the separator and lower at its ends: its rank owns all that is shared.
-  CHECK(left.owners == std::vector<Rank>{1, 1, 1, 1, 1, 1});
-  CHECK(right.owners == std::vector<Rank>{1, 0, 1, 0, 1, 1});
+  CHECK(left.owners == std::vector<Rank>(6, 1_rank));
+  CHECK(right.owners == std::vector<Rank>{1_rank, 0_rank, 1_rank, 0_rank, 1_rank, 1_rank});
   REQUIRE(left.neighbors.size() == 1);
   REQUIRE(right.neighbors.size() == 1);
-  CHECK(left.neighbors[0].rank == 0);
-  CHECK(right.neighbors[0].rank == 1);
+  CHECK(left.neighbors[0].rank == 0_rank);
+  CHECK(right.neighbors[0].rank == 1_rank);
   CHECK(left.neighbors[0].shared == std::vector<std::int32_t>{1, 3, 4, 5});
   CHECK(right.neighbors[0].shared == std::vector<std::int32_t>{0, 2, 4, 5});
   CHECK(left.total_points == 8);
@@ -166,21 +172,21 @@ TEST_CASE("two squares on two ranks: numbers, owners, what is shared") {
 
 TEST_CASE("sides of a root with different points are an error that names it and both ranks") {
   TwoSquares squares;
-  split(squares.parts[0], kSeparator, {1, 2});
-  split(squares.parts[1], kSeparator, {1});
+  split(squares.parts[0_sub], kSeparator, {1, 2});
+  split(squares.parts[1_sub], kSeparator, {1});
   const std::string apart = message_of([&] {
-    PieceAssembly one(0, 2, squares.d, squares.held({1})), other(1, 2, squares.d, squares.held({0}));
+    PieceAssembly one(0_rank, 2, squares.d, squares.held({1_sub})), other(1_rank, 2, squares.d, squares.held({0_sub}));
     talk({&one, &other});
   });
   CAPTURE(apart);
   CHECK(mentions(apart, {"root 6", "rank 0 has 1 points", "rank 1 has 2 points"}));
-  const std::string together = message_of([&] { PieceAssembly(0, 1, squares.d, squares.held({0, 1})); });
+  const std::string together = message_of([&] { PieceAssembly(0_rank, 1, squares.d, squares.held({0_sub, 1_sub})); });
   CAPTURE(together);
   CHECK(mentions(together, {"root 6", "rank 0 has 2 points", "rank 0 has 1 points"}));
 
-  split(squares.parts[1], kSeparator, {3});  // as many, but others
+  split(squares.parts[1_sub], kSeparator, {3});  // as many, but others
   const std::string same_count = message_of([&] {
-    PieceAssembly one(0, 2, squares.d, squares.held({1})), other(1, 2, squares.d, squares.held({0}));
+    PieceAssembly one(0_rank, 2, squares.d, squares.held({1_sub})), other(1_rank, 2, squares.d, squares.held({0_sub}));
     talk({&one, &other});
   });
   CAPTURE(same_count);
@@ -191,23 +197,23 @@ TEST_CASE("a subdomain that nobody or that two ranks hold is an error that says 
   TwoSquares squares;
   const auto on_two_ranks = [&](std::initializer_list<SubdomainId> one, std::initializer_list<SubdomainId> other) {
     return message_of([&] {
-      PieceAssembly a(0, 2, squares.d, squares.held(one)), b(1, 2, squares.d, squares.held(other));
+      PieceAssembly a(0_rank, 2, squares.d, squares.held(one)), b(1_rank, 2, squares.d, squares.held(other));
       talk({&a, &b});
     });
   };
-  CHECK(mentions(on_two_ranks({}, {1}), {"subdomain 0 is held by no rank"}));
-  CHECK(mentions(on_two_ranks({0}, {}), {"subdomain 1 is held by no rank"}));
-  CHECK(mentions(on_two_ranks({0, 1}, {1}), {"subdomain 1 is held by ranks 0 and 1"}));
-  CHECK(mentions(on_two_ranks({0}, {0, 1}), {"subdomain 0 is held by ranks 0 and 1"}));
+  CHECK(mentions(on_two_ranks({}, {1_sub}), {"subdomain 0 is held by no rank"}));
+  CHECK(mentions(on_two_ranks({0_sub}, {}), {"subdomain 1 is held by no rank"}));
+  CHECK(mentions(on_two_ranks({0_sub, 1_sub}, {1_sub}), {"subdomain 1 is held by ranks 0 and 1"}));
+  CHECK(mentions(on_two_ranks({0_sub}, {0_sub, 1_sub}), {"subdomain 0 is held by ranks 0 and 1"}));
 }
 
 TEST_CASE("a coordinate that differs in its last bit between subdomains of a rank is an error") {
   TwoSquares squares;
   for (SubdomainMesh& part : squares.parts) split(part, kSeparator, {1});
-  Point& last = squares.parts[1].mesh.points[squares.parts[1].mesh.points.size() - 1];
+  Point& last = squares.parts[1_sub].mesh.points[squares.parts[1_sub].mesh.points.size() - 1];
   REQUIRE(last == Point{1, 0.5});
   last.y = std::nextafter(last.y, 1);
-  PieceAssembly one(0, 1, squares.d, squares.held({0, 1}));
+  PieceAssembly one(0_rank, 1, squares.d, squares.held({0_sub, 1_sub}));
   talk({&one});
   CHECK(mentions(message_of([&] { (void)one.piece(two_squares_input()); }), {"point 6", "subdomain 1"}));
 }
@@ -216,9 +222,9 @@ TEST_CASE("messages that do not belong into an exchange are errors that name the
   const auto send_to_rank_0 = [](const protocol::Bytes& bytes) {
     protocol::AdversarialNetwork network(2, protocol::Adversary::from_seed(1));
     TwoSquares squares;
-    PieceAssembly assembly(0, 2, squares.d, squares.held({0}));
-    ExchangeRunner runner(network.transport(0));
-    network.transport(1).send(0, bytes);
+    PieceAssembly assembly(0_rank, 2, squares.d, squares.held({0_sub}));
+    ExchangeRunner runner(network.transport(0_rank));
+    network.transport(1_rank).send(0_rank, bytes);
     return message_of([&] {
       for (int k = 0; k < 100; ++k) (void)runner.step(assembly);
     });
@@ -290,9 +296,9 @@ TEST_CASE("an empty rank writes a piece with the same arrays") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "plate.pvtu";
   const DistributedCase c = plate(2);
-  const auto pieces = c.pieces(3, {0, 2});
+  const auto pieces = c.pieces(3, {0_rank, 2_rank});
   std::vector<std::unique_ptr<WritePieces>> writers;
-  std::vector<Exchange*> exchanges;
+  IdVector<Rank, Exchange*> exchanges;
   for (const DistributedPiece& piece : pieces) writers.push_back(std::make_unique<WritePieces>(piece, path));
   for (const auto& writer : writers) exchanges.push_back(writer.get());
   CHECK(write_all(exchanges) == std::vector<std::string>(3));
@@ -326,8 +332,8 @@ TEST_CASE("rank 0 writes the whole, and what goes wrong is known to all") {
 
   const auto write = [&](const std::string& name) {
     std::vector<std::unique_ptr<WriteWhole>> writers;
-    for (std::size_t r = 0; r < 3; ++r)
-      writers.push_back(std::make_unique<WriteWhole>(pieces[r], gathers[r].whole(), folder.path() / name));
+    for (const Rank r : ids_of(pieces))
+      writers.push_back(std::make_unique<WriteWhole>(pieces[r], gathers[to_index(r)].whole(), folder.path() / name));
     return write_all({writers[0].get(), writers[1].get(), writers[2].get()});
   };
   for (const char* name : {"plate.vtu", "plate.msh", "plate.ele"}) {

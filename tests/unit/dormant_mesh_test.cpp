@@ -35,13 +35,13 @@ std::pair<double, double> pair_of(const Point& p) {
 }
 
 /// Every subsegment, leaf or not, by root and path, with its ends, and whether triangles lie on its sides.
-std::map<std::pair<RootId, dyadic::Path>, std::pair<Edge, int>> subsegments_of(const SubdomainMesh& part) {
-  std::map<std::pair<RootId, dyadic::Path>, std::pair<Edge, int>> all;
+std::map<std::pair<GlobalRootId, dyadic::Path>, std::pair<Edge, int>> subsegments_of(const SubdomainMesh& part) {
+  std::map<std::pair<GlobalRootId, dyadic::Path>, std::pair<Edge, int>> all;
   const Triangulation& mesh = part.mesh;
   for (const Subsegment& s : mesh.subsegments) {
     const Edge ends{pair_of(mesh.points[id(s.vertex[0])]), pair_of(mesh.points[id(s.vertex[1])])};
     const int sides = s.is_leaf() ? (s.half[0] != kNone ? 1 : 0) + (s.half[1] != kNone ? 2 : 0) : -1;
-    all[{part.roots[id(s.root)], s.path}] = {ends, sides};
+    all[{part.roots[s.root], s.path}] = {ends, sides};
   }
   return all;
 }
@@ -55,7 +55,7 @@ std::multiset<std::string> origins_of(const SubdomainMesh& part) {
     std::string what = std::to_string(mesh.origin[v]);
     if (is_midpoint(mesh.origin[v])) {
       const Subsegment& s = mesh.subsegments[id(~mesh.origin[v])];
-      what = "root " + std::to_string(part.roots[id(s.root)]) + " " + std::to_string(s.path);
+      what = "root " + to_string(part.roots[s.root]) + " " + std::to_string(s.path);
     }
     const Point& p = mesh.points[v];
     all.insert(what + " " + std::to_string(std::bit_cast<std::uint64_t>(p.x)) + " " +
@@ -134,7 +134,7 @@ TEST_CASE("a mesh that slept is the same mesh") {
     const std::uint64_t seed = random() % 100'000;
     CAPTURE(seed);
     RandomSubdomains world(seed, static_cast<int>(1 + seed % 4), 400);
-    for (SubdomainId k = 0; k < world.size(); ++k) {
+    for (const SubdomainId k : first_ids<SubdomainId>(world.size())) {
       const SubdomainMesh part = refined(world.context(), k);
       const DormantMesh dormant(part);
       check_same(part, dormant);
@@ -173,7 +173,7 @@ TEST_CASE("16 bytes a triangle hold a sleeping mesh, with all that belongs to it
     SubdomainContext context{&d, {}, false};
     context.bounds.max_area = area / 40'000;
     std::size_t bytes = 0, triangles = 0;
-    for (SubdomainId i = 0; i < 8; ++i) {
+    for (const SubdomainId i : first_ids<SubdomainId>(8)) {
       const SubdomainMesh part = refined(context, i);
       const DormantMesh dormant(part);
       check_same(part, dormant);

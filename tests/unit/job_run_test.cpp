@@ -35,7 +35,7 @@ Request pipe() {
 Prepared prepared(const Request& request, Place place, std::size_t ranks) {
   Watch watch;
   const Domain domain = read_domain(request, {}, watch);
-  return prepare(request, domain, {}, place, std::vector<double>(ranks, 1.0), Limits{}, watch);
+  return prepare(request, domain, {}, place, IdVector<Rank, double>(ranks, 1.0), Limits{}, watch);
 }
 
 /// The digest of the mesh in subdomains, on this process alone.
@@ -87,7 +87,7 @@ TEST_CASE("a prepared run has about the triangles that were asked for") {
   request.decomposition.subdomains = 10;
   request.mapping.method = MappingMethod::kRoundRobin;
   const RunPlan plan = prepared(request, kRanks, 4).plan;
-  for (std::size_t s = 0; s < plan.owners.size(); ++s) CHECK(static_cast<std::size_t>(plan.owners[s]) == s % 4);
+  for (const SubdomainId s : ids_of(plan.owners)) CHECK(to_int(plan.owners[s]) == to_int(s) % 4);
 }
 
 TEST_CASE("a mesh in one piece has about the triangles that were asked for") {

@@ -8,6 +8,7 @@
 #include "mesh/exceptions.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime/rank_loop.hpp"
+#include "support/id_literals.hpp"
 #include "support/late_plan.hpp"
 #include "support/simulated_run.hpp"
 
@@ -20,9 +21,9 @@ namespace {
 constexpr double kSpeed = 0.002;  // of each rank: runs take tenths of a second
 constexpr const char* kPolicies[] = {"none", "zoltan", "collective", "diffusion", "stealing", "greedy"};
 
-VirtualCluster slow_cluster(Rank ranks) {
+VirtualCluster slow_cluster(std::int32_t ranks) {
   VirtualCluster cluster;
-  cluster.speeds.assign(static_cast<std::size_t>(ranks), kSpeed);
+  cluster.speeds.assign(to_index(ranks), kSpeed);
   cluster.step_limit = 20'000'000;
   return cluster;
 }
@@ -30,17 +31,17 @@ VirtualCluster slow_cluster(Rank ranks) {
 /// A run in which one rank makes its loop at a moment of its own.
 class LateRun {
  public:
-  LateRun(const RunPlan& plan, Rank ranks, Rank late, double moment)
+  LateRun(const RunPlan& plan, std::int32_t ranks, Rank late, double moment)
       : plan_(plan),
         network_(slow_cluster(ranks)),
         council_(balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options)),
-        loops_(static_cast<std::size_t>(ranks)) {
-    std::vector<RankStep> steps;
-    for (Rank r = 0; r < ranks; ++r) steps.push_back([=, this] { return step(r, r == late ? moment : 0); });
+        loops_(to_index(ranks)) {
+    IdVector<Rank, RankStep> steps;
+    for (const Rank r : first_ids<Rank>(ranks)) steps.push_back([=, this] { return step(r, r == late ? moment : 0); });
     REQUIRE(network_.run(steps).end == RunEnd::kFinished);
   }
 
-  [[nodiscard]] const RankLoop& loop(Rank r) const { return *loops_[static_cast<std::size_t>(r)]; }
+  [[nodiscard]] const RankLoop& loop(Rank r) const { return *loops_[r]; }
   [[nodiscard]] double makespan() const { return network_.makespan(); }
 
   void check_mesh() const {
@@ -57,7 +58,7 @@ class LateRun {
 
  private:
   StepResult step(Rank r, double moment) {
-    auto& loop = loops_[static_cast<std::size_t>(r)];
+    auto& loop = loops_[r];
     Transport& transport = network_.transport(r);
     if (loop) return loop->step();
     if (transport.now() < moment) {
@@ -71,15 +72,15 @@ class LateRun {
   const RunPlan& plan_;
   VirtualNetwork network_;
   std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
-  std::vector<std::unique_ptr<RankLoop>> loops_;
+  IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
 };
 
-RunPlan plan_for_late(Rank ranks, const LateCase& late) {
+RunPlan plan_for_late(std::int32_t ranks, const LateCase& late) {
   return late_plan(generate_holes({.columns = 3, .rows = 2}), 15'000, ranks, late);
 }
 
 /// How long the others take for all that is theirs.
-double seconds_without(Rank ranks, LateCase late) {
+double seconds_without(std::int32_t ranks, LateCase late) {
   late.policy = "none";
   const RunPlan plan = plan_for_late(ranks, late);
   return LateRun(plan, ranks, late.rank, 0).makespan();
@@ -88,8 +89,8 @@ double seconds_without(Rank ranks, LateCase late) {
 }  // namespace
 
 TEST_CASE("whoever comes late with nothing is given work, and two or three are through sooner for it") {
-  for (const Rank ranks : {2, 3, 8})
-    for (const Rank rank : {0, ranks - 1})
+  for (const std::int32_t ranks : {2, 3, 8})
+    for (const Rank rank : {0_rank, Rank{ranks - 1}})
       for (const char* policy : kPolicies)
         for (const double share : {0.1, 0.4}) {
           const LateCase late{policy, rank};
@@ -111,7 +112,7 @@ TEST_CASE("whoever comes late with nothing is given work, and two or three are t
 
 TEST_CASE("a run waits for whoever comes when all could be over, also if it was given work before it came") {
   int given = 0;
-  for (const Rank rank : {0, 2})
+  for (const Rank rank : {0_rank, 2_rank})
     for (const char* policy : kPolicies) {
       const LateCase late{policy, rank};
       CAPTURE(rank);
@@ -129,11 +130,11 @@ TEST_CASE("a run waits for whoever comes when all could be over, also if it was 
 }
 
 TEST_CASE("whoever comes late with a share finds it, and all that it was told meanwhile") {
-  for (const Rank ranks : {2, 3, 8})
+  for (const std::int32_t ranks : {2, 3, 8})
     for (const Start start : {Start::kOneSubdomain, Start::kShare})
       for (const char* policy : kPolicies)
         for (const double share : {0.3, 3.0}) {
-          const LateCase late{policy, ranks - 1, start};
+          const LateCase late{policy, Rank{ranks - 1}, start};
           CAPTURE(ranks);
           CAPTURE(late.policy);
           CAPTURE(share);

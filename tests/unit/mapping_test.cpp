@@ -7,6 +7,7 @@
 #include "decompose/decompose.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/cdt.hpp"
+#include "support/id_literals.hpp"
 
 using namespace driftmesh;
 
@@ -47,21 +48,21 @@ TEST_CASE("work follows the speeds of the ranks") {
     MappingOptions options{4, {1, 1, 2, 4}, method};
     const Assignment assignment = map_subdomains(d, options);
     CHECK(report_mapping(d, assignment, options).largest_load < 1.06);
-    double work[4] = {};
-    for (std::size_t i = 0; i < d.size(); ++i) work[assignment[i]] += d.subdomains[i].predicted;
-    CHECK(work[3] == doctest::Approx(0.5).epsilon(0.04));
+    IdVector<Rank, double> work(4);
+    for (const SubdomainId i : ids_of(assignment)) work[assignment[i]] += d.subdomains[i].predicted;
+    CHECK(work.back() == doctest::Approx(0.5).epsilon(0.04));
   }
 }
 
 TEST_CASE("area can be dealt out instead of work") {
   Decomposition d = square_in(400);
-  for (std::size_t i = 0; i < 40; ++i)
+  for (const SubdomainId i : first_ids<SubdomainId>(40))
     d.subdomains[i].predicted *= 50;  // as a size field does that is fine in a corner
   for (const MappingMethod method : {MappingMethod::kGraph, MappingMethod::kBlock}) {
     MappingOptions options{4, {}, method, MappingWeight::kArea};
     const Assignment assignment = map_subdomains(d, options);
-    double area[4] = {};
-    for (std::size_t i = 0; i < d.size(); ++i) area[assignment[i]] += d.subdomains[i].area;
+    IdVector<Rank, double> area(4);
+    for (const SubdomainId i : ids_of(assignment)) area[assignment[i]] += d.subdomains[i].area;
     for (const double a : area) CHECK(a == doctest::Approx(0.25).epsilon(0.06));
     CHECK(report_mapping(d, assignment, options).largest_load > 1.5);
   }
@@ -70,18 +71,20 @@ TEST_CASE("area can be dealt out instead of work") {
 TEST_CASE("blocks are consecutive and use every rank") {
   const Decomposition d = square_in(100);
   const Assignment assignment = map_subdomains(d, {7, {}, MappingMethod::kBlock});
-  CHECK(assignment.front() == 0);
-  CHECK(assignment.back() == 6);
-  for (std::size_t i = 1; i < assignment.size(); ++i) {
-    CHECK(assignment[i] >= assignment[i - 1]);
-    CHECK(assignment[i] <= assignment[i - 1] + 1);
+  CHECK(assignment.front() == Rank{0});
+  CHECK(assignment.back() == Rank{6});
+  Rank last{0};
+  for (const Rank rank : assignment) {
+    CHECK(rank >= last);
+    CHECK(rank <= after(last));
+    last = rank;
   }
 }
 
 TEST_CASE("more ranks than subdomains: one each") {
   const Decomposition d = square_in(5);
   const Assignment assignment = map_subdomains(d, {8, {}, MappingMethod::kGraph});
-  CHECK(assignment == Assignment{0, 1, 2, 3, 4});
+  CHECK(assignment == Assignment{0_rank, 1_rank, 2_rank, 3_rank, 4_rank});
 }
 
 TEST_CASE("mapping options out of range are refused") {

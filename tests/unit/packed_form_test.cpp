@@ -13,6 +13,7 @@
 #include "migration/packed_bytes.hpp"
 #include "migration/subdomain.hpp"
 #include "property/cases.hpp"
+#include "support/id_literals.hpp"
 #include "support/random_subdomains.hpp"
 
 using namespace driftmesh;
@@ -39,7 +40,7 @@ Bytes sealed_again(const Bytes& bytes) {
 
 Subdomain half_refined(RandomSubdomains& world, SubdomainId id) {
   Subdomain subdomain(id, world.context());
-  std::vector<protocol::SplitEntry> said;
+  std::vector<SplitPoint<GlobalRootId>> said;
   subdomain.tell(world.split_of(id, 4));
   subdomain.work(40, said);
   subdomain.tell(world.split_of(id, 4));
@@ -48,7 +49,7 @@ Subdomain half_refined(RandomSubdomains& world, SubdomainId id) {
 
 Subdomain asleep(RandomSubdomains& world, SubdomainId id) {
   Subdomain subdomain = half_refined(world, id);
-  std::vector<protocol::SplitEntry> said;
+  std::vector<SplitPoint<GlobalRootId>> said;
   while (subdomain.active()) subdomain.work(10'000, said);
   subdomain.sleep();
   return subdomain;
@@ -99,12 +100,12 @@ void check_refusals(const Bytes& whole, const SubdomainContext& context) {
 
 TEST_CASE("a subdomain that has not worked packs to its number and what it was told") {
   RandomSubdomains world(3, 4, 500);
-  Subdomain subdomain(2, world.context());
+  Subdomain subdomain(2_sub, world.context());
   CHECK(subdomain.pack().size() < 80);
-  subdomain.tell({world.split_of(2, 3).edge, 5});
+  subdomain.tell({world.split_of(2_sub, 3).root, 5});
   CHECK(subdomain.pack().size() < 92);
   const Subdomain again = Subdomain::unpack(subdomain.pack(), world.context());
-  CHECK(again.id() == 2);
+  CHECK(again.id() == 2_sub);
   CHECK(again.backlog() == 1);
   CHECK(!again.started());
   CHECK(again.active());
@@ -112,7 +113,7 @@ TEST_CASE("a subdomain that has not worked packs to its number and what it was t
 
 TEST_CASE("a dormant subdomain packs to little more than it takes asleep") {
   RandomSubdomains world(5, 1, 3000);
-  const Subdomain subdomain = asleep(world, 0);
+  const Subdomain subdomain = asleep(world, 0_sub);
   const auto triangles = static_cast<std::size_t>(subdomain.triangles());
   REQUIRE(triangles > 1000);
   CHECK(subdomain.pack().size() < 16 * triangles);
@@ -121,15 +122,15 @@ TEST_CASE("a dormant subdomain packs to little more than it takes asleep") {
 
 TEST_CASE("bytes that are cut off, prolonged, changed or foreign are refused in words") {
   RandomSubdomains world(11, 3, 300);
-  for (const Bytes& whole : {half_refined(world, 1).pack(), asleep(world, 1).pack()})
+  for (const Bytes& whole : {half_refined(world, 1_sub).pack(), asleep(world, 1_sub).pack()})
     check_refusals(whole, world.context());
 }
 
 TEST_CASE("the packed form of another decomposition is refused") {
   RandomSubdomains one(11, 5, 300), other(12, 3, 300);
-  CHECK(refusal_of(half_refined(one, 1).pack(), other.context()).find("not of this decomposition") !=
+  CHECK(refusal_of(half_refined(one, 1_sub).pack(), other.context()).find("not of this decomposition") !=
         std::string::npos);
-  CHECK(refusal_of(Subdomain(4, one.context()).pack(), other.context()).find("only 3") != std::string::npos);
+  CHECK(refusal_of(Subdomain(4_sub, one.context()).pack(), other.context()).find("only 3") != std::string::npos);
 }
 
 TEST_CASE("damage under a right checksum is refused, or leaves a mesh that keeps to its arrays") {
@@ -137,7 +138,7 @@ TEST_CASE("damage under a right checksum is refused, or leaves a mesh that keeps
   int accepted = 0, refused = 0;
   for (std::int64_t i = case_count(20); i > 0; --i) {
     RandomSubdomains world(random() % 1000, 3, 200);
-    const Bytes whole = (i % 2 == 0 ? half_refined(world, 0) : asleep(world, 0)).pack();
+    const Bytes whole = (i % 2 == 0 ? half_refined(world, 0_sub) : asleep(world, 0_sub)).pack();
     for (int k = 0; k < 300; ++k) {
       Bytes changed = whole;
       for (auto flips = 1 + random() % 3; flips > 0; --flips) {
@@ -163,7 +164,7 @@ TEST_CASE("damage under a right checksum is refused, or leaves a mesh that keeps
 
 TEST_CASE("each invariant of a triangulation is looked at") {
   RandomSubdomains world(21, 2, 400);
-  const Triangulation sound = half_refined(world, 0).mesh().mesh;
+  const Triangulation sound = half_refined(world, 0_sub).mesh().mesh;
   REQUIRE(triangulation_fault(sound) == "");
   const auto fault = [&](auto&& break_it) {
     Triangulation mesh = sound;

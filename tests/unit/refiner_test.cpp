@@ -131,7 +131,7 @@ TEST_CASE("the refiner tells which points it has put on segments, ancestors firs
   };
   for (auto status = Refiner::Status::kBudget; status == Refiner::Status::kBudget;) {
     status = refiner.refine(7);
-    for (const SplitPoint& p : refiner.take_split_points()) take_in(p.root, p.path);
+    for (const SplitPoint<RootId>& p : refiner.take_split_points()) take_in(p.root, p.path);
   }
   CHECK(refiner.take_split_points().empty());
   REQUIRE(std::find(known[0].begin(), known[0].end(), 19) == known[0].end());
@@ -140,7 +140,7 @@ TEST_CASE("the refiner tells which points it has put on segments, ancestors firs
   for (const dyadic::Path path : {1, 2, 4, 9, 19})
     if (std::find(known[0].begin(), known[0].end(), path) == known[0].end()) known[0].push_back(path);
   refiner.refine();
-  for (const SplitPoint& p : refiner.take_split_points()) take_in(p.root, p.path);
+  for (const SplitPoint<RootId>& p : refiner.take_split_points()) take_in(p.root, p.path);
   std::size_t inner = 0, told = 0;
   for (const Subsegment& s : mesh.subsegments) inner += !s.is_leaf();
   for (const auto& paths : known) told += paths.size();

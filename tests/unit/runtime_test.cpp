@@ -15,6 +15,7 @@
 #include "protocol/virtual_network.hpp"
 #include "runtime/plan_bytes.hpp"
 #include "runtime/plan_run.hpp"
+#include "support/id_literals.hpp"
 #include "support/plans.hpp"
 #include "support/simulated_run.hpp"
 
@@ -59,7 +60,7 @@ void check_mesh(const RunPlan& plan, const std::vector<const Subdomain*>& subdom
 }  // namespace
 
 TEST_CASE("ranks on an adversarial network make one conforming mesh") {
-  for (const protocol::Rank ranks : {1, 2, 5})
+  for (const std::int32_t ranks : {1, 2, 5})
     for (const Presplit presplit : {Presplit::kOn, Presplit::kOff})
       for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         CAPTURE(ranks);
@@ -75,7 +76,7 @@ TEST_CASE("ranks on an adversarial network make one conforming mesh") {
 
 TEST_CASE("with presplit interfaces a uniform bound needs no SPLIT, and the mesh depends on the decomposition alone") {
   std::uint64_t digest = 0;
-  for (const protocol::Rank ranks : {1, 2, 3, 7})
+  for (const std::int32_t ranks : {1, 2, 3, 7})
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, ranks, 20, Presplit::kAuto);
       protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
@@ -96,8 +97,8 @@ TEST_CASE("the size bound splits no presplit interface whose pieces come out as 
       const auto root = std::find_if(roots.begin() + static_cast<std::ptrdiff_t>(i * roots.size() / 20), roots.end(),
                                      [](const Decomposition::Root& r) { return r.is_interface(); });
       if (root == roots.end()) break;
-      const double whole = std::sqrt(squared_distance(plan.decomposition.points[static_cast<std::size_t>(root->a)],
-                                                      plan.decomposition.points[static_cast<std::size_t>(root->b)]));
+      const double whole =
+          std::sqrt(squared_distance(plan.decomposition.points[root->a], plan.decomposition.points[root->b]));
       const double spacing = std::ldexp(whole / length, -static_cast<int>(std::ceil(std::log2(whole / 0.04))));
       plan.bounds.max_area = spacing * spacing;
       protocol::AdversarialNetwork network(1, protocol::Adversary::from_seed(1));
@@ -105,7 +106,7 @@ TEST_CASE("the size bound splits no presplit interface whose pieces come out as 
       REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
       CAPTURE(length);
       CAPTURE(i);
-      CHECK(run.loops[0]->interface_splits() == 0);
+      CHECK(run.loops.front()->interface_splits() == 0);
     }
 }
 
@@ -113,7 +114,7 @@ TEST_CASE("subdomains that move while they refine make the same mesh as those th
   std::uint64_t digest = 0;
   std::int64_t moves = 0, forwarded = 0, held = 0;
   for (const Presplit presplit : {Presplit::kOn, Presplit::kOff})
-    for (const protocol::Rank ranks : {2, 3, 6})
+    for (const std::int32_t ranks : {2, 3, 6})
       for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         CAPTURE(ranks);
         CAPTURE(seed);
@@ -121,12 +122,12 @@ TEST_CASE("subdomains that move while they refine make the same mesh as those th
         protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
         SimulatedRanks<> run(network, ranks, plan);
         std::mt19937_64 random(seed);
-        const auto move_something = [&](protocol::Rank r) {
-          auto& loop = *run.loops[static_cast<std::size_t>(r)];
+        const auto move_something = [&](Rank r) {
+          auto& loop = *run.loops[r];
           if (loop.subdomains().empty() || random() % 2 == 0) return;
           auto chosen = loop.subdomains().begin();
           std::advance(chosen, static_cast<std::ptrdiff_t>(random() % loop.subdomains().size()));
-          loop.hand_over(chosen->first, static_cast<protocol::Rank>(random() % static_cast<std::uint64_t>(ranks)));
+          loop.hand_over(chosen->first, static_cast<Rank>(random() % static_cast<std::uint64_t>(ranks)));
         };
         REQUIRE(network.run(run.steps, move_something).end == protocol::RunEnd::kFinished);
         check_mesh(plan, run.subdomains());
@@ -147,9 +148,9 @@ TEST_CASE("subdomains that move while they refine make the same mesh as those th
 TEST_CASE("in virtual time two ranks take about half as long as one") {
   const QualityBounds bounds{20, 3e-5, {}, nullptr};
   double seconds[2] = {};
-  for (const protocol::Rank ranks : {1, 2}) {
+  for (const std::int32_t ranks : {1, 2}) {
     const RunPlan plan = plan_of(ell(), bounds, ranks, 40, Presplit::kOff);
-    protocol::VirtualNetwork network({std::vector<double>(static_cast<std::size_t>(ranks), 1.0), {}, 1e-6, 1e-6});
+    protocol::VirtualNetwork network({IdVector<Rank, double>(to_index(ranks), 1.0), {}, 1e-6, 1e-6});
     SimulatedRanks<> run(network, ranks, plan);
     REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
     check_mesh(plan, run.subdomains());
@@ -196,12 +197,12 @@ TEST_CASE("subdomains that sleep when they are finished make one conforming mesh
         plan.sleep = sleep;
         protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
         SimulatedRanks<> run(network, 3, plan);
-        const auto move_sleeper = [&](protocol::Rank r) {
-          auto& loop = *run.loops[static_cast<std::size_t>(r)];
+        const auto move_sleeper = [&](Rank r) {
+          auto& loop = *run.loops[r];
           const auto sleeper = std::find_if(loop.subdomains().begin(), loop.subdomains().end(),
                                             [](const auto& s) { return s.second.dormant(); });
           if (sleeper == loop.subdomains().end() || seed % 2 == 0) return;
-          loop.hand_over(sleeper->first, (r + 1) % 3);
+          loop.hand_over(sleeper->first, next_in_ring(r, 3));
           ++moved;
         };
         REQUIRE(network.run(run.steps, move_sleeper).end == protocol::RunEnd::kFinished);
@@ -225,7 +226,7 @@ TEST_CASE("subdomains that sleep when they are finished make one conforming mesh
 
 TEST_CASE("every policy gives a slow rank less to do, and changes nothing about the mesh") {
   const QualityBounds bounds{20, 1e-4, {}, nullptr};
-  const std::vector<double> speeds{1, 1, 0.25};
+  const IdVector<Rank, double> speeds{1, 1, 0.25};
   std::uint64_t digest = 0;
   double without = 0;
   for (const std::string name : {"none", "zoltan", "stealing", "diffusion", "greedy"}) {
@@ -263,7 +264,7 @@ TEST_CASE("a rank that is through with its work alarms nobody before long") {
   };
   const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 2, 6, Presplit::kOn);
   protocol::AdversarialNetwork network(2, {});
-  Clocked transport(network.transport(1));
+  Clocked transport(network.transport(1_rank));
   std::vector<std::string> alarms;
   RankLoop::Observers observers;
   observers.stalled = [&](const std::string& why) { alarms.push_back(why); };
@@ -283,16 +284,15 @@ TEST_CASE("a rank that is through with its work alarms nobody before long") {
 TEST_CASE("presplit points are in order, symmetric, and end at the spacing") {
   const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 1, 6, Presplit::kOn);
   std::size_t interfaces = 0;
-  for (std::size_t r = 0; r < plan.decomposition.roots.size(); ++r) {
+  for (const GlobalRootId r : ids_of(plan.decomposition.roots)) {
     const auto& root = plan.decomposition.roots[r];
-    const auto paths = presplit_paths(plan.decomposition, static_cast<RootId>(r), plan.bounds);
+    const auto paths = presplit_paths(plan.decomposition, r, plan.bounds);
     if (!root.is_interface()) {
       CHECK(paths.empty());
       continue;
     }
     ++interfaces;
-    const Point &a = plan.decomposition.points[static_cast<std::size_t>(root.a)],
-                &b = plan.decomposition.points[static_cast<std::size_t>(root.b)];
+    const Point &a = plan.decomposition.points[root.a], &b = plan.decomposition.points[root.b];
     const double longest = kPresplitSpacing * std::sqrt(1e-3);
     int depth = -1;
     for (const dyadic::Path path : paths) depth = std::max(depth, dyadic::depth(path));
@@ -325,20 +325,20 @@ TEST_CASE("a plan survives its way through bytes, and a damaged one is refused")
 TEST_CASE("the agenda finishes what is begun, and comes to refined subdomains last") {
   Agenda agenda(WorkOrder::kLargest);
   CHECK(!agenda.first());
-  agenda.put({1, false, false, 10, 0});
-  agenda.put({2, false, false, 30, 0});
-  agenda.put({3, false, true, 99, 5});
-  agenda.put({4, true, false, 1, 0});
-  CHECK(agenda.first() == 4);
-  agenda.remove(4);
-  CHECK(agenda.first() == 2);
-  agenda.put({1, false, false, 40, 0});
-  CHECK(agenda.first() == 1);
-  agenda.remove(1);
-  agenda.remove(2);
-  CHECK(agenda.first() == 3);
-  agenda.put({5, false, true, 1, 6});
-  CHECK(agenda.first() == 5);
+  agenda.put({1_sub, false, false, 10, 0});
+  agenda.put({2_sub, false, false, 30, 0});
+  agenda.put({3_sub, false, true, 99, 5});
+  agenda.put({4_sub, true, false, 1, 0});
+  CHECK(agenda.first() == 4_sub);
+  agenda.remove(4_sub);
+  CHECK(agenda.first() == 2_sub);
+  agenda.put({1_sub, false, false, 40, 0});
+  CHECK(agenda.first() == 1_sub);
+  agenda.remove(1_sub);
+  agenda.remove(2_sub);
+  CHECK(agenda.first() == 3_sub);
+  agenda.put({5_sub, false, true, 1, 6});
+  CHECK(agenda.first() == 5_sub);
   CHECK(agenda.size() == 2);
 }
 

@@ -15,8 +15,8 @@ class MpiTeam final : public Team {
  public:
   explicit MpiTeam(int communicator);
 
-  [[nodiscard]] protocol::Rank rank() const override { return control_.rank(); }
-  [[nodiscard]] protocol::Rank ranks() const override { return control_.ranks(); }
+  [[nodiscard]] Rank rank() const override { return control_.rank(); }
+  [[nodiscard]] std::int32_t ranks() const override { return control_.ranks(); }
   [[nodiscard]] int ranks_on_machine() const override { return ranks_on_machine_; }
   [[nodiscard]] protocol::Bytes broadcast(protocol::Bytes bytes) override;
   [[nodiscard]] std::vector<protocol::Bytes> gather(const protocol::Bytes& bytes) override;

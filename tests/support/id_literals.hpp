@@ -1,0 +1,18 @@
+#pragma once
+
+#include "base/ids.hpp"
+
+/// Numbers of things, as tests write them.
+namespace driftmesh {
+
+[[nodiscard]] consteval Rank operator""_rank(unsigned long long number) {
+  return static_cast<Rank>(number);
+}
+[[nodiscard]] consteval SubdomainId operator""_sub(unsigned long long number) {
+  return static_cast<SubdomainId>(number);
+}
+[[nodiscard]] consteval GlobalRootId operator""_root(unsigned long long number) {
+  return static_cast<GlobalRootId>(number);
+}
+
+}  // namespace driftmesh
