@@ -17,18 +17,18 @@ CollectiveConduct::CollectiveConduct(Rank self, std::shared_ptr<const Layout> la
   if (self == kLeadingRank) news_.emplace(*layout_, now);
 }
 
-void CollectiveConduct::receive(Rank source, const protocol::Message& advice, double now) {
-  if (const auto* const news = std::get_if<protocol::LoadNews>(&advice)) {
+void CollectiveConduct::receive(Rank source, const Message& advice, double now) {
+  if (const auto* const news = std::get_if<LoadNews>(&advice)) {
     if (!leads()) return;
     static_cast<void>(news_->hear(source, *news, now));
     fresh_ = true;
-  } else if (const auto* const step = std::get_if<protocol::JointRound>(&advice)) {
+  } else if (const auto* const step = std::get_if<JointRound>(&advice)) {
     take_step(*step);
   }
 }
 
 // A start comes after all have answered the call, so it cannot overtake it.
-void CollectiveConduct::take_step(const protocol::JointRound& step) {
+void CollectiveConduct::take_step(const JointRound& step) {
   switch (step.stage) {
     case Step::kCall:
       if (step.round <= round_) return;
@@ -76,7 +76,7 @@ Decision CollectiveConduct::think(const Situation& situation) {
 
 void CollectiveConduct::say_to_all(Step step, Decision& decision) const {
   for (const Rank r : first_ids<Rank>(layout_->ranks))
-    if (r != self_) decision.messages.push_back({r, protocol::JointRound{round_, step}});
+    if (r != self_) decision.messages.push_back({r, JointRound{round_, step}});
 }
 
 void CollectiveConduct::call(const Situation& situation, Decision& decision) {
@@ -101,7 +101,7 @@ void CollectiveConduct::answer(const Situation& situation, Decision& decision) {
   if (leads())
     ++ready_;
   else
-    decision.messages.push_back({kLeadingRank, protocol::JointRound{round_, Step::kReady}});
+    decision.messages.push_back({kLeadingRank, JointRound{round_, Step::kReady}});
 }
 
 // Rank 0 itself decides when it thinks next: what it says now must leave before it waits for those who are to hear it.
@@ -116,7 +116,7 @@ void CollectiveConduct::decide(const Situation& situation, Decision& decision) {
   stage_ = Stage::kApart;
   decision.planned = true;
   for (const Move& move : decided.moves)
-    if (std::ranges::binary_search(own.own, move.subdomain, {}, &SubdomainState::id)) decision.moves.push_back(move);
+    if (std::ranges::binary_search(own.own, move.subdomain, {}, &SubdomainLoad::id)) decision.moves.push_back(move);
   if (decided.coming.count > 0) promises_.push_back({decided.coming, situation.now});
   for (; early_ > 0 && !promises_.empty(); --early_) keep_promise();
   early_ = 0;
@@ -134,7 +134,7 @@ void CollectiveConduct::report(const Situation& situation, Decision& decision) {
   if (!rule_.due(situation.now, total, situation.speed, changed_)) return;
   rule_.told(situation.now, total, situation.speed);
   changed_ = false;
-  const protocol::LoadNews news = news_of(++reports_, situation.speed, situation.own);
+  const LoadNews news = news_of(++reports_, situation.speed, situation.own);
   if (!leads()) {
     decision.messages.push_back({kLeadingRank, news});
     return;

@@ -26,7 +26,7 @@ class CollectiveConduct {
   CollectiveConduct(Rank self, std::shared_ptr<const Layout> layout, const ControllerOptions& options, Council& council,
                     double now);
 
-  void receive(Rank source, const protocol::Message& advice, double now);
+  void receive(Rank source, const Message& advice, double now);
   void arrived(SubdomainId id, double now);
   [[nodiscard]] bool waiting() const { return stage_ != Stage::kApart; }
   /// All others may be waiting for this rank.
@@ -41,10 +41,10 @@ class CollectiveConduct {
     kReady,    ///< and the call answered
     kStarted,  ///< all have answered
   };
-  using Step = protocol::JointRound::Stage;
+  using Step = JointRound::Stage;
 
   [[nodiscard]] bool leads() const { return news_.has_value(); }
-  void take_step(const protocol::JointRound& step);
+  void take_step(const JointRound& step);
   void say_to_all(Step step, Decision& decision) const;
   void call(const Situation& situation, Decision& decision);
   void answer(const Situation& situation, Decision& decision);

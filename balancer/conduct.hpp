@@ -6,7 +6,7 @@
 
 #include "balancer/load_snapshot.hpp"
 #include "balancer/move_cost.hpp"
-#include "protocol/messages.hpp"
+#include "balancer/messages.hpp"
 
 namespace driftmesh::balancer {
 
@@ -30,36 +30,36 @@ struct ControllerOptions {
 /// What a rank does for balance at one moment.
 struct Decision {
   std::vector<Move> moves;  ///< hand these over, now
-  std::vector<protocol::Outgoing> messages;
+  std::vector<Outgoing> messages;
   bool planned = false;  ///< whether to plan was looked at, which may have taken long: tell took()
 };
 
 /// What a rank tells the controller at one moment.
 struct Situation {
   double now = 0;
-  std::span<const protocol::SubdomainLoad> own;
+  std::span<const ReportedLoad> own;
   double speed = 0;
 };
 
 /// Of all subdomains in `own`, the work.
-[[nodiscard]] inline double total_work(std::span<const protocol::SubdomainLoad> own) {
+[[nodiscard]] inline double total_work(std::span<const ReportedLoad> own) {
   double total = 0;
-  for (const protocol::SubdomainLoad& load : own) total += load.remaining;
+  for (const ReportedLoad& load : own) total += load.remaining;
   return total;
 }
 
 /// What a rank has to do, in ascending order of the numbers.
-[[nodiscard]] inline std::vector<SubdomainState> states_of(Rank owner, std::span<const protocol::SubdomainLoad> own) {
-  std::vector<SubdomainState> states;
-  for (const protocol::SubdomainLoad& load : own)
+[[nodiscard]] inline std::vector<SubdomainLoad> states_of(Rank owner, std::span<const ReportedLoad> own) {
+  std::vector<SubdomainLoad> states;
+  for (const ReportedLoad& load : own)
     states.push_back({load.subdomain, owner, load.remaining, load.bytes, static_cast<std::int32_t>(states.size())});
-  std::ranges::sort(states, {}, &SubdomainState::id);
+  std::ranges::sort(states, {}, &SubdomainLoad::id);
   return states;
 }
 
 /// The news of a rank, `number` counting them from 1. What is worked on now cannot be given away.
-[[nodiscard]] inline protocol::LoadNews news_of(std::uint32_t number, double speed,
-                                                std::span<const protocol::SubdomainLoad> own) {
+[[nodiscard]] inline LoadNews news_of(std::uint32_t number, double speed,
+                                                std::span<const ReportedLoad> own) {
   const double total = total_work(own);
   return {number, total, own.empty() ? 0 : total - own.front().remaining, speed};
 }

@@ -36,7 +36,7 @@ Controller::Controller(Rank self, std::shared_ptr<const Layout> layout, std::sha
   }
 }
 
-void Controller::receive(Rank source, protocol::Message advice, double now) {
+void Controller::receive(Rank source, Message advice, double now) {
   std::visit(Each{[&](auto& conduct) { conduct.receive(source, std::move(advice), now); }, [](std::monostate) {}},
              conduct_);
   next_look_ = now;
@@ -60,7 +60,7 @@ bool Controller::pressing() const {
   return collective && collective->pressing();
 }
 
-Decision Controller::think(double now, std::span<const protocol::SubdomainLoad> own, double speed) {
+Decision Controller::think(double now, std::span<const ReportedLoad> own, double speed) {
   next_look_ = now + look_interval_;
   return std::visit(Each{[&](auto& conduct) {
                            return conduct.think({now, own, speed});

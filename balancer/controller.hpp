@@ -12,7 +12,7 @@
 #include "balancer/planning_conduct.hpp"
 #include "balancer/policy.hpp"
 #include "balancer/request_conduct.hpp"
-#include "protocol/messages.hpp"
+#include "balancer/messages.hpp"
 
 namespace driftmesh::balancer {
 
@@ -33,7 +33,7 @@ class Controller {
              const ControllerOptions& options, double now, Council* council = nullptr);
 
   /// Advice came from another rank. It is looked at in the next think().
-  void receive(Rank source, protocol::Message advice, double now);
+  void receive(Rank source, Message advice, double now);
 
   /// A subdomain has come from another rank. It may be finished before the next think(), which then does not list it;
   /// this tells that it is not under way any more.
@@ -47,7 +47,7 @@ class Controller {
 
   /// `own`: the subdomains here that are not finished, in the order in which they will be worked on as far as it is
   /// known. `speed`: triangles a second, 0 while it is not known.
-  [[nodiscard]] Decision think(double now, std::span<const protocol::SubdomainLoad> own, double speed);
+  [[nodiscard]] Decision think(double now, std::span<const ReportedLoad> own, double speed);
 
   /// A request of this rank has not been answered, something that came has not been looked at, or a plan is being made
   /// together.

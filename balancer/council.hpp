@@ -14,7 +14,7 @@ class Council {
   /// For one rank.
   struct Decision {
     std::vector<Move> moves;           ///< that it is to make
-    IdVector<Rank, RankState> states;  ///< of all ranks, when all moves of all have been made
+    IdVector<Rank, RankLoad> states;  ///< of all ranks, when all moves of all have been made
     JointPlan::Coming coming;          ///< to this rank
     bool any_moves = false;            ///< of any rank
   };

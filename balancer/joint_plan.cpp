@@ -17,7 +17,7 @@ class Movable {
  public:
   Movable(const Contribution& contribution, const MoveCost& cost) : contribution_(contribution), cost_(cost) {}
 
-  bool operator()(const SubdomainState& s) const {
+  bool operator()(const SubdomainLoad& s) const {
     const double speed = contribution_.state.speed;
     if (s.bytes > protocol::kMostPackedBytes) return false;
     if (std::binary_search(contribution_.settled.begin(), contribution_.settled.end(), s.id)) return false;
@@ -30,7 +30,7 @@ class Movable {
 };
 
 /// Bundles as if each were one subdomain, numbered in their order.
-LoadSnapshot as_subdomains(const IdVector<Rank, RankState>& states, std::span<const Bundle> bundles) {
+LoadSnapshot as_subdomains(const IdVector<Rank, RankLoad>& states, std::span<const Bundle> bundles) {
   LoadSnapshot snapshot;
   snapshot.ranks = states;
   for (const Bundle& b : bundles)
@@ -61,7 +61,7 @@ std::vector<Bundle> without(std::span<const Bundle> bundles, const std::vector<O
 }  // namespace
 
 LoadSnapshot own_snapshot(const Contribution& contribution, std::shared_ptr<const Layout> layout,
-                          IdVector<Rank, RankState> states) {
+                          IdVector<Rank, RankLoad> states) {
   return {std::move(layout), contribution.own, std::move(states)};
 }
 
@@ -69,7 +69,7 @@ std::vector<Bundle> bundles_of(const Contribution& contribution, std::span<const
   const Movable movable(contribution, cost);
   std::map<Part, Bundle> of_part;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const SubdomainState& s = contribution.own[i];
+    const SubdomainLoad& s = contribution.own[i];
     if (!movable(s)) continue;
     Bundle& bundle = of_part[parts[i]];
     bundle.work += s.remaining;
@@ -80,7 +80,7 @@ std::vector<Bundle> bundles_of(const Contribution& contribution, std::span<const
   return bundles;
 }
 
-DealtParts deal_parts(const IdVector<Rank, RankState>& states, std::span<const Bundle> bundles, double tolerance) {
+DealtParts deal_parts(const IdVector<Rank, RankLoad>& states, std::span<const Bundle> bundles, double tolerance) {
   const LoadSnapshot snapshot = as_subdomains(states, bundles);
   std::vector<Part> parts;
   for (const Bundle& bundle : bundles) parts.push_back(bundle.part);
@@ -92,7 +92,7 @@ DealtParts deal_parts(const IdVector<Rank, RankState>& states, std::span<const B
     dealt.states[bundles[i].holder].remaining -= bundles[i].work;
     dealt.states[takers[i]].remaining += bundles[i].work;
   }
-  for (RankState& state : dealt.states) state.remaining = std::max(0.0, state.remaining);
+  for (RankLoad& state : dealt.states) state.remaining = std::max(0.0, state.remaining);
   return dealt;
 }
 
@@ -130,7 +130,7 @@ std::vector<Offer> offers_of(const Contribution& contribution, std::span<const P
   return offers;
 }
 
-DealtOffers deal_offers(const IdVector<Rank, RankState>& states, std::span<const Bundle> bundles,
+DealtOffers deal_offers(const IdVector<Rank, RankLoad>& states, std::span<const Bundle> bundles,
                         std::span<const Offer> offers, const DealtParts& dealt, const Dealing& dealing,
                         const MoveCost& cost) {
   DealtOffers result{by_number(offers), {}, {}};
@@ -138,7 +138,7 @@ DealtOffers deal_offers(const IdVector<Rank, RankState>& states, std::span<const
   offered.ranks = dealt.states;
   for (const Offer& offer : result.offers) offered.subdomains.push_back(offer.subdomain);
   if (dealing.polish) offered = deal_surplus(offered, dealing.tolerance);
-  for (const SubdomainState& s : offered.subdomains) result.takers.push_back(s.owner);
+  for (const SubdomainLoad& s : offered.subdomains) result.takers.push_back(s.owner);
 
   // All that could move, as if each were one subdomain: what is left of the bundles, then the offers.
   const std::vector<Bundle> rest = without(bundles, result.offers);
@@ -147,7 +147,7 @@ DealtOffers deal_offers(const IdVector<Rank, RankState>& states, std::span<const
   for (std::size_t i = 0; i < rest.size(); ++i)
     moves.push_back({static_cast<SubdomainId>(i), dealt.rank_of[rest[i].part]});
   for (std::size_t i = 0; i < result.offers.size(); ++i) {
-    SubdomainState s = result.offers[i].subdomain;
+    SubdomainLoad s = result.offers[i].subdomain;
     s.id = static_cast<SubdomainId>(before.subdomains.size());
     s.owner = result.offers[i].holder;
     before.subdomains.push_back(s);
@@ -158,7 +158,7 @@ DealtOffers deal_offers(const IdVector<Rank, RankState>& states, std::span<const
 }
 
 std::vector<Move> moves_of(const Contribution& contribution, std::span<const Part> parts,
-                           const IdVector<Rank, RankState>& states, const DealtParts& dealt, const DealtOffers& offers,
+                           const IdVector<Rank, RankLoad>& states, const DealtParts& dealt, const DealtOffers& offers,
                            const MoveCost& cost, const Worth& worth) {
   const Movable movable(contribution, cost);
   std::map<SubdomainId, Rank> taker_of;
@@ -167,7 +167,7 @@ std::vector<Move> moves_of(const Contribution& contribution, std::span<const Par
   const LoadSnapshot own = own_snapshot(contribution, nullptr, states);
   std::vector<Move> wanted;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const SubdomainState& s = contribution.own[i];
+    const SubdomainLoad& s = contribution.own[i];
     if (!movable(s)) continue;
     const auto offered = taker_of.find(s.id);
     wanted.push_back({s.id, offered == taker_of.end() ? dealt.rank_of[parts[i]] : offered->second});
@@ -181,7 +181,7 @@ std::vector<Transfer> transfers_of(const Contribution& contribution, std::span<c
   const LoadSnapshot own{nullptr, contribution.own, {}};
   std::map<Rank, Transfer> to;
   for (const Move& move : moves) {
-    const SubdomainState& s = *find(own, move.subdomain);
+    const SubdomainLoad& s = *find(own, move.subdomain);
     Transfer& transfer = to[move.destination];
     transfer.work += s.remaining;
     transfer.bytes += s.bytes;
@@ -192,7 +192,7 @@ std::vector<Transfer> transfers_of(const Contribution& contribution, std::span<c
   return transfers;
 }
 
-JointPlan weigh(const IdVector<Rank, RankState>& states, std::span<const Transfer> transfers, const MoveCost& cost,
+JointPlan weigh(const IdVector<Rank, RankLoad>& states, std::span<const Transfer> transfers, const MoveCost& cost,
                 const Worth& worth) {
   JointPlan plan{false, states, IdVector<Rank, JointPlan::Coming>(states.size())};
   LoadSnapshot before{nullptr, {}, states};

@@ -22,14 +22,14 @@ namespace driftmesh::balancer {
 /// What a rank brings: what it has to do.
 struct Contribution {
   Rank rank{};
-  RankState state;                   ///< its speed; its work, also what is still on its way to it
-  std::vector<SubdomainState> own;   ///< that are here and not finished, in ascending order of their numbers
+  RankLoad state;                   ///< its speed; its work, also what is still on its way to it
+  std::vector<SubdomainLoad> own;   ///< that are here and not finished, in ascending order of their numbers
   std::vector<SubdomainId> settled;  ///< ascending: what has come lately, and stays
 };
 
 /// The same for a policy: what a rank owns, and the states of all.
 [[nodiscard]] LoadSnapshot own_snapshot(const Contribution& contribution, std::shared_ptr<const Layout> layout,
-                                        IdVector<Rank, RankState> states);
+                                        IdVector<Rank, RankLoad> states);
 
 /// The subdomains of one part that one rank holds and could give away.
 struct Bundle {
@@ -47,18 +47,18 @@ struct Bundle {
 /// Which rank takes which part, and what all will have to do then.
 struct DealtParts {
   IdVector<Part, Rank> rank_of;      ///< each part
-  IdVector<Rank, RankState> states;  ///< of all ranks afterwards
+  IdVector<Rank, RankLoad> states;  ///< of all ranks afterwards
 };
 
 /// Parts go to ranks as remap_parts does it.
-[[nodiscard]] DealtParts deal_parts(const IdVector<Rank, RankState>& states, std::span<const Bundle> bundles,
+[[nodiscard]] DealtParts deal_parts(const IdVector<Rank, RankLoad>& states, std::span<const Bundle> bundles,
                                     double tolerance);
 
 /// A single subdomain that could go elsewhere than its part.
 struct Offer {
   Rank holder{};
   Part part{};
-  SubdomainState subdomain;  ///< its owner is the rank that takes its part
+  SubdomainLoad subdomain;  ///< its owner is the rank that takes its part
 };
 
 /// Subdomains of this rank that ranks with more than their share might do without, for each as much as it has too much,
@@ -72,14 +72,14 @@ struct DealtOffers {
   std::vector<Rank> takers;      ///< of each: its part's, another one, or its holder
   IdVector<Rank, double> times;  ///< when each rank would be through if all moved that is dealt to another
 };
-[[nodiscard]] DealtOffers deal_offers(const IdVector<Rank, RankState>& states, std::span<const Bundle> bundles,
+[[nodiscard]] DealtOffers deal_offers(const IdVector<Rank, RankLoad>& states, std::span<const Bundle> bundles,
                                       std::span<const Offer> offers, const DealtParts& dealt, const Dealing& dealing,
                                       const MoveCost& cost);
 
 /// What this rank should hand over: of what was dealt to others, what it cannot keep without being through later than
 /// the last one then, or than the ideal time and the slack of `worth`.
 [[nodiscard]] std::vector<Move> moves_of(const Contribution& contribution, std::span<const Part> parts,
-                                         const IdVector<Rank, RankState>& states, const DealtParts& dealt,
+                                         const IdVector<Rank, RankLoad>& states, const DealtParts& dealt,
                                          const DealtOffers& offers, const MoveCost& cost, const Worth& worth);
 
 /// All that one rank would hand over to another.
@@ -98,10 +98,10 @@ struct JointPlan {
     std::int32_t count = 0;  ///< of subdomains
   };
   bool worth = false;                ///< whether they are made
-  IdVector<Rank, RankState> states;  ///< of all ranks when everything has arrived
+  IdVector<Rank, RankLoad> states;  ///< of all ranks when everything has arrived
   IdVector<Rank, Coming> coming;     ///< what goes to each rank
 };
-[[nodiscard]] JointPlan weigh(const IdVector<Rank, RankState>& states, std::span<const Transfer> transfers,
+[[nodiscard]] JointPlan weigh(const IdVector<Rank, RankLoad>& states, std::span<const Transfer> transfers,
                               const MoveCost& cost, const Worth& worth);
 
 }  // namespace driftmesh::balancer

@@ -20,12 +20,12 @@ Knowledge::Knowledge(std::shared_ptr<const Layout> layout, double patience)
   for (const Layout::Subdomain& s : layout_->subdomains) ranks_[s.owner].predicted += s.predicted;
 }
 
-void Knowledge::hear(Rank rank, const protocol::LoadReport& report, double now) {
+void Knowledge::hear(Rank rank, const LoadReport& report, double now) {
   Heard& heard = ranks_[rank];
   if (heard.any && report.round <= heard.round) return;
   heard_ += heard.any ? 0 : 1;
   heard = {true, report.round, now, report.speed, {}, heard.predicted};
-  for (const protocol::SubdomainLoad& load : report.loads) {
+  for (const ReportedLoad& load : report.loads) {
     const auto [known, first] = claims_.try_emplace(load.subdomain, Claim{rank, load.epoch});
     if (!first && load.epoch < known->second.epoch) continue;
     known->second = {rank, load.epoch};
@@ -36,8 +36,8 @@ void Knowledge::hear(Rank rank, const protocol::LoadReport& report, double now) 
 
 // A planned move is settled when its destination reports the subdomain, when its owner has seen the plan and still
 // reports it, or when it has been too long.
-void Knowledge::settle_planned(Rank rank, const protocol::LoadReport& report, double now) {
-  for (const protocol::SubdomainLoad& load : report.loads) {
+void Knowledge::settle_planned(Rank rank, const LoadReport& report, double now) {
+  for (const ReportedLoad& load : report.loads) {
     const auto planned = planned_.find(load.subdomain);
     if (planned == planned_.end()) continue;
     const bool made = rank != planned->second.from;
@@ -49,7 +49,7 @@ void Knowledge::settle_planned(Rank rank, const protocol::LoadReport& report, do
 
 void Knowledge::expect(std::span<const Move> moves, const LoadSnapshot& planned_on, std::uint32_t plan, double now) {
   for (const Move& move : moves)
-    if (const SubdomainState* const s = find(planned_on, move.subdomain))
+    if (const SubdomainLoad* const s = find(planned_on, move.subdomain))
       planned_[move.subdomain] = {s->owner, move.destination, plan, now, *s};
 }
 
@@ -58,7 +58,7 @@ Rank Knowledge::owner_of(SubdomainId id) const {
   return known == claims_.end() ? (*layout_)[id].owner : known->second.owner;
 }
 
-void Knowledge::list(LoadSnapshot& snapshot, Rank rank, const std::vector<SubdomainState>& arriving, double now) const {
+void Knowledge::list(LoadSnapshot& snapshot, Rank rank, const std::vector<SubdomainLoad>& arriving, double now) const {
   const Heard& heard = ranks_[rank];
   double done = heard.any ? heard.speed * std::max(0.0, now - heard.at) : 0;
   std::int32_t turn = 0;
@@ -66,18 +66,18 @@ void Knowledge::list(LoadSnapshot& snapshot, Rank rank, const std::vector<Subdom
     if (const double left = left_of(work, done); left > 0)
       snapshot.subdomains.push_back({id, rank, left, bytes, turn++});
   };
-  for (const protocol::SubdomainLoad& load : heard.loads)
+  for (const ReportedLoad& load : heard.loads)
     if (owner_of(load.subdomain) == rank && !planned_.contains(load.subdomain))
       add(load.subdomain, load.remaining, load.bytes);
-  for (const SubdomainState& s : arriving) add(s.id, s.remaining, s.bytes);
+  for (const SubdomainLoad& s : arriving) add(s.id, s.remaining, s.bytes);
 }
 
 LoadSnapshot Knowledge::snapshot(double now, bool with_silent) const {
   LoadSnapshot snapshot;
   snapshot.layout = layout_;
-  std::map<Rank, std::vector<SubdomainState>> arriving;
+  std::map<Rank, std::vector<SubdomainLoad>> arriving;
   for (const auto& [id, planned] : planned_) arriving[planned.to].push_back(planned.load);
-  static const std::vector<SubdomainState> kNone;
+  static const std::vector<SubdomainLoad> kNone;
   for (const Rank r : ids_of(ranks_)) {
     const auto coming = arriving.find(r);
     snapshot.ranks.push_back({ranks_[r].speed, 0});
@@ -89,7 +89,7 @@ LoadSnapshot Knowledge::snapshot(double now, bool with_silent) const {
       if (!ranks_[s.owner].any && !planned_.contains(id) && !claims_.contains(id))
         snapshot.subdomains.push_back({id, s.owner, s.predicted, 0, to_int(id)});
     }
-  std::ranges::sort(snapshot.subdomains, {}, &SubdomainState::id);
+  std::ranges::sort(snapshot.subdomains, {}, &SubdomainLoad::id);
   sum_up(snapshot);
   if (!with_silent)
     for (const Rank r : ids_of(ranks_))

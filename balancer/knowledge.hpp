@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "balancer/load_snapshot.hpp"
-#include "protocol/messages.hpp"
+#include "balancer/messages.hpp"
 
 namespace driftmesh::balancer {
 
@@ -20,7 +20,7 @@ class Knowledge {
 
   /// Takes in a report that came (or was made here) at `now`. An older one than the last of that rank, and what it says
   /// of subdomains that have moved since, is ignored.
-  void hear(Rank rank, const protocol::LoadReport& report, double now);
+  void hear(Rank rank, const LoadReport& report, double now);
 
   /// These moves were advised, under this number. Until they are seen to be made or not, they count as made.
   void expect(std::span<const Move> moves, const LoadSnapshot& planned_on, std::uint32_t plan, double now);
@@ -42,7 +42,7 @@ class Knowledge {
     std::uint32_t round = 0;
     double at = 0;
     double speed = 0;
-    std::vector<protocol::SubdomainLoad> loads;  // in the order of work
+    std::vector<ReportedLoad> loads;  // in the order of work
     double predicted = 0;                        // of the layout, for one that has said nothing
   };
   struct Claim {
@@ -53,10 +53,10 @@ class Knowledge {
     Rank from{}, to{};
     std::uint32_t plan = 0;
     double at = 0;
-    SubdomainState load;
+    SubdomainLoad load;
   };
-  void settle_planned(Rank rank, const protocol::LoadReport& report, double now);
-  void list(LoadSnapshot& snapshot, Rank rank, const std::vector<SubdomainState>& arriving, double now) const;
+  void settle_planned(Rank rank, const LoadReport& report, double now);
+  void list(LoadSnapshot& snapshot, Rank rank, const std::vector<SubdomainLoad>& arriving, double now) const;
 
   std::shared_ptr<const Layout> layout_;
   double patience_;

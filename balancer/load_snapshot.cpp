@@ -13,39 +13,39 @@ bool is_speed(double speed) {
 
 template <class States>
 auto* find_in(States& states, SubdomainId id) {
-  const auto place = std::ranges::lower_bound(states, id, {}, &SubdomainState::id);
+  const auto place = std::ranges::lower_bound(states, id, {}, &SubdomainLoad::id);
   return place == states.end() || place->id != id ? nullptr : &*place;
 }
 
 }  // namespace
 
-bool leaves_before(const SubdomainState& a, const SubdomainState& b) {
+bool leaves_before(const SubdomainLoad& a, const SubdomainLoad& b) {
   return std::tuple(weight_class(a), -a.turn, -a.remaining, a.id) <
          std::tuple(weight_class(b), -b.turn, -b.remaining, b.id);
 }
 
 std::vector<Part> present_parts(const LoadSnapshot& snapshot) {
   std::vector<Part> parts;
-  for (const SubdomainState& s : snapshot.subdomains) parts.push_back(Part{to_int(s.owner)});
+  for (const SubdomainLoad& s : snapshot.subdomains) parts.push_back(Part{to_int(s.owner)});
   return parts;
 }
 
 void sum_up(LoadSnapshot& snapshot) {
-  for (RankState& rank : snapshot.ranks) rank.remaining = 0;
-  for (const SubdomainState& s : snapshot.subdomains) snapshot.ranks[s.owner].remaining += s.remaining;
+  for (RankLoad& rank : snapshot.ranks) rank.remaining = 0;
+  for (const SubdomainLoad& s : snapshot.subdomains) snapshot.ranks[s.owner].remaining += s.remaining;
 }
 
-const SubdomainState* find(const LoadSnapshot& snapshot, SubdomainId id) {
+const SubdomainLoad* find(const LoadSnapshot& snapshot, SubdomainId id) {
   return find_in(snapshot.subdomains, id);
 }
 
-IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankState> ranks) {
+IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankLoad> ranks) {
   double sum = 0;
   int known = 0;
-  for (const RankState& rank : ranks)
+  for (const RankLoad& rank : ranks)
     if (is_speed(rank.speed)) sum += rank.speed, ++known;
   IdVector<Rank, double> speeds;
-  for (const RankState& rank : ranks) speeds.push_back(is_speed(rank.speed) ? rank.speed : known > 0 ? sum / known : 1);
+  for (const RankLoad& rank : ranks) speeds.push_back(is_speed(rank.speed) ? rank.speed : known > 0 ? sum / known : 1);
   return speeds;
 }
 
@@ -58,14 +58,14 @@ double finishing_time(const LoadSnapshot& snapshot) {
 
 double ideal_time(const LoadSnapshot& snapshot) {
   double work = 0, speed = 0;
-  for (const RankState& rank : snapshot.ranks) work += rank.remaining;
+  for (const RankLoad& rank : snapshot.ranks) work += rank.remaining;
   for (const double s : assumed_speeds(snapshot.ranks)) speed += s;
   return speed > 0 ? work / speed : 0;
 }
 
 LoadSnapshot after(LoadSnapshot snapshot, std::span<const Move> moves) {
   for (const Move& move : moves) {
-    SubdomainState& s = *find_in(snapshot.subdomains, move.subdomain);
+    SubdomainLoad& s = *find_in(snapshot.subdomains, move.subdomain);
     snapshot.ranks[s.owner].remaining -= s.remaining;
     s.owner = move.destination;
     snapshot.ranks[s.owner].remaining += s.remaining;

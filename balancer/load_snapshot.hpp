@@ -33,7 +33,7 @@ struct Layout {
 };
 
 /// A subdomain that is not finished.
-struct SubdomainState {
+struct SubdomainLoad {
   SubdomainId id{};
   Rank owner{};
   double remaining = 0;     ///< triangles still to be made, predicted
@@ -43,14 +43,14 @@ struct SubdomainState {
 };
 
 /// Its bytes in units of 64 KiB: below that, one is as easily moved as the other.
-[[nodiscard]] inline std::uint64_t weight_class(const SubdomainState& s) {
+[[nodiscard]] inline std::uint64_t weight_class(const SubdomainLoad& s) {
   return s.bytes >> 16;
 }
 
 /// Whether `a` leaves its rank more easily than `b`: what is light, and of this what will be worked on last.
-[[nodiscard]] bool leaves_before(const SubdomainState& a, const SubdomainState& b);
+[[nodiscard]] bool leaves_before(const SubdomainLoad& a, const SubdomainLoad& b);
 
-struct RankState {
+struct RankLoad {
   double speed = 0;      ///< triangles a second, measured; 0: not known
   double remaining = 0;  ///< of all its subdomains, also of those that the snapshot does not list
 };
@@ -63,8 +63,8 @@ enum class Part : std::int32_t {};
 /// sums alone, and not list their subdomains.
 struct LoadSnapshot {
   std::shared_ptr<const Layout> layout;
-  std::vector<SubdomainState> subdomains;  ///< in ascending order of their numbers, each once
-  IdVector<Rank, RankState> ranks;         ///< of all ranks
+  std::vector<SubdomainLoad> subdomains;  ///< in ascending order of their numbers, each once
+  IdVector<Rank, RankLoad> ranks;         ///< of all ranks
 };
 
 struct Move {
@@ -80,10 +80,10 @@ struct Move {
 void sum_up(LoadSnapshot& snapshot);
 
 /// The listed subdomain of that number, or null.
-[[nodiscard]] const SubdomainState* find(const LoadSnapshot& snapshot, SubdomainId id);
+[[nodiscard]] const SubdomainLoad* find(const LoadSnapshot& snapshot, SubdomainId id);
 
 /// The speed of each rank: where it is not known (or not a positive number), the mean of those that are; 1 if none is.
-[[nodiscard]] IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankState> ranks);
+[[nodiscard]] IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankLoad> ranks);
 
 /// When the last rank will have finished if nothing moves: the maximum of remaining / speed.
 [[nodiscard]] double finishing_time(const LoadSnapshot& snapshot);

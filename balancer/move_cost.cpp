@@ -31,7 +31,7 @@ class Selection {
   }
 
   void consider(const Move& move) {
-    const SubdomainState* const s = find(snapshot_, move.subdomain);
+    const SubdomainLoad* const s = find(snapshot_, move.subdomain);
     const bool possible =
         s && speeds_.has(move.destination) && move.destination != s->owner && !taken_twice(move.subdomain);
     if (!possible) return;
@@ -91,7 +91,7 @@ class Selection {
 std::vector<Move> those_that_fit(const LoadSnapshot& snapshot, std::span<const Move> moves) {
   std::vector<Move> fit;
   std::copy_if(moves.begin(), moves.end(), std::back_inserter(fit), [&](const Move& move) {
-    const SubdomainState* const s = find(snapshot, move.subdomain);
+    const SubdomainLoad* const s = find(snapshot, move.subdomain);
     return s && s->bytes <= protocol::kMostPackedBytes;
   });
   return fit;

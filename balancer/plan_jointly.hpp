@@ -16,7 +16,7 @@ namespace driftmesh::balancer {
 template <class FromAll>
 [[nodiscard]] std::vector<Council::Decision> plan_jointly(std::span<const Contribution> here,
                                                           const std::vector<std::vector<Part>>& parts,
-                                                          const IdVector<Rank, RankState>& states,
+                                                          const IdVector<Rank, RankLoad>& states,
                                                           const Dealing& dealing, const ControllerOptions& options,
                                                           const FromAll& from_all) {
   const MoveCost& cost = options.cost;

@@ -18,7 +18,7 @@ LoadSnapshot between(LoadSnapshot snapshot, Rank self, std::span<const Move> mov
 }
 
 // False if it is not there.
-bool remove(std::vector<protocol::SubdomainLoad>& own, SubdomainId id) {
+bool remove(std::vector<ReportedLoad>& own, SubdomainId id) {
   return std::erase_if(own, [&](const auto& load) { return load.subdomain == id; }) > 0;
 }
 
@@ -37,12 +37,12 @@ PlanningConduct::PlanningConduct(Rank self, std::shared_ptr<const Layout> layout
     knowledge_.emplace(layout_, options.patience());
 }
 
-void PlanningConduct::receive(Rank source, protocol::Message advice, double now) {
-  if (auto* const report = std::get_if<protocol::LoadReport>(&advice)) {
+void PlanningConduct::receive(Rank source, Message advice, double now) {
+  if (auto* const report = std::get_if<LoadReport>(&advice)) {
     if (!plans()) return;
     knowledge_->hear(source, *report, now);
     news_ = true;
-  } else if (auto* const plan = std::get_if<protocol::Plan>(&advice)) {
+  } else if (auto* const plan = std::get_if<Plan>(&advice)) {
     advised_.push_back(std::move(*plan));
   }
 }
@@ -57,10 +57,10 @@ Decision PlanningConduct::think(const Situation& situation) {
 }
 
 void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Decision& decision) {
-  for (const protocol::Plan& plan : std::exchange(advised_, {})) {
+  for (const Plan& plan : std::exchange(advised_, {})) {
     plan_seen_ = std::max(plan_seen_, plan.round);
     acted_ = true;
-    for (const protocol::PlannedMove& move : plan.moves) {
+    for (const Move& move : plan.moves) {
       const auto load =
           std::find_if(own.begin(), own.end(), [&](const auto& l) { return l.subdomain == move.subdomain; });
       if (load == own.end() || move.destination == self_) continue;
@@ -102,7 +102,7 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
 void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own,
                              Decision& decision) {
   ++plans_;
-  std::map<Rank, protocol::Plan> of_rank;
+  std::map<Rank, Plan> of_rank;
   for (const Move& move : moves) {
     const Rank owner = find(snapshot, move.subdomain)->owner;
     if (owner != self_) {
@@ -128,7 +128,7 @@ void PlanningConduct::report(const Situation& situation, const Loads& own, Decis
   for (const auto& load : own) told_.push_back(load.subdomain);
   std::sort(told_.begin(), told_.end());
   news_ = true;  // also to this rank, if it plans
-  const protocol::LoadReport report{++reports_, plan_seen_, situation.speed, with_arrived(own)};
+  const LoadReport report{++reports_, plan_seen_, situation.speed, with_arrived(own)};
   arrived_.clear();
   for (const Rank rank : audience(own))
     if (rank != self_) decision.messages.push_back({rank, report});
@@ -136,7 +136,7 @@ void PlanningConduct::report(const Situation& situation, const Loads& own, Decis
 
 // Who planned a move shall hear that it was made, also if the subdomain has been finished since.
 PlanningConduct::Loads PlanningConduct::with_arrived(Loads own) const {
-  for (const protocol::SubdomainLoad& load : arrived_)
+  for (const ReportedLoad& load : arrived_)
     if (std::none_of(own.begin(), own.end(), [&](const auto& l) { return l.subdomain == load.subdomain; }))
       own.push_back(load);
   return own;

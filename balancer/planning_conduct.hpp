@@ -20,14 +20,14 @@ class PlanningConduct {
   PlanningConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
                   const ControllerOptions& options, double now);
 
-  void receive(Rank source, protocol::Message advice, double now);
+  void receive(Rank source, Message advice, double now);
   void arrived(SubdomainId id, protocol::Epoch epoch) { arrived_.push_back({id, epoch, 0, 0}); }
   [[nodiscard]] bool waiting() const { return !advised_.empty(); }
   [[nodiscard]] Decision think(const Situation& situation);
   void took(double seconds) { pace_.took(seconds); }
 
  private:
-  using Loads = std::vector<protocol::SubdomainLoad>;
+  using Loads = std::vector<ReportedLoad>;
 
   [[nodiscard]] bool plans() const { return knowledge_.has_value(); }
   void follow_advice(const Situation& situation, Loads& own, Decision& decision);
@@ -48,7 +48,7 @@ class PlanningConduct {
   Loads arrived_;                  // since the last report, as if finished
   bool acted_ = false;             // on a plan, since the last report
   std::uint32_t plan_seen_ = 0;
-  std::vector<protocol::Plan> advised_;  // and not looked at
+  std::vector<Plan> advised_;  // and not looked at
   std::vector<Rank> audience_;
 
   // Of a rank that plans:

@@ -6,8 +6,8 @@ std::vector<Move> Policy::plan(const LoadSnapshot&, Rank) const {
   return {};
 }
 
-std::vector<Part> Policy::parts(const LoadSnapshot& own, std::optional<int>) const {
-  return present_parts(own);
+std::optional<ZoltanParameters> Policy::partitioning(const LoadSnapshot&) const {
+  return std::nullopt;
 }
 
 Dealing Policy::dealing(const LoadSnapshot&) const {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "balancer/load_snapshot.hpp"
@@ -15,6 +17,9 @@ enum class Placement {
   kRequests,    ///< a rank that will soon be idle asks for work; rank 0 finds it a rank that has much
   kCollective,  ///< all at the same time, each for what it owns; rank 0 knows sums alone, and calls them together
 };
+
+/// Zoltan's parameters by their names, LB_METHOD and the like.
+using ZoltanParameters = std::map<std::string, std::string>;
 
 /// How parts that are made for all ranks are dealt to them.
 struct Dealing {
@@ -36,12 +41,11 @@ class Policy {
   /// to another rank than its owner.
   [[nodiscard]] virtual std::vector<Move> plan(const LoadSnapshot& snapshot, Rank self) const;
 
-  /// kCollective: the part of each subdomain that `own` lists, one part for each rank, as large as that is fast.
-  /// Everybody knows the states of all ranks, and lists what it owns. `communicator` is the Fortran handle of an MPI
-  /// communicator, all ranks of which call this at the same time and may wait for each other in it. Without one, this
-  /// is the only call, and all subdomains are listed.
-  [[nodiscard]] virtual std::vector<Part> parts(const LoadSnapshot& own, std::optional<int> communicator) const;
-  /// kCollective: what is done with the parts. Of `own` it may look at the states alone, so that all ranks do the same.
+  /// kCollective: how the ranks divide their subdomains into parts, one for each rank and as large as that is fast: by
+  /// Zoltan, with these parameters. Without any, each subdomain stays in the part of its owner. Everybody knows the load
+  /// of all ranks, and lists what it owns itself; so this may look at the load of ranks alone, and is the same for all.
+  [[nodiscard]] virtual std::optional<ZoltanParameters> partitioning(const LoadSnapshot& own) const;
+  /// kCollective: what is done with the parts. It may look at the load of ranks alone, too.
   [[nodiscard]] virtual Dealing dealing(const LoadSnapshot& own) const;
 
   /// kRequests: whether a rank with so many seconds of work left should ask for more.

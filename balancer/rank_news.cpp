@@ -11,13 +11,13 @@ constexpr double kNotable = 1.05;
 
 RankNews::RankNews(const Layout& layout, double now) : ranks_(to_index(layout.ranks), Heard{{}, now}) {
   for (const Layout::Subdomain& s : layout.subdomains) {
-    protocol::LoadNews& news = ranks_[s.owner].news;
+    LoadNews& news = ranks_[s.owner].news;
     news.remaining += s.predicted;
     news.spare += s.predicted;
   }
 }
 
-bool RankNews::hear(Rank rank, const protocol::LoadNews& news, double now) {
+bool RankNews::hear(Rank rank, const LoadNews& news, double now) {
   Heard& heard = ranks_[rank];
   if (news.round <= heard.news.round) return false;
   const double believed = std::max(0.0, heard.news.remaining - heard.news.speed * std::max(0.0, now - heard.at));
@@ -26,7 +26,7 @@ bool RankNews::hear(Rank rank, const protocol::LoadNews& news, double now) {
 }
 
 void RankNews::expect(Rank from, Rank to, double work, double now) {
-  const IdVector<Rank, RankState> current = states(now);
+  const IdVector<Rank, RankLoad> current = states(now);
   // What it will get, a rank cannot give yet.
   const auto change = [&](Rank rank, double amount) {
     Heard& heard = ranks_[rank];
@@ -38,7 +38,7 @@ void RankNews::expect(Rank from, Rank to, double work, double now) {
   change(to, work);
 }
 
-void RankNews::assume(const IdVector<Rank, RankState>& states, double now) {
+void RankNews::assume(const IdVector<Rank, RankLoad>& states, double now) {
   for (const Rank r : ids_of(ranks_)) {
     ranks_[r].news.speed = states[r].speed;
     ranks_[r].news.remaining = states[r].remaining;
@@ -50,8 +50,8 @@ bool RankNews::complete() const {
   return std::all_of(ranks_.begin(), ranks_.end(), [](const Heard& heard) { return heard.news.round > 0; });
 }
 
-IdVector<Rank, RankState> RankNews::states(double now) const {
-  IdVector<Rank, RankState> states;
+IdVector<Rank, RankLoad> RankNews::states(double now) const {
+  IdVector<Rank, RankLoad> states;
   for (const Heard& heard : ranks_) states.push_back({heard.news.speed, heard.news.remaining});
   const IdVector<Rank, double> speeds = assumed_speeds(states);
   for (const Rank r : ids_of(states))
@@ -59,7 +59,7 @@ IdVector<Rank, RankState> RankNews::states(double now) const {
   return states;
 }
 
-IdVector<Rank, bool> RankNews::able(const IdVector<Rank, RankState>& states) const {
+IdVector<Rank, bool> RankNews::able(const IdVector<Rank, RankLoad>& states) const {
   IdVector<Rank, bool> able;
   for (const Rank r : ids_of(ranks_)) able.push_back(std::min(ranks_[r].news.spare, states[r].remaining) > 0);
   return able;

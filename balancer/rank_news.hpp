@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "balancer/load_snapshot.hpp"
-#include "protocol/messages.hpp"
+#include "balancer/messages.hpp"
 
 namespace driftmesh::balancer {
 
@@ -17,23 +17,23 @@ class RankNews {
 
   /// News that came at `now`; ignored if later ones have come before. Whether that rank has something to give, and
   /// more to do than was believed.
-  bool hear(Rank rank, const protocol::LoadNews& news, double now);
+  bool hear(Rank rank, const LoadNews& news, double now);
   /// This much work will go from one rank to another, and they have not said so yet.
   void expect(Rank from, Rank to, double work, double now);
 
   /// This is what all ranks have to do at `now`, whatever they said before.
-  void assume(const IdVector<Rank, RankState>& states, double now);
+  void assume(const IdVector<Rank, RankLoad>& states, double now);
   /// Whether all ranks have said something.
   [[nodiscard]] bool complete() const;
 
   /// All ranks at `now`: what was heard, less what they must have done since.
-  [[nodiscard]] IdVector<Rank, RankState> states(double now) const;
+  [[nodiscard]] IdVector<Rank, RankLoad> states(double now) const;
   /// Of each rank, whether it has something to give. It works on that last.
-  [[nodiscard]] IdVector<Rank, bool> able(const IdVector<Rank, RankState>& states) const;
+  [[nodiscard]] IdVector<Rank, bool> able(const IdVector<Rank, RankLoad>& states) const;
 
  private:
   struct Heard {
-    protocol::LoadNews news;
+    LoadNews news;
     double at = 0;
   };
   IdVector<Rank, Heard> ranks_;

@@ -15,14 +15,14 @@ double seconds_of(double work, double speed) {
 }
 
 // How many idle ranks there are for each that can give, besides the one that asks.
-std::uint32_t rivals(const IdVector<Rank, RankState>& ranks, const IdVector<Rank, bool>& able) {
-  const auto idle = std::count_if(ranks.begin(), ranks.end(), [](const RankState& r) { return r.remaining <= 0; });
+std::uint32_t rivals(const IdVector<Rank, RankLoad>& ranks, const IdVector<Rank, bool>& able) {
+  const auto idle = std::count_if(ranks.begin(), ranks.end(), [](const RankLoad& r) { return r.remaining <= 0; });
   const auto givers = std::count(able.begin(), able.end(), true);
   return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(0, idle - 1) / std::max<std::ptrdiff_t>(1, givers));
 }
 
 // What makes both finish at the same time.
-double even_share(const RankState& victim, double victim_speed, const RankState& thief, double thief_speed) {
+double even_share(const RankLoad& victim, double victim_speed, const RankLoad& thief, double thief_speed) {
   const double share = (victim.remaining * thief_speed - thief.remaining * victim_speed) / (victim_speed + thief_speed);
   return std::max(0.0, share);
 }
@@ -39,18 +39,18 @@ RequestConduct::RequestConduct(Rank self, std::shared_ptr<const Layout> layout, 
   if (self == kBroker) news_.emplace(*layout_, now);
 }
 
-void RequestConduct::receive(Rank source, protocol::Message advice, double now) {
-  if (const auto* const news = std::get_if<protocol::LoadNews>(&advice)) {
+void RequestConduct::receive(Rank source, Message advice, double now) {
+  if (const auto* const news = std::get_if<LoadNews>(&advice)) {
     if (news_ && news_->hear(source, *news, now)) surprised_ = true;
     if (news->remaining > 0) hungry_.erase(source);
-  } else if (const auto* const request = std::get_if<protocol::WorkRequest>(&advice)) {
+  } else if (const auto* const request = std::get_if<WorkRequest>(&advice)) {
     requests_.push_back(*request);
-  } else if (const auto* const answer = std::get_if<protocol::WorkAnswer>(&advice)) {
+  } else if (const auto* const answer = std::get_if<WorkAnswer>(&advice)) {
     take_answer(source, *answer, now);
   }
 }
 
-void RequestConduct::take_answer(Rank source, const protocol::WorkAnswer& answer, double now) {
+void RequestConduct::take_answer(Rank source, const WorkAnswer& answer, double now) {
   if (asked_ && answer.round == round_) {
     asked_ = false;
     // The broker refuses when nobody has anything to give; then it is for the broker to come back.
@@ -58,7 +58,7 @@ void RequestConduct::take_answer(Rank source, const protocol::WorkAnswer& answer
   }
   if (answer.moves.empty()) return;
   refusals_ = 0;
-  for (const protocol::PlannedMove& move : answer.moves)
+  for (const Move& move : answer.moves)
     if (std::find(arrived_.begin(), arrived_.end(), move.subdomain) == arrived_.end())
       coming_.push_back(move.subdomain);
   promised_ = now;
@@ -72,7 +72,7 @@ void RequestConduct::arrived(SubdomainId id) {
 Decision RequestConduct::think(const Situation& situation) {
   Decision decision;
   Loads own(situation.own.begin(), situation.own.end());
-  for (const protocol::WorkRequest& request : std::exchange(requests_, {}))
+  for (const WorkRequest& request : std::exchange(requests_, {}))
     if (self_ == kBroker)
       place(request, situation, own, decision);
     else
@@ -85,9 +85,9 @@ Decision RequestConduct::think(const Situation& situation) {
 }
 
 // Returns how much work is given.
-double RequestConduct::give(const protocol::WorkRequest& request, const Situation& situation, Loads& own,
+double RequestConduct::give(const WorkRequest& request, const Situation& situation, Loads& own,
                             Decision& decision) {
-  protocol::WorkAnswer answer{request.round, {}};
+  WorkAnswer answer{request.round, {}};
   const double before = total_work(own);
   for (const Move& move : gifts(request, situation, own)) {
     std::erase_if(own, [&](const auto& load) { return load.subdomain == move.subdomain; });
@@ -101,7 +101,7 @@ double RequestConduct::give(const protocol::WorkRequest& request, const Situatio
 
 // What the policy gives, of that what is worth moving, if nobody but the two ranks is looked at. To the policy the
 // giver is as fast as all who will share what it keeps.
-std::vector<Move> RequestConduct::gifts(const protocol::WorkRequest& request, const Situation& situation,
+std::vector<Move> RequestConduct::gifts(const WorkRequest& request, const Situation& situation,
                                         const Loads& own) const {
   LoadSnapshot snapshot;
   snapshot.layout = layout_;
@@ -137,7 +137,7 @@ void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decis
   const bool low = policy_->runs_low(seconds_of(total, situation.speed));
   if (!low) refusals_ = 0;
   if (!low || asked_ || !coming_.empty() || refusals_ >= options_.refusals) return;
-  const protocol::WorkRequest request{self_, ++round_, total, situation.speed, 0};
+  const WorkRequest request{self_, ++round_, total, situation.speed, 0};
   arrived_.clear();
   if (self_ != kBroker) {
     asked_ = true;
@@ -150,14 +150,14 @@ void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decis
   }
 }
 
-void RequestConduct::place(const protocol::WorkRequest& request, const Situation& situation, Loads& own,
+void RequestConduct::place(const WorkRequest& request, const Situation& situation, Loads& own,
                            Decision& decision) {
   if (pass_on(request, situation, own, decision)) return;
   hungry_.insert(request.thief);
-  decision.messages.push_back({request.thief, protocol::WorkAnswer{request.round, {}}});
+  decision.messages.push_back({request.thief, WorkAnswer{request.round, {}}});
 }
 
-bool RequestConduct::pass_on(protocol::WorkRequest request, const Situation& situation, Loads& own,
+bool RequestConduct::pass_on(WorkRequest request, const Situation& situation, Loads& own,
                              Decision& decision) {
   news_->hear(self_, news_of(++reports_, situation.speed, own), situation.now);
   LoadSnapshot snapshot;

@@ -21,7 +21,7 @@ class RequestConduct {
   RequestConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
                  const ControllerOptions& options, double now);
 
-  void receive(Rank source, protocol::Message advice, double now);
+  void receive(Rank source, Message advice, double now);
   void arrived(SubdomainId id);
   [[nodiscard]] bool waiting() const { return asked_ || !requests_.empty(); }
   /// Work is on its way here.
@@ -29,21 +29,21 @@ class RequestConduct {
   [[nodiscard]] Decision think(const Situation& situation);
 
  private:
-  using Loads = std::vector<protocol::SubdomainLoad>;
+  using Loads = std::vector<ReportedLoad>;
 
-  void take_answer(Rank source, const protocol::WorkAnswer& answer, double now);
+  void take_answer(Rank source, const WorkAnswer& answer, double now);
 
   // Of every rank:
-  double give(const protocol::WorkRequest& request, const Situation& situation, Loads& own, Decision& decision);
-  [[nodiscard]] std::vector<Move> gifts(const protocol::WorkRequest& request, const Situation& situation,
+  double give(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision);
+  [[nodiscard]] std::vector<Move> gifts(const WorkRequest& request, const Situation& situation,
                                         const Loads& own) const;
   void report(const Situation& situation, const Loads& own, Decision& decision);
   void forget_promises(double now);
   void ask(const Situation& situation, Loads& own, Decision& decision);
 
   // Of the broker:
-  void place(const protocol::WorkRequest& request, const Situation& situation, Loads& own, Decision& decision);
-  [[nodiscard]] bool pass_on(protocol::WorkRequest request, const Situation& situation, Loads& own, Decision& decision);
+  void place(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision);
+  [[nodiscard]] bool pass_on(WorkRequest request, const Situation& situation, Loads& own, Decision& decision);
   void feed_hungry(const Situation& situation, Loads& own, Decision& decision);
 
   Rank self_;
@@ -54,7 +54,7 @@ class RequestConduct {
   ReportRule rule_;
   bool changed_ = false;  // gave work away or refused, since the last report
   std::uint32_t reports_ = 0;
-  std::vector<protocol::WorkRequest> requests_;  // not looked at
+  std::vector<WorkRequest> requests_;  // not looked at
 
   bool asked_ = false;                // and not answered
   std::uint32_t round_ = 0;           // of the last request

@@ -58,7 +58,7 @@ class Dealer {
 
   // Equal finishing times go to the owner, so that nothing moves without a reason.
   void place(std::size_t i) {
-    SubdomainState& s = snapshot_.subdomains[i];
+    SubdomainLoad& s = snapshot_.subdomains[i];
     Rank best = s.owner;
     double earliest = (load(best) + s.remaining) / speeds_[best];
     for (const Rank r : ids_of(speeds_)) {

@@ -69,7 +69,7 @@ Costs measure(const RunPlan& plan) {
   }
   for (const Subdomain& subdomain : kept) {
     const double begin = thread_seconds();
-    const protocol::Bytes packed = subdomain.pack();
+    const Bytes packed = subdomain.pack();
     const double was_packed = thread_seconds();
     const Subdomain again = Subdomain::unpack(packed, context);
     costs.pack_seconds += was_packed - begin;

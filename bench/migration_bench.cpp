@@ -37,7 +37,7 @@ void add_time(double& seconds, Work&& work) {
 
 /// Packs and unpacks a subdomain while it lies in the cache, as it does when a rank has just worked on it.
 void move(Subdomain& subdomain, const SubdomainContext& context, Source source, Costs& costs) {
-  protocol::Bytes packed;
+  Bytes packed;
   std::optional<Subdomain> moved;
   add_time(costs.pack, [&] { packed = subdomain.pack(); });
   add_time(costs.unpack, [&] { moved = Subdomain::unpack(packed, context, source); });

@@ -83,40 +83,42 @@ std::uint8_t sides_of(const Triangulation& mesh, SubsegmentId s) {
 
 // ---- Names: each number as the difference to one that it tends to follow ----
 
-void put_names(VarintWriter out, const SubdomainMesh& part, const IdVector<VertexId, VertexId>& number,
+[[nodiscard]] Bytes names_of(const SubdomainMesh& part, const IdVector<VertexId, VertexId>& number,
                std::size_t given) {
   const Triangulation& mesh = part.mesh;
+  ByteWriter out;
   std::int64_t last = 0;
-  out.put(given);
+  out.varint(given);
   for (const VertexOrigin o : mesh.origin)
-    if (is_given(o)) out.put_signed(o - std::exchange(last, o));
-  out.put(part.points.size());
+    if (is_given(o)) out.signed_varint(o - std::exchange(last, o));
+  out.varint(part.points.size());
   last = 0;
-  for (const GlobalPointId p : part.points) out.put_signed(to_int(p) - std::exchange(last, to_int(p)));
-  out.put(mesh.roots.size());
+  for (const GlobalPointId p : part.points) out.signed_varint(to_int(p) - std::exchange(last, to_int(p)));
+  out.varint(mesh.roots.size());
   std::int64_t last_end = 0, last_shell = 0, last_root = 0;
   for (const RootId r : ids_of(part.roots)) {
     const RootSegment& root = mesh.roots[id(r)];
     const std::int64_t a = number[root.vertex[0]], b = number[root.vertex[1]];
-    out.put_signed(a - last_end);
-    out.put_signed(b - a);
-    out.put_signed(root.marker);
-    out.put_signed(root.shell - std::exchange(last_shell, root.shell));
-    out.put_signed(to_int(part.roots[r]) - std::exchange(last_root, to_int(part.roots[r])));
-    out.put(sides_of(mesh, root.tree));
+    out.signed_varint(a - last_end);
+    out.signed_varint(b - a);
+    out.signed_varint(root.marker);
+    out.signed_varint(root.shell - std::exchange(last_shell, root.shell));
+    out.signed_varint(to_int(part.roots[r]) - std::exchange(last_root, to_int(part.roots[r])));
+    out.varint(sides_of(mesh, root.tree));
     last_end = b;
   }
+  return out.take();
 }
 
 /// A number that is no more than `most`, to make room by.
-std::size_t count_of(VarintReader& in, std::size_t most) {
-  const std::uint64_t n = in.get();
+std::size_t count_of(ByteReader& in, std::size_t most) {
+  const std::uint64_t n = in.varint();
   if (n > most) throw Error("a list of names is longer than its bytes");
   return static_cast<std::size_t>(n);
 }
 
-std::int32_t follow(VarintReader& in, std::int64_t last) {
-  const std::int64_t step = in.get_signed();
+std::int32_t follow(ByteReader& in, std::int64_t last) {
+  const std::int64_t step = in.signed_varint();
   if (step > INT64_C(1) << 33 || step < -(INT64_C(1) << 33)) throw Error("a name is out of range");
   return narrow<std::int32_t>(last + step, "a name");
 }
@@ -132,7 +134,7 @@ DormantMesh::DormantMesh(const SubdomainMesh& part) {
       number[v] = fixed++;
       given_.push_back(mesh.points[id(v)]);
     }
-  put_names(VarintWriter(names_), part, number, given_.size());
+  names_ = names_of(part, number, given_.size());
   BitWriter bits(trees_);
   for (const RootSegment& root : mesh.roots)
     visit_tree(mesh, root.tree, [&](SubsegmentId s) {
@@ -170,7 +172,7 @@ DormantMesh::Frame DormantMesh::frame() const {
   Frame frame;
   SubdomainMesh& part = frame.part;
   Triangulation& mesh = part.mesh;
-  VarintReader in(names_);
+  ByteReader in(names_);
   if (count_of(in, names_.size()) != given_.size()) throw Error("given vertices without coordinates");
   std::int32_t last = 0;
   for (const Point& p : given_) {
@@ -188,7 +190,7 @@ DormantMesh::Frame DormantMesh::frame() const {
     last_shell = follow(in, last_shell);
     last_root = follow(in, last_root);
     last_end = b;
-    const std::uint64_t sides = in.get();
+    const std::uint64_t sides = in.varint();
     const auto exists = [&](VertexId v) { return v >= 0 && id(v) < given_.size(); };
     if (!exists(a) || !exists(b) || sides > 3) throw Error("a root has no ends");
     mesh.add_root(a, b, marker, last_shell);

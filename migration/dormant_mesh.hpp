@@ -72,8 +72,8 @@ class DormantMesh {
   [[nodiscard]] std::vector<BorderEdge> border() const { return border_of(frame()); }
   [[nodiscard]] static std::vector<BorderEdge> border_of(const Frame& frame);
 
-  std::vector<std::byte> names_;  // given vertices, root and point numbers
-  std::vector<std::byte> trees_;  // of each root: its nodes, parents first, a bit each: 1 if cut
+  Bytes names_;  // given vertices, root and point numbers
+  Bytes trees_;  // of each root: its nodes, parents first, a bit each: 1 if cut
   std::vector<Point> given_;      // coordinates of given vertices
   std::vector<Point> free_;       // and of free ones, as the walk meets them
   CodedTriangles triangles_;

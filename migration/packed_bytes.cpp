@@ -74,7 +74,7 @@ void SealedBytes::append(const void* data, std::size_t size) {
   }
 }
 
-protocol::Bytes SealedBytes::take() {
+Bytes SealedBytes::take() {
   PackedHeader header;
   header.length = payload().size();
   header.checksum = checksum_.of(payload());

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "protocol/ids.hpp"
+#include "base/bytes.hpp"
 
 namespace driftmesh {
 
@@ -46,11 +46,11 @@ class SealedBytes {
   explicit SealedBytes(std::size_t capacity);
   void append(const void* data, std::size_t size);
   /// The bytes with the header that goes with them.
-  [[nodiscard]] protocol::Bytes take();
+  [[nodiscard]] Bytes take();
 
  private:
   [[nodiscard]] std::span<const std::byte> payload() const;
-  protocol::Bytes bytes_;
+  Bytes bytes_;
   Checksum checksum_;
 };
 

@@ -262,7 +262,7 @@ std::size_t mesh_bytes(const Triangulation& mesh) {
 
 }  // namespace
 
-protocol::Bytes pack(const SubdomainView& subdomain) {
+Bytes pack(const SubdomainView& subdomain) {
   constexpr std::size_t kSmallArrays = 4096;
   SealedBytes bytes(kSmallArrays + (subdomain.body                 ? mesh_bytes(subdomain.body->part.mesh)
                                     : subdomain.dormant != nullptr ? subdomain.dormant->mesh.bytes()

@@ -7,7 +7,8 @@
 #include "decompose/subdomain_mesh.hpp"
 #include "mesh/refiner_state.hpp"
 #include "migration/dormant_mesh.hpp"
-#include "protocol/ids.hpp"
+#include "base/bytes.hpp"
+#include "base/ids.hpp"
 #include "protocol/messages.hpp"
 
 namespace driftmesh {
@@ -51,7 +52,7 @@ struct SubdomainView {
 
 /// The packed form: the bytes that migrate, and that a checkpoint holds (layout in docs/file-formats.md). For ranks of
 /// one version of the program on machines of one kind. The same state gives the same bytes.
-[[nodiscard]] protocol::Bytes pack(const SubdomainView& subdomain);
+[[nodiscard]] Bytes pack(const SubdomainView& subdomain);
 
 /// What is known of where bytes come from.
 enum class Source {

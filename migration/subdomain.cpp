@@ -168,7 +168,7 @@ bool Subdomain::sleeps_through(const SplitPoint<GlobalRootId>& split) const {
          dormant_->mesh.holds(static_cast<RootId>(place - roots.begin()), split.path);
 }
 
-protocol::Bytes Subdomain::pack() const {
+Bytes Subdomain::pack() const {
   SubdomainView view{id_, refined_, pending_, {}, nullptr};
   if (body_) view.body.emplace(SubdomainView::Body{body_->part, body_->refiner.state(), body_->forecast});
   view.dormant = dormant_.get();

@@ -11,7 +11,8 @@
 #include "mesh/bounds.hpp"
 #include "mesh/refine_counters.hpp"
 #include "migration/packed_form.hpp"
-#include "protocol/ids.hpp"
+#include "base/bytes.hpp"
+#include "base/ids.hpp"
 #include "protocol/messages.hpp"
 
 namespace driftmesh {
@@ -81,7 +82,7 @@ class Subdomain {
 
   /// Everything as bytes (see packed_form.hpp), little more than none before the first work(); the subdomain that
   /// unpack makes of them goes on exactly as this one would.
-  [[nodiscard]] protocol::Bytes pack() const;
+  [[nodiscard]] Bytes pack() const;
   /// Throws Error, naming the subdomain, for bytes that are not the packed form of a subdomain of this context.
   [[nodiscard]] static Subdomain unpack(std::span<const std::byte> bytes, const SubdomainContext& context,
                                         Source source = Source::kUnknown);

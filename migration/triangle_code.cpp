@@ -35,28 +35,30 @@ class Encoder {
       : mesh_(mesh),
         number_(number),
         guess_(mesh.live_vertices(), border),
-        visited_(mesh.triangles.size(), false),
-        out_(coded_.code) {
+        visited_(mesh.triangles.size(), false) {
     coded_.fixed = coded_.vertices = fixed;
   }
 
   /// The walk over all that can be reached from the triangle of `entrance`, a half-edge on the domain's border.
   void walk_from(HalfEdge entrance) {
     if (visited_[Triangulation::id(triangle_of(entrance))]) return;
-    out_.put(static_cast<std::uint64_t>(number_of(mesh_.edge_start(entrance))));
-    out_.put(static_cast<std::uint64_t>(number_of(mesh_.edge_end(entrance))));
+    out_.varint(to_index(number_of(mesh_.edge_start(entrance))));
+    out_.varint(to_index(number_of(mesh_.edge_end(entrance))));
     enter(entrance);
     while (!ways_.empty()) {
       const Way way = ways_.back();
       ways_.pop_back();
       const HalfEdge g = mesh_.across(way.through);
       if (g == kNone || visited_[Triangulation::id(triangle_of(g))]) continue;
-      coded_.code[way.place] |= static_cast<std::byte>(way.bit);
+      out_.bytes()[way.place] |= static_cast<std::byte>(way.bit);
       enter(g);
     }
   }
 
-  [[nodiscard]] CodedTriangles take() { return std::move(coded_); }
+  [[nodiscard]] CodedTriangles take() {
+    coded_.code = out_.take();
+    return std::move(coded_);
+  }
   [[nodiscard]] std::int32_t triangles() const { return coded_.triangles; }
 
  private:
@@ -73,7 +75,7 @@ class Encoder {
     const TriangleId t = triangle_of(g);
     visited_[Triangulation::id(t)] = true;
     ++coded_.triangles;
-    const std::size_t place = coded_.code.size();
+    const std::size_t place = out_.bytes().size();
     put_corner(number_of(mesh_.edge_start(g)), number_of(mesh_.edge_end(g)), mesh_.apex(g));
     put_region(t, place);
     ways_.push_back({half_edge(t, previous(index_of(g))), place, kGoesLeft});
@@ -83,17 +85,17 @@ class Encoder {
   void put_corner(VertexId a, VertexId b, VertexId apex) {
     VertexId& v = number_[apex];
     const Corner corner = v == kNone ? kNew : v == guess_.after(b) ? kAfter : v == guess_.before(a) ? kBefore : kNamed;
-    coded_.code.push_back(static_cast<std::byte>(corner));
+    out_.number(corner);
     if (corner == kNew) v = coded_.vertices++;
-    if (corner == kNamed) out_.put(static_cast<std::uint64_t>(v));
+    if (corner == kNamed) out_.varint(to_index(v));
     guess_.cover(a, b, v);
   }
 
   void put_region(TriangleId t, std::size_t place) {
     if (mesh_.region.empty() || mesh_.region[Triangulation::id(t)] == region_) return;
     region_ = mesh_.region[Triangulation::id(t)];
-    coded_.code[place] |= static_cast<std::byte>(kNewRegion);
-    out_.put(region_);
+    out_.bytes()[place] |= static_cast<std::byte>(kNewRegion);
+    out_.varint(region_);
   }
 
   const Triangulation& mesh_;
@@ -101,7 +103,7 @@ class Encoder {
   BorderGuess guess_;
   std::vector<bool> visited_;
   CodedTriangles coded_;
-  VarintWriter out_;
+  ByteWriter out_;
   std::vector<Way> ways_;
   std::uint16_t region_ = 0;
 };

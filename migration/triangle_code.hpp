@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/bytes.hpp"
 #include "base/id_vector.hpp"
-#include "base/varint.hpp"
 #include "mesh/triangulation.hpp"
 
 namespace driftmesh {
@@ -39,7 +39,7 @@ class BorderGuess {
 
 /// What there is to know beside the code to read it.
 struct CodedTriangles {
-  std::vector<std::byte> code;
+  Bytes code;
   std::int32_t triangles = 0;
   std::int32_t fixed = 0;     ///< vertices that are known beforehand have the numbers below this
   std::int32_t vertices = 0;  ///< all; the others are numbered as the walk meets them
@@ -70,7 +70,7 @@ inline constexpr std::uint8_t kAllBits = 31;
 template <class Visit>
 void decode_triangles(const CodedTriangles& coded, std::span<const BorderEdge> border, Visit&& visit) {
   using namespace triangle_code;
-  VarintReader in(coded.code);
+  ByteReader in(coded.code);
   BorderGuess guess(to_index(coded.vertices), border);
   std::vector<BorderEdge> entrances;
   std::int32_t met = coded.fixed;
@@ -81,12 +81,12 @@ void decode_triangles(const CodedTriangles& coded, std::span<const BorderEdge> b
   };
   for (std::int32_t t = 0; t < coded.triangles; ++t) {
     if (entrances.empty()) {
-      const VertexId a = known(in.get());
-      entrances.push_back({a, known(in.get())});
+      const VertexId a = known(in.varint());
+      entrances.push_back({a, known(in.varint())});
     }
     const auto [a, b] = entrances.back();
     entrances.pop_back();
-    const auto byte = std::to_integer<std::uint8_t>(in.byte());
+    const auto byte = in.number<std::uint8_t>();
     if (byte > kAllBits) throw Error("a triangle is coded in an unknown way");
     VertexId v = kNone;
     switch (byte & kCornerBits) {
@@ -101,11 +101,11 @@ void decode_triangles(const CodedTriangles& coded, std::span<const BorderEdge> b
         v = guess.before(a);
         break;
       default:
-        v = known(in.get());
+        v = known(in.varint());
     }
     if (v == kNone) throw Error("a triangle has no corner");
     if ((byte & kNewRegion) != 0) {
-      const std::uint64_t label = in.get();
+      const std::uint64_t label = in.varint();
       if (label > UINT16_MAX) throw Error("a region label is out of range");
       region = static_cast<std::uint16_t>(label);
     }

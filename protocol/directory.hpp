@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "protocol/ids.hpp"
+#include "base/ids.hpp"
+#include "protocol/epoch.hpp"
 
 namespace driftmesh::protocol {
 

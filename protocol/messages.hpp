@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "dyadic/split_point.hpp"
-#include "protocol/ids.hpp"
+#include "base/bytes.hpp"
+#include "base/ids.hpp"
+#include "protocol/epoch.hpp"
 
 /// What ranks say to each other. The layout on the wire is in codec.cpp; the rules are in docs/protocol.md.
 namespace driftmesh::protocol {
@@ -50,73 +52,11 @@ struct LocationUpdate {
   friend bool operator==(const LocationUpdate&, const LocationUpdate&) = default;
 };
 
-struct SubdomainLoad {
-  SubdomainId subdomain{};
-  Epoch epoch = 0;          ///< with the sender as owner
-  double remaining = 0;     ///< triangles still to be made, predicted
-  std::uint64_t bytes = 0;  ///< of the packed form, estimated
-  friend bool operator==(const SubdomainLoad&, const SubdomainLoad&) = default;
-};
-
-/// What the sender has to do, and how fast it is.
-struct LoadReport {
-  std::uint32_t round = 0;           ///< of the sender's reports, from 1: an older one says nothing new
-  std::uint32_t plan = 0;            ///< the round of the last Plan that the sender has acted on; 0: none
-  double speed = 0;                  ///< triangles a second, a running average; 0: not known yet
-  std::vector<SubdomainLoad> loads;  ///< of its subdomains that are not finished, and of those that came lately
-  friend bool operator==(const LoadReport&, const LoadReport&) = default;
-};
-
-struct PlannedMove {
-  SubdomainId subdomain{};
-  Rank destination{};
-  friend bool operator==(const PlannedMove&, const PlannedMove&) = default;
-};
-
-/// Moves that a planner advises the receiver to make.
-struct Plan {
-  std::uint32_t round = 0;
-  std::vector<PlannedMove> moves;
-  friend bool operator==(const Plan&, const Plan&) = default;
-};
-
-/// What the sender has to do altogether.
-struct LoadNews {
-  std::uint32_t round = 0;  ///< of the sender's news, from 1: older ones say nothing new
-  double remaining = 0;     ///< triangles still to be made, predicted
-  double spare = 0;         ///< of these, in subdomains that it could give away
-  double speed = 0;         ///< triangles a second, a running average; 0: not known yet
-  friend bool operator==(const LoadNews&, const LoadNews&) = default;
-};
-
-/// `thief` will soon have nothing to do. It asks rank 0, which passes the request on to a rank that has much. The thief
-/// gets one answer, from whoever has the request in the end.
-struct WorkRequest {
-  Rank thief{};
-  std::uint32_t round = 0;  ///< of the thief's requests, from 1; 0: the thief has not asked, and waits for nothing
-  double remaining = 0;     ///< what the thief has still to do
-  double speed = 0;
-  std::uint32_t rivals = 0;  ///< idle ranks that will want their share of what the giver has
-  friend bool operator==(const WorkRequest&, const WorkRequest&) = default;
-};
-
-/// The answer to a WorkRequest: what is on its way to the receiver, or nothing.
-struct WorkAnswer {
-  std::uint32_t round = 0;  ///< of the request
-  std::vector<PlannedMove> moves;
-  friend bool operator==(const WorkAnswer&, const WorkAnswer&) = default;
-};
-
-/// A step on the way to a plan that all ranks make at the same time.
-struct JointRound {
-  enum class Stage : std::uint8_t {
-    kCall,   ///< rank 0 to all: come together
-    kReady,  ///< each to rank 0: the call was heard
-    kStart,  ///< rank 0 to all: everybody has heard it, plan now
-  };
-  std::uint32_t round = 0;  ///< from 1
-  Stage stage = Stage::kCall;
-  friend bool operator==(const JointRound&, const JointRound&) = default;
+/// What whoever plans for the ranks says to another rank. The protocol carries it without knowing what it says.
+struct Advice {
+  std::uint8_t topic = 0;  ///< what kind of advice it is; small, because it travels in the byte of the message's type
+  Bytes content;
+  friend bool operator==(const Advice&, const Advice&) = default;
 };
 
 // ---- Detection: how the end is found; each of these travels along the ring of ranks ------------------------------
@@ -142,8 +82,7 @@ struct Finish {
   friend bool operator==(const Finish&, const Finish&) = default;
 };
 
-using Message = std::variant<SplitBatch, HandOff, LocationUpdate, LoadReport, Plan, Token, Terminate, Finish,
-                             WorkRequest, WorkAnswer, LoadNews, JointRound>;
+using Message = std::variant<SplitBatch, HandOff, LocationUpdate, Token, Terminate, Finish, Advice>;
 
 enum class Traffic { kWork, kControl, kDetection };
 [[nodiscard]] Traffic traffic_of(const Message& message);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "driftmesh/error.hpp"
-#include "protocol/ids.hpp"
+#include "base/ids.hpp"
 
 namespace driftmesh::protocol {
 
@@ -18,5 +18,15 @@ class ProtocolError : public Error {
  private:
   Rank sender_;
 };
+
+/// What `read` returns, which reads a message of `sender`: an Error in it becomes a ProtocolError that names the sender.
+template <class Read>
+auto read_from(Rank sender, const Read& read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    throw ProtocolError(sender, error.what());
+  }
+}
 
 }  // namespace driftmesh::protocol

@@ -53,7 +53,7 @@ struct SoundRules {
 struct Delivery {
   std::optional<HandOff> arrival;  ///< a subdomain that now lives here; unpack it before looking at the splits
   std::vector<SplitGroup> splits;  ///< for subdomains that live here
-  std::optional<Message> advice;   ///< what the sender said by advise(), but a LocationUpdate
+  std::optional<Advice> advice;    ///< what the sender said by advise()
 };
 
 /// How often things happened on one rank.
@@ -99,9 +99,10 @@ class BasicRankProtocol {
   /// rank is the caller's no-op: throws Error.
   void hand_off(SubdomainId s, Rank destination, Bytes packed);
 
-  /// Sends advice: a message of control traffic. Returns false, and sends nothing,
-  /// once the work is over.
-  bool advise(Rank destination, Message advice);
+  /// Sends advice. Returns false, and sends nothing, once the work is over.
+  bool advise(Rank destination, Advice advice) { return send_control(destination, std::move(advice)); }
+  /// The same of where a subdomain is. The protocol does so by itself when it forwards SPLITs.
+  bool advise(Rank destination, const LocationUpdate& update) { return send_control(destination, update); }
 
   /// Takes in a message. What it brings to the program is returned; the program queues it as work of its subdomains
   /// before it next calls rest(). Throws ProtocolError for a message that must not come.
@@ -124,6 +125,7 @@ class BasicRankProtocol {
     if (Rules::counts_as_handled(station)) termination_.work_handled(static_cast<std::int64_t>(entries));
   }
   void send_batch(Outgoing batch);
+  bool send_control(Rank destination, Message message);
   void learn(SubdomainId s, const Location& news) {
     if (Rules::supersedes(news, directory_.where(s))) directory_.set(s, news);
   }
@@ -131,18 +133,10 @@ class BasicRankProtocol {
   void take(Rank source, SplitBatch&& batch, Delivery& delivery);
   void take(Rank source, HandOff&& arrival, Delivery& delivery);
   void take(Rank source, LocationUpdate&& update, Delivery& delivery);
-  void take(Rank source, LoadReport&& report, Delivery& delivery) { take_advice(source, std::move(report), delivery); }
-  void take(Rank source, Plan&& plan, Delivery& delivery) { take_advice(source, std::move(plan), delivery); }
-  void take(Rank source, WorkRequest&& request, Delivery& delivery) {
-    take_advice(source, std::move(request), delivery);
-  }
-  void take(Rank source, WorkAnswer&& answer, Delivery& delivery) { take_advice(source, std::move(answer), delivery); }
-  void take(Rank source, LoadNews&& news, Delivery& delivery) { take_advice(source, std::move(news), delivery); }
-  void take(Rank source, JointRound&& step, Delivery& delivery) { take_advice(source, step, delivery); }
+  void take(Rank source, Advice&& advice, Delivery& delivery);
   void take(Rank source, Token&& token, Delivery&) { termination_.receive(source, token); }
   void take(Rank source, Terminate&& terminate, Delivery&) { termination_.receive(source, terminate); }
   void take(Rank source, Finish&& finish, Delivery&) { termination_.receive(source, finish); }
-  void take_advice(Rank source, Message&& advice, Delivery& delivery);
   void take_group(Rank source, SplitGroup&& group, Delivery& delivery);
   void handle(Station station, SplitGroup&& group, Delivery& delivery);
   void forward(Rank source, SplitGroup&& group);
@@ -207,10 +201,10 @@ void BasicRankProtocol<Rules>::hand_off(SubdomainId s, Rank destination, Bytes p
 }
 
 template <class Rules>
-bool BasicRankProtocol<Rules>::advise(Rank destination, Message advice) {
+bool BasicRankProtocol<Rules>::send_control(Rank destination, Message message) {
   if (phase() != Termination::Phase::kWorking) return false;
   termination_.control_sent();
-  outgoing_.push_back({destination, std::move(advice)});
+  outgoing_.push_back({destination, std::move(message)});
   return true;
 }
 
@@ -292,7 +286,7 @@ void BasicRankProtocol<Rules>::take(Rank, LocationUpdate&& update, Delivery&) {
 }
 
 template <class Rules>
-void BasicRankProtocol<Rules>::take_advice(Rank, Message&& advice, Delivery& delivery) {
+void BasicRankProtocol<Rules>::take(Rank, Advice&& advice, Delivery& delivery) {
   termination_.control_received();
   if (phase() == Termination::Phase::kWorking) delivery.advice = std::move(advice);
 }

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 
-#include "protocol/ids.hpp"
 #include "protocol/transport.hpp"
 
 namespace driftmesh::protocol {

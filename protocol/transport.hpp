@@ -2,7 +2,8 @@
 
 #include <optional>
 
-#include "protocol/ids.hpp"
+#include "base/bytes.hpp"
+#include "base/ids.hpp"
 
 namespace driftmesh::protocol {
 

@@ -3,7 +3,8 @@
 #include <utility>
 
 #include "balancer/plan_jointly.hpp"
-#include "base/byte_stream.hpp"
+#include "balancer/zoltan/zoltan_partition.hpp"
+#include "base/bytes.hpp"
 
 namespace driftmesh::balancer {
 
@@ -17,7 +18,7 @@ std::vector<T> MpiCouncil::from_all(const std::vector<T>& own) {
   ByteWriter writer;
   writer.array(own);
   std::vector<T> all, some;
-  for (const protocol::Bytes& bytes : transport_.all_gather(writer.take())) {
+  for (const Bytes& bytes : transport_.all_gather(writer.take())) {
     ByteReader(bytes).array(some);
     all.insert(all.end(), some.begin(), some.end());
   }
@@ -25,10 +26,12 @@ std::vector<T> MpiCouncil::from_all(const std::vector<T>& own) {
 }
 
 Council::Decision MpiCouncil::decide(std::uint32_t, const Contribution& contribution) {
-  const IdVector<Rank, RankState> states(from_all<RankState>({contribution.state}));
+  const IdVector<Rank, RankLoad> states(from_all<RankLoad>({contribution.state}));
   const LoadSnapshot own = own_snapshot(contribution, layout_, states);
   const Dealing dealing = policy_->dealing(own);
-  const std::vector<std::vector<Part>> parts{policy_->parts(own, transport_.communicator())};
+  const auto partitioning = policy_->partitioning(own);
+  const std::vector<std::vector<Part>> parts{
+      partitioning ? zoltan_partition(own, *partitioning, transport_.communicator()) : present_parts(own)};
   return plan_jointly({&contribution, 1}, parts, states, dealing, options_,
                       [this](const auto& told) { return from_all(told); })
       .front();

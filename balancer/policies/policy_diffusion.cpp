@@ -11,14 +11,14 @@ namespace {
 
 // Who owns a subdomain, as far as the snapshot tells; else who did at the start.
 Rank owner_of(const LoadSnapshot& snapshot, SubdomainId id) {
-  const SubdomainState* const known = find(snapshot, id);
+  const SubdomainLoad* const known = find(snapshot, id);
   return known ? known->owner : (*snapshot.layout)[id].owner;
 }
 
 /// The ranks that each rank touches with a subdomain that is listed, in ascending order.
 IdVector<Rank, std::set<Rank>> touching_ranks(const LoadSnapshot& snapshot) {
   IdVector<Rank, std::set<Rank>> touching(snapshot.ranks.size());
-  for (const SubdomainState& s : snapshot.subdomains)
+  for (const SubdomainLoad& s : snapshot.subdomains)
     for (const Neighbour& n : (*snapshot.layout)[s.id].neighbours)
       if (const Rank other = owner_of(snapshot, n.subdomain); other != s.owner) {
         touching[s.owner].insert(other);
@@ -61,7 +61,7 @@ class Round {
     double from_others = 0;
     for (const Rank r : touching_[other])
       if (r != self_) from_others += flow(r, other);
-    for (const SubdomainState& s : easiest_first(other)) {
+    for (const SubdomainLoad& s : easiest_first(other)) {
       // A flow that is smaller than any subdomain is rounded up if that still evens out, whatever the others send.
       const double then = time(other) + (from_others + sent + s.remaining) / speeds_[other];
       const bool rounded_up = sent == 0 && then < (remaining_ - s.remaining) / speeds_[self_];
@@ -75,10 +75,10 @@ class Round {
 
   // All that is here but what is worked on now: what is light; of this what has most of its border with `other` and
   // least with what stays.
-  [[nodiscard]] std::vector<SubdomainState> easiest_first(Rank other) const {
+  [[nodiscard]] std::vector<SubdomainLoad> easiest_first(Rank other) const {
     std::map<SubdomainId, double> attachment;
-    std::vector<SubdomainState> own;
-    for (const SubdomainState& s : snapshot_.subdomains) {
+    std::vector<SubdomainLoad> own;
+    for (const SubdomainLoad& s : snapshot_.subdomains) {
       if (s.owner != self_ || s.turn == 0 || gone_.contains(s.id)) continue;
       own.push_back(s);
       for (const Neighbour& n : (*snapshot_.layout)[s.id].neighbours) {
@@ -86,7 +86,7 @@ class Round {
         attachment[s.id] += owner == other ? n.length : owner == self_ ? -n.length : 0;
       }
     }
-    std::sort(own.begin(), own.end(), [&](const SubdomainState& a, const SubdomainState& b) {
+    std::sort(own.begin(), own.end(), [&](const SubdomainLoad& a, const SubdomainLoad& b) {
       const double one = attachment[a.id], other_one = attachment[b.id];
       if (one == other_one || weight_class(a) != weight_class(b)) return leaves_before(a, b);
       return one > other_one;

@@ -34,7 +34,7 @@ class Stealing final : public Policy {
     double mine = snapshot.ranks[self].remaining;
     double theirs = snapshot.ranks[to].remaining;
     std::vector<Move> moves;
-    for (const SubdomainState& s : easiest_first(snapshot, self)) {
+    for (const SubdomainLoad& s : easiest_first(snapshot, self)) {
       if ((theirs + s.remaining) / speeds[to] >= mine / speeds[self]) continue;
       mine -= s.remaining;
       theirs += s.remaining;
@@ -44,9 +44,9 @@ class Stealing final : public Policy {
   }
 
  private:
-  static std::vector<SubdomainState> easiest_first(const LoadSnapshot& snapshot, Rank owner) {
-    std::vector<SubdomainState> own;
-    for (const SubdomainState& s : snapshot.subdomains)
+  static std::vector<SubdomainLoad> easiest_first(const LoadSnapshot& snapshot, Rank owner) {
+    std::vector<SubdomainLoad> own;
+    for (const SubdomainLoad& s : snapshot.subdomains)
       if (s.owner == owner) own.push_back(s);
     std::sort(own.begin(), own.end(), leaves_before);
     return own;

@@ -33,9 +33,8 @@ class ZoltanPolicy final : public Policy {
     return moves_between(snapshot, dealing_.polish ? deal_surplus(planned, dealing_.tolerance) : planned);
   }
 
-  [[nodiscard]] std::vector<Part> parts(const LoadSnapshot& own, std::optional<int> communicator) const override {
-    if (wants_touch_up_alone(own)) return Policy::parts(own, communicator);
-    return communicator ? zoltan_partition(own, parameters_, *communicator) : zoltan_partition(own, parameters_);
+  [[nodiscard]] std::optional<ZoltanParameters> partitioning(const LoadSnapshot& own) const override {
+    return wants_touch_up_alone(own) ? std::nullopt : std::optional(parameters_);
   }
 
  private:

@@ -97,12 +97,12 @@ struct Graph {
   template <class ProcessOf>
   void add_edges(const ProcessOf& process_of) {
     std::vector<ZOLTAN_ID_TYPE> neighbours;
-    for (const SubdomainState& s : snapshot->subdomains)
+    for (const SubdomainLoad& s : snapshot->subdomains)
       for (const Neighbour& n : (*snapshot->layout)[s.id].neighbours)
         neighbours.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
     const std::vector<int> processes = process_of(neighbours);
     std::size_t at = 0;
-    for (const SubdomainState& s : snapshot->subdomains) {
+    for (const SubdomainLoad& s : snapshot->subdomains) {
       for (const Neighbour& n : (*snapshot->layout)[s.id].neighbours) {
         const int where = processes[at++];
         if (where < 0) continue;
@@ -114,7 +114,7 @@ struct Graph {
     }
   }
   [[nodiscard]] int size() const { return static_cast<int>(snapshot->subdomains.size()); }
-  [[nodiscard]] const SubdomainState& at(ZOLTAN_ID_TYPE i) const { return snapshot->subdomains[i]; }
+  [[nodiscard]] const SubdomainLoad& at(ZOLTAN_ID_TYPE i) const { return snapshot->subdomains[i]; }
   [[nodiscard]] const Layout::Subdomain& place(ZOLTAN_ID_TYPE i) const { return (*snapshot->layout)[at(i).id]; }
 };
 
@@ -357,7 +357,7 @@ std::vector<Part> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanPar
   initialize_once();
   return partition(MPI_COMM_SELF, snapshot, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbours) {
     IdVector<SubdomainId, int> process_of(snapshot.layout->subdomains.size(), -1);
-    for (const SubdomainState& s : snapshot.subdomains) process_of[s.id] = 0;
+    for (const SubdomainLoad& s : snapshot.subdomains) process_of[s.id] = 0;
     std::vector<int> processes;
     for (const ZOLTAN_ID_TYPE n : neighbours) processes.push_back(process_of[static_cast<SubdomainId>(n)]);
     return processes;
@@ -374,7 +374,7 @@ std::vector<Part> zoltan_partition(const LoadSnapshot& own, const ZoltanParamete
   return partition(all, own, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbours) {
     Whereabouts whereabouts(all);
     std::vector<ZOLTAN_ID_TYPE> listed;
-    for (const SubdomainState& s : own.subdomains) listed.push_back(static_cast<ZOLTAN_ID_TYPE>(s.id));
+    for (const SubdomainLoad& s : own.subdomains) listed.push_back(static_cast<ZOLTAN_ID_TYPE>(s.id));
     whereabouts.enter(std::move(listed));
     return whereabouts.find(neighbours);
   });

@@ -1,16 +1,13 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "balancer/load_snapshot.hpp"
+#include "balancer/policy.hpp"
 
 /// The only part of the project that knows Zoltan.
 namespace driftmesh::balancer {
-
-/// Zoltan's parameters by their names, LB_METHOD and the like.
-using ZoltanParameters = std::map<std::string, std::string>;
 
 /// The names of the parameters that Zoltan's partitioners read, but for those that zoltan_partition sets itself.
 [[nodiscard]] const std::vector<std::string>& zoltan_parameter_names();

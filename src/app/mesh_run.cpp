@@ -9,7 +9,7 @@
 
 #include "app/output_files.hpp"
 #include "app/run_notes.hpp"
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "distributed/write_distributed.hpp"
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
@@ -30,7 +30,6 @@ namespace {
 
 using job::Request;
 using job::timed;
-using protocol::Bytes;
 
 bool writes(const Request::Output& wanted) {
   return !wanted.meshes.empty() || !wanted.picture.empty();

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "protocol/ids.hpp"
+#include "base/ids.hpp"
 #include "runtime/rank_outcome.hpp"
 
 namespace driftmesh {

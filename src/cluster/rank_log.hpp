@@ -3,7 +3,7 @@
 #include <map>
 #include <vector>
 
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "cluster/cluster_run.hpp"
 #include "protocol/transport.hpp"
 #include "runtime/rank_loop.hpp"

@@ -5,9 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "balancer/simulated_council.hpp"
-#include "cluster/rank_log.hpp"
+#include "balancer/council.hpp"
+#include "balancer/simulated/simulated_council.hpp"
 #include "driftmesh/error.hpp"
+#include "cluster/rank_log.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime/rank_loop.hpp"
 

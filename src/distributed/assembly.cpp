@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "base/byte_stream.hpp"
-#include "distributed/piece_builder.hpp"
+#include "base/bytes.hpp"
 #include "driftmesh/error.hpp"
+#include "distributed/piece_builder.hpp"
 
 namespace driftmesh {
 
@@ -125,7 +125,7 @@ std::vector<Mail> PieceAssembly::announce() const {
     writer.value(owned_points(decomposition_, census));
     writer.value(census.triangles);
   }
-  const protocol::Bytes message = writer.take();
+  const Bytes message = writer.take();
   std::vector<Mail> mail;
   for (const Rank to : first_ids<Rank>(ranks_)) mail.push_back({to, message});
   return mail;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "driftmesh/mesh.hpp"
-#include "protocol/ids.hpp"
+#include "base/ids.hpp"
 
 namespace driftmesh {
 

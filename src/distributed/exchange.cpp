@@ -6,7 +6,6 @@
 
 namespace driftmesh {
 
-using protocol::Bytes;
 using protocol::ProtocolError;
 using protocol::StepResult;
 

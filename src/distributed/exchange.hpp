@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "driftmesh/error.hpp"
-#include "protocol/ids.hpp"
+#include "base/ids.hpp"
 #include "protocol/protocol_error.hpp"
 #include "protocol/rank_step.hpp"
 #include "protocol/transport.hpp"
@@ -18,7 +18,7 @@ namespace driftmesh {
 /// A message and the rank at its other end: the one that it goes to, or the one that it came from.
 struct Mail {
   Rank rank{};
-  protocol::Bytes bytes;
+  Bytes bytes;
 };
 
 /// The ranks 0 .. ranks - 1.
@@ -30,13 +30,11 @@ struct Mail {
 /// Has `read(ByteReader&)` read a message, to its end. An Error in it becomes a ProtocolError that names the sender.
 template <class Read>
 void read_mail(const Mail& mail, const Read& read) {
-  try {
+  protocol::read_from(mail.rank, [&] {
     ByteReader reader(mail.bytes);
     read(reader);
-    if (!reader.at_end()) throw Error("it goes on after its end");
-  } catch (const Error& error) {
-    throw protocol::ProtocolError(mail.rank, error.what());
-  }
+    reader.end();
+  });
 }
 
 /// One rank's part of a conversation in rounds: in each, ranks send at most one message to each rank (themselves
@@ -79,11 +77,11 @@ class ExchangeRunner {
  private:
   /// What has come of one mail.
   struct Arriving {
-    std::vector<protocol::Bytes> parts;
+    std::vector<Bytes> parts;
     std::vector<bool> there;
     std::size_t missing = 0;
 
-    [[nodiscard]] protocol::Bytes joined() &&;
+    [[nodiscard]] Bytes joined() &&;
   };
   using Arrivals = std::map<Rank, Arriving>;
 

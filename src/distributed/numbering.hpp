@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "decompose/decomposition.hpp"
-#include "protocol/ids.hpp"
+#include "base/ids.hpp"
 #include "protocol/split_set.hpp"
 
 namespace driftmesh {

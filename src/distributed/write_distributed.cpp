@@ -4,14 +4,13 @@
 #include <optional>
 #include <utility>
 
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "driftmesh/error.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/merge_pieces.hpp"
 
 namespace driftmesh {
 
-using protocol::Bytes;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "mesh/exceptions.hpp"
 #include "mesh/refine_counters.hpp"
 

@@ -3,13 +3,12 @@
 #include <string>
 #include <utility>
 
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "runtime/plan_bytes.hpp"
 
 namespace driftmesh::job {
 namespace {
 
-using protocol::Bytes;
 
 enum class Kind : std::uint8_t { kOrder, kNothing, kError };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "job/prepare.hpp"
 #include "job/record.hpp"
 #include "runtime/rank_loop.hpp"

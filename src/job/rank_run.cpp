@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/held_subdomains.hpp"
 #include "driftmesh/error.hpp"
@@ -13,7 +13,6 @@
 
 namespace driftmesh::job {
 
-using protocol::Bytes;
 
 RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
     : team_(team), order_(std::move(order)), watch_(watch) {

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "balancer/simulated_council.hpp"
+#include "balancer/simulated/simulated_council.hpp"
 #include "driftmesh/error.hpp"
 #include "job/limits.hpp"
 #include "protocol/lone_transport.hpp"
@@ -28,8 +28,8 @@ class LoneTeam final : public Team {
   [[nodiscard]] Rank rank() const override { return Rank{0}; }
   [[nodiscard]] std::int32_t ranks() const override { return 1; }
   [[nodiscard]] int ranks_on_machine() const override { return 1; }
-  [[nodiscard]] protocol::Bytes broadcast(protocol::Bytes bytes) override { return bytes; }
-  [[nodiscard]] std::vector<protocol::Bytes> gather(const protocol::Bytes& bytes) override { return {bytes}; }
+  [[nodiscard]] Bytes broadcast(Bytes bytes) override { return bytes; }
+  [[nodiscard]] std::vector<Bytes> gather(const Bytes& bytes) override { return {bytes}; }
   [[nodiscard]] std::unique_ptr<Channel> open() override { return std::make_unique<LoneChannel>(); }
   [[noreturn]] void abort(const std::string& message, int) override { throw Error(message); }
 };

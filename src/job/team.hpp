@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "balancer/council.hpp"
-#include "protocol/ids.hpp"
+#include "base/bytes.hpp"
+#include "base/ids.hpp"
 #include "protocol/transport.hpp"
 #include "runtime/run_plan.hpp"
 
@@ -47,9 +48,9 @@ class Team {
   [[nodiscard]] virtual int ranks_on_machine() const = 0;
 
   /// The `bytes` of rank 0, on every rank. All ranks together.
-  [[nodiscard]] virtual protocol::Bytes broadcast(protocol::Bytes bytes) = 0;
+  [[nodiscard]] virtual Bytes broadcast(Bytes bytes) = 0;
   /// On rank 0 the bytes of every rank; nothing elsewhere. All ranks together. For reports, not for meshes.
-  [[nodiscard]] virtual std::vector<protocol::Bytes> gather(const protocol::Bytes& bytes) = 0;
+  [[nodiscard]] virtual std::vector<Bytes> gather(const Bytes& bytes) = 0;
   /// Returns when all ranks have called it.
   void meet() {
     static_cast<void>(gather({}));

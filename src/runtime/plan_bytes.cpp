@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "driftmesh/error.hpp"
 #include "runtime/plan_run.hpp"
 
@@ -47,27 +47,34 @@ void transfer_pslg(Stream& stream, Input& pslg) {
   stream.value(pslg.first_number);
 }
 
-void require_end(const ByteReader& reader) {
-  if (!reader.at_end()) throw Error("a message from another rank is too long: are all of one version?");
+/// Has `read(ByteReader&)` read all of what another rank has written.
+template <class Read>
+void read_all(const char* what, std::span<const std::byte> bytes, const Read& read) {
+  try {
+    ByteReader reader(bytes);
+    read(reader);
+    reader.end();
+  } catch (const Error& error) {
+    throw Error(std::string(what) + " from another rank cannot be read, " + error.what() +
+                "; start the same build on every rank");
+  }
 }
 
 }  // namespace
 
-protocol::Bytes pslg_to_bytes(const Pslg& pslg) {
+Bytes pslg_to_bytes(const Pslg& pslg) {
   ByteWriter writer;
   transfer_pslg(writer, pslg);
   return writer.take();
 }
 
 Pslg pslg_from_bytes(std::span<const std::byte> bytes) {
-  ByteReader reader(bytes);
   Pslg pslg;
-  transfer_pslg(reader, pslg);
-  require_end(reader);
+  read_all("the input", bytes, [&](ByteReader& reader) { transfer_pslg(reader, pslg); });
   return pslg;
 }
 
-protocol::Bytes plan_to_bytes(const RunPlan& plan) {
+Bytes plan_to_bytes(const RunPlan& plan) {
   ByteWriter writer;
   transfer_plan(writer, plan);
   writer.text(plan.balancing.policy);
@@ -81,15 +88,15 @@ protocol::Bytes plan_to_bytes(const RunPlan& plan) {
 
 RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks,
                         std::shared_ptr<const balancer::Policy> policy) {
-  ByteReader reader(bytes);
   RunPlan plan;
-  transfer_plan(reader, plan);
-  plan.balancing.policy = reader.text();
-  for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
-    const std::string name = reader.text();
-    plan.balancing.parameters[name] = reader.text();
-  }
-  require_end(reader);
+  read_all("the plan", bytes, [&](ByteReader& reader) {
+    transfer_plan(reader, plan);
+    plan.balancing.policy = reader.text();
+    for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
+      const std::string name = reader.text();
+      plan.balancing.parameters[name] = reader.text();
+    }
+  });
   prepare_balancing(plan, ranks, std::move(policy));
   return plan;
 }

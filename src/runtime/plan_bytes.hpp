@@ -2,15 +2,15 @@
 
 #include <span>
 
+#include "base/bytes.hpp"
 #include "driftmesh/pslg.hpp"
-#include "protocol/ids.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh {
 
 /// A plan as bytes, for ranks of the same program on machines of the same kind (the arrays lie in it as they lie in
 /// memory). The size field is not in it: each rank makes its own.
-[[nodiscard]] protocol::Bytes plan_to_bytes(const RunPlan& plan);
+[[nodiscard]] Bytes plan_to_bytes(const RunPlan& plan);
 
 /// The plan, for so many ranks, that plan_to_bytes was given, without its size field. `policy`, if it was made with one
 /// that no name stands for. Throws Error if the bytes are not such a plan.
@@ -18,7 +18,7 @@ namespace driftmesh {
                                       std::shared_ptr<const balancer::Policy> policy = nullptr);
 
 /// The same for the input of a run.
-[[nodiscard]] protocol::Bytes pslg_to_bytes(const Pslg& pslg);
+[[nodiscard]] Bytes pslg_to_bytes(const Pslg& pslg);
 [[nodiscard]] Pslg pslg_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace driftmesh

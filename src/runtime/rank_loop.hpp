@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "balancer/codec.hpp"
 #include "balancer/controller.hpp"
 #include "balancer/speed_estimate.hpp"
 #include "driftmesh/error.hpp"
@@ -84,7 +85,7 @@ class BasicRankLoop {
     if (to == transport_.rank() || place == subdomains_.end() || !place->second.active()) return false;
     if (place->second.packed_bytes() > protocol::kMostPackedBytes) return false;
     triangles_ -= place->second.triangles();
-    protocol::Bytes packed = place->second.pack();
+    Bytes packed = place->second.pack();
     transport_.spend(static_cast<double>(packed.size()) * costs_.packed_byte);
     agenda_.remove(id);
     subdomains_.erase(place);
@@ -148,7 +149,8 @@ class BasicRankLoop {
       heard = true;
       auto delivery = protocol_.receive(received->source, protocol::decode(received->source, received->bytes, limits_));
       if (delivery.arrival) settle(*delivery.arrival, received->source);
-      if (delivery.advice && controller_) controller_->receive(received->source, std::move(*delivery.advice), clock_);
+      if (delivery.advice && controller_)
+        controller_->receive(received->source, balancer::decode(received->source, *delivery.advice, limits_), clock_);
       for (const protocol::SplitGroup& group : delivery.splits) {
         Subdomain& subdomain = subdomains_.at(group.to);
         for (const SplitPoint<GlobalRootId>& split : group.points) subdomain.tell(split);
@@ -207,19 +209,19 @@ class BasicRankLoop {
     if (!controller_ || !(controller_->due(clock_) || ran_out)) return false;
     if (protocol_.phase() != protocol::Termination::Phase::kWorking) return false;
     const double start = transport_.now();
-    const std::vector<protocol::SubdomainLoad> own = loads();
+    const std::vector<balancer::ReportedLoad> own = loads();
     transport_.spend(static_cast<double>(own.size()) * costs_.listed);
     balancer::Decision decision = controller_->think(clock_, own, speed_.value());
     for (const balancer::Move& move : decision.moves) hand_over(move.subdomain, move.destination);
-    for (protocol::Outgoing& o : decision.messages) protocol_.advise(o.destination, std::move(o.message));
+    for (const balancer::Outgoing& o : decision.messages) protocol_.advise(o.destination, balancer::encode(o.message));
     if (decision.planned) controller_->took(transport_.now() - start);
     charge(&RankTimes::balancing);
     return !decision.moves.empty() || !decision.messages.empty();
   }
 
   /// What is to be done here, in the order in which it will be.
-  [[nodiscard]] std::vector<protocol::SubdomainLoad> loads() const {
-    std::vector<protocol::SubdomainLoad> own;
+  [[nodiscard]] std::vector<balancer::ReportedLoad> loads() const {
+    std::vector<balancer::ReportedLoad> own;
     for (const SubdomainId id : agenda_.in_order()) {
       const Subdomain& s = subdomains_.at(id);
       own.push_back({id, protocol_.where(id).epoch, s.remaining(), s.packed_bytes()});
@@ -238,7 +240,7 @@ class BasicRankLoop {
   bool send() {
     const auto outgoing = protocol_.take_outgoing();
     for (const protocol::Outgoing& o : outgoing) {
-      protocol::Bytes bytes = protocol::encode(o.message);
+      Bytes bytes = protocol::encode(o.message);
       ++messages_;
       message_bytes_ += bytes.size();
       transport_.send(o.destination, std::move(bytes));

@@ -12,7 +12,7 @@
 #include "decompose/decomposition.hpp"
 #include "mesh/bounds.hpp"
 #include "protocol/aggregator.hpp"
-#include "protocol/ids.hpp"
+#include "base/ids.hpp"
 #include "runtime/agenda.hpp"
 
 namespace driftmesh {

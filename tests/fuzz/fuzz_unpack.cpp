@@ -26,7 +26,7 @@ Decomposition decomposition() {
   return decompose(triangulate(pslg), options);
 }
 
-protocol::Bytes sealed(const std::uint8_t* data, std::size_t size) {
+Bytes sealed(const std::uint8_t* data, std::size_t size) {
   SealedBytes bytes(size);
   bytes.append(data, size);
   return bytes.take();
@@ -46,7 +46,7 @@ void walk(Subdomain& subdomain) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Decomposition cut = decomposition();
   static const SubdomainContext context{&cut, {}, false};
-  const protocol::Bytes bytes = sealed(data, size);
+  const Bytes bytes = sealed(data, size);
   try {
     Subdomain subdomain = Subdomain::unpack(bytes, context);
     if (subdomain.pack() != bytes) std::abort();

@@ -3,13 +3,12 @@
 
 #include "balancer/mpi/mpi_council.hpp"
 #include "balancer/policies/policy_factory.hpp"
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "support/joint_rounds.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::balancer;
 using namespace driftmesh::testing;
-using driftmesh::protocol::Bytes;
 
 namespace {
 

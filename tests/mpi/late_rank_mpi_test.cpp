@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "driftmesh/generate.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/order.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "base/byte_stream.hpp"
+#include "base/bytes.hpp"
 #include "distributed/write_distributed.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/order.hpp"

@@ -21,7 +21,7 @@ void check_valid(const LoadSnapshot& snapshot, const std::vector<Move>& moves) {
   std::set<SubdomainId> moved;
   for (const Move& move : moves) {
     CAPTURE(to_int(move.subdomain));
-    const SubdomainState* const s = find(snapshot, move.subdomain);
+    const SubdomainLoad* const s = find(snapshot, move.subdomain);
     REQUIRE(s != nullptr);
     REQUIRE(move.destination != s->owner);
     REQUIRE(snapshot.ranks.has(move.destination));

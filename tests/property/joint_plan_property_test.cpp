@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "balancer/policies/policy_factory.hpp"
-#include "balancer/simulated_council.hpp"
+#include "balancer/simulated/simulated_council.hpp"
 #include "property/cases.hpp"
 #include "support/joint_rounds.hpp"
 

@@ -160,7 +160,7 @@ TEST_CASE("a subdomain that sleeps whenever it can is finished as well, and hold
       REQUIRE(subdomain.triangles() == triangles);
       ++slept;
       if (random() % 3 == 0) {
-        const protocol::Bytes packed = subdomain.pack();
+        const Bytes packed = subdomain.pack();
         subdomain = Subdomain::unpack(packed, world.context(), random() % 2 == 0 ? Source::kThisRun : Source::kUnknown);
         REQUIRE(subdomain.dormant());
         REQUIRE(subdomain.pack() == packed);
@@ -214,7 +214,7 @@ TEST_CASE("large subdomains, in the stage of blocks, come out the same") {
     for (const std::int64_t slice : {1, 40, 200, 600, 1000, 1000, 1000, 50'000, 50'000}) {
       stays.work(slice, said);
       moves.work(slice, said);
-      const protocol::Bytes packed = moves.pack();
+      const Bytes packed = moves.pack();
       stages.insert(unpack(packed).body->refiner.stage);
       // What balancing reckons with, so that what it takes to fit into one message does.
       const double most = 1.25 * static_cast<double>(moves.packed_bytes()) + 100'000;

@@ -23,34 +23,18 @@ class RandomMessage {
         for (auto n = below(5); n > 0; --n) batch.groups.push_back(group());
         return batch;
       }
-      case 1: {
-        HandOff hand_off{subdomain(), epoch(), Bytes(below(50))};
-        for (std::byte& byte : hand_off.packed) byte = std::byte(below(256));
-        return hand_off;
-      }
+      case 1:
+        return HandOff{subdomain(), epoch(), bytes()};
       case 2:
         return LocationUpdate{subdomain(), rank(), epoch()};
-      case 3: {
-        LoadReport report{epoch(), epoch(), amount(), {}};
-        for (auto n = below(5); n > 0; --n) report.loads.push_back({subdomain(), epoch(), amount(), random_()});
-        return report;
-      }
-      case 4:
-        return Plan{epoch(), moves()};
-      case 5:
+      case 3:
         return Token{random_(), static_cast<std::int64_t>(random_()), below(2) == 1};
-      case 6:
+      case 4:
         return Terminate{random_(), static_cast<std::int64_t>(random_()), static_cast<std::int64_t>(random_())};
-      case 7:
+      case 5:
         return Finish{};
-      case 8:
-        return WorkRequest{rank(), epoch(), amount(), amount(), epoch()};
-      case 9:
-        return WorkAnswer{epoch(), moves()};
-      case 10:
-        return LoadNews{epoch(), amount(), amount(), amount()};
       default:
-        return JointRound{epoch(), static_cast<JointRound::Stage>(below(3))};
+        return Advice{static_cast<std::uint8_t>(below(250)), bytes()};
     }
   }
 
@@ -59,10 +43,9 @@ class RandomMessage {
   Rank rank() { return static_cast<Rank>(below(static_cast<std::uint64_t>(kLimits.ranks))); }
   SubdomainId subdomain() { return static_cast<SubdomainId>(below(static_cast<std::uint64_t>(kLimits.subdomains))); }
   Epoch epoch() { return static_cast<Epoch>(random_()); }
-  double amount() { return static_cast<double>(random_()) / 3; }
-  std::vector<PlannedMove> moves() {
-    std::vector<PlannedMove> result;
-    for (auto n = below(5); n > 0; --n) result.push_back({subdomain(), rank()});
+  Bytes bytes() {
+    Bytes result(below(50));
+    for (std::byte& byte : result) byte = std::byte(below(256));
     return result;
   }
   SplitGroup group() {

@@ -96,10 +96,10 @@ TEST_CASE("a SPLIT follows its subdomain, the sender learns, and counts come out
 
 TEST_CASE("advice is delivered while there is work, and refused afterwards") {
   Ranks ranks;
-  CHECK(ranks[0_rank].advise(1_rank, Plan{1, {{1_sub, 2_rank}}}));
+  CHECK(ranks[0_rank].advise(1_rank, Advice{3, Bytes(5)}));
   const Delivery delivery = ranks.carry(0_rank, ranks.only(0_rank));
   REQUIRE(delivery.advice);
-  CHECK(*delivery.advice == Message(Plan{1, {{1_sub, 2_rank}}}));
+  CHECK(*delivery.advice == Advice{3, Bytes(5)});
 
   int carried = 0;
   for (bool moved = true; moved; ++carried) {
@@ -111,7 +111,7 @@ TEST_CASE("advice is delivered while there is work, and refused afterwards") {
     }
   }
   for (const auto& rank : ranks.all) CHECK(rank.finished());
-  CHECK(!ranks[0_rank].advise(1_rank, Plan{2, {}}));
+  CHECK(!ranks[0_rank].advise(1_rank, Advice{}));
   CHECK(ranks[0_rank].take_outgoing().empty());
   CHECK_THROWS_AS(ranks[1_rank].receive(0_rank, SplitBatch{}), ProtocolError);
 }

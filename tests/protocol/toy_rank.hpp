@@ -110,7 +110,7 @@ class ToyRank {
       const Location location = protocol_.where(s);
       const Rank to = any_rank();
       for (int twice = 0; twice < 2; ++twice) protocol_.advise(to, LocationUpdate{s, location.owner, location.epoch});
-      protocol_.advise(any_rank(), LoadReport{1, 0, 1.0, {}});
+      protocol_.advise(any_rank(), Advice{0, Bytes(24)});
     }
   }
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "balancer/simulated_council.hpp"
+#include "balancer/simulated/simulated_council.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/digest.hpp"
 #include "runtime/plan_run.hpp"
@@ -162,8 +162,8 @@ class AdversarialRun {
         break;
       case Mischief::kLateAdvice:
         result.urgency = [late = after(40)](const protocol::Parcel& parcel, std::uint64_t step) {
-          const bool advice = is<protocol::Plan>(parcel.bytes) || is<protocol::WorkRequest>(parcel.bytes) ||
-                              is<protocol::WorkAnswer>(parcel.bytes) || is<protocol::JointRound>(parcel.bytes);
+          const bool advice = is_advice<balancer::Plan>(parcel.bytes) || is_advice<balancer::WorkRequest>(parcel.bytes) ||
+                              is_advice<balancer::WorkAnswer>(parcel.bytes) || is_advice<balancer::JointRound>(parcel.bytes);
           return advice ? late(parcel, step) : protocol::Urgency::kAnyTime;
         };
         break;

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "protocol/ids.hpp"
+#include "base/ids.hpp"
 #include "sim/deeds.hpp"
 #include "sim/scenario.hpp"
 

@@ -12,7 +12,7 @@ namespace driftmesh::sim {
 /// The location updates that any rank of a run was told.
 struct Rumours {
   std::mt19937_64 random;
-  std::vector<protocol::Bytes> heard;
+  std::vector<Bytes> heard;
 };
 
 /// What comes to a rank, with half of the location updates replaced by other ones of the run: true of the past, out of

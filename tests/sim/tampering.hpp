@@ -97,7 +97,7 @@ class UnwelcomingTransport final : public protocol::TransportLayer {
   UnwelcomingTransport(protocol::Transport& inner, protocol::WireLimits limits)
       : TransportLayer(inner), limits_(limits) {}
 
-  void send(Rank destination, protocol::Bytes bytes) override {
+  void send(Rank destination, Bytes bytes) override {
     if (is<protocol::HandOff>(bytes)) known_.insert(subdomain_of(rank(), bytes));
     TransportLayer::send(destination, std::move(bytes));
   }
@@ -108,7 +108,7 @@ class UnwelcomingTransport final : public protocol::TransportLayer {
   }
 
  private:
-  [[nodiscard]] SubdomainId subdomain_of(Rank source, const protocol::Bytes& bytes) const {
+  [[nodiscard]] SubdomainId subdomain_of(Rank source, const Bytes& bytes) const {
     return std::get<protocol::HandOff>(protocol::decode(source, bytes, limits_)).subdomain;
   }
 
@@ -122,7 +122,7 @@ class ForgetfulTransport final : public protocol::TransportLayer {
   ForgetfulTransport(protocol::Transport& inner, protocol::WireLimits limits)
       : TransportLayer(inner), limits_(limits) {}
 
-  void send(Rank destination, protocol::Bytes bytes) override {
+  void send(Rank destination, Bytes bytes) override {
     if (is<protocol::HandOff>(bytes)) {
       auto leaving = std::get<protocol::HandOff>(protocol::decode(rank(), bytes, limits_));
       leaving.packed = without_pending(leaving.packed);
@@ -132,7 +132,7 @@ class ForgetfulTransport final : public protocol::TransportLayer {
   }
 
  private:
-  static protocol::Bytes without_pending(const protocol::Bytes& packed) {
+  static Bytes without_pending(const Bytes& packed) {
     const SubdomainState state = unpack(packed);
     SubdomainView view{state.id, state.refined, {}, {}, state.dormant ? &*state.dormant : nullptr};
     if (state.body) view.body.emplace(SubdomainView::Body{state.body->part, state.body->refiner, state.body->forecast});
@@ -150,7 +150,7 @@ class RecolouringTransport final : public protocol::TransportLayer {
   RecolouringTransport(protocol::Transport& inner, bool black, Forwarded forwarded)
       : TransportLayer(inner), black_(black), forwarded_(std::move(forwarded)) {}
 
-  void send(Rank destination, protocol::Bytes bytes) override {
+  void send(Rank destination, Bytes bytes) override {
     if (rank() != Rank{0} && is<protocol::Token>(bytes)) {
       auto token = std::get<protocol::Token>(protocol::decode(rank(), bytes, {}));
       if (forwarded_() != std::exchange(known_, forwarded_())) token.black = came_black_ || black_;

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "balancer/codec.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/rank_protocol.hpp"
 #include "protocol/transport_layer.hpp"
@@ -18,11 +19,18 @@
 
 namespace driftmesh::sim {
 
-/// Whether an encoded message is a T.
+/// Whether an encoded message is a T of the protocol.
 template <class T>
-[[nodiscard]] bool is(const protocol::Bytes& bytes) {
-  static const std::size_t type = protocol::Message(T{}).index();
-  return bytes.size() > 1 && std::to_integer<std::size_t>(bytes[1]) == type;
+[[nodiscard]] bool is(const Bytes& bytes) {
+  static const std::byte type = protocol::encode(T{})[1];
+  return bytes.size() > 1 && bytes[1] == type;
+}
+
+/// Whether it is advice, and that a T of the balancer.
+template <class T>
+[[nodiscard]] bool is_advice(const Bytes& bytes) {
+  static const std::byte type = protocol::encode(balancer::encode(T{}))[1];
+  return bytes.size() > 1 && bytes[1] == type;
 }
 
 /// Sees everything that is sent and received, by all ranks: finds what breaks a rule of docs/protocol.md, and counts
@@ -34,7 +42,7 @@ class Witness {
       : ranks_(to_index(ranks)), moves_(subdomains), work_is_over_(std::move(work_is_over)) {}
 
   /// `rank` sends; `counters` are its protocol's at that moment.
-  void sent(Rank rank, const protocol::Bytes& bytes, const protocol::ProtocolCounters& counters) {
+  void sent(Rank rank, const Bytes& bytes, const protocol::ProtocolCounters& counters) {
     ++clock_;
     if (is<protocol::Token>(bytes)) return token_passed(rank, decoded<protocol::Token>(bytes), counters);
     if (is<protocol::HandOff>(bytes)) {
@@ -48,7 +56,7 @@ class Witness {
   }
 
   /// `rank` receives; `holds` says of a subdomain whether it is there.
-  void received(Rank rank, const protocol::Bytes& bytes, const std::function<bool(SubdomainId)>& holds) {
+  void received(Rank rank, const Bytes& bytes, const std::function<bool(SubdomainId)>& holds) {
     if (is<protocol::Token>(bytes)) {
       const auto token = decoded<protocol::Token>(bytes);
       ranks_[rank].tokens[token.round] = token;
@@ -59,8 +67,8 @@ class Witness {
       for (const auto& group : batch.groups) split_received(group);
     } else if (is<protocol::LocationUpdate>(bytes)) {
       located(rank, decoded<protocol::LocationUpdate>(bytes));
-    } else if (is<protocol::Plan>(bytes)) {
-      const auto plan = decoded<protocol::Plan>(bytes);
+    } else if (is_advice<balancer::Plan>(bytes)) {
+      const auto plan = std::get<balancer::Plan>(balancer::decode(rank, decoded<protocol::Advice>(bytes), kLimits));
       for (const auto& move : plan.moves) deeds_.late_plans += holds(move.subdomain) ? 0 : 1;
     }
   }
@@ -80,9 +88,11 @@ class Witness {
     std::map<std::tuple<SubdomainId, Rank, protocol::Epoch>, int> locations;
   };
 
+  static constexpr protocol::WireLimits kLimits{1 << 20, 1 << 20, 1 << 20};
+
   template <class T>
-  static T decoded(const protocol::Bytes& bytes) {
-    return std::get<T>(protocol::decode(Rank{0}, bytes, {1 << 20, 1 << 20, 1 << 20}));
+  static T decoded(const Bytes& bytes) {
+    return std::get<T>(protocol::decode(Rank{0}, bytes, kLimits));
   }
   static Leg leg(const protocol::SplitGroup& group) {
     return {group.to, group.points.front().root, group.points.front().path, group.hops};
@@ -157,7 +167,7 @@ class WitnessedTransport final : public protocol::TransportLayer {
   WitnessedTransport(protocol::Transport& inner, Witness& witness, Holds holds, Counters counters)
       : TransportLayer(inner), witness_(witness), holds_(std::move(holds)), counters_(std::move(counters)) {}
 
-  void send(Rank destination, protocol::Bytes bytes) override {
+  void send(Rank destination, Bytes bytes) override {
     witness_.sent(rank(), bytes, counters_());
     TransportLayer::send(destination, std::move(bytes));
   }

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "balancer/codec.hpp"
 #include "balancer/controller.hpp"
 #include "balancer/policies/policy_factory.hpp"
-#include "balancer/simulated_council.hpp"
+#include "balancer/simulated/simulated_council.hpp"
 #include "balancer/speed_estimate.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/rank_protocol.hpp"
@@ -86,7 +87,9 @@ class WorkingRank {
         jobs_[delivery.arrival->subdomain] = job;
         controller_.arrived(delivery.arrival->subdomain, delivery.arrival->epoch, transport_.now());
       }
-      if (delivery.advice) controller_.receive(received->source, std::move(*delivery.advice), transport_.now());
+      if (delivery.advice)
+        controller_.receive(received->source, balancer::decode(received->source, *delivery.advice, limits_),
+                            transport_.now());
     }
     return heard;
   }
@@ -101,18 +104,18 @@ class WorkingRank {
   }
 
   void balance() {
-    std::vector<protocol::SubdomainLoad> own;
+    std::vector<balancer::ReportedLoad> own;
     for (const SubdomainId id : agenda())
       own.push_back({id, protocol_.where(id).epoch, jobs_.at(id).remaining(), jobs_.at(id).bytes()});
     auto decision = controller_.think(transport_.now(), own, given_speed_ > 0 ? given_speed_ : speed_.value());
     if (decision.planned) controller_.took(1e-3);
     for (const auto& move : decision.moves) hand_over(move);
-    for (auto& message : decision.messages) protocol_.advise(message.destination, std::move(message.message));
+    for (auto& message : decision.messages) protocol_.advise(message.destination, balancer::encode(message.message));
   }
 
   void hand_over(const balancer::Move& move) {
     const auto node = jobs_.extract(move.subdomain);
-    protocol::Bytes packed(std::max<std::size_t>(sizeof(Job), node.mapped().bytes()));
+    Bytes packed(std::max<std::size_t>(sizeof(Job), node.mapped().bytes()));
     std::memcpy(packed.data(), &node.mapped(), sizeof(Job));
     protocol_.hand_off(move.subdomain, move.destination, std::move(packed));
     ++counts_.moves;

@@ -13,7 +13,7 @@ inline std::vector<balancer::Contribution> contributions_of(const LoadSnapshot& 
                                                             std::mt19937_64* random = nullptr) {
   std::vector<balancer::Contribution> all;
   for (const Rank r : ids_of(snapshot.ranks)) all.push_back({r, snapshot.ranks[r], {}, {}});
-  for (const balancer::SubdomainState& s : snapshot.subdomains) {
+  for (const balancer::SubdomainLoad& s : snapshot.subdomains) {
     balancer::Contribution& owner = all[to_index(s.owner)];
     owner.own.push_back(s);
     if (random && (*random)() % 5 == 0) owner.settled.push_back(s.id);
@@ -35,12 +35,12 @@ inline std::string problem_of(const LoadSnapshot& snapshot, const std::vector<ba
                               const std::vector<balancer::Council::Decision>& decisions) {
   IdVector<Rank, double> work;
   IdVector<Rank, std::int32_t> coming(decisions.size());
-  for (const balancer::RankState& state : snapshot.ranks) work.push_back(state.remaining);
+  for (const balancer::RankLoad& state : snapshot.ranks) work.push_back(state.remaining);
   bool any = false;
   for (const Rank r : ids_of(coming)) {
     SubdomainId last = kNoSubdomain;
     for (const balancer::Move& move : decisions[to_index(r)].moves) {
-      const balancer::SubdomainState* const s = balancer::find(snapshot, move.subdomain);
+      const balancer::SubdomainLoad* const s = balancer::find(snapshot, move.subdomain);
       const auto& settled = contributions[to_index(r)].settled;
       if (!s || s->owner != r) return "a rank moves what it does not own";
       if (move.destination == s->owner || !work.has(move.destination)) return "a move to nowhere";

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "balancer/simulated_council.hpp"
+#include "balancer/simulated/simulated_council.hpp"
 #include "decompose/decomposition.hpp"
 #include "runtime/rank_loop.hpp"
 #include "support/split_points.hpp"

@@ -10,12 +10,10 @@
 using namespace driftmesh;
 using namespace driftmesh::balancer;
 using driftmesh::testing::grid_layout;
-using protocol::LoadReport;
-using protocol::SubdomainLoad;
 
 namespace {
 
-using Loads = std::vector<SubdomainLoad>;
+using Loads = std::vector<ReportedLoad>;
 
 // Subdomains first .. last, of equal work, in epoch 0.
 Loads loads_of(std::int32_t first, std::int32_t last, double work) {
@@ -131,7 +129,7 @@ TEST_CASE("the leader plans when all have reported, and a rank follows") {
   const Decision decision = leader.think(100.1, loads_of(0, 5, 1000), 400);
   CHECK(decision.planned);
   CHECK(decision.moves.empty());
-  const auto plans = sent<protocol::Plan>(decision);
+  const auto plans = sent<balancer::Plan>(decision);
   REQUIRE(plans.size() == 1);
   CHECK(plans[0].first == 1_rank);
   CHECK(plans[0].second.moves.size() == 4);
@@ -158,11 +156,11 @@ TEST_CASE("a rank without work sends none, whatever it is told") {
     CAPTURE(policy);
     for (const Rank self : first_ids<Rank>(3)) {
       Controller c = controller_of(self, layout, policy);
-      c.receive(2_rank, protocol::Plan{1, {{0_sub, 1_rank}, {4_sub, 2_rank}, {9_sub, 0_rank}}}, 0);
+      c.receive(2_rank, balancer::Plan{1, {{0_sub, 1_rank}, {4_sub, 2_rank}, {9_sub, 0_rank}}}, 0);
       c.receive(2_rank, LoadReport{1, 0, 10, loads_of(8, 11, 1e6)}, 0);
-      c.receive(2_rank, protocol::LoadNews{1, 4e6, 3e6, 10}, 0);
-      c.receive(2_rank, protocol::WorkRequest{2_rank, 1, 0, 10, 0}, 0);
-      c.receive(2_rank, protocol::WorkAnswer{7, {{3_sub, self}}}, 0);
+      c.receive(2_rank, balancer::LoadNews{1, 4e6, 3e6, 10}, 0);
+      c.receive(2_rank, balancer::WorkRequest{2_rank, 1, 0, 10, 0}, 0);
+      c.receive(2_rank, balancer::WorkAnswer{7, {{3_sub, self}}}, 0);
       CHECK(c.think(0.1, {}, 100).moves.empty());
     }
   }
@@ -172,24 +170,24 @@ TEST_CASE("a rank that runs low asks, and waits for the answer") {
   const Layout layout = grid_layout(12, 1, 3);
   Controller broker = controller_of(0_rank, layout, "stealing"), thief = controller_of(1_rank, layout, "stealing"),
              victim = controller_of(2_rank, layout, "stealing");
-  broker.receive(2_rank, protocol::LoadNews{1, 4000, 3000, 100}, 1);
+  broker.receive(2_rank, balancer::LoadNews{1, 4000, 3000, 100}, 1);
   CHECK(broker.think(1, loads_of(0, 1, 1000), 1000).moves.empty());
 
-  const auto request = sent<protocol::WorkRequest>(thief.think(1, loads_of(4, 4, 10), 300));
+  const auto request = sent<balancer::WorkRequest>(thief.think(1, loads_of(4, 4, 10), 300));
   REQUIRE(request.size() == 1);
   CHECK(request[0].first == 0_rank);
   CHECK(thief.waiting());
 
   broker.receive(1_rank, request[0].second, 1);
   CHECK(broker.waiting());
-  const auto passed_on = sent<protocol::WorkRequest>(broker.think(1, loads_of(0, 1, 1000), 1000));
+  const auto passed_on = sent<balancer::WorkRequest>(broker.think(1, loads_of(0, 1, 1000), 1000));
   CHECK(!broker.waiting());
   REQUIRE(passed_on.size() == 1);
   CHECK(passed_on[0].first == 2_rank);
 
   victim.receive(0_rank, passed_on[0].second, 1);
   const Decision gift = victim.think(1, loads_of(8, 11, 1000), 100);
-  const auto answer = sent<protocol::WorkAnswer>(gift);
+  const auto answer = sent<balancer::WorkAnswer>(gift);
   REQUIRE(answer.size() == 1);
   CHECK(answer[0].first == 1_rank);
   CHECK(gift.moves.size() == 3);
@@ -197,7 +195,7 @@ TEST_CASE("a rank that runs low asks, and waits for the answer") {
 
   thief.receive(2_rank, answer[0].second, 1);
   CHECK(!thief.waiting());
-  CHECK(sent<protocol::WorkRequest>(thief.think(1.5, loads_of(4, 4, 5), 300)).empty());  // there is some on its way
+  CHECK(sent<balancer::WorkRequest>(thief.think(1.5, loads_of(4, 4, 5), 300)).empty());  // there is some on its way
 }
 
 TEST_CASE("a rank asks again when all that was promised has come, though it was finished at once") {
@@ -205,15 +203,15 @@ TEST_CASE("a rank asks again when all that was promised has come, though it was 
   for (const bool answer_first : {true, false}) {
     CAPTURE(answer_first);
     Controller thief = controller_of(1_rank, layout, "stealing");
-    const auto request = sent<protocol::WorkRequest>(thief.think(1, loads_of(4, 4, 10), 300));
+    const auto request = sent<balancer::WorkRequest>(thief.think(1, loads_of(4, 4, 10), 300));
     REQUIRE(request.size() == 1);
-    const protocol::WorkAnswer answer{request[0].second.round, {{8_sub, 1_rank}, {9_sub, 1_rank}}};
+    const balancer::WorkAnswer answer{request[0].second.round, {{8_sub, 1_rank}, {9_sub, 1_rank}}};
     if (answer_first) thief.receive(2_rank, answer, 1);
     thief.arrived(8_sub, 1, 1);
-    CHECK(sent<protocol::WorkRequest>(thief.think(1.01, {}, 300)).empty());
+    CHECK(sent<balancer::WorkRequest>(thief.think(1.01, {}, 300)).empty());
     thief.arrived(9_sub, 1, 1);
     if (!answer_first) thief.receive(2_rank, answer, 1);
-    CHECK(sent<protocol::WorkRequest>(thief.think(1.02, {}, 300)).size() == 1);
+    CHECK(sent<balancer::WorkRequest>(thief.think(1.02, {}, 300)).size() == 1);
   }
 }
 
@@ -225,7 +223,7 @@ TEST_CASE("who planned a move hears that it was made, though the subdomain was f
   const auto report = sent<LoadReport>(rank.think(2, loads_of(6, 11, 950), 300));
   REQUIRE(report.size() == 1);
   REQUIRE(report[0].second.loads.size() == 7);
-  CHECK(report[0].second.loads.back() == SubdomainLoad{3_sub, 1, 0, 0});
+  CHECK(report[0].second.loads.back() == ReportedLoad{3_sub, 1, 0, 0});
 
   Knowledge knowledge(std::make_shared<Layout>(layout), 3);
   knowledge.hear(0_rank, {1, 0, 300, loads_of(0, 5, 1000)}, 1);
@@ -241,20 +239,20 @@ TEST_CASE("who planned a move hears that it was made, though the subdomain was f
 TEST_CASE("a refused rank does not ask without end, and is thought of later") {
   const Layout layout = grid_layout(12, 1, 2);
   Controller broker = controller_of(0_rank, layout, "stealing"), thief = controller_of(1_rank, layout, "stealing");
-  const auto request = sent<protocol::WorkRequest>(thief.think(1, {}, 300));
+  const auto request = sent<balancer::WorkRequest>(thief.think(1, {}, 300));
   REQUIRE(request.size() == 1);
-  broker.receive(1_rank, protocol::LoadNews{1, 0, 0, 300}, 1);
+  broker.receive(1_rank, balancer::LoadNews{1, 0, 0, 300}, 1);
   broker.receive(1_rank, request[0].second, 1);
-  const auto refusal = sent<protocol::WorkAnswer>(broker.think(1, {}, 1000));
+  const auto refusal = sent<balancer::WorkAnswer>(broker.think(1, {}, 1000));
   REQUIRE(refusal.size() == 1);
   CHECK(refusal[0].second.moves.empty());
   thief.receive(0_rank, refusal[0].second, 1);
   CHECK(!thief.waiting());
-  for (int i = 0; i < 100; ++i) CHECK(sent<protocol::WorkRequest>(thief.think(2 + i, {}, 300)).empty());
+  for (int i = 0; i < 100; ++i) CHECK(sent<balancer::WorkRequest>(thief.think(2 + i, {}, 300)).empty());
 
   // SPLITs have made work at the broker.
   CHECK(broker.think(200, loads_of(0, 4, 1000), 1000).moves.empty());
   const Decision late = broker.think(200.1, loads_of(0, 4, 1000), 1000);
   CHECK(!late.moves.empty());
-  CHECK(sent<protocol::WorkAnswer>(late).size() == 1);
+  CHECK(sent<balancer::WorkAnswer>(late).size() == 1);
 }

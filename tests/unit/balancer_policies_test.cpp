@@ -26,7 +26,7 @@ std::string error_of(const std::string& name, const Parameters::Values& values =
 
 double cut_length(const LoadSnapshot& snapshot) {
   double length = 0;
-  for (const SubdomainState& s : snapshot.subdomains)
+  for (const SubdomainLoad& s : snapshot.subdomains)
     for (const Neighbour& n : (*snapshot.layout)[s.id].neighbours)
       if (find(snapshot, n.subdomain)->owner != s.owner) length += n.length / 2;
   return length;

@@ -39,7 +39,7 @@ TEST_CASE("the finishing time is that of the slowest rank for its work") {
 }
 
 TEST_CASE("unknown and impossible speeds count as the mean of the others") {
-  IdVector<Rank, RankState> ranks(4);
+  IdVector<Rank, RankLoad> ranks(4);
   CHECK(assumed_speeds(ranks) == IdVector<Rank, double>{1, 1, 1, 1});
   ranks[1_rank].speed = 100;
   ranks[2_rank].speed = 300;
@@ -137,7 +137,7 @@ TEST_CASE("what costs more to move than to finish stays") {
 
 TEST_CASE("what one message cannot carry stays, however much there is to gain") {
   LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {1e6, 1e6});
-  for (SubdomainState& subdomain : s.subdomains) subdomain.remaining = subdomain.owner == 0_rank ? 1e12 : 0;
+  for (SubdomainLoad& subdomain : s.subdomains) subdomain.remaining = subdomain.owner == 0_rank ? 1e12 : 0;
   sum_up(s);
   const std::vector<Move> plan{{0_sub, 1_rank}, {1_sub, 1_rank}};
   CHECK(worth_moving(s, plan, {}) == plan);
@@ -157,7 +157,7 @@ TEST_CASE("a rank keeps what it can in its spare time, and first what is dear to
 TEST_CASE("what a fast rank packs in no time is dear on a slow one") {
   const auto moves = [](double speed) {
     LoadSnapshot s = initial_snapshot(grid_layout(4, 1, 2), {speed, speed});
-    for (SubdomainState& subdomain : s.subdomains) subdomain.remaining *= speed / 1000, subdomain.bytes = 1'000'000;
+    for (SubdomainLoad& subdomain : s.subdomains) subdomain.remaining *= speed / 1000, subdomain.bytes = 1'000'000;
     s.subdomains[2].remaining = s.subdomains[3].remaining = 0;
     sum_up(s);
     return worth_moving(s, std::vector<Move>{{0_sub, 1_rank}}, {}).size();

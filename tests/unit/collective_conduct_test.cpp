@@ -12,10 +12,7 @@
 using namespace driftmesh;
 using namespace driftmesh::balancer;
 using driftmesh::testing::grid_layout;
-using protocol::JointRound;
-using protocol::LoadNews;
-using protocol::SubdomainLoad;
-using Stage = protocol::JointRound::Stage;
+using Stage = balancer::JointRound::Stage;
 
 namespace {
 
@@ -32,8 +29,8 @@ class ScriptedCouncil final : public Council {
   }
 };
 
-std::vector<SubdomainLoad> loads_of(std::int32_t first, std::int32_t last, double each) {
-  std::vector<SubdomainLoad> loads;
+std::vector<ReportedLoad> loads_of(std::int32_t first, std::int32_t last, double each) {
+  std::vector<ReportedLoad> loads;
   for (std::int32_t id = first; id <= last; ++id) loads.push_back({SubdomainId{id}, 0, each, 40});
   return loads;
 }
@@ -54,7 +51,7 @@ struct Bench {
 
   /// A round is called and started for a rank that has this to do; it decides when it thinks next.
   static void begin_round(CollectiveConduct& rank, std::uint32_t number, double now,
-                          const std::vector<SubdomainLoad>& loads) {
+                          const std::vector<ReportedLoad>& loads) {
     rank.receive(0_rank, JointRound{number, Stage::kCall}, now);
     static_cast<void>(rank.think({now, loads, 300}));
     rank.receive(0_rank, JointRound{number, Stage::kStart}, now);

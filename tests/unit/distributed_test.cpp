@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <sstream>
 
-#include "base/byte_stream.hpp"
-#include "distributed/write_distributed.hpp"
+#include "base/bytes.hpp"
 #include "driftmesh/error.hpp"
+#include "distributed/write_distributed.hpp"
 #include "driftmesh/generate.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/digest.hpp"
@@ -219,7 +219,7 @@ TEST_CASE("a coordinate that differs in its last bit between subdomains of a ran
 }
 
 TEST_CASE("messages that do not belong into an exchange are errors that name the sender") {
-  const auto send_to_rank_0 = [](const protocol::Bytes& bytes) {
+  const auto send_to_rank_0 = [](const Bytes& bytes) {
     protocol::AdversarialNetwork network(2, protocol::Adversary::from_seed(1));
     TwoSquares squares;
     PieceAssembly assembly(0_rank, 2, squares.d, squares.held({0_sub}));
@@ -241,12 +241,12 @@ TEST_CASE("messages that do not belong into an exchange are errors that name the
     return outer.take();
   };
   constexpr std::uint32_t kMark = 0x32584d44;
-  CHECK(send_to_rank_0(message(kMark, 0, {})).find("message from rank 1: a message between ranks is too short") == 0);
+  CHECK(send_to_rank_0(message(kMark, 0, {})).find("message from rank 1: it ends too early") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {4'000'000'000}))
-            .find("message from rank 1: a message between ranks is too short") == 0);
+            .find("message from rank 1: it ends too early") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0, 7})).find("message from rank 1: it goes on after its end") == 0);
   CHECK(send_to_rank_0(message(7, 0, {0})).find("message from rank 1: it is not of an exchange") == 0);
-  CHECK(send_to_rank_0({}).find("message from rank 1: a message between ranks is too short") == 0);
+  CHECK(send_to_rank_0({}).find("message from rank 1: it ends too early") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0}, 3, 3)).find("message from rank 1: it is part 3 of 3") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0}, 0, 0xFFFFFFFF)).find("message from rank 1: it is part 0 of") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0}, 1, 3)) == "no error");  // the others may come

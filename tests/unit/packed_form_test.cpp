@@ -18,7 +18,6 @@
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
-using protocol::Bytes;
 
 namespace {
 

@@ -307,7 +307,7 @@ TEST_CASE("a plan survives its way through bytes, and a damaged one is refused")
   RunPlan plan = plan_of(ell(), {25, 1e-3, {0, 0.5}, nullptr}, 3, 9, Presplit::kOff);
   plan.aggregation = 17;
   plan.max_triangles = 12345;
-  const protocol::Bytes bytes = plan_to_bytes(plan);
+  const Bytes bytes = plan_to_bytes(plan);
   const RunPlan copy = plan_from_bytes(bytes, 3);
   CHECK(copy.decomposition == plan.decomposition);
   CHECK(copy.owners == plan.owners);
@@ -317,7 +317,7 @@ TEST_CASE("a plan survives its way through bytes, and a damaged one is refused")
   CHECK(copy.aggregation == 17);
   CHECK(copy.max_triangles == 12345);
   CHECK_THROWS_AS(plan_from_bytes(std::span(bytes).first(bytes.size() - 1), 3), Error);
-  protocol::Bytes longer = bytes;
+  Bytes longer = bytes;
   longer.push_back({});
   CHECK_THROWS_AS(plan_from_bytes(longer, 3), Error);
 }

@@ -27,11 +27,11 @@ MpiTeam::MpiTeam(int communicator)
       ranks_on_machine_(protocol::MpiSession::ranks_on_this_machine(communicator)),
       control_(communicator) {}
 
-protocol::Bytes MpiTeam::broadcast(protocol::Bytes bytes) {
+Bytes MpiTeam::broadcast(Bytes bytes) {
   return control_.broadcast(std::move(bytes));
 }
 
-std::vector<protocol::Bytes> MpiTeam::gather(const protocol::Bytes& bytes) {
+std::vector<Bytes> MpiTeam::gather(const Bytes& bytes) {
   return control_.gather(bytes);
 }
 

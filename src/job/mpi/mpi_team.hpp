@@ -18,8 +18,8 @@ class MpiTeam final : public Team {
   [[nodiscard]] Rank rank() const override { return control_.rank(); }
   [[nodiscard]] std::int32_t ranks() const override { return control_.ranks(); }
   [[nodiscard]] int ranks_on_machine() const override { return ranks_on_machine_; }
-  [[nodiscard]] protocol::Bytes broadcast(protocol::Bytes bytes) override;
-  [[nodiscard]] std::vector<protocol::Bytes> gather(const protocol::Bytes& bytes) override;
+  [[nodiscard]] Bytes broadcast(Bytes bytes) override;
+  [[nodiscard]] std::vector<Bytes> gather(const Bytes& bytes) override;
   [[nodiscard]] std::unique_ptr<Channel> open() override;
   [[noreturn]] void abort(const std::string& message, int code) override;
 

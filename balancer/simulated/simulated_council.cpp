@@ -1,10 +1,11 @@
-#include "balancer/simulated_council.hpp"
+#include "balancer/simulated/simulated_council.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "balancer/plan_jointly.hpp"
+#include "balancer/zoltan/zoltan_partition.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh::balancer {
@@ -19,9 +20,9 @@ void SimulatedCouncil::announce(std::uint32_t round, const Contribution& contrib
   Round& at = rounds_[round];
   if (at.decided) return;
   Contribution& own = at.contributions[contribution.rank];
-  for (const SubdomainState& s : own.own) at.listed.erase(s.id);
+  for (const SubdomainLoad& s : own.own) at.listed.erase(s.id);
   own = contribution;
-  std::erase_if(own.own, [&](const SubdomainState& s) { return !at.listed.insert(s.id).second; });
+  std::erase_if(own.own, [&](const SubdomainLoad& s) { return !at.listed.insert(s.id).second; });
   // Who has announced itself here decides in no earlier round any more.
   if (at.contributions.size() == to_index(layout_->ranks)) rounds_.erase(rounds_.begin(), rounds_.find(round));
 }
@@ -43,15 +44,16 @@ bool SimulatedCouncil::in_session() const {
 
 // Parts are made for all at once, and given to each rank for what it listed.
 std::vector<std::vector<Part>> SimulatedCouncil::parts_of(const std::vector<Contribution>& contributions,
-                                                          const IdVector<Rank, RankState>& states) const {
+                                                          const IdVector<Rank, RankLoad>& states) const {
   LoadSnapshot all{layout_, {}, states};
   for (const Contribution& c : contributions) all.subdomains.insert(all.subdomains.end(), c.own.begin(), c.own.end());
-  std::ranges::sort(all.subdomains, {}, &SubdomainState::id);
-  const std::vector<Part> parts = policy_->parts(all, std::nullopt);
+  std::ranges::sort(all.subdomains, {}, &SubdomainLoad::id);
+  const auto partitioning = policy_->partitioning(all);
+  const std::vector<Part> parts = partitioning ? zoltan_partition(all, *partitioning) : present_parts(all);
   std::vector<std::vector<Part>> of_rank;
   for (const Contribution& c : contributions) {
     std::vector<Part>& own = of_rank.emplace_back();
-    for (const SubdomainState& s : c.own)
+    for (const SubdomainLoad& s : c.own)
       own.push_back(parts[static_cast<std::size_t>(find(all, s.id) - all.subdomains.data())]);
   }
   return of_rank;
@@ -61,7 +63,7 @@ void SimulatedCouncil::conclude_round(Round& round) const {
   if (round.contributions.size() != to_index(layout_->ranks))
     throw Error("a rank decides before all have announced themselves");
   std::vector<Contribution> contributions;
-  IdVector<Rank, RankState> states;
+  IdVector<Rank, RankLoad> states;
   for (const auto& [rank, contribution] : round.contributions) {
     contributions.push_back(contribution);
     states.push_back(contribution.state);

@@ -33,7 +33,7 @@ class SimulatedCouncil final : public Council {
   };
   void conclude_round(Round& round) const;
   [[nodiscard]] std::vector<std::vector<Part>> parts_of(const std::vector<Contribution>& contributions,
-                                                        const IdVector<Rank, RankState>& states) const;
+                                                        const IdVector<Rank, RankLoad>& states) const;
 
   std::shared_ptr<const Layout> layout_;
   std::shared_ptr<const Policy> policy_;

@@ -1,0 +1,153 @@
+#include "balancer/codec.hpp"
+
+#include <doctest/doctest.h>
+
+#include <random>
+#include <set>
+#include <string>
+
+#include "protocol/protocol_error.hpp"
+#include "support/id_literals.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+using protocol::Advice;
+using protocol::ProtocolError;
+
+namespace {
+
+constexpr Rank kSender{5};
+constexpr protocol::WireLimits kLimits{.ranks = 7, .subdomains = 100, .roots = 0};
+
+/// Messages of every type, with numbers over their whole range.
+class RandomMessage {
+ public:
+  explicit RandomMessage(std::uint64_t seed) : random_(seed) {}
+
+  Message any() {
+    switch (below(std::variant_size_v<Message>)) {
+      case 0: {
+        LoadReport report{number(), number(), amount(), {}};
+        for (auto n = below(5); n > 0; --n) report.loads.push_back({subdomain(), number(), amount(), random_()});
+        return report;
+      }
+      case 1:
+        return Plan{number(), moves()};
+      case 2:
+        return LoadNews{number(), amount(), amount(), amount()};
+      case 3:
+        return WorkRequest{rank(), number(), amount(), amount(), number()};
+      case 4:
+        return WorkAnswer{number(), moves()};
+      default:
+        return JointRound{number(), static_cast<JointRound::Stage>(below(3))};
+    }
+  }
+
+ private:
+  std::uint64_t below(std::uint64_t n) { return random_() % n; }
+  Rank rank() { return static_cast<Rank>(below(to_index(kLimits.ranks))); }
+  SubdomainId subdomain() { return static_cast<SubdomainId>(below(to_index(kLimits.subdomains))); }
+  std::uint32_t number() { return static_cast<std::uint32_t>(random_()); }
+  double amount() { return static_cast<double>(random_()) / 3; }
+  std::vector<Move> moves() {
+    std::vector<Move> result;
+    for (auto n = below(5); n > 0; --n) result.push_back({subdomain(), rank()});
+    return result;
+  }
+
+  std::mt19937_64 random_;
+};
+
+std::string error_of(const Advice& advice) {
+  try {
+    static_cast<void>(decode(kSender, advice, kLimits));
+  } catch (const ProtocolError& error) {
+    CHECK(error.sender() == kSender);
+    CHECK(std::string(error.what()).starts_with("message from rank 5: "));
+    return error.what();
+  }
+  return {};
+}
+
+// Whatever the bytes, decode either refuses them or understands all of them.
+bool refused_or_canonical(const Advice& advice) {
+  try {
+    return encode(decode(kSender, advice, kLimits)) == advice;
+  } catch (const ProtocolError&) {
+    return true;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the balancer's messages of every type come back as they were sent") {
+  std::set<std::size_t> types;
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    CAPTURE(seed);
+    const Message message = RandomMessage(seed).any();
+    types.insert(message.index());
+    REQUIRE(decode(kSender, encode(message), kLimits) == message);
+  }
+  CHECK(types.size() == std::variant_size_v<Message>);
+}
+
+TEST_CASE("every truncation of the balancer's messages is refused") {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    CAPTURE(seed);
+    Advice advice = encode(RandomMessage(seed).any());
+    advice.content.push_back(std::byte{0});
+    REQUIRE(error_of(advice) != "");
+    advice.content.pop_back();
+    REQUIRE(error_of(advice) == "");
+    while (!advice.content.empty()) {
+      advice.content.pop_back();
+      REQUIRE(error_of(advice) != "");
+    }
+  }
+}
+
+TEST_CASE("damaged advice is refused, or is another message that is understood whole") {
+  std::mt19937_64 random(7);
+  int refused = 0, understood = 0;
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    CAPTURE(seed);
+    Advice advice = encode(RandomMessage(seed).any());
+    if (random() % 10 == 0) advice.topic = static_cast<std::uint8_t>(random() % 8);
+    for (auto flips = random() % 3 + 1; flips > 0; --flips)
+      advice.content[random() % advice.content.size()] ^= std::byte(1u << (random() % 8));
+    REQUIRE(refused_or_canonical(advice));
+    ++(error_of(advice).empty() ? understood : refused);
+  }
+  CHECK(refused > 300);
+  CHECK(understood > 300);
+}
+
+TEST_CASE("the layout of a plan is little-endian and fixed") {
+  const Advice advice = encode(Plan{0x0a0b0c0d, {{1_sub, 2_rank}}});
+  CHECK(advice.topic == 1);
+  const std::vector<int> expected{0x0d, 0x0c, 0x0b, 0x0a, 1, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0};
+  REQUIRE(advice.content.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::to_integer<int>(advice.content[i]) == expected[i]);
+}
+
+TEST_CASE("refusals of advice say what is wrong") {
+  const auto with = [](const Message& message, std::size_t at, int value) {
+    Advice advice = encode(message);
+    advice.content.at(at) = std::byte(value);
+    return error_of(advice);
+  };
+  CHECK(error_of(encode(LoadReport{1, 0, -1.0, {}})) == "message from rank 5: an amount is negative or not finite");
+  CHECK(error_of(encode(LoadNews{1, 1.0, 2.0, -0.5})) == "message from rank 5: an amount is negative or not finite");
+  CHECK(error_of(encode(WorkRequest{7_rank, 1, 1.0, 2.0, 0})) == "message from rank 5: rank 7 is outside 0 .. 6");
+  CHECK(error_of(encode(Plan{1, {{100_sub, 1_rank}}})) == "message from rank 5: subdomain 100 is outside 0 .. 99");
+  CHECK(with(JointRound{1, JointRound::Stage::kStart}, 4, 3) == "message from rank 5: choice 3 does not exist");
+  CHECK(error_of({6, {}}) == "message from rank 5: it is advice on the unknown topic 6");
+  CHECK(error_of({0, {}}) == "message from rank 5: it ends too early");
+}
+
+TEST_CASE("an announced length of advice costs no memory before its bytes are there") {
+  Advice advice = encode(Plan{1, {}});
+  for (std::size_t i = 4; i < 8; ++i) advice.content[i] = std::byte{0xff};
+  CHECK(error_of(advice) == "message from rank 5: it announces 4294967295 items, and 0 bytes follow");
+}
