@@ -11,9 +11,9 @@ namespace driftmesh::protocol {
 inline constexpr std::uint8_t kWireVersion = 2;
 
 /// The bytes of a message: a byte for the version, a byte for the type, then the fields in the order of messages.hpp,
-/// little-endian, lists with a 4-byte count in front. The type is Message's index; of advice its topic is added to that.
-/// Every message has exactly one encoding. Throws LimitError for a list of more than 2^32 - 1 items, and for a topic of
-/// advice that has no room in a byte.
+/// little-endian, lists with a 4-byte count in front. The type is Message's index; of advice its topic is added to
+/// that. Every message has exactly one encoding. Throws LimitError for a list of more than 2^32 - 1 items, and for a
+/// topic of advice that has no room in a byte.
 [[nodiscard]] Bytes encode(const Message& message);
 
 /// The message that `bytes` hold. No length in them is believed before the bytes for it are known to be there, and no

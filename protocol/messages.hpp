@@ -4,9 +4,9 @@
 #include <variant>
 #include <vector>
 
-#include "dyadic/split_point.hpp"
 #include "base/bytes.hpp"
 #include "base/ids.hpp"
+#include "dyadic/split_point.hpp"
 #include "protocol/epoch.hpp"
 
 /// What ranks say to each other. The layout on the wire is in codec.cpp; the rules are in docs/protocol.md.

@@ -134,7 +134,8 @@ template <class Variant>
 [[nodiscard]] Variant empty_message(std::size_t type) {
   static constexpr auto kEmpty = []<std::size_t... I>(std::index_sequence<I...>) {
     return std::array<Variant (*)(), sizeof...(I)>{[] { return Variant(std::in_place_index<I>); }...};
-  }(std::make_index_sequence<std::variant_size_v<Variant>>());
+  }
+  (std::make_index_sequence<std::variant_size_v<Variant>>());
   return kEmpty.at(type)();
 }
 

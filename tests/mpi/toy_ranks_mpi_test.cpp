@@ -17,7 +17,7 @@ std::vector<std::uint64_t> sum_over_ranks(std::vector<std::uint64_t> values) {
 
 // For each edge the digest of one side's points less that of the other side's: 0 over all ranks if both sides agree.
 // After them, the number of subdomains, of their points, and of hand-offs.
-std::vector<std::uint64_t> summary(const World& world, const ToyRank<>& rank) {
+std::vector<std::uint64_t> summary(const World& world, const ToyRank& rank) {
   std::vector<std::uint64_t> values(world.edges.size() + 3, 0);
   for (const auto& [id, subdomain] : rank.subdomains()) {
     ++values[world.edges.size()];
@@ -41,7 +41,7 @@ TEST_CASE("random work, moves and forwarding on real ranks, with random delays")
     MpiTransport transport(MpiSession::world());
     DelayingTransport delaying(transport, seed, 20);
     const World world(seed, transport.ranks());
-    ToyRank<> rank(delaying, world);
+    ToyRank rank(delaying, world);
     run_rank(delaying, [&] { return rank.step(); });
     CHECK(!rank.at_work());
     transport.close();

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "protocol/protocol_error.hpp"
 #include "support/id_literals.hpp"
 
 using namespace driftmesh;

@@ -13,13 +13,14 @@ namespace driftmesh::protocol::toy {
 
 /// A rank's loop with toy subdomains: the real protocol, codec and transport, at random also the things that a
 /// balancer does: moves, advice that is out of date or said twice, waiting for an answer while otherwise idle.
-template <class Rules = SoundRules, class Mesh = SoundMesh>
 class ToyRank {
  public:
-  ToyRank(Transport& transport, const World& world)
+  /// `rules` must outlive the rank.
+  ToyRank(Transport& transport, const World& world, const Rules& rules = sound_rules(), const MeshRules& mesh = {})
       : transport_(transport),
         world_(world),
-        protocol_(transport.rank(), transport.ranks(), world.owners, world.aggregation),
+        mesh_(mesh),
+        protocol_(transport.rank(), transport.ranks(), world.owners, world.aggregation, rules),
         random_{world.seed * 7919 + static_cast<std::uint64_t>(to_int(transport.rank()))},
         moves_left_(world.moves),
         advice_left_(world.moves) {
@@ -37,7 +38,7 @@ class ToyRank {
     return heard || active ? StepResult::kBusy : StepResult::kIdle;
   }
 
-  [[nodiscard]] const BasicRankProtocol<Rules>& protocol() const { return protocol_; }
+  [[nodiscard]] const RankProtocol& protocol() const { return protocol_; }
   [[nodiscard]] const std::map<SubdomainId, Subdomain>& subdomains() const { return subdomains_; }
   /// Whether something here is work, or will become some.
   [[nodiscard]] bool at_work() const {
@@ -78,7 +79,7 @@ class ToyRank {
     if (active.empty()) return false;
     Subdomain& subdomain = *active[random_.below(active.size())];
     std::vector<SplitPoint<GlobalRootId>> said;
-    subdomain.template work<Mesh>(said);
+    subdomain.work(mesh_, said);
     for (const SplitPoint<GlobalRootId>& split : said) {
       const Edge edge = world_.edges[split.root];
       tell(edge.one == subdomain.id() ? edge.other : edge.one, split);
@@ -123,7 +124,8 @@ class ToyRank {
 
   Transport& transport_;
   const World& world_;
-  BasicRankProtocol<Rules> protocol_;
+  MeshRules mesh_;
+  RankProtocol protocol_;
   Random random_;
   std::uint64_t moves_left_;
   std::uint64_t advice_left_;

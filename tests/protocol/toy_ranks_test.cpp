@@ -24,11 +24,12 @@ struct Tally {
   std::uint64_t reordered = 0, copies = 0, starved = 0, held_back = 0, late_rounds = 0;
 };
 
-template <class Rules, class Mesh>
 class Run {
  public:
-  Run(std::uint64_t seed, std::int32_t ranks) : world_(seed, ranks), network_(ranks, adversary(seed)) {
-    for (const Rank r : first_ids<Rank>(ranks)) ranks_.push_back(std::make_unique<Toy>(network_.transport(r), world_));
+  Run(std::uint64_t seed, std::int32_t ranks, const Rules& rules, const MeshRules& mesh)
+      : world_(seed, ranks), network_(ranks, adversary(seed)) {
+    for (const Rank r : first_ids<Rank>(ranks))
+      ranks_.push_back(std::make_unique<ToyRank>(network_.transport(r), world_, rules, mesh));
   }
 
   // The first thing that went wrong, or nothing.
@@ -49,7 +50,6 @@ class Run {
   }
 
  private:
-  using Toy = ToyRank<Rules, Mesh>;
   struct Wrong {
     std::string what;
   };
@@ -61,7 +61,7 @@ class Run {
     return result;
   }
 
-  StepResult watched(Toy& rank) {
+  StepResult watched(ToyRank& rank) {
     const StepResult result = rank.step();
     if (rank.broken()) throw Wrong{"a point without its parent"};
     const bool quiet = !work_anywhere();
@@ -119,7 +119,7 @@ class Run {
 
   World world_;
   AdversarialNetwork network_;
-  IdVector<Rank, std::unique_ptr<Toy>> ranks_;
+  IdVector<Rank, std::unique_ptr<ToyRank>> ranks_;
   std::optional<std::uint64_t> rounds_when_quiet_;
 };
 
@@ -128,17 +128,15 @@ std::int32_t ranks_for(std::uint64_t seed) {
   return kRanks[seed % kRanks.size()];
 }
 
-template <class Rules = SoundRules, class Mesh = SoundMesh>
-std::string verdict(std::uint64_t seed, Tally& tally) {
-  return Run<Rules, Mesh>(seed, ranks_for(seed)).verdict(tally);
+std::string verdict(std::uint64_t seed, Tally& tally, const Rules& rules = sound_rules(), const MeshRules& mesh = {}) {
+  return Run(seed, ranks_for(seed), rules, mesh).verdict(tally);
 }
 
 // A wrong rule must show within so many seeds, and for the reason it was made for.
-template <class Rules, class Mesh = SoundMesh>
-void must_be_caught(std::uint64_t seeds, std::string_view as) {
+void must_be_caught(const Rules& rules, std::uint64_t seeds, std::string_view as, const MeshRules& mesh = {}) {
   Tally tally;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const std::string what = verdict<Rules, Mesh>(seed, tally);
+    const std::string what = verdict(seed, tally, rules, mesh);
     if (what.empty()) continue;
     MESSAGE("caught at seed ", seed, ": ", what);
     CHECK(what.find(as) != std::string::npos);
@@ -176,48 +174,42 @@ TEST_CASE("random work among adversarial ranks: nothing lost, and the end is fou
 }
 
 TEST_CASE("mutation: an aggregator that is not flushed counts as passive") {
-  must_be_caught<testing::PassiveWithSplitsToSend>(50, "terminated too early");
+  must_be_caught(testing::PassiveWithSplitsToSend(), 50, "terminated too early");
 }
 
 TEST_CASE("mutation: an idle rank keeps what it has collected") {
-  must_be_caught<testing::NoFlushWhenIdle>(50, "stalled");
+  must_be_caught(testing::NoFlushWhenIdle(), 50, "stalled");
 }
 
 TEST_CASE("mutation: the token is passed by a rank that is active") {
-  struct Rules : SoundRules {
-    static constexpr bool passive(bool, bool, bool) { return true; }
+  struct AlwaysPassive final : Rules {
+    [[nodiscard]] bool passive(bool, bool, bool) const override { return true; }
   };
-  must_be_caught<Rules>(200, "sends work although it was passive");
+  must_be_caught(AlwaysPassive(), 200, "sends work although it was passive");
 }
 
 TEST_CASE("mutation: forwarding counts as sending") {
-  must_be_caught<testing::ForwardingCountsAsSending>(200, "sends work although it was passive");
+  must_be_caught(testing::ForwardingCountsAsSending(), 200, "sends work although it was passive");
 }
 
 TEST_CASE("mutation: what is held back counts as handled, and again when it is") {
-  must_be_caught<testing::HoldingCountsAsHandling>(50, "terminated too late");
+  must_be_caught(testing::HoldingCountsAsHandling(), 50, "terminated too late");
 }
 
 TEST_CASE("mutation: hand-offs are not counted") {
-  must_be_caught<testing::HandOffsAreNotCounted>(50, "");
+  must_be_caught(testing::HandOffsAreNotCounted(), 50, "");
 }
 
 TEST_CASE("mutation: location records without epochs") {
-  must_be_caught<testing::NoEpochs>(500, "");
+  must_be_caught(testing::NoEpochs(), 500, "");
 }
 
 TEST_CASE("mutation: missing ancestors are not replayed") {
-  struct Mesh : SoundMesh {
-    static constexpr bool replays_ancestors() { return false; }
-  };
-  must_be_caught<SoundRules, Mesh>(50, "a point without its parent");
+  must_be_caught(sound_rules(), 50, "a point without its parent", {.replays_ancestors = false});
 }
 
 TEST_CASE("mutation: a point that is there is inserted again") {
-  struct Mesh : SoundMesh {
-    static constexpr bool inserts_again() { return true; }
-  };
-  must_be_caught<SoundRules, Mesh>(50, "the two sides of an edge differ");
+  must_be_caught(sound_rules(), 50, "the two sides of an edge differ", {.inserts_again = true});
 }
 
 TEST_CASE("the same ranks in virtual time") {
@@ -225,10 +217,10 @@ TEST_CASE("the same ranks in virtual time") {
     const World world(9, static_cast<std::int32_t>(count));
     VirtualCluster cluster{.speeds = IdVector<Rank, double>(count, 1.0), .link = {}};
     VirtualNetwork network(cluster);
-    std::vector<std::unique_ptr<ToyRank<>>> ranks;
+    std::vector<std::unique_ptr<ToyRank>> ranks;
     IdVector<Rank, RankStep> steps;
     for (const Rank r : first_ids<Rank>(count)) {
-      ranks.push_back(std::make_unique<ToyRank<>>(network.transport(r), world));
+      ranks.push_back(std::make_unique<ToyRank>(network.transport(r), world));
       steps.push_back([&network, r, rank = ranks.back().get()] {
         const StepResult result = rank->step();
         if (result == StepResult::kBusy) network.transport(r).spend(1e-5);

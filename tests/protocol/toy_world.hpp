@@ -62,9 +62,9 @@ struct World {
 };
 
 /// How a subdomain treats a split point that it receives; tests replace each by a wrong way.
-struct SoundMesh {
-  static constexpr bool replays_ancestors() { return true; }
-  static constexpr bool inserts_again() { return false; }
+struct MeshRules {
+  bool replays_ancestors = true;
+  bool inserts_again = false;
 };
 
 /// One subdomain.
@@ -89,12 +89,11 @@ class Subdomain {
   [[nodiscard]] const Points& points() const { return points_; }
 
   /// One unit of work; what its neighbours are to be told is appended to `said`.
-  template <class Mesh>
-  void work(std::vector<SplitPoint<GlobalRootId>>& said) {
+  void work(const MeshRules& rules, std::vector<SplitPoint<GlobalRootId>>& said) {
     if (!pending_.empty()) {
       const SplitPoint<GlobalRootId> split = pending_.back();
       pending_.pop_back();
-      receive<Mesh>(split);
+      receive(rules, split);
       return;
     }
     --due_;
@@ -143,14 +142,13 @@ class Subdomain {
     return std::find(paths.begin(), paths.end(), path) != paths.end();
   }
 
-  template <class Mesh>
-  void receive(const SplitPoint<GlobalRootId>& split) {
+  void receive(const MeshRules& rules, const SplitPoint<GlobalRootId>& split) {
     auto& paths = points_[split.root];
     bool news = false;
     for (int up = dyadic::depth(split.path); up >= 0; --up) {
       const dyadic::Path path = split.path >> up;
-      if (up > 0 && !Mesh::replays_ancestors()) continue;
-      if (knows(paths, path) && !(up == 0 && Mesh::inserts_again())) continue;
+      if (up > 0 && !rules.replays_ancestors) continue;
+      if (knows(paths, path) && !(up == 0 && rules.inserts_again)) continue;
       if (path != dyadic::kWhole && !knows(paths, path >> 1)) broken_ = true;  // no interval to put the point on
       paths.push_back(path);
       news = true;

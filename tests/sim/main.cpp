@@ -37,7 +37,7 @@ std::pair<std::uint64_t, std::uint64_t> seed_range(const std::string& text) {
 
 Outcome replay(std::uint64_t seed, const Choice& choice, Domains& domains) {
   const Scenario scenario = Scenario::from_seed(seed, choice);
-  return AdversarialRun<>(scenario, domains[scenario.domain]).run();
+  return AdversarialRun(scenario, domains[scenario.domain]).run();
 }
 
 /// One seed, with everything that is known of it.

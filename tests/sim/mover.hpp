@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "base/ids.hpp"
+#include "runtime/rank_loop.hpp"
 #include "sim/deeds.hpp"
 #include "sim/scenario.hpp"
 
 namespace driftmesh::sim {
 
 /// Hands subdomains over between two steps of a rank, in one of the ways that a protocol may not have thought of.
-template <class Loop>
 class Mover {
  public:
   explicit Mover(const Scenario& scenario)
@@ -25,7 +25,7 @@ class Mover {
   Rank any_rank() { return static_cast<Rank>(below(static_cast<std::uint64_t>(scenario_.ranks))); }
 
   /// Called before a rank polls.
-  void before_step(Loop& loop, Rank rank) {
+  void before_step(RankLoop& loop, Rank rank) {
     if (left_ <= 0 || scenario_.ranks == 1) return;
     if (scenario_.mover == "ping-pong")
       play(loop, rank);
@@ -40,26 +40,26 @@ class Mover {
   [[nodiscard]] const Deeds& deeds() const { return deeds_; }
 
  private:
-  bool hand_over(Loop& loop, SubdomainId s, Rank to) {
+  bool hand_over(RankLoop& loop, SubdomainId s, Rank to) {
     const bool moved = loop.hand_over(s, to);
     if (moved) --left_;
     return moved;
   }
 
-  [[nodiscard]] static std::vector<SubdomainId> active(const Loop& loop) {
+  [[nodiscard]] static std::vector<SubdomainId> active(const RankLoop& loop) {
     std::vector<SubdomainId> result;
     for (const auto& [id, subdomain] : loop.subdomains())
       if (subdomain.active()) result.push_back(id);
     return result;
   }
 
-  void move_any(Loop& loop) {
+  void move_any(RankLoop& loop) {
     const auto all = active(loop);
     if (!all.empty() && hand_over(loop, all[below(all.size())], any_rank())) ++deeds_.by_chance;
   }
 
   // One subdomain goes back and forth as long as it has work.
-  void play(Loop& loop, Rank rank) {
+  void play(RankLoop& loop, Rank rank) {
     const auto from = came_from_.find(rank);
     const Rank to = from == came_from_.end() ? next_in_ring(rank, scenario_.ranks) : from->second;
     if (!hand_over(loop, ball_, to)) return;
@@ -67,14 +67,14 @@ class Mover {
     came_from_[to] = rank;
   }
 
-  void rotate(Loop& loop, Rank rank) {
+  void rotate(RankLoop& loop, Rank rank) {
     const auto all = active(loop);
     for (const SubdomainId s : all) hand_over(loop, s, next_in_ring(rank, scenario_.ranks));
     if (!all.empty()) ++deeds_.rotations;
   }
 
   // The case that Safra's colours are for: the token will not come by that rank again.
-  void follow_token(Loop& loop, Rank rank) {
+  void follow_token(RankLoop& loop, Rank rank) {
     if (rank == Rank{0} || !loop.protocol().termination().has_token()) return;
     const auto all = active(loop);
     if (all.empty()) return;

@@ -16,12 +16,12 @@ using namespace driftmesh::sim;
 namespace {
 
 // A wrong rule must show within so many seeds, and by the oracle that is there for it.
-template <class Rules>
-void must_be_caught(std::uint64_t seeds, std::string_view as, const typename AdversarialRun<Rules>::Wrap& wrap = {}) {
+void must_be_caught(const protocol::Rules& rules, std::uint64_t seeds, std::string_view as,
+                    const AdversarialRun::Wrap& wrap = {}) {
   Domains domains;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const Scenario scenario = Scenario::from_seed(seed);
-    const std::string failure = AdversarialRun<Rules>(scenario, domains[scenario.domain], wrap).run().failure();
+    const std::string failure = AdversarialRun(scenario, domains[scenario.domain], wrap, rules).run().failure();
     if (failure.empty()) continue;
     MESSAGE("caught at seed ", seed, ": ", failure);
     CHECK(failure.find(as) != std::string::npos);
@@ -38,7 +38,7 @@ protocol::WireLimits limits_of(const protocol::Transport& transport) {
   return {transport.ranks(), 1 << 20, 1 << 20};
 }
 
-AdversarialRun<>::Wrap tampering(Tampering tamper) {
+AdversarialRun::Wrap tampering(Tampering tamper) {
   return [tamper](protocol::Transport& transport, FindLoop loop) {
     return std::make_unique<TamperingTransport>(transport, tamper, limits_of(transport),
                                                 [loop = std::move(loop)](SubdomainId s) -> const Subdomain* {
@@ -64,7 +64,7 @@ TEST_CASE("the schedules are hard ones, on every domain and number of ranks") {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     CAPTURE(seed);
     const Scenario scenario = Scenario::from_seed(seed);
-    const Outcome o = AdversarialRun<>(scenario, domains[scenario.domain]).run();
+    const Outcome o = AdversarialRun(scenario, domains[scenario.domain]).run();
     REQUIRE(o.failure() == "");
     shapes.insert(scenario.domain);
     ranks.insert(scenario.ranks);
@@ -125,8 +125,8 @@ TEST_CASE("a run is repeated exactly by its seed") {
   Domains domains;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Scenario scenario = Scenario::from_seed(seed);
-    const Outcome one = AdversarialRun<>(scenario, domains[scenario.domain]).run();
-    const Outcome two = AdversarialRun<>(scenario, domains[scenario.domain]).run();
+    const Outcome one = AdversarialRun(scenario, domains[scenario.domain]).run();
+    const Outcome two = AdversarialRun(scenario, domains[scenario.domain]).run();
     CHECK(one.digest == two.digest);
     CHECK(one.steps == two.steps);
     CHECK(one.network.delivered == two.network.delivered);
@@ -134,83 +134,83 @@ TEST_CASE("a run is repeated exactly by its seed") {
 }
 
 TEST_CASE("mutation: an aggregator that is not flushed counts as passive") {
-  must_be_caught<testing::PassiveWithSplitsToSend>(50, "termination in time: too early");
+  must_be_caught(testing::PassiveWithSplitsToSend(), 50, "termination in time: too early");
 }
 
 TEST_CASE("mutation: an idle rank keeps what it has collected") {
-  must_be_caught<testing::NoFlushWhenIdle>(50, "stalled");
+  must_be_caught(testing::NoFlushWhenIdle(), 50, "stalled");
 }
 
 TEST_CASE("mutation: the token is passed by a rank that is active") {
-  struct Rules : protocol::SoundRules {
-    static constexpr bool rests(bool) { return true; }
+  struct AlwaysRests final : protocol::Rules {
+    [[nodiscard]] bool rests(bool) const override { return true; }
   };
-  must_be_caught<Rules>(50, "sends work although it was passive");
+  must_be_caught(AlwaysRests(), 50, "sends work although it was passive");
 }
 
 TEST_CASE("mutation: forwarding counts as sending") {
-  must_be_caught<testing::ForwardingCountsAsSending>(100, "");
+  must_be_caught(testing::ForwardingCountsAsSending(), 100, "");
 }
 
 TEST_CASE("mutation: what is held back counts as handled, and again when it is") {
-  must_be_caught<testing::HoldingCountsAsHandling>(100, "termination in time: too late");
+  must_be_caught(testing::HoldingCountsAsHandling(), 100, "termination in time: too late");
 }
 
 TEST_CASE("mutation: what is held back counts as handled, and nobody looks at it") {
-  struct Rules : protocol::SoundRules {
-    static constexpr bool counts_as_handled(Station station) {
-      return station == Station::kHeld || (station != Station::kReleased && SoundRules::counts_as_handled(station));
+  struct HeldIsHandled final : protocol::Rules {
+    [[nodiscard]] bool counts_as_handled(Station station) const override {
+      return station == Station::kHeld || (station != Station::kReleased && Rules::counts_as_handled(station));
     }
-    static constexpr bool passive(bool program_is_passive, bool aggregator_empty, bool) {
+    [[nodiscard]] bool passive(bool program_is_passive, bool aggregator_empty, bool) const override {
       return program_is_passive && aggregator_empty;
     }
   };
-  must_be_caught<Rules>(100, "ranks tell the token the truth");
+  must_be_caught(HeldIsHandled(), 100, "ranks tell the token the truth");
 }
 
 TEST_CASE("mutation: hand-offs are not counted") {
-  must_be_caught<testing::HandOffsAreNotCounted>(100, "");
+  must_be_caught(testing::HandOffsAreNotCounted(), 100, "");
 }
 
 TEST_CASE("mutation: location records without epochs") {
-  must_be_caught<testing::NoEpochs>(200, "");
+  must_be_caught(testing::NoEpochs(), 200, "");
 }
 
 TEST_CASE("mutation: missing ancestors are not replayed") {
-  must_be_caught<protocol::SoundRules>(100, "both sides of each edge", tampering(drop_orphans));
+  must_be_caught(protocol::sound_rules(), 100, "both sides of each edge", tampering(drop_orphans));
 }
 
 TEST_CASE("mutation: a point that is there is inserted again") {
-  must_be_caught<protocol::SoundRules>(50, "both sides of each edge", tampering(insert_again));
+  must_be_caught(protocol::sound_rules(), 50, "both sides of each edge", tampering(insert_again));
 }
 
 TEST_CASE("mutation: a message is lost") {
-  must_be_caught<protocol::SoundRules>(
-      50, "termination in time: too late",
+  must_be_caught(
+      protocol::sound_rules(), 50, "termination in time: too late",
       [](protocol::Transport& transport, const FindLoop&) { return std::make_unique<LosingTransport>(transport); });
 }
 
 TEST_CASE("mutation: a subdomain that comes back to a rank is dropped there") {
-  must_be_caught<protocol::SoundRules>(50, "termination in time: too late",
-                                       [](protocol::Transport& transport, const FindLoop&) {
-                                         return std::make_unique<UnwelcomingTransport>(transport, limits_of(transport));
-                                       });
+  must_be_caught(protocol::sound_rules(), 50, "termination in time: too late",
+                 [](protocol::Transport& transport, const FindLoop&) {
+                   return std::make_unique<UnwelcomingTransport>(transport, limits_of(transport));
+                 });
 }
 
 TEST_CASE("mutation: the packed form forgets the points that wait") {
-  must_be_caught<protocol::SoundRules>(50, "both sides of each edge",
-                                       [](protocol::Transport& transport, const FindLoop&) {
-                                         return std::make_unique<ForgetfulTransport>(transport, limits_of(transport));
-                                       });
+  must_be_caught(protocol::sound_rules(), 50, "both sides of each edge",
+                 [](protocol::Transport& transport, const FindLoop&) {
+                   return std::make_unique<ForgetfulTransport>(transport, limits_of(transport));
+                 });
 }
 
 TEST_CASE("mutation: forwarding changes the colour of a rank") {
   for (const bool black : {true, false}) {
     CAPTURE(black);
-    must_be_caught<protocol::SoundRules>(
-        50, "ranks tell the token the truth", [black](protocol::Transport& transport, FindLoop loop) {
-          return std::make_unique<RecolouringTransport>(transport, black,
-                                                        [loop] { return loop().protocol().counters().forwarded; });
-        });
+    must_be_caught(protocol::sound_rules(), 50, "ranks tell the token the truth",
+                   [black](protocol::Transport& transport, FindLoop loop) {
+                     return std::make_unique<RecolouringTransport>(
+                         transport, black, [loop] { return loop().protocol().counters().forwarded; });
+                   });
   }
 }

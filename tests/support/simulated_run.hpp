@@ -15,11 +15,9 @@
 namespace driftmesh::testing {
 
 /// Rank loops on a simulated network (AdversarialNetwork or VirtualNetwork), all in this process.
-template <class Rules = protocol::SoundRules>
 struct SimulatedRanks {
-  using Loop = BasicRankLoop<Rules>;
   std::unique_ptr<balancer::Council> council;
-  IdVector<Rank, std::unique_ptr<Loop>> loops;
+  IdVector<Rank, std::unique_ptr<RankLoop>> loops;
   IdVector<Rank, protocol::RankStep> steps;
 
   template <class Network>
@@ -27,7 +25,7 @@ struct SimulatedRanks {
     council = balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options);
     for (const Rank r : first_ids<Rank>(ranks))
       loops.push_back(
-          std::make_unique<Loop>(network.transport(r), plan, costs, typename Loop::Observers{}, council.get()));
+          std::make_unique<RankLoop>(network.transport(r), plan, costs, RankLoop::Observers{}, council.get()));
     for (const auto& loop : loops) steps.push_back([l = loop.get()] { return l->step(); });
   }
 

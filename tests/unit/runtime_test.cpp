@@ -67,7 +67,7 @@ TEST_CASE("ranks on an adversarial network make one conforming mesh") {
         CAPTURE(seed);
         const RunPlan plan = plan_of(ell(), {20, 2e-3, {}, nullptr}, ranks, 12, presplit);
         protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
-        SimulatedRanks<> run(network, ranks, plan);
+        SimulatedRanks run(network, ranks, plan);
         REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
         CHECK(network.in_flight() == 0);
         check_mesh(plan, run.subdomains());
@@ -80,7 +80,7 @@ TEST_CASE("with presplit interfaces a uniform bound needs no SPLIT, and the mesh
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, ranks, 20, Presplit::kAuto);
       protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
-      SimulatedRanks<> run(network, ranks, plan);
+      SimulatedRanks run(network, ranks, plan);
       REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
       for (const auto& loop : run.loops) CHECK(loop->protocol().counters().splits_sent == 0);
       if (digest == 0) digest = digest_of(run.subdomains());
@@ -102,7 +102,7 @@ TEST_CASE("the size bound splits no presplit interface whose pieces come out as 
       const double spacing = std::ldexp(whole / length, -static_cast<int>(std::ceil(std::log2(whole / 0.04))));
       plan.bounds.max_area = spacing * spacing;
       protocol::AdversarialNetwork network(1, protocol::Adversary::from_seed(1));
-      SimulatedRanks<> run(network, 1, plan);
+      SimulatedRanks run(network, 1, plan);
       REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
       CAPTURE(length);
       CAPTURE(i);
@@ -120,7 +120,7 @@ TEST_CASE("subdomains that move while they refine make the same mesh as those th
         CAPTURE(seed);
         const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, ranks, 20, presplit);
         protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
-        SimulatedRanks<> run(network, ranks, plan);
+        SimulatedRanks run(network, ranks, plan);
         std::mt19937_64 random(seed);
         const auto move_something = [&](Rank r) {
           auto& loop = *run.loops[r];
@@ -151,7 +151,7 @@ TEST_CASE("in virtual time two ranks take about half as long as one") {
   for (const std::int32_t ranks : {1, 2}) {
     const RunPlan plan = plan_of(ell(), bounds, ranks, 40, Presplit::kOff);
     protocol::VirtualNetwork network({IdVector<Rank, double>(to_index(ranks), 1.0), {}, 1e-6, 1e-6});
-    SimulatedRanks<> run(network, ranks, plan);
+    SimulatedRanks run(network, ranks, plan);
     REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
     check_mesh(plan, run.subdomains());
     seconds[ranks - 1] = network.makespan();
@@ -170,7 +170,7 @@ TEST_CASE("finished subdomains that sleep wake when a point arrives that they do
     RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 3, 20, Presplit::kOff);
     plan.sleep = true;
     protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
-    SimulatedRanks<> run(network, 3, plan);
+    SimulatedRanks run(network, 3, plan);
     REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
     for (const auto& loop : run.loops) {
       split += loop->interface_splits();
@@ -196,7 +196,7 @@ TEST_CASE("subdomains that sleep when they are finished make one conforming mesh
       for (const bool sleep : {false, true}) {
         plan.sleep = sleep;
         protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
-        SimulatedRanks<> run(network, 3, plan);
+        SimulatedRanks run(network, 3, plan);
         const auto move_sleeper = [&](Rank r) {
           auto& loop = *run.loops[r];
           const auto sleeper = std::find_if(loop.subdomains().begin(), loop.subdomains().end(),
@@ -239,7 +239,7 @@ TEST_CASE("every policy gives a slow rank less to do, and changes nothing about 
     // Long enough for reports and plans to matter: what takes a microsecond here takes a hundred on these ranks.
     CostModel slow;
     slow.point *= 100;
-    SimulatedRanks<> run(network, 3, plan, slow);
+    SimulatedRanks run(network, 3, plan, slow);
     REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
     check_mesh(plan, run.subdomains());
     if (digest == 0) digest = digest_of(run.subdomains());
