@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "balancer/load_snapshot.hpp"
-#include "balancer/move_cost.hpp"
 #include "balancer/messages.hpp"
+#include "balancer/move_cost.hpp"
 
 namespace driftmesh::balancer {
 
@@ -58,8 +58,7 @@ struct Situation {
 }
 
 /// The news of a rank, `number` counting them from 1. What is worked on now cannot be given away.
-[[nodiscard]] inline LoadNews news_of(std::uint32_t number, double speed,
-                                                std::span<const ReportedLoad> own) {
+[[nodiscard]] inline LoadNews news_of(std::uint32_t number, double speed, std::span<const ReportedLoad> own) {
   const double total = total_work(own);
   return {number, total, own.empty() ? 0 : total - own.front().remaining, speed};
 }

@@ -13,10 +13,10 @@ class Council {
  public:
   /// For one rank.
   struct Decision {
-    std::vector<Move> moves;           ///< that it is to make
+    std::vector<Move> moves;          ///< that it is to make
     IdVector<Rank, RankLoad> states;  ///< of all ranks, when all moves of all have been made
-    JointPlan::Coming coming;          ///< to this rank
-    bool any_moves = false;            ///< of any rank
+    JointPlan::Coming coming;         ///< to this rank
+    bool any_moves = false;           ///< of any rank
   };
 
   virtual ~Council() = default;

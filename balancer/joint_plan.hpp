@@ -22,8 +22,8 @@ namespace driftmesh::balancer {
 /// What a rank brings: what it has to do.
 struct Contribution {
   Rank rank{};
-  RankLoad state;                   ///< its speed; its work, also what is still on its way to it
-  std::vector<SubdomainLoad> own;   ///< that are here and not finished, in ascending order of their numbers
+  RankLoad state;                    ///< its speed; its work, also what is still on its way to it
+  std::vector<SubdomainLoad> own;    ///< that are here and not finished, in ascending order of their numbers
   std::vector<SubdomainId> settled;  ///< ascending: what has come lately, and stays
 };
 
@@ -46,7 +46,7 @@ struct Bundle {
 
 /// Which rank takes which part, and what all will have to do then.
 struct DealtParts {
-  IdVector<Part, Rank> rank_of;      ///< each part
+  IdVector<Part, Rank> rank_of;     ///< each part
   IdVector<Rank, RankLoad> states;  ///< of all ranks afterwards
 };
 
@@ -97,9 +97,9 @@ struct JointPlan {
     double work = 0;
     std::int32_t count = 0;  ///< of subdomains
   };
-  bool worth = false;                ///< whether they are made
+  bool worth = false;               ///< whether they are made
   IdVector<Rank, RankLoad> states;  ///< of all ranks when everything has arrived
-  IdVector<Rank, Coming> coming;     ///< what goes to each rank
+  IdVector<Rank, Coming> coming;    ///< what goes to each rank
 };
 [[nodiscard]] JointPlan weigh(const IdVector<Rank, RankLoad>& states, std::span<const Transfer> transfers,
                               const MoveCost& cost, const Worth& worth);

@@ -43,7 +43,7 @@ class Knowledge {
     double at = 0;
     double speed = 0;
     std::vector<ReportedLoad> loads;  // in the order of work
-    double predicted = 0;                        // of the layout, for one that has said nothing
+    double predicted = 0;             // of the layout, for one that has said nothing
   };
   struct Claim {
     Rank owner{};

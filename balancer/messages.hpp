@@ -8,24 +8,24 @@
 #include "base/ids.hpp"
 #include "protocol/epoch.hpp"
 
-/// What ranks say to each other to balance their load. The layout on the wire is in codec.cpp; to the protocol all of it
-/// is advice.
+/// What ranks say to each other to balance their load. The layout on the wire is in codec.cpp; to the protocol all of
+/// it is advice.
 namespace driftmesh::balancer {
 
 /// A subdomain that is not finished, as its owner reports it.
 struct ReportedLoad {
   SubdomainId subdomain{};
   protocol::Epoch epoch = 0;  ///< with the sender as owner
-  double remaining = 0;     ///< triangles still to be made, predicted
-  std::uint64_t bytes = 0;  ///< of the packed form, estimated
+  double remaining = 0;       ///< triangles still to be made, predicted
+  std::uint64_t bytes = 0;    ///< of the packed form, estimated
   friend bool operator==(const ReportedLoad&, const ReportedLoad&) = default;
 };
 
 /// What the sender has to do, and how fast it is.
 struct LoadReport {
-  std::uint32_t round = 0;           ///< of the sender's reports, from 1: an older one says nothing new
-  std::uint32_t plan = 0;            ///< the round of the last Plan that the sender has acted on; 0: none
-  double speed = 0;                  ///< triangles a second, a running average; 0: not known yet
+  std::uint32_t round = 0;          ///< of the sender's reports, from 1: an older one says nothing new
+  std::uint32_t plan = 0;           ///< the round of the last Plan that the sender has acted on; 0: none
+  double speed = 0;                 ///< triangles a second, a running average; 0: not known yet
   std::vector<ReportedLoad> loads;  ///< of its subdomains that are not finished, and of those that came lately
   friend bool operator==(const LoadReport&, const LoadReport&) = default;
 };

@@ -42,8 +42,9 @@ class Policy {
   [[nodiscard]] virtual std::vector<Move> plan(const LoadSnapshot& snapshot, Rank self) const;
 
   /// kCollective: how the ranks divide their subdomains into parts, one for each rank and as large as that is fast: by
-  /// Zoltan, with these parameters. Without any, each subdomain stays in the part of its owner. Everybody knows the load
-  /// of all ranks, and lists what it owns itself; so this may look at the load of ranks alone, and is the same for all.
+  /// Zoltan, with these parameters. Without any, each subdomain stays in the part of its owner. Everybody knows the
+  /// load of all ranks, and lists what it owns itself; so this may look at the load of ranks alone, and is the same for
+  /// all.
   [[nodiscard]] virtual std::optional<ZoltanParameters> partitioning(const LoadSnapshot& own) const;
   /// kCollective: what is done with the parts. It may look at the load of ranks alone, too.
   [[nodiscard]] virtual Dealing dealing(const LoadSnapshot& own) const;

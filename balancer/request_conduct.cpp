@@ -85,8 +85,7 @@ Decision RequestConduct::think(const Situation& situation) {
 }
 
 // Returns how much work is given.
-double RequestConduct::give(const WorkRequest& request, const Situation& situation, Loads& own,
-                            Decision& decision) {
+double RequestConduct::give(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision) {
   WorkAnswer answer{request.round, {}};
   const double before = total_work(own);
   for (const Move& move : gifts(request, situation, own)) {
@@ -150,15 +149,13 @@ void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decis
   }
 }
 
-void RequestConduct::place(const WorkRequest& request, const Situation& situation, Loads& own,
-                           Decision& decision) {
+void RequestConduct::place(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision) {
   if (pass_on(request, situation, own, decision)) return;
   hungry_.insert(request.thief);
   decision.messages.push_back({request.thief, WorkAnswer{request.round, {}}});
 }
 
-bool RequestConduct::pass_on(WorkRequest request, const Situation& situation, Loads& own,
-                             Decision& decision) {
+bool RequestConduct::pass_on(WorkRequest request, const Situation& situation, Loads& own, Decision& decision) {
   news_->hear(self_, news_of(++reports_, situation.speed, own), situation.now);
   LoadSnapshot snapshot;
   snapshot.layout = layout_;

@@ -35,8 +35,7 @@ class RequestConduct {
 
   // Of every rank:
   double give(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision);
-  [[nodiscard]] std::vector<Move> gifts(const WorkRequest& request, const Situation& situation,
-                                        const Loads& own) const;
+  [[nodiscard]] std::vector<Move> gifts(const WorkRequest& request, const Situation& situation, const Loads& own) const;
   void report(const Situation& situation, const Loads& own, Decision& decision);
   void forget_promises(double now);
   void ask(const Situation& situation, Loads& own, Decision& decision);

@@ -83,8 +83,7 @@ std::uint8_t sides_of(const Triangulation& mesh, SubsegmentId s) {
 
 // ---- Names: each number as the difference to one that it tends to follow ----
 
-[[nodiscard]] Bytes names_of(const SubdomainMesh& part, const IdVector<VertexId, VertexId>& number,
-               std::size_t given) {
+[[nodiscard]] Bytes names_of(const SubdomainMesh& part, const IdVector<VertexId, VertexId>& number, std::size_t given) {
   const Triangulation& mesh = part.mesh;
   ByteWriter out;
   std::int64_t last = 0;
@@ -114,7 +113,7 @@ std::uint8_t sides_of(const Triangulation& mesh, SubsegmentId s) {
 std::size_t count_of(ByteReader& in, std::size_t most) {
   const std::uint64_t n = in.varint();
   if (n > most) throw Error("a list of names is longer than its bytes");
-  return static_cast<std::size_t>(n);
+  return n;
 }
 
 std::int32_t follow(ByteReader& in, std::int64_t last) {

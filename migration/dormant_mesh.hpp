@@ -72,10 +72,10 @@ class DormantMesh {
   [[nodiscard]] std::vector<BorderEdge> border() const { return border_of(frame()); }
   [[nodiscard]] static std::vector<BorderEdge> border_of(const Frame& frame);
 
-  Bytes names_;  // given vertices, root and point numbers
-  Bytes trees_;  // of each root: its nodes, parents first, a bit each: 1 if cut
-  std::vector<Point> given_;      // coordinates of given vertices
-  std::vector<Point> free_;       // and of free ones, as the walk meets them
+  Bytes names_;               // given vertices, root and point numbers
+  Bytes trees_;               // of each root: its nodes, parents first, a bit each: 1 if cut
+  std::vector<Point> given_;  // coordinates of given vertices
+  std::vector<Point> free_;   // and of free ones, as the walk meets them
   CodedTriangles triangles_;
   std::uint8_t has_regions_ = 0;
 };

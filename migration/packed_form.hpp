@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "base/bytes.hpp"
+#include "base/ids.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "mesh/refiner_state.hpp"
 #include "migration/dormant_mesh.hpp"
-#include "base/bytes.hpp"
-#include "base/ids.hpp"
 #include "protocol/messages.hpp"
 
 namespace driftmesh {

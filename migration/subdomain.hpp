@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/bytes.hpp"
+#include "base/ids.hpp"
 #include "decompose/decomposition.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/refine_counters.hpp"
 #include "migration/packed_form.hpp"
-#include "base/bytes.hpp"
-#include "base/ids.hpp"
 #include "protocol/messages.hpp"
 
 namespace driftmesh {

@@ -32,10 +32,7 @@ class Encoder {
  public:
   Encoder(const Triangulation& mesh, IdVector<VertexId, VertexId>& number, std::int32_t fixed,
           std::span<const BorderEdge> border)
-      : mesh_(mesh),
-        number_(number),
-        guess_(mesh.live_vertices(), border),
-        visited_(mesh.triangles.size(), false) {
+      : mesh_(mesh), number_(number), guess_(mesh.live_vertices(), border), visited_(mesh.triangles.size(), false) {
     coded_.fixed = coded_.vertices = fixed;
   }
 

@@ -36,7 +36,7 @@ Adversary Adversary::from_seed(std::uint64_t seed) {
 }
 
 AdversarialNetwork::AdversarialNetwork(std::int32_t ranks, Adversary adversary)
-    : adversary_(std::move(adversary)), random_(adversary_.seed), boxes_(static_cast<std::size_t>(ranks)) {
+    : adversary_(std::move(adversary)), random_(adversary_.seed), boxes_(to_index(ranks)) {
   for (const Rank r : first_ids<Rank>(ranks)) endpoints_.push_back(std::make_unique<Endpoint>(*this, r));
   const auto size = static_cast<std::uint64_t>(ranks);
   if (adversary_.starve && ranks > 1) {

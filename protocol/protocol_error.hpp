@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "driftmesh/error.hpp"
 #include "base/ids.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh::protocol {
 

@@ -50,11 +50,12 @@ std::vector<std::vector<Part>> SimulatedCouncil::parts_of(const std::vector<Cont
   std::ranges::sort(all.subdomains, {}, &SubdomainLoad::id);
   const auto partitioning = policy_->partitioning(all);
   const std::vector<Part> parts = partitioning ? zoltan_partition(all, *partitioning) : present_parts(all);
+  IdVector<SubdomainId, Part> part_of(layout_->subdomains.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) part_of[all.subdomains[i].id] = parts[i];
   std::vector<std::vector<Part>> of_rank;
   for (const Contribution& c : contributions) {
     std::vector<Part>& own = of_rank.emplace_back();
-    for (const SubdomainLoad& s : c.own)
-      own.push_back(parts[static_cast<std::size_t>(find(all, s.id) - all.subdomains.data())]);
+    for (const SubdomainLoad& s : c.own) own.push_back(part_of[s.id]);
   }
   return of_rank;
 }

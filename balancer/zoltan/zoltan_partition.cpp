@@ -86,10 +86,10 @@ class Whereabouts {
 /// here or on another process.
 struct Graph {
   const LoadSnapshot* snapshot;
-  std::vector<int> first{0};  // edges of vertex i: first[i] up to first[i + 1]
-  std::vector<ZOLTAN_ID_TYPE> target;
-  std::vector<int> process;  // that has the target
-  std::vector<float> weight;
+  IdVector<ZOLTAN_ID_TYPE, int> first{0};  // edges of vertex i: first[i] up to first[i + 1]
+  IdVector<int, ZOLTAN_ID_TYPE> target;
+  IdVector<int, int> process;  // that has the target
+  IdVector<int, float> weight;
 
   explicit Graph(const LoadSnapshot& s) : snapshot(&s) {}
 
@@ -175,10 +175,9 @@ void list_edges(void* data, int, int, int count, Ids, Ids local, int*, Ids targe
   const Graph& graph = graph_of(data);
   for (int i = 0; i < count; ++i)
     for (int e = graph.first[local[i]]; e < graph.first[local[i] + 1]; ++e) {
-      const auto at = static_cast<std::size_t>(e);
-      *targets++ = graph.target[at];
-      *processes++ = graph.process[at];
-      *weights++ = graph.weight[at];
+      *targets++ = graph.target[e];
+      *processes++ = graph.process[e];
+      *weights++ = graph.weight[e];
     }
   *error = ZOLTAN_OK;
 }
@@ -196,13 +195,11 @@ void hypergraph_size(void* data, int* lists, int* pins, int* format, int* error)
 void hypergraph(void* data, int, int edges, int, int, Ids edge_ids, int* first_pin, Ids pins, int* error) {
   const Graph& graph = graph_of(data);
   int written = 0;
-  for (int i = 0; i < edges; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    edge_ids[i] = static_cast<ZOLTAN_ID_TYPE>(graph.snapshot->subdomains[at].id);
+  for (const auto i : first_ids<ZOLTAN_ID_TYPE>(edges)) {
+    edge_ids[i] = static_cast<ZOLTAN_ID_TYPE>(graph.at(i).id);
     first_pin[i] = written;
     pins[written++] = edge_ids[i];
-    for (int e = graph.first[at]; e < graph.first[at + 1]; ++e)
-      pins[written++] = graph.target[static_cast<std::size_t>(e)];
+    for (int e = graph.first[i]; e < graph.first[i + 1]; ++e) pins[written++] = graph.target[e];
   }
   *error = ZOLTAN_OK;
 }

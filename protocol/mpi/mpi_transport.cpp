@@ -58,7 +58,7 @@ std::string MpiSession::library() {
   char text[MPI_MAX_LIBRARY_VERSION_STRING];
   int length = 0;
   MPI_Get_library_version(text, &length);
-  const std::string all(text, static_cast<std::size_t>(length));
+  const std::string all(text, to_index(length));
   return all.substr(0, all.find_first_of(",\n"));
 }
 
@@ -170,13 +170,13 @@ class MpiTransport::Impl {
     std::vector<int> sizes, begin;
     Bytes bytes;
 
-    explicit Parts(int count) : sizes(static_cast<std::size_t>(count)) {}
+    explicit Parts(int count) : sizes(to_index(count)) {}
     // Makes room, once the sizes are known.
     void place() {
       std::size_t total = 0;
       for (const int size : sizes) {
         begin.push_back(narrow<int>(total, "bytes of all reports"));
-        total += static_cast<std::size_t>(size);
+        total += to_index(size);
       }
       static_cast<void>(narrow<int>(total, "bytes of all reports"));
       bytes.resize(total);
@@ -226,7 +226,7 @@ class MpiTransport::Impl {
       MPI_Improbe(MPI_ANY_SOURCE, kTag, communicator_, &announced, &handle, &status);
       if (announced == 0) return std::nullopt;
       MPI_Get_count(&status, MPI_BYTE, &size);
-      Incoming incoming{{Rank{status.MPI_SOURCE}, Bytes(static_cast<std::size_t>(size))}, MPI_REQUEST_NULL};
+      Incoming incoming{{Rank{status.MPI_SOURCE}, Bytes(to_index(size))}, MPI_REQUEST_NULL};
       MPI_Imrecv(incoming.message.bytes.data(), size, MPI_BYTE, &handle, &incoming.request);
       int complete = 0;
       MPI_Test(&incoming.request, &complete, MPI_STATUS_IGNORE);

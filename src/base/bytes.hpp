@@ -22,10 +22,9 @@ concept Number = (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::i
 
 /// The unsigned integer of a type's size: 1, 2, 4 or 8 bytes.
 template <std::size_t size>
-using UnsignedOfSize =
-    std::conditional_t<size == 1, std::uint8_t,
-                       std::conditional_t<size == 2, std::uint16_t,
-                                          std::conditional_t<size == 4, std::uint32_t, std::uint64_t>>>;
+using UnsignedOfSize = std::conditional_t<
+    size == 1, std::uint8_t,
+    std::conditional_t<size == 2, std::uint16_t, std::conditional_t<size == 4, std::uint32_t, std::uint64_t>>>;
 
 /// Appends to bytes what a ByteReader takes out again, in the same order.
 ///
@@ -84,9 +83,9 @@ class ByteWriter {
   Bytes bytes_;
 };
 
-/// Reads what a ByteWriter wrote, from front to back. Throws Error for what cannot be, in words about the bytes ("it ends
-/// too early"): who knows where they are from puts that in front. No length is believed before the bytes for it are
-/// known to be there.
+/// Reads what a ByteWriter wrote, from front to back. Throws Error for what cannot be, in words about the bytes ("it
+/// ends too early"): who knows where they are from puts that in front. No length is believed before the bytes for it
+/// are known to be there.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

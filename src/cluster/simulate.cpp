@@ -7,8 +7,8 @@
 
 #include "balancer/council.hpp"
 #include "balancer/simulated/simulated_council.hpp"
-#include "driftmesh/error.hpp"
 #include "cluster/rank_log.hpp"
+#include "driftmesh/error.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime/rank_loop.hpp"
 

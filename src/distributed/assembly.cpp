@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/bytes.hpp"
-#include "driftmesh/error.hpp"
 #include "distributed/piece_builder.hpp"
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "driftmesh/mesh.hpp"
 #include "base/ids.hpp"
+#include "driftmesh/mesh.hpp"
 
 namespace driftmesh {
 

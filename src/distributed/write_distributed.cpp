@@ -11,7 +11,6 @@
 
 namespace driftmesh {
 
-
 namespace {
 
 constexpr Rank kWriter{0};  // of files of the whole mesh

@@ -9,7 +9,6 @@
 namespace driftmesh::job {
 namespace {
 
-
 enum class Kind : std::uint8_t { kOrder, kNothing, kError };
 
 // The fields besides plan and input, in one order for both directions.

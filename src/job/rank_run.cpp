@@ -13,7 +13,6 @@
 
 namespace driftmesh::job {
 
-
 RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
     : team_(team), order_(std::move(order)), watch_(watch) {
   by_itself(team_, [&] {

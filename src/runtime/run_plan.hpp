@@ -9,10 +9,10 @@
 #include "balancer/load_snapshot.hpp"
 #include "balancer/parameters.hpp"
 #include "balancer/policy.hpp"
+#include "base/ids.hpp"
 #include "decompose/decomposition.hpp"
 #include "mesh/bounds.hpp"
 #include "protocol/aggregator.hpp"
-#include "base/ids.hpp"
 #include "runtime/agenda.hpp"
 
 namespace driftmesh {

@@ -37,7 +37,7 @@ std::vector<Council::Decision> hold_round(protocol::MpiTransport& transport, con
                                           const std::vector<Contribution>& contributions) {
   const std::shared_ptr<const Policy> policy = make_policy("zoltan", parameters);
   MpiCouncil council(transport, snapshot.layout, policy, {});
-  const Contribution& own = contributions[static_cast<std::size_t>(transport.rank())];
+  const Contribution& own = contributions[to_index(transport.rank())];
   council.announce(1, own);
   std::vector<Council::Decision> decisions;
   for (const Bytes& bytes : transport.all_gather(to_bytes(council.decide(1, own))))
@@ -53,7 +53,7 @@ Parameters::Values collective(const std::string& method, const std::string& appr
 
 TEST_CASE("on all ranks at once: even in the end, and what everybody believes is so") {
   protocol::MpiTransport transport(protocol::MpiSession::world());
-  const auto ranks = static_cast<std::size_t>(transport.ranks());
+  const auto ranks = to_index(transport.ranks());
   IdVector<Rank, double> speeds{1e5, 2e5, 3e5, 1e5};
   speeds.resize(ranks);
   for (const bool lopsided : {false, true})

@@ -88,7 +88,7 @@ void check_deeds(const LateCase& late, const std::vector<Bytes>& reports) {
     handled += deeds.counters.splits_handled;
   }
   CHECK(sent == handled);
-  const Deeds latecomer = Deeds::unpack(reports[static_cast<std::size_t>(late.rank)]);
+  const Deeds latecomer = Deeds::unpack(reports[to_index(late.rank)]);
   CHECK((latecomer.slices > 0) == (late.start != Start::kNothing || gives(late)));
   if (late.start == Start::kShare) CHECK(latecomer.counters.splits_handled > 0);
   if (late.start != Start::kShare) CHECK((latecomer.counters.arrivals > 0) == gives(late));

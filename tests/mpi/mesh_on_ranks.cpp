@@ -101,7 +101,7 @@ Account account_of(const RankLoop& loop, const Mover& mover) {
 }
 
 void add_up(const std::vector<Bytes>& reports, std::size_t subdomains, Outcome& outcome) {
-  std::vector<int> owners(subdomains);
+  IdVector<SubdomainId, int> owners(subdomains);
   std::int64_t balance = 0;
   ProtocolCounters& sum = outcome.counters;
   const auto complain = [&](const std::string& what) { outcome.problems.push_back(what); };
@@ -116,11 +116,11 @@ void add_up(const std::vector<Bytes>& reports, std::size_t subdomains, Outcome& 
     sum.most_hops = std::max(sum.most_hops, rank.counters.most_hops);
     balance += rank.balance;
     outcome.forced += rank.forced;
-    for (const SubdomainId s : rank.owned) ++owners.at(static_cast<std::size_t>(s));
+    for (const SubdomainId s : rank.owned) ++owners.at(s);
     if (rank.at_work) complain("a rank has left with work");
   }
-  for (std::size_t s = 0; s < subdomains; ++s)
-    if (owners[s] != 1) complain(fmt::format("subdomain {} has {} owners", s, owners[s]));
+  for (const SubdomainId s : ids_of(owners))
+    if (owners[s] != 1) complain(fmt::format("subdomain {} has {} owners", to_int(s), owners[s]));
   if (sum.splits_sent != sum.splits_handled) complain("not all SPLITs that were sent have been handled, once");
   if (sum.hand_offs != sum.arrivals) complain("not all subdomains that were given away have arrived");
   if (balance != 0) complain(fmt::format("the counts of termination come to {}", balance));

@@ -58,19 +58,18 @@ void check_numbers(const std::vector<DistributedPiece>& pieces) {
 }
 
 /// The interface lists are what a search by coordinates finds, and the owner of a shared vertex has it.
-void check_interfaces(const std::vector<DistributedPiece>& pieces) {
-  std::vector<std::set<Place>> places;
+void check_interfaces(const IdVector<Rank, DistributedPiece>& pieces) {
+  IdVector<Rank, std::set<Place>> places;
   for (const DistributedPiece& piece : pieces) places.push_back(places_of(piece.mesh));
   for (const DistributedPiece& piece : pieces) {
     for (std::size_t v = 0; v < piece.mesh.points.size(); ++v)
-      CHECK(
-          places[static_cast<std::size_t>(piece.owners[v])].contains({piece.mesh.points[v].x, piece.mesh.points[v].y}));
+      CHECK(places[piece.owners[v]].contains({piece.mesh.points[v].x, piece.mesh.points[v].y}));
     std::map<Rank, std::vector<std::int32_t>> expected;
-    for (std::size_t other = 0; other < pieces.size(); ++other) {
+    for (const Rank other : ids_of(pieces)) {
       if (pieces[other].rank == piece.rank) continue;
       for (std::size_t v = 0; v < piece.mesh.points.size(); ++v)
         if (places[other].contains({piece.mesh.points[v].x, piece.mesh.points[v].y}))
-          expected[static_cast<Rank>(other)].push_back(static_cast<std::int32_t>(v));
+          expected[other].push_back(static_cast<std::int32_t>(v));
     }
     std::map<Rank, std::vector<std::int32_t>> actual;
     for (const auto& neighbor : piece.neighbors) actual[neighbor.rank] = neighbor.shared;

@@ -18,7 +18,7 @@ AdversarialRun::AdversarialRun(const Scenario& scenario, Domain& domain, const W
       mover_(scenario),
       network_(scenario.ranks, adversary()),
       rumours_{std::mt19937_64(scenario.seed), {}},
-      witness_(scenario.ranks, static_cast<std::size_t>(scenario.subdomains), [this] { return is_quiet(); }) {
+      witness_(scenario.ranks, to_index(scenario.subdomains), [this] { return is_quiet(); }) {
   make_plan();
   council_ = balancer::make_simulated_council(plan_.layout, plan_.policy, plan_.balancing.options);
   for (const Rank r : first_ids<Rank>(scenario.ranks))

@@ -1,11 +1,10 @@
-#include "balancer/codec.hpp"
-
 #include <doctest/doctest.h>
 
 #include <random>
 #include <set>
 #include <string>
 
+#include "balancer/codec.hpp"
 #include "protocol/protocol_error.hpp"
 #include "support/id_literals.hpp"
 

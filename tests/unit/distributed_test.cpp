@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "base/bytes.hpp"
-#include "driftmesh/error.hpp"
 #include "distributed/write_distributed.hpp"
+#include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/digest.hpp"
@@ -242,8 +242,7 @@ TEST_CASE("messages that do not belong into an exchange are errors that name the
   };
   constexpr std::uint32_t kMark = 0x32584d44;
   CHECK(send_to_rank_0(message(kMark, 0, {})).find("message from rank 1: it ends too early") == 0);
-  CHECK(send_to_rank_0(message(kMark, 0, {4'000'000'000}))
-            .find("message from rank 1: it ends too early") == 0);
+  CHECK(send_to_rank_0(message(kMark, 0, {4'000'000'000})).find("message from rank 1: it ends too early") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0, 7})).find("message from rank 1: it goes on after its end") == 0);
   CHECK(send_to_rank_0(message(7, 0, {0})).find("message from rank 1: it is not of an exchange") == 0);
   CHECK(send_to_rank_0({}).find("message from rank 1: it ends too early") == 0);
