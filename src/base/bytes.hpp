@@ -75,11 +75,8 @@ class ByteWriter {
   [[nodiscard]] Bytes take() { return std::move(bytes_); }
 
  private:
-  void append(const void* data, std::size_t size) {
-    if (size == 0) return;
-    const auto* const first = static_cast<const std::byte*>(data);
-    bytes_.insert(bytes_.end(), first, first + size);
-  }
+  void append(const void* data, std::size_t size);
+
   Bytes bytes_;
 };
 
