@@ -15,10 +15,8 @@ namespace driftmesh::bench {
 namespace {
 
 void count(const Triangulation& mesh, ShapeCensus& census) {
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto t = static_cast<TriangleId>(i);
-    if (mesh.triangles[i].alive()) census.add(shape_of(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
-  }
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) census.add(shape_of(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
 }
 
 void measure(const Triangulation& mesh, MeshRun& run) {

@@ -11,8 +11,6 @@
 namespace driftmesh {
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 bool is_given(VertexOrigin o) {
   return o != kFree && o != kDeleted && !is_midpoint(o);
 }
@@ -59,25 +57,25 @@ class BitReader {
 template <class Visit>
 void visit_tree(const Triangulation& mesh, SubsegmentId s, Visit&& visit) {
   visit(s);
-  const SubsegmentId child = mesh.subsegments[id(s)].child;
+  const SubsegmentId child = mesh.subsegments[s].child;
   if (child == kNone) return;
   visit_tree(mesh, child, visit);
-  visit_tree(mesh, child + 1, visit);
+  visit_tree(mesh, after(child), visit);
 }
 
 /// Cuts leaf s as the bits say.
 void grow_tree(Triangulation& mesh, SubsegmentId s, BitReader& bits) {
   if (!bits.get()) return;
-  if (dyadic::depth(mesh.subsegments[id(s)].path) >= dyadic::kMaxDepth) throw Error("a subsegment is cut too deep");
-  const auto [a, b] = mesh.subsegments[id(s)].vertex;
-  const SubsegmentId child = mesh.halve(s, mesh.add_vertex(midpoint(mesh.points[id(a)], mesh.points[id(b)]), ~s));
+  if (dyadic::depth(mesh.subsegments[s].path) >= dyadic::kMaxDepth) throw Error("a subsegment is cut too deep");
+  const auto [a, b] = mesh.subsegments[s].vertex;
+  const SubsegmentId child = mesh.halve(s, mesh.add_vertex(midpoint(mesh.points[a], mesh.points[b]), midpoint_of(s)));
   grow_tree(mesh, child, bits);
-  grow_tree(mesh, child + 1, bits);
+  grow_tree(mesh, after(child), bits);
 }
 
 std::uint8_t sides_of(const Triangulation& mesh, SubsegmentId s) {
-  while (!mesh.subsegments[id(s)].is_leaf()) s = mesh.subsegments[id(s)].child;
-  const auto& half = mesh.subsegments[id(s)].half;
+  while (!mesh.subsegments[s].is_leaf()) s = mesh.subsegments[s].child;
+  const auto& half = mesh.subsegments[s].half;
   return static_cast<std::uint8_t>((half[0] != kNone ? 1 : 0) | (half[1] != kNone ? 2 : 0));
 }
 
@@ -96,8 +94,8 @@ std::uint8_t sides_of(const Triangulation& mesh, SubsegmentId s) {
   out.varint(mesh.roots.size());
   std::int64_t last_end = 0, last_shell = 0, last_root = 0;
   for (const RootId r : ids_of(part.roots)) {
-    const RootSegment& root = mesh.roots[id(r)];
-    const std::int64_t a = number[root.vertex[0]], b = number[root.vertex[1]];
+    const RootSegment& root = mesh.roots[r];
+    const std::int64_t a = to_int(number[root.vertex[0]]), b = to_int(number[root.vertex[1]]);
     out.signed_varint(a - last_end);
     out.signed_varint(b - a);
     out.signed_varint(root.marker);
@@ -129,23 +127,23 @@ DormantMesh::DormantMesh(const SubdomainMesh& part) {
   IdVector<VertexId, VertexId> number(mesh.points.size(), kNone);
   std::int32_t fixed = 0;
   for (const VertexId v : ids_of(number))
-    if (is_given(mesh.origin[id(v)])) {
-      number[v] = fixed++;
-      given_.push_back(mesh.points[id(v)]);
+    if (is_given(mesh.origin[v])) {
+      number[v] = VertexId{fixed++};
+      given_.push_back(mesh.points[v]);
     }
   names_ = names_of(part, number, given_.size());
   BitWriter bits(trees_);
   for (const RootSegment& root : mesh.roots)
     visit_tree(mesh, root.tree, [&](SubsegmentId s) {
-      const Subsegment& segment = mesh.subsegments[id(s)];
+      const Subsegment& segment = mesh.subsegments[s];
       bits.put(!segment.is_leaf());
-      if (!segment.is_leaf()) number[mesh.subsegments[id(segment.child)].vertex[1]] = fixed++;
+      if (!segment.is_leaf()) number[mesh.subsegments[segment.child].vertex[1]] = VertexId{fixed++};
     });
   triangles_ = encode_triangles(mesh, number, fixed, border());
   has_regions_ = mesh.region.empty() ? 0 : 1;
   free_.resize(to_index(triangles_.vertices - fixed));
   for (const VertexId v : ids_of(number))
-    if (number[v] >= fixed) free_[to_index(number[v] - fixed)] = mesh.points[id(v)];
+    if (to_int(number[v]) >= fixed) free_[to_index(number[v]) - to_index(fixed)] = mesh.points[v];
   for (auto* list : {&names_, &trees_, &triangles_.code}) list->shrink_to_fit();
   given_.shrink_to_fit();
 }
@@ -157,7 +155,7 @@ std::size_t DormantMesh::bytes() const {
 
 bool DormantMesh::holds(RootId root, dyadic::Path path) const {
   BitReader bits(trees_);
-  bits.skip(id(root));
+  bits.skip(to_index(root));
   for (dyadic::Path node = dyadic::kWhole; bits.get();) {
     if (node == path) return true;
     const bool second = dyadic::descends_second(node, path);
@@ -184,21 +182,21 @@ DormantMesh::Frame DormantMesh::frame() const {
     part.points.push_back(GlobalPointId{last = follow(in, last)});
   std::int32_t last_end = 0, last_shell = 0, last_root = 0;
   for (std::size_t n = count_of(in, names_.size()); n > 0; --n) {
-    const VertexId a = follow(in, last_end), b = follow(in, a);
+    const std::int32_t a = follow(in, last_end), b = follow(in, a);
     const std::int32_t marker = follow(in, 0);
     last_shell = follow(in, last_shell);
     last_root = follow(in, last_root);
     last_end = b;
     const std::uint64_t sides = in.varint();
-    const auto exists = [&](VertexId v) { return v >= 0 && id(v) < given_.size(); };
+    const auto exists = [&](std::int32_t v) { return to_index(v) < given_.size(); };
     if (!exists(a) || !exists(b) || sides > 3) throw Error("a root has no ends");
-    mesh.add_root(a, b, marker, last_shell);
+    mesh.add_root(VertexId{a}, VertexId{b}, marker, last_shell);
     part.roots.push_back(GlobalRootId{last_root});
     frame.sides.push_back(static_cast<std::uint8_t>(sides));
   }
   if (!in.at_end()) throw Error("there are more names than there should be");
   BitReader bits(trees_);
-  for (std::size_t r = 0; r < mesh.roots.size(); ++r) grow_tree(mesh, mesh.roots[r].tree, bits);
+  for (const RootSegment& root : mesh.roots) grow_tree(mesh, root.tree, bits);
   if (!bits.at_end()) throw Error("there are more trees than roots");
   return frame;
 }
@@ -206,7 +204,7 @@ DormantMesh::Frame DormantMesh::frame() const {
 std::vector<BorderEdge> DormantMesh::border_of(const Frame& frame) {
   std::vector<BorderEdge> border;
   for (const Subsegment& s : frame.part.mesh.subsegments) {
-    const std::uint8_t sides = frame.sides[id(s.root)];
+    const std::uint8_t sides = frame.sides[s.root];
     if (!s.is_leaf()) continue;
     if (sides == 1) border.push_back({s.vertex[0], s.vertex[1]});
     if (sides == 2) border.push_back({s.vertex[1], s.vertex[0]});
@@ -228,7 +226,7 @@ void DormantMesh::check() const {
 
 void DormantMesh::check_counts(const Frame& frame) const {
   const std::size_t fixed = frame.part.mesh.points.size();
-  if (fixed != id(triangles_.fixed) || fixed + free_.size() != id(triangles_.vertices))
+  if (fixed != to_index(triangles_.fixed) || fixed + free_.size() != to_index(triangles_.vertices))
     throw Error("vertices and coordinates differ in number");
 }
 
@@ -249,13 +247,14 @@ SubdomainMesh DormantMesh::wake() const {
 IdVector<SubsegmentId, SubsegmentId> DormantMesh::waking_subsegments(const Triangulation& mesh) {
   IdVector<SubsegmentId, SubsegmentId> waking(mesh.subsegments.size(), kNone);
   auto next = static_cast<SubsegmentId>(mesh.roots.size());  // the roots' trees come first, then halves two by two
-  for (std::size_t r = 0; r < mesh.roots.size(); ++r) {
-    waking[mesh.roots[r].tree] = static_cast<SubsegmentId>(r);
+  for (const RootId r : ids_of(mesh.roots)) {
+    waking[mesh.roots[r].tree] = SubsegmentId{to_int(r)};
     visit_tree(mesh, mesh.roots[r].tree, [&](SubsegmentId s) {
-      const SubsegmentId child = mesh.subsegments[id(s)].child;
+      const SubsegmentId child = mesh.subsegments[s].child;
       if (child == kNone) return;
-      waking[child] = next++;
-      waking[child + 1] = next++;
+      waking[child] = next;
+      waking[after(child)] = after(next);
+      next = after(after(next));
     });
   }
   return waking;

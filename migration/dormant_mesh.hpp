@@ -64,8 +64,8 @@ class DormantMesh {
  private:
   /// Roots, numbers and origins, read from names_ and trees_.
   struct Frame {
-    SubdomainMesh part;               // without triangles and free vertices
-    std::vector<std::uint8_t> sides;  // of each root: bit 0 if the domain lies left of it, bit 1 if right
+    SubdomainMesh part;                    // without triangles and free vertices
+    IdVector<RootId, std::uint8_t> sides;  // of each root: bit 0 if the domain lies left of it, bit 1 if right
   };
   [[nodiscard]] Frame frame() const;
   void check_counts(const Frame& frame) const;

@@ -38,7 +38,7 @@ class Encoder {
 
   /// The walk over all that can be reached from the triangle of `entrance`, a half-edge on the domain's border.
   void walk_from(HalfEdge entrance) {
-    if (visited_[Triangulation::id(triangle_of(entrance))]) return;
+    if (visited_[triangle_of(entrance)]) return;
     out_.varint(to_index(number_of(mesh_.edge_start(entrance))));
     out_.varint(to_index(number_of(mesh_.edge_end(entrance))));
     enter(entrance);
@@ -46,7 +46,7 @@ class Encoder {
       const Way way = ways_.back();
       ways_.pop_back();
       const HalfEdge g = mesh_.across(way.through);
-      if (g == kNone || visited_[Triangulation::id(triangle_of(g))]) continue;
+      if (g == kNone || visited_[triangle_of(g)]) continue;
       out_.bytes()[way.place] |= static_cast<std::byte>(way.bit);
       enter(g);
     }
@@ -70,7 +70,7 @@ class Encoder {
 
   void enter(HalfEdge g) {
     const TriangleId t = triangle_of(g);
-    visited_[Triangulation::id(t)] = true;
+    visited_[t] = true;
     ++coded_.triangles;
     const std::size_t place = out_.bytes().size();
     put_corner(number_of(mesh_.edge_start(g)), number_of(mesh_.edge_end(g)), mesh_.apex(g));
@@ -83,14 +83,14 @@ class Encoder {
     VertexId& v = number_[apex];
     const Corner corner = v == kNone ? kNew : v == guess_.after(b) ? kAfter : v == guess_.before(a) ? kBefore : kNamed;
     out_.number(corner);
-    if (corner == kNew) v = coded_.vertices++;
+    if (corner == kNew) v = VertexId{coded_.vertices++};
     if (corner == kNamed) out_.varint(to_index(v));
     guess_.cover(a, b, v);
   }
 
   void put_region(TriangleId t, std::size_t place) {
-    if (mesh_.region.empty() || mesh_.region[Triangulation::id(t)] == region_) return;
-    region_ = mesh_.region[Triangulation::id(t)];
+    if (mesh_.region.empty() || mesh_.region[t] == region_) return;
+    region_ = mesh_.region[t];
     out_.bytes()[place] |= static_cast<std::byte>(kNewRegion);
     out_.varint(region_);
   }
@@ -98,7 +98,7 @@ class Encoder {
   const Triangulation& mesh_;
   IdVector<VertexId, VertexId>& number_;
   BorderGuess guess_;
-  std::vector<bool> visited_;
+  IdVector<TriangleId, bool> visited_;
   CodedTriangles coded_;
   ByteWriter out_;
   std::vector<Way> ways_;

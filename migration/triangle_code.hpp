@@ -92,7 +92,7 @@ void decode_triangles(const CodedTriangles& coded, std::span<const BorderEdge> b
     switch (byte & kCornerBits) {
       case kNew:
         if (met == coded.vertices) throw Error("there are more vertices than there should be");
-        v = met++;
+        v = VertexId{met++};
         break;
       case kAfter:
         v = guess.after(b);

@@ -2,35 +2,36 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
-#include <vector>
+
+#include "base/id_vector.hpp"
 
 namespace driftmesh {
 
-/// Union-find with path halving over 0..n-1.
+/// Union-find with path halving over the numbers 0 .. n - 1 of type Id.
+template <IsId Id = std::int32_t>
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit DisjointSets(std::size_t n) : parent_(n) {
+    for (const Id i : ids_of(parent_)) parent_[i] = i;
+  }
 
-  [[nodiscard]] std::int32_t find(std::int32_t i) {
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
+  [[nodiscard]] Id find(Id i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
   /// The lower root becomes the root of both, which keeps trees flat enough when items are joined in index order. False
   /// if they were in one set.
-  bool join(std::int32_t a, std::int32_t b) {
+  bool join(Id a, Id b) {
     a = find(a);
     b = find(b);
     if (a > b) std::swap(a, b);
-    parent(b) = a;
+    parent_[b] = a;
     return a != b;
   }
 
  private:
-  std::int32_t& parent(std::int32_t i) { return parent_[static_cast<std::size_t>(i)]; }
-
-  std::vector<std::int32_t> parent_;
+  IdVector<Id, Id> parent_;
 };
 
 }  // namespace driftmesh

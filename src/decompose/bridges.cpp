@@ -16,16 +16,14 @@
 namespace driftmesh {
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 /// A triangulation whose walls are its constrained edges and those edges that have been declared bridges.
 struct WalledMesh {
   Triangulation mesh;
-  std::vector<bool> bridge;  // of each half-edge
+  IdVector<HalfEdge, bool> bridge;
 
   explicit WalledMesh(const Triangulation& from) : mesh(from) {}
 
-  [[nodiscard]] bool is_wall(HalfEdge h) const { return is_constrained(mesh.twin(h)) || bridge[id(h)]; }
+  [[nodiscard]] bool is_wall(HalfEdge h) const { return is_constrained(mesh.twin(h)) || bridge[h]; }
   /// The first wall that leaves the end of `h` when turning clockwise there, starting at `h`'s triangle.
   [[nodiscard]] HalfEdge next_wall(HalfEdge h) const {
     HalfEdge g = half_edge(triangle_of(h), next(index_of(h)));
@@ -35,17 +33,20 @@ struct WalledMesh {
     }
     return g;
   }
-  [[nodiscard]] const Point& at(VertexId v) const { return mesh.points[id(v)]; }
+  [[nodiscard]] const Point& at(VertexId v) const { return mesh.points[v]; }
 };
 
-DisjointSets connect_by_segments(const Triangulation& mesh) {
-  DisjointSets sets(mesh.points.size());
+/// Vertices that are connected by segments, and later by bridges.
+using ConnectedVertices = DisjointSets<VertexId>;
+
+ConnectedVertices connect_by_segments(const Triangulation& mesh) {
+  ConnectedVertices sets(mesh.points.size());
   for (const RootSegment& root : mesh.roots) sets.join(root.vertex[0], root.vertex[1]);
   return sets;
 }
 
 /// Whether some edge joins points that segments do not connect.
-bool needs_bridges(const Triangulation& mesh, DisjointSets& sets) {
+bool needs_bridges(const Triangulation& mesh, ConnectedVertices& sets) {
   for (const Triangle& t : mesh.triangles)
     if (t.alive() &&
         (sets.find(t.vertex[0]) != sets.find(t.vertex[1]) || sets.find(t.vertex[0]) != sets.find(t.vertex[2])))
@@ -56,19 +57,19 @@ bool needs_bridges(const Triangulation& mesh, DisjointSets& sets) {
 /// Cuts leaf `s` at `m`. Nothing happens if rounding leaves no room.
 bool cut_leaf(Triangulation& mesh, Cavity& cavity, SubsegmentId s, const Point& m) {
   if (cavity.gather_on(s, m) != Cavity::Found::kClear) return false;
-  const VertexId v = mesh.add_vertex(m, ~s);
+  const VertexId v = mesh.add_vertex(m, midpoint_of(s));
   const SubsegmentId first = mesh.halve(s, v);
-  cavity.fill_on(v, first, first + 1);
+  cavity.fill_on(v, first, after(first));
   return true;
 }
 
 /// Halves the leaves of straight segments until they are no longer than `spacing`.
 void refine_borders(Triangulation& mesh, double spacing) {
   Cavity cavity(mesh);
-  for (SubsegmentId s = 0; id(s) < mesh.subsegments.size(); ++s) {
-    const Subsegment leaf = mesh.subsegments[id(s)];
-    if (!leaf.is_leaf() || mesh.roots[id(leaf.root)].shell != kNone) continue;
-    const Point &a = mesh.points[id(leaf.vertex[0])], &b = mesh.points[id(leaf.vertex[1])];
+  for (SubsegmentId s{0}; mesh.subsegments.has(s); s = after(s)) {  // those that are added, too
+    const Subsegment leaf = mesh.subsegments[s];
+    if (!leaf.is_leaf() || mesh.roots[leaf.root].shell != kNone) continue;
+    const Point &a = mesh.points[leaf.vertex[0]], &b = mesh.points[leaf.vertex[1]];
     if (squared_distance(a, b) <= spacing * spacing) continue;
     cut_leaf(mesh, cavity, s, midpoint(a, b));
   }
@@ -87,17 +88,17 @@ std::int32_t fresh_shell_name(const Triangulation& mesh) {
 bool halve_shell(Triangulation& mesh, Cavity& cavity, std::int32_t shell) {
   const std::int32_t name = fresh_shell_name(mesh);
   bool any = false;
-  for (std::size_t r = 0, roots = mesh.roots.size(); r < roots; ++r) {
+  for (const RootId r : ids_of(mesh.roots)) {  // without those that are added
     if (mesh.roots[r].shell != shell) continue;
     const SubsegmentId s = mesh.roots[r].tree;
     const auto [u, v] = mesh.roots[r].vertex;
-    const Point m = midpoint(mesh.points[id(u)], mesh.points[id(v)]);
+    const Point m = midpoint(mesh.points[u], mesh.points[v]);
     if (cavity.gather_on(s, m) != Cavity::Found::kClear) continue;
     const VertexId middle = mesh.add_vertex(m, kShellEnd + name);
     const RootId outer = mesh.add_root(middle, v, mesh.roots[r].marker, name + 1);
-    mesh.roots[r].vertex = mesh.subsegments[id(s)].vertex = {u, middle};
+    mesh.roots[r].vertex = mesh.subsegments[s].vertex = {u, middle};
     mesh.roots[r].shell = name;
-    cavity.fill_on(middle, s, mesh.roots[id(outer)].tree);
+    cavity.fill_on(middle, s, mesh.roots[outer].tree);
     any = true;
   }
   return any;
@@ -109,18 +110,18 @@ struct Unreached {
   std::set<std::int32_t> shells;                          ///< of segments that cannot be cut at a foot
 };
 
-Unreached find_unreached(const Triangulation& mesh, DisjointSets& sets) {
+Unreached find_unreached(const Triangulation& mesh, ConnectedVertices& sets) {
   Unreached found;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  for (const TriangleId t : ids_of(mesh.triangles))
     for (int i = 0; i < 3 && mesh.triangles[t].alive(); ++i) {
-      const HalfEdge h = half_edge(static_cast<TriangleId>(t), i);
+      const HalfEdge h = half_edge(t, i);
       if (!is_constrained(mesh.twin(h)) || sets.find(mesh.apex(h)) == sets.find(mesh.edge_start(h))) continue;
       const SubsegmentId s = subsegment_of(mesh.twin(h));
-      const Point &a = mesh.points[id(mesh.edge_start(h))], &b = mesh.points[id(mesh.edge_end(h))];
-      const Point& w = mesh.points[id(mesh.apex(h))];
+      const Point &a = mesh.points[mesh.edge_start(h)], &b = mesh.points[mesh.edge_end(h)];
+      const Point& w = mesh.points[mesh.apex(h)];
       const double along = ((w.x - a.x) * (b.x - a.x) + (w.y - a.y) * (b.y - a.y)) / squared_distance(a, b);
       if (!(along > 0.02 && along < 0.98)) continue;
-      const std::int32_t shell = mesh.roots[id(mesh.subsegments[id(s)].root)].shell;
+      const std::int32_t shell = mesh.roots[mesh.subsegments[s].root].shell;
       if (shell != kNone) found.shells.insert(shell);
       if (shell != kNone) continue;
       const Point foot{snap_to_zero(a.x + along * (b.x - a.x)), snap_to_zero(a.y + along * (b.y - a.y))};
@@ -134,7 +135,7 @@ Unreached find_unreached(const Triangulation& mesh, DisjointSets& sets) {
 /// Cuts segments at the feet of perpendiculars from points that no bridge connects with them yet: the shortest way
 /// between two parts of the border ends at a foot or at a corner that bulges. Shell pieces are halved instead. Returns
 /// whether there were any.
-bool refine_unreached(Triangulation& mesh, DisjointSets& sets) {
+bool refine_unreached(Triangulation& mesh, ConnectedVertices& sets) {
   const Unreached found = find_unreached(mesh, sets);
   Cavity cavity(mesh);
   bool any = false;
@@ -166,17 +167,17 @@ double angle_at_start(const WalledMesh& walled, HalfEdge edge) {
 }
 
 /// Adds bridges, the shortest first, that keep an angle of at least `bound`.
-void choose_bridges(WalledMesh& walled, DisjointSets& sets, double bound) {
+void choose_bridges(WalledMesh& walled, ConnectedVertices& sets, double bound) {
   const Triangulation& mesh = walled.mesh;
   struct Candidate {
     double squared_length;
     HalfEdge edge;
   };
   std::vector<Candidate> candidates;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (const TriangleId t : ids_of(mesh.triangles)) {
     if (!mesh.triangles[t].alive()) continue;
     for (int i = 0; i < 3; ++i) {
-      const HalfEdge h = half_edge(static_cast<TriangleId>(t), i);
+      const HalfEdge h = half_edge(t, i);
       if (is_constrained(mesh.twin(h)) || mesh.twin(h) < h) continue;
       const VertexId u = mesh.edge_start(h), v = mesh.edge_end(h);
       if (sets.find(u) != sets.find(v)) candidates.push_back({squared_distance(walled.at(u), walled.at(v)), h});
@@ -191,7 +192,7 @@ void choose_bridges(WalledMesh& walled, DisjointSets& sets, double bound) {
     if (sets.find(u) == sets.find(v)) continue;
     if (std::min(angle_at_start(walled, c.edge), angle_at_start(walled, back)) < bound) continue;
     sets.join(u, v);
-    walled.bridge[id(c.edge)] = walled.bridge[id(back)] = true;
+    walled.bridge[c.edge] = walled.bridge[back] = true;
   }
 }
 
@@ -199,9 +200,9 @@ void choose_bridges(WalledMesh& walled, DisjointSets& sets, double bound) {
 /// come last.
 void build_bridges(WalledMesh& walled, double angle) {
   constexpr int kRounds = 8;
-  DisjointSets sets(0);
+  ConnectedVertices sets(0);
   for (int round = 0; round < kRounds; ++round) {
-    sets = DisjointSets(walled.mesh.points.size());
+    sets = ConnectedVertices(walled.mesh.points.size());
     for (const Subsegment& s : walled.mesh.subsegments)
       if (s.is_leaf()) sets.join(s.vertex[0], s.vertex[1]);
     walled.bridge.assign(4 * walled.mesh.triangles.size(), false);
@@ -222,19 +223,19 @@ class MapBuilder {
         map_id_(mesh_.points.size(), kNone),
         side_of_(4 * mesh_.triangles.size(), kNone),
         used_(mesh_.points.size(), false) {
-    for (std::size_t v = 0; v < used_.size(); ++v) used_[v] = v < given_points || is_shell_end(mesh_.origin[v]);
-    for (std::size_t h = 0; h < walled.bridge.size(); ++h)
-      if (walled.bridge[h]) used_[id(mesh_.edge_start(static_cast<HalfEdge>(h)))] = true;
+    for (const VertexId v : ids_of(used_)) used_[v] = to_index(v) < given_points || is_shell_end(mesh_.origin[v]);
+    for (const HalfEdge h : ids_of(walled.bridge))
+      if (walled.bridge[h]) used_[mesh_.edge_start(h)] = true;
   }
 
   PlanarMap build() {
-    for (std::size_t v = 0; v < used_.size(); ++v)
+    for (const VertexId v : ids_of(used_))
       if (used_[v])
         map_id_[v] = map_.add_point(mesh_.points[v], is_midpoint(mesh_.origin[v]) ? kNone : mesh_.origin[v]);
     for (const RootSegment& root : mesh_.roots) add_root(root);
-    for (std::size_t h = 0; h < walled_.bridge.size(); ++h) add_bridge(static_cast<HalfEdge>(h));
-    for (std::size_t s = 0; s < tail_.size(); ++s)
-      if (tail_[s] != kNone) map_.link(static_cast<SideId>(s), side_of_[id(walled_.next_wall(tail_[s]))]);
+    for (const HalfEdge h : ids_of(walled_.bridge)) add_bridge(h);
+    for (const SideId s : ids_of(tail_))
+      if (tail_[s] != kNone) map_.link(s, side_of_[walled_.next_wall(tail_[s])]);
     return std::move(map_);
   }
 
@@ -244,15 +245,15 @@ class MapBuilder {
     collect_leaves(root.tree);
     const PlanarMap::Wall wall{root.marker, root.shell, PlanarMap::Kind::kInput};
     for (std::size_t i = 0, j = 0; i < leaves_.size(); i = j) {
-      const Subsegment& first = mesh_.subsegments[id(leaves_[i])];
+      const Subsegment& first = mesh_.subsegments[leaves_[i]];
       do ++j;
-      while (j < leaves_.size() && !used_[id(mesh_.subsegments[id(leaves_[j])].vertex[0])]);
-      const Subsegment& last = mesh_.subsegments[id(leaves_[j - 1])];
-      const SideId s = map_.add_wall(map_id_[id(first.vertex[0])], map_id_[id(last.vertex[1])], wall);
+      while (j < leaves_.size() && !used_[mesh_.subsegments[leaves_[j]].vertex[0]]);
+      const Subsegment& last = mesh_.subsegments[leaves_[j - 1]];
+      const SideId s = map_.add_wall(map_id_[first.vertex[0]], map_id_[last.vertex[1]], wall);
       for (std::size_t k = i; k < j; ++k) {
-        const auto& half = mesh_.subsegments[id(leaves_[k])].half;
-        if (half[0] != kNone) side_of_[id(half[0])] = s;
-        if (half[1] != kNone) side_of_[id(half[1])] = s + 1;
+        const auto& half = mesh_.subsegments[leaves_[k]].half;
+        if (half[0] != kNone) side_of_[half[0]] = s;
+        if (half[1] != kNone) side_of_[half[1]] = s + 1;
       }
       set_tail(s, last.half[0]);
       set_tail(s + 1, first.half[1]);
@@ -260,38 +261,38 @@ class MapBuilder {
   }
 
   void collect_leaves(SubsegmentId s) {
-    const Subsegment& node = mesh_.subsegments[id(s)];
+    const Subsegment& node = mesh_.subsegments[s];
     if (node.is_leaf()) {
       leaves_.push_back(s);
       return;
     }
     collect_leaves(node.child);
-    collect_leaves(node.child + 1);
+    collect_leaves(node.second_child());
   }
 
   void add_bridge(HalfEdge h) {
-    if (!walled_.bridge[id(h)] || side_of_[id(h)] != kNone) return;
-    const SideId s = map_.add_wall(map_id_[id(mesh_.edge_start(h))], map_id_[id(mesh_.edge_end(h))],
-                                   {0, kNone, PlanarMap::Kind::kBridge});
-    side_of_[id(h)] = s;
-    side_of_[id(mesh_.twin(h))] = s + 1;
+    if (!walled_.bridge[h] || side_of_[h] != kNone) return;
+    const SideId s =
+        map_.add_wall(map_id_[mesh_.edge_start(h)], map_id_[mesh_.edge_end(h)], {0, kNone, PlanarMap::Kind::kBridge});
+    side_of_[h] = s;
+    side_of_[mesh_.twin(h)] = s + 1;
     set_tail(s, h);
     set_tail(s + 1, mesh_.twin(h));
   }
 
   void set_tail(SideId s, HalfEdge h) {
     tail_.resize(map_.sides.size(), kNone);
-    tail_[id(s)] = h;
-    if (h != kNone && !mesh_.region.empty()) map_.side(s).region = mesh_.region[id(triangle_of(h))];
+    tail_[s] = h;
+    if (h != kNone && !mesh_.region.empty()) map_.side(s).region = mesh_.region[triangle_of(h)];
   }
 
   const WalledMesh& walled_;
   const Triangulation& mesh_;
   PlanarMap map_;
-  std::vector<VertexId> map_id_;
-  std::vector<SideId> side_of_;
-  std::vector<bool> used_;
-  std::vector<HalfEdge> tail_;  // of each side: the triangle edge that it ends with
+  IdVector<VertexId, MapVertexId> map_id_;
+  IdVector<HalfEdge, SideId> side_of_;
+  IdVector<VertexId, bool> used_;
+  IdVector<SideId, HalfEdge> tail_;  // the triangle edge that the side ends with
   std::vector<SubsegmentId> leaves_;
 };
 
@@ -300,7 +301,7 @@ class MapBuilder {
 PlanarMap connected_walls(const Triangulation& from, double spacing, double angle) {
   for (const Subsegment& s : from.subsegments)
     if (!s.is_leaf()) throw Error("cannot decompose a triangulation that has been refined");
-  DisjointSets sets = connect_by_segments(from);
+  ConnectedVertices sets = connect_by_segments(from);
   WalledMesh walled(from);
   if (needs_bridges(from, sets)) {
     refine_borders(walled.mesh, spacing);

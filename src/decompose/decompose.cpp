@@ -236,8 +236,7 @@ double area_of(const Triangulation& mesh) {
   double twice = 0;
   for (const Triangle& t : mesh.triangles) {
     if (!t.alive()) continue;
-    const Point &a = mesh.points[Triangulation::id(t.vertex[0])], &b = mesh.points[Triangulation::id(t.vertex[1])],
-                &c = mesh.points[Triangulation::id(t.vertex[2])];
+    const Point &a = mesh.points[t.vertex[0]], &b = mesh.points[t.vertex[1]], &c = mesh.points[t.vertex[2]];
     twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   }
   return twice / 2;

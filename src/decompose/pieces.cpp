@@ -19,7 +19,8 @@ namespace driftmesh {
 namespace {
 
 /// Pieces that touch along walls, by connected part of the domain.
-DisjointSets connected_parts(const PlanarMap& map, const IdVector<SideId, PieceId>& piece_of, std::size_t pieces) {
+DisjointSets<PieceId> connected_parts(const PlanarMap& map, const IdVector<SideId, PieceId>& piece_of,
+                                      std::size_t pieces) {
   DisjointSets sets(pieces);
   for (SideId h = 0; map.sides.has(h); h += 2)
     if (piece_of[h] != kNone && piece_of[h + 1] != kNone) sets.join(piece_of[h], piece_of[h + 1]);
@@ -135,7 +136,7 @@ class Groups {
     by_work_.emplace(work_[kept], kept);
   }
 
-  DisjointSets sets_;
+  DisjointSets<std::int32_t> sets_;
   IdVector<std::int32_t, double> work_;
   IdVector<std::int32_t, std::set<std::int32_t>> touching_;
   std::set<std::pair<double, std::int32_t>> by_work_;

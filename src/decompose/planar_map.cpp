@@ -4,13 +4,13 @@
 
 namespace driftmesh {
 
-VertexId PlanarMap::add_point(const Point& p, VertexOrigin what) {
+MapVertexId PlanarMap::add_point(const Point& p, VertexOrigin what) {
   points.push_back(p);
   origin.push_back(what);
-  return narrow<VertexId>(points.size() - 1, "number of points");
+  return narrow<MapVertexId>(points.size() - 1, "number of points");
 }
 
-SideId PlanarMap::add_wall(VertexId a, VertexId b, const Wall& wall) {
+SideId PlanarMap::add_wall(MapVertexId a, MapVertexId b, const Wall& wall) {
   const auto h = narrow<SideId>(sides.size(), "number of segments");
   walls.push_back(wall);
   sides.push_back({a, kNone, kNone, 0});
@@ -23,7 +23,7 @@ void PlanarMap::link(SideId first, SideId second) {
   side(second).previous = first;
 }
 
-SideId PlanarMap::split(SideId h, VertexId m) {
+SideId PlanarMap::split(SideId h, MapVertexId m) {
   const SideId back = twin(h);
   SideId rest = add_wall(m, end(h), wall(h));
   if ((h & 1) != 0) {  // keep the wall's direction: a region of its own on each side

@@ -7,10 +7,12 @@
 
 #include "base/id_vector.hpp"
 #include "driftmesh/point.hpp"
-#include "mesh/triangulation.hpp"
+#include "mesh/handles.hpp"
 
 namespace driftmesh {
 
+/// A point of a planar map: the start of some of its walls.
+enum class MapVertexId : std::int32_t {};
 /// One side of a wall: the half-edge h and its twin h ^ 1 run along the same wall in opposite directions.
 using SideId = std::int32_t;
 using WallId = std::int32_t;
@@ -27,15 +29,15 @@ class PlanarMap {
     Kind kind = Kind::kInput;
   };
   struct Side {
-    VertexId origin = kNone;
+    MapVertexId origin = kNone;
     SideId next = kNone;  ///< along the loop; kNone outside the domain
     SideId previous = kNone;
     std::uint16_t region = 0;
     [[nodiscard]] bool in_domain() const { return next != kNone; }
   };
 
-  IdVector<VertexId, Point> points;
-  IdVector<VertexId, VertexOrigin> origin;  ///< of each point: index of an input point, shell end, or kNone
+  IdVector<MapVertexId, Point> points;
+  IdVector<MapVertexId, VertexOrigin> origin;  ///< of each point: index of an input point, shell end, or kNone
   IdVector<WallId, Wall> walls;
   IdVector<SideId, Side> sides;  ///< two for each wall
 
@@ -44,16 +46,16 @@ class PlanarMap {
   [[nodiscard]] const Side& side(SideId h) const { return sides[h]; }
   [[nodiscard]] Wall& wall(SideId h) { return walls[h / 2]; }
   [[nodiscard]] const Wall& wall(SideId h) const { return walls[h / 2]; }
-  [[nodiscard]] VertexId start(SideId h) const { return side(h).origin; }
-  [[nodiscard]] VertexId end(SideId h) const { return side(twin(h)).origin; }
-  [[nodiscard]] const Point& at(VertexId v) const { return points[v]; }
+  [[nodiscard]] MapVertexId start(SideId h) const { return side(h).origin; }
+  [[nodiscard]] MapVertexId end(SideId h) const { return side(twin(h)).origin; }
+  [[nodiscard]] const Point& at(MapVertexId v) const { return points[v]; }
 
-  VertexId add_point(const Point& p, VertexOrigin what);
+  MapVertexId add_point(const Point& p, VertexOrigin what);
   /// A wall with sides a -> b and b -> a, not linked to anything. Returns the first.
-  SideId add_wall(VertexId a, VertexId b, const Wall& wall);
+  SideId add_wall(MapVertexId a, MapVertexId b, const Wall& wall);
   void link(SideId first, SideId second);
   /// Cuts the wall of `h` at point `m`. `h` keeps the part before m; returns the part behind it.
-  SideId split(SideId h, VertexId m);
+  SideId split(SideId h, MapVertexId m);
   /// Joins the corners where `u` and `v` start by a wall. If they are on one loop it becomes two, each with one side of
   /// the new wall; two loops become one. Returns the side that leaves u's corner, which takes the place of u before v.
   SideId connect(SideId u, SideId v, Kind kind);

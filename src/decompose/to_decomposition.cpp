@@ -68,6 +68,14 @@ void set_subdomains(Decomposition& d, const PlanarMap& map, const std::vector<Pi
   for (SubdomainId& g : group_of) g = new_of_old[g];
 }
 
+/// Until set_points, the points of the decomposition are those of the map.
+GlobalPointId to_global(MapVertexId v) {
+  return GlobalPointId{to_int(v)};
+}
+MapVertexId in_map(GlobalPointId v) {
+  return MapVertexId{to_int(v)};
+}
+
 bool is_kept(const PlanarMap& map, SideId h, SubdomainId left, SubdomainId right) {
   return map.wall(h).kind == PlanarMap::Kind::kInput || left != right;
 }
@@ -78,13 +86,12 @@ void set_roots(Decomposition& d, const PlanarMap& map, const IdVector<SideId, Su
     const SideId s = map.start(h) < map.end(h) ? h : h + 1;  // in ascending direction
     const SubdomainId left = subdomain_of[s], right = subdomain_of[PlanarMap::twin(s)];
     if (!is_kept(map, h, left, right)) continue;
-    d.roots.push_back({GlobalPointId{map.start(s)}, GlobalPointId{map.end(s)}, wall.marker, wall.shell, left, right,
+    d.roots.push_back({to_global(map.start(s)), to_global(map.end(s)), wall.marker, wall.shell, left, right,
                        map.side(s).region, map.side(PlanarMap::twin(s)).region, wall.kind != PlanarMap::Kind::kInput});
   }
 }
 
-/// As long as the points of the map are those of the decomposition: makes one root again of two that meet where a
-/// dropped bridge ended on an input segment.
+/// Before set_points: makes one root again of two that meet where a dropped bridge ended on an input segment.
 class Rejoiner {
  public:
   Rejoiner(Decomposition& d, const PlanarMap& map) : d_(d), map_(map), ending_(map.points.size()) {
@@ -100,7 +107,7 @@ class Rejoiner {
 
  private:
   [[nodiscard]] bool is_needless(GlobalPointId v) const {
-    if (map_.origin[to_int(v)] != kNone || ending_[v].size() != 2) return false;
+    if (map_.origin[in_map(v)] != kNone || ending_[v].size() != 2) return false;
     return !d_.roots[ending_[v][0]].separator && !d_.roots[ending_[v][1]].separator;
   }
 
@@ -128,10 +135,10 @@ class Rejoiner {
 IdVector<GlobalPointId, SubdomainId> find_isolated(const Decomposition& d, const PlanarMap& map,
                                                    const IdVector<SideId, SubdomainId>& subdomain_of) {
   IdVector<GlobalPointId, SubdomainId> inside(map.points.size(), kNoSubdomain);
-  for (const SideId h : ids_of(map.sides)) inside[GlobalPointId{map.start(h)}] = subdomain_of[h];
+  for (const SideId h : ids_of(map.sides)) inside[to_global(map.start(h))] = subdomain_of[h];
   for (const Decomposition::Root& r : d.roots) inside[r.a] = inside[r.b] = kNoSubdomain;
   for (const GlobalPointId v : ids_of(inside))
-    if (map.origin[to_int(v)] == kNone) inside[v] = kNoSubdomain;
+    if (map.origin[in_map(v)] == kNone) inside[v] = kNoSubdomain;
   return inside;
 }
 
@@ -143,8 +150,8 @@ void set_points(Decomposition& d, const PlanarMap& map, const IdVector<GlobalPoi
   for (const GlobalPointId v : ids_of(used)) {
     if (!used[v] && isolated_in[v] == kNoSubdomain) continue;
     new_id[v] = d.points.next_id();
-    d.points.push_back(map.points[to_int(v)]);
-    d.origin.push_back(map.origin[to_int(v)]);
+    d.points.push_back(map.points[in_map(v)]);
+    d.origin.push_back(map.origin[in_map(v)]);
     if (isolated_in[v] != kNoSubdomain) inner.emplace_back(isolated_in[v], new_id[v]);
   }
   for (Decomposition::Root& r : d.roots) {

@@ -35,7 +35,7 @@ QualityBounds coarser(const QualityBounds& bounds, double factor, const SizeFiel
 double work_in(const Triangulation& mesh, TriangleId t, const QualityBounds& bounds) {
   const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
   const double area = orient2d(a, b, c) / 2;
-  const std::uint16_t region = mesh.region.empty() ? std::uint16_t{0} : mesh.region[Triangulation::id(t)];
+  const std::uint16_t region = mesh.region.empty() ? std::uint16_t{0} : mesh.region[t];
   const double least = kTrianglesPerBound / area_bound(bounds, region);
   double density = 0;
   for (const auto& [u, v, w] : {std::array<double, 3>{4, 1, 1}, {1, 4, 1}, {1, 1, 4}}) {
@@ -73,9 +73,8 @@ WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, 
   refiner.limit_triangles(static_cast<std::int64_t>(20 * count + 10 * static_cast<double>(mesh.live_triangles())));
   refiner.refine();
   WorkSamples samples;
-  for (std::size_t i = 0; i < coarse.triangles.size(); ++i) {
-    if (!coarse.triangles[i].alive()) continue;
-    const auto t = static_cast<TriangleId>(i);
+  for (const TriangleId t : ids_of(coarse.triangles)) {
+    if (!coarse.triangles[t].alive()) continue;
     const Point &a = coarse.corner(t, 0), &b = coarse.corner(t, 1), &c = coarse.corner(t, 2);
     samples.push_back({{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}, work_in(coarse, t, bounds)});
   }

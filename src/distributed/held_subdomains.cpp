@@ -6,14 +6,12 @@
 namespace driftmesh {
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 void visit_below(const Triangulation& mesh, SubsegmentId s, const std::function<void(dyadic::Path, VertexId)>& visit) {
-  const Subsegment& node = mesh.subsegments[id(s)];
+  const Subsegment& node = mesh.subsegments[s];
   if (node.is_leaf()) return;
   visit_below(mesh, node.child, visit);
-  visit(node.path, mesh.subsegments[id(node.child)].vertex[1]);
-  visit_below(mesh, node.child + 1, visit);
+  visit(node.path, mesh.subsegments[node.child].vertex[1]);
+  visit_below(mesh, node.second_child(), visit);
 }
 
 }  // namespace
@@ -36,7 +34,7 @@ HeldSubdomains held_by_rank(const std::map<SubdomainId, Subdomain>& subdomains) 
 }
 
 void visit_splits(const Triangulation& mesh, RootId root, const std::function<void(dyadic::Path, VertexId)>& visit) {
-  visit_below(mesh, mesh.roots[id(root)].tree, visit);
+  visit_below(mesh, mesh.roots[root].tree, visit);
 }
 
 }  // namespace driftmesh

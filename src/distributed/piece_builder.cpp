@@ -12,8 +12,6 @@ namespace driftmesh {
 
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 bool has_regions(const Decomposition& d) {
   return std::any_of(d.roots.begin(), d.roots.end(),
                      [](const auto& root) { return root.left_region != 0 || root.right_region != 0; });
@@ -134,16 +132,16 @@ IdVector<VertexId, PieceBuilder::Place> PieceBuilder::place_vertices(SubdomainId
                                        [](const SubdomainCensus& c, SubdomainId wanted) { return c.id < wanted; });
   Place next_free = place_of_free_[to_index(census - census_.begin())];
   for (const VertexId v : ids_of(place)) {
-    if (mesh.origin[id(v)] == kFree) place[v] = next_free++;
-    if (mesh.origin[id(v)] != kDeleted) set_point(place[v], mesh.points[id(v)], i);
+    if (mesh.origin[v] == kFree) place[v] = next_free++;
+    if (mesh.origin[v] != kDeleted) set_point(place[v], mesh.points[v], i);
   }
   return place;
 }
 
 void PieceBuilder::set_point(Place place, const Point& p, SubdomainId i) {
-  Point& point = piece_.mesh.points[id(place)];
+  Point& point = piece_.mesh.points[place];
   if (is_placed_[place] && !(point == p))
-    throw Error("point " + std::to_string(piece_.mesh.numbers[id(place)]) +
+    throw Error("point " + std::to_string(piece_.mesh.numbers[place]) +
                 " of the mesh has other coordinates in subdomain " + to_string(i) +
                 " than in its neighbour on the same rank");
   point = p;
@@ -153,7 +151,7 @@ void PieceBuilder::set_point(Place place, const Point& p, SubdomainId i) {
 void PieceBuilder::add_triangles(SubdomainId i, const Triangulation& mesh, const IdVector<VertexId, Place>& place,
                                  const Pslg& pslg) {
   Mesh& piece = piece_.mesh;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (const TriangleId t : ids_of(mesh.triangles)) {
     if (!mesh.triangles[t].alive()) continue;
     const auto& v = mesh.triangles[t].vertex;
     piece.triangles.push_back({place[v[0]], place[v[1]], place[v[2]]});
@@ -171,7 +169,7 @@ void PieceBuilder::add_edges(SubdomainId i, const SubdomainMesh& part, const IdV
     const Decomposition::Root& root = decomposition_.roots[part.roots[r]];
     const SubdomainId owner = owner_of(root);
     if (root.separator || (owner != i && holder(owner) == rank_)) continue;
-    const auto& ends = part.mesh.roots[id(r)].vertex;
+    const auto& ends = part.mesh.roots[r].vertex;
     Place from = place[ends[0]];
     const auto add = [&](VertexId to) {
       piece_.mesh.edges.push_back({from, place[to], root.marker});
@@ -190,12 +188,11 @@ void PieceBuilder::mark_points(const Pslg& pslg) {
     std::fill_n(markers.begin() + place_of_root_[r.root], r.splits.count, decomposition_.roots[r.root].marker);
   for (const Decomposition::Root& root : decomposition_.roots)
     for (const GlobalPointId v : {root.a, root.b})
-      if (const Place place = place_of_corner_[v]; place != kNone && markers[id(place)] == 0)
-        markers[id(place)] = root.marker;
+      if (const Place place = place_of_corner_[v]; place != kNone && markers[place] == 0) markers[place] = root.marker;
   if (pslg.point_markers.empty()) return;
   for (const Place k : ids_of(corners_)) {
     const VertexOrigin origin = decomposition_.origin[corners_[k]];
-    if (is_input(origin)) markers[id(k)] = pslg.point_markers.at(id(origin));
+    if (is_input(origin)) markers[k] = pslg.point_markers.at(origin);
   }
 }
 
@@ -203,7 +200,7 @@ void PieceBuilder::set_attributes(const Pslg& pslg) {
   Mesh& piece = piece_.mesh;
   piece.attributes_per_point = pslg.attributes_per_point;
   if (pslg.attributes_per_point == 0 || piece.points.empty()) return;
-  const auto width = id(pslg.attributes_per_point);
+  const std::size_t width = pslg.attributes_per_point;
   const AttributeField field(pslg);
   piece.attributes.resize(piece.points.size() * width);
   for (std::size_t v = 0; v < piece.points.size(); ++v) {
@@ -211,7 +208,7 @@ void PieceBuilder::set_attributes(const Pslg& pslg) {
     const auto place = static_cast<Place>(v);
     const VertexOrigin origin = corners_.has(place) ? decomposition_.origin[corners_[place]] : kFree;
     if (is_input(origin))
-      std::copy_n(pslg.attributes.begin() + static_cast<std::ptrdiff_t>(id(origin) * width), width, values.begin());
+      std::copy_n(pslg.attributes.begin() + static_cast<std::ptrdiff_t>(origin * width), width, values.begin());
     else
       field.evaluate(piece.points[v], values);
   }
@@ -233,7 +230,7 @@ void PieceBuilder::find_sharers() {
       }
     }
   for (const Place k : ids_of(lowest))
-    if (lowest[k] != kNoSubdomain) piece_.owners[id(k)] = holder(lowest[k]);
+    if (lowest[k] != kNoSubdomain) piece_.owners[k] = holder(lowest[k]);
   for (const NumberedRoot& r : roots_)
     for (const SubdomainId side : {decomposition_.roots[r.root].left, decomposition_.roots[r.root].right})
       if (side != kNoSubdomain && holder(side) != rank_)

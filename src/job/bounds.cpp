@@ -9,9 +9,8 @@ namespace {
 
 double area_of(const Triangulation& mesh) {
   double area = 0;
-  for (TriangleId t = 0; t < static_cast<TriangleId>(mesh.triangles.size()); ++t)
-    if (mesh.triangles[Triangulation::id(t)].alive())
-      area += signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) area += signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
   return area;
 }
 

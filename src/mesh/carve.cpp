@@ -11,8 +11,6 @@
 namespace driftmesh {
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 bool holds(const Triangulation& mesh, TriangleId t, const Point& p) {
   for (int i = 0; i < 3; ++i)
     if (orient2d(mesh.corner(t, next(i)), mesh.corner(t, previous(i)), p) < 0) return false;
@@ -21,8 +19,8 @@ bool holds(const Triangulation& mesh, TriangleId t, const Point& p) {
 
 /// The last resort of locate(): constrained edges can send a walk in circles.
 TriangleId search_all(const Triangulation& mesh, const Point& p) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (mesh.triangles[t].alive() && holds(mesh, static_cast<TriangleId>(t), p)) return static_cast<TriangleId>(t);
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive() && holds(mesh, t, p)) return t;
   return kNone;
 }
 
@@ -32,26 +30,26 @@ class Flood {
   explicit Flood(const Triangulation& mesh) : mesh_(mesh), reached_(mesh.triangles.size(), false) {}
 
   void add(TriangleId seed) {
-    if (reached_[id(seed)]) return;
-    reached_[id(seed)] = true;
+    if (reached_[seed]) return;
+    reached_[seed] = true;
     stack_.push_back(seed);
     while (!stack_.empty()) {
       const TriangleId t = stack_.back();
       stack_.pop_back();
       order_.push_back(t);
-      for (const HalfEdge h : mesh_.triangles[id(t)].neighbor)
-        if (!is_constrained(h) && !reached_[id(triangle_of(h))]) {
-          reached_[id(triangle_of(h))] = true;
+      for (const HalfEdge h : mesh_.triangles[t].neighbor)
+        if (!is_constrained(h) && !reached_[triangle_of(h)]) {
+          reached_[triangle_of(h)] = true;
           stack_.push_back(triangle_of(h));
         }
     }
   }
-  [[nodiscard]] bool reached(TriangleId t) const { return reached_[id(t)]; }
+  [[nodiscard]] bool reached(TriangleId t) const { return reached_[t]; }
   [[nodiscard]] const std::vector<TriangleId>& triangles() const { return order_; }
 
  private:
   const Triangulation& mesh_;
-  std::vector<bool> reached_;
+  IdVector<TriangleId, bool> reached_;
   std::vector<TriangleId> stack_;
   std::vector<TriangleId> order_;
 };
@@ -61,7 +59,7 @@ void remove_outside(Triangulation& mesh, const Flood& outside) {
     for (int i = 0; i < 3; ++i) {
       const HalfEdge g = mesh.twin(half_edge(t, i));
       if (!is_constrained(g)) continue;
-      for (HalfEdge& half : mesh.subsegments[id(subsegment_of(g))].half)
+      for (HalfEdge& half : mesh.subsegments[subsegment_of(g)].half)
         if (half == half_edge(t, i)) half = kNone;
     }
     mesh.remove_triangle(t);
@@ -70,16 +68,15 @@ void remove_outside(Triangulation& mesh, const Flood& outside) {
 
 /// Keeps the roots (whole segments at this stage) that still bound a triangle.
 void drop_unused_segments(Triangulation& mesh) {
-  std::vector<Subsegment> subsegments;
-  std::vector<RootSegment> roots;
+  IdVector<SubsegmentId, Subsegment> subsegments;
+  IdVector<RootId, RootSegment> roots;
   for (RootSegment root : mesh.roots) {
-    Subsegment s = mesh.subsegments[id(root.tree)];
+    Subsegment s = mesh.subsegments[root.tree];
     if (s.half[0] == kNone && s.half[1] == kNone) continue;
-    const auto kept = static_cast<SubsegmentId>(subsegments.size());
+    const SubsegmentId kept = subsegments.next_id();
     for (const HalfEdge h : s.half)
-      if (h != kNone)
-        mesh.triangles[id(triangle_of(h))].neighbor[static_cast<std::size_t>(index_of(h))] = constrained(kept);
-    s.root = static_cast<RootId>(roots.size());
+      if (h != kNone) mesh.triangles[triangle_of(h)].neighbor[index_of(h)] = constrained(kept);
+    s.root = roots.next_id();
     root.tree = kept;
     subsegments.push_back(s);
     roots.push_back(root);
@@ -92,10 +89,10 @@ void label_regions(Triangulation& mesh, const std::vector<TriangleId>& seeds) {
   if (seeds.empty()) return;
   mesh.region.resize(mesh.triangles.size(), 0);
   for (std::size_t r = 0; r < seeds.size(); ++r) {
-    if (seeds[r] == kNone || !mesh.triangles[id(seeds[r])].alive()) continue;
+    if (seeds[r] == kNone || !mesh.triangles[seeds[r]].alive()) continue;
     Flood flood(mesh);
     flood.add(seeds[r]);
-    for (const TriangleId t : flood.triangles()) mesh.region[id(t)] = narrow<std::uint16_t>(r + 1, "number of regions");
+    for (const TriangleId t : flood.triangles()) mesh.region[t] = narrow<std::uint16_t>(r + 1, "number of regions");
   }
 }
 
@@ -109,28 +106,27 @@ void label_regions(Triangulation& mesh, const std::vector<TriangleId>& seeds) {
 /// Keeps the triangles that can be reached from an inner side, labeled as that side says; all others lie outside.
 void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& sides, std::size_t first_root) {
   Flood inside(mesh);
-  std::vector<std::uint16_t> label(mesh.triangles.size(), 0);
+  IdVector<TriangleId, std::uint16_t> label(mesh.triangles.size(), 0);
   bool labeled = false;
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    const RootSegment& root = mesh.roots[first_root + i];
-    const auto& half = mesh.subsegments[id(root.tree)].half;
+    const RootSegment& root = mesh.roots[static_cast<RootId>(first_root + i)];
+    const auto& half = mesh.subsegments[root.tree].half;
     for (const auto& [edge, side] : {std::pair(half[0], sides[i].left), std::pair(half[1], sides[i].right)}) {
       if (side == kNone || inside.reached(triangle_of(edge))) continue;
       const std::size_t before = inside.triangles().size();
       inside.add(triangle_of(edge));
       for (std::size_t k = before; k < inside.triangles().size(); ++k)
-        label[id(inside.triangles()[k])] = narrow<std::uint16_t>(side, "region label");
+        label[inside.triangles()[k]] = narrow<std::uint16_t>(side, "region label");
       labeled |= side != 0;
     }
   }
   Flood outside(mesh);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (mesh.triangles[t].alive() && !inside.reached(static_cast<TriangleId>(t)))
-      outside.add(static_cast<TriangleId>(t));
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive() && !inside.reached(t)) outside.add(t);
   remove_outside(mesh, outside);
   if (!labeled) return;
   mesh.region.resize(mesh.triangles.size(), 0);
-  for (std::size_t t = 0; t < label.size(); ++t) mesh.region[t] = label[t];
+  for (const TriangleId t : ids_of(label)) mesh.region[t] = label[t];
 }
 
 }  // namespace
@@ -157,7 +153,7 @@ TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start) {
 }
 
 void carve(Triangulation& mesh, const Pslg& pslg) {
-  const auto seed = [&](const Point& p) { return locate(mesh, p, 0); };
+  const auto seed = [&](const Point& p) { return locate(mesh, p, TriangleId{0}); };
   std::vector<TriangleId> region_seeds;
   for (const Pslg::Region& r : pslg.regions) region_seeds.push_back(seed(r.at));
   std::vector<TriangleId> hole_seeds;

@@ -41,8 +41,8 @@ Cavity::Edge Cavity::with_more_room(const Edge& e) {
     return Edge{edge.cross, corners_.data() + (edge.a - old.data()), corners_.data() + (edge.b - old.data()),
                 edge.outer};
   };
-  for (int i = 0; i < stack_count_; ++i) stack_[at(i)] = moved(stack_[at(i)]);
-  for (int i = 0; i < border_count_; ++i) border_[at(i)] = moved(border_[at(i)]);
+  for (int i = 0; i < stack_count_; ++i) stack_[i] = moved(stack_[i]);
+  for (int i = 0; i < border_count_; ++i) border_[i] = moved(border_[i]);
   return moved(e);
 }
 
@@ -66,39 +66,39 @@ inline void Cavity::start(const Point& p) {
 }
 
 inline Cavity::Corner Cavity::relative(VertexId v) const {
-  const Point& q = mesh_.points[Triangulation::id(v)];
+  const Point& q = mesh_.points[v];
   const double dx = q.x - p_.x;
   const double dy = q.y - p_.y;
   return {dx, dy, dx * dx + dy * dy, v};
 }
 
 inline void Cavity::push(HalfEdge outer, int a, int b, double cross_ab) {
-  stack_[at(stack_count_++)] = {cross_ab, &corners_[at(a)], &corners_[at(b)], outer};
+  stack_[stack_count_++] = {cross_ab, &corners_[a], &corners_[b], outer};
 }
 
 double Cavity::exact_orientation(const Corner& a, const Corner& b) const {
-  return orient2d(p_, mesh_.points[Triangulation::id(a.vertex)], mesh_.points[Triangulation::id(b.vertex)]);
+  return orient2d(p_, mesh_.points[a.vertex], mesh_.points[b.vertex]);
 }
 
 inline void Cavity::load(TriangleId t) {
-  const Triangle& triangle = mesh_.triangles[Triangulation::id(t)];
-  for (int i = 0; i < 3; ++i) corners_[at(i)] = relative(triangle.vertex[at(i)]);
+  const Triangle& triangle = mesh_.triangles[t];
+  for (int i = 0; i < 3; ++i) corners_[i] = relative(triangle.vertex[i]);
 }
 
 /// One step of the walk from triangle t, which does not obviously hold the point: either across an edge that the point
 /// lies beyond (then next_ is set), or the answer.
 Cavity::Found Cavity::leave(TriangleId t, const double (&sides)[3]) {
-  const Triangle& triangle = mesh_.triangles[Triangulation::id(t)];
+  const Triangle& triangle = mesh_.triangles[t];
   encroached_ = kNone;
   next_ = kNone;
   for (int i = 0; i < 3; ++i) {
-    const Corner& a = corners_[at(next(i))];
-    const Corner& b = corners_[at(previous(i))];
+    const Corner& a = corners_[next(i)];
+    const Corner& b = corners_[previous(i)];
     if (a.lift == 0 || b.lift == 0) return Found::kOccupied;
     const double bound = kOrientationBound * (a.lift + b.lift) + kUnderflow;
     const bool beyond = sides[i] < -bound || (sides[i] <= bound && exact_orientation(a, b) < 0);
     if (!beyond) continue;
-    const HalfEdge outer = triangle.neighbor[at(i)];
+    const HalfEdge outer = triangle.neighbor[i];
     if (is_constrained(outer)) {
       encroached_ = subsegment_of(outer);
     } else {
@@ -127,9 +127,9 @@ Cavity::Found Cavity::walk(TriangleId t) {
         continue;
       }
     }
-    const Triangle& triangle = mesh_.triangles[Triangulation::id(t)];
+    const Triangle& triangle = mesh_.triangles[t];
     corner_count_ = 3;
-    slots_[at(killed_count_++)] = t;
+    slots_[killed_count_++] = t;
     push(triangle.neighbor[1], 2, 0, sides[1]);
     push(triangle.neighbor[0], 1, 2, sides[0]);
     push(triangle.neighbor[2], 0, 1, sides[2]);
@@ -145,8 +145,8 @@ template <bool kMindLens>
 Cavity::Found Cavity::expand(double cos_squared) {
   // Local copies of what the loop touches: otherwise a store to one array would force the addresses of the others to
   // be reloaded.
-  const Triangle* const triangles = mesh_.triangles.data();
-  const Point* const points = mesh_.points.data();
+  const IdSpan<TriangleId, const Triangle> triangles(mesh_.triangles);
+  const IdSpan<VertexId, const Point> points(mesh_.points);
   const double px = p_.x, py = p_.y;
   Ends ends = this->ends();
   const Corner* corners_end = corners_.data() + corners_.size() - 4;
@@ -159,7 +159,7 @@ Cavity::Found Cavity::expand(double cos_squared) {
     if (!is_constrained(e.outer)) [[likely]] {
       const Triangle& triangle = triangles[triangle_of(e.outer)];
       const int i = index_of(e.outer);
-      const VertexId v = triangle.vertex[at(i)];
+      const VertexId v = triangle.vertex[i];
       const double dx = points[v].x - px, dy = points[v].y - py;
       const double lift = dx * dx + dy * dy;
       const double ac = e.a->dx * dy - dx * e.a->dy;
@@ -173,8 +173,8 @@ Cavity::Found Cavity::expand(double cos_squared) {
       if (inside) {
         *ends.corner = {dx, dy, lift, v};
         *ends.slot++ = triangle_of(e.outer);
-        *ends.stack++ = {cb, ends.corner, e.b, triangle.neighbor[at(previous(i))]};
-        e = {ac, e.a, ends.corner++, triangle.neighbor[at(next(i))]};
+        *ends.stack++ = {cb, ends.corner, e.b, triangle.neighbor[previous(i)]};
+        e = {ac, e.a, ends.corner++, triangle.neighbor[next(i)]};
         if (ends.corner >= corners_end) [[unlikely]] {
           keep(ends);
           e = with_more_room(e);
@@ -209,7 +209,7 @@ inline Cavity::Found Cavity::check_star() const {
   if (least_cross_ > kOrientationBound * largest_lifts_ + kUnderflow) [[likely]]
     return Found::kClear;
   for (int i = 0; i < border_count_; ++i)
-    if (!(exact_orientation(*border_[at(i)].a, *border_[at(i)].b) > 0)) return Found::kDegenerate;
+    if (!(exact_orientation(*border_[i].a, *border_[i].b) > 0)) return Found::kDegenerate;
   return Found::kClear;
 }
 
@@ -231,13 +231,13 @@ Cavity::Found Cavity::gather_from_afar(const Point& p, TriangleId t) {
 /// triangle there is asked like any other whether it stays: it does where rounding has put the point beyond the
 /// subsegment and outside its circumcircle, and a sliver between the straight and the bent subsegment is then Delaunay.
 void Cavity::gather_side(HalfEdge h, int from, int to) {
-  push(h, from, to, cross(corners_[at(from)], corners_[at(to)]));
+  push(h, from, to, cross(corners_[from], corners_[to]));
   expand<false>(0);
 }
 
 Cavity::Found Cavity::gather_on(SubsegmentId s, const Point& m) {
   start(m);
-  const Subsegment& segment = mesh_.subsegments[Triangulation::id(s)];
+  const Subsegment& segment = mesh_.subsegments[s];
   corners_[0] = relative(segment.vertex[0]);
   corners_[1] = relative(segment.vertex[1]);
   corner_count_ = 2;
@@ -248,38 +248,36 @@ Cavity::Found Cavity::gather_on(SubsegmentId s, const Point& m) {
   if (segment.half[0] != kNone) gather_side(segment.half[0], 1, 0);
   if (!mesh_.region.empty())
     for (const std::size_t side : {0, 1})
-      if (segment.half[side] != kNone)
-        regions_[side] = mesh_.region[Triangulation::id(triangle_of(segment.half[side]))];
+      if (segment.half[side] != kNone) regions_[side] = mesh_.region[triangle_of(segment.half[side])];
   return check_star();
 }
 
 /// Gives every border edge a slot for its triangle: those of the cavity's triangles, then added ones.
 inline void Cavity::take_slots() {
   const int added = border_count_ - killed_count_;
-  mesh_.add_triangles(&slots_[at(killed_count_)], added);
+  mesh_.add_triangles(&slots_[killed_count_], added);
   if (mesh_.region.empty()) [[likely]]
     return;
   // A cavity never crosses a constrained segment, so each side keeps its region.
-  for (int i = 0; i < border_count_; ++i)
-    mesh_.region[Triangulation::id(slots_[at(i)])] = regions_[i < first_left_ ? 1 : 0];
+  for (int i = 0; i < border_count_; ++i) mesh_.region[slots_[i]] = regions_[i < first_left_ ? 1 : 0];
 }
 
 void Cavity::fill(VertexId v) {
   first_left_ = 0;
-  if (!mesh_.region.empty()) regions_[0] = mesh_.region[Triangulation::id(slots_[0])];
+  if (!mesh_.region.empty()) regions_[0] = mesh_.region[slots_[0]];
   take_slots();
   const int n = border_count_;
-  Triangle* const triangles = mesh_.triangles.data();
-  TriangleId before = slots_[at(n - 1)];
+  const IdSpan<TriangleId, Triangle> triangles(mesh_.triangles);
+  TriangleId before = slots_[n - 1];
   TriangleId here = slots_[0];
   for (int i = 0; i < n; ++i) {
-    const Edge& e = border_[at(i)];
-    const TriangleId after = slots_[at(i + 1 == n ? 0 : i + 1)];
+    const Edge& e = border_[i];
+    const TriangleId after = slots_[i + 1 == n ? 0 : i + 1];
     triangles[here] = {{v, e.a->vertex, e.b->vertex}, {e.outer, half_edge(after, 2), half_edge(before, 1)}};
     if (is_constrained(e.outer)) [[unlikely]]
       mesh_.link(half_edge(here, 0), e.outer);
     else
-      triangles[triangle_of(e.outer)].neighbor[at(index_of(e.outer))] = half_edge(here, 0);
+      triangles[triangle_of(e.outer)].neighbor[index_of(e.outer)] = half_edge(here, 0);
     before = here;
     here = after;
   }
@@ -290,14 +288,14 @@ void Cavity::fill_on(VertexId v, SubsegmentId at_start, SubsegmentId at_end) {
   take_slots();
   const int n = border_count_;
   for (int i = 0; i < n; ++i) {
-    const Edge& e = border_[at(i)];
-    const TriangleId here = slots_[at(i)];
+    const Edge& e = border_[i];
+    const TriangleId here = slots_[i];
     const bool opens = i == 0 || i == right;
     const bool closes = i == n - 1 || i == right - 1;
-    Triangle& triangle = mesh_.triangles[Triangulation::id(here)];
+    Triangle& triangle = mesh_.triangles[here];
     triangle.vertex = {v, e.a->vertex, e.b->vertex};
     mesh_.link(half_edge(here, 0), e.outer);
-    if (!opens) mesh_.link(half_edge(here, 2), half_edge(slots_[at(i - 1)], 1));
+    if (!opens) mesh_.link(half_edge(here, 2), half_edge(slots_[i - 1], 1));
     // The right border runs from the segment's start to its end, the left one back.
     const bool on_right = i < right;
     if (opens) mesh_.link(half_edge(here, 2), constrained(on_right ? at_start : at_end));
@@ -306,11 +304,11 @@ void Cavity::fill_on(VertexId v, SubsegmentId at_start, SubsegmentId at_end) {
 }
 
 Cavity::Fresh Cavity::fresh(int i) const {
-  const Edge& e = border_[at(i)];
+  const Edge& e = border_[i];
   const Corner &a = *e.a, &b = *e.b;
   const double dx = b.dx - a.dx;
   const double dy = b.dy - a.dy;
-  return {slots_[at(i)], e.cross, a.lift, dx * dx + dy * dy, b.lift};
+  return {slots_[i], e.cross, a.lift, dx * dx + dy * dy, b.lift};
 }
 
 }  // namespace driftmesh

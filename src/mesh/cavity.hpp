@@ -57,7 +57,7 @@ class Cavity {
     double ab, bc, ca;  ///< squared lengths of the edges
   };
   [[nodiscard]] int fresh_count() const { return border_count_; }
-  [[nodiscard]] TriangleId fresh_triangle(int i) const { return slots_[at(i)]; }
+  [[nodiscard]] TriangleId fresh_triangle(int i) const { return slots_[i]; }
   [[nodiscard]] Fresh fresh(int i) const;
 
  private:
@@ -75,7 +75,6 @@ class Cavity {
     HalfEdge outer;
   };
 
-  static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
   void start(const Point& p);
   [[nodiscard]] Corner relative(VertexId v) const;
   static double cross(const Corner& a, const Corner& b) { return a.dx * b.dy - b.dx * a.dy; }

@@ -21,8 +21,6 @@
 namespace driftmesh {
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 /// Adds a box around all points. Constrained segments will hide its corners from the inside of the domain, so however
 /// far away they are, the final triangulation is Delaunay.
 void add_box(Triangulation& mesh, const Pslg& pslg) {
@@ -36,9 +34,9 @@ void add_box(Triangulation& mesh, const Pslg& pslg) {
   const RootId ab = mesh.add_root(a, b, 0, kNone), bc = mesh.add_root(b, c, 0, kNone);
   const RootId cd = mesh.add_root(c, d, 0, kNone), da = mesh.add_root(d, a, 0, kNone);
   const TriangleId t = mesh.add_triangle(), u = mesh.add_triangle();
-  mesh.triangles[id(t)].vertex = {a, b, c};
-  mesh.triangles[id(u)].vertex = {a, c, d};
-  const auto frame = [&](RootId root) { return constrained(mesh.roots[id(root)].tree); };
+  mesh.triangles[t].vertex = {a, b, c};
+  mesh.triangles[u].vertex = {a, c, d};
+  const auto frame = [&](RootId root) { return constrained(mesh.roots[root].tree); };
   mesh.link(half_edge(t, 2), frame(ab));
   mesh.link(half_edge(t, 0), frame(bc));
   mesh.link(half_edge(u, 0), frame(cd));
@@ -60,15 +58,15 @@ std::vector<VertexId> in_hilbert_order(const std::vector<Point>& points) {
 }
 
 std::string describe(const Triangulation& mesh, VertexId v) {
-  const Point& p = mesh.points[id(v)];
-  return "point " + std::to_string(v) + " (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+  const Point& p = mesh.points[v];
+  return "point " + std::to_string(to_int(v)) + " (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
 }
 
 void insert_points(Triangulation& mesh, const Pslg& pslg) {
   Cavity cavity(mesh);
-  TriangleId near = 0;
+  TriangleId near{0};
   for (const VertexId v : in_hilbert_order(pslg.points)) {
-    const Cavity::Found found = cavity.gather_from_afar(mesh.points[id(v)], near);
+    const Cavity::Found found = cavity.gather_from_afar(mesh.points[v], near);
     if (found != Cavity::Found::kClear)
       throw Error(describe(mesh, v) + " coincides with another point; repair the input first");
     cavity.fill(v);
@@ -81,7 +79,7 @@ void insert_points(Triangulation& mesh, const Pslg& pslg) {
 class SegmentRecovery {
  public:
   explicit SegmentRecovery(Triangulation& mesh) : mesh_(mesh), incident_(mesh.points.size(), kNone) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) note(static_cast<TriangleId>(t));
+    for (const TriangleId t : ids_of(mesh.triangles)) note(t);
   }
 
   void recover(VertexId a, VertexId b, std::int32_t marker) {
@@ -100,10 +98,10 @@ class SegmentRecovery {
   using Pair = std::pair<VertexId, VertexId>;
 
   void note(TriangleId t) {
-    for (const VertexId v : mesh_.triangles[id(t)].vertex) incident_[id(v)] = t;
+    for (const VertexId v : mesh_.triangles[t].vertex) incident_[v] = t;
   }
 
-  const Point& at(VertexId v) const { return mesh_.points[id(v)]; }
+  const Point& at(VertexId v) const { return mesh_.points[v]; }
 
   [[noreturn]] void not_repaired(VertexId a, VertexId b, const std::string& what) const {
     throw Error("the segment from " + describe(mesh_, a) + " to " + describe(mesh_, b) + " " + what +
@@ -112,10 +110,10 @@ class SegmentRecovery {
 
   /// Turns around `a` to the half-edge from a to b if there is one, or else to the edge opposite to a that ab crosses.
   HalfEdge find_edge_or_crossing(VertexId a, VertexId b) const {
-    const TriangleId first = incident_[id(a)];
+    const TriangleId first = incident_[a];
     TriangleId t = first;
     do {
-      const auto& v = mesh_.triangles[id(t)].vertex;
+      const auto& v = mesh_.triangles[t].vertex;
       const int i = corner_of(t, a);
       const VertexId s = v[next(i)], e = v[previous(i)];
       if (s == b) return half_edge(t, previous(i));
@@ -143,7 +141,7 @@ class SegmentRecovery {
   }
 
   int corner_of(TriangleId t, VertexId v) const {
-    const auto& vertex = mesh_.triangles[id(t)].vertex;
+    const auto& vertex = mesh_.triangles[t].vertex;
     return vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2;
   }
 
@@ -157,11 +155,11 @@ class SegmentRecovery {
   }
 
   HalfEdge find_edge(VertexId u, VertexId w) const {
-    const TriangleId first = incident_[id(u)];
+    const TriangleId first = incident_[u];
     TriangleId t = first;
     do {
       const int i = corner_of(t, u);
-      if (mesh_.triangles[id(t)].vertex[next(i)] == w) return half_edge(t, previous(i));
+      if (mesh_.triangles[t].vertex[next(i)] == w) return half_edge(t, previous(i));
       t = turn(t, u);
     } while (t != first);
     return kNone;
@@ -195,7 +193,7 @@ class SegmentRecovery {
   void constrain(HalfEdge h, RootId root) {
     const HalfEdge g = mesh_.twin(h);
     if (is_constrained(g)) return;  // a duplicate segment: repair() removes those
-    const HalfEdge s = constrained(mesh_.roots[id(root)].tree);
+    const HalfEdge s = constrained(mesh_.roots[root].tree);
     mesh_.link(h, s);
     mesh_.link(g, s);
   }
@@ -211,7 +209,7 @@ class SegmentRecovery {
   }
 
   Triangulation& mesh_;
-  std::vector<TriangleId> incident_;  // a triangle of each vertex
+  IdVector<VertexId, TriangleId> incident_;  // a triangle of each vertex
   std::deque<Pair> crossings_;
   std::vector<TriangleId> flipped_;
   std::vector<HalfEdge> pending_;
@@ -219,7 +217,7 @@ class SegmentRecovery {
 
 void recover_segments(Triangulation& mesh, const std::vector<Pslg::Segment>& segments) {
   SegmentRecovery recovery(mesh);
-  for (const Pslg::Segment& s : segments) recovery.recover(s.a, s.b, s.marker);
+  for (const Pslg::Segment& s : segments) recovery.recover(VertexId{s.a}, VertexId{s.b}, s.marker);
 }
 
 /// The segments, or those of the convex hull if there are none.

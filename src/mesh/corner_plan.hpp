@@ -3,15 +3,25 @@
 #include <cstdint>
 #include <vector>
 
+#include "driftmesh/point.hpp"
 #include "mesh/triangulation.hpp"
 
 namespace driftmesh {
 
-/// One end of a root segment that is still whole: 2 * root + (0: start, 1: end).
-using SegmentEnd = std::int32_t;
+/// One end of a root segment that is still whole: 2 * root + side (0: start, 1: end).
+enum class SegmentEnd : std::int32_t {};
 
+[[nodiscard]] constexpr SegmentEnd segment_end(RootId root, int side) {
+  return SegmentEnd{2 * to_int(root) + side};
+}
 [[nodiscard]] constexpr RootId root_of(SegmentEnd e) {
-  return e / 2;
+  return RootId{to_int(e) / 2};
+}
+[[nodiscard]] constexpr int side_of(SegmentEnd e) {
+  return to_int(e) % 2;
+}
+[[nodiscard]] constexpr SegmentEnd other_end(SegmentEnd e) {
+  return SegmentEnd{to_int(e) ^ 1};
 }
 
 /// Where to cut the segments that meet at acute corners, and which pieces then lie between the same two circles around

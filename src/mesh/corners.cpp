@@ -9,29 +9,27 @@
 namespace driftmesh {
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 /// Cuts what is left of a root segment, which begins at `from` on the apex's side: the piece up to the cut becomes a
 /// new root, the root keeps the rest. Returns the new vertex, kNone if rounding leaves no room.
 VertexId cut_shell_piece(Triangulation& mesh, Cavity& cavity, VertexId from, const CornerPlan::Cut& cut) {
   const RootId root = root_of(cut.end);
-  const SubsegmentId rest = mesh.roots[id(root)].tree;
+  const SubsegmentId rest = mesh.roots[root].tree;
   if (cavity.gather_on(rest, cut.at) != Cavity::Found::kClear) return kNone;
   const VertexId v = mesh.add_vertex(cut.at, kShellEnd + cut.circle);
-  const RootId shell = mesh.add_root(from, v, mesh.roots[id(root)].marker, cut.shell);
-  const SubsegmentId piece = mesh.roots[id(shell)].tree;
-  Subsegment& s = mesh.subsegments[id(rest)];
+  const RootId shell = mesh.add_root(from, v, mesh.roots[root].marker, cut.shell);
+  const SubsegmentId piece = mesh.roots[shell].tree;
+  Subsegment& s = mesh.subsegments[rest];
   const bool at_start = s.vertex[0] == from;
   s.vertex[at_start ? 0 : 1] = v;
-  mesh.roots[id(root)].vertex = s.vertex;
+  mesh.roots[root].vertex = s.vertex;
   cavity.fill_on(v, at_start ? piece : rest, at_start ? rest : piece);
   return v;
 }
 
 /// Makes what is left of a root segment a shell piece that is directed away from the apex, as all of them are.
 void make_shell_piece(Triangulation& mesh, VertexId from, const CornerPlan::TipPiece& tip) {
-  RootSegment& root = mesh.roots[id(root_of(tip.end))];
-  Subsegment& s = mesh.subsegments[id(root.tree)];
+  RootSegment& root = mesh.roots[root_of(tip.end)];
+  Subsegment& s = mesh.subsegments[root.tree];
   root.shell = tip.shell;
   if (s.vertex[0] == from) return;
   std::swap(s.vertex[0], s.vertex[1]);
@@ -43,25 +41,25 @@ void make_shell_piece(Triangulation& mesh, VertexId from, const CornerPlan::TipP
 
 std::int32_t prepare_corners(Triangulation& mesh) {
   const CornerPlan plan = plan_corners(mesh);
-  std::vector<VertexId> reached;  // from each end
+  IdVector<SegmentEnd, VertexId> reached;  // from each end
   for (const RootSegment& root : mesh.roots) reached.insert(reached.end(), root.vertex.begin(), root.vertex.end());
   Cavity cavity(mesh);
   for (const CornerPlan::Cut& cut : plan.cuts) {
-    VertexId& from = reached[id(cut.end)];
+    VertexId& from = reached[cut.end];
     if (const VertexId v = cut_shell_piece(mesh, cavity, from, cut); v != kNone) from = v;
   }
-  for (const CornerPlan::TipPiece& tip : plan.tips) make_shell_piece(mesh, reached[id(tip.end)], tip);
+  for (const CornerPlan::TipPiece& tip : plan.tips) make_shell_piece(mesh, reached[tip.end], tip);
   return plan.clusters;
 }
 
 bool on_same_shell(const Triangulation& mesh, VertexId u, VertexId v) {
-  const VertexOrigin a = mesh.origin[id(u)], b = mesh.origin[id(v)];
+  const VertexOrigin a = mesh.origin[u], b = mesh.origin[v];
   if (is_shell_end(a) && a == b) return true;
   if (!is_midpoint(a) || !is_midpoint(b)) return false;
-  const Subsegment& s = mesh.subsegments[id(~a)];
-  const Subsegment& t = mesh.subsegments[id(~b)];
-  return s.path == t.path && s.root != t.root && mesh.roots[id(s.root)].shell != kNone &&
-         mesh.roots[id(s.root)].shell == mesh.roots[id(t.root)].shell;
+  const Subsegment& s = mesh.subsegments[halved_by(a)];
+  const Subsegment& t = mesh.subsegments[halved_by(b)];
+  return s.path == t.path && s.root != t.root && mesh.roots[s.root].shell != kNone &&
+         mesh.roots[s.root].shell == mesh.roots[t.root].shell;
 }
 
 }  // namespace driftmesh

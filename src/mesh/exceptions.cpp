@@ -10,24 +10,19 @@
 namespace driftmesh {
 namespace {
 
-constexpr auto id = &Triangulation::id;
 constexpr double kDegrees = 180 / std::numbers::pi;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The corner opposite to the shortest edge.
 int apex_of_shortest_edge(const Triangulation& mesh, TriangleId t) {
   std::array<double, 3> squared{};
-  for (int i = 0; i < 3; ++i) squared[at(i)] = squared_distance(mesh.corner(t, next(i)), mesh.corner(t, previous(i)));
+  for (int i = 0; i < 3; ++i) squared[i] = squared_distance(mesh.corner(t, next(i)), mesh.corner(t, previous(i)));
   return static_cast<int>(std::min_element(squared.begin(), squared.end()) - squared.begin());
 }
 
 double area_bound(const Triangulation& mesh, const QualityBounds& bounds, TriangleId t) {
   double bound = bounds.max_area > 0 ? bounds.max_area : kNoBound;
   if (!bounds.region_max_area.empty() && !mesh.region.empty()) {
-    const double own = bounds.region_max_area[mesh.region[id(t)]];
+    const double own = bounds.region_max_area[mesh.region[t]];
     if (own > 0) bound = std::min(bound, own);
   }
   if (bounds.size == nullptr) return bound;
@@ -45,13 +40,12 @@ double area_bound(const Triangulation& mesh, const QualityBounds& bounds, Triang
 /// ahead: otherwise most of the time would be spent waiting for memory.
 template <class Visit>
 void visit_triangles(const Triangulation& mesh, Visit&& visit) {
-  constexpr std::size_t kAhead = 16;
-  const std::size_t count = mesh.triangles.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i + kAhead < count && mesh.triangles[i + kAhead].alive())
-      for (const VertexId v : mesh.triangles[i + kAhead].vertex) __builtin_prefetch(mesh.points.data() + v);
-    if (!mesh.triangles[i].alive()) continue;
-    const auto t = static_cast<TriangleId>(i);
+  constexpr std::int32_t kAhead = 16;
+  for (const TriangleId t : ids_of(mesh.triangles)) {
+    const TriangleId ahead{to_int(t) + kAhead};
+    if (mesh.triangles.has(ahead) && mesh.triangles[ahead].alive())
+      for (const VertexId v : mesh.triangles[ahead].vertex) __builtin_prefetch(&mesh.points[v]);
+    if (!mesh.triangles[t].alive()) continue;
     visit(t, std::array<const Point*, 3>{&mesh.corner(t, 0), &mesh.corner(t, 1), &mesh.corner(t, 2)});
   }
 }
@@ -98,13 +92,12 @@ class CosineBins {
 }  // namespace
 
 ExceptionCause cause_of(const Triangulation& mesh, TriangleId t) {
-  const Triangle& triangle = mesh.triangles[id(t)];
+  const Triangle& triangle = mesh.triangles[t];
   const int i = apex_of_shortest_edge(mesh, t);
-  if (is_constrained(triangle.neighbor[at(next(i))]) && is_constrained(triangle.neighbor[at(previous(i))]))
+  if (is_constrained(triangle.neighbor[next(i)]) && is_constrained(triangle.neighbor[previous(i)]))
     return ExceptionCause::kInputAngle;
-  return on_same_shell(mesh, triangle.vertex[at(next(i))], triangle.vertex[at(previous(i))])
-             ? ExceptionCause::kShell
-             : ExceptionCause::kUnexplained;
+  return on_same_shell(mesh, triangle.vertex[next(i)], triangle.vertex[previous(i)]) ? ExceptionCause::kShell
+                                                                                     : ExceptionCause::kUnexplained;
 }
 
 Exceptions find_exceptions(const Triangulation& mesh, const QualityBounds& bounds) {
@@ -132,10 +125,10 @@ AngleSummary summarize_angles(const Triangulation& mesh) {
   double least = 1, greatest = -1;  // signed squared cosines
   visit_triangles(mesh, [&](TriangleId, const std::array<const Point*, 3>& p) {
     std::array<double, 3> squared{};
-    for (int k = 0; k < 3; ++k) squared[at(k)] = squared_distance(*p[at(next(k))], *p[at(previous(k))]);
+    for (int k = 0; k < 3; ++k) squared[k] = squared_distance(*p[next(k)], *p[previous(k)]);
     for (int k = 0; k < 3; ++k) {
-      const double v = squared[at(next(k))], w = squared[at(previous(k))];
-      const double cosine = signed_square(v + w - squared[at(k)]) / (4 * v * w);  // law of cosines
+      const double v = squared[next(k)], w = squared[previous(k)];
+      const double cosine = signed_square(v + w - squared[k]) / (4 * v * w);  // law of cosines
       ++summary.bins[bins.bin(cosine)];
       least = std::min(least, cosine);
       greatest = std::max(greatest, cosine);

@@ -7,7 +7,7 @@ namespace driftmesh {
 namespace {
 
 const Point& point(const Triangulation& mesh, VertexId v) {
-  return mesh.points[Triangulation::id(v)];
+  return mesh.points[v];
 }
 
 bool is_locally_delaunay(const Triangulation& mesh, HalfEdge h) {
@@ -114,8 +114,8 @@ HalfEdge flip(Triangulation& mesh, HalfEdge h) {
   const HalfEdge ad = mesh.twin(half_edge(u, next(index_of(g))));
   const HalfEdge db = mesh.twin(half_edge(u, previous(index_of(g))));
   // Before: t = (c, a, b), u = (d, b, a). After: t = (d, b, c), u = (c, a, d), sharing the edge c d.
-  mesh.triangles[Triangulation::id(t)].vertex = {b, c, d};
-  mesh.triangles[Triangulation::id(u)].vertex = {a, d, c};
+  mesh.triangles[t].vertex = {b, c, d};
+  mesh.triangles[u].vertex = {a, d, c};
   mesh.link(half_edge(t, 0), half_edge(u, 0));
   mesh.link(half_edge(t, 2), bc);
   mesh.link(half_edge(t, 1), db);
@@ -150,7 +150,7 @@ bool remove_vertex(Triangulation& mesh, HalfEdge h, std::vector<TriangleId>& cha
   // Places the triangle over two consecutive sides and returns its third edge.
   const auto place = [&](const Star::Side& ab, const Star::Side& bc, VertexId c) {
     const TriangleId t = star.slots[used++];
-    mesh.triangles[Triangulation::id(t)].vertex = {ab.from, bc.from, c};
+    mesh.triangles[t].vertex = {ab.from, bc.from, c};
     mesh.link(half_edge(t, 2), ab.outer);
     mesh.link(half_edge(t, 0), bc.outer);
     changed.push_back(t);

@@ -5,15 +5,12 @@
 #include <bit>
 #include <tuple>
 
+#include "base/id_vector.hpp"
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {
-
-constexpr std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// To the last bit; also NaN, and -0 against 0.
 bool same_bits(double a, double b) {
@@ -51,7 +48,7 @@ class Merger {
       }
     }
     if (largest >= static_cast<std::int64_t>(sum)) close_ranks(largest);
-    const std::size_t count = numbers_.empty() ? at(largest + 1) : numbers_.size();
+    const std::size_t count = numbers_.empty() ? to_index(largest + 1) : numbers_.size();
     (void)narrow<std::int32_t>(count, "points of the merged mesh");
     whole_.points.resize(count);
     holder_.assign(count, {kNobody, 0});
@@ -70,8 +67,8 @@ class Merger {
 
   /// The place of a point in the whole: its number, unless there are gaps.
   [[nodiscard]] std::size_t place_of(std::int64_t number) const {
-    if (numbers_.empty()) return at(number);
-    return static_cast<std::size_t>(std::lower_bound(numbers_.begin(), numbers_.end(), number) - numbers_.begin());
+    if (numbers_.empty()) return number;
+    return std::lower_bound(numbers_.begin(), numbers_.end(), number) - numbers_.begin();
   }
 
   /// An array is merged if every piece has it.
@@ -86,7 +83,7 @@ class Merger {
       faults_.add([] { return std::string("pieces have different numbers of attributes at a point"); });
       whole_.attributes_per_point = 0;
     }
-    whole_.attributes.assign(whole_.points.size() * at(whole_.attributes_per_point), 0);
+    whole_.attributes.assign(whole_.points.size() * whole_.attributes_per_point, 0);
     has_regions_ = all([](const Mesh& p) { return p.regions.size() == p.triangles.size(); });
     has_subdomains_ = all([](const Mesh& p) { return p.subdomains.size() == p.triangles.size(); });
     has_ranks_ = all([](const Mesh& p) { return p.ranks.size() == p.triangles.size(); });
@@ -111,7 +108,7 @@ class Merger {
   void take_point(const Mesh& piece, std::size_t v, std::size_t place) {
     whole_.points[place] = piece.points[v];
     if (!whole_.point_markers.empty()) whole_.point_markers[place] = piece.point_markers[v];
-    const std::size_t width = at(whole_.attributes_per_point);
+    const std::size_t width = whole_.attributes_per_point;
     for (std::size_t i = 0; i < width; ++i) whole_.attributes[place * width + i] = piece.attributes[v * width + i];
   }
 
@@ -121,8 +118,8 @@ class Merger {
   };
 
   void compare(const Holder& first, std::size_t k, std::size_t v) {
-    const Mesh &one = pieces_[at(first.piece)], &other = pieces_[k];
-    const std::size_t u = at(first.point);
+    const Mesh &one = pieces_[first.piece], &other = pieces_[k];
+    const std::size_t u = first.point;
     const Point &p = one.points[u], &q = other.points[v];
     const auto say = [&](const char* what) {
       faults_.add([&] {
@@ -132,7 +129,7 @@ class Merger {
     };
     if (!same_bits(p.x, q.x) || !same_bits(p.y, q.y)) say("coordinates");
     if (!whole_.point_markers.empty() && one.point_markers[u] != other.point_markers[v]) say("marker");
-    const std::size_t width = at(whole_.attributes_per_point);
+    const std::size_t width = whole_.attributes_per_point;
     for (std::size_t i = 0; i < width; ++i)
       if (!same_bits(one.attributes[u * width + i], other.attributes[v * width + i])) return say("attributes");
   }
@@ -189,7 +186,7 @@ class Merger {
   }
 
   [[nodiscard]] std::int32_t place(const Mesh& piece, std::int32_t v) const {
-    return static_cast<std::int32_t>(place_of(piece.numbers[at(v)]));
+    return static_cast<std::int32_t>(place_of(piece.numbers[v]));
   }
 
   /// Sorted, so that copies follow each other. Duplicates within one piece stay, for a check to find.

@@ -8,10 +8,6 @@
 namespace driftmesh {
 namespace {
 
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
-
 // Half-edge h = 3 t + i is the edge of triangle t opposite its vertex i.
 struct Ends {
   std::int32_t low;
@@ -34,11 +30,11 @@ struct Buckets {
 Buckets bucket_by_low_vertex(const Mesh& mesh, std::uint32_t half_edge_count) {
   Buckets buckets;
   buckets.first.assign(mesh.points.size() + 1, 0);
-  for (std::uint32_t h = 0; h < half_edge_count; ++h) ++buckets.first[at(ends_of(mesh, h).low) + 1];
+  for (std::uint32_t h = 0; h < half_edge_count; ++h) ++buckets.first[ends_of(mesh, h).low + 1];
   for (std::size_t v = 1; v < buckets.first.size(); ++v) buckets.first[v] += buckets.first[v - 1];
   buckets.half_edges.resize(half_edge_count);
   std::vector<std::uint32_t> next(buckets.first.begin(), buckets.first.end() - 1);
-  for (std::uint32_t h = 0; h < half_edge_count; ++h) buckets.half_edges[next[at(ends_of(mesh, h).low)]++] = h;
+  for (std::uint32_t h = 0; h < half_edge_count; ++h) buckets.half_edges[next[ends_of(mesh, h).low]++] = h;
   return buckets;
 }
 
@@ -60,7 +56,7 @@ TriangleNeighbors triangle_neighbors(const Mesh& mesh) {
   std::vector<Waiting> waiting(mesh.points.size());  // by high vertex: an edge (low, high) seen once so far
   for (std::uint32_t h : buckets.half_edges) {
     const Ends edge = ends_of(mesh, h);
-    Waiting& other = waiting[at(edge.high)];
+    Waiting& other = waiting[edge.high];
     if (other.low == edge.low) {
       link(neighbors, other.half_edge, h);
       other.low = -1;
@@ -75,7 +71,7 @@ ConstrainedEdgeIndex::ConstrainedEdgeIndex(const Mesh& mesh) : edges_(mesh.edges
   slots_.assign(std::bit_ceil(2 * mesh.edges.size() + 1), -1);
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     const auto [low, high] = std::minmax(edges_[i].a, edges_[i].b);
-    on_edge_[at(low)] = on_edge_[at(high)] = true;
+    on_edge_[low] = on_edge_[high] = true;
     if (look_up(low, high) != -1) continue;
     std::size_t slot = home_slot(low, high);
     while (slots_[slot] != -1) slot = (slot + 1) & (slots_.size() - 1);
@@ -85,13 +81,13 @@ ConstrainedEdgeIndex::ConstrainedEdgeIndex(const Mesh& mesh) : edges_(mesh.edges
 
 std::size_t ConstrainedEdgeIndex::home_slot(std::int32_t low, std::int32_t high) const {
   const std::uint64_t key = (static_cast<std::uint64_t>(low) << 32) | static_cast<std::uint32_t>(high);
-  return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> 20) & (slots_.size() - 1);
+  return ((key * 0x9e3779b97f4a7c15u) >> 20) & (slots_.size() - 1);
 }
 
 std::int32_t ConstrainedEdgeIndex::look_up(std::int32_t a, std::int32_t b) const {
   const auto [low, high] = std::minmax(a, b);
   for (std::size_t slot = home_slot(low, high); slots_[slot] != -1; slot = (slot + 1) & (slots_.size() - 1)) {
-    const Mesh::Edge& edge = edges_[at(slots_[slot])];
+    const Mesh::Edge& edge = edges_[slots_[slot]];
     if (std::min(edge.a, edge.b) == low && std::max(edge.a, edge.b) == high) return slots_[slot];
   }
   return -1;
@@ -104,7 +100,7 @@ std::vector<std::array<std::int32_t, 2>> triangles_at_edges(const Mesh& mesh, co
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t from = triangle[(i + 1) % 3];
       const std::int32_t edge = index.find(from, triangle[(i + 2) % 3]);
-      if (edge != -1) at_edges[at(edge)][mesh.edges[at(edge)].a == from ? 0 : 1] = static_cast<std::int32_t>(t);
+      if (edge != -1) at_edges[edge][mesh.edges[edge].a == from ? 0 : 1] = static_cast<std::int32_t>(t);
     }
   }
   return at_edges;

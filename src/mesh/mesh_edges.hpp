@@ -24,10 +24,10 @@ class ConstrainedEdgeIndex {
 
   /// The index into mesh.edges of the edge between a and b (in either direction; the first, if listed twice), or -1.
   [[nodiscard]] std::int32_t find(std::int32_t a, std::int32_t b) const {
-    return on_edge_[static_cast<std::size_t>(a)] && on_edge_[static_cast<std::size_t>(b)] ? look_up(a, b) : -1;
+    return on_edge_[a] && on_edge_[b] ? look_up(a, b) : -1;
   }
   /// Whether some constrained edge ends at the vertex.
-  [[nodiscard]] bool touches(std::int32_t vertex) const { return on_edge_[static_cast<std::size_t>(vertex)]; }
+  [[nodiscard]] bool touches(std::int32_t vertex) const { return on_edge_[vertex]; }
 
  private:
   [[nodiscard]] std::int32_t look_up(std::int32_t a, std::int32_t b) const;

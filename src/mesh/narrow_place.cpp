@@ -10,7 +10,6 @@
 namespace driftmesh {
 namespace {
 
-constexpr auto id = &Triangulation::id;
 /// Measured at an angle bound of 20 degrees, for parallel segments of equal length: 2.2 to 3.7.
 constexpr double kTrianglesPerWidth = 3;
 
@@ -45,20 +44,19 @@ std::optional<NarrowPlace> place_between(const Point& a, const Point& b, const P
 }  // namespace
 
 std::optional<NarrowPlace> find_narrow_place(const Triangulation& mesh) {
-  std::vector<std::vector<VertexId>> joined(mesh.points.size());  // by a segment
+  IdVector<VertexId, std::vector<VertexId>> joined(mesh.points.size());  // by a segment
   for (const RootSegment& root : mesh.roots)
-    for (const int end : {0, 1}) joined[id(root.vertex[id(end)])].push_back(root.vertex[id(1 - end)]);
+    for (const int end : {0, 1}) joined[root.vertex[end]].push_back(root.vertex[1 - end]);
   std::optional<NarrowPlace> worst;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!mesh.triangles[i].alive()) continue;
+  for (const TriangleId t : ids_of(mesh.triangles)) {
+    if (!mesh.triangles[t].alive()) continue;
     for (int k = 0; k < 3; ++k) {
-      const HalfEdge h = half_edge(static_cast<TriangleId>(i), k);
+      const HalfEdge h = half_edge(t, k);
       if (!is_constrained(mesh.twin(h))) continue;
       const VertexId a = mesh.edge_start(h), b = mesh.edge_end(h), c = mesh.apex(h);
-      for (const VertexId d : joined[id(c)]) {
+      for (const VertexId d : joined[c]) {
         if (d == a || d == b) continue;
-        const auto place =
-            place_between(mesh.points[id(a)], mesh.points[id(b)], mesh.points[id(c)], mesh.points[id(d)]);
+        const auto place = place_between(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
         if (place && (!worst || place->triangles > worst->triangles)) worst = place;
       }
     }

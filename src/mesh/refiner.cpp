@@ -106,7 +106,7 @@ inline Refiner::Shape Refiner::shape_of(TriangleId t) const {
 
 /// The bound of the request and of the region, without the size field.
 inline double Refiner::constant_bound(TriangleId t) const {
-  return twice_area_bounds_.size() > 1 && !mesh_.region.empty() ? twice_area_bounds_[mesh_.region[id(t)]]
+  return twice_area_bounds_.size() > 1 && !mesh_.region.empty() ? twice_area_bounds_[mesh_.region[t]]
                                                                 : twice_area_bounds_[0];
 }
 
@@ -117,18 +117,17 @@ inline double Refiner::twice_area_bound(TriangleId t) const {
 }
 
 double Refiner::sized_bound(TriangleId t) const {
-  const auto& v = mesh_.triangles[id(t)].vertex;
+  const auto& v = mesh_.triangles[t].vertex;
   const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-  const double h = std::min({state_.size[id(v[0])], state_.size[id(v[1])], state_.size[id(v[2])],
+  const double h = std::min({state_.size[v[0]], state_.size[v[1]], state_.size[v[2]],
                              bounds_.size->edge_length({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3})});
   return twice_area_of_edge(h);
 }
 
 double Refiner::predict_triangles() const {
   double sum = 0;
-  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-    if (!mesh_.triangles[i].alive()) continue;
-    const auto t = static_cast<TriangleId>(i);
+  for (const TriangleId t : ids_of(mesh_.triangles)) {
+    if (!mesh_.triangles[t].alive()) continue;
     double count = twice_area(t) / (kMeanArea * constant_bound(t));
     if (bounds_.size != nullptr)
       count = integrate_size(*bounds_.size, constant_bound(t),
@@ -174,7 +173,7 @@ bool Refiner::step() {
 }
 
 void Refiner::enter(Stage stage) {
-  const auto size = [this] { return static_cast<TriangleId>(mesh_.triangles.size()); };
+  const auto size = [this] { return to_int(mesh_.triangles.next_id()); };
   state_.stage = stage;
   switch (stage) {
     case Stage::kCoarse:
@@ -186,15 +185,14 @@ void Refiner::enter(Stage stage) {
       coarsening_ = 1;
       if (after_coarse) renumber(mesh_, GivenVertices::kFirst);
       if (after_coarse && bounds_.size != nullptr)
-        for (std::size_t v = 0; v < mesh_.points.size(); ++v)
-          state_.size[v] = bounds_.size->edge_length(mesh_.points[v]);
-      state_.sweep.start(size(), after_coarse ? static_cast<TriangleId>(kFinePerBlock / kFinePerCoarse) : size());
+        for (const VertexId v : ids_of(mesh_.points)) state_.size[v] = bounds_.size->edge_length(mesh_.points[v]);
+      state_.sweep.start(size(), after_coarse ? static_cast<std::int32_t>(kFinePerBlock / kFinePerCoarse) : size());
       state_.skinny.clear();
       break;
     }
     case Stage::kRest:
       for (const TriangleId t : state_.deferred)
-        if (mesh_.triangles[id(t)].alive()) note(t, shape_of(t));
+        if (mesh_.triangles[t].alive()) note(t, shape_of(t));
       state_.deferred.clear();
       break;
     case Stage::kDone:  // most refiners are done for most of a run: keep them small
@@ -215,27 +213,27 @@ bool Refiner::wants_coarse_stage() const {
 
 /// Splits the next given segment if its lens holds a vertex from the start.
 bool Refiner::step_segments() {
-  if (state_.next_segment == static_cast<SubsegmentId>(mesh_.subsegments.size())) return false;
-  const Subsegment& s = mesh_.subsegments[id(state_.next_segment)];
+  if (state_.next_segment == mesh_.subsegments.next_id()) return false;
+  const Subsegment& s = mesh_.subsegments[state_.next_segment];
   if (s.is_leaf()) {
-    const Point &a = mesh_.points[id(s.vertex[0])], &b = mesh_.points[id(s.vertex[1])];
+    const Point &a = mesh_.points[s.vertex[0]], &b = mesh_.points[s.vertex[1]];
     const double cosine = -std::sqrt(lens_.cos_squared);
     for (const HalfEdge h : s.half)
-      if (h != kNone && in_diametral_lens(mesh_.points[id(mesh_.apex(h))], a, b, cosine)) {
+      if (h != kNone && in_diametral_lens(mesh_.points[mesh_.apex(h)], a, b, cosine)) {
         split_and_tell(state_.next_segment);
         break;
       }
   }
-  ++state_.next_segment;
+  state_.next_segment = after(state_.next_segment);
   return true;
 }
 
 /// Sweeps on to the next triangle that is too large, and inserts its circumcenter. False at the end of the block.
 bool Refiner::step_large() {
   for (;;) {
-    const TriangleId t = state_.sweep.current(static_cast<TriangleId>(mesh_.triangles.size()));
+    const TriangleId t = state_.sweep.current(to_int(mesh_.triangles.next_id()));
     if (t == kNone) return false;
-    if (mesh_.triangles[id(t)].alive()) [[likely]] {
+    if (mesh_.triangles[t].alive()) [[likely]] {
       const double bound = twice_area_bound(t);
       if (twice_area(t) > bound) {
         if (improve(t, circumcenter(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2))) == Progress::kChanged)
@@ -254,7 +252,7 @@ bool Refiner::step_skinny() {
   const SkinnyBuckets::Entry entry = state_.skinny.take();
   const TriangleId t = entry.triangle;
   if (t == kNone) return false;
-  if (!mesh_.triangles[id(t)].alive()) return true;
+  if (!mesh_.triangles[t].alive()) return true;
   const Shape s = shape_of(t);
   if (!is_skinny(s) || !entry.fits(s.shortest)) return true;
   if (cause_of(mesh_, t) != ExceptionCause::kUnexplained) return true;
@@ -273,8 +271,8 @@ bool Refiner::step_skinny() {
 VertexId Refiner::add_vertex(const Point& p, VertexOrigin origin) {
   const VertexId v = mesh_.add_vertex(p, origin);
   if (bounds_.size != nullptr) {
-    if (id(v) >= state_.size.size()) state_.size.resize_uninitialized(id(v) + 1);
-    state_.size[id(v)] = bounds_.size->edge_length(p);
+    if (!state_.size.has(v)) state_.size.resize_uninitialized(to_index(v) + 1);
+    state_.size[v] = bounds_.size->edge_length(p);
   }
   return v;
 }
@@ -300,45 +298,43 @@ inline Refiner::Progress Refiner::improve(TriangleId t, const Point& p) {
 void Refiner::clear_diametral_circle(SubsegmentId s) {
   for (const std::size_t side : {0, 1}) {
     for (;;) {
-      const Subsegment& segment = mesh_.subsegments[id(s)];
+      const Subsegment& segment = mesh_.subsegments[s];
       const HalfEdge h = segment.half[side];
       if (h == kNone) break;
       const VertexId apex = mesh_.apex(h);
-      if (mesh_.origin[id(apex)] != kFree) break;
-      if (!in_diametral_lens(mesh_.points[id(apex)], mesh_.points[id(segment.vertex[0])],
-                             mesh_.points[id(segment.vertex[1])], 0))
+      if (mesh_.origin[apex] != kFree) break;
+      if (!in_diametral_lens(mesh_.points[apex], mesh_.points[segment.vertex[0]], mesh_.points[segment.vertex[1]], 0))
         break;
       changed_.clear();
       if (!remove_vertex(mesh_, h, changed_)) break;
       ++state_.counters.deleted_points;
       for (const TriangleId t : changed_)
-        if (mesh_.triangles[id(t)].alive()) note(t, shape_of(t));
+        if (mesh_.triangles[t].alive()) note(t, shape_of(t));
     }
   }
 }
 
 /// Splits leaf s at its midpoint. False if depth or precision does not allow it.
 bool Refiner::split(SubsegmentId s) {
-  if (dyadic::depth(mesh_.subsegments[id(s)].path) >= dyadic::kMaxDepth || state_.unsplittable.contains(s))
-    return false;
+  if (dyadic::depth(mesh_.subsegments[s].path) >= dyadic::kMaxDepth || state_.unsplittable.contains(s)) return false;
   clear_diametral_circle(s);
-  const auto [a, b] = mesh_.subsegments[id(s)].vertex;
-  const Point m = midpoint(mesh_.points[id(a)], mesh_.points[id(b)]);
+  const auto [a, b] = mesh_.subsegments[s].vertex;
+  const Point m = midpoint(mesh_.points[a], mesh_.points[b]);
   if (cavity_.gather_on(s, m) != Cavity::Found::kClear) {
     // Not tried again: the vertices deleted for it would come back and be deleted again, forever.
     state_.unsplittable.insert(s);
     return false;
   }
-  const VertexId v = add_vertex(m, ~s);
+  const VertexId v = add_vertex(m, midpoint_of(s));
   const SubsegmentId child = mesh_.halve(s, v);
-  cavity_.fill_on(v, child, child + 1);
+  cavity_.fill_on(v, child, after(child));
   ++state_.counters.segment_points;
   note_fresh();
   return true;
 }
 
 bool Refiner::split_and_tell(SubsegmentId s) {
-  const SplitPoint<RootId> point{mesh_.subsegments[id(s)].root, mesh_.subsegments[id(s)].path};
+  const SplitPoint<RootId> point{mesh_.subsegments[s].root, mesh_.subsegments[s].path};
   if (!split(s)) return false;
   state_.made.push_back(point);
   return true;
@@ -347,7 +343,7 @@ bool Refiner::split_and_tell(SubsegmentId s) {
 bool Refiner::add_split_point(RootId root, dyadic::Path path) {
   for (;;) {
     const SubsegmentId s = mesh_.descend(root, path);
-    if (!mesh_.subsegments[id(s)].is_leaf()) return true;
+    if (!mesh_.subsegments[s].is_leaf()) return true;
     if (state_.stage == Stage::kDone) enter(Stage::kRest);
     if (!split(s)) return false;
   }

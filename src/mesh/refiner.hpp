@@ -67,7 +67,6 @@ class Refiner {
     double longer_two;         // the product of their squared lengths
   };
 
-  static constexpr std::size_t id(std::int32_t i) { return Triangulation::id(i); }
   static Shape shape(double twice_area, double ab, double bc, double ca);
   [[nodiscard]] Shape shape_of(TriangleId t) const;
   [[nodiscard]] double twice_area(TriangleId t) const;

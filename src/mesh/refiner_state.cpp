@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace driftmesh {
 namespace {
 
-bool are_below(const std::vector<std::int32_t>& handles, std::size_t count) {
-  return std::all_of(handles.begin(), handles.end(),
-                     [&](std::int32_t h) { return h >= 0 && static_cast<std::size_t>(h) < count; });
+/// Whether all handles are of elements of `array`.
+template <class Handles, class Array>
+bool exist(const Handles& handles, const Array& array) {
+  return std::all_of(handles.begin(), handles.end(), [&](auto handle) { return array.has(handle); });
 }
 
-bool is_sound(const Sweep& sweep, std::size_t triangles) {
+bool is_sound(const Sweep& sweep, const Triangulation& mesh) {
   const auto [cursor, block_end, given, added, block] = sweep.places();
   return 0 <= cursor && cursor <= block_end && block_end <= given && given <= added &&
-         static_cast<std::size_t>(added) <= triangles && block >= 1 && are_below(sweep.again(), triangles);
+         std::cmp_less_equal(added, mesh.triangles.size()) && block >= 1 && exist(sweep.again(), mesh.triangles);
 }
 
 /// Further counting cannot overflow.
@@ -24,20 +26,18 @@ bool is_sound(const RefineCounters& c) {
   return std::all_of(all.begin(), all.end(), [](std::int64_t n) { return n >= 0 && n < kMost; });
 }
 
-bool is_sound(const SkinnyBuckets& skinny, std::size_t triangles) {
+bool is_sound(const SkinnyBuckets& skinny, const Triangulation& mesh) {
   const std::vector<SkinnyBuckets::Entry> entries = skinny.entries();
-  return std::all_of(entries.begin(), entries.end(), [&](const SkinnyBuckets::Entry& e) {
-    return e.triangle >= 0 && static_cast<std::size_t>(e.triangle) < triangles;
-  });
+  return std::all_of(entries.begin(), entries.end(), [&](const auto& e) { return mesh.triangles.has(e.triangle); });
 }
 
 }  // namespace
 
 RefinerState RefinerState::at_rest(const Triangulation& mesh, const QualityBounds& bounds) {
   RefinerState state;
-  const auto triangles = static_cast<TriangleId>(mesh.triangles.size());
+  const std::int32_t triangles = to_int(mesh.triangles.next_id());
   state.stage = Stage::kDone;
-  state.next_segment = static_cast<SubsegmentId>(mesh.subsegments.size());
+  state.next_segment = mesh.subsegments.next_id();
   state.sweep = Sweep({triangles, triangles, triangles, triangles, 1}, {});
   if (bounds.size != nullptr)
     for (const Point& p : mesh.points) state.size.push_back(bounds.size->edge_length(p));
@@ -45,17 +45,14 @@ RefinerState RefinerState::at_rest(const Triangulation& mesh, const QualityBound
 }
 
 std::string RefinerState::fault(const Triangulation& mesh, const QualityBounds& bounds) const {
-  const std::size_t triangles = mesh.triangles.size(), subsegments = mesh.subsegments.size();
-  const std::vector<SubsegmentId> kept_whole(unsplittable.begin(), unsplittable.end());
   if (stage > Stage::kDone) return "there is no such stage";
-  if (next_segment < 0 || static_cast<std::size_t>(next_segment) > subsegments) return "no segment is next";
-  if (!is_sound(sweep, triangles)) return "the sweep leaves the mesh";
-  if (!is_sound(skinny, triangles)) return "a skinny triangle does not exist";
-  if (!are_below(deferred, triangles)) return "a deferred triangle does not exist";
-  if (!are_below(kept_whole, subsegments)) return "an unsplittable subsegment does not exist";
+  if (!mesh.subsegments.has(next_segment) && next_segment != mesh.subsegments.next_id()) return "no segment is next";
+  if (!is_sound(sweep, mesh)) return "the sweep leaves the mesh";
+  if (!is_sound(skinny, mesh)) return "a skinny triangle does not exist";
+  if (!exist(deferred, mesh.triangles)) return "a deferred triangle does not exist";
+  if (!exist(unsplittable, mesh.subsegments)) return "an unsplittable subsegment does not exist";
   for (const SplitPoint<RootId>& p : made)
-    if (p.root < 0 || static_cast<std::size_t>(p.root) >= mesh.roots.size() || p.path == 0 ||
-        dyadic::depth(p.path) > dyadic::kMaxDepth)
+    if (!mesh.roots.has(p.root) || p.path == 0 || dyadic::depth(p.path) > dyadic::kMaxDepth)
       return "a split point is on no root";
   if (!is_sound(counters)) return "a counter is negative or impossibly large";
   if (max_triangles > kMaxTriangles - 64) return "the limit on triangles exceeds what handles can name";

@@ -20,13 +20,13 @@ struct RefinerState {
   enum class Stage : std::uint8_t { kSegments, kCoarse, kFine, kRest, kDone };
 
   Stage stage = Stage::kSegments;
-  SubsegmentId next_segment = 0;  ///< of kSegments
+  SubsegmentId next_segment{0};  ///< of kSegments
   Sweep sweep;
   SkinnyBuckets skinny;
   std::vector<TriangleId> deferred;               ///< skinny ones, until kRest
   std::unordered_set<SubsegmentId> unsplittable;  ///< coordinates have no room for their midpoints
   std::vector<SplitPoint<RootId>> made;           ///< split points not yet taken by take_split_points
-  GrowingArray<double> size;                      ///< the size field at each vertex; empty without one
+  GrowingArray<double, VertexId> size;            ///< the size field at each vertex; empty without one
   std::int64_t max_triangles = kMaxTriangles - 64;
   RefineCounters counters;
 

@@ -10,13 +10,11 @@
 namespace driftmesh {
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 std::vector<TriangleId> live_triangles(const Triangulation& mesh) {
   std::vector<TriangleId> live;
   live.reserve(mesh.live_triangles());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (mesh.triangles[t].alive()) live.push_back(static_cast<TriangleId>(t));
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) live.push_back(t);
   return live;
 }
 
@@ -37,43 +35,43 @@ void sort_by_hilbert(const Triangulation& mesh, std::vector<TriangleId>& triangl
   std::transform(keyed.begin(), keyed.end(), triangles.begin(), [](const auto& k) { return k.second; });
 }
 
-std::vector<bool> used_vertices(const Triangulation& mesh, const std::vector<TriangleId>& triangles) {
-  std::vector<bool> used(mesh.points.size(), false);
+IdVector<VertexId, bool> used_vertices(const Triangulation& mesh, const std::vector<TriangleId>& triangles) {
+  IdVector<VertexId, bool> used(mesh.points.size(), false);
   for (const TriangleId t : triangles)
-    for (const VertexId v : mesh.triangles[id(t)].vertex) used[id(v)] = true;
+    for (const VertexId v : mesh.triangles[t].vertex) used[v] = true;
   return used;
 }
 
 /// New ids in the order of first use by `order`, after the given vertices if these come first; kNone for unused
 /// vertices.
-std::vector<VertexId> vertices_by_use(const Triangulation& mesh, const std::vector<TriangleId>& order,
-                                      GivenVertices given, std::vector<VertexId>& old_of_new) {
-  std::vector<VertexId> new_of_old(mesh.points.size(), kNone);
+IdVector<VertexId, VertexId> vertices_by_use(const Triangulation& mesh, const std::vector<TriangleId>& order,
+                                             GivenVertices given, IdVector<VertexId, VertexId>& old_of_new) {
+  IdVector<VertexId, VertexId> new_of_old(mesh.points.size(), kNone);
   if (given == GivenVertices::kFirst) {
-    const std::vector<bool> used = used_vertices(mesh, order);
-    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    const IdVector<VertexId, bool> used = used_vertices(mesh, order);
+    for (const VertexId v : ids_of(mesh.points))
       if (used[v] && (is_input(mesh.origin[v]) || is_shell_end(mesh.origin[v]))) {
-        new_of_old[v] = static_cast<VertexId>(old_of_new.size());
-        old_of_new.push_back(static_cast<VertexId>(v));
+        new_of_old[v] = old_of_new.next_id();
+        old_of_new.push_back(v);
       }
   }
   for (const TriangleId t : order)
-    for (const VertexId v : mesh.triangles[id(t)].vertex)
-      if (new_of_old[id(v)] == kNone) {
-        new_of_old[id(v)] = static_cast<VertexId>(old_of_new.size());
+    for (const VertexId v : mesh.triangles[t].vertex)
+      if (new_of_old[v] == kNone) {
+        new_of_old[v] = old_of_new.next_id();
         old_of_new.push_back(v);
       }
   return new_of_old;
 }
 
-void move_vertices(Triangulation& mesh, const std::vector<VertexId>& old_of_new) {
-  GrowingArray<Point> points;
-  GrowingArray<VertexOrigin> origin;
+void move_vertices(Triangulation& mesh, const IdVector<VertexId, VertexId>& old_of_new) {
+  GrowingArray<Point, VertexId> points;
+  GrowingArray<VertexOrigin, VertexId> origin;
   points.reserve(old_of_new.size());
   origin.reserve(old_of_new.size());
   for (const VertexId v : old_of_new) {
-    points.push_back(mesh.points[id(v)]);
-    origin.push_back(mesh.origin[id(v)]);
+    points.push_back(mesh.points[v]);
+    origin.push_back(mesh.origin[v]);
   }
   mesh.points.swap(points);
   mesh.origin.swap(origin);
@@ -81,37 +79,39 @@ void move_vertices(Triangulation& mesh, const std::vector<VertexId>& old_of_new)
 }
 
 void move_triangles(Triangulation& mesh, const std::vector<TriangleId>& order,
-                    const std::vector<VertexId>& new_vertex) {
-  std::vector<TriangleId> new_of_old(mesh.triangles.size(), kNone);
-  for (std::size_t i = 0; i < order.size(); ++i) new_of_old[id(order[i])] = static_cast<TriangleId>(i);
-  const auto moved = [&](HalfEdge h) { return h < 0 ? h : half_edge(new_of_old[id(triangle_of(h))], index_of(h)); };
+                    const IdVector<VertexId, VertexId>& new_vertex) {
+  IdVector<TriangleId, TriangleId> new_of_old(mesh.triangles.size(), kNone);
+  for (std::size_t i = 0; i < order.size(); ++i) new_of_old[order[i]] = static_cast<TriangleId>(i);
+  const auto moved = [&](HalfEdge h) {
+    return is_constrained(h) ? h : half_edge(new_of_old[triangle_of(h)], index_of(h));
+  };
 
-  GrowingArray<Triangle> triangles;
-  GrowingArray<std::uint16_t> region;
+  GrowingArray<Triangle, TriangleId> triangles;
+  GrowingArray<std::uint16_t, TriangleId> region;
   triangles.reserve(order.size());
   for (const TriangleId t : order) {
-    Triangle triangle = mesh.triangles[id(t)];
-    for (VertexId& v : triangle.vertex) v = new_vertex[id(v)];
+    Triangle triangle = mesh.triangles[t];
+    for (VertexId& v : triangle.vertex) v = new_vertex[v];
     for (HalfEdge& h : triangle.neighbor) h = moved(h);
     triangles.push_back(triangle);
-    if (!mesh.region.empty()) region.push_back(mesh.region[id(t)]);
+    if (!mesh.region.empty()) region.push_back(mesh.region[t]);
   }
   mesh.triangles.swap(triangles);
   mesh.region.swap(region);
   mesh.free_triangles.clear();
   for (Subsegment& s : mesh.subsegments)
     if (s.is_leaf())
-      for (HalfEdge& h : s.half) h = h == kNone ? kNone : moved(h);
+      for (HalfEdge& h : s.half) h = moved(h);
 }
 
 void rebuild_in_order(Triangulation& mesh, const std::vector<TriangleId>& order, GivenVertices given) {
-  std::vector<VertexId> old_of_new;
-  const std::vector<VertexId> new_vertex = vertices_by_use(mesh, order, given, old_of_new);
+  IdVector<VertexId, VertexId> old_of_new;
+  const IdVector<VertexId, VertexId> new_vertex = vertices_by_use(mesh, order, given, old_of_new);
   move_triangles(mesh, order, new_vertex);
   for (Subsegment& s : mesh.subsegments)
-    for (VertexId& v : s.vertex) v = new_vertex[id(v)];
+    for (VertexId& v : s.vertex) v = new_vertex[v];
   for (RootSegment& r : mesh.roots)
-    for (VertexId& v : r.vertex) v = new_vertex[id(v)];
+    for (VertexId& v : r.vertex) v = new_vertex[v];
   move_vertices(mesh, old_of_new);
 }
 

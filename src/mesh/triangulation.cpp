@@ -10,17 +10,18 @@ VertexId Triangulation::add_vertex(const Point& p, VertexOrigin what) {
   if (!free_vertices.empty()) {
     const VertexId v = free_vertices.back();
     free_vertices.pop_back();
-    points[id(v)] = p;
-    origin[id(v)] = what;
+    points[v] = p;
+    origin[v] = what;
     return v;
   }
+  const VertexId v = points.next_id();
   points.push_back(p);
   origin.push_back(what);
-  return static_cast<VertexId>(points.size() - 1);
+  return v;
 }
 
 void Triangulation::remove_vertex(VertexId v) {
-  origin[id(v)] = kDeleted;
+  origin[v] = kDeleted;
   free_vertices.push_back(v);
 }
 
@@ -33,25 +34,26 @@ TriangleId Triangulation::add_triangle() {
   if (static_cast<std::int64_t>(triangles.size()) >= kMaxTriangles)
     throw LimitError("a subdomain cannot hold more than " + std::to_string(kMaxTriangles) +
                      " triangles; use more subdomains or a larger area bound");
+  const TriangleId t = triangles.next_id();
   triangles.resize_uninitialized(triangles.size() + 1);
   if (!region.empty()) region.resize_uninitialized(triangles.size());
-  return static_cast<TriangleId>(triangles.size() - 1);
+  return t;
 }
 
 void Triangulation::remove_triangle(TriangleId t) {
-  triangles[id(t)].vertex[0] = kNone;
+  triangles[t].vertex[0] = kNone;
   free_triangles.push_back(t);
 }
 
 void Triangulation::link(HalfEdge inner, HalfEdge outer) {
-  triangles[id(triangle_of(inner))].neighbor[index_of(inner)] = outer;
+  triangles[triangle_of(inner)].neighbor[index_of(inner)] = outer;
   if (is_constrained(outer)) {
-    Subsegment& s = subsegments[id(subsegment_of(outer))];
+    Subsegment& s = subsegments[subsegment_of(outer)];
     const int side = s.vertex[0] == edge_start(inner) ? 0 : 1;
     DM_ASSERT(s.vertex[side] == edge_start(inner) && s.vertex[1 - side] == edge_end(inner));
     s.half[side] = inner;
   } else {
-    triangles[id(triangle_of(outer))].neighbor[index_of(outer)] = inner;
+    triangles[triangle_of(outer)].neighbor[index_of(outer)] = inner;
   }
 }
 
@@ -66,19 +68,19 @@ RootId Triangulation::add_root(VertexId a, VertexId b, std::int32_t marker, std:
 
 SubsegmentId Triangulation::halve(SubsegmentId s, VertexId m) {
   const auto child = narrow<SubsegmentId>(subsegments.size(), "number of subsegments");
-  const Subsegment whole = subsegments[id(s)];
+  const Subsegment whole = subsegments[s];
   const std::array<HalfEdge, 2> unknown{kNone, kNone};
   subsegments.push_back({{whole.vertex[0], m}, unknown, dyadic::first_half(whole.path), whole.root, kNone});
   subsegments.push_back({{m, whole.vertex[1]}, unknown, dyadic::second_half(whole.path), whole.root, kNone});
-  subsegments[id(s)].child = child;
+  subsegments[s].child = child;
   return child;
 }
 
 SubsegmentId Triangulation::descend(RootId root, dyadic::Path path) const {
-  SubsegmentId s = roots[id(root)].tree;
-  while (!subsegments[id(s)].is_leaf() && subsegments[id(s)].path != path) {
-    const Subsegment& node = subsegments[id(s)];
-    s = node.child + (dyadic::descends_second(node.path, path) ? 1 : 0);
+  SubsegmentId s = roots[root].tree;
+  while (!subsegments[s].is_leaf() && subsegments[s].path != path) {
+    const Subsegment& node = subsegments[s];
+    s = dyadic::descends_second(node.path, path) ? node.second_child() : node.child;
   }
   return s;
 }

@@ -8,45 +8,9 @@
 #include "base/id_vector.hpp"
 #include "driftmesh/point.hpp"
 #include "dyadic/path.hpp"
+#include "mesh/handles.hpp"
 
 namespace driftmesh {
-
-using VertexId = std::int32_t;
-using TriangleId = std::int32_t;
-using SubsegmentId = std::int32_t;
-using RootId = std::int32_t;
-
-/// A directed edge seen from one triangle, in one integer: 4 * triangle + i for the edge opposite to corner i. A
-/// negative value c is not an edge but a constrained one's subsegment, ~c.
-using HalfEdge = std::int32_t;
-
-[[nodiscard]] constexpr HalfEdge half_edge(TriangleId t, int i) {
-  return 4 * t + i;
-}
-[[nodiscard]] constexpr TriangleId triangle_of(HalfEdge h) {
-  return h >> 2;
-}
-[[nodiscard]] constexpr int index_of(HalfEdge h) {
-  return h & 3;
-}
-[[nodiscard]] constexpr bool is_constrained(HalfEdge h) {
-  return h < 0;
-}
-[[nodiscard]] constexpr SubsegmentId subsegment_of(HalfEdge h) {
-  return ~h;
-}
-[[nodiscard]] constexpr HalfEdge constrained(SubsegmentId s) {
-  return ~s;
-}
-[[nodiscard]] constexpr int next(int i) {
-  return i == 2 ? 0 : i + 1;
-}
-[[nodiscard]] constexpr int previous(int i) {
-  return i == 0 ? 2 : i - 1;
-}
-
-/// A half-edge must fit 31 bits.
-inline constexpr std::int64_t kMaxTriangles = (std::int64_t{1} << 29) - 1;
 
 /// 24 bytes: the corners counterclockwise, and opposite to each corner the twin half-edge in the neighbor (or the
 /// constrained subsegment). A free slot has vertex[0] == kNone.
@@ -63,8 +27,9 @@ struct Subsegment {
   std::array<HalfEdge, 2> half;    ///< of a leaf: the edge left and right of that direction, kNone outside the domain
   dyadic::Path path;               ///< which interval of the root
   RootId root;
-  SubsegmentId child;  ///< kNone for a leaf, else the first half; the second is child + 1
+  SubsegmentId child;  ///< kNone for a leaf, else the first half; the second follows it
   [[nodiscard]] bool is_leaf() const { return child == kNone; }
+  [[nodiscard]] SubsegmentId second_child() const { return after(child); }
 };
 
 /// A segment that is cut only at dyadic points: a segment of the input, or a piece of one after corners were prepared.
@@ -75,60 +40,34 @@ struct RootSegment {
   SubsegmentId tree = kNone;   ///< the root of its tree of subsegments
 };
 
-/// What a vertex is, in one integer: the index of a point of the input (small), ~s for the midpoint of subsegment s
-/// (negative), or one of the large values below.
-using VertexOrigin = std::int32_t;
-/// Not on any segment: the refiner put it there and may delete it.
-inline constexpr VertexOrigin kFree = INT32_MAX;
-/// The slot of a deleted vertex, waiting for reuse.
-inline constexpr VertexOrigin kDeleted = INT32_MAX - 1;
-/// A corner of the box that the initial triangulation starts from.
-inline constexpr VertexOrigin kFrame = INT32_MAX - 2;
-/// kShellEnd + c: where a shell piece ends, on circle c of an acute corner (see corners.hpp).
-inline constexpr VertexOrigin kShellEnd = std::int32_t{1} << 30;
-
-[[nodiscard]] constexpr bool is_input(VertexOrigin o) {
-  return o >= 0 && o < kShellEnd;
-}
-[[nodiscard]] constexpr bool is_midpoint(VertexOrigin o) {
-  return o < 0;
-}
-[[nodiscard]] constexpr bool is_shell_end(VertexOrigin o) {
-  return o >= kShellEnd && o < kFrame;
-}
-
 /// A constrained Delaunay triangulation: topology in flat arrays, coordinates beside it. Plain data with the few
 /// operations that keep its invariants; the algorithms on it live in files of their own (cdt, cavity, flips,
 /// refiner). Invariants between operations: every live triangle is counterclockwise; neighbors are reciprocal; each
 /// leaf subsegment knows its half-edges and they know it.
 struct Triangulation {
-  GrowingArray<Triangle> triangles;
-  GrowingArray<Point> points;
-  GrowingArray<VertexOrigin> origin;  ///< of each vertex
+  GrowingArray<Triangle, TriangleId> triangles;
+  GrowingArray<Point, VertexId> points;
+  GrowingArray<VertexOrigin, VertexId> origin;  ///< of each vertex
   /// Index of the region of each triangle; empty when the domain has one region.
-  GrowingArray<std::uint16_t> region;
-  std::vector<Subsegment> subsegments;
-  std::vector<RootSegment> roots;
+  GrowingArray<std::uint16_t, TriangleId> region;
+  IdVector<SubsegmentId, Subsegment> subsegments;
+  IdVector<RootId, RootSegment> roots;
   std::vector<TriangleId> free_triangles;
   std::vector<VertexId> free_vertices;
 
   [[nodiscard]] std::size_t live_triangles() const { return triangles.size() - free_triangles.size(); }
   [[nodiscard]] std::size_t live_vertices() const { return points.size() - free_vertices.size(); }
-  [[nodiscard]] const Point& corner(TriangleId t, int i) const { return points[id(triangles[id(t)].vertex[i])]; }
-  [[nodiscard]] VertexId apex(HalfEdge h) const { return triangles[id(triangle_of(h))].vertex[index_of(h)]; }
-  [[nodiscard]] VertexId edge_start(HalfEdge h) const {
-    return triangles[id(triangle_of(h))].vertex[next(index_of(h))];
-  }
-  [[nodiscard]] VertexId edge_end(HalfEdge h) const {
-    return triangles[id(triangle_of(h))].vertex[previous(index_of(h))];
-  }
-  [[nodiscard]] HalfEdge twin(HalfEdge h) const { return triangles[id(triangle_of(h))].neighbor[index_of(h)]; }
+  [[nodiscard]] const Point& corner(TriangleId t, int i) const { return points[triangles[t].vertex[i]]; }
+  [[nodiscard]] VertexId apex(HalfEdge h) const { return triangles[triangle_of(h)].vertex[index_of(h)]; }
+  [[nodiscard]] VertexId edge_start(HalfEdge h) const { return triangles[triangle_of(h)].vertex[next(index_of(h))]; }
+  [[nodiscard]] VertexId edge_end(HalfEdge h) const { return triangles[triangle_of(h)].vertex[previous(index_of(h))]; }
+  [[nodiscard]] HalfEdge twin(HalfEdge h) const { return triangles[triangle_of(h)].neighbor[index_of(h)]; }
 
   /// The half-edge on the other side of `h`, also of a constrained one; kNone where the domain ends.
   [[nodiscard]] HalfEdge across(HalfEdge h) const {
     const HalfEdge g = twin(h);
     if (!is_constrained(g)) return g;
-    const auto& half = subsegments[id(subsegment_of(g))].half;
+    const auto& half = subsegments[subsegment_of(g)].half;
     return half[0] == h ? half[1] : half[0];
   }
 
@@ -139,13 +78,13 @@ struct Triangulation {
   TriangleId add_triangle();
   /// The same for `count` triangles at once.
   void add_triangles(TriangleId* slots, int count) {
-    const std::size_t size = triangles.size() + id(count);
+    const std::size_t size = triangles.size() + static_cast<std::size_t>(count);
     if (!free_triangles.empty() || !region.empty() || size > triangles.capacity() || size > kMaxTriangles)
         [[unlikely]] {
       for (int i = 0; i < count; ++i) slots[i] = add_triangle();
       return;
     }
-    for (int i = 0; i < count; ++i) slots[i] = static_cast<TriangleId>(triangles.size()) + i;
+    for (int i = 0; i < count; ++i) slots[i] = TriangleId{to_int(triangles.next_id()) + i};
     triangles.resize_uninitialized(size);
   }
   void remove_triangle(TriangleId t);
@@ -157,8 +96,6 @@ struct Triangulation {
   SubsegmentId halve(SubsegmentId s, VertexId m);
   /// The leaf or inner node of `root` that names interval `path`, or the leaf above it where the tree ends earlier.
   [[nodiscard]] SubsegmentId descend(RootId root, dyadic::Path path) const;
-
-  static constexpr std::size_t id(std::int32_t i) { return static_cast<std::size_t>(i); }
 };
 
 }  // namespace driftmesh

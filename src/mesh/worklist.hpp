@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/triangulation.hpp"
+#include "mesh/handles.hpp"
 
 namespace driftmesh {
 
@@ -20,26 +20,29 @@ namespace driftmesh {
 /// Slots behind the cursor that receive a triangle that is too large go onto a stack.
 class Sweep {
  public:
-  void start(TriangleId given, TriangleId block) {
+  void start(std::int32_t given, std::int32_t block) {
     cursor_ = block_end_ = 0;
     given_ = added_ = given;
-    block_ = std::max<TriangleId>(block, 1);
+    block_ = std::max(block, 1);
     again_.clear();
   }
   /// Whether the sweep will still come to slot `t`.
-  [[nodiscard]] bool will_visit(TriangleId t) const { return (t >= cursor_ && t < given_) || t >= added_; }
+  [[nodiscard]] bool will_visit(TriangleId t) const {
+    const std::int32_t slot = to_int(t);
+    return (slot >= cursor_ && slot < given_) || slot >= added_;
+  }
   void visit_again(TriangleId t) { again_.push_back(t); }
 
-  /// The slot to look at now, kNone at the end of a block. It stays the same until done_with.
-  [[nodiscard]] TriangleId current(TriangleId size) const {
+  /// The slot to look at now of an array of `size`, kNone at the end of a block. It stays the same until done_with.
+  [[nodiscard]] TriangleId current(std::int32_t size) const {
     if (!again_.empty()) return again_.back();
-    if (cursor_ < block_end_) return cursor_;
-    return added_ < size ? added_ : kNone;
+    if (cursor_ < block_end_) return TriangleId{cursor_};
+    return added_ < size ? TriangleId{added_} : kNone;
   }
   void done_with(TriangleId t) {
     if (!again_.empty())
       again_.pop_back();
-    else if (t == cursor_ && cursor_ < block_end_)
+    else if (to_int(t) == cursor_ && cursor_ < block_end_)
       ++cursor_;
     else
       ++added_;
@@ -53,7 +56,7 @@ class Sweep {
 
   /// The whole state, to be stored and restored: these five numbers and the stack.
   struct Places {
-    TriangleId cursor, block_end, given, added, block;
+    std::int32_t cursor, block_end, given, added, block;
   };
   [[nodiscard]] Places places() const { return {cursor_, block_end_, given_, added_, block_}; }
   [[nodiscard]] const std::vector<TriangleId>& again() const { return again_; }
@@ -67,11 +70,11 @@ class Sweep {
         again_(std::move(again)) {}
 
  private:
-  TriangleId cursor_ = 0;     // given slots before it are done
-  TriangleId block_end_ = 0;  // of the given slots in work
-  TriangleId given_ = 0;
-  TriangleId added_ = 0;  // added slots before it are done
-  TriangleId block_ = 1;
+  std::int32_t cursor_ = 0;     // given slots before it are done
+  std::int32_t block_end_ = 0;  // of the given slots in work
+  std::int32_t given_ = 0;
+  std::int32_t added_ = 0;  // added slots before it are done
+  std::int32_t block_ = 1;
   std::vector<TriangleId> again_;
 };
 
@@ -88,7 +91,7 @@ class SkinnyBuckets {
   void add(TriangleId t, int bucket) {
     if (bucket < first_ || bucket >= end()) [[unlikely]]
       make_room(bucket);
-    at(bucket).push_back(t);
+    buckets_[bucket - first_].push_back(t);
     lowest_ = std::min(lowest_, bucket);
   }
   struct Entry {
@@ -100,9 +103,9 @@ class SkinnyBuckets {
   };
   /// Takes out an entry of the lowest bucket; triangle kNone if all are empty.
   Entry take() {
-    while (lowest_ < end() && at(lowest_).empty()) ++lowest_;
+    while (lowest_ < end() && buckets_[lowest_ - first_].empty()) ++lowest_;
     if (lowest_ >= end()) return {kNone, 0};
-    auto& bucket = at(lowest_);
+    auto& bucket = buckets_[lowest_ - first_];
     const TriangleId t = bucket.back();
     bucket.pop_back();
     return {t, lowest_};
@@ -113,21 +116,20 @@ class SkinnyBuckets {
   [[nodiscard]] std::vector<Entry> entries() const {
     std::vector<Entry> all;
     for (int b = lowest_; b < end(); ++b)
-      for (const TriangleId t : buckets_[static_cast<std::size_t>(b - first_)]) all.push_back({t, b});
+      for (const TriangleId t : buckets_[b - first_]) all.push_back({t, b});
     return all;
   }
 
  private:
   [[nodiscard]] int end() const { return first_ + static_cast<int>(buckets_.size()); }
-  std::vector<TriangleId>& at(int bucket) { return buckets_[static_cast<std::size_t>(bucket - first_)]; }
   /// Few exponents occur in one mesh, so only the range that occurred has buckets.
   void make_room(int bucket) {
     if (buckets_.empty()) first_ = bucket;
     if (bucket < first_) {
-      buckets_.insert(buckets_.begin(), static_cast<std::size_t>(first_ - bucket), {});
+      buckets_.insert(buckets_.begin(), first_ - bucket, {});
       first_ = bucket;
     }
-    if (bucket >= end()) buckets_.resize(static_cast<std::size_t>(bucket - first_ + 1));
+    if (bucket >= end()) buckets_.resize(bucket - first_ + 1);
   }
 
   std::vector<std::vector<TriangleId>> buckets_;  // from bucket first_ on

@@ -206,7 +206,7 @@ void DomainCheck::check_euler(std::int64_t used_points, std::int64_t boundary_ed
   });
 }
 
-void DomainCheck::find_faces(DisjointSets& parts) {
+void DomainCheck::find_faces(DisjointSets<std::int32_t>& parts) {
   std::vector<std::int32_t> face_of_part(mesh_.triangles.size(), kUnknownFace);
   const auto note = [&](std::int32_t triangle, std::int32_t face) {
     if (triangle != kNone) face_of_part[parts.find(triangle)] = face;

@@ -33,7 +33,7 @@ class DomainCheck {
 
   /// Finds the face of the domain that each triangle lies in. `parts` has joined triangles that share an edge which
   /// is no subsegment.
-  void find_faces(DisjointSets& parts);
+  void find_faces(DisjointSets<std::int32_t>& parts);
   /// The mesh lists the right region attribute for each triangle. Call after find_faces.
   void check_regions();
   /// The area bound of the region that a triangle lies in, 0 if it has none. Call after find_faces.

@@ -108,7 +108,7 @@ void LocalCheck::check_orientations() {
   }
 }
 
-void LocalCheck::check_vertices(DisjointSets* parts, bool delaunay) {
+void LocalCheck::check_vertices(DisjointSets<std::int32_t>* parts, bool delaunay) {
   parts_ = parts;
   delaunay_ = delaunay;
   for (const std::int32_t hub : first_ids<std::int32_t>(mesh_.points.size())) check_vertex(hub);

@@ -49,7 +49,7 @@ class LocalCheck {
   /// the fan is closed or bounded by subsegments, and every other edge, except for those between subdomains, is locally
   /// Delaunay (exact), which makes the triangulation constrained Delaunay. Sets the sides of the subsegments and, if
   /// `parts` is given, joins triangles there that share an edge which is not a subsegment.
-  void check_vertices(DisjointSets* parts, bool delaunay);
+  void check_vertices(DisjointSets<std::int32_t>* parts, bool delaunay);
 
   /// After check_vertices: the edges with one triangle, directed so that it is on their left.
   [[nodiscard]] const std::vector<Mesh::Edge>& boundary() const { return boundary_; }
@@ -73,7 +73,7 @@ class LocalCheck {
   Subsegments& subsegments_;
   Findings& findings_;
   Fan fan_;
-  DisjointSets* parts_ = nullptr;
+  DisjointSets<std::int32_t>* parts_ = nullptr;
   bool delaunay_ = true;
   std::vector<Mesh::Edge> boundary_;
   Interfaces interfaces_;

@@ -130,7 +130,7 @@ class Verification {
   std::size_t used_points_ = 0;
   std::optional<CornerTable> corners_;
   std::optional<Domain> domain_;
-  std::optional<DisjointSets> parts_;  // triangles that subsegments do not separate, if there are regions
+  std::optional<DisjointSets<std::int32_t>> parts_;  // triangles that subsegments do not separate, if there are regions
   std::optional<Subsegments> subsegments_;
 };
 

@@ -38,7 +38,7 @@ void walk(Subdomain& subdomain) {
   const Triangulation& mesh = subdomain.mesh().mesh;
   if (mesh_digest(mesh) == 1) std::abort();
   for (const Subsegment& s : mesh.subsegments)
-    if (mesh.descend(s.root, s.path) < 0) std::abort();
+    if (!mesh.subsegments.has(mesh.descend(s.root, s.path))) std::abort();
 }
 
 }  // namespace

@@ -182,7 +182,7 @@ TEST_CASE("a subdomain that sleeps whenever it can is finished as well, and hold
     const SubdomainMesh& part = subdomain.mesh();
     for (const SplitPoint<GlobalRootId>& split : told) {
       const auto root = static_cast<RootId>(std::ranges::lower_bound(part.roots, split.root) - part.roots.begin());
-      CHECK(!part.mesh.subsegments[Triangulation::id(part.mesh.descend(root, split.path))].is_leaf());
+      CHECK(!part.mesh.subsegments[part.mesh.descend(root, split.path)].is_leaf());
     }
     const Exceptions exceptions = find_exceptions(part.mesh, world.context().bounds);
     CHECK(exceptions.large.empty());
@@ -226,7 +226,7 @@ TEST_CASE("large subdomains, in the stage of blocks, come out the same") {
     CHECK(stays.pack() == moves.pack());
     const SubdomainMesh& part = moves.mesh();
     for (const VertexId v : ids_of(part.points))  // also after vertices were sorted
-      CHECK(part.mesh.points[Triangulation::id(v)] == d.points[part.points[v]]);
+      CHECK(part.mesh.points[v] == d.points[part.points[v]]);
     CHECK(stages.contains(RefinerState::Stage::kCoarse));
     CHECK(stages.contains(RefinerState::Stage::kFine));
   }

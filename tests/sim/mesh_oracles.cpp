@@ -11,8 +11,6 @@
 namespace driftmesh::sim {
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 struct BitsOfPoint {
   std::size_t operator()(const Point& p) const {
     const auto x = std::bit_cast<std::uint64_t>(p.x + 0.0), y = std::bit_cast<std::uint64_t>(p.y + 0.0);
@@ -26,8 +24,8 @@ class Merge {
 
   void add(const Subdomain& subdomain) {
     const Triangulation& mesh = subdomain.mesh().mesh;
-    const auto number = [&](VertexId v) { return number_of(mesh.points[id(v)]); };
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto number = [&](VertexId v) { return number_of(mesh.points[v]); };
+    for (const TriangleId t : ids_of(mesh.triangles)) {
       if (!mesh.triangles[t].alive()) continue;
       const auto& v = mesh.triangles[t].vertex;
       piece_.triangles.push_back({number(v[0]), number(v[1]), number(v[2])});

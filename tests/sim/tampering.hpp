@@ -22,7 +22,7 @@ inline bool has_point(const Subdomain& subdomain, const SplitPoint<GlobalRootId>
   const auto place = std::lower_bound(roots.begin(), roots.end(), split.root);
   const Triangulation& mesh = subdomain.mesh().mesh;
   const SubsegmentId s = mesh.descend(static_cast<RootId>(place - roots.begin()), split.path);
-  return mesh.subsegments[Triangulation::id(s)].path == split.path && !mesh.subsegments[Triangulation::id(s)].is_leaf();
+  return mesh.subsegments[s].path == split.path && !mesh.subsegments[s].is_leaf();
 }
 
 /// Takes in SPLITs for one subdomain in a wrong way: changes what it is told. Their number must stay, since ranks count

@@ -79,10 +79,9 @@ inline DistributedCase random_distributed_case(std::uint64_t seed) {
   repair(input);
   const Triangulation mesh = triangulate(input);
   double area = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  for (const TriangleId t : ids_of(mesh.triangles))
     if (mesh.triangles[t].alive()) {
-      const auto i = static_cast<TriangleId>(t);
-      const Point &a = mesh.corner(i, 0), &b = mesh.corner(i, 1), &c = mesh.corner(i, 2);
+      const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
       area += ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
     }
   QualityBounds bounds;

@@ -14,8 +14,8 @@ inline SplitPoints split_points(const SubdomainMesh& part) {
   SplitPoints points;
   for (const Subsegment& s : part.mesh.subsegments)
     if (!s.is_leaf()) {
-      const VertexId middle = part.mesh.subsegments[Triangulation::id(s.child)].vertex[1];
-      points[part.roots[s.root]][s.path] = part.mesh.points[Triangulation::id(middle)];
+      const VertexId middle = part.mesh.subsegments[s.child].vertex[1];
+      points[part.roots[s.root]][s.path] = part.mesh.points[middle];
     }
   return points;
 }

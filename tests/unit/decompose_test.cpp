@@ -87,11 +87,11 @@ DecompositionReport check_whole(const Decomposition& d, const Triangulation& mes
     REQUIRE(area_of(part.mesh) == doctest::Approx(d.subdomains[i].area).epsilon(1e-9));
     for (const RootId r : ids_of(part.roots)) {
       const Decomposition::Root& root = d.roots[part.roots[r]];
-      const RootSegment& local = part.mesh.roots[to_index(r)];
+      const RootSegment& local = part.mesh.roots[r];
       REQUIRE(local.marker == root.marker);
       REQUIRE(local.shell == root.shell);
-      REQUIRE(part.mesh.points[Triangulation::id(local.vertex[0])] == d.points[root.a]);
-      REQUIRE(part.mesh.points[Triangulation::id(local.vertex[1])] == d.points[root.b]);
+      REQUIRE(part.mesh.points[local.vertex[0]] == d.points[root.a]);
+      REQUIRE(part.mesh.points[local.vertex[1]] == d.points[root.b]);
     }
   }
   return report;
@@ -171,11 +171,9 @@ TEST_CASE("segments inside are borders or stay inside, and keep marker and regio
       const SubdomainMesh part = subdomain_triangulation(d, static_cast<SubdomainId>(i));
       isolated +=
           static_cast<std::size_t>(std::count(part.mesh.points.begin(), part.mesh.points.end(), Point{2.6, 1.7}));
-      for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
-        const auto k = static_cast<TriangleId>(t);
+      for (const TriangleId t : ids_of(part.mesh.triangles))
         area_by_region[part.mesh.region[t]] +=
-            0.5 * orient2d(part.mesh.corner(k, 0), part.mesh.corner(k, 1), part.mesh.corner(k, 2));
-      }
+            0.5 * orient2d(part.mesh.corner(t, 0), part.mesh.corner(t, 1), part.mesh.corner(t, 2));
     }
     CHECK(isolated >= 1);
     CHECK(area_by_region[2] == doctest::Approx(20 * 0.18 * std::sin(std::numbers::pi / 10)));

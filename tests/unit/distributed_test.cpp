@@ -210,7 +210,7 @@ TEST_CASE("a subdomain that nobody or that two ranks hold is an error that says 
 TEST_CASE("a coordinate that differs in its last bit between subdomains of a rank is an error") {
   TwoSquares squares;
   for (SubdomainMesh& part : squares.parts) split(part, kSeparator, {1});
-  Point& last = squares.parts[1_sub].mesh.points[squares.parts[1_sub].mesh.points.size() - 1];
+  Point& last = squares.parts[1_sub].mesh.points.end()[-1];
   REQUIRE(last == Point{1, 0.5});
   last.y = std::nextafter(last.y, 1);
   PieceAssembly one(0_rank, 1, squares.d, squares.held({0_sub, 1_sub}));

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -26,8 +27,6 @@ using namespace driftmesh::testing;
 
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 using Edge = std::pair<std::pair<double, double>, std::pair<double, double>>;
 
 std::pair<double, double> pair_of(const Point& p) {
@@ -39,7 +38,7 @@ std::map<std::pair<GlobalRootId, dyadic::Path>, std::pair<Edge, int>> subsegment
   std::map<std::pair<GlobalRootId, dyadic::Path>, std::pair<Edge, int>> all;
   const Triangulation& mesh = part.mesh;
   for (const Subsegment& s : mesh.subsegments) {
-    const Edge ends{pair_of(mesh.points[id(s.vertex[0])]), pair_of(mesh.points[id(s.vertex[1])])};
+    const Edge ends{pair_of(mesh.points[s.vertex[0]]), pair_of(mesh.points[s.vertex[1]])};
     const int sides = s.is_leaf() ? (s.half[0] != kNone ? 1 : 0) + (s.half[1] != kNone ? 2 : 0) : -1;
     all[{part.roots[s.root], s.path}] = {ends, sides};
   }
@@ -50,11 +49,11 @@ std::map<std::pair<GlobalRootId, dyadic::Path>, std::pair<Edge, int>> subsegment
 std::multiset<std::string> origins_of(const SubdomainMesh& part) {
   std::multiset<std::string> all;
   const Triangulation& mesh = part.mesh;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+  for (const VertexId v : ids_of(mesh.points)) {
     if (mesh.origin[v] == kDeleted) continue;
     std::string what = std::to_string(mesh.origin[v]);
     if (is_midpoint(mesh.origin[v])) {
-      const Subsegment& s = mesh.subsegments[id(~mesh.origin[v])];
+      const Subsegment& s = mesh.subsegments[halved_by(mesh.origin[v])];
       what = "root " + to_string(part.roots[s.root]) + " " + std::to_string(s.path);
     }
     const Point& p = mesh.points[v];
@@ -64,12 +63,17 @@ std::multiset<std::string> origins_of(const SubdomainMesh& part) {
   return all;
 }
 
+std::array<std::int32_t, 3> in_piece(const std::array<VertexId, 3>& corners) {
+  return {to_int(corners[0]), to_int(corners[1]), to_int(corners[2])};
+}
+
 /// The digest of the triangles of each region.
 std::map<std::uint16_t, std::uint64_t> digests_of(const Triangulation& mesh) {
   std::map<std::uint16_t, Mesh> pieces;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  for (const TriangleId t : ids_of(mesh.triangles))
     if (mesh.triangles[t].alive())
-      pieces[mesh.region.empty() ? std::uint16_t{0} : mesh.region[t]].triangles.push_back(mesh.triangles[t].vertex);
+      pieces[mesh.region.empty() ? std::uint16_t{0} : mesh.region[t]].triangles.push_back(
+          in_piece(mesh.triangles[t].vertex));
   std::map<std::uint16_t, std::uint64_t> digests;
   for (auto& [region, piece] : pieces) {
     piece.points.assign(mesh.points.begin(), mesh.points.end());
@@ -82,7 +86,7 @@ std::map<std::uint16_t, std::uint64_t> digests_of(const Triangulation& mesh) {
 std::uint64_t digest_of(const DormantMesh& dormant) {
   Mesh piece;
   piece.points = dormant.points();
-  dormant.visit_triangles([&](const auto& corners, std::uint16_t) { piece.triangles.push_back(corners); });
+  dormant.visit_triangles([&](const auto& corners, std::uint16_t) { piece.triangles.push_back(in_piece(corners)); });
   return mesh_digest(piece);
 }
 
@@ -98,13 +102,13 @@ void check_same(const SubdomainMesh& part, const DormantMesh& dormant) {
   CHECK(woken.points == part.points);
   CHECK(digest_of(dormant) == mesh_digest(part.mesh));
   REQUIRE(woken.mesh.roots.size() == part.mesh.roots.size());
-  for (std::size_t r = 0; r < part.mesh.roots.size(); ++r) {
+  for (const RootId r : ids_of(part.mesh.roots)) {
     CHECK(woken.mesh.roots[r].marker == part.mesh.roots[r].marker);
     CHECK(woken.mesh.roots[r].shell == part.mesh.roots[r].shell);
   }
   const auto waking = DormantMesh::waking_subsegments(part.mesh);
-  for (std::size_t s = 0; s < waking.size(); ++s) {
-    const Subsegment &before = part.mesh.subsegments[s], &after = woken.mesh.subsegments[id(waking[s])];
+  for (const SubsegmentId s : ids_of(waking)) {
+    const Subsegment &before = part.mesh.subsegments[s], &after = woken.mesh.subsegments[waking[s]];
     REQUIRE((before.root == after.root && before.path == after.path));
   }
 }
@@ -114,7 +118,7 @@ void check_holds(const SubdomainMesh& part, const DormantMesh& dormant, RandomSu
   for (int k = 0; k < 200; ++k) {
     const auto root = static_cast<RootId>(world.random()() % mesh.roots.size());
     const dyadic::Path path = 1 + world.random()() % 63;
-    const Subsegment& s = mesh.subsegments[id(mesh.descend(root, path))];
+    const Subsegment& s = mesh.subsegments[mesh.descend(root, path)];
     CHECK(dormant.holds(root, path) == (s.path == path && !s.is_leaf()));
   }
 }

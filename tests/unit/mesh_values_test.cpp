@@ -139,11 +139,10 @@ TEST_CASE("Angles fall into the bins that their degrees say, and the extremes ar
   const AngleSummary summary = summarize_angles(mesh);
   std::array<std::int64_t, 18> bins{};
   double smallest = 180, largest = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  for (const TriangleId t : ids_of(mesh.triangles))
     for (int i = 0; i < 3; ++i) {
       if (!mesh.triangles[t].alive()) continue;
-      const auto id = static_cast<TriangleId>(t);
-      const Point &apex = mesh.corner(id, i), &p = mesh.corner(id, next(i)), &q = mesh.corner(id, previous(i));
+      const Point &apex = mesh.corner(t, i), &p = mesh.corner(t, next(i)), &q = mesh.corner(t, previous(i));
       const double cross = (p.x - apex.x) * (q.y - apex.y) - (p.y - apex.y) * (q.x - apex.x);
       const double dot = (p.x - apex.x) * (q.x - apex.x) + (p.y - apex.y) * (q.y - apex.y);
       const double degrees = std::atan2(cross, dot) * 180 / std::numbers::pi;

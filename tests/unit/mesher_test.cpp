@@ -21,8 +21,6 @@ using namespace driftmesh::testing;
 
 namespace {
 
-constexpr auto id = &Triangulation::id;
-
 void add_ring(Pslg& pslg, Point center, double radius, int n, int marker) {
   const auto first = static_cast<std::int32_t>(pslg.points.size());
   for (int i = 0; i < n; ++i) {
@@ -59,10 +57,9 @@ TEST_CASE("holes are carved and regions labeled") {
   const double ring = 16 * 0.5 * 0.5 * 0.5 * std::sin(2 * std::numbers::pi / 16);
   CHECK(total_area(mesh) == doctest::Approx(8 - ring));
   double left = 0, right = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto k = static_cast<TriangleId>(t);
+  for (const TriangleId t : ids_of(mesh.triangles)) {
     REQUIRE(mesh.region[t] != 0);
-    (mesh.region[t] == 1 ? left : right) += signed_area(mesh.corner(k, 0), mesh.corner(k, 1), mesh.corner(k, 2));
+    (mesh.region[t] == 1 ? left : right) += signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
   }
   CHECK(left == doctest::Approx(4 - ring));
   CHECK(right == doctest::Approx(4));
@@ -245,7 +242,7 @@ TEST_CASE("a piece has the input's points first and every subsegment once") {
   CHECK(piece.points.size() == result.mesh.live_vertices());
   double by_marker[5] = {};
   for (const Mesh::Edge& e : piece.edges)
-    by_marker[e.marker] += std::sqrt(squared_distance(piece.points[id(e.a)], piece.points[id(e.b)]));
+    by_marker[e.marker] += std::sqrt(squared_distance(piece.points[e.a], piece.points[e.b]));
   CHECK(by_marker[1] == doctest::Approx(2));
   CHECK(by_marker[2] == doctest::Approx(1));
   CHECK(by_marker[3] == doctest::Approx(2));

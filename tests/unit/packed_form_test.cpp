@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <random>
 #include <string>
@@ -60,16 +62,17 @@ void look_at_everything(Subdomain& subdomain) {
   if (subdomain.dormant()) {
     Mesh piece;
     piece.points = subdomain.dormant_mesh().points();
-    subdomain.dormant_mesh().visit_triangles(
-        [&](const auto& corners, std::uint16_t) { piece.triangles.push_back(corners); });
+    subdomain.dormant_mesh().visit_triangles([&](const std::array<VertexId, 3>& corner, std::uint16_t) {
+      piece.triangles.push_back({to_int(corner[0]), to_int(corner[1]), to_int(corner[2])});
+    });
     CHECK(mesh_digest(piece) != 1);
-    for (RootId r = 0; r < 3; ++r) CHECK_NOTHROW(static_cast<void>(subdomain.dormant_mesh().holds(r, 37)));
+    for (const RootId r : first_ids<RootId>(3)) CHECK_NOTHROW(static_cast<void>(subdomain.dormant_mesh().holds(r, 37)));
     REQUIRE_NOTHROW(subdomain.wake());
   }
   const Triangulation& mesh = subdomain.mesh().mesh;
   CHECK(mesh_digest(mesh) != 1);
   CHECK(subdomain.remaining() >= 0);
-  for (const Subsegment& s : mesh.subsegments) CHECK(mesh.descend(s.root, s.path) >= 0);
+  for (const Subsegment& s : mesh.subsegments) CHECK(mesh.subsegments.has(mesh.descend(s.root, s.path)));
 }
 
 void check_refusals(const Bytes& whole, const SubdomainContext& context) {
@@ -171,27 +174,31 @@ TEST_CASE("each invariant of a triangulation is looked at") {
     return triangulation_fault(mesh);
   };
   const auto inner = [](const Triangulation& mesh) {  // a leaf with two sides or one, and an inner node
-    std::size_t s = 0;
-    while (mesh.subsegments[s].is_leaf()) ++s;
+    SubsegmentId s{0};
+    while (mesh.subsegments[s].is_leaf()) s = after(s);
     return s;
   };
-  std::size_t live = 0;
-  while (!sound.triangles[live].alive() || is_constrained(sound.triangles[live].neighbor[0])) ++live;
-  const auto other = static_cast<std::size_t>(triangle_of(sound.triangles[live].neighbor[0]));
-  std::size_t free = 0;
-  while (sound.origin[free] != kFree) ++free;
-  const auto all = static_cast<std::int32_t>(sound.triangles.size());
+  const auto first = [](const auto& array, const auto& is_such) {
+    const auto ids = ids_of(array);
+    return *std::find_if(ids.begin(), ids.end(), [&](auto i) { return is_such(array[i]); });
+  };
+  const TriangleId live =
+      first(sound.triangles, [](const Triangle& t) { return t.alive() && !is_constrained(t.neighbor[0]); });
+  const TriangleId other = triangle_of(sound.triangles[live].neighbor[0]);
+  const VertexId free = first(sound.origin, [](VertexOrigin o) { return o == kFree; });
+  const VertexId vertex{0};
   CHECK(fault([&](Triangulation& m) { m.points[free].x = NAN; }) == "a coordinate is out of range");
   CHECK(fault([&](Triangulation& m) { m.points[free].x = 1e90; }) == "a coordinate is out of range");
   CHECK(fault([](Triangulation& m) { m.origin.push_back(kFree); }) == "the numbers of points and origins differ");
-  CHECK(fault([](Triangulation& m) { m.origin[0] = -1'000'000; }) != "");
-  CHECK(fault([](Triangulation& m) { m.free_vertices.push_back(0); }) == "the list of free vertices is wrong");
-  CHECK(fault([](Triangulation& m) { m.free_triangles.push_back(0); }) == "the list of free triangles is wrong");
-  CHECK(fault([&](Triangulation& m) { m.triangles[live].vertex[1] = -1; }) != "");
-  CHECK(fault([&](Triangulation& m) { m.triangles[live].vertex[2] = 1'000'000; }) != "");
-  CHECK(fault([&](Triangulation& m) { m.triangles[live].neighbor[0] = 4 * all; }) != "");
-  CHECK(fault([&](Triangulation& m) { m.triangles[live].neighbor[0] |= 3; }) != "");
-  CHECK(fault([&](Triangulation& m) { m.triangles[live].neighbor[0] = constrained(1'000'000); }) != "");
+  CHECK(fault([&](Triangulation& m) { m.origin[vertex] = -1'000'000; }) != "");
+  CHECK(fault([&](Triangulation& m) { m.free_vertices.push_back(vertex); }) == "the list of free vertices is wrong");
+  CHECK(fault([](Triangulation& m) { m.free_triangles.push_back(TriangleId{0}); }) ==
+        "the list of free triangles is wrong");
+  CHECK(fault([&](Triangulation& m) { m.triangles[live].vertex[1] = kNone; }) != "");
+  CHECK(fault([&](Triangulation& m) { m.triangles[live].vertex[2] = VertexId{1'000'000}; }) != "");
+  CHECK(fault([&](Triangulation& m) { m.triangles[live].neighbor[0] = half_edge(m.triangles.next_id(), 0); }) != "");
+  CHECK(fault([&](Triangulation& m) { m.triangles[live].neighbor[0] = half_edge(other, 3); }) != "");
+  CHECK(fault([&](Triangulation& m) { m.triangles[live].neighbor[0] = constrained(SubsegmentId{1'000'000}); }) != "");
   CHECK(fault([&](Triangulation& m) { std::swap(m.triangles[live].vertex[0], m.triangles[live].vertex[1]); }) ==
         "a triangle is not counterclockwise");
   CHECK(fault([&](Triangulation& m) { std::swap(m.triangles[live].neighbor[1], m.triangles[other].neighbor[1]); }) !=
@@ -201,10 +208,10 @@ TEST_CASE("each invariant of a triangulation is looked at") {
           t = {{t.vertex[1], t.vertex[2], t.vertex[0]}, {t.neighbor[1], t.neighbor[2], t.neighbor[0]}};
         }) != "");
   CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].path = 0; }) != "");
-  CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = 0; }) ==
+  CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = SubsegmentId{0}; }) ==
         "the halves of a subsegment do not fit it");
   CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].child = kNone; }) != "");
-  CHECK(fault([](Triangulation& m) { m.roots[0].tree = 1; }) != "");
+  CHECK(fault([](Triangulation& m) { m.roots[RootId{0}].tree = SubsegmentId{1}; }) != "");
   CHECK(fault([](Triangulation& m) { m.subsegments.push_back(m.subsegments.back()); }) != "");
   CHECK(fault([](Triangulation& m) { m.region.resize(3, 0); }) != "");
 }

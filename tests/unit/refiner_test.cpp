@@ -18,12 +18,6 @@
 using namespace driftmesh;
 using namespace driftmesh::testing;
 
-namespace {
-
-constexpr auto id = &Triangulation::id;
-
-}  // namespace
-
 TEST_CASE("a mesh can be made in slices, and comes out the same") {
   const Pslg pslg = fan(3, 9);
   QualityBounds bounds;
@@ -36,9 +30,8 @@ TEST_CASE("a mesh can be made in slices, and comes out the same") {
   CHECK(slices > 100);
   CHECK(refiner.refine(1) == Refiner::Status::kDone);
   REQUIRE(whole.triangles.size() == sliced.triangles.size());
-  for (std::size_t t = 0; t < whole.triangles.size(); ++t)
-    REQUIRE(whole.triangles[t].vertex == sliced.triangles[t].vertex);
-  for (std::size_t v = 0; v < whole.points.size(); ++v) REQUIRE(whole.points[v] == sliced.points[v]);
+  for (const TriangleId t : ids_of(whole.triangles)) REQUIRE(whole.triangles[t].vertex == sliced.triangles[t].vertex);
+  for (const VertexId v : ids_of(whole.points)) REQUIRE(whole.points[v] == sliced.points[v]);
 }
 
 TEST_CASE("a refiner made from a copy of mesh and state goes on as the first one does") {
@@ -54,14 +47,13 @@ TEST_CASE("a refiner made from a copy of mesh and state goes on as the first one
     Triangulation copy = mesh;
     Refiner again(copy, bounds, refiner.state());
     for (Refiner* r : {&refiner, &again}) {
-      CHECK(r->add_split_point(1, 37));
+      CHECK(r->add_split_point(RootId{1}, 37));
       CHECK(r->refine() == Refiner::Status::kDone);
     }
     CHECK(refiner.counters().free_points == again.counters().free_points);
     CHECK(refiner.counters().encroaching == again.counters().encroaching);
     REQUIRE(mesh.triangles.size() == copy.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      REQUIRE(mesh.triangles[t].vertex == copy.triangles[t].vertex);
+    for (const TriangleId t : ids_of(mesh.triangles)) REQUIRE(mesh.triangles[t].vertex == copy.triangles[t].vertex);
   }
 }
 
@@ -71,28 +63,28 @@ TEST_CASE("a state that leaves its mesh is refused") {
   const auto refused = [&](RefinerState state, const std::string& why) {
     CHECK_THROWS_WITH_AS(Refiner(mesh, bounds, std::move(state)), doctest::Contains(why.c_str()), Error);
   };
-  const auto triangles = static_cast<TriangleId>(mesh.triangles.size());
-  const auto subsegments = static_cast<SubsegmentId>(mesh.subsegments.size());
+  const TriangleId past_triangles = mesh.triangles.next_id();
+  const SubsegmentId past_subsegments = mesh.subsegments.next_id();
   CHECK_NOTHROW(Refiner(mesh, bounds, RefinerState{}));
   RefinerState state;
-  state.deferred = {triangles};
+  state.deferred = {past_triangles};
   refused(state, "deferred");
   state = {};
-  state.skinny.add(-1, 5);
+  state.skinny.add(kNone, 5);
   refused(state, "skinny");
   state = {};
-  state.sweep = Sweep({0, 0, 0, triangles + 1, 1}, {});
+  state.sweep = Sweep({0, 0, 0, to_int(past_triangles) + 1, 1}, {});
   refused(state, "sweep");
-  state.sweep = Sweep({0, 0, 0, 0, 1}, {triangles});
+  state.sweep = Sweep({0, 0, 0, 0, 1}, {past_triangles});
   refused(state, "sweep");
   state = {};
-  state.next_segment = subsegments + 1;
+  state.next_segment = after(past_subsegments);
   refused(state, "segment");
   state = {};
-  state.unsplittable = {subsegments};
+  state.unsplittable = {past_subsegments};
   refused(state, "unsplittable");
   state = {};
-  state.made = {{-1, 1}};
+  state.made = {{kNone, 1}};
   refused(state, "split point");
 }
 
@@ -104,12 +96,12 @@ TEST_CASE("split points from outside are inserted with their ancestors at any ti
     Refiner refiner(mesh, bounds);
     refiner.refine(before);
     const dyadic::Path path = 0b1'0110'1011;
-    CHECK(refiner.add_split_point(0, path));
-    CHECK(refiner.add_split_point(0, path));  // a duplicate changes nothing
+    CHECK(refiner.add_split_point(RootId{0}, path));
+    CHECK(refiner.add_split_point(RootId{0}, path));  // a duplicate changes nothing
     CHECK(refiner.refine() == Refiner::Status::kDone);
     check_valid(mesh);
     for (dyadic::Path k = path; k >= 1; k = dyadic::parent(k)) {
-      const Subsegment& s = mesh.subsegments[id(mesh.descend(0, k))];
+      const Subsegment& s = mesh.subsegments[mesh.descend(RootId{0}, k)];
       CHECK(s.path == k);
       CHECK(!s.is_leaf());
     }
@@ -121,10 +113,11 @@ TEST_CASE("split points from outside are inserted with their ancestors at any ti
 
 TEST_CASE("the refiner tells which points it has put on segments, ancestors first, and not what it was told") {
   Triangulation mesh = triangulate(fan(11, 5));
-  std::vector<std::vector<dyadic::Path>> known(mesh.roots.size());
+  IdVector<RootId, std::vector<dyadic::Path>> known(mesh.roots.size());
+  const RootId first{0};
   Refiner refiner(mesh, QualityBounds{20, 0.01, {}, nullptr});
   const auto take_in = [&](RootId root, dyadic::Path path) {
-    auto& paths = known[id(root)];
+    auto& paths = known[root];
     REQUIRE(std::find(paths.begin(), paths.end(), path) == paths.end());
     REQUIRE((path == 1 || std::find(paths.begin(), paths.end(), dyadic::parent(path)) != paths.end()));
     paths.push_back(path);
@@ -134,11 +127,11 @@ TEST_CASE("the refiner tells which points it has put on segments, ancestors firs
     for (const SplitPoint<RootId>& p : refiner.take_split_points()) take_in(p.root, p.path);
   }
   CHECK(refiner.take_split_points().empty());
-  REQUIRE(std::find(known[0].begin(), known[0].end(), 19) == known[0].end());
-  CHECK(refiner.add_split_point(0, 19));
+  REQUIRE(std::find(known[first].begin(), known[first].end(), 19) == known[first].end());
+  CHECK(refiner.add_split_point(first, 19));
   CHECK(refiner.take_split_points().empty());
   for (const dyadic::Path path : {1, 2, 4, 9, 19})
-    if (std::find(known[0].begin(), known[0].end(), path) == known[0].end()) known[0].push_back(path);
+    if (std::find(known[first].begin(), known[first].end(), path) == known[first].end()) known[first].push_back(path);
   refiner.refine();
   for (const SplitPoint<RootId>& p : refiner.take_split_points()) take_in(p.root, p.path);
   std::size_t inner = 0, told = 0;

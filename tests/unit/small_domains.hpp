@@ -37,22 +37,20 @@ inline Pslg fan(unsigned seed, int wedges) {
 
 /// Checks the invariants of a triangulation from its raw arrays: orientation, reciprocity, local Delaunay property.
 inline void check_valid(const Triangulation& mesh) {
-  constexpr auto id = &Triangulation::id;
   std::size_t inverted = 0, unlinked = 0, not_delaunay = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (!mesh.triangles[i].alive()) continue;
-    const auto t = static_cast<TriangleId>(i);
+  for (const TriangleId t : ids_of(mesh.triangles)) {
+    if (!mesh.triangles[t].alive()) continue;
     inverted += !(orient2d(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)) > 0);
     for (int k = 0; k < 3; ++k) {
       const HalfEdge h = half_edge(t, k), g = mesh.twin(h);
       if (is_constrained(g)) {
-        const Subsegment& s = mesh.subsegments[id(subsegment_of(g))];
+        const Subsegment& s = mesh.subsegments[subsegment_of(g)];
         unlinked += !s.is_leaf() || (s.half[0] != h && s.half[1] != h);
       } else {
         unlinked +=
             mesh.twin(g) != h || mesh.edge_start(g) != mesh.edge_end(h) || mesh.edge_end(g) != mesh.edge_start(h);
         not_delaunay +=
-            incircle(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), mesh.points[id(mesh.apex(g))]) > 0;
+            incircle(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), mesh.points[mesh.apex(g)]) > 0;
       }
     }
   }
