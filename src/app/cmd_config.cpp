@@ -14,9 +14,9 @@
 namespace driftmesh::app {
 namespace {
 
-using Text = std::function<std::string()>;
+using Printed = std::function<std::string()>;
 
-cli::Option printing(const std::string& name, const std::string& help, Text text) {
+cli::Option printing(const std::string& name, const std::string& help, Printed text) {
   return {.kind = cli::Option::Kind::kFlag, .name = name, .help = help, .prints = std::move(text)};
 }
 

@@ -14,7 +14,7 @@ namespace driftmesh::app {
 namespace {
 
 template <class Options>
-struct Request {
+struct Asked {
   Options options;
   std::string output;
 };
@@ -39,7 +39,7 @@ void report(const Pslg& pslg, const std::string& file) {
 /// The command of a kind.
 template <class Options>
 cli::Command kind(const std::string& name, const std::string& what, Pslg (*make)(const Options&)) {
-  const auto request = std::make_shared<Request<Options>>();
+  const auto request = std::make_shared<Asked<Options>>();
   cli::Command command{.name = name, .summary = what};
   visit_parameters(request->options, [&](const char* parameter_name, auto& value, const char* meaning) {
     command.options.push_back(parameter(parameter_name, value, meaning));

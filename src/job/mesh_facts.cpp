@@ -11,7 +11,6 @@ namespace driftmesh::job {
 namespace {
 
 using Group = MeshFacts::ExceptionGroup;
-using Place = MeshFacts::Place;
 
 /// In the order in which they are shown; words for the causes follow.
 constexpr std::array kCauses{ExceptionCause::kInputAngle, ExceptionCause::kShell, ExceptionCause::kPrecision,
@@ -44,14 +43,14 @@ const Point& sharpest_corner(const Triangulation& mesh, TriangleId t) {
 }
 
 /// Keeps the worst places, each once.
-void add_places(Group& group, const std::vector<Place>& places) {
+void add_places(Group& group, const std::vector<MeshFacts::Place>& places) {
   group.places.insert(group.places.end(), places.begin(), places.end());
   std::stable_sort(group.places.begin(), group.places.end(),
-                   [](const Place& a, const Place& b) { return a.angle < b.angle; });
-  std::vector<Place> kept;
-  for (const Place& p : group.places)
+                   [](const MeshFacts::Place& a, const MeshFacts::Place& b) { return a.angle < b.angle; });
+  std::vector<MeshFacts::Place> kept;
+  for (const MeshFacts::Place& p : group.places)
     if (kept.size() < Group::kMaxPlaces &&
-        std::none_of(kept.begin(), kept.end(), [&](const Place& k) { return k.at == p.at; }))
+        std::none_of(kept.begin(), kept.end(), [&](const MeshFacts::Place& k) { return k.at == p.at; }))
       kept.push_back(p);
   group.places = std::move(kept);
 }
@@ -100,7 +99,7 @@ void add_shape(AngleSummary& sum, const AngleSummary& part, bool first) {
 
 /// The plain values of MeshFacts in one order for both directions.
 template <class Stream, class Facts>
-void transfer(Stream& stream, Facts& facts) {
+void transfer_plain(Stream& stream, Facts& facts) {
   stream.value(facts.triangles);
   stream.value(facts.vertices);
   stream.value(facts.subsegments);
@@ -142,7 +141,7 @@ void add_facts(MeshFacts& facts, const MeshFacts& others) {
 }
 
 void write_facts(ByteWriter& writer, const MeshFacts& facts) {
-  transfer(writer, facts);
+  transfer_plain(writer, facts);
   writer.value(static_cast<std::uint64_t>(facts.exceptions.size()));
   for (const Group& group : facts.exceptions) {
     writer.text(group.cause);
@@ -154,7 +153,7 @@ void write_facts(ByteWriter& writer, const MeshFacts& facts) {
 
 MeshFacts read_facts(ByteReader& reader) {
   MeshFacts facts;
-  transfer(reader, facts);
+  transfer_plain(reader, facts);
   for (auto groups = reader.value<std::uint64_t>(); groups > 0; --groups) {
     Group group;
     group.cause = reader.text();

@@ -9,11 +9,11 @@
 namespace driftmesh::job {
 namespace {
 
-enum class Kind : std::uint8_t { kOrder, kNothing, kError };
+enum class Letter : std::uint8_t { kOrder, kNothing, kError };
 
 // The fields besides plan and input, in one order for both directions.
 template <class Stream, class Fields>
-void transfer(Stream& stream, Fields& order) {
+void transfer_rest(Stream& stream, Fields& order) {
   stream.value(order.sizing.gradation);
   stream.value(order.sizing.shortest);
   stream.value(order.sizing.longest);
@@ -24,12 +24,12 @@ void transfer(Stream& stream, Fields& order) {
 
 Bytes pack(const Order& order) {
   ByteWriter writer;
-  writer.value(Kind::kOrder);
+  writer.value(Letter::kOrder);
   writer.array(plan_to_bytes(order.plan));
   writer.array(pslg_to_bytes(order.pslg));
   writer.text(order.sizing.expression);
   writer.text(order.sizing.background);
-  transfer(writer, order);
+  transfer_rest(writer, order);
   return writer.take();
 }
 
@@ -42,19 +42,19 @@ Order unpack(ByteReader& reader, std::int32_t ranks, const std::shared_ptr<const
   order.pslg = pslg_from_bytes(pslg);
   order.sizing.expression = reader.text();
   order.sizing.background = reader.text();
-  transfer(reader, order);
+  transfer_rest(reader, order);
   return order;
 }
 
 Bytes nothing() {
   ByteWriter writer;
-  writer.value(Kind::kNothing);
+  writer.value(Letter::kNothing);
   return writer.take();
 }
 
 Bytes error(const char* message) {
   ByteWriter writer;
-  writer.value(Kind::kError);
+  writer.value(Letter::kError);
   writer.text(message);
   return writer.take();
 }
@@ -76,12 +76,12 @@ std::optional<Order> share(Team& team, const std::function<std::optional<Order>(
                            const std::shared_ptr<const balancer::Policy>& policy) {
   const Bytes bytes = team.broadcast(team.leads() ? words_of_leader(team, make) : Bytes());
   ByteReader reader(bytes);
-  switch (reader.value<Kind>()) {
-    case Kind::kOrder:
+  switch (reader.value<Letter>()) {
+    case Letter::kOrder:
       return by_itself(team, [&] { return std::optional(unpack(reader, team.ranks(), policy)); });
-    case Kind::kNothing:
+    case Letter::kNothing:
       return std::nullopt;
-    case Kind::kError:
+    case Letter::kError:
       break;
   }
   throw LeaderError(reader.text());
