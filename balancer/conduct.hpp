@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "balancer/load_snapshot.hpp"
 #include "balancer/messages.hpp"
 #include "balancer/move_cost.hpp"
+#include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
 

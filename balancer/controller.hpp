@@ -7,12 +7,11 @@
 
 #include "balancer/collective_conduct.hpp"
 #include "balancer/council.hpp"
-#include "balancer/load_snapshot.hpp"
 #include "balancer/messages.hpp"
 #include "balancer/move_cost.hpp"
 #include "balancer/planning_conduct.hpp"
-#include "balancer/policy.hpp"
 #include "balancer/request_conduct.hpp"
+#include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
 

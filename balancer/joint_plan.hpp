@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "balancer/load_snapshot.hpp"
 #include "balancer/move_cost.hpp"
-#include "balancer/policy.hpp"
+#include "driftmesh/load_snapshot.hpp"
+#include "driftmesh/policy.hpp"
 
 /// A plan that all ranks make together (Placement::kCollective). Nobody knows all subdomains: each rank has parts made
 /// of its own, and tells the others how much of what part it holds, and single subdomains that would even out the rest.

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "balancer/load_snapshot.hpp"
 #include "balancer/messages.hpp"
+#include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
 

@@ -1,4 +1,4 @@
-#include "balancer/load_snapshot.hpp"
+#include "driftmesh/load_snapshot.hpp"
 
 #include <algorithm>
 #include <cmath>

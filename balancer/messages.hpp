@@ -4,8 +4,8 @@
 #include <variant>
 #include <vector>
 
-#include "balancer/load_snapshot.hpp"
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
+#include "driftmesh/load_snapshot.hpp"
 #include "protocol/epoch.hpp"
 
 /// What ranks say to each other to balance their load. The layout on the wire is in codec.cpp; to the protocol all of

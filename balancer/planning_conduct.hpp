@@ -8,8 +8,8 @@
 #include "balancer/conduct.hpp"
 #include "balancer/knowledge.hpp"
 #include "balancer/planning_pace.hpp"
-#include "balancer/policy.hpp"
 #include "balancer/report_rule.hpp"
+#include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {
 

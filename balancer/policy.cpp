@@ -1,6 +1,21 @@
-#include "balancer/policy.hpp"
+#include "driftmesh/policy.hpp"
+
+#include <utility>
 
 namespace driftmesh::balancer {
+namespace {
+
+class LeaderPolicy final : public Policy {
+ public:
+  explicit LeaderPolicy(std::function<std::vector<Move>(const LoadSnapshot&)> plan) : plan_(std::move(plan)) {}
+  [[nodiscard]] Placement placement() const override { return Placement::kLeader; }
+  [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override { return plan_(snapshot); }
+
+ private:
+  std::function<std::vector<Move>(const LoadSnapshot&)> plan_;
+};
+
+}  // namespace
 
 std::vector<Move> Policy::plan(const LoadSnapshot&, Rank) const {
   return {};
@@ -24,6 +39,10 @@ std::optional<Rank> Policy::victim(const LoadSnapshot&, Rank, const IdVector<Ran
 
 std::vector<Move> Policy::give(const LoadSnapshot&, Rank, Rank) const {
   return {};
+}
+
+std::shared_ptr<const Policy> leader_policy(std::function<std::vector<Move>(const LoadSnapshot&)> plan) {
+  return std::make_shared<LeaderPolicy>(std::move(plan));
 }
 
 }  // namespace driftmesh::balancer

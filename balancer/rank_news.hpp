@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "balancer/load_snapshot.hpp"
 #include "balancer/messages.hpp"
+#include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
 

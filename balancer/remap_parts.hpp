@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "balancer/load_snapshot.hpp"
+#include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "balancer/conduct.hpp"
-#include "balancer/policy.hpp"
 #include "balancer/rank_news.hpp"
 #include "balancer/report_rule.hpp"
+#include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "balancer/load_snapshot.hpp"
+#include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/bytes.hpp"
-#include "base/ids.hpp"
 #include "decompose/subdomain_mesh.hpp"
+#include "driftmesh/ids.hpp"
 #include "mesh/refiner_state.hpp"
 #include "migration/dormant_mesh.hpp"
 #include "protocol/messages.hpp"

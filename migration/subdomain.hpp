@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/bytes.hpp"
-#include "base/ids.hpp"
 #include "decompose/decomposition.hpp"
 #include "decompose/subdomain_mesh.hpp"
+#include "driftmesh/ids.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/refine_counters.hpp"
 #include "migration/packed_form.hpp"

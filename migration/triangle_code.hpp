@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/bytes.hpp"
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "mesh/triangulation.hpp"
 
 namespace driftmesh {

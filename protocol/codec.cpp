@@ -46,6 +46,7 @@ void fields(auto& archive, MessageOf<Terminate> auto& m) {
   archive.number(m.control);
 }
 void fields(auto&, MessageOf<Finish> auto&) {}
+void fields(auto&, MessageOf<Abandon> auto&) {}
 void fields(auto& archive, MessageOf<Advice> auto& m) {
   archive.rest(m.content);
 }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
 #include "protocol/epoch.hpp"
 
 namespace driftmesh::protocol {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/bytes.hpp"
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
 #include "dyadic/split_point.hpp"
 #include "protocol/epoch.hpp"
 
@@ -59,6 +59,11 @@ struct Advice {
   friend bool operator==(const Advice&, const Advice&) = default;
 };
 
+/// The sender gives the whole run up: nobody need do any more work.
+struct Abandon {
+  friend bool operator==(const Abandon&, const Abandon&) = default;
+};
+
 // ---- Detection: how the end is found; each of these travels along the ring of ranks ------------------------------
 
 /// Safra's token (EWD998).
@@ -82,7 +87,7 @@ struct Finish {
   friend bool operator==(const Finish&, const Finish&) = default;
 };
 
-using Message = std::variant<SplitBatch, HandOff, LocationUpdate, Token, Terminate, Finish, Advice>;
+using Message = std::variant<SplitBatch, HandOff, LocationUpdate, Token, Terminate, Finish, Abandon, Advice>;
 
 enum class Traffic { kWork, kControl, kDetection };
 [[nodiscard]] Traffic traffic_of(const Message& message);

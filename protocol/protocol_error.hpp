@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "base/ids.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/ids.hpp"
 
 namespace driftmesh::protocol {
 

@@ -10,6 +10,7 @@ RankProtocol::RankProtocol(Rank self, std::int32_t ranks, IdSpan<SubdomainId, co
                            std::size_t aggregation, const Rules& rules)
     : rules_(&rules),
       self_(self),
+      ranks_(ranks),
       aggregator_(self, aggregation),
       directory_(self, owners),
       termination_(self, ranks) {}
@@ -73,6 +74,11 @@ bool RankProtocol::send_control(Rank destination, Message message) {
   termination_.control_sent();
   outgoing_.push_back({destination, std::move(message)});
   return true;
+}
+
+void RankProtocol::abandon() {
+  for (const Rank other : first_ids<Rank>(ranks_))
+    if (other != self_) send_control(other, Abandon{});
 }
 
 Delivery RankProtocol::receive(Rank source, Message message) {
@@ -143,6 +149,11 @@ void RankProtocol::take(Rank source, HandOff&& arrival, Delivery& delivery) {
 void RankProtocol::take(Rank, LocationUpdate&& update, Delivery&) {
   termination_.control_received();
   learn(update.subdomain, {update.owner, update.epoch});
+}
+
+void RankProtocol::take(Rank, Abandon&&, Delivery& delivery) {
+  termination_.control_received();
+  delivery.abandoned = true;
 }
 
 void RankProtocol::take(Rank, Advice&& advice, Delivery& delivery) {

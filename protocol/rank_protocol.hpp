@@ -20,6 +20,7 @@ struct Delivery {
   std::optional<HandOff> arrival;  ///< a subdomain that now lives here; unpack it before looking at the splits
   std::vector<SplitGroup> splits;  ///< for subdomains that live here
   std::optional<Advice> advice;    ///< what the sender said by advise()
+  bool abandoned = false;          ///< the sender has given the run up
 };
 
 /// How often things happened on one rank.
@@ -69,6 +70,10 @@ class RankProtocol {
   /// The same of where a subdomain is. The protocol does so by itself when it forwards SPLITs.
   bool advise(Rank destination, const LocationUpdate& update) { return send_control(destination, update); }
 
+  /// Tells all other ranks that this one gives the run up. They hear of it before the run ends, if it has not ended
+  /// yet.
+  void abandon();
+
   /// Takes in a message. What it brings to the program is returned; the program queues it as work of its subdomains
   /// before it next calls rest(). Throws ProtocolError for a message that must not come.
   Delivery receive(Rank source, Message message);
@@ -93,6 +98,7 @@ class RankProtocol {
   void take(Rank source, HandOff&& arrival, Delivery& delivery);
   void take(Rank source, LocationUpdate&& update, Delivery& delivery);
   void take(Rank source, Advice&& advice, Delivery& delivery);
+  void take(Rank source, Abandon&& abandon, Delivery& delivery);
   void take(Rank source, Token&& token, Delivery&) { termination_.receive(source, token); }
   void take(Rank source, Terminate&& terminate, Delivery&) { termination_.receive(source, terminate); }
   void take(Rank source, Finish&& finish, Delivery&) { termination_.receive(source, finish); }
@@ -103,6 +109,7 @@ class RankProtocol {
 
   const Rules* rules_;
   Rank self_;
+  std::int32_t ranks_;
   Aggregator aggregator_;
   Directory directory_;
   Termination termination_;

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "base/bytes.hpp"
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
 
 namespace driftmesh::protocol {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/bytes.hpp"
-#include "base/ids.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/ids.hpp"
 #include "dyadic/path.hpp"
 #include "protocol/protocol_error.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "balancer/conduct.hpp"
 #include "balancer/council.hpp"
-#include "balancer/policy.hpp"
+#include "driftmesh/policy.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 
 namespace driftmesh::balancer {

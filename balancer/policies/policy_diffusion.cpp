@@ -4,7 +4,7 @@
 #include <set>
 
 #include "balancer/parameters.hpp"
-#include "balancer/policy.hpp"
+#include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {
 namespace {

@@ -2,16 +2,9 @@
 
 #include <algorithm>
 
+#include "balancer/policy_list.hpp"
 #include "base/nearest_name.hpp"
 #include "driftmesh/error.hpp"
-
-// All policies: a line each. The one of name X is made by make_X, which lies in the policy's own file.
-#define DRIFTMESH_POLICIES(POLICY) \
-  POLICY(none)                     \
-  POLICY(zoltan)                   \
-  POLICY(diffusion)                \
-  POLICY(stealing)                 \
-  POLICY(greedy)
 
 namespace driftmesh::balancer {
 
@@ -31,12 +24,6 @@ constexpr Entry kPolicies[] = {DRIFTMESH_POLICIES(ENTRY)};
 #undef ENTRY
 
 }  // namespace
-
-std::vector<std::string> policy_names() {
-  std::vector<std::string> names;
-  for (const Entry& entry : kPolicies) names.emplace_back(entry.name);
-  return names;
-}
 
 std::unique_ptr<Policy> make_policy(const std::string& name, const Parameters::Values& values) {
   const auto* const entry =

@@ -1,8 +1,8 @@
 #include <memory>
 
 #include "balancer/parameters.hpp"
-#include "balancer/policy.hpp"
 #include "balancer/surplus.hpp"
+#include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {
 namespace {

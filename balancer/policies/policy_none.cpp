@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "balancer/parameters.hpp"
-#include "balancer/policy.hpp"
+#include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {
 namespace {

@@ -2,10 +2,10 @@
 #include <utility>
 
 #include "balancer/parameters.hpp"
-#include "balancer/policy.hpp"
 #include "balancer/remap_parts.hpp"
 #include "balancer/surplus.hpp"
 #include "balancer/zoltan/zoltan_partition.hpp"
+#include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {
 namespace {

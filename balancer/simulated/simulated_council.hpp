@@ -6,7 +6,7 @@
 
 #include "balancer/conduct.hpp"
 #include "balancer/council.hpp"
-#include "balancer/policy.hpp"
+#include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "balancer/load_snapshot.hpp"
-#include "balancer/policy.hpp"
+#include "driftmesh/load_snapshot.hpp"
+#include "driftmesh/policy.hpp"
 
 /// The only part of the project that knows Zoltan.
 namespace driftmesh::balancer {

@@ -32,10 +32,18 @@ class InputError : public Error {
 class FileError : public Error {
  public:
   FileError(const std::string& file, const std::string& what);
+  /// A message that is complete already.
+  explicit FileError(const std::string& message) : Error(message) {}
 };
 
 /// A limit that the user set or that a data structure has (triangles, memory, depth) was reached.
 class LimitError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Whoever asked for the mesh does not want it any more (MeshOptions::progress).
+class Cancelled : public Error {
  public:
   using Error::Error;
 };

@@ -14,6 +14,8 @@ class SizeField {
   /// return the same bits on every rank. May throw; the exception ends the meshing and reaches the caller. Not to be
   /// called on one object from two threads at once.
   [[nodiscard]] virtual double edge_length(const Point& p) const = 0;
+  /// The same, so that MeshOptions::size takes std::ref(field).
+  [[nodiscard]] double operator()(const Point& p) const { return edge_length(p); }
 };
 
 }  // namespace driftmesh

@@ -51,8 +51,7 @@ job::Request request_of(const GivenKeys& given) {
   job::Request request;
   in_words_of_options(given, {}, [&] {
     given.apply(request);
-    if (request.input.file.empty()) throw cli::UsageError("INPUT is missing");
-    if (request.decomposition.subdomains == 0) throw cli::UsageError("--subdomains is missing");
+    if (request.decomposition.subdomains == 0) throw cli::UsageError("--subdomains is 0; it must be at least 1");
     job::check(request, job::kSubdomains);
   });
   return request;
@@ -98,6 +97,7 @@ void run_decompose(const DecomposeCommand& command) {
 
 std::vector<cli::Option> decompose_options(DecomposeCommand& command) {
   std::vector<cli::Option> all = key_options(job::kDecompose, command.given);
+  for (cli::Option& option : all) option.required = option.name == "input" || option.name == "subdomains";
   std::ranges::move(std::vector<cli::Option>{{.name = "output",
                                               .letter = 'o',
                                               .value = "FILE",
@@ -124,6 +124,8 @@ cli::Command decompose_command() {
   return {.name = "decompose",
           .summary = "Cut a domain into subdomains of equal work",
           .options = decompose_options(*command),
+          .notes =
+              "Subdomains get equal shares of the triangles that the bounds ask for, or of the area if there are none.",
           .examples = {"driftmesh decompose bay.poly -n 400 -o bay.decomposition --plot bay.png"},
           .exit_codes = "0 done, 1 error, 2 wrong usage",
           .run = [command](cli::Call&) {

@@ -4,6 +4,8 @@
 #include "app/commands.hpp"
 #include "app/mesh_run.hpp"
 #include "app/request_line.hpp"
+#include "balancer/policies/policy_factory.hpp"
+#include "base/standard_streams.hpp"
 #include "config/experiment.hpp"
 #include "job/check.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
@@ -18,6 +20,9 @@ struct MeshCommand {
 
 /// What the command line asks for, and the settings that it names.
 int run(const MeshCommand& command) {
+  const bool launched = protocol::MpiSession::launched_as().has_value();
+  if (launched && is_standard_stream(command.config))
+    throw cli::UsageError("--config is standard input, which only one of the processes has; name a file");
   config::Settings settings;
   if (!command.config.empty()) settings = config::read_settings(command.config);
   int code = 0;
@@ -25,8 +30,8 @@ int run(const MeshCommand& command) {
     command.given.apply(settings.request);
     const job::Request& request = settings.request;
     if (request.input.file.empty() && request.input.generator.empty()) throw cli::UsageError("INPUT is missing");
-    const job::Place place = job::place_of(request, job::kMesh, protocol::MpiSession::launched_as().has_value());
-    job::check(request, place);
+    const job::Place place = job::place_of(request, job::kMesh, launched);
+    job::check(request, place, balancer::make_policy);
     code = run_mesh(request, place, command_line_of("driftmesh mesh", request, job::kMesh));
   });
   return code;
@@ -46,7 +51,9 @@ cli::Command mesh_command() {
   return {.name = "mesh",
           .summary = "Make a quality mesh of a domain",
           .options = std::move(options),
-          .notes = "Check a mesh with: driftmesh check bay.vtu bay.poly --angle 20 --area 5000",
+          .notes =
+              "Started by mpirun, the processes make the mesh together, in subdomains. Check a mesh with: driftmesh "
+              "check bay.vtu bay.poly --angle 20 --area 5000",
           .examples = {"driftmesh mesh bay.poly --area 5000 -o bay.vtu --plot bay.png",
                        "driftmesh mesh bay.poly --angle 30 -o bay.msh -o bay.ele",
                        "driftmesh mesh bay.poly --size \"20 + 0.1*abs(x)\" --json run.json",

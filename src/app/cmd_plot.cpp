@@ -50,14 +50,14 @@ struct PlotCommand {
 void read_size(const std::string& text, PlotOptions& plot) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%dx%d%c", &plot.width, &plot.height, &rest) != 2)
-    throw cli::UsageError("'" + text + "' is not WIDTHxHEIGHT, for example 1600x900");
+    throw cli::UsageError("is '" + text + "'; write WIDTHxHEIGHT, as in 1600x900");
 }
 
 void read_box(const std::string& text, PlotOptions& plot) {
   std::vector<double> box;
   cli::into(box)(text);
   if (box.size() != 4 || !(box[0] < box[2] && box[1] < box[3]))
-    throw cli::UsageError("'" + text + "' is not x0,y0,x1,y1 with x0 < x1 and y0 < y1");
+    throw cli::UsageError("is '" + text + "'; write x0,y0,x1,y1 with x0 < x1 and y0 < y1");
   plot.box = Box{{box[0], box[1]}, {box[2], box[3]}};
 }
 

@@ -153,8 +153,7 @@ cli::Command run_command() {
                        .take = cli::into(command->file)},
                       {.name = "set",
                        .value = "KEY=VALUE",
-                       .help = "Give a key another value than the file does; with a list of values, sweep over them. "
-                               "Can be given several times",
+                       .help = "Give a key another value than the file does; with a list of values, sweep over them",
                        .repeats = true,
                        .take = cli::into(command->settings)},
                       {.name = "output",

@@ -5,12 +5,13 @@
 
 #include "app/json_text.hpp"
 #include "app/summary.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "base/stopwatch.hpp"
 #include "config/value_json.hpp"
 #include "job/check.hpp"
 #include "job/prepare.hpp"
 #include "job/rank_report.hpp"
-#include "job/simulated.hpp"
+#include "job/simulated/run_simulated.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -82,8 +83,8 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   const job::Limits limits = job::limits_of_all(
       request.limits, job::find_limits(request.limits, domain.pslg, false, real ? cluster->ranks_on_machine() : 1),
       real ? cluster->ranks() : 1);
-  job::Prepared prepared =
-      job::prepare(request, domain, {}, real ? job::kRanks : job::kSimulated, run.speeds, limits, watch);
+  job::Prepared prepared = job::prepare(request, domain, {.policies = balancer::make_policy},
+                                        real ? job::kRanks : job::kSimulated, run.speeds, limits, watch);
   job::add_prepared(run.record, prepared);
   run.record.stages.push_back({"prepare", preparing.seconds()});
   const Stopwatch running;

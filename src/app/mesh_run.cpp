@@ -9,6 +9,7 @@
 
 #include "app/output_files.hpp"
 #include "app/run_notes.hpp"
+#include "balancer/policies/policy_factory.hpp"
 #include "base/bytes.hpp"
 #include "distributed/write_distributed.hpp"
 #include "io/mesh_file.hpp"
@@ -97,7 +98,8 @@ job::Order prepare_order(const Request& request, job::Place place, const job::Te
   const IdVector<Rank, double> shares = job::shares_of_time(request, team.ranks());
   const job::Limits limits = job::limits_of_all(
       request.limits, job::find_limits(request.limits, domain.pslg, written, team.ranks_on_machine()), team.ranks());
-  job::Prepared prepared = job::prepare(request, domain, {}, place, shares, limits, notes);
+  job::Prepared prepared =
+      job::prepare(request, domain, {.policies = balancer::make_policy}, place, shares, limits, notes);
   job::add_prepared(notes.run, prepared);
   return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, shares, written};
 }
@@ -142,8 +144,8 @@ void assemble_and_write(const Request& request, job::Team& team, std::optional<j
 void mesh_in_subdomains(const Request& request, job::Place place, const std::string& command, job::Team& team) {
   const std::string start = team.alone() ? "" : "mpirun -n " + std::to_string(team.ranks()) + " ";
   RunNotes notes(request, start + command, !team.leads());
-  std::optional<job::Order> order =
-      job::share(team, [&] { return std::optional(prepare_order(request, place, team, notes)); });
+  std::optional<job::Order> order = job::share(
+      team, [&] { return std::optional(prepare_order(request, place, team, notes)); }, balancer::make_policy);
   std::optional<job::RankRun> run(std::in_place, team, std::move(*order), nullptr, notes);
   timed(notes, "refine", [&] { run->refine(); });
   report(team, *run, notes);
@@ -156,8 +158,9 @@ int mesh_on_ranks(const Request& request, const std::string& command) {
   job::MpiTeam team(protocol::MpiSession::world());
   try {
     mesh_in_subdomains(request, job::kRanks, command, team);
-  } catch (const job::LeaderError&) {
-    return 0;  // rank 0 has the error, and the code for it
+  } catch (const std::exception&) {
+    if (team.leads()) throw;
+    return 0;  // all ranks have the error, and rank 0 says so
   }
   team.close();
   return 0;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "balancer/policies/policy_factory.hpp"
 #include "job/rank_run.hpp"
 
 namespace driftmesh::app {
@@ -14,15 +15,19 @@ RealCluster::~RealCluster() {
 }
 
 ClusterRun RealCluster::run(job::Order&& order, job::RunRecord& record, job::Watch& watch) {
-  std::optional<job::Order> shared = job::share(team_, [&] { return std::optional(std::move(order)); });
+  std::optional<job::Order> shared = job::share(
+      team_, [&] { return std::optional(std::move(order)); }, balancer::make_policy);
   return job::run_with_log(team_, std::move(*shared), record, watch);
 }
 
 void RealCluster::serve() {
   job::Watch watch;
-  while (std::optional<job::Order> order = job::share(team_, {})) {
+  while (std::optional<job::Order> order = job::share(team_, {}, balancer::make_policy)) {
     job::RunRecord unused;
-    static_cast<void>(job::run_with_log(team_, std::move(*order), unused, watch));
+    try {
+      static_cast<void>(job::run_with_log(team_, std::move(*order), unused, watch));
+    } catch (const std::exception&) {  // which all ranks have: rank 0 says what is next
+    }
   }
 }
 

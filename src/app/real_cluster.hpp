@@ -12,8 +12,8 @@
 namespace driftmesh::app {
 
 /// The ranks that mpirun has started, or this process alone, and the runs that they make together. All processes of a
-/// job make one; then rank 0 says what is run, and the others serve. What a rank throws within a run stops all of them
-/// with one message; what rank 0 throws between runs sends the others home.
+/// job make one; then rank 0 says what is run, and the others serve. What ends a run ends it for all of them, and rank
+/// 0 has the error; what rank 0 throws between runs sends the others home.
 class RealCluster {
  public:
   RealCluster();

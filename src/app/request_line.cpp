@@ -81,8 +81,17 @@ std::string shown_default(const Key& key) {
   return tells ? text : "";
 }
 
-std::string in_words_of(const Key& key) {
-  return key.name == "input.file" ? "the input" : "--" + key.option;
+/// The text with options in place of the full names of keys that have one.
+std::string in_words_of_options(std::string text) {
+  constexpr const char* kOfNames = "abcdefghijklmnopqrstuvwxyz.-";
+  for (const Key& key : job::keys()) {
+    const std::string option = key.name == "input.file" ? "INPUT" : "--" + key.option;
+    for (std::size_t at = 0; !key.option.empty() && (at = text.find(key.name, at)) != std::string::npos; ++at) {
+      const std::size_t end = std::min(text.size(), text.find_first_not_of(kOfNames, at));
+      if (text.substr(at, end - at) == key.name) text.replace(at, key.name.size(), option);
+    }
+  }
+  return text;
 }
 
 }  // namespace
@@ -99,9 +108,7 @@ void throw_with_option(const KeyError& error, const GivenKeys& given, const conf
   const auto by_line =
       std::ranges::any_of(given.items, [&](const GivenKeys::Item& item) { return item.key->name == error.key(); });
   if (!by_line && places.contains(error.key())) throw config::placed(error, places, "");
-  const Key* const key = job::find_key(error.key()).key;
-  const std::string who = key == nullptr || key->option.empty() ? error.key() : in_words_of(*key);
-  throw cli::UsageError(who + ": " + error.problem() + "; " + error.next());
+  throw cli::UsageError(in_words_of_options(error.what()));
 }
 
 std::vector<cli::Option> key_options(job::Door door, GivenKeys& given, const std::string& group) {
@@ -113,7 +120,7 @@ std::vector<cli::Option> key_options(job::Door door, GivenKeys& given, const std
     option.name = key.option;
     option.letter = key.letter;
     option.value = key.name == "input.file" ? "INPUT" : key.value_name;
-    option.help = key.help;
+    option.help = key.option_help.empty() ? key.help : key.option_help;
     option.standard = shown_default(key);
     option.group = key.name == "input.file" ? "" : group.empty() ? key.group : group;
     option.repeats = key.kind == Kind::kOutputs || key.kind == Kind::kTable;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 

@@ -7,27 +7,6 @@
 namespace driftmesh::cli {
 namespace {
 
-/// A word as a POSIX shell reads it back.
-std::string quoted(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-std::string words_of(const Call::Given& given) {
-  switch (given.option->kind) {
-    case Option::Kind::kFlag:
-      return "--" + given.option->name;
-    case Option::Kind::kPositional:
-      return quoted(given.value);
-    case Option::Kind::kValue:
-      break;
-  }
-  return "--" + given.option->name + " " + quoted(given.value);
-}
-
 void add_commands(const std::string& name, const Command& command, std::vector<NamedCommand>& all) {
   all.push_back({name, &command});
   for (const Command& below : command.commands) add_commands(name + " " + below.name, below, all);
@@ -40,22 +19,12 @@ bool Call::has(const std::string& option) const {
 }
 
 void Call::give(const Option& option, const std::string& value) {
-  if (!option.repeats && has(option.name)) throw UsageError("given twice");
+  if (!option.repeats && has(option.name)) throw UsageError("is given twice");
   const auto& choices = option.choices;
   if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end())
-    throw UsageError("unknown value '" + value + "'; choose " + listed(choices) + did_you_mean(value, choices));
+    throw UsageError("is '" + value + "'; it must be " + listed(choices) + did_you_mean(value, choices));
   if (option.take) option.take(value);
   given.push_back({&option, value});
-}
-
-std::string Call::text(const std::vector<std::string>& without) const {
-  std::string line = name;
-  for (const Given& g : given) {
-    if (std::find(without.begin(), without.end(), g.option->name) != without.end()) continue;
-    line += ' ';
-    line += words_of(g);
-  }
-  return line;
 }
 
 std::vector<std::string> command_names(const Command& command) {

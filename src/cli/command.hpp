@@ -32,9 +32,10 @@ struct Option {
   bool required = false;   ///< must be given
   bool repeats = false;    ///< may be given several times
   Completes completes = Completes::kNothing;
-  std::vector<std::string> choices{};              ///< the only values that are allowed; empty: ask `take`
-  std::function<void(const std::string&)> take{};  ///< stores a value, "" for a flag; throws UsageError
-  std::function<std::string()> prints{};           ///< a flag that prints this in place of what the command does
+  std::vector<std::string> choices{};  ///< the only values that are allowed; empty: ask `take`
+  /// Stores a value, "" for a flag. Throws a UsageError that goes on behind the option's name: "is 5; it must be ...".
+  std::function<void(const std::string&)> take{};
+  std::function<std::string()> prints{};  ///< a flag that prints this in place of what the command does
 };
 
 struct Call;
@@ -63,10 +64,8 @@ struct Call {
   std::function<std::string()> prints;  ///< what to print instead of running the command, if anything
 
   [[nodiscard]] bool has(const std::string& option) const;
-  /// Gives one more option its value. Throws UsageError if it is not allowed.
+  /// Gives one more option its value. Throws UsageError, as Option::take does, if it is not allowed.
   void give(const Option& option, const std::string& value);
-  /// The command line that says all this, quoted for a POSIX shell, but for the options with the names `without`.
-  [[nodiscard]] std::string text(const std::vector<std::string>& without = {}) const;
 };
 
 /// The names of the commands directly below one.

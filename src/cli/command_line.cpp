@@ -119,7 +119,7 @@ class Level {
     try {
       call.give(option, flag ? "" : unmasked(value));
     } catch (const UsageError& error) {
-      throw UsageError(spelled(option) + ": " + error.what());
+      throw UsageError(spelled(option) + " " + error.what());
     }
   }
 

@@ -112,7 +112,8 @@ std::string description(const Option& option) {
   std::string text = option.help;
   const bool names_all = std::all_of(option.choices.begin(), option.choices.end(),
                                      [&](const std::string& choice) { return text.find(choice) != std::string::npos; });
-  if (!names_all) text += ": " + listed(option.choices);
+  if (!names_all) text += (text.find(':') == std::string::npos ? ": " : "; one of ") + listed(option.choices);
+  if (option.repeats && option.kind != Option::Kind::kPositional) text += "; can be given several times";
   if (!option.standard.empty()) text += " [" + option.standard + "]";
   return text;
 }

@@ -14,7 +14,9 @@ std::string shortest_text(double number) {
 
 std::string words_of(const Range& range) {
   const std::string least = shortest_text(range.least);
-  if (std::isfinite(range.most)) return (range.above ? "above " : "from ") + least + " to " + shortest_text(range.most);
+  if (std::isfinite(range.most))
+    return (range.above ? "above " : "from ") + least + (range.above ? " and at most " : " to ") +
+           shortest_text(range.most);
   return range.above ? "above " + least : "at least " + least;
 }
 
@@ -25,9 +27,10 @@ Number read(const std::string& text, const Range& range, const char* what) {
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(begin, end, value);
   const auto number = static_cast<double>(value);
-  if (error != std::errc{} || rest != end || !std::isfinite(number)) throw UsageError("'" + text + "' is not " + what);
+  if (error != std::errc{} || rest != end || !std::isfinite(number))
+    throw UsageError("is '" + text + "', which is not " + what);
   if (number < range.least || number > range.most || (range.above && number == range.least))
-    throw UsageError(text + " is not " + words_of(range));
+    throw UsageError("is " + text + "; it must be " + words_of(range));
   return value;
 }
 

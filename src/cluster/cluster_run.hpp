@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
 #include "runtime/rank_outcome.hpp"
 
 namespace driftmesh {

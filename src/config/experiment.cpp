@@ -7,6 +7,7 @@
 #include <functional>
 #include <set>
 
+#include "balancer/policies/policy_factory.hpp"
 #include "base/nearest_name.hpp"
 #include "base/read_file.hpp"
 #include "base/standard_streams.hpp"
@@ -338,9 +339,9 @@ class ExperimentReader {
 
   static void check_point(const Request& request) {
     if (request.input.file.empty() && request.input.generator.empty())
-      throw KeyError("input.file", "no domain is given",
+      throw KeyError("input.file", "is missing",
                      "name a file with input.file, or what to generate with input.generate");
-    job::check(request, job::place_of(request, job::kExperiment, false));
+    job::check(request, job::place_of(request, job::kExperiment, false), balancer::make_policy);
   }
 
   Experiment result_;
@@ -368,10 +369,9 @@ void check_processes(const Experiment& experiment, std::int32_t processes) {
       if (place != job::kSimulated)
         job::check_ranks(point.request, place, processes);
       else if (processes > 1)
-        throw KeyError(
-            "cluster.kind",
-            "a simulated cluster is one process, and mpirun has started " + std::to_string(processes) + " processes",
-            "start it without mpirun, or write kind: real");
+        throw KeyError("cluster.kind",
+                       "is simulated, in one process, and mpirun has started " + std::to_string(processes),
+                       "start it without mpirun, or write kind: real");
     }
   });
 }
@@ -380,7 +380,7 @@ InputError placed(const KeyError& error, const SourcePlaces& places, const std::
   auto place = places.find(error.key());
   if (place == places.end()) place = places.find(error.key().substr(0, error.key().find('.')));
   return {
-      {place != places.end() ? place->second : otherwise}, "'" + error.key() + "': " + error.problem(), error.next()};
+      {place != places.end() ? place->second : otherwise}, "'" + error.key() + "' " + error.problem(), error.next()};
 }
 
 }  // namespace driftmesh::config

@@ -24,6 +24,11 @@ std::string help_of(const KeyInfo& key) {
   return key.unit.empty() ? key.help : key.help + " (" + key.unit + ")";
 }
 
+bool is_empty(const Value& value) {
+  const std::string text = job::text_of(value);
+  return text == "\"\"" || text == "[]" || text == "{}";
+}
+
 Json schema_of(const KeyInfo& key);
 
 Json schema_of_record(const std::vector<KeyInfo>& fields) {
@@ -54,6 +59,7 @@ Json schema_of(const KeyInfo& key) {
       break;
     case Kind::kChoice:
       schema["enum"] = key.choices;
+      if (is_empty(key.standard)) schema["enum"].push_back("");
       break;
     case Kind::kFlag:
       schema["type"] = "boolean";
@@ -90,11 +96,6 @@ std::string values_words(const KeyInfo& key) {
   if (std::isfinite(key.least)) words += (key.above ? " above " : " from ") + job::shortest_text(key.least);
   if (std::isfinite(key.most)) words += " to " + job::shortest_text(key.most);
   return words;
-}
-
-bool is_empty(const Value& value) {
-  const std::string text = job::text_of(value);
-  return text == "\"\"" || text == "[]" || text == "{}";
 }
 
 std::string row(const std::string& name, const KeyInfo& key) {

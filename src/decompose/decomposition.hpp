@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
 #include "driftmesh/point.hpp"
 #include "mesh/triangulation.hpp"
 

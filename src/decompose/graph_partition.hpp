@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 

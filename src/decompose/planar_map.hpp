@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "driftmesh/point.hpp"
 #include "mesh/handles.hpp"
 

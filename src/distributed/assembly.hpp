@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "distributed/census.hpp"
-#include "distributed/distributed_piece.hpp"
 #include "distributed/exchange.hpp"
 #include "distributed/held_subdomains.hpp"
 #include "distributed/numbering.hpp"
+#include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/pslg.hpp"
 
 namespace driftmesh {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/bytes.hpp"
-#include "base/ids.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/ids.hpp"
 #include "protocol/protocol_error.hpp"
 #include "protocol/rank_step.hpp"
 #include "protocol/transport.hpp"

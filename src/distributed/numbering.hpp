@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/ids.hpp"
 #include "decompose/decomposition.hpp"
+#include "driftmesh/ids.hpp"
 #include "protocol/split_set.hpp"
 
 namespace driftmesh {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "distributed/census.hpp"
-#include "distributed/distributed_piece.hpp"
 #include "distributed/held_subdomains.hpp"
 #include "distributed/numbering.hpp"
+#include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/pslg.hpp"
 
 namespace driftmesh {

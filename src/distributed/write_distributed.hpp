@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "distributed/distributed_piece.hpp"
 #include "distributed/exchange.hpp"
+#include "driftmesh/distributed_piece.hpp"
 #include "io/file_sink.hpp"
 #include "io/mesh_file.hpp"
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <unordered_map>
 
-#include "base/id_vector.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "io/file_sink.hpp"
 #include "io/msh_format.hpp"
 #include "io/msh_groups.hpp"

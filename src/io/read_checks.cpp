@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "base/id_vector.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
 
 namespace driftmesh {

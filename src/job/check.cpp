@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "balancer/policies/policy_factory.hpp"
 #include "base/nearest_name.hpp"
 #include "job/keys.hpp"
 #include "pslg/generators.hpp"
@@ -53,23 +52,25 @@ void check_places(const Request& request, Place place) {
 // ---- Values together -------------------------------------------------------------------------------------------
 
 void check_input(const Request::Input& input) {
-  require(input.file.empty() || input.generator.empty(), "input.generate", "two domains are given",
-          "remove input.file or input.generate");
-  require(!input.generator.empty() || input.parameters.empty(), "input.parameters", "nothing is generated",
-          "say what with input.generate");
+  require(input.file.empty() || input.generator.empty(), "input.generate", "names a second domain",
+          "remove it or input.file");
+  require(!input.generator.empty() || input.parameters.empty(), "input.parameters", "has no generator to go to",
+          "name one with input.generate");
   if (input.generator.empty()) return;
   try {
     static_cast<void>(generate(input.generator, input.parameters));
   } catch (const Error& error) {
-    throw KeyError("input.generate", error.what(), "see driftmesh generate --help");
+    throw KeyError("input.generate", std::string("is refused: ") + error.what(),
+                   "driftmesh generate --help shows what there is");
   }
 }
 
 void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
   require((bounds.area > 0) + (bounds.triangles > 0) + (bounds.triangles_per_rank > 0) <= 1, "bounds.triangles",
-          "the size of triangles is given twice", "keep one of area, triangles and triangles-per-rank");
+          "asks for the size of triangles a second time",
+          "keep one of bounds.area, bounds.triangles and bounds.triangles-per-rank");
   require(sizing.expression.empty() || (bounds.triangles == 0 && bounds.triangles_per_rank == 0), "sizing.size",
-          "a number of triangles and a size field are given", "remove one, or give bounds.area");
+          "does not go with a number of triangles", "remove one, or give bounds.area");
   require(sizing.gradation == 0 || !sizing.background.empty(), "sizing.gradation",
           "limits the growth of a background mesh's lengths, and there is none", "name one with sizing.background");
   require(sizing.longest == 0 || sizing.shortest <= sizing.longest, "sizing.min", "is greater than sizing.max",
@@ -79,33 +80,33 @@ void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
           "give one of them");
 }
 
-void check_policy(const Request& request) {
+void check_policy(const Request& request, const balancer::PolicyMaker& policies) {
+  const auto parameters = parameters_of_policy(request);
+  if (!policies) return;
   try {
-    static_cast<void>(balancer::make_policy(request.balance.policy, parameters_of_policy(request)));
-  } catch (const KeyError&) {
-    throw;
+    static_cast<void>(policies(request.balance.policy, parameters));
   } catch (const Error& error) {
-    throw KeyError("balance.parameters", error.what(), "see docs/balancing.md");
+    throw KeyError("balance.parameters", std::string("is refused: ") + error.what(), "docs/balancing.md lists them");
   }
 }
 
 void check_parts(const Request& request) {
   const Request::Decomposition& d = request.decomposition;
   require(d.subdomains == 0 || d.subdomains_per_rank == 0, "decomposition.subdomains-per-rank",
-          "the number of subdomains is given twice", "remove one");
+          "gives the number of subdomains a second time", "remove one");
   require(d.file.empty() || (d.subdomains == 0 && d.subdomains_per_rank == 0), "decomposition.file",
-          "a decomposition is given, and how many subdomains to cut", "remove one");
+          "is cut already, and a number of subdomains is given, too", "remove one");
   require(request.mapping.speeds.empty() || !request.mapping.by_speed, "mapping.by-speed",
-          "the speeds are given, and taken from the cluster", "remove one");
+          "does not go with mapping.speeds", "remove one");
 }
 
 void check_cluster(const Request& request) {
   const Request::Cluster& c = request.cluster;
-  require(c.groups.empty() || c.speed == 0, "cluster.speed", "each of cluster.groups has its own speed", "remove one");
+  require(c.groups.empty() || c.speed == 0, "cluster.speed",
+          "does not go with cluster.groups, each of which has its own", "remove one");
   require(c.groups.empty() || c.ranks == 0 || c.ranks == ranks_of(cluster_of(request)), "cluster.ranks",
-          "cluster.groups has another number of ranks", "remove one");
-  require(!c.groups.empty() || c.ranks > 0, "cluster.ranks", "a cluster without ranks",
-          "give their number, or cluster.groups");
+          "is not the number of ranks in cluster.groups", "remove one");
+  require(!c.groups.empty() || c.ranks > 0, "cluster.ranks", "is 0", "give their number, or cluster.groups");
 }
 
 }  // namespace
@@ -116,12 +117,12 @@ Place place_of(const Request& request, Door door, bool launched) {
   return request.decomposition.subdomains > 0 || !request.decomposition.file.empty() ? kSubdomains : kOnePiece;
 }
 
-void check(const Request& request, Place place) {
+void check(const Request& request, Place place, const balancer::PolicyMaker& policies) {
   for (const Key& key : keys()) check_value(key, key.load(request));
   check_places(request, place);
   check_input(request.input);
   check_sizes(request.bounds, request.sizing);
-  check_policy(request);
+  check_policy(request, policies);
   check_parts(request);
   if (place == kSimulated) {
     check_cluster(request);
@@ -133,9 +134,9 @@ void check_ranks(const Request& request, Place place, std::int32_t ranks) {
   const std::int32_t wanted = request.cluster.ranks;
   if (place != kSimulated && wanted > 0 && wanted != ranks)
     throw KeyError("cluster.ranks",
-                   ranks == 1
-                       ? "this process is alone, not one of " + std::to_string(wanted)
-                       : "mpirun has started " + std::to_string(ranks) + " processes, not " + std::to_string(wanted),
+                   "is " + std::to_string(wanted) +
+                       (ranks == 1 ? ", and this process is alone"
+                                   : ", and mpirun has started " + std::to_string(ranks) + " processes"),
                    "start it with mpirun -n " + std::to_string(wanted) + ", or remove the key");
   const auto for_each_rank = [&](const std::vector<double>& values, const char* key) {
     if (!values.empty() && values.size() != static_cast<std::size_t>(ranks))
@@ -147,7 +148,7 @@ void check_ranks(const Request& request, Place place, std::int32_t ranks) {
   for_each_rank(request.mapping.speeds, "mapping.speeds");
   for_each_rank(request.cluster.drag, "cluster.drag");
   require(request.lb_phases == 0 || static_cast<std::size_t>(ranks) <= kMaxVtNodes, "lb-statistics",
-          "vt's files know no more than 32768 ranks", "remove it, or take fewer ranks");
+          "is for at most 32768 ranks: vt's files have no numbers for more", "remove it, or take fewer ranks");
 }
 
 std::map<std::string, std::string> parameters_of_policy(const Request& request) {
@@ -157,7 +158,7 @@ std::map<std::string, std::string> parameters_of_policy(const Request& request) 
     const std::size_t dot = name.find('.');
     const std::string policy = dot == std::string::npos ? request.balance.policy : name.substr(0, dot);
     if (std::find(policies.begin(), policies.end(), policy) == policies.end())
-      throw KeyError("balance.parameters", "there is no policy '" + policy + "'",
+      throw KeyError("balance.parameters", "names a policy '" + policy + "' that does not exist",
                      "the nearest one is '" + nearest_name(policy, policies) + "'");
     if (policy == request.balance.policy) parameters[dot == std::string::npos ? name : name.substr(dot + 1)] = value;
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "balancer/policy_list.hpp"
 #include "cluster/cluster_spec.hpp"
 #include "job/key.hpp"
 
@@ -16,8 +17,9 @@ namespace driftmesh::job {
 [[nodiscard]] Place place_of(const Request& request, Door door, bool launched);
 
 /// Throws KeyError for values that are missing, out of range, do not go together, or mean nothing at `place`: a key
-/// that would have to be ignored there is refused unless its value is the default. Files are not looked at.
-void check(const Request& request, Place place);
+/// that would have to be ignored there is refused unless its value is the default. Files are not looked at; parameters
+/// of the policy are, if `policies` can make it.
+void check(const Request& request, Place place, const balancer::PolicyMaker& policies = nullptr);
 
 /// Throws KeyError for values that `ranks` ranks, which exist, do not allow.
 void check_ranks(const Request& request, Place place, std::int32_t ranks);

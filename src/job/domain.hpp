@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "balancer/policy.hpp"
+#include "balancer/policy_list.hpp"
 #include "decompose/decomposition.hpp"
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/repair.hpp"
@@ -15,10 +15,10 @@ namespace driftmesh::job {
 
 /// What a caller has in memory, in place of what a request names. Null: nothing. What pointers point at is not owned.
 struct Given {
-  const Pslg* input = nullptr;                     ///< as users feed it: it is repaired first
-  const SizeField* size = nullptr;                 ///< the same function on every rank
-  const Decomposition* decomposition = nullptr;    ///< made from the same input, after repair
-  std::shared_ptr<const balancer::Policy> policy;  ///< the same on every rank; the request's policy is not asked then
+  const Pslg* input = nullptr;                   ///< as users feed it: it is repaired first
+  const SizeField* size = nullptr;               ///< the same function on every rank
+  const Decomposition* decomposition = nullptr;  ///< made from the same input, after repair
+  balancer::PolicyMaker policies{};              ///< for ranks that balance; equal ones on every rank
 };
 
 /// What is meshed.

@@ -65,10 +65,11 @@ struct KeyInfo {
   Doors doors = kMeshers;     ///< who can say it
 
   // On the command line of the doors mesh, decompose and check.
-  std::string option;      ///< its long name without dashes; empty: it has none. "no-..." sets a flag to false
-  char letter = 0;         ///< its short name
-  std::string value_name;  ///< what help calls its value: "AREA"
-  std::string group;       ///< the heading of help that it stands under
+  std::string option;       ///< its long name without dashes; empty: it has none. "no-..." sets a flag to false
+  char letter = 0;          ///< its short name
+  std::string value_name;   ///< what help calls its value: "AREA"
+  std::string option_help;  ///< what help says in place of `help`: of an option that sets a flag to false
+  std::string group;        ///< the heading of help that it stands under
 };
 
 /// A key, and where a request keeps its value.
@@ -77,12 +78,14 @@ struct Key : KeyInfo {
   std::function<Value(const Request&)> load;
 };
 
-/// A value that cannot be, or cannot be together with others, or where it was given; `key` is the one to look at. The
-/// message names the key by its full name; whoever has better words, a place in a file or an option, puts them in.
+/// A value that cannot be, or cannot be together with others, or where it was given: the key to look at, what it does
+/// wrong
+/// ("is -5"), and what to do. The message names keys by their full names; whoever has better words, a place in a file
+/// or an option, puts them in.
 class KeyError : public Error {
  public:
   KeyError(std::string key, const std::string& what, const std::string& next)
-      : Error(key + ": " + what + "; " + next), key_(std::move(key)), what_(what), next_(next) {}
+      : Error(key + " " + what + "; " + next), key_(std::move(key)), what_(what), next_(next) {}
   [[nodiscard]] const std::string& key() const { return key_; }
   [[nodiscard]] const std::string& problem() const { return what_; }
   [[nodiscard]] const std::string& next() const { return next_; }

@@ -6,10 +6,11 @@
 #include <type_traits>
 #include <utility>
 
-#include "balancer/policies/policy_factory.hpp"
+#include "balancer/policy_list.hpp"
 #include "base/nearest_name.hpp"
 #include "decompose/decompose.hpp"
 #include "mesh/bounds.hpp"
+#include "pslg/generators.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -90,6 +91,9 @@ auto option(const char* name, const char* value_name = "") {
 }
 auto option(char letter, const char* name, const char* value_name) {
   return [=](KeyInfo& key) { key.letter = letter, key.option = name, key.value_name = value_name; };
+}
+auto option_help(const char* text) {
+  return [=](KeyInfo& key) { key.option_help = text; };
 }
 auto places(Places where) {
   return [=](KeyInfo& key) { key.places = where; };
@@ -203,9 +207,10 @@ Section input_section() {
           {key("input.file", &R::input, &R::Input::file, "The domain: Triangle's .poly (its .node beside it), or .node",
                file(), option("input"), doors(kMesh | kDecompose | kExperiment)),
            key("input.generate", &R::input, &R::Input::generator,
-               "The domain, generated: pipe, bay, ... (see driftmesh generate --help)", option("generate", "KIND")),
-           key("input.parameters", &R::input, &R::Input::parameters, "Parameters of the generator: resolution=300",
-               option("generate-with", "NAME=VALUE"))}};
+               "In place of a file: the domain is generated (see driftmesh generate --help)",
+               option("generate", "KIND"), one_of(generator_names())),
+           key("input.parameters", &R::input, &R::Input::parameters,
+               "A parameter of what is generated, as in resolution=300", option("generate-with", "NAME=VALUE"))}};
 }
 
 Section triangle_section() {
@@ -226,9 +231,10 @@ Section triangle_section() {
            doors(kMeshers | kDecompose)),
        key("bounds.triangles-per-rank", &R::bounds, &R::Bounds::triangles_per_rank,
            "The same, times the number of ranks", in(0, 1e10), option("triangles-per-rank", "N"), places(kMany),
-           doors(kMeshers)),
+           doors(kMesh | kExperiment)),
        key("bounds.region-areas", &R::bounds, &R::Bounds::region_areas,
-           "Whether the area bounds of the input's regions hold", option("no-region-areas")),
+           "Whether the area bounds of the input's regions hold", option("no-region-areas"),
+           option_help("Ignore the area bounds of the input's regions")),
        key("sizing.size", &R::sizing, &R::Sizing::expression,
            "Target edge length in x and y: \"0.1 + 0.02*sqrt(x^2 + y^2)\"", option("size", "EXPR"),
            doors(kAll & ~kLibrary)),
@@ -241,9 +247,9 @@ Section triangle_section() {
            "are",
            from(0), option("gradation", "G"), doors(kAll & ~kLibrary)),
        key("sizing.min", &R::sizing, &R::Sizing::shortest, "Target edge lengths are at least this", from(0),
-           option("size-min", "LENGTH")),
+           option("size-min", "LENGTH"), doors(kAll & ~kLibrary)),
        key("sizing.max", &R::sizing, &R::Sizing::longest, "Target edge lengths are at most this; 0: no limit", from(0),
-           option("size-max", "LENGTH"))}};
+           option("size-max", "LENGTH"), doors(kAll & ~kLibrary))}};
 }
 
 Section limit_section() {
@@ -257,7 +263,8 @@ Section limit_section() {
                "The same for the memory of each process: 6G is 6 GiB; 0: 90 % of what the machine has free",
                unit("bytes"), in(0, 1e18), option("max-memory", "SIZE")),
            key("limits.keep-incomplete", &R::limits, &R::Limits::keep_incomplete,
-               "Write what there is when a limit stops the work", option("keep-incomplete"), places(kOnePiece))}};
+               "Write what there is when a limit stops the work", option("keep-incomplete"), places(kOnePiece),
+               doors(kMesh | kExperiment))}};
 }
 
 Section parts_section() {
@@ -267,7 +274,7 @@ Section parts_section() {
   const Names<WorkOrder> orders = {
       {WorkOrder::kGiven, "given"}, {WorkOrder::kLargest, "largest"}, {WorkOrder::kBacklog, "backlog"}};
   return {
-      "Subdomains and ranks (mpirun -n P driftmesh mesh ...)",
+      "Subdomains and ranks",
       kCut,
       kMeshers,
       {key("decomposition.subdomains", &R::decomposition, &R::Decomposition::subdomains,
@@ -275,7 +282,8 @@ Section parts_section() {
            "subdomain in cache",
            in(0, kMaxSubdomains), option('n', "subdomains", "N"), doors(kMeshers | kDecompose)),
        key("decomposition.subdomains-per-rank", &R::decomposition, &R::Decomposition::subdomains_per_rank,
-           "The same, times the number of ranks", in(0, 1e5), option("subdomains-per-rank", "N"), places(kMany)),
+           "The same, times the number of ranks", in(0, 1e5), option("subdomains-per-rank", "N"), places(kMany),
+           doors(kMesh | kExperiment)),
        key("decomposition.file", &R::decomposition, &R::Decomposition::file,
            "A decomposition made by driftmesh decompose, in place of cutting", file(), option("decomposition", "FILE"),
            doors(kMesh | kExperiment)),
@@ -288,25 +296,29 @@ Section parts_section() {
            in(0, 1), option("split-skew", "S"), doors(kMeshers | kDecompose)),
        key("seed", &R::seed, "Seed of the unevenness; each repetition of an experiment adds one", from(0),
            option("seed", "N"), doors(kMeshers | kDecompose)),
-       choice("mapping.method", &R::mapping, &R::Mapping::method, mappings,
-              "How subdomains are dealt to ranks at the start: graph balances work with short interfaces",
-              option("mapping", "HOW"), places(kMany)),
+       choice(
+           "mapping.method", &R::mapping, &R::Mapping::method, mappings,
+           "How subdomains are dealt to ranks at the start: graph (equal work, short interfaces), block or round-robin",
+           option("mapping", "HOW"), places(kMany)),
        key("mapping.speeds", &R::mapping, &R::Mapping::speeds,
            "Relative speed of each rank, where known: work is dealt in proportion", above(0),
            option("speeds", "S,S,..."), places(kMany)),
        key("mapping.by-speed", &R::mapping, &R::Mapping::by_speed,
-           "Whether work is dealt in proportion to the speeds of the cluster", option("map-by-speed"), places(kMany)),
+           "Deal work in proportion to the speeds of the cluster", option("map-by-speed"), places(kMany),
+           doors(kMesh | kExperiment)),
        key("mapping.by-area", &R::mapping, &R::Mapping::by_area,
-           "Whether area is dealt in place of expected work: an uneven start, for experiments", option("map-by-area"),
+           "Deal area in place of expected work: an uneven start, for experiments", option("map-by-area"),
            places(kMany)),
        choice("run.presplit", &R::run, &R::Run::presplit, presplits,
-              "Cut interfaces to size before refinement: auto does so wherever a bound on area or size says what "
-              "size, off is the protocol in full",
+              "Cut interfaces to size before refinement: on, off (the protocol in full), or auto, which is wherever a "
+              "bound on "
+              "area or size says what size",
               option("presplit", "MODE")),
        key("run.aggregation", &R::run, &R::Run::aggregation, "Most split points that travel in one message", in(1, 1e6),
            option("aggregation", "K"), places(kMany)),
        choice("run.order", &R::run, &R::Run::order, orders,
-              "Which subdomain a rank refines next: given keeps neighbors together", option("order", "ORDER")),
+              "Which subdomain a rank refines next: given (neighbors together), largest or backlog",
+              option("order", "ORDER")),
        key("run.slice", &R::run, &R::Run::slice, "Points inserted between two looks at the network", in(1, 1e9),
            option("slice", "N")),
        key("run.sleep", &R::run, &R::Run::sleep,
@@ -315,24 +327,25 @@ Section parts_section() {
 }
 
 Section balance_section() {
-  return {"Balancing: subdomains move between ranks while they are refined",
-          kMany,
-          kMeshers,
-          {key("balance.policy", &R::balance, &R::Balance::policy, "Who decides what moves (docs/balancing.md)",
-               one_of(balancer::policy_names()), option("balance", "POLICY")),
-           key("balance.parameters", &R::balance, &R::Balance::parameters,
-               "Parameters of the policy: method=graph; zoltan.method=graph for one policy of a sweep",
-               option("balance-with", "NAME=VALUE")),
-           key("balance.look", &R::balance, &R::Balance::look, "Time between two looks of a rank at its own load",
-               unit("seconds"), above(0), option("balance-look", "SECONDS")),
-           key("balance.gap", &R::balance, &R::Balance::gap,
-               "Shortest time between two reports of a rank, and between two plans", unit("seconds"), from(0),
-               option("balance-gap", "SECONDS")),
-           key("balance.interval", &R::balance, &R::Balance::interval,
-               "Longest time between two reports of a rank that has work", unit("seconds"), above(0),
-               option("balance-interval", "SECONDS")),
-           key("balance.gain", &R::balance, &R::Balance::gain, "Share of the finishing time that moving must save",
-               in(0, 1), option("balance-gain", "SHARE"))}};
+  return {
+      "Balancing: subdomains move between ranks while they are refined",
+      kMany,
+      kMeshers,
+      {key("balance.policy", &R::balance, &R::Balance::policy, "Who decides what moves (docs/balancing.md)",
+           one_of(balancer::policy_names()), option("balance", "POLICY")),
+       key("balance.parameters", &R::balance, &R::Balance::parameters,
+           "A parameter of the policy, as in method=graph; in a sweep over policies, that of one: zoltan.method=graph",
+           option("balance-with", "NAME=VALUE")),
+       key("balance.look", &R::balance, &R::Balance::look, "Time between two looks of a rank at its own load",
+           unit("seconds"), above(0), option("balance-look", "SECONDS")),
+       key("balance.gap", &R::balance, &R::Balance::gap,
+           "Shortest time between two reports of a rank, and between two plans", unit("seconds"), from(0),
+           option("balance-gap", "SECONDS")),
+       key("balance.interval", &R::balance, &R::Balance::interval,
+           "Longest time between two reports of a rank that has work", unit("seconds"), above(0),
+           option("balance-interval", "SECONDS")),
+       key("balance.gain", &R::balance, &R::Balance::gain, "Share of the finishing time that moving must save",
+           in(0, 1), option("balance-gain", "SHARE"))}};
 }
 
 Section cluster_section() {
@@ -368,7 +381,7 @@ Section output_section() {
       kMesh,
       {key("output.meshes", &R::output, &R::Output::meshes,
            "Mesh file, by extension: .vtu (ParaView), .pvtu (the same in pieces, one per rank), .msh (Gmsh 4.1), or "
-           ".node, .ele, .poly, .edge, .neigh (each writes Triangle's whole set); can be given several times",
+           ".node, .ele, .poly, .edge, .neigh (each writes Triangle's whole set); - is standard output",
            option('o', "output", "FILE")),
        key("output.picture", &R::output, &R::Output::picture,
            "Picture of the mesh: .png, .svg or .pdf (more: driftmesh plot --help)", output_file(),
@@ -385,7 +398,7 @@ Section experiment_section() {
       kExperiment,
       {key("name", &R::name, "What the results are called; by default the name of the file"),
        key("repetitions", &R::repetitions, "How often each run is made", in(1, 1000)),
-       key("pictures", &R::pictures, "Whether runs are drawn"),
+       key("pictures", &R::pictures, "Draw each run"),
        key("lb-statistics", &R::lb_phases,
            "Number of phases in the load balancing statistics written for DARMA vt's tools; 0: none", in(0, 10'000))}};
 }
@@ -482,7 +495,7 @@ Value read_value(const KeyInfo& key, const std::string& text) {
     case Kind::kNumbers:
       return number(key, text);
     case Kind::kChoice:
-      if (std::find(key.choices.begin(), key.choices.end(), text) == key.choices.end())
+      if (key.standard != Value(text) && std::find(key.choices.begin(), key.choices.end(), text) == key.choices.end())
         fail(key, "is '" + text + "'", "the nearest that it can be is '" + nearest_name(text, key.choices) + "'");
       return text;
     case Kind::kOutputs:

@@ -1,9 +1,11 @@
 #include "job/order.hpp"
 
+#include <exception>
 #include <string>
 #include <utility>
 
 #include "base/bytes.hpp"
+#include "job/failure.hpp"
 #include "runtime/plan_bytes.hpp"
 
 namespace driftmesh::job {
@@ -33,12 +35,12 @@ Bytes pack(const Order& order) {
   return writer.take();
 }
 
-Order unpack(ByteReader& reader, std::int32_t ranks, const std::shared_ptr<const balancer::Policy>& policy) {
+Order unpack(ByteReader& reader, std::int32_t ranks, const balancer::PolicyMaker& policies) {
   Order order;
   Bytes plan, pslg;
   reader.array(plan);
   reader.array(pslg);
-  order.plan = plan_from_bytes(plan, ranks, policy);
+  order.plan = plan_from_bytes(plan, ranks, policies);
   order.pslg = pslg_from_bytes(pslg);
   order.sizing.expression = reader.text();
   order.sizing.background = reader.text();
@@ -52,10 +54,10 @@ Bytes nothing() {
   return writer.take();
 }
 
-Bytes error(const char* message) {
+Bytes error(const Failure& failure) {
   ByteWriter writer;
   writer.value(Letter::kError);
-  writer.text(message);
+  failure.write(writer);
   return writer.take();
 }
 
@@ -64,8 +66,8 @@ Bytes words_of_leader(Team& team, const std::function<std::optional<Order>()>& m
   try {
     const std::optional<Order> order = make();
     return order ? pack(*order) : nothing();
-  } catch (const std::exception& failure) {
-    static_cast<void>(team.broadcast(error(failure.what())));
+  } catch (const std::exception&) {
+    static_cast<void>(team.broadcast(error(failure_of(std::current_exception()))));
     throw;
   }
 }
@@ -73,18 +75,18 @@ Bytes words_of_leader(Team& team, const std::function<std::optional<Order>()>& m
 }  // namespace
 
 std::optional<Order> share(Team& team, const std::function<std::optional<Order>()>& make,
-                           const std::shared_ptr<const balancer::Policy>& policy) {
+                           const balancer::PolicyMaker& policies) {
   const Bytes bytes = team.broadcast(team.leads() ? words_of_leader(team, make) : Bytes());
   ByteReader reader(bytes);
   switch (reader.value<Letter>()) {
     case Letter::kOrder:
-      return by_itself(team, [&] { return std::optional(unpack(reader, team.ranks(), policy)); });
+      return by_itself(team, [&] { return std::optional(unpack(reader, team.ranks(), policies)); });
     case Letter::kNothing:
       return std::nullopt;
     case Letter::kError:
       break;
   }
-  throw LeaderError(reader.text());
+  raise(Failure::read(reader));
 }
 
 }  // namespace driftmesh::job

@@ -7,8 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "balancer/policy.hpp"
-#include "driftmesh/error.hpp"
+#include "balancer/policy_list.hpp"
 #include "driftmesh/pslg.hpp"
 #include "job/request.hpp"
 #include "job/team.hpp"
@@ -26,16 +25,10 @@ struct Order {
   bool writes = false;            ///< the mesh is written or drawn afterwards
 };
 
-/// An error of rank 0, as the others hear of it: the message is the same.
-class LeaderError : public Error {
- public:
-  using Error::Error;
-};
-
 /// The order that rank 0 makes, on all ranks; nothing if it makes none, because there is no more to do. All ranks call
-/// it together; `make` is called on rank 0 alone. What it throws is thrown there, and as a LeaderError on the others.
-/// `policy`: of the plan, where no name stands for it.
+/// it together; `make` is called on rank 0 alone. What it throws is thrown there, and an error of the same kind and
+/// with the same message on the others. `policies` makes the plan's policy, on each rank its own.
 [[nodiscard]] std::optional<Order> share(Team& team, const std::function<std::optional<Order>()>& make,
-                                         const std::shared_ptr<const balancer::Policy>& policy = nullptr);
+                                         const balancer::PolicyMaker& policies = nullptr);
 
 }  // namespace driftmesh::job

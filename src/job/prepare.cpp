@@ -89,7 +89,7 @@ Prepared prepare(const Request& request, const Domain& domain, const Given& give
   Decomposition decomposition = decomposition_of(request, domain, given, mesh, bounds, ranks, watch);
   for (const Decomposition::Subdomain& s : decomposition.subdomains) prepared.forecast += s.predicted;
   prepared.plan = timed(watch, "map", [&] {
-    return plan_run(std::move(decomposition), bounds, plan_options(request, place, speeds), given.policy);
+    return plan_run(std::move(decomposition), bounds, plan_options(request, place, speeds), given.policies);
   });
   return prepared;
 }

@@ -8,6 +8,7 @@
 #include "driftmesh/error.hpp"
 #include "job/domain.hpp"
 #include "job/drag.hpp"
+#include "job/failure.hpp"
 #include "job/memory.hpp"
 #include "protocol/rank_step.hpp"
 
@@ -32,22 +33,32 @@ void RankRun::refine(bool logs, const RankHooks& hooks) {
     if (logs) log_->ends(*loop_);
   });
   channel_->close();
+  agree_on_failure(team_, failure_);
 }
 
 void RankRun::run_loop(const RankHooks& hooks) {
   protocol::Transport& own = channel_->transport();
   protocol::Transport& transport = hooks.through ? hooks.through(own) : own;
   council_ = channel_->council(order_.plan);
+  loop_.emplace(transport, order_.plan, CostModel{}, observers(hooks), council_.get());
+  if (log_) log_->begins(*loop_);
+  protocol::run_rank(transport, [&] {
+    if (hooks.before_step) hooks.before_step(*loop_);
+    return step_or_abandon();
+  });
+}
+
+protocol::StepResult RankRun::step_or_abandon() {
   try {
-    loop_.emplace(transport, order_.plan, CostModel{}, observers(hooks), council_.get());
-    if (log_) log_->begins(*loop_);
-    protocol::run_rank(transport, [&] {
-      if (hooks.before_step) hooks.before_step(*loop_);
-      return loop_->step();
-    });
-  } catch (const LimitError&) {
-    if (!loop_ || loop_->triangles() <= limits_.triangles) throw;
-    throw LimitError(stopped_message(limits_, loop_->triangles(), true) + ". No mesh was written");
+    return loop_->step();
+  } catch (const std::exception&) {
+    if (!loop_->failed_at_work()) throw;
+    failure_ = std::current_exception();
+    if (loop_->triangles() > limits_.triangles)
+      failure_ = std::make_exception_ptr(
+          LimitError(stopped_message(limits_, loop_->triangles(), true) + ". No mesh was written"));
+    loop_->abandon();
+    return protocol::StepResult::kBusy;
   }
 }
 

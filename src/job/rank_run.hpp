@@ -1,12 +1,13 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
 
 #include "cluster/rank_log.hpp"
-#include "distributed/distributed_piece.hpp"
 #include "distributed/exchange.hpp"
+#include "driftmesh/distributed_piece.hpp"
 #include "job/limits.hpp"
 #include "job/order.hpp"
 #include "job/rank_report.hpp"
@@ -24,15 +25,17 @@ struct RankHooks {
   std::function<void(const RankLoop::Slice&)> after_slice;
 };
 
-/// One rank's part in the refinement of a mesh by a team, and what it has in the end. What a rank throws here ends the
-/// run on all ranks (see by_itself).
+/// One rank's part in the refinement of a mesh by a team, and what it has in the end. What a rank meets outside of its
+/// work on subdomains ends the job (see by_itself).
 class RankRun {
  public:
   /// `size`: in place of the size field that the order describes, or null; not owned. `team` and `watch` outlive the
   /// object.
   RankRun(Team& team, Order order, const SizeField* size, Watch& watch);
 
-  /// Until all ranks are done. All ranks together. With a log, what each slice of work did is kept.
+  /// Until all ranks are done. All ranks together. With a log, what each slice of work did is kept. What the work on a
+  /// subdomain throws on one rank, or the watch while it goes on, ends it on all in good order, and is thrown on all
+  /// alike (see agree_on_failure).
   void refine(bool logs = false, const RankHooks& hooks = {});
 
   // After that:
@@ -50,6 +53,7 @@ class RankRun {
   [[nodiscard]] double forecast() const;
   [[nodiscard]] RankLoop::Observers observers(const RankHooks& hooks);
   void run_loop(const RankHooks& hooks);
+  [[nodiscard]] protocol::StepResult step_or_abandon();
 
   Team& team_;
   Order order_;
@@ -60,6 +64,7 @@ class RankRun {
   std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
   std::optional<RankLog> log_;
   std::optional<RankLoop> loop_;
+  std::exception_ptr failure_;  // of the work here
 };
 
 /// One run of a team for rank 0's record: every rank refines what `order` says. On rank 0, adds what all report to

@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <new>
 
-#include "balancer/simulated/simulated_council.hpp"
 #include "driftmesh/error.hpp"
 #include "job/limits.hpp"
 #include "protocol/lone_transport.hpp"
@@ -14,9 +13,7 @@ namespace {
 class LoneChannel final : public Channel {
  public:
   [[nodiscard]] protocol::Transport& transport() override { return transport_; }
-  [[nodiscard]] std::unique_ptr<balancer::Council> council(const RunPlan& plan) override {
-    return balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options);
-  }
+  [[nodiscard]] std::unique_ptr<balancer::Council> council(const RunPlan& /*plan*/) override { return nullptr; }
   void close() override {}
 
  private:

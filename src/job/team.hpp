@@ -7,7 +7,7 @@
 
 #include "balancer/council.hpp"
 #include "base/bytes.hpp"
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
 #include "protocol/transport.hpp"
 #include "runtime/run_plan.hpp"
 

@@ -79,13 +79,6 @@ Assignment map_round_robin(const Decomposition& d, std::int32_t ranks) {
 
 }  // namespace
 
-MappingMethod mapping_method(const std::string& name) {
-  if (name == "graph") return MappingMethod::kGraph;
-  if (name == "block") return MappingMethod::kBlock;
-  if (name == "round-robin") return MappingMethod::kRoundRobin;
-  throw Error("unknown mapping '" + name + "'; use graph, block or round-robin");
-}
-
 Assignment map_subdomains(const Decomposition& d, const MappingOptions& options) {
   const IdVector<Rank, double> speeds = speeds_of(options);
   switch (options.method) {

@@ -4,22 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "base/ids.hpp"
 #include "decompose/decomposition.hpp"
+#include "driftmesh/ids.hpp"
+#include "driftmesh/options.hpp"
 
 namespace driftmesh {
 
 /// The rank of each subdomain.
 using Assignment = IdVector<SubdomainId, Rank>;
-
-enum class MappingMethod {
-  kGraph,       ///< balanced work, short interfaces between ranks (METIS)
-  kBlock,       ///< consecutive subdomains, balanced work
-  kRoundRobin,  ///< subdomain i on rank i mod P: for experiments, the worst interfaces
-};
-
-/// "graph", "block" or "round-robin". Throws Error for any other name.
-[[nodiscard]] MappingMethod mapping_method(const std::string& name);
 
 /// What is dealt out evenly.
 enum class MappingWeight {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <span>
 
-#include "base/id_vector.hpp"
 #include "base/mix.hpp"
+#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 namespace {

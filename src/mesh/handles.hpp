@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 
 // How a triangulation names its parts: by their slots in its arrays. Each kind is a type of its own, so that a triangle
 // cannot be taken for one of its edges. kNone is none of any kind.

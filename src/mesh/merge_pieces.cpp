@@ -5,9 +5,9 @@
 #include <bit>
 #include <tuple>
 
-#include "base/id_vector.hpp"
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/growing_array.hpp"
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "driftmesh/point.hpp"
 #include "dyadic/path.hpp"
 #include "mesh/handles.hpp"

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "base/id_vector.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
 #include "pslg/closeness.hpp"

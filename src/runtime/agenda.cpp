@@ -4,13 +4,6 @@
 
 namespace driftmesh {
 
-WorkOrder work_order(const std::string& name) {
-  if (name == "given") return WorkOrder::kGiven;
-  if (name == "largest") return WorkOrder::kLargest;
-  if (name == "backlog") return WorkOrder::kBacklog;
-  throw Error("unknown order of work '" + name + "'; use given, largest or backlog");
-}
-
 void Agenda::put(const Item& item) {
   remove(item.id);
   if (!place_.has(item.id)) place_.resize(to_index(item.id) + 1);

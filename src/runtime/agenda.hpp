@@ -6,18 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
+#include "driftmesh/options.hpp"
 
 namespace driftmesh {
-
-/// Which of a rank's subdomains works next.
-enum class WorkOrder {
-  kGiven,    ///< in the order of their numbers, which is one of neighbourhood: neighbours finish together
-  kLargest,  ///< most triangles to be made first: what may be moved later is small
-  kBacklog,  ///< most points waiting first: answers to neighbours leave early
-};
-/// "given", "largest" or "backlog". Throws Error for any other name.
-[[nodiscard]] WorkOrder work_order(const std::string& name);
 
 /// The subdomains of a rank that have something to do, in the order of a policy. Whatever the policy: what is begun is
 /// finished first, since its mesh is in the cache; and subdomains that have met their bounds once, and were told of
@@ -36,6 +28,10 @@ class Agenda {
   /// Enters a subdomain, or changes its place.
   void put(const Item& item);
   void remove(SubdomainId id);
+  void clear() {
+    queue_.clear();
+    place_.clear();
+  }
   /// The subdomain to work on next.
   [[nodiscard]] std::optional<SubdomainId> first() const;
   /// All of them, in that order.

@@ -86,8 +86,7 @@ Bytes plan_to_bytes(const RunPlan& plan) {
   return writer.take();
 }
 
-RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks,
-                        std::shared_ptr<const balancer::Policy> policy) {
+RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks, const balancer::PolicyMaker& policies) {
   RunPlan plan;
   read_all("the plan", bytes, [&](ByteReader& reader) {
     transfer_plan(reader, plan);
@@ -97,7 +96,7 @@ RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks,
       plan.balancing.parameters[name] = reader.text();
     }
   });
-  prepare_balancing(plan, ranks, std::move(policy));
+  prepare_balancing(plan, ranks, policies);
   return plan;
 }
 

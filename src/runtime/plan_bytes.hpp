@@ -12,10 +12,10 @@ namespace driftmesh {
 /// memory). The size field is not in it: each rank makes its own.
 [[nodiscard]] Bytes plan_to_bytes(const RunPlan& plan);
 
-/// The plan, for so many ranks, that plan_to_bytes was given, without its size field. `policy`, if it was made with one
-/// that no name stands for. Throws Error if the bytes are not such a plan.
+/// The plan, for so many ranks, that plan_to_bytes was given, without its size field. `policies` makes its policy, as
+/// in plan_run. Throws Error if the bytes are not such a plan.
 [[nodiscard]] RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks,
-                                      std::shared_ptr<const balancer::Policy> policy = nullptr);
+                                      const balancer::PolicyMaker& policies = nullptr);
 
 /// The same for the input of a run.
 [[nodiscard]] Bytes pslg_to_bytes(const Pslg& pslg);

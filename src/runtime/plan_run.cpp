@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "balancer/policies/policy_factory.hpp"
 #include "decompose/presplit.hpp"
 #include "decompose/work.hpp"
 #include "driftmesh/error.hpp"
@@ -20,13 +19,6 @@ constexpr double kTrianglesPerSubdomain = 20'000;
 constexpr std::int32_t kSubdomainsPerRank = 20;
 
 }  // namespace
-
-Presplit presplit_mode(const std::string& name) {
-  if (name == "auto") return Presplit::kAuto;
-  if (name == "on") return Presplit::kOn;
-  if (name == "off") return Presplit::kOff;
-  throw Error("unknown presplit mode '" + name + "'; use auto, on or off");
-}
 
 std::int32_t default_subdomains(double triangles, std::int32_t ranks) {
   const double for_cache = std::min(std::ceil(triangles / kTrianglesPerSubdomain), 1e6);
@@ -50,7 +42,7 @@ Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options,
 }
 
 RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options,
-                 std::shared_ptr<const balancer::Policy> policy) {
+                 const balancer::PolicyMaker& policies) {
   require_possible(bounds);
   if (options.slice < 1) throw Error("a slice must be at least one insertion");
   const bool sized = bounds_size(bounds);
@@ -66,16 +58,17 @@ RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const
   plan.order = options.order;
   plan.sleep = options.sleep;
   plan.balancing = options.balancing;
-  prepare_balancing(plan, options.mapping.ranks, std::move(policy));
+  prepare_balancing(plan, options.mapping.ranks, policies);
   return plan;
 }
 
-void prepare_balancing(RunPlan& plan, std::int32_t ranks, std::shared_ptr<const balancer::Policy> policy) {
-  plan.policy = policy ? std::move(policy) : balancer::make_policy(plan.balancing.policy, plan.balancing.parameters);
-  if (plan.policy->placement() == balancer::Placement::kNobody) {
-    plan.policy.reset();
-    return;
-  }
+void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::PolicyMaker& policies) {
+  plan.policy.reset();
+  if (!policies && plan.balancing.policy == "none") return;
+  if (!policies) throw Error("policy '" + plan.balancing.policy + "' cannot be made here: nothing moves in this run");
+  auto policy = policies(plan.balancing.policy, plan.balancing.parameters);
+  if (policy->placement() == balancer::Placement::kNobody) return;
+  plan.policy = std::move(policy);
   const auto layout = std::make_shared<balancer::Layout>();
   layout->ranks = ranks;
   for (const SubdomainId s : ids_of(plan.owners)) {

@@ -5,20 +5,12 @@
 #include <vector>
 
 #include "decompose/decompose.hpp"
+#include "driftmesh/options.hpp"
 #include "mapping/mapping.hpp"
 #include "mesh/triangulation.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh {
-
-/// Whether interfaces are cut to size before refinement.
-enum class Presplit {
-  kAuto,  ///< where the bounds say anything about size
-  kOn,    ///< the same, and an error if they do not
-  kOff,   ///< never: the protocol of the paper in full
-};
-/// "auto", "on" or "off". Throws Error for any other name.
-[[nodiscard]] Presplit presplit_mode(const std::string& name);
 
 struct PlanOptions {
   MappingOptions mapping;  ///< mapping.ranks: of the run
@@ -41,13 +33,12 @@ struct PlanOptions {
 /// default_subdomains, or as many as the domain allows. Throws like decompose.
 [[nodiscard]] Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options, std::int32_t ranks);
 
-/// The plan of a run on a decomposition. A policy that is given takes the place of the one that the options name.
-/// Throws Error for options out of range or that do not go together.
+/// The plan of a run on a decomposition, with the policy that `policies` makes as options.balancing says; without
+/// `policies`, there is only "none". Throws Error for options out of range or that do not go together.
 [[nodiscard]] RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options,
-                               std::shared_ptr<const balancer::Policy> policy = nullptr);
+                               const balancer::PolicyMaker& policies = nullptr);
 
-/// Makes the plan's layout and policy from the rest of it, or takes the policy that is given. Throws InputError for an
-/// unknown policy or parameter.
-void prepare_balancing(RunPlan& plan, std::int32_t ranks, std::shared_ptr<const balancer::Policy> policy = nullptr);
+/// Makes the plan's layout and policy from the rest of it. Throws what `policies` throws.
+void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::PolicyMaker& policies);
 
 }  // namespace driftmesh

@@ -30,7 +30,7 @@ RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, const Co
 
 bool RankLoop::hand_over(SubdomainId id, Rank to) {
   const auto place = subdomains_.find(id);
-  if (to == transport_.rank() || place == subdomains_.end() || !place->second.active()) return false;
+  if (to == transport_.rank() || place == subdomains_.end() || !place->second.active() || abandoned_) return false;
   if (place->second.packed_bytes() > protocol::kMostPackedBytes) return false;
   triangles_ -= place->second.triangles();
   Bytes packed = place->second.pack();
@@ -40,6 +40,18 @@ bool RankLoop::hand_over(SubdomainId id, Rank to) {
   if (observers_.handed_over) observers_.handed_over(*this, {id, protocol_.where(id).epoch + 1, to, packed.size()});
   protocol_.hand_off(id, to, std::move(packed));
   return true;
+}
+
+void RankLoop::abandon() {
+  if (abandoned_) return;
+  drop_work();
+  protocol_.abandon();
+}
+
+void RankLoop::drop_work() {
+  abandoned_ = true;
+  at_slice_ = false;
+  agenda_.clear();
 }
 
 protocol::StepResult RankLoop::step() {
@@ -75,7 +87,7 @@ void RankLoop::put(Subdomain&& subdomain) {
 }
 
 void RankLoop::reschedule(const Subdomain& s) {
-  if (s.active())
+  if (s.active() && !abandoned_)
     agenda_.put({s.id(), s.started() && !s.refined(), s.refined(), s.remaining(), s.backlog()});
   else
     agenda_.remove(s.id());
@@ -87,6 +99,7 @@ bool RankLoop::poll() {
     heard = true;
     auto delivery = protocol_.receive(received->source, protocol::decode(received->source, received->bytes, limits_));
     if (delivery.arrival) settle(*delivery.arrival, received->source);
+    if (delivery.abandoned) drop_work();
     if (delivery.advice && controller_)
       controller_->receive(received->source, balancer::decode(received->source, *delivery.advice, limits_), clock_);
     for (const protocol::SplitGroup& group : delivery.splits) {
@@ -114,6 +127,7 @@ bool RankLoop::work() {
   if (!id) return false;
   Subdomain& subdomain = subdomains_.at(*id);
   said_.clear();
+  at_slice_ = true;
   const std::int64_t before = subdomain.triangles();
   const double start = transport_.now();
   const SliceWork done = subdomain.work(plan_.slice, said_);
@@ -133,6 +147,7 @@ bool RankLoop::work() {
   for (const SplitPoint<GlobalRootId>& split : said_) tell_across(*id, split);
   if (observers_.after_slice) observers_.after_slice(*this, {*id, transport_.now() - start, said_});
   speed_.add({static_cast<double>(done.triangles), transport_.now() - start, done.prepared > 0, !subdomain.active()});
+  at_slice_ = false;
   return true;
 }
 

@@ -62,7 +62,16 @@ class RankLoop {
   /// the subdomain is not here, is finished, would stay, or is too large for one message.
   bool hand_over(SubdomainId id, Rank to);
 
-  /// One round. What it throws ends the run on all ranks.
+  /// Gives the run up: nothing more is refined here, nor on other ranks once they hear of it. The loop is stepped on
+  /// until it is finished; what it holds then is no mesh. May be called when step() has thrown what a slice of work
+  /// threw.
+  void abandon();
+  /// Whether this rank or another one has given the run up.
+  [[nodiscard]] bool abandoned() const { return abandoned_; }
+  /// Whether step() has thrown what a slice of work threw, so that abandon() can end the run in good order.
+  [[nodiscard]] bool failed_at_work() const { return at_slice_; }
+
+  /// One round. What it throws ends the run on all ranks, unless it failed_at_work.
   protocol::StepResult step();
 
   [[nodiscard]] const protocol::RankProtocol& protocol() const { return protocol_; }
@@ -83,6 +92,7 @@ class RankLoop {
   void settle(const protocol::HandOff& arrival, Rank sender);
   bool work();
   bool balance(bool worked);
+  void drop_work();
   [[nodiscard]] std::vector<balancer::ReportedLoad> loads() const;
   void tell_across(SubdomainId from, const SplitPoint<GlobalRootId>& split);
   bool send();
@@ -104,7 +114,9 @@ class RankLoop {
   Agenda agenda_;
   std::optional<balancer::Controller> controller_;
   balancer::SpeedEstimate speed_;
-  bool worked_ = false;  // in the last step
+  bool worked_ = false;    // in the last step
+  bool at_slice_ = false;  // of work, or thrown out of it
+  bool abandoned_ = false;
   std::vector<SplitPoint<GlobalRootId>> said_;
   std::int64_t triangles_ = 0;
   std::int64_t interface_splits_ = 0;

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "balancer/conduct.hpp"
-#include "balancer/load_snapshot.hpp"
 #include "balancer/parameters.hpp"
-#include "balancer/policy.hpp"
-#include "base/ids.hpp"
+#include "balancer/policy_list.hpp"
 #include "decompose/decomposition.hpp"
+#include "driftmesh/ids.hpp"
+#include "driftmesh/load_snapshot.hpp"
+#include "driftmesh/policy.hpp"
 #include "mesh/bounds.hpp"
 #include "protocol/aggregator.hpp"
 #include "runtime/agenda.hpp"
@@ -19,7 +20,7 @@ namespace driftmesh {
 
 /// Who moves subdomains between ranks during a run, and when.
 struct Balancing {
-  std::string policy = "none";  ///< see balancer/policies/policy_factory.hpp
+  std::string policy = "none";  ///< see balancer/policy_list.hpp
   balancer::Parameters::Values parameters;
   balancer::ControllerOptions options;
 };

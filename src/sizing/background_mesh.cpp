@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
-#include "base/id_vector.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/arrangement_sweep.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 

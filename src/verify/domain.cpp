@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/extended.hpp"
 #include "verify/point_index.hpp"

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "verify/arrangement.hpp"
 #include "verify/extended.hpp"
 #include "verify/words.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 

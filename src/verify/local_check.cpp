@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/point_index.hpp"
 #include "verify/words.hpp"

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 namespace {

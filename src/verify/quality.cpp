@@ -9,7 +9,7 @@
 #include <numeric>
 #include <optional>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "verify/extended.hpp"
 #include "verify/room.hpp"
 #include "verify/words.hpp"

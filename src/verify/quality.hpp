@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "driftmesh/mesh.hpp"
 #include "driftmesh/size_field.hpp"
 #include "verify/chains.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "geometry/midpoint.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/extended.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "driftmesh/mesh.hpp"
 
 namespace driftmesh {

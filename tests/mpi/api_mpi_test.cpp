@@ -4,14 +4,13 @@
 #include <filesystem>
 #include <string>
 
-#include "api/driftmesh.hpp"
-#include "decompose/decompose.hpp"
+#include "driftmesh/decomposition.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/files.hpp"
 #include "driftmesh/generate.hpp"
+#include "driftmesh/mpi/distributed.hpp"
+#include "driftmesh/policy.hpp"
 #include "driftmesh/size_field.hpp"
-#include "io/mesh_file.hpp"
-#include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
 #include "mesh/digest.hpp"
 #include "temporary_folder.hpp"
 #include "verify/verify.hpp"
@@ -21,10 +20,6 @@
 using namespace driftmesh;
 
 namespace {
-
-int world() {
-  return MPI_Comm_c2f(MPI_COMM_WORLD);
-}
 
 std::uint64_t sum_over_ranks(std::uint64_t value) {
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
@@ -60,12 +55,10 @@ class Halving final : public SizeField {
   [[nodiscard]] double edge_length(const Point& p) const override { return p.x < 1 ? 0.1 : 0.05; }
 };
 
-Decomposition decompose_hole(int subdomains) {
-  Triangulation mesh = triangulate(generate_rectangle_hole({}));
-  prepare_corners(mesh);
-  DecomposeOptions options;
-  options.subdomains = subdomains;
-  return decompose(mesh, options);
+int own_rank() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
 }
 
 }  // namespace
@@ -74,20 +67,18 @@ TEST_CASE("pieces of all ranks are one mesh, whichever way they are made") {
   const TemporaryFolder folder;
   const Pslg input = generate_rectangle_hole({});
   const Halving halving;
-  DistributedOptions options;
-  options.min_angle = 25;
   for (const bool given : {false, true})
     for (const SizeField* size : {static_cast<const SizeField*>(nullptr), static_cast<const SizeField*>(&halving)}) {
-      options.size = size;
-      options.max_area = size != nullptr ? 0 : 0.002;
-      options.presplit = given ? "off" : "auto";
-      options.balance = given ? "stealing" : "none";
-      const DistributedPiece piece = given ? mesh_distributed(world(), input, decompose_hole(17), options)
-                                           : mesh_distributed(world(), input, options);
+      MeshOptions options{.min_angle = 25, .max_area = size != nullptr ? 0 : 0.002};
+      if (size != nullptr) options.size = std::ref(*size);
+      options.subdomains.presplit = given ? Presplit::kOff : Presplit::kAuto;
+      options.balance.policy = given ? "stealing" : "none";
+      if (given) options.subdomains.given = cut_domain(input, {.subdomains = {.count = 17}});
+      const DistributedPiece piece = mesh_distributed(MPI_COMM_WORLD, input, options);
       const std::uint64_t digest = sum_over_ranks(mesh_digest(piece.mesh));
       for (const char* name : {"mesh.pvtu", "mesh.msh"}) {
         const std::string path = shared_path(folder, name);
-        write_distributed(world(), piece, path);
+        write_distributed(MPI_COMM_WORLD, piece, path);
         if (piece.rank == Rank{0}) {
           const Mesh whole = read_mesh(path);
           CHECK(mesh_digest(whole) == digest);
@@ -104,11 +95,8 @@ TEST_CASE("pieces of all ranks are one mesh, whichever way they are made") {
 }
 
 TEST_CASE("only the input of rank 0 counts") {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  DistributedOptions options;
-  options.max_area = 0.01;
-  const DistributedPiece piece = mesh_distributed(world(), rank == 0 ? generate_rectangle_hole({}) : Pslg(), options);
+  const Pslg input = own_rank() == 0 ? generate_rectangle_hole({}) : Pslg();
+  const DistributedPiece piece = mesh_distributed(MPI_COMM_WORLD, input, {.max_area = 0.01});
   CHECK(piece.total_triangles > 200);
 }
 
@@ -118,9 +106,8 @@ TEST_CASE("some of the ranks can make a mesh for themselves") {
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   MPI_Comm half = MPI_COMM_NULL;
   MPI_Comm_split(MPI_COMM_WORLD, rank % 2, -rank, &half);
-  DistributedOptions options;
-  options.max_area = rank % 2 == 0 ? 0.01 : 0.002;
-  const DistributedPiece piece = mesh_distributed(MPI_Comm_c2f(half), generate_rectangle_hole({}), options);
+  const DistributedPiece piece =
+      mesh_distributed(half, generate_rectangle_hole({}), {.max_area = rank % 2 == 0 ? 0.01 : 0.002});
   int half_ranks = 0;
   MPI_Comm_size(half, &half_ranks);
   CHECK(piece.ranks == half_ranks);
@@ -130,31 +117,99 @@ TEST_CASE("some of the ranks can make a mesh for themselves") {
 
 TEST_CASE("what allows no mesh is thrown on all ranks alike") {
   const Pslg input = generate_rectangle_hole({});
-  DistributedOptions options;
-  options.min_angle = 50;
-  CHECK(common_error([&] { (void)mesh_distributed(world(), input, options); }).find("angle") != std::string::npos);
-  options.subdomains = 8;
-  CHECK(common_error([&] { (void)mesh_distributed(world(), input, options); }).find("angle") != std::string::npos);
-  options = {};
-  options.mapping = "by hand";
-  CHECK(common_error([&] { (void)mesh_distributed(world(), input, options); }).find("by hand") != std::string::npos);
-  options = {};
-  options.balance = "by hand";
-  CHECK(common_error([&] { (void)mesh_distributed(world(), input, options); }).find("by hand") != std::string::npos);
-  CHECK(common_error([&] { (void)mesh_distributed(world(), Pslg(), {}); }) != "nothing");
-  const Pslg other = generate_rectangle_hole({.sides = 7});
-  CHECK(common_error([&] { (void)mesh_distributed(world(), other, decompose_hole(4), {}); }).find("decomposition") !=
+  const auto error_with = [&](const MeshOptions& options) {
+    return common_error([&] { (void)mesh_distributed(MPI_COMM_WORLD, input, options); });
+  };
+  CHECK(error_with({.min_angle = 50}).starts_with("MeshOptions::min_angle "));
+  CHECK(error_with({.min_angle = 50, .subdomains = {.count = 8}}).starts_with("MeshOptions::min_angle "));
+  CHECK(error_with({.balance = {.policy = "by hand"}}).starts_with("MeshOptions::balance.policy "));
+  CHECK(error_with({.balance = {.policy = "zoltan", .parameters = {{"methd", "rcb"}}}}).find("'method'") !=
         std::string::npos);
+  CHECK(error_with({.ranks = {.speeds = {1, 2, 3, 4, 5, 6}}}).starts_with("MeshOptions::ranks.speeds "));
+  CHECK(common_error([&] { (void)mesh_distributed(MPI_COMM_WORLD, Pslg(), {}); }) != "nothing");
+  MeshOptions of_other;
+  of_other.subdomains.given = cut_domain(generate_rectangle_hole({.sides = 7}), {.subdomains = {.count = 4}});
+  CHECK(error_with(of_other).find("decomposition") != std::string::npos);
+}
+
+TEST_CASE("what one rank meets while it works ends the work of all, which can go on with something else") {
+  const Pslg input = generate_rectangle_hole({});
+  int ranks = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const int guilty = ranks - 1;
+  const std::string who = ranks == 1 ? "" : "rank " + std::to_string(guilty) + ": ";
+  MeshOptions options{.max_area = 1e-5, .subdomains = {.count = 40}};
+  const auto make = [&] { (void)mesh_distributed(MPI_COMM_WORLD, input, options); };
+  for (const char* policy : {"none", "stealing", "zoltan"}) {
+    options.balance.policy = policy;
+    options.progress = [&](const Progress& progress) { return own_rank() != guilty || progress.triangles < 1000; };
+    CHECK(common_error(make) == who + "cancelled by MeshOptions::progress");
+    CHECK_THROWS_AS(make(), Cancelled);
+
+    options.progress = [&](const Progress& progress) {
+      if (own_rank() == guilty && progress.triangles > 1000) throw Error("the caller's own");
+      return true;
+    };
+    CHECK(common_error(make) == who + "the caller's own");
+    options.progress = {};
+  }
+  options.size = [&](const Point&) -> double {
+    if (own_rank() == guilty) throw FileError("no data");
+    return 0.01;
+  };
+  if (ranks > 1) CHECK_THROWS_AS(make(), FileError);
+  options.size = {};
+  options.max_triangles = 1000;
+  CHECK(common_error(make).find("MeshOptions::max_triangles") != std::string::npos);
+  CHECK_THROWS_AS(make(), LimitError);
+  CHECK(mesh_distributed(MPI_COMM_WORLD, input, {.max_area = 0.01}).total_triangles > 200);
+}
+
+TEST_CASE("progress is told on every rank") {
+  std::int64_t most = 0;
+  MeshOptions options{.max_area = 1e-5, .subdomains = {.count = 20}};
+  options.progress = [&](const Progress& progress) {
+    most = std::max(most, progress.triangles);
+    return true;
+  };
+  const DistributedPiece piece = mesh_distributed(MPI_COMM_WORLD, generate_rectangle_hole({}), options);
+  CHECK(most == static_cast<std::int64_t>(piece.mesh.triangles.size()));
+}
+
+TEST_CASE("a policy of the caller's own moves subdomains") {
+  int ranks = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks == 1) return;
+  // Everything to the last rank, whatever it costs.
+  MeshOptions options{.max_area = 2e-6, .subdomains = {.count = 60}, .balance = {.look = 1e-4, .gap = 0, .gain = 0}};
+  options.balance.own = balancer::leader_policy([](const balancer::LoadSnapshot& load) {
+    std::vector<balancer::Move> moves;
+    const Rank last = static_cast<Rank>(load.ranks.size() - 1);
+    for (const balancer::SubdomainLoad& s : load.subdomains)
+      if (s.owner != last) moves.push_back({s.id, last});
+    return moves;
+  });
+  int asked = 0;
+  const auto plan = options.balance.own;
+  options.balance.own = balancer::leader_policy([&, plan](const balancer::LoadSnapshot& load) {
+    ++asked;
+    return plan->plan(load, Rank{0});
+  });
+  const DistributedPiece piece = mesh_distributed(MPI_COMM_WORLD, generate_rectangle_hole({}), options);
+  CHECK(piece.total_triangles > 100000);
+  if (own_rank() == 0) CHECK(asked > 0);
+  options.balance.policy = "greedy";
+  CHECK(common_error([&] {
+          (void)mesh_distributed(MPI_COMM_WORLD, generate_rectangle_hole({}), options);
+        }).starts_with("MeshOptions::balance.own "));
 }
 
 TEST_CASE("a file that cannot be written is an error on all ranks") {
   const TemporaryFolder folder;
-  DistributedOptions options;
-  options.max_area = 0.01;
-  const DistributedPiece piece = mesh_distributed(world(), generate_rectangle_hole({}), options);
+  const DistributedPiece piece = mesh_distributed(MPI_COMM_WORLD, generate_rectangle_hole({}), {.max_area = 0.01});
   for (const char* name : {"no-such-folder/mesh.pvtu", "no-such-folder/mesh.vtu", "mesh.unknown"}) {
     const std::string path = shared_path(folder, name);
-    const std::string said = common_error([&] { write_distributed(world(), piece, path); });
+    const std::string said = common_error([&] { write_distributed(MPI_COMM_WORLD, piece, path); });
     CAPTURE(said);
     CHECK(said.starts_with("rank 0: ") == (std::string(name) != "mesh.unknown"));  // that, every rank sees by itself
     CHECK(said.find(std::string(name).starts_with("no") ? "no-such-folder/mesh" : name) != std::string::npos);

@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "balancer/policies/policy_factory.hpp"
 #include "base/bytes.hpp"
 #include "distributed/write_distributed.hpp"
 #include "job/mpi/mpi_team.hpp"
@@ -60,7 +61,7 @@ RunPlan plan_of(const Job& job, const QualityBounds& bounds, const Triangulation
   options.slice = job.slice;
   options.sleep = job.sleep;
   options.balancing = job.balancing;
-  return plan_run(decompose_for(mesh, cutting, ranks), bounds, options);
+  return plan_run(decompose_for(mesh, cutting, ranks), bounds, options, balancer::make_policy);
 }
 
 /// What a rank knows at the end of what must add up.

@@ -125,5 +125,6 @@ TEST_CASE("advice is carried as it is, and its topic takes no room") {
   CHECK(bytes.size() == 4);
   CHECK(decode(kSender, bytes, {}) == Message(advice));
   CHECK(decode(kSender, encode(Advice{}), {}) == Message(Advice{}));
-  CHECK_THROWS_AS(static_cast<void>(encode(Advice{250, {}})), LimitError);
+  CHECK_THROWS_AS(static_cast<void>(encode(Advice{static_cast<std::uint8_t>(257 - std::variant_size_v<Message>), {}})),
+                  LimitError);
 }

@@ -33,8 +33,10 @@ class RandomMessage {
         return Terminate{random_(), static_cast<std::int64_t>(random_()), static_cast<std::int64_t>(random_())};
       case 5:
         return Finish{};
+      case 6:
+        return Abandon{};
       default:
-        return Advice{static_cast<std::uint8_t>(below(250)), bytes()};
+        return Advice{static_cast<std::uint8_t>(below(256 - std::variant_size_v<Message> + 1)), bytes()};
     }
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "balancer/policies/policy_factory.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/digest.hpp"
 #include "runtime/plan_run.hpp"
@@ -65,7 +66,7 @@ void AdversarialRun::make_plan() {
   plan_.balancing.options.gap = 10;
   plan_.balancing.options.interval = 300;
   plan_.balancing.options.cost.latency = 0.1;
-  prepare_balancing(plan_, scenario_.ranks);
+  prepare_balancing(plan_, scenario_.ranks, balancer::make_policy);
 }
 
 CostModel AdversarialRun::costs_of(Rank r) const {

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
 #include "runtime/rank_loop.hpp"
 #include "sim/deeds.hpp"
 #include "sim/scenario.hpp"

@@ -31,6 +31,14 @@ def flags_of_boxes(build):
     return flags
 
 
+def flags_of_all(flags):
+    """A compiler with the include folders of every box: for boxes of headers alone, which have no flags of their own."""
+    words = [word for command in flags.values() for word in command]
+    folders = {word for word in words if word.startswith("-I")}
+    foreign = {folder for mark, folder in zip(words, words[1:]) if mark == "-isystem"}
+    return next(iter(flags.values())) + sorted(folders) + [word for folder in sorted(foreign) for word in ("-isystem", folder)]
+
+
 def compiled_alone(command, text, build):
     """What the compiler says against the text of a source."""
     return subprocess.run([*command, "-fsyntax-only", "-x", "c++", "-"], input=text, cwd=build, capture_output=True, text=True,
@@ -40,10 +48,11 @@ def compiled_alone(command, text, build):
 def main():
     root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[-2:])
     flags = flags_of_boxes(build)
+    all_flags = flags_of_all(flags)
     texts = {}
     for box in declared_boxes(root):
         folder = str(box.folder.relative_to(root))
-        command = flags.get(folder, next(iter(flags.values())))
+        command = flags.get(folder, all_flags)
         for header in sorted(box.folder.glob("*.hpp")):
             texts[header] = (command, f'#include "{header}"\n' * 2)
         for source in sorted(box.folder.glob("*.cpp")) if "--sources" in sys.argv else []:

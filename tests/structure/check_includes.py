@@ -27,7 +27,7 @@ LIBRARIES = {
     "fmt": (r"fmt/.*", None),
     "json": (r"nlohmann/.*", None),
     "metis": (r"metis\.h", ["decompose"]),
-    "mpi": (r"mpi\.h", ["partition_zoltan", "transport_mpi"]),  # Zoltan's own header needs it
+    "mpi": (r"mpi\.h", ["api_mpi", "partition_zoltan", "public_mpi", "transport_mpi"]),  # Zoltan's own header needs it
     "muparser": (r"muParser.*\.h", ["sizing"]),
     "threads": (r"thread|future", None),
     "yaml": (r"yaml-cpp/.*", ["config"]),

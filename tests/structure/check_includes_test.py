@@ -146,9 +146,9 @@ class BrokenProject(unittest.TestCase):
         self.expect("reaches src/base/narrow.hpp -> fmt/format.h, and the LIBS of mesh does not name fmt")
 
     def test_library_in_a_box_that_must_not_have_it(self):
-        self.include("src/cluster/simulate.cpp", "<mpi.h>")
+        self.include("src/cluster/cluster_run.cpp", "<mpi.h>")
         self.declare("cluster", "LIBS", "mpi")
-        self.expect("cluster: must not use mpi, which belongs to partition_zoltan and transport_mpi")
+        self.expect("cluster: must not use mpi, which belongs to api_mpi and partition_zoltan and public_mpi and transport_mpi")
 
     def test_unknown_library(self):
         for header in ("<CGAL/Bbox_2.h>", "<boost/multiprecision/cpp_int.hpp>", "<omp.h>", "gone.hpp"):
@@ -192,7 +192,7 @@ class BrokenProject(unittest.TestCase):
     # The graph in the documentation.
 
     def test_outdated_graph(self):
-        self.include("src/cluster/simulate.cpp", "picture/plot.hpp")
+        self.include("src/cluster/cluster_run.cpp", "picture/plot.hpp")
         self.declare("cluster", "DEPENDS", "picture")
         self.expect(f"{PAGE}: shows another graph")
         self.assertEqual(self.run_check("--update").returncode, 0)

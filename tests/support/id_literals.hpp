@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
 
 /// Numbers of things, as tests write them.
 namespace driftmesh {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "balancer/policies/policy_factory.hpp"
 #include "mesh/exceptions.hpp"
 #include "support/plans.hpp"
 #include "support/policy_called.hpp"
@@ -48,7 +49,7 @@ inline RunPlan late_plan(const Pslg& input, double triangles, std::int32_t ranks
   plan.balancing.options.look = 1e-3;
   plan.balancing.options.gap = 2e-3;
   plan.balancing.options.interval = 2e-2;
-  prepare_balancing(plan, ranks);
+  prepare_balancing(plan, ranks, balancer::make_policy);
   return plan;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "balancer/load_snapshot.hpp"
+#include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::testing {
 

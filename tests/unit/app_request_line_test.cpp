@@ -60,11 +60,11 @@ TEST_CASE("a command line wins over a file, and lists of it take the place of ot
 }
 
 TEST_CASE("errors are in the words of the option, or have the place in the file") {
-  CHECK(refusal(given({{"area", "many"}})) == "--area: is 'many'; give a number, as in 20, 1.5e3 or 5k");
-  CHECK(refusal(given({{"speeds", "1,-2"}})) == "--speeds: is -2; it must be above 0");
-  CHECK(refusal(given({{"balance-with", "method"}})) == "--balance-with: is 'method'; write NAME=VALUE");
-  CHECK(refusal({}, {{"bounds.angle", "run.yaml:3:8"}}) == "run.yaml:3:8: 'bounds.angle': is too steep; lower it");
-  CHECK(refusal(given({{"angle", "20"}}), {{"bounds.angle", "run.yaml:3:8"}}) == "--angle: is too steep; lower it");
+  CHECK(refusal(given({{"area", "many"}})) == "--area is 'many'; give a number, as in 20, 1.5e3 or 5k");
+  CHECK(refusal(given({{"speeds", "1,-2"}})) == "--speeds is -2; it must be above 0");
+  CHECK(refusal(given({{"balance-with", "method"}})) == "--balance-with is 'method'; write NAME=VALUE");
+  CHECK(refusal({}, {{"bounds.angle", "run.yaml:3:8"}}) == "run.yaml:3:8: 'bounds.angle' is too steep; lower it");
+  CHECK(refusal(given({{"angle", "20"}}), {{"bounds.angle", "run.yaml:3:8"}}) == "--angle is too steep; lower it");
 }
 
 TEST_CASE("the command line that repeats a run says everything that is not the default") {

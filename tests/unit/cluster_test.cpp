@@ -4,7 +4,7 @@
 #include <map>
 #include <numeric>
 
-#include "cluster/simulate.hpp"
+#include "cluster/simulated/simulate.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"
 #include "support/plans.hpp"

@@ -138,16 +138,16 @@ TEST_CASE("what is wrong is told with its place and what was probably meant") {
 
 TEST_CASE("what cannot be together is told where one of them is given") {
   CHECK(message_for("cluster: {ranks: 2}\n") ==
-        "test.yaml: 'input.file': no domain is given; name a file with input.file, or what to generate with "
+        "test.yaml: 'input.file' is missing; name a file with input.file, or what to generate with "
         "input.generate");
-  CHECK(message_for("input: {generate: pipe}\n").find("'cluster.ranks': a cluster without ranks") != std::string::npos);
+  CHECK(message_for("input: {generate: pipe}\n").find("'cluster.ranks' is 0; give") != std::string::npos);
   CHECK(message_for("input:\n  generate: pip\ncluster: {ranks: 2}\n")
-            .find("test.yaml:2:13: 'input.generate': no input") == 0);
+            .find("test.yaml:2:13: 'input.generate' is 'pip'; the nearest") == 0);
   CHECK(message_for("input: {generate: pipe, parameters: {chanels: 3}}\ncluster: {ranks: 2}\n")
             .find("the nearest one is 'channels'") != std::string::npos);
   CHECK(message_for(std::string(kLeast) + "bounds:\n  area: 1\n  triangles: 5\n").find("test.yaml:5:14: ") == 0);
   CHECK(message_for(std::string(kLeast) + "bounds: {area: 1}\nsweep: {bounds.triangles: [0, 100]}\n")
-            .find("'bounds.triangles': the size of triangles is given twice") != std::string::npos);
+            .find("'bounds.triangles' asks for the size of triangles a second time") != std::string::npos);
 }
 
 TEST_CASE("a list of numbers is one value, and lists of lists are swept over") {

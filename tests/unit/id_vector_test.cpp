@@ -1,4 +1,4 @@
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 
 #include <doctest/doctest.h>
 

@@ -92,12 +92,12 @@ TEST_CASE("numbers take units wherever they stand") {
 
 TEST_CASE("what a key may not be is refused in words") {
   CHECK(refusal("bounds.angle", "50") ==
-        "bounds.angle: is 50; it can be at most 34: above that refinement need not terminate");
-  CHECK(refusal("bounds.angle", "-1") == "bounds.angle: is -1; it must be at least 0");
-  CHECK(refusal("cluster.bandwidth", "0") == "cluster.bandwidth: is 0; it must be above 0");
-  CHECK(refusal("decomposition.subdomains", "2.5") == "decomposition.subdomains: is 2.5; give a whole number");
-  CHECK(refusal("run.order", "largets") == "run.order: is 'largets'; the nearest that it can be is 'largest'");
-  CHECK(refusal("run.sleep", "yes") == "run.sleep: is 'yes'; it is either true or false");
+        "bounds.angle is 50; it can be at most 34: above that refinement need not terminate");
+  CHECK(refusal("bounds.angle", "-1") == "bounds.angle is -1; it must be at least 0");
+  CHECK(refusal("cluster.bandwidth", "0") == "cluster.bandwidth is 0; it must be above 0");
+  CHECK(refusal("decomposition.subdomains", "2.5") == "decomposition.subdomains is 2.5; give a whole number");
+  CHECK(refusal("run.order", "largets") == "run.order is 'largets'; the nearest that it can be is 'largest'");
+  CHECK(refusal("run.sleep", "yes") == "run.sleep is 'yes'; it is either true or false");
 }
 
 TEST_CASE("the nearest name is one that the door knows") {

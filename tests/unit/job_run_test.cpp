@@ -13,7 +13,7 @@
 #include "job/prepare.hpp"
 #include "job/rank_run.hpp"
 #include "job/record.hpp"
-#include "job/simulated.hpp"
+#include "job/simulated/run_simulated.hpp"
 #include "job/team.hpp"
 #include "mesh/digest.hpp"
 #include "pslg/generators.hpp"

@@ -93,6 +93,4 @@ TEST_CASE("mapping options out of range are refused") {
   CHECK_THROWS_WITH_AS(static_cast<void>(map_subdomains(d, {3, {1, 2}, MappingMethod::kGraph})),
                        doctest::Contains("2 speeds"), Error);
   CHECK_THROWS_AS(static_cast<void>(map_subdomains(d, {2, {1, 0}, MappingMethod::kGraph})), Error);
-  CHECK_THROWS_WITH_AS(static_cast<void>(mapping_method("zigzag")), doctest::Contains("round-robin"), Error);
-  CHECK(mapping_method("block") == MappingMethod::kBlock);
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "oracles/grid_mesh.hpp"
 #include "oracles/mesh_oracle.hpp"
 #include "oracles/random_pslg.hpp"

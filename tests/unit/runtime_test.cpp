@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "balancer/policies/policy_factory.hpp"
 #include "decompose/presplit.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/triangle_geometry.hpp"
@@ -17,6 +18,7 @@
 #include "runtime/plan_run.hpp"
 #include "support/id_literals.hpp"
 #include "support/plans.hpp"
+#include "support/policy_called.hpp"
 #include "support/simulated_run.hpp"
 
 using namespace driftmesh;
@@ -234,7 +236,7 @@ TEST_CASE("every policy gives a slow rank less to do, and changes nothing about 
     RunPlan plan = plan_of(ell(), bounds, 3, 120, Presplit::kOn);
     plan.slice = 500;
     plan.balancing.policy = name;
-    prepare_balancing(plan, 3);
+    prepare_balancing(plan, 3, balancer::make_policy);
     protocol::VirtualNetwork network({speeds, {}, 1e-6, 1e-6});
     // Long enough for reports and plans to matter: what takes a microsecond here takes a hundred on these ranks.
     CostModel slow;
@@ -254,6 +256,74 @@ TEST_CASE("every policy gives a slow rank less to do, and changes nothing about 
       CHECK(network.makespan() < 0.7 * without);  // at best a third: 1 / 2.25 instead of 1 / 3 / 0.25
     }
   }
+}
+
+TEST_CASE("a rank that gives the run up takes the others with it, and nothing gets lost on the way") {
+  std::int64_t early = 0;
+  for (const PolicyCalled& called : {policy_called("none"), policy_called("stealing"), policy_called("diffusion"),
+                                     policy_called("zoltan"), policy_called("collective")})
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      CAPTURE(called.name);
+      CAPTURE(seed);
+      RunPlan plan = plan_of(ell(), {20, 3e-4, {}, nullptr}, 3, 20, Presplit::kOff);
+      plan.balancing.policy = called.name;
+      plan.balancing.parameters = called.parameters;
+      plan.balancing.options.look = 3;
+      plan.balancing.options.gap = 10;
+      plan.balancing.options.interval = 300;
+      prepare_balancing(plan, 3, balancer::make_policy);
+      protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
+      SimulatedRanks run(network, 3, plan);
+      auto& quitter = run.loops[static_cast<Rank>(seed % 3)];
+      bool was_at_work = false;
+      run.steps[static_cast<Rank>(seed % 3)] = [&, steps = std::uint64_t{0}]() mutable {
+        const auto result = quitter->step();
+        if (++steps != 4 * seed || result == protocol::StepResult::kFinished) return result;
+        was_at_work = quitter->at_work();
+        quitter->abandon();
+        return protocol::StepResult::kBusy;
+      };
+      REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
+      CHECK(network.in_flight() == 0);
+      std::int64_t balance = 0;
+      for (const auto& loop : run.loops) {
+        if (was_at_work) CHECK(loop->abandoned());
+        CHECK_FALSE(loop->at_work());
+        balance += loop->protocol().termination().work_balance();
+      }
+      CHECK(balance == 0);
+      early += was_at_work;
+    }
+  CHECK(early > 40);
+}
+
+TEST_CASE("what a slice of work throws leaves a loop that can give the run up") {
+  struct Breaking final : SizeField {
+    bool broken = false;
+    double edge_length(const Point& p) const override {
+      if (broken && p.x > 1.2) throw Error("no size here");
+      return 0.1;
+    }
+  } field;
+  const RunPlan plan = plan_of(ell(), {20, 0, {}, &field}, 2, 8, Presplit::kOff);
+  protocol::AdversarialNetwork network(2, protocol::Adversary::from_seed(1));
+  SimulatedRanks run(network, 2, plan);
+  field.broken = true;
+  int failures = 0;
+  for (const Rank r : ids_of(run.loops))
+    run.steps[r] = [&failures, loop = run.loops[r].get()] {
+      try {
+        return loop->step();
+      } catch (const Error&) {
+        CHECK(loop->failed_at_work());
+        ++failures;
+        loop->abandon();
+        return protocol::StepResult::kBusy;
+      }
+    };
+  REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
+  CHECK(failures > 0);
+  for (const auto& loop : run.loops) CHECK(loop->abandoned());
 }
 
 TEST_CASE("a rank that is through with its work alarms nobody before long") {
@@ -355,8 +425,6 @@ TEST_CASE("the watchdog barks once a patience") {
 }
 
 TEST_CASE("wrong names and settings of a run are refused") {
-  CHECK_THROWS_AS(static_cast<void>(work_order("newest")), Error);
-  CHECK_THROWS_AS(static_cast<void>(presplit_mode("maybe")), Error);
   CHECK_THROWS_AS(plan_of(ell(), {20, 0, {}, nullptr}, 1, 4, Presplit::kOn), Error);
   CHECK(!plan_of(ell(), {20, 0, {}, nullptr}, 1, 4, Presplit::kAuto).presplit);
 }

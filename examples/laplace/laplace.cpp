@@ -1,23 +1,20 @@
 // A solver that makes its own distributed mesh: the Laplace equation on a rectangle with a round hole, linear elements,
 // conjugate gradients. Every rank works on its piece of the mesh; sums over shared vertices join them.
 //
-//   mpiexec -n 4 example_laplace [largest triangle area]
+//   mpiexec -n 4 laplace [largest triangle area]
 //
 // On the boundary the solution is exp(x) cos(y), which is harmonic, so it is known everywhere. The program meshes
 // twice, the second time with a quarter of the area, and succeeds if the error falls as theory says: with the square of
 // the edges, so to about a quarter.
-
-#include <mpi.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <driftmesh/driftmesh.hpp>
+#include <driftmesh/mpi/distributed.hpp>
 #include <vector>
-
-#include "api/driftmesh.hpp"
-#include "driftmesh/generate.hpp"
 
 namespace {
 
@@ -144,11 +141,8 @@ int solve(Laplacian& a, const Shared& shared, Values& x) {
 
 /// Meshes with this bound on the area, solves, and returns the root mean square of the error at the vertices.
 double error_with(double max_area) {
-  driftmesh::DistributedOptions options;
-  options.min_angle = 25;
-  options.max_area = max_area;
-  const DistributedPiece piece =
-      driftmesh::mesh_distributed(MPI_Comm_c2f(MPI_COMM_WORLD), driftmesh::generate_rectangle_hole({}), options);
+  const DistributedPiece piece = driftmesh::mesh_distributed(MPI_COMM_WORLD, driftmesh::generate_rectangle_hole({}),
+                                                             {.min_angle = 25, .max_area = max_area});
 
   Shared shared(piece);
   Laplacian laplacian(piece, shared);

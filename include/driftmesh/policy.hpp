@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "balancer/load_snapshot.hpp"
+#include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
 
@@ -61,5 +63,15 @@ class Policy {
  protected:
   Policy() = default;
 };
+
+/// A policy of placement kLeader that is a function: of the load of all ranks, what should move where. It must depend
+/// on its argument alone.
+[[nodiscard]] std::shared_ptr<const Policy> leader_policy(
+    std::function<std::vector<Move>(const LoadSnapshot& snapshot)> plan);
+
+/// A policy of placement kLeader that is a function: of the load of all ranks, what should move where. It must depend
+/// on its argument alone.
+[[nodiscard]] std::shared_ptr<const Policy> leader_policy(
+    std::function<std::vector<Move>(const LoadSnapshot& snapshot)> plan);
 
 }  // namespace driftmesh::balancer

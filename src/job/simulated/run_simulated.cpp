@@ -1,6 +1,6 @@
-#include "job/simulated.hpp"
+#include "job/simulated/run_simulated.hpp"
 
-#include "cluster/simulate.hpp"
+#include "cluster/simulated/simulate.hpp"
 #include "driftmesh/error.hpp"
 #include "job/check.hpp"
 #include "job/memory.hpp"

@@ -1,4 +1,4 @@
-#include "cluster/simulate.hpp"
+#include "cluster/simulated/simulate.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/ids.hpp"
+#include "driftmesh/ids.hpp"
 
 /// Who works on what: load, plans, and the policies that make them. Nothing here knows a transport or a clock; times
 /// are in seconds, work is in triangles.

@@ -2,13 +2,13 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 #include <iterator>
 #include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
-
-#include "base/assert.hpp"
 
 // Numbers of things, and arrays indexed by them. A number is an enumeration of its own where it pays to tell kinds of
 // numbers apart (`enum class Rank : std::int32_t {}`), else a plain integer.
@@ -24,6 +24,15 @@ template <IsId Id>
     return static_cast<std::underlying_type_t<Id>>(id);
   else
     return id;
+}
+
+/// In builds with assertions: ends the program where an array has no element of a number.
+inline void check_id([[maybe_unused]] bool known) {
+#ifdef DRIFTMESH_CHECKED
+  if (known) return;
+  std::fputs("driftmesh: an array has no element of this number\n", stderr);
+  std::abort();
+#endif
 }
 
 /// Where the thing of that number stands in an array. A negative number stands beyond the end of every array.
@@ -103,11 +112,11 @@ class IdVector : public std::vector<T> {
   [[nodiscard]] Id next_id() const { return static_cast<Id>(this->size()); }
 
   [[nodiscard]] typename Base::reference operator[](Id id) {
-    DM_ASSERT(has(id));
+    check_id(has(id));
     return Base::operator[](to_index(id));
   }
   [[nodiscard]] typename Base::const_reference operator[](Id id) const {
-    DM_ASSERT(has(id));
+    check_id(has(id));
     return Base::operator[](to_index(id));
   }
   [[nodiscard]] typename Base::reference at(Id id) { return Base::at(to_index(id)); }
@@ -127,7 +136,7 @@ class IdSpan : public std::span<T> {
 
   [[nodiscard]] bool has(Id id) const { return to_index(id) < this->size(); }
   [[nodiscard]] T& operator[](Id id) const {
-    DM_ASSERT(has(id));
+    check_id(has(id));
     return Base::operator[](to_index(id));
   }
 };

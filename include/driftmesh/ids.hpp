@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "base/id_vector.hpp"
+#include "driftmesh/id_vector.hpp"
 
 // Numbers that more than one box speaks of, each a type of its own.
 namespace driftmesh {

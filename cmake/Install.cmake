@@ -1,0 +1,72 @@
+# What `cmake --install` puts where, in two components: the program, and what programs that link the library need. No
+# installed file holds a path of this machine: the prefix can be moved.
+include(CMakePackageConfigHelpers)
+
+set(DRIFTMESH_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/driftmesh)
+
+# ---- The program ----
+install(TARGETS driftmesh RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)  # manual, completion
+install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/driftmesh COMPONENT program)
+install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program)
+
+# ---- The library ----
+install(DIRECTORY include/driftmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+        FILES_MATCHING PATTERN "*.hpp")
+foreach(name IN ITEMS driftmesh distributed)
+  install(TARGETS driftmesh_${name}_product EXPORT driftmesh-${name}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  install(EXPORT driftmesh-${name} NAMESPACE driftmesh:: FILE driftmesh-${name}.cmake
+          DESTINATION ${DRIFTMESH_CMAKE_DIR} COMPONENT development)
+endforeach()
+
+configure_package_config_file(cmake/driftmeshConfig.cmake.in driftmeshConfig.cmake
+                              INSTALL_DESTINATION ${DRIFTMESH_CMAKE_DIR} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(driftmeshConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/driftmeshConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/driftmeshConfigVersion.cmake
+              cmake/FindMETIS.cmake cmake/FindZoltan.cmake
+        DESTINATION ${DRIFTMESH_CMAKE_DIR} COMPONENT development)
+
+# A shared library finds by itself what it needs; who links the static one has to name it.
+set(pc_needs "-lmetis -lmuparser -lboost_serialization -lfmt")
+set(pc_distributed_needs "-ltrilinos_zoltan")
+if(BUILD_SHARED_LIBS)
+  set(pc_needs)
+  set(pc_distributed_needs)
+endif()
+file(RELATIVE_PATH pc_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+foreach(file IN ITEMS driftmesh.pc driftmesh-distributed.pc)
+  configure_file(cmake/${file}.in ${file} @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endforeach()
+
+# ---- Packages: cpack -G DEB --config CPackConfig.cmake, in the build folder ----
+set(CPACK_PACKAGE_NAME driftmesh)
+set(CPACK_PACKAGE_VENDOR "the driftmesh authors")
+set(CPACK_PACKAGE_CONTACT "The driftmesh authors <driftmesh@example.org>" CACHE STRING "Maintainer of packages")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME driftmesh)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS openmpi-bin)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Makes, checks, converts and draws triangle meshes.
+ Quality bounds on angles and areas, on one core or with mpirun on many ranks,
+ between which subdomains move while they are refined.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdriftmesh-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "libboost-serialization-dev, libfmt-dev, libmetis-dev, libmuparser-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libopenmpi-dev, libtrilinos-zoltan-dev")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library of driftmesh: headers, static libraries, CMake package.
+ driftmesh::driftmesh makes meshes in one process, driftmesh::distributed on the
+ ranks of an MPI communicator.")
+include(CPack)

@@ -1,0 +1,57 @@
+# What is built for others: two library files, each assembled from boxes, and their names for those who link them.
+#
+#   driftmesh::driftmesh     meshes in this process; neither its headers nor its link line know of MPI
+#   driftmesh::distributed   meshes on the ranks of a communicator; brings driftmesh::driftmesh with it
+
+# The named boxes and all that they depend on.
+function(driftmesh_closure OUT)
+  set(open ${ARGN})
+  set(all)
+  while(open)
+    list(POP_FRONT open box)
+    if(NOT box IN_LIST all)
+      list(APPEND all ${box})
+      get_property(depends GLOBAL PROPERTY driftmesh_depends_${box})
+      list(APPEND open ${depends})
+    endif()
+  endwhile()
+  set(${OUT} ${all} PARENT_SCOPE)
+endfunction()
+
+# driftmesh_product(NAME FILE BOXES boxes LINKS targets): the target driftmesh::NAME, a library file lib<FILE> that holds
+# these boxes. What they need of other people's libraries is linked, but its headers are not for the user. The boxes' own
+# flags and include roots stay behind.
+function(driftmesh_product NAME FILE)
+  cmake_parse_arguments(ARG "" "" "BOXES;LINKS" ${ARGN})
+  set(objects)
+  set(libs)
+  foreach(box IN LISTS ARG_BOXES)
+    get_target_property(type dm_${box} TYPE)
+    if(NOT type STREQUAL "INTERFACE_LIBRARY")
+      list(APPEND objects $<TARGET_OBJECTS:dm_${box}>)
+    endif()
+    get_property(of_box GLOBAL PROPERTY driftmesh_libs_${box})
+    list(APPEND libs ${of_box})
+  endforeach()
+  list(REMOVE_DUPLICATES libs)
+  set(target driftmesh_${NAME}_product)
+  add_library(${target} ${objects})
+  add_library(driftmesh::${NAME} ALIAS ${target})
+  target_link_libraries(${target} PRIVATE ${libs} PUBLIC ${ARG_LINKS})
+  target_compile_features(${target} INTERFACE cxx_std_20)
+  target_include_directories(${target} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                                 $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  if(DRIFTMESH_SANITIZE)  # whoever links instrumented objects must be instrumented
+    target_compile_options(${target} INTERFACE $<BUILD_INTERFACE:-fsanitize=${DRIFTMESH_SANITIZE}>)
+    target_link_options(${target} INTERFACE $<BUILD_INTERFACE:-fsanitize=${DRIFTMESH_SANITIZE}>)
+  endif()
+  set_target_properties(${target} PROPERTIES
+    LINKER_LANGUAGE CXX OUTPUT_NAME ${FILE} EXPORT_NAME ${NAME} VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # before 1.0 a minor version may break callers
+endfunction()
+
+driftmesh_closure(boxes api)
+driftmesh_closure(boxes_of_ranks api_mpi)
+list(REMOVE_ITEM boxes_of_ranks ${boxes})
+driftmesh_product(driftmesh driftmesh BOXES ${boxes})
+driftmesh_product(distributed driftmesh_distributed BOXES ${boxes_of_ranks} LINKS driftmesh::driftmesh MPI::MPI_CXX)

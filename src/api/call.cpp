@@ -1,0 +1,55 @@
+#include "api/call.hpp"
+
+#include <string>
+#include <utility>
+
+#include "api/library_request.hpp"
+#include "driftmesh/error.hpp"
+#include "job/check.hpp"
+#include "job/limits.hpp"
+#include "job/prepare.hpp"
+
+namespace driftmesh {
+
+double FunctionField::edge_length(const Point& p) const {
+  const double length = function_(p);
+  if (length > 0) return length;
+  throw Error("MeshOptions::size is " + std::to_string(length) + " at (" + std::to_string(p.x) + ", " +
+              std::to_string(p.y) + "); a length must be positive everywhere in the domain, or infinity for no bound");
+}
+
+void CallerWatch::refining(std::int64_t triangles, double forecast) {
+  if (progress_ && !progress_({triangles, forecast})) throw Cancelled("cancelled by MeshOptions::progress");
+}
+
+Call::Call(const Pslg& input, const MeshOptions& options, const balancer::PolicyMaker& policies)
+    : options_(options), request_(request_of(options)), size_(options.size), watch_(options.progress) {
+  given_.input = &input;
+  if (options.size) given_.size = &size_;
+  given_.decomposition = options.subdomains.given.get();
+  given_.policies = policies;
+  if (const auto& own = options.balance.own) given_.policies = [own](const std::string&, const auto&) { return own; };
+}
+
+void Call::check(job::Place place) const {
+  if (options_.balance.own && place != job::kRanks)
+    throw Error("MeshOptions::balance.own is for many ranks, and this process is alone; remove it");
+  if (options_.balance.own && options_.balance.policy != MeshOptions{}.balance.policy)
+    throw Error("MeshOptions::balance.own is given, and so is the name of another policy; remove one");
+  if (options_.subdomains.given && options_.subdomains.count != 0)
+    throw Error("MeshOptions::subdomains.count does not go with a decomposition that is given; remove one");
+  job::check(request_, place, given_.policies);
+}
+
+job::Order Call::order_for(const job::Team& team, job::Place place) {
+  check(place);
+  job::check_ranks(request_, place, team.ranks());
+  job::Domain domain = job::read_domain(request_, given_, watch_);
+  const job::Limits limits = job::limits_of_all(
+      request_.limits, job::find_limits(request_.limits, domain.pslg, true, team.ranks_on_machine()), team.ranks());
+  job::Prepared prepared =
+      job::prepare(request_, domain, given_, place, job::shares_of_time(request_, team.ranks()), limits, watch_);
+  return {std::move(prepared.plan), std::move(domain.pslg), request_.sizing, request_.limits, {}, true};
+}
+
+}  // namespace driftmesh

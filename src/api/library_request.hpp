@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string>
+
+#include "driftmesh/error.hpp"
+#include "driftmesh/options.hpp"
+#include "job/key.hpp"
+#include "job/request.hpp"
+
+namespace driftmesh {
+
+/// Calls visit(key, member, value, place) for each option that the table of keys declares: its name there, its name as
+/// a member of MeshOptions, its value, and its place in a request.
+template <class Visit>
+void visit_options(const MeshOptions& o, job::Request& r, const Visit& visit) {
+  visit("bounds.angle", "min_angle", o.min_angle, r.bounds.angle);
+  visit("bounds.area", "max_area", o.max_area, r.bounds.area);
+  visit("bounds.triangles", "triangles", o.triangles, r.bounds.triangles);
+  visit("bounds.region-areas", "region_areas", o.region_areas, r.bounds.region_areas);
+  visit("limits.max-triangles", "max_triangles", o.max_triangles, r.limits.max_triangles);
+  visit("limits.max-memory", "max_memory", o.max_memory, r.limits.max_memory);
+
+  const auto& s = o.subdomains;
+  visit("decomposition.subdomains", "subdomains.count", s.count, r.decomposition.subdomains);
+  visit("decomposition.separator-angle", "subdomains.separator_angle", s.separator_angle,
+        r.decomposition.separator_angle);
+  visit("decomposition.skew", "subdomains.skew", s.skew, r.decomposition.skew);
+  visit("seed", "subdomains.seed", s.seed, r.seed);
+  visit("run.presplit", "subdomains.presplit", s.presplit, r.run.presplit);
+  visit("run.order", "subdomains.order", s.order, r.run.order);
+  visit("run.slice", "subdomains.slice", s.slice, r.run.slice);
+  visit("run.sleep", "subdomains.sleep", s.sleep, r.run.sleep);
+
+  visit("mapping.method", "ranks.mapping", o.ranks.mapping, r.mapping.method);
+  visit("mapping.speeds", "ranks.speeds", o.ranks.speeds, r.mapping.speeds);
+  visit("mapping.by-area", "ranks.map_by_area", o.ranks.map_by_area, r.mapping.by_area);
+  visit("run.aggregation", "ranks.aggregation", o.ranks.aggregation, r.run.aggregation);
+
+  const auto& b = o.balance;
+  visit("balance.policy", "balance.policy", b.policy, r.balance.policy);
+  visit("balance.parameters", "balance.parameters", b.parameters, r.balance.parameters);
+  visit("balance.look", "balance.look", b.look, r.balance.look);
+  visit("balance.gap", "balance.gap", b.gap, r.balance.gap);
+  visit("balance.interval", "balance.interval", b.interval, r.balance.interval);
+  visit("balance.gain", "balance.gain", b.gain, r.balance.gain);
+}
+
+/// The request that the options stand for. Nothing is checked.
+[[nodiscard]] job::Request request_of(const MeshOptions& options);
+
+/// The message of an error of the job, with members of MeshOptions in place of keys and of options of the command line.
+[[nodiscard]] std::string in_words_of_options(const std::string& message);
+
+/// What `work` returns; errors that name keys or options come in the words of MeshOptions.
+template <class Work>
+auto with_words_of_options(const Work& work) {
+  try {
+    return work();
+  } catch (const job::KeyError& error) {
+    throw Error(in_words_of_options(error.what()));
+  } catch (const LimitError& error) {
+    throw LimitError(in_words_of_options(error.what()));
+  }
+}
+
+}  // namespace driftmesh

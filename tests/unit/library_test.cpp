@@ -1,0 +1,206 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "api/library_request.hpp"
+#include "driftmesh/driftmesh.hpp"
+#include "job/keys.hpp"
+#include "mesh/digest.hpp"
+#include "temporary_folder.hpp"
+#include "verify/verify.hpp"
+
+// What a program calls that makes meshes in its own process.
+
+using namespace driftmesh;
+
+namespace {
+
+const Pslg& plate() {
+  static const Pslg input = generate_rectangle_hole({});
+  return input;
+}
+
+template <class Call>
+std::string error_of(const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+std::string error_of_options(const MeshOptions& options) {
+  return error_of([&] { static_cast<void>(mesh(plate(), options)); });
+}
+
+bool accepted(const Mesh& made, const MeshOptions& options) {
+  VerifyOptions asked;
+  asked.min_angle = options.min_angle;
+  asked.max_area = options.max_area;
+  return verify(made, plate(), asked).accepted();
+}
+
+class Halving final : public SizeField {
+ public:
+  [[nodiscard]] double edge_length(const Point& p) const override { return p.x < 1 ? 0.1 : 0.05; }
+};
+
+}  // namespace
+
+TEST_CASE("a mesh in one piece keeps its bounds, and is the same each time") {
+  const MeshOptions options{.min_angle = 28, .max_area = 1e-3};
+  const Mesh made = mesh(plate(), options);
+  CHECK(made.triangles.size() > 1000);
+  CHECK(made.subdomains.empty());
+  CHECK(accepted(made, options));
+  CHECK(mesh_digest(mesh(plate(), options)) == mesh_digest(made));
+}
+
+TEST_CASE("a mesh in subdomains keeps its bounds, and says which triangle is whose") {
+  for (const Presplit presplit : {Presplit::kOn, Presplit::kOff}) {
+    MeshOptions options{.max_area = 1e-3, .subdomains = {.count = 7, .presplit = presplit}};
+    const Mesh made = mesh(plate(), options);
+    CHECK(accepted(made, options));
+    CHECK(std::set(made.subdomains.begin(), made.subdomains.end()).size() == 7);
+    options.subdomains.sleep = true;
+    options.subdomains.slice = 1000;
+    options.subdomains.order = WorkOrder::kLargest;
+    if (presplit == Presplit::kOn) CHECK(mesh_digest(mesh(plate(), options)) == mesh_digest(made));
+  }
+}
+
+TEST_CASE("an input is repaired first") {
+  Pslg twice = plate();
+  twice.points.push_back(twice.points.front());
+  CHECK(mesh_digest(mesh(twice)) == mesh_digest(mesh(plate())));
+  CHECK_THROWS_AS(static_cast<void>(mesh(Pslg{})), InputError);
+}
+
+TEST_CASE("a size function bounds the triangles, whatever kind of callable it is") {
+  const Halving halving;
+  const Mesh by_object = mesh(plate(), {.size = std::ref(halving)});
+  const Mesh by_lambda = mesh(plate(), {.size = [](const Point& p) { return p.x < 1 ? 0.1 : 0.05; }});
+  CHECK(mesh_digest(by_object) == mesh_digest(by_lambda));
+  CHECK(by_object.triangles.size() > 2 * mesh(plate()).triangles.size());
+  VerifyOptions asked;
+  asked.size = &halving;
+  CHECK(verify(by_object, plate(), asked).accepted());
+}
+
+TEST_CASE("what a size function must not say") {
+  for (const double length : {0.0, -1.0, std::nan("")})
+    CHECK(error_of_options({.size = [=](const Point&) { return length; }}).find("must be positive") !=
+          std::string::npos);
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  CHECK(mesh_digest(mesh(plate(), {.size = [](const Point&) { return kNone; }})) == mesh_digest(mesh(plate())));
+}
+
+TEST_CASE("what callables throw passes through") {
+  for (const std::int32_t subdomains : {0, 5}) {
+    MeshOptions options{.max_area = 1e-3, .subdomains = {.count = subdomains}};
+    options.size = [](const Point&) -> double { throw std::domain_error("size"); };
+    CHECK_THROWS_WITH_AS(static_cast<void>(mesh(plate(), options)), "size", std::domain_error);
+    options.size = {};
+    options.progress = [](const Progress&) -> bool { throw std::domain_error("progress"); };
+    CHECK_THROWS_WITH_AS(static_cast<void>(mesh(plate(), options)), "progress", std::domain_error);
+  }
+}
+
+TEST_CASE("progress is told, and cancels") {
+  for (const std::int32_t subdomains : {0, 5}) {
+    std::vector<Progress> told;
+    MeshOptions options{.max_area = 1e-5, .subdomains = {.count = subdomains}};
+    options.progress = [&](const Progress& progress) {
+      told.push_back(progress);
+      return true;
+    };
+    const Mesh made = mesh(plate(), options);
+    REQUIRE(told.size() > 2);
+    CHECK(std::is_sorted(told.begin(), told.end(), [](auto& a, auto& b) { return a.triangles < b.triangles; }));
+    CHECK(told.back().triangles == static_cast<std::int64_t>(made.triangles.size()));
+    CHECK(told.back().forecast == doctest::Approx(static_cast<double>(made.triangles.size())).epsilon(0.1));
+
+    std::size_t calls = 0;
+    options.progress = [&](const Progress&) { return ++calls < 3; };
+    CHECK_THROWS_AS(static_cast<void>(mesh(plate(), options)), Cancelled);
+    CHECK(calls == 3);
+  }
+}
+
+TEST_CASE("limits end the work") {
+  CHECK_THROWS_AS(static_cast<void>(mesh(plate(), {.max_area = 1e-6, .max_triangles = 1000})), LimitError);
+  CHECK_THROWS_AS(static_cast<void>(mesh(plate(), {.max_area = 1e-6, .max_memory = 1 << 20})), LimitError);
+  MeshOptions in_parts{.max_area = 1e-6, .max_triangles = 1000, .subdomains = {.count = 5}};
+  CHECK_THROWS_AS(static_cast<void>(mesh(plate(), in_parts)), LimitError);
+}
+
+TEST_CASE("options are checked against the table of keys, and named as the caller knows them") {
+  CHECK(error_of_options({.min_angle = 50}) ==
+        "MeshOptions::min_angle is 50; it can be at most 34: above that refinement need not terminate");
+  CHECK(error_of_options({.max_area = -1}).starts_with("MeshOptions::max_area "));
+  CHECK(error_of_options({.subdomains = {.count = 4, .skew = 1.5}}).starts_with("MeshOptions::subdomains.skew "));
+  // What means nothing here is refused.
+  CHECK(error_of_options({.subdomains = {.slice = 100}}).starts_with("MeshOptions::subdomains.slice "));
+  CHECK(error_of_options({.subdomains = {.count = 4}, .balance = {.policy = "greedy"}})
+            .starts_with("MeshOptions::balance.policy "));
+  CHECK(error_of_options({.subdomains = {.count = 4}, .ranks = {.speeds = {1}}})
+            .starts_with("MeshOptions::ranks.speeds "));
+}
+
+TEST_CASE("every key that the library has is an option, with the same default") {
+  std::set<std::string> options;
+  job::Request request;
+  visit_options({}, request, [&](const char* key, const char*, const auto&, const auto&) { options.insert(key); });
+  const job::Request defaults = request_of({});
+  for (const job::Key& key : job::keys()) {
+    const bool offered = (key.doors & job::kLibrary) != 0;
+    CHECK_MESSAGE(options.count(key.name) == (offered ? 1 : 0), key.name);
+    CHECK_MESSAGE(key.load(defaults) == key.standard, key.name);
+  }
+}
+
+TEST_CASE("a decomposition can be made once and used again") {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "plate.dec").string();
+  const MeshOptions cut{.max_area = 1e-3, .subdomains = {.count = 6}};
+  const auto decomposition = cut_domain(plate(), cut);
+  CHECK(subdomains_of(*decomposition) == 6);
+  save_decomposition(*decomposition, plate(), file);
+  const std::uint64_t digest = mesh_digest(mesh(plate(), cut));
+  for (const auto& given : {decomposition, load_decomposition(file, plate())}) {
+    CHECK(mesh_digest(mesh(plate(), {.max_area = 1e-3, .subdomains = {.given = given}})) == digest);
+    CHECK_THROWS_AS(static_cast<void>(mesh(generate_rectangle_hole({.radius = 0.2}), {.subdomains = {.given = given}})),
+                    InputError);
+    CHECK(error_of_options({.subdomains = {.count = 6, .given = given}}).starts_with("MeshOptions::subdomains.count "));
+  }
+}
+
+TEST_CASE("threads that make meshes at once get what each would get alone") {
+  std::vector<MeshOptions> kinds(3);
+  kinds[0] = {.max_area = 1e-4};
+  kinds[1] = {.max_area = 1e-4, .subdomains = {.count = 40}};  // METIS and packed forms take part
+  kinds[1].subdomains.sleep = true;
+  kinds[2] = {.size = [](const Point& p) { return 0.01 + 0.02 * p.x; }, .subdomains = {.count = 11}};
+  std::vector<std::uint64_t> alone;
+  for (const MeshOptions& options : kinds) alone.push_back(mesh_digest(mesh(plate(), options)));
+
+  constexpr int kTimes = 3;
+  std::vector<std::vector<std::uint64_t>> together(2 * kinds.size());
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < together.size(); ++i)
+    threads.emplace_back([&, i] {
+      for (int n = 0; n < kTimes; ++n) together[i].push_back(mesh_digest(mesh(plate(), kinds[i % kinds.size()])));
+    });
+  for (std::thread& t : threads) t.join();
+  for (std::size_t i = 0; i < together.size(); ++i)
+    CHECK(together[i] == std::vector<std::uint64_t>(kTimes, alone[i % kinds.size()]));
+}
