@@ -23,7 +23,7 @@ Controller::Controller(Rank self, std::shared_ptr<const Layout> layout, std::sha
     case Placement::kNobody:
       break;
     case Placement::kLeader:
-    case Placement::kNeighbours:
+    case Placement::kNeighbors:
       conduct_.emplace<PlanningConduct>(self, std::move(layout), std::move(policy), options, now);
       break;
     case Placement::kRequests:

@@ -47,7 +47,7 @@ struct Bundle {
 /// Which rank takes which part, and what all will have to do then.
 struct DealtParts {
   IdVector<Part, Rank> rank_of;     ///< each part
-  IdVector<Rank, RankLoad> states;  ///< of all ranks afterwards
+  IdVector<Rank, RankLoad> states;  ///< of all ranks afterward
 };
 
 /// Parts go to ranks as remap_parts does it.

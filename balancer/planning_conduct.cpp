@@ -33,7 +33,7 @@ PlanningConduct::PlanningConduct(Rank self, std::shared_ptr<const Layout> layout
       rule_(options.gap, options.interval, options.change),
       start_(now),
       pace_(options, now) {
-  if (policy_->placement() == Placement::kNeighbours || self == kLeadingRank)
+  if (policy_->placement() == Placement::kNeighbors || self == kLeadingRank)
     knowledge_.emplace(layout_, options.patience());
 }
 
@@ -147,7 +147,7 @@ std::vector<Rank> PlanningConduct::audience(const Loads& own) {
   if (own.empty()) return audience_;  // that it is idle matters to those it touched last
   audience_.clear();
   for (const auto& load : own)
-    for (const Neighbour& n : (*layout_)[load.subdomain].neighbours)
+    for (const Neighbor& n : (*layout_)[load.subdomain].neighbors)
       audience_.push_back(knowledge_->owner_of(n.subdomain));
   std::sort(audience_.begin(), audience_.end());
   audience_.erase(std::unique(audience_.begin(), audience_.end()), audience_.end());

@@ -13,7 +13,7 @@
 
 namespace driftmesh::balancer {
 
-/// How a rank behaves where plans follow from reports (Placement::kLeader, kNeighbours): it reports to those who plan,
+/// How a rank behaves where plans follow from reports (Placement::kLeader, kNeighbors): it reports to those who plan,
 /// follows their advice, and plans itself if it is one of them.
 class PlanningConduct {
  public:

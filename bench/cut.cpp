@@ -63,12 +63,12 @@ class Boundary {
   void add_edge(std::int32_t a, std::int32_t b) { pslg_.segments.push_back({local(a), local(b), 1}); }
   /// Another part's triangle may lie in a hole of this one.
   void exclude(std::int32_t triangle) {
-    Point centre;
+    Point center;
     for (const std::int32_t v : mesh_.triangles[static_cast<std::size_t>(triangle)]) {
-      centre.x += mesh_.points[static_cast<std::size_t>(v)].x / 3;
-      centre.y += mesh_.points[static_cast<std::size_t>(v)].y / 3;
+      center.x += mesh_.points[static_cast<std::size_t>(v)].x / 3;
+      center.y += mesh_.points[static_cast<std::size_t>(v)].y / 3;
     }
-    pslg_.holes.push_back(centre);
+    pslg_.holes.push_back(center);
   }
   [[nodiscard]] Pslg take() { return std::move(pslg_); }
 

@@ -14,7 +14,7 @@ namespace {
 
 using namespace driftmesh;
 
-/// The unit square as n x n cells of two triangles; lines bunched towards the origin by `power`.
+/// The unit square as n x n cells of two triangles; lines bunched toward the origin by `power`.
 BackgroundMesh square(int n, double power) {
   std::vector<Point> points;
   std::vector<BackgroundMesh::Triangle> triangles;

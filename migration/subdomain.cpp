@@ -210,7 +210,7 @@ void Subdomain::take_in(const SplitPoint<GlobalRootId>& split) {
                 ", which is not on its border");
   if (!body_->refiner.add_split_point(static_cast<RootId>(place - roots.begin()), split.path))
     throw Error("root " + to_string(split.root) + " of the decomposition, between subdomain " + to_string(id_) +
-                " and a neighbour, cannot be split at depth " + std::to_string(dyadic::depth(split.path)) +
+                " and a neighbor, cannot be split at depth " + std::to_string(dyadic::depth(split.path)) +
                 ": coordinates have no room for the point; ask for larger triangles or a smaller angle there");
 }
 

@@ -33,9 +33,9 @@ struct SliceWork {
 };
 
 /// One subdomain: it refines itself, says which points it puts on the edges that it shares, and takes in those of its
-/// neighbours. Its mesh is made when it first works; until then it is a number and what it has been told.
+/// neighbors. Its mesh is made when it first works; until then it is a number and what it has been told.
 ///
-/// A split point from a neighbour is queued and inserted in the next slice, with its ancestors, in any order of arrival
+/// A split point from a neighbor is queued and inserted in the next slice, with its ancestors, in any order of arrival
 /// and any number of times: the points on a shared edge are a set that only grows (docs/protocol.md).
 ///
 /// When it has nothing to do it can be put to sleep: it then takes a third of the memory, or less, and wakes by itself
@@ -62,13 +62,13 @@ class Subdomain {
   /// About how long pack() would be, in bytes.
   [[nodiscard]] std::uint64_t packed_bytes() const;
 
-  /// A neighbour has put a point on a shared edge.
+  /// A neighbor has put a point on a shared edge.
   void tell(const SplitPoint<GlobalRootId>& split) {
     if (!dormant_ || !sleeps_through(split)) pending_.push_back(split);
   }
 
   /// Works for about so many insertions. Points put on shared edges are appended to `said`, each after its ancestors.
-  /// Throws Error when a shared edge cannot be split where the neighbour has split it, LimitError at the limit of what
+  /// Throws Error when a shared edge cannot be split where the neighbor has split it, LimitError at the limit of what
   /// handles can name.
   SliceWork work(std::int64_t insertions, std::vector<SplitPoint<GlobalRootId>>& said);
 

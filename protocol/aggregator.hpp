@@ -41,7 +41,7 @@ class Aggregator {
   Rank self_;
   std::size_t threshold_;
   std::size_t size_ = 0;
-  std::map<Rank, std::vector<Waiting>> buffers_;  // by destination, none empty: few of many ranks are neighbours
+  std::map<Rank, std::vector<Waiting>> buffers_;  // by destination, none empty: few of many ranks are neighbors
   std::vector<Rank> filled_;                      // their destinations, in the order in which they were begun
 };
 

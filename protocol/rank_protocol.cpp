@@ -117,7 +117,7 @@ void RankProtocol::handle(Station station, SplitGroup&& group, Delivery& deliver
   delivery.splits.push_back(std::move(group));
 }
 
-// Transit: neither count nor colour changes. The rank that made the SPLITs learns where to send the next ones, and so
+// Transit: neither count nor color changes. The rank that made the SPLITs learns where to send the next ones, and so
 // does the rank that sent these here.
 void RankProtocol::forward(Rank source, SplitGroup&& group) {
   const Location location = directory_.where(group.to);

@@ -11,7 +11,7 @@ namespace driftmesh::protocol {
 ///
 /// Detection. Every rank counts the SPLITs and hand-offs that it sent, less those that it handled, and is black after
 /// it handled one. Rank 0 sends a token along the ring 0, 1, ..., P - 1, 0; a rank passes it on only while passive,
-/// adds its count and its colour, and turns white. The work is over when the token comes back white to a white rank 0
+/// adds its count and its color, and turns white. The work is over when the token comes back white to a white rank 0
 /// with a total of 0. After the last work this takes at most two probes more than the one under way.
 ///
 /// Fence. Then Terminate goes along the same ring. A rank that has seen it sends no control message any more, and adds

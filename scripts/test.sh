@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds and runs every test: optimized with warnings as errors, then under the address and undefined-behaviour
+# Builds and runs every test: optimized with warnings as errors, then under the address and undefined-behavior
 # sanitizers, then the check of the formatting. The last line is "N passed, N failed"; the exit code says it too.
 #   scripts/test.sh [--quick]        --quick leaves the sanitizers out
 set -euo pipefail

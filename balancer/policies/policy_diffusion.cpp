@@ -19,7 +19,7 @@ Rank owner_of(const LoadSnapshot& snapshot, SubdomainId id) {
 IdVector<Rank, std::set<Rank>> touching_ranks(const LoadSnapshot& snapshot) {
   IdVector<Rank, std::set<Rank>> touching(snapshot.ranks.size());
   for (const SubdomainLoad& s : snapshot.subdomains)
-    for (const Neighbour& n : (*snapshot.layout)[s.id].neighbours)
+    for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors)
       if (const Rank other = owner_of(snapshot, n.subdomain); other != s.owner) {
         touching[s.owner].insert(other);
         touching[other].insert(s.owner);
@@ -46,7 +46,7 @@ class Round {
  private:
   [[nodiscard]] double time(Rank r) const { return snapshot_.ranks[r].remaining / speeds_[r]; }
 
-  // What flows in this round, in triangles: so little that a rank to which all its neighbours send does not get more
+  // What flows in this round, in triangles: so little that a rank to which all its neighbors send does not get more
   // than evens it out.
   [[nodiscard]] double flow(Rank from, Rank to) const {
     const auto degree = std::max(touching_[from].size(), touching_[to].size());
@@ -81,7 +81,7 @@ class Round {
     for (const SubdomainLoad& s : snapshot_.subdomains) {
       if (s.owner != self_ || s.turn == 0 || gone_.contains(s.id)) continue;
       own.push_back(s);
-      for (const Neighbour& n : (*snapshot_.layout)[s.id].neighbours) {
+      for (const Neighbor& n : (*snapshot_.layout)[s.id].neighbors) {
         const Rank owner = owner_of(snapshot_, n.subdomain);
         attachment[s.id] += owner == other ? n.length : owner == self_ ? -n.length : 0;
       }
@@ -111,7 +111,7 @@ class Diffusion final : public Policy {
  public:
   explicit Diffusion(double rate) : rate_(rate) {}
 
-  [[nodiscard]] Placement placement() const override { return Placement::kNeighbours; }
+  [[nodiscard]] Placement placement() const override { return Placement::kNeighbors; }
   [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank self) const override {
     return Round(snapshot, self, rate_).moves();
   }

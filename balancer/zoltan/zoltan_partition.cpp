@@ -82,7 +82,7 @@ class Whereabouts {
   Zoltan_DD_Struct* directory_ = nullptr;
 };
 
-/// What Zoltan asks for: the listed subdomains as vertices of a graph, with edges to all neighbours that are listed,
+/// What Zoltan asks for: the listed subdomains as vertices of a graph, with edges to all neighbors that are listed,
 /// here or on another process.
 struct Graph {
   const LoadSnapshot* snapshot;
@@ -93,17 +93,17 @@ struct Graph {
 
   explicit Graph(const LoadSnapshot& s) : snapshot(&s) {}
 
-  /// `process_of(neighbours)`: which process lists each of them, or -1.
+  /// `process_of(neighbors)`: which process lists each of them, or -1.
   template <class ProcessOf>
   void add_edges(const ProcessOf& process_of) {
-    std::vector<ZOLTAN_ID_TYPE> neighbours;
+    std::vector<ZOLTAN_ID_TYPE> neighbors;
     for (const SubdomainLoad& s : snapshot->subdomains)
-      for (const Neighbour& n : (*snapshot->layout)[s.id].neighbours)
-        neighbours.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
-    const std::vector<int> processes = process_of(neighbours);
+      for (const Neighbor& n : (*snapshot->layout)[s.id].neighbors)
+        neighbors.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
+    const std::vector<int> processes = process_of(neighbors);
     std::size_t at = 0;
     for (const SubdomainLoad& s : snapshot->subdomains) {
-      for (const Neighbour& n : (*snapshot->layout)[s.id].neighbours) {
+      for (const Neighbor& n : (*snapshot->layout)[s.id].neighbors) {
         const int where = processes[at++];
         if (where < 0) continue;
         target.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
@@ -182,7 +182,7 @@ void list_edges(void* data, int, int, int count, Ids, Ids local, int*, Ids targe
   *error = ZOLTAN_OK;
 }
 
-// As a hypergraph: for each subdomain an edge of it and its neighbours, because each of these hears of its points.
+// As a hypergraph: for each subdomain an edge of it and its neighbors, because each of these hears of its points.
 
 void hypergraph_size(void* data, int* lists, int* pins, int* format, int* error) {
   const Graph& graph = graph_of(data);
@@ -352,11 +352,11 @@ bool zoltan_accepts(const std::string& name, const std::string& value) {
 std::vector<Part> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters) {
   if (snapshot.subdomains.empty()) return {};
   initialize_once();
-  return partition(MPI_COMM_SELF, snapshot, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbours) {
+  return partition(MPI_COMM_SELF, snapshot, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbors) {
     IdVector<SubdomainId, int> process_of(snapshot.layout->subdomains.size(), -1);
     for (const SubdomainLoad& s : snapshot.subdomains) process_of[s.id] = 0;
     std::vector<int> processes;
-    for (const ZOLTAN_ID_TYPE n : neighbours) processes.push_back(process_of[static_cast<SubdomainId>(n)]);
+    for (const ZOLTAN_ID_TYPE n : neighbors) processes.push_back(process_of[static_cast<SubdomainId>(n)]);
     return processes;
   });
 }
@@ -368,12 +368,12 @@ std::vector<Part> zoltan_partition(const LoadSnapshot& own, const ZoltanParamete
   std::int64_t everywhere = 0;
   MPI_Allreduce(&here, &everywhere, 1, MPI_INT64_T, MPI_SUM, all);
   if (everywhere == 0) return {};
-  return partition(all, own, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbours) {
+  return partition(all, own, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbors) {
     Whereabouts whereabouts(all);
     std::vector<ZOLTAN_ID_TYPE> listed;
     for (const SubdomainLoad& s : own.subdomains) listed.push_back(static_cast<ZOLTAN_ID_TYPE>(s.id));
     whereabouts.enter(std::move(listed));
-    return whereabouts.find(neighbours);
+    return whereabouts.find(neighbors);
   });
 }
 

@@ -26,7 +26,7 @@ double exact(const Point& p) {
   return std::exp(p.x) * std::cos(p.y);
 }
 
-/// What a rank needs of its neighbours: sums over all pieces that have a vertex, and over all vertices.
+/// What a rank needs of its neighbors: sums over all pieces that have a vertex, and over all vertices.
 class Shared {
  public:
   explicit Shared(const DistributedPiece& piece) : piece_(piece) {

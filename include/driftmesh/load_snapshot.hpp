@@ -13,7 +13,7 @@
 namespace driftmesh::balancer {
 
 /// A subdomain that another one shares a border with.
-struct Neighbour {
+struct Neighbor {
   SubdomainId subdomain{};
   double length = 0;  ///< of the border
 };
@@ -24,7 +24,7 @@ struct Layout {
     double x = 0, y = 0;   ///< centroid
     double predicted = 0;  ///< triangles that it will have
     Rank owner{};          ///< at the start
-    std::vector<Neighbour> neighbours;
+    std::vector<Neighbor> neighbors;
   };
   IdVector<SubdomainId, Subdomain> subdomains;
   std::int32_t ranks = 1;

@@ -38,7 +38,7 @@ struct RepairReport {
   [[nodiscard]] std::string summary() const;
 };
 
-/// Makes `pslg` planar and reports what was changed. Afterwards, decided by exact predicates:
+/// Makes `pslg` planar and reports what was changed. Afterward, decided by exact predicates:
 /// - no two points are equal, or within rounding error of each other (a few units in the last place);
 /// - no segment has length zero, no two join the same points;
 /// - no point lies in the interior of a segment, or within rounding error of it;

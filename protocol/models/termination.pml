@@ -59,7 +59,7 @@
 #define HELD 0
 #define NOTHING_HELD(i) (held[i] == 0)
 #endif
-#if MUTATION == 6   /* rank 0 does not ask for its own colour */
+#if MUTATION == 6   /* rank 0 does not ask for its own color */
 #define RANK_0_WHITE true
 #else
 #define RANK_0_WHITE (!black[0])

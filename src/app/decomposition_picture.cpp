@@ -10,7 +10,7 @@
 namespace driftmesh::app {
 namespace {
 
-/// Greedy colouring of the subdomain graph: the least used colour that no neighbour has.
+/// Greedy coloring of the subdomain graph: the least used color that no neighbor has.
 IdVector<SubdomainId, int> color_subdomains(const Decomposition& d) {
   IdVector<SubdomainId, std::vector<SubdomainId>> neighbors(d.size());
   for (const Interface& i : interfaces(d)) {

@@ -30,7 +30,7 @@ class AtomicFile {
   void write(std::string_view text) { write(text.data(), text.size()); }
   /// Bytes written so far.
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// Flushes, closes and renames. Nothing may be written afterwards.
+  /// Flushes, closes and renames. Nothing may be written afterward.
   void commit();
 
  private:

@@ -18,7 +18,7 @@ struct LoadSample {
   SubdomainId subdomain = kNoSubdomain;  ///< that was refined, where `worked` is above 0
 };
 
-/// Points that a slice of work put on the interfaces of a subdomain with one neighbour.
+/// Points that a slice of work put on the interfaces of a subdomain with one neighbor.
 struct SplitRecord {
   double time = 0;  ///< when the slice ended
   Rank rank{};      ///< where the slice was done

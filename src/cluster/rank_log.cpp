@@ -35,8 +35,8 @@ void RankLog::worked(const RankLoop& loop, const RankLoop::Slice& slice, double 
   told_.clear();
   for (const SplitPoint<GlobalRootId>& split : slice.said)
     ++told_[plan_->decomposition.roots[split.root].across_from(slice.subdomain)];
-  for (const auto& [neighbour, points] : told_)
-    splits_.push_back({now(), transport_->rank(), slice.subdomain, neighbour, points});
+  for (const auto& [neighbor, points] : told_)
+    splits_.push_back({now(), transport_->rank(), slice.subdomain, neighbor, points});
 }
 
 void RankLog::departs(const RankLoop& loop, const RankLoop::Passage& passage) {

@@ -52,7 +52,7 @@ class RankLog {
   std::vector<SplitRecord> splits_;
   std::vector<Passage> departures_, arrivals_;
   std::vector<SubdomainId> held_;             // at the end
-  std::map<SubdomainId, std::int32_t> told_;  // by the slice that is being written: points by neighbour
+  std::map<SubdomainId, std::int32_t> told_;  // by the slice that is being written: points by neighbor
 };
 
 }  // namespace driftmesh

@@ -146,7 +146,7 @@ Cut CutSearch::first_inside(std::vector<Cut>& ranked) const {
   return {};
 }
 
-/// Tries the neighbours of a cut's ends that the selection left out, in ever smaller steps.
+/// Tries the neighbors of a cut's ends that the selection left out, in ever smaller steps.
 Cut CutSearch::refine(Cut cut) {
   const auto count = static_cast<std::ptrdiff_t>(outline_->stations.size());
   for (std::ptrdiff_t step = static_cast<std::ptrdiff_t>(stride_ + 1) / 2; stride_ > 1 && step >= 1; step /= 2) {

@@ -28,7 +28,7 @@ struct Cut {
 };
 
 /// Finds the best straight cut of a piece with one loop: all pairs of stations (of a selection, where there are many;
-/// then its neighbours) are ranked by the separator length that the finished decomposition can be expected to have and
+/// then its neighbors) are ranked by the separator length that the finished decomposition can be expected to have and
 /// by the balance of work; the best one that stays inside the piece is taken. The object keeps its buffers.
 class CutSearch {
  public:

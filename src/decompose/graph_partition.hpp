@@ -9,7 +9,7 @@ namespace driftmesh {
 
 /// An undirected graph with weights. Each edge stands at both of its ends.
 struct WeightedGraph {
-  IdVector<std::int32_t, std::int32_t> begin{0};  ///< neighbours of vertex v: from begin[v] up to begin[v + 1]
+  IdVector<std::int32_t, std::int32_t> begin{0};  ///< neighbors of vertex v: from begin[v] up to begin[v + 1]
   IdVector<std::int32_t, std::int32_t> neighbor;
   IdVector<std::int32_t, double> edge_weight;    ///< one for each entry of neighbor, > 0
   IdVector<std::int32_t, double> vertex_weight;  ///< >= 0

@@ -88,7 +88,7 @@ class Groups {
 
   [[nodiscard]] std::size_t count() const { return by_work_.size() + finished_; }
 
-  /// Joins the lightest group that has a neighbour with its lightest one. False if no two groups touch.
+  /// Joins the lightest group that has a neighbor with its lightest one. False if no two groups touch.
   bool join_lightest() {
     while (!by_work_.empty()) {
       const std::int32_t group = by_work_.begin()->second;

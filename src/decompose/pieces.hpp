@@ -14,7 +14,7 @@ using PieceId = std::int32_t;
 /// A piece of the domain, with one loop of the map as its border.
 struct Piece {
   SideId side = kNone;     ///< one side of its loop
-  std::int32_t parts = 0;  ///< subdomains that it is to become; 0: it will be merged with a neighbour
+  std::int32_t parts = 0;  ///< subdomains that it is to become; 0: it will be merged with a neighbor
   double area = 0;
   double work = 0;
 };
@@ -30,7 +30,7 @@ void allot_parts(const PlanarMap& map, std::vector<Piece>& pieces, std::int32_t 
 [[nodiscard]] IdVector<SideId, PieceId> label_sides(const PlanarMap& map, const std::vector<Piece>& pieces);
 
 /// Groups pieces that touch into `count` subdomains: by a graph partition where there are many more of them; then,
-/// while there are more groups, the lightest is joined with the neighbour that is lightest itself. Returns the
+/// while there are more groups, the lightest is joined with the neighbor that is lightest itself. Returns the
 /// subdomain of each piece, numbered in the order of their first pieces.
 [[nodiscard]] std::vector<std::int32_t> group_pieces(const PlanarMap& map, const std::vector<Piece>& pieces,
                                                      std::int32_t count);

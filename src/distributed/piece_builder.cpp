@@ -143,7 +143,7 @@ void PieceBuilder::set_point(Place place, const Point& p, SubdomainId i) {
   if (is_placed_[place] && !(point == p))
     throw Error("point " + std::to_string(piece_.mesh.numbers[place]) +
                 " of the mesh has other coordinates in subdomain " + to_string(i) +
-                " than in its neighbour on the same rank");
+                " than in its neighbor on the same rank");
   point = p;
   is_placed_[place] = true;
 }

@@ -15,7 +15,7 @@ struct OnePiece {
   double forecast = 0;  ///< of triangles, before refinement
 };
 
-/// Meshes the domain as one piece. `writes`: the mesh is written or drawn afterwards, which takes memory too. Throws
+/// Meshes the domain as one piece. `writes`: the mesh is written or drawn afterward, which takes memory too. Throws
 /// Error for what the domain and the bounds do not allow, and LimitError before the work if far more triangles than the
 /// limits allow are to be expected and the request does not keep incomplete meshes.
 [[nodiscard]] OnePiece mesh_in_one_piece(const Request& request, const Domain& domain, bool writes, Watch& watch);

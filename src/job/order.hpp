@@ -22,7 +22,7 @@ struct Order {
   Request::Sizing sizing;
   Request::Limits limits;
   IdVector<Rank, double> shares;  ///< of its time that each rank works, for experiments; empty: all of it
-  bool writes = false;            ///< the mesh is written or drawn afterwards
+  bool writes = false;            ///< the mesh is written or drawn afterward
 };
 
 /// The order that rank 0 makes, on all ranks; nothing if it makes none, because there is no more to do. All ranks call

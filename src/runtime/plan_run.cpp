@@ -76,8 +76,8 @@ void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::Policy
     layout->subdomains.push_back({known.centroid.x, known.centroid.y, known.predicted, plan.owners[s], {}});
   }
   for (const Interface& i : interfaces(plan.decomposition)) {
-    layout->subdomains[i.first].neighbours.push_back({i.second, i.length});
-    layout->subdomains[i.second].neighbours.push_back({i.first, i.length});
+    layout->subdomains[i.first].neighbors.push_back({i.second, i.length});
+    layout->subdomains[i.second].neighbors.push_back({i.first, i.length});
   }
   plan.layout = layout;
 }

@@ -75,7 +75,7 @@ TEST_CASE("on all ranks at once: even in the end, and what everybody believes is
   transport.close();
 }
 
-TEST_CASE("random loads, finished neighbours, ranks without any") {
+TEST_CASE("random loads, finished neighbors, ranks without any") {
   protocol::MpiTransport transport(protocol::MpiSession::world());
   int moved = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {

@@ -35,7 +35,7 @@ Rational entry(const Corners& t, const ExactPoint& eye, const ExactPoint& way) {
 }
 
 /// Whether any inner point of the triangle can be seen from `eye`, which is none of its corners and not inside it.
-/// What blocks the view changes only at directions towards a vertex; between two of them one ray speaks for all.
+/// What blocks the view changes only at directions toward a vertex; between two of them one ray speaks for all.
 class View {
  public:
   View(const std::vector<ExactPoint>& points, const std::vector<Mesh::Edge>& walls) : points_(points), walls_(walls) {}

@@ -22,7 +22,7 @@ struct RandomPslgShape {
   int inner_segments = 6;     ///< between points that exist, at most
   int dangling_segments = 2;  ///< from a point that exists to a new one in the domain, at most
   int inner_points = 5;       ///< without a segment
-  double spikiness = 0.5;     ///< 0: round boundaries; towards 1: thin spikes with small angles
+  double spikiness = 0.5;     ///< 0: round boundaries; toward 1: thin spikes with small angles
   double scale = 1;           ///< size of the whole
   double offset = 0;          ///< of the whole from the origin, in both coordinates
 };

@@ -31,7 +31,7 @@ void check_valid(const LoadSnapshot& snapshot, const std::vector<Move>& moves) {
 
 // What all ranks together would do with a policy that plans at every rank.
 std::vector<Move> plan_of_all(const Policy& policy, const LoadSnapshot& snapshot) {
-  if (policy.placement() != Placement::kNeighbours) return policy.plan(snapshot, Rank{0});
+  if (policy.placement() != Placement::kNeighbors) return policy.plan(snapshot, Rank{0});
   std::vector<Move> moves;
   for (const Rank r : ids_of(snapshot.ranks))
     for (const Move& move : policy.plan(snapshot, r)) {

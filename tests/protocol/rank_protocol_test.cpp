@@ -95,7 +95,7 @@ TEST_CASE("a SPLIT follows its subdomain, the sender learns, and counts come out
   CHECK_THROWS_AS(ranks[2_rank].hand_off(1_sub, 2_rank, {}), Error);
 }
 
-TEST_CASE("advice is delivered while there is work, and refused afterwards") {
+TEST_CASE("advice is delivered while there is work, and refused afterward") {
   Ranks ranks;
   CHECK(ranks[0_rank].advise(1_rank, Advice{3, Bytes(5)}));
   const Delivery delivery = ranks.carry(0_rank, ranks.only(0_rank));

@@ -13,7 +13,7 @@
 #include "protocol/split_set.hpp"
 
 /// A stand-in for the mesher: subdomains that share edges, split them at random a limited number of times, and answer
-/// some of their neighbours' splits by more of their own.
+/// some of their neighbors' splits by more of their own.
 namespace driftmesh::protocol::toy {
 
 /// Random numbers that travel with a subdomain: splitmix64.
@@ -88,7 +88,7 @@ class Subdomain {
   using Points = std::map<GlobalRootId, std::vector<dyadic::Path>>;
   [[nodiscard]] const Points& points() const { return points_; }
 
-  /// One unit of work; what its neighbours are to be told is appended to `said`.
+  /// One unit of work; what its neighbors are to be told is appended to `said`.
   void work(const MeshRules& rules, std::vector<SplitPoint<GlobalRootId>>& said) {
     if (!pending_.empty()) {
       const SplitPoint<GlobalRootId> split = pending_.back();
@@ -159,7 +159,7 @@ class Subdomain {
   SubdomainId id_{};
   Random random_;
   std::uint64_t due_ = 0;      // splits to be made
-  std::uint64_t answers_ = 0;  // splits that may become due by what the neighbours do
+  std::uint64_t answers_ = 0;  // splits that may become due by what the neighbors do
   bool broken_ = false;
   std::vector<SplitPoint<GlobalRootId>> pending_;
   Points points_;

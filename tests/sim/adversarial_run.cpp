@@ -18,7 +18,7 @@ AdversarialRun::AdversarialRun(const Scenario& scenario, Domain& domain, const W
       domain_(domain),
       mover_(scenario),
       network_(scenario.ranks, adversary()),
-      rumours_{std::mt19937_64(scenario.seed), {}},
+      rumors_{std::mt19937_64(scenario.seed), {}},
       witness_(scenario.ranks, to_index(scenario.subdomains), [this] { return is_quiet(); }) {
   make_plan();
   council_ = balancer::make_simulated_council(plan_.layout, plan_.policy, plan_.balancing.options);
@@ -86,7 +86,7 @@ protocol::Adversary AdversarialRun::adversary() {
   };
   switch (scenario_.mischief) {
     case Mischief::kNone:
-    case Mischief::kRumours:
+    case Mischief::kRumors:
       break;
     case Mischief::kRacingHandOffs:
       result.urgency = [late = after(30)](const protocol::Parcel& parcel, std::uint64_t step) {
@@ -119,7 +119,7 @@ protocol::Transport& AdversarialRun::transport_of(Rank r, const Wrap& wrap) {
     layers_.push_back(std::move(layer));
     transport = layers_.back().get();
   };
-  if (scenario_.mischief == Mischief::kRumours) put_on(std::make_unique<RumourTransport>(*transport, rumours_));
+  if (scenario_.mischief == Mischief::kRumors) put_on(std::make_unique<RumorTransport>(*transport, rumors_));
   put_on(std::make_unique<WitnessedTransport>(
       *transport, witness_, [loop](SubdomainId s) { return loop().subdomains().contains(s); },
       [loop]() -> const protocol::ProtocolCounters& { return loop().protocol().counters(); }));

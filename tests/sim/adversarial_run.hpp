@@ -17,7 +17,7 @@
 #include "sim/deeds.hpp"
 #include "sim/domains.hpp"
 #include "sim/mover.hpp"
-#include "sim/rumours.hpp"
+#include "sim/rumors.hpp"
 #include "sim/scenario.hpp"
 #include "sim/witness.hpp"
 
@@ -100,7 +100,7 @@ class AdversarialRun {
   SubdomainContext context_;
   std::deque<Subdomain> copies_;
   protocol::AdversarialNetwork network_;
-  Rumours rumours_;
+  Rumors rumors_;
   Witness witness_;
   std::vector<std::unique_ptr<protocol::Transport>> layers_;  // between ranks and network
   std::unique_ptr<balancer::SimulatedCouncil> council_;       // if the policy asks for one

@@ -73,7 +73,7 @@ class Mover {
     if (!all.empty()) ++deeds_.rotations;
   }
 
-  // The case that Safra's colours are for: the token will not come by that rank again.
+  // The case that Safra's colors are for: the token will not come by that rank again.
   void follow_token(RankLoop& loop, Rank rank) {
     if (rank == Rank{0} || !loop.protocol().termination().has_token()) return;
     const auto all = active(loop);

@@ -19,8 +19,8 @@ const char* words_of(Mischief mischief) {
       return ", hand-offs and SPLITs race";
     case Mischief::kLateLocations:
       return ", locations known late";
-    case Mischief::kRumours:
-      return ", rumours of locations";
+    case Mischief::kRumors:
+      return ", rumors of locations";
     case Mischief::kLateAdvice:
       return ", late advice";
   }
@@ -64,9 +64,9 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
   if (choice.mover) s.mover = *choice.mover;
   s.lopsided = random() % 4 == 0;
   s.mischief = one_of(std::array{Mischief::kNone, Mischief::kNone, Mischief::kRacingHandOffs, Mischief::kLateLocations,
-                                 Mischief::kRumours, Mischief::kLateAdvice});
+                                 Mischief::kRumors, Mischief::kLateAdvice});
   // A message that must wait would block all behind it.
-  if (s.mischief != Mischief::kNone && s.mischief != Mischief::kRumours) s.adversary.fifo = false;
+  if (s.mischief != Mischief::kNone && s.mischief != Mischief::kRumors) s.adversary.fifo = false;
   return s;
 }
 

@@ -204,12 +204,12 @@ TEST_CASE("mutation: the packed form forgets the points that wait") {
                  });
 }
 
-TEST_CASE("mutation: forwarding changes the colour of a rank") {
+TEST_CASE("mutation: forwarding changes the color of a rank") {
   for (const bool black : {true, false}) {
     CAPTURE(black);
     must_be_caught(protocol::sound_rules(), 50, "ranks tell the token the truth",
                    [black](protocol::Transport& transport, FindLoop loop) {
-                     return std::make_unique<RecolouringTransport>(
+                     return std::make_unique<RecoloringTransport>(
                          transport, black, [loop] { return loop().protocol().counters().forwarded; });
                    });
   }

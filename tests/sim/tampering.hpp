@@ -142,12 +142,12 @@ class ForgetfulTransport final : public protocol::TransportLayer {
   protocol::WireLimits limits_;
 };
 
-/// As a rank that takes another colour when it forwards SPLITs: shows in the token that it passes on.
-class RecolouringTransport final : public protocol::TransportLayer {
+/// As a rank that takes another color when it forwards SPLITs: shows in the token that it passes on.
+class RecoloringTransport final : public protocol::TransportLayer {
  public:
   using Forwarded = std::function<std::int64_t()>;
   /// `forwarded`: how often the rank has, so far.
-  RecolouringTransport(protocol::Transport& inner, bool black, Forwarded forwarded)
+  RecoloringTransport(protocol::Transport& inner, bool black, Forwarded forwarded)
       : TransportLayer(inner), black_(black), forwarded_(std::move(forwarded)) {}
 
   void send(Rank destination, Bytes bytes) override {

@@ -24,7 +24,7 @@ struct LateCase {
   Start start = Start::kNothing;
 };
 
-/// Who starts with which of so many subdomains: dealt in turn, so that neighbours have much to tell each other, and of
+/// Who starts with which of so many subdomains: dealt in turn, so that neighbors have much to tell each other, and of
 /// what would be the late rank's all but what it starts with to the others.
 inline IdVector<SubdomainId, Rank> late_owners(std::size_t subdomains, std::int32_t ranks, const LateCase& late) {
   const std::size_t kept = late.start == Start::kShare ? subdomains : late.start == Start::kOneSubdomain ? 1 : 0;

@@ -25,7 +25,7 @@ inline Layout grid_layout(int columns, int rows, std::int32_t ranks) {
     s.owner = static_cast<Rank>(static_cast<std::int64_t>(i) * ranks / count);
     for (const auto& [dx, dy] : {std::pair(0, -1), {-1, 0}, {1, 0}, {0, 1}})
       if (x + dx >= 0 && x + dx < columns && y + dy >= 0 && y + dy < rows)
-        s.neighbours.push_back({static_cast<SubdomainId>(i + dx + dy * columns), 1.0});
+        s.neighbors.push_back({static_cast<SubdomainId>(i + dx + dy * columns), 1.0});
     layout.subdomains.push_back(std::move(s));
   }
   return layout;

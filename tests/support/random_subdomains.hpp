@@ -50,7 +50,7 @@ class RandomSubdomains {
   [[nodiscard]] const SubdomainContext& context() const { return context_; }
   [[nodiscard]] std::size_t size() const { return decomposition_.size(); }
   [[nodiscard]] std::mt19937_64& random() { return random_; }
-  /// A point down to `deepest` halvings that a neighbour might put on the border of subdomain i.
+  /// A point down to `deepest` halvings that a neighbor might put on the border of subdomain i.
   [[nodiscard]] SplitPoint<GlobalRootId> split_of(SubdomainId i, int deepest) {
     const auto roots = decomposition_.roots_of(i);
     const GlobalRootId root = roots[random_() % roots.size()];

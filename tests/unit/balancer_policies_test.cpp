@@ -27,7 +27,7 @@ std::string error_of(const std::string& name, const Parameters::Values& values =
 double cut_length(const LoadSnapshot& snapshot) {
   double length = 0;
   for (const SubdomainLoad& s : snapshot.subdomains)
-    for (const Neighbour& n : (*snapshot.layout)[s.id].neighbours)
+    for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors)
       if (find(snapshot, n.subdomain)->owner != s.owner) length += n.length / 2;
   return length;
 }
@@ -127,9 +127,9 @@ TEST_CASE("zoltan copes with fewer subdomains than ranks, none, and one rank") {
   }
 }
 
-TEST_CASE("diffusion sends work to the neighbours that finish earlier") {
+TEST_CASE("diffusion sends work to the neighbors that finish earlier") {
   const auto policy = make_policy("diffusion");
-  CHECK(policy->placement() == Placement::kNeighbours);
+  CHECK(policy->placement() == Placement::kNeighbors);
   // Three ranks in a row, the first one ten times as fast as the others.
   const LoadSnapshot s = initial_snapshot(grid_layout(90, 10, 3), {1000, 100, 100});
   CHECK(policy->plan(s, 0_rank).empty());
@@ -140,7 +140,7 @@ TEST_CASE("diffusion sends work to the neighbours that finish earlier") {
     CHECK(move.destination == 0_rank);
     CHECK(find(s, move.subdomain)->owner == 1_rank);
   }
-  CHECK(policy->plan(s, 2_rank).empty());  // rank 0 is not its neighbour, and rank 1 has as much as it has
+  CHECK(policy->plan(s, 2_rank).empty());  // rank 0 is not its neighbor, and rank 1 has as much as it has
 }
 
 TEST_CASE("repeated diffusion evens out a chain of ranks") {

@@ -204,7 +204,7 @@ TEST_CASE("each invariant of a triangulation is looked at") {
   CHECK(fault([&](Triangulation& m) { std::swap(m.triangles[live].neighbor[1], m.triangles[other].neighbor[1]); }) !=
         "");
   CHECK(fault([&](Triangulation& m) {
-          Triangle& t = m.triangles[live];  // turned, but not its neighbours' views of it
+          Triangle& t = m.triangles[live];  // turned, but not its neighbors' views of it
           t = {{t.vertex[1], t.vertex[2], t.vertex[0]}, {t.neighbor[1], t.neighbor[2], t.neighbor[0]}};
         }) != "");
   CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].path = 0; }) != "");
