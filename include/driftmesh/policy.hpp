@@ -15,7 +15,7 @@ namespace driftmesh::balancer {
 enum class Placement {
   kNobody,      ///< nothing is reported, nothing moves
   kLeader,      ///< all report to rank 0, which plans for all
-  kNeighbors,  ///< ranks whose subdomains touch report to each other; each plans for what it owns
+  kNeighbors,   ///< ranks whose subdomains touch report to each other; each plans for what it owns
   kRequests,    ///< a rank that will soon be idle asks for work; rank 0 finds it a rank that has much
   kCollective,  ///< all at the same time, each for what it owns; rank 0 knows sums alone, and calls them together
 };

@@ -28,7 +28,7 @@ enum class Mischief {
   kNone,
   kRacingHandOffs,  ///< each hand-off overtakes all SPLITs, or is overtaken by those of a long while
   kLateLocations,   ///< location updates arrive when all work is over
-  kRumors,         ///< instead of a location update another one of this run may come, again and out of date
+  kRumors,          ///< instead of a location update another one of this run may come, again and out of date
   kLateAdvice,      ///< plans, requests for work and answers take a long while
 };
 
