@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/commands.hpp"
+#include "base/failure.hpp"
 #include "base/standard_streams.hpp"
 #include "base/temporary_files.hpp"
 #include "cli/command_line.hpp"
@@ -89,7 +90,7 @@ int run_program(int argc, char** argv) {
   try {
     return flushed(cli::run(program, argc, argv));
   } catch (const std::bad_alloc&) {
-    std::cerr << "driftmesh: " << job::kOutOfMemory << '\n';
+    std::cerr << "driftmesh: " << kOutOfMemory << '\n';
     return job::kStoppedByLimit;
   } catch (const LimitError& error) {
     std::cerr << "driftmesh: " << error.what() << '\n';

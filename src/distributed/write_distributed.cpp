@@ -1,10 +1,12 @@
 #include "distributed/write_distributed.hpp"
 
+#include <exception>
 #include <functional>
 #include <optional>
 #include <utility>
 
 #include "base/bytes.hpp"
+#include "base/failure.hpp"
 #include "driftmesh/error.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/merge_pieces.hpp"
@@ -47,27 +49,28 @@ Mesh unpack(const Mail& mail) {
   return mesh;
 }
 
-/// What became of a rank's work, for all to know: empty if it went well, else the error.
+/// What became of a rank's work, for all to know.
 std::vector<Mail> status_to_all(std::int32_t ranks, const std::function<void()>& work) {
-  std::string status;
+  Failure failure;
   try {
     work();
-  } catch (const std::exception& error) {
-    status = error.what();
-    if (status.empty()) status = "failed";
+  } catch (const std::exception&) {
+    failure = failure_of(std::current_exception());
   }
-  const auto* const first = reinterpret_cast<const std::byte*>(status.data());
+  ByteWriter status;
+  failure.write(status);
   std::vector<Mail> mail;
-  for (const Rank to : first_ids<Rank>(ranks)) mail.push_back({to, Bytes(first, first + status.size())});
+  for (const Rank to : first_ids<Rank>(ranks)) mail.push_back({to, status.bytes()});
   return mail;
 }
 
 void throw_first_failure(const std::vector<Mail>& statuses) {
   for (const Mail& mail : statuses) {
-    if (mail.bytes.empty()) continue;
-    std::string what = "rank " + to_string(mail.rank) + ": ";
-    for (const std::byte b : mail.bytes) what += static_cast<char>(b);
-    throw Error(what);
+    Failure failure;
+    read_mail(mail, [&](ByteReader& reader) { failure = Failure::read(reader); });
+    if (failure.kind == Failure::Kind::kNone) continue;
+    failure.message = "rank " + to_string(mail.rank) + ": " + failure.message;
+    raise(failure);
   }
 }
 

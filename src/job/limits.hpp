@@ -34,10 +34,6 @@ struct Limits {
 /// What ends a program that a limit has stopped.
 inline constexpr int kStoppedByLimit = 3;
 
-/// What to say when memory ends before a limit does.
-inline constexpr const char* kOutOfMemory =
-    "out of memory; ask for larger triangles, or see --max-memory of driftmesh mesh";
-
 /// Throws LimitError when a forecast of the number of triangles is beyond the limit by more than forecasts err.
 /// `may_keep`: whether a mesh that was stopped can be kept.
 void check_forecast(const Limits& limits, double forecast, bool may_keep = true);

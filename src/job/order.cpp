@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/bytes.hpp"
-#include "job/failure.hpp"
+#include "base/failure.hpp"
 #include "runtime/plan_bytes.hpp"
 
 namespace driftmesh::job {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "base/failure.hpp"
 #include "driftmesh/error.hpp"
 #include "job/limits.hpp"
 #include "protocol/lone_transport.hpp"

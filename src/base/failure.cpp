@@ -1,0 +1,55 @@
+#include "base/failure.hpp"
+
+#include <new>
+
+#include "driftmesh/error.hpp"
+
+namespace driftmesh {
+
+void Failure::write(ByteWriter& writer) const {
+  writer.value(kind);
+  writer.text(message);
+}
+
+Failure Failure::read(ByteReader& reader) {
+  Failure failure;
+  reader.value(failure.kind);
+  failure.message = reader.text();
+  return failure;
+}
+
+Failure failure_of(const std::exception_ptr& error) {
+  if (!error) return {};
+  try {
+    std::rethrow_exception(error);
+  } catch (const InputError& e) {
+    return {Failure::Kind::kInput, e.what()};
+  } catch (const FileError& e) {
+    return {Failure::Kind::kFile, e.what()};
+  } catch (const LimitError& e) {
+    return {Failure::Kind::kLimit, e.what()};
+  } catch (const std::bad_alloc&) {
+    return {Failure::Kind::kLimit, kOutOfMemory};
+  } catch (const Cancelled& e) {
+    return {Failure::Kind::kCancelled, e.what()};
+  } catch (const std::exception& e) {
+    return {Failure::Kind::kOther, e.what()};
+  }
+}
+
+void raise(const Failure& failure) {
+  switch (failure.kind) {
+    case Failure::Kind::kInput:
+      throw InputError(failure.message);
+    case Failure::Kind::kFile:
+      throw FileError(failure.message);
+    case Failure::Kind::kLimit:
+      throw LimitError(failure.message);
+    case Failure::Kind::kCancelled:
+      throw Cancelled(failure.message);
+    default:
+      throw Error(failure.message);
+  }
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <string>
+
+#include "base/bytes.hpp"
+
+namespace driftmesh {
+
+/// What to say when memory ends before a limit does.
+inline constexpr const char* kOutOfMemory =
+    "out of memory; ask for larger triangles, or see --max-memory of driftmesh mesh";
+
+/// An error as it travels from the rank that met it to the others, which throw it too.
+struct Failure {
+  enum class Kind : std::uint8_t { kNone, kInput, kFile, kLimit, kCancelled, kOther };
+  Kind kind = Kind::kNone;
+  std::string message;
+
+  void write(ByteWriter& writer) const;
+  [[nodiscard]] static Failure read(ByteReader& reader);
+};
+
+/// What an exception says; null says nothing.
+[[nodiscard]] Failure failure_of(const std::exception_ptr& error);
+
+/// Throws an exception of the failure's kind.
+[[noreturn]] void raise(const Failure& failure);
+
+}  // namespace driftmesh
