@@ -30,7 +30,8 @@ struct Dealing {
 };
 
 /// Decides who should work on what. Its functions depend on their arguments alone: the same snapshot yields the same
-/// moves. They need not look at the cost of moving, nor at whether it is worth while: those who call them do.
+/// moves. What they throw ends the job. They need not look at the cost of moving, nor at whether it is worth while:
+/// those who call them do.
 class Policy {
  public:
   virtual ~Policy() = default;
@@ -63,11 +64,6 @@ class Policy {
  protected:
   Policy() = default;
 };
-
-/// A policy of placement kLeader that is a function: of the load of all ranks, what should move where. It must depend
-/// on its argument alone.
-[[nodiscard]] std::shared_ptr<const Policy> leader_policy(
-    std::function<std::vector<Move>(const LoadSnapshot& snapshot)> plan);
 
 /// A policy of placement kLeader that is a function: of the load of all ranks, what should move where. It must depend
 /// on its argument alone.

@@ -165,6 +165,24 @@ TEST_CASE("what one rank meets while it works ends the work of all, which can go
   CHECK(mesh_distributed(MPI_COMM_WORLD, input, {.max_area = 0.01}).total_triangles > 200);
 }
 
+TEST_CASE("a callable that only some ranks have is an error on all") {
+  int ranks = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks == 1) return;
+  const auto error_with = [&](const MeshOptions& options) {
+    return common_error([&] { (void)mesh_distributed(MPI_COMM_WORLD, generate_rectangle_hole({}), options); });
+  };
+  for (const int one : {0, ranks - 1}) {
+    MeshOptions options;
+    if (own_rank() == one) options.size = [](const Point& p) { return p.x < 1 ? 0.1 : 0.05; };
+    CHECK(error_with(options).starts_with("MeshOptions::size "));
+    options.size = {};
+    if (own_rank() == one)
+      options.balance.own = balancer::leader_policy([](const auto&) { return std::vector<balancer::Move>(); });
+    CHECK(error_with(options).starts_with("MeshOptions::size and MeshOptions::balance.own "));
+  }
+}
+
 TEST_CASE("progress is told on every rank") {
   std::int64_t most = 0;
   MeshOptions options{.max_area = 1e-5, .subdomains = {.count = 20}};

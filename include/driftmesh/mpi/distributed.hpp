@@ -20,7 +20,7 @@ namespace driftmesh {
 ///
 /// Errors are those of mesh(), thrown on all ranks alike: what one rank meets by itself, also in a callable, ends the
 /// work of all in good order, as an error of the same kind that names the rank. Only where memory runs out between
-/// refinement and the finished pieces, or MPI fails, the job ends with a message.
+/// refinement and the finished pieces, MPI fails, or a policy of the caller's own throws, the job ends with a message.
 [[nodiscard]] DistributedPiece mesh_distributed(MPI_Comm communicator, const Pslg& input,
                                                 const MeshOptions& options = {});
 

@@ -1,12 +1,17 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "api/call.hpp"
 #include "api/library_request.hpp"
 #include "balancer/policies/policy_factory.hpp"
+#include "base/bytes.hpp"
 #include "distributed/write_distributed.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/ids.hpp"
 #include "driftmesh/mpi/distributed.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/rank_run.hpp"
@@ -44,10 +49,30 @@ auto with_channel(job::Team& team, const Work& work) {
   }
 }
 
-DistributedPiece mesh_on(job::Team& team, Call& call) {
+/// Which of the callables that the work depends on the caller gives on this rank.
+Bytes callables_of(const MeshOptions& options) {
+  ByteWriter writer;
+  writer.value(static_cast<bool>(options.size));
+  writer.value(static_cast<bool>(options.balance.own));
+  return writer.take();
+}
+
+/// Ranks with different size functions would not agree on the points that they share.
+void check_callables(const std::vector<Bytes>& of_ranks) {
+  for (const Rank r : first_ids<Rank>(of_ranks.size()))
+    if (of_ranks[to_index(r)] != of_ranks.front())
+      throw Error("MeshOptions::size and MeshOptions::balance.own are for all ranks or for none, and ranks 0 and " +
+                  to_string(r) + " differ; give the same on each rank");
+}
+
+DistributedPiece mesh_on(job::Team& team, Call& call, const MeshOptions& options) {
+  const std::vector<Bytes> callables = team.gather(callables_of(options));
   // In the words of options already where the error is met: only what it says travels to the other ranks.
   const auto make = [&] {
-    return with_words_of_options([&] { return std::optional(call.order_for(team, job::kRanks)); });
+    return with_words_of_options([&] {
+      check_callables(callables);
+      return std::optional(call.order_for(team, job::kRanks));
+    });
   };
   std::optional<job::Order> order = job::share(team, make, call.given().policies);
   job::RankRun run(team, std::move(*order), call.given().size, call.watch());
@@ -60,7 +85,7 @@ DistributedPiece mesh_on(job::Team& team, Call& call) {
 DistributedPiece mesh_distributed(MPI_Comm communicator, const Pslg& input, const MeshOptions& options) {
   return with_words_of_options([&] {
     Call call(input, options, balancer::make_policy);
-    return with_team(communicator, [&](job::Team& team) { return mesh_on(team, call); });
+    return with_team(communicator, [&](job::Team& team) { return mesh_on(team, call, options); });
   });
 }
 
