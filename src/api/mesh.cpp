@@ -17,7 +17,7 @@ namespace {
 Mesh in_one_piece(Call& call) {
   call.check(job::kOnePiece);
   const job::Domain domain = job::read_domain(call.request(), call.given(), call.watch());
-  const job::OnePiece made = job::mesh_in_one_piece(call.request(), domain, true, call.watch());
+  const job::OnePiece made = job::mesh_in_one_piece(call.request(), domain, true, call.watch(), false);
   if (!made.result.complete) {
     const auto triangles = static_cast<std::int64_t>(made.result.mesh.live_triangles());
     throw LimitError(job::stopped_message(made.limits, triangles, true));

@@ -66,9 +66,10 @@ void check_input(const Request::Input& input) {
 }
 
 void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
-  require((bounds.area > 0) + (bounds.triangles > 0) + (bounds.triangles_per_rank > 0) <= 1, "bounds.triangles",
-          "asks for the size of triangles a second time",
-          "keep one of bounds.area, bounds.triangles and bounds.triangles-per-rank");
+  require(bounds.area == 0 || bounds.triangles == 0, "bounds.triangles", "asks for the size of triangles a second time",
+          "keep one of it and bounds.area");
+  require(bounds.triangles_per_rank == 0 || (bounds.area == 0 && bounds.triangles == 0), "bounds.triangles-per-rank",
+          "asks for the size of triangles a second time", "keep one of it, bounds.area and bounds.triangles");
   require(sizing.expression.empty() || (bounds.triangles == 0 && bounds.triangles_per_rank == 0), "sizing.size",
           "does not go with a number of triangles", "remove one, or give bounds.area");
   require(sizing.gradation == 0 || !sizing.background.empty(), "sizing.gradation",

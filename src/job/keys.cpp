@@ -472,6 +472,7 @@ std::string nearest_key(const std::string& name, Doors door) {
 }
 
 void check_range(const KeyInfo& key, double value) {
+  if (std::isnan(value)) fail(key, "is not a number", "give one");
   if (value < key.least || (key.above && value == key.least))
     fail(key, "is " + shortest_text(value),
          (key.above ? "it must be above " : "it must be at least ") + shortest_text(key.least));

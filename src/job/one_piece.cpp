@@ -8,7 +8,7 @@
 
 namespace driftmesh::job {
 
-OnePiece mesh_in_one_piece(const Request& request, const Domain& domain, bool writes, Watch& watch) {
+OnePiece mesh_in_one_piece(const Request& request, const Domain& domain, bool writes, Watch& watch, bool may_keep) {
   OnePiece made;
   made.limits = find_limits(request.limits, domain.pslg, writes);
   MeshResult& result = made.result;
@@ -20,7 +20,7 @@ OnePiece mesh_in_one_piece(const Request& request, const Domain& domain, bool wr
   timed(watch, "refine", [&] {
     refine_domain(result, made.limits.triangles, [&](std::int64_t triangles, double forecast) {
       if (std::exchange(made.forecast, forecast) == 0 && !request.limits.keep_incomplete)
-        check_forecast(made.limits, forecast);
+        check_forecast(made.limits, forecast, may_keep);
       watch.refining(triangles, forecast);
     });
   });

@@ -148,6 +148,19 @@ TEST_CASE("options are checked against the table of keys, and named as the calle
         "MeshOptions::min_angle is 50; it can be at most 34: above that refinement need not terminate");
   CHECK(error_of_options({.max_area = -1}).starts_with("MeshOptions::max_area "));
   CHECK(error_of_options({.subdomains = {.count = 4, .skew = 1.5}}).starts_with("MeshOptions::subdomains.skew "));
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  for (const MeshOptions& options :
+       {MeshOptions{.min_angle = kNoNumber}, MeshOptions{.max_area = kNoNumber}, MeshOptions{.triangles = kNoNumber}})
+    CHECK(error_of_options(options).find(" is not a number") != std::string::npos);
+  CHECK(error_of_options({.subdomains = {.count = 4, .skew = kNoNumber}}) ==
+        "MeshOptions::subdomains.skew is not a number; give one");
+  // Nothing is advised that the library does not have.
+  CHECK(error_of_options({.max_area = 1, .triangles = 100}) ==
+        "MeshOptions::triangles asks for the size of triangles a second time; keep one of it and "
+        "MeshOptions::max_area");
+  const std::string too_many = error_of_options({.max_area = 1e-5, .max_triangles = 100});
+  CHECK(too_many.find("MeshOptions::max_triangles") != std::string::npos);
+  CHECK(too_many.find("--") == std::string::npos);
   // What means nothing here is refused.
   CHECK(error_of_options({.subdomains = {.slice = 100}}).starts_with("MeshOptions::subdomains.slice "));
   CHECK(error_of_options({.subdomains = {.count = 4}, .balance = {.policy = "greedy"}})
