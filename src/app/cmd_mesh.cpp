@@ -47,7 +47,10 @@ cli::Command mesh_command() {
                      .help = "Take options from a YAML file, by their long names (input: bay.poly, area: 5000, output: "
                              "[a.vtu]) or by those of experiments; what the command line gives wins",
                      .completes = cli::Option::Completes::kFile,
-                     .take = [command](const std::string& file) { command->config = file; }});
+                     .take = [command](const std::string& file) {
+                       if (file.empty()) throw cli::UsageError("is empty; give it a value, or leave it out");
+                       command->config = file;
+                     }});
   return {.name = "mesh",
           .summary = "Make a quality mesh of a domain",
           .options = std::move(options),

@@ -40,6 +40,7 @@ Value given_value(const Key& key, const std::string& text, const Value& old) {
     return table;
   }
   if (key.kind == Kind::kFlag) return !key.option.starts_with("no-");
+  if (text.empty()) throw KeyError(key.name, "is empty", "give it a value, or leave it out");
   return job::read_value(key, text);
 }
 

@@ -82,3 +82,10 @@ TEST_CASE("the command line that repeats a run says everything that is not the d
         "driftmesh mesh 'my bay.poly' --angle 30 --no-region-areas --size 'it'\\''s' --speeds 1,0.5 --balance-with "
         "method=graph --output a.vtu --output b.msh");
 }
+
+TEST_CASE("an empty value is refused, as of a variable of the shell that is not set") {
+  for (const char* option : {"size", "size-mesh", "decomposition", "plot", "json"}) {
+    CAPTURE(option);
+    CHECK(refusal(given({{option, ""}})) == "--" + std::string(option) + " is empty; give it a value, or leave it out");
+  }
+}
