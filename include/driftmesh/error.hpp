@@ -19,7 +19,7 @@ struct SourcePlace {
   std::size_t line = 0;
 };
 
-/// Something in the user's input is wrong, and what was intended is not clear enough to repair it.
+/// The user's input is wrong, and the intent is not clear enough to repair it.
 class InputError : public Error {
  public:
   /// Message "file:line: what; next".
@@ -42,7 +42,7 @@ class LimitError : public Error {
   using Error::Error;
 };
 
-/// Whoever asked for the mesh does not want it any more (MeshOptions::progress).
+/// The caller cancelled the work (MeshOptions::progress).
 class Cancelled : public Error {
  public:
   using Error::Error;

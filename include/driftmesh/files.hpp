@@ -20,7 +20,7 @@ namespace driftmesh {
 /// same bits; reading the file gives an equal Pslg. The file appears only once it is complete. Throws FileError.
 void write_poly(const Pslg& pslg, const std::string& path);
 
-/// What a mesh file may hold in addition to the mesh.
+/// Optional content of a mesh file.
 struct WriteOptions {
   std::vector<Point> holes{};  ///< a point in each hole, for Triangle's .poly; other formats need none
 };
@@ -33,7 +33,7 @@ void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& o
 
 /// Reads a mesh back, from any of these formats, from standard input by the same names, or from the pieces that a .pvtu
 /// names. Everything is checked before it is used: indices are in range and counts fit the file. Triangles stay as the
-/// file lists them, so that a check sees what the file holds; only if the total area is negative are all of them
+/// file lists them, so that a check sees the actual contents; only if the total area is negative are all of them
 /// reversed. Errors: InputError naming file and place, FileError.
 [[nodiscard]] Mesh read_mesh(const std::string& path);
 

@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-// Numbers of things, and arrays indexed by them. A number is an enumeration of its own where it pays to tell kinds of
-// numbers apart (`enum class Rank : std::int32_t {}`), else a plain integer.
+// IDs, and arrays indexed by them. An ID is a scoped enumeration where distinct types pay off
+// (`enum class Rank : std::int32_t {}`), otherwise a plain integer.
 namespace driftmesh {
 
 template <class Id>
 concept IsId = std::integral<Id> || std::is_enum_v<Id>;
 
-/// The number as a plain integer: for arithmetic, text and bytes.
+/// The ID as a plain integer, for arithmetic, text and serialization.
 template <IsId Id>
 [[nodiscard]] constexpr auto to_int(Id id) {
   if constexpr (std::is_enum_v<Id>)
@@ -26,16 +26,16 @@ template <IsId Id>
     return id;
 }
 
-/// In builds with assertions: ends the program where an array has no element of a number.
+/// In builds with assertions: aborts if an array has no element with this ID.
 inline void check_id([[maybe_unused]] bool known) {
 #ifdef DRIFTMESH_CHECKED
   if (known) return;
-  std::fputs("driftmesh: an array has no element of this number\n", stderr);
+  std::fputs("driftmesh: no array element has this ID\n", stderr);
   std::abort();
 #endif
 }
 
-/// Where the thing of that number stands in an array. A negative number stands beyond the end of every array.
+/// The array index of an ID. Negative IDs are beyond the end of every array.
 template <IsId Id>
 [[nodiscard]] constexpr std::size_t to_index(Id id) {
   return static_cast<std::size_t>(id);
@@ -44,7 +44,7 @@ template <IsId Id>
 template <class Id>
 concept IsSignedId = IsId<Id> && static_cast<Id>(-1) < static_cast<Id>(0);
 
-/// The number of nothing: -1 as a number of any signed kind.
+/// The null ID: -1 in any signed ID type.
 struct NoId {
   template <IsSignedId Id>
   [[nodiscard]] constexpr operator Id() const {
@@ -57,7 +57,7 @@ struct NoId {
 };
 inline constexpr NoId kNone;
 
-/// The numbers 0 .. count - 1, to be iterated over.
+/// The IDs 0 .. count - 1, for iteration.
 template <IsId Id>
 class IdRange {
  public:
@@ -90,13 +90,13 @@ class IdRange {
   std::size_t count_;
 };
 
-/// The numbers of the first `count` things, which is not negative: for (const Rank r : first_ids<Rank>(ranks)).
+/// The first `count` IDs, count >= 0: for (const Rank r : first_ids<Rank>(ranks)).
 template <IsId Id>
 [[nodiscard]] constexpr IdRange<Id> first_ids(std::integral auto count) {
   return IdRange<Id>(static_cast<std::size_t>(count));
 }
 
-/// A std::vector whose elements are found by numbers of type Id alone.
+/// A std::vector indexed only by IDs of type Id.
 template <IsId Id, class T>
 class IdVector : public std::vector<T> {
   using Base = std::vector<T>;
@@ -106,9 +106,9 @@ class IdVector : public std::vector<T> {
   IdVector() = default;
   explicit IdVector(Base values) : Base(std::move(values)) {}
 
-  /// Whether an element has this number.
+  /// Whether there is an element with this ID.
   [[nodiscard]] bool has(Id id) const { return to_index(id) < this->size(); }
-  /// The number that the next element will get.
+  /// The ID of the next element to be appended.
   [[nodiscard]] Id next_id() const { return static_cast<Id>(this->size()); }
 
   [[nodiscard]] typename Base::reference operator[](Id id) {
@@ -123,7 +123,7 @@ class IdVector : public std::vector<T> {
   [[nodiscard]] typename Base::const_reference at(Id id) const { return Base::at(to_index(id)); }
 };
 
-/// A std::span in the same way.
+/// A std::span indexed only by IDs of type Id.
 template <IsId Id, class T>
 class IdSpan : public std::span<T> {
   using Base = std::span<T>;
@@ -141,7 +141,7 @@ class IdSpan : public std::span<T> {
   }
 };
 
-/// The numbers of all elements.
+/// The IDs of all elements.
 template <IsId Id, class T>
 [[nodiscard]] IdRange<Id> ids_of(const IdVector<Id, T>& values) {
   return IdRange<Id>(values.size());

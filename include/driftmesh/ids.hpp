@@ -5,7 +5,7 @@
 
 #include "driftmesh/id_vector.hpp"
 
-// Numbers that more than one box speaks of, each a type of its own.
+// IDs used by more than one box, each with its own type.
 namespace driftmesh {
 
 /// A process of a parallel run: 0 .. ranks - 1.
@@ -15,16 +15,16 @@ enum class Rank : std::int32_t {};
 enum class SubdomainId : std::int32_t {};
 inline constexpr SubdomainId kNoSubdomain{-1};
 
-/// The next rank; there need not be one.
+/// The next higher rank; it may not exist.
 [[nodiscard]] constexpr Rank after(Rank rank) {
   return Rank{to_int(rank) + 1};
 }
-/// The rank after this one in the ring of all.
+/// The next rank in the ring of all ranks.
 [[nodiscard]] constexpr Rank next_in_ring(Rank rank, std::int32_t ranks) {
   return Rank{(to_int(rank) + 1) % ranks};
 }
 
-/// A root of a decomposition: a segment that refinement cuts at dyadic points only, the same on every rank. (A RootId
+/// A root of a decomposition: a segment that refinement splits only at dyadic points, the same on every rank. (A RootId
 /// is a root of one triangulation.)
 enum class GlobalRootId : std::int32_t {};
 

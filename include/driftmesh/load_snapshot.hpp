@@ -8,17 +8,17 @@
 
 #include "driftmesh/ids.hpp"
 
-/// Who works on what: load, plans, and the policies that make them. Nothing here knows a transport or a clock; times
-/// are in seconds, work is in triangles.
+/// Load balancing: load, plans, and the policies that make them. Nothing here knows a transport or a clock; times are
+/// in seconds, work is in triangles.
 namespace driftmesh::balancer {
 
-/// A subdomain that another one shares a border with.
+/// A subdomain that shares a border with another one.
 struct Neighbor {
   SubdomainId subdomain{};
   double length = 0;  ///< of the border
 };
 
-/// What all ranks know from the start, and what does not change during a run.
+/// What all ranks know from the start and what does not change during a run.
 struct Layout {
   struct Subdomain {
     double x = 0, y = 0;   ///< centroid
@@ -38,33 +38,32 @@ struct SubdomainLoad {
   Rank owner{};
   double remaining = 0;     ///< triangles still to be made, predicted
   std::uint64_t bytes = 0;  ///< to move it
-  std::int32_t turn =
-      0;  ///< its place in the owner's order of work: 0 is being worked on, the last will be there longest
+  std::int32_t turn = 0;    ///< position in the owner's order of work; 0 is being worked on
 };
 
-/// Its bytes in units of 64 KiB: below that, one is as easily moved as the other.
+/// Its size in units of 64 KiB: smaller differences do not affect the cost of a move.
 [[nodiscard]] inline std::uint64_t weight_class(const SubdomainLoad& s) {
   return s.bytes >> 16;
 }
 
-/// Whether `a` leaves its rank more easily than `b`: what is light, and of this what will be worked on last.
+/// Whether `a` should leave its rank before `b`: lighter ones first, then those whose turn comes last.
 [[nodiscard]] bool leaves_before(const SubdomainLoad& a, const SubdomainLoad& b);
 
 struct RankLoad {
   double speed = 0;      ///< triangles a second, measured; 0: not known
-  double remaining = 0;  ///< of all its subdomains, also of those that the snapshot does not list
+  double remaining = 0;  ///< of all its subdomains, including those that the snapshot does not list
 };
 
-/// One of as many parts as there are ranks. Part p is made for rank p, as large as that is fast, and may end up on
-/// another one.
+/// One of as many parts as there are ranks. Part p is sized for the speed of rank p, but may be assigned to another
+/// rank.
 enum class Part : std::int32_t {};
 
-/// The load at one moment, as the one who plans knows it. A rank that plans for itself may know other ranks by their
-/// sums alone, and not list their subdomains.
+/// The load at one moment, as known to the planner. A rank that plans for itself may know only the totals of other
+/// ranks, and not list their subdomains.
 struct LoadSnapshot {
   std::shared_ptr<const Layout> layout;
-  std::vector<SubdomainLoad> subdomains;  ///< in ascending order of their numbers, each once
-  IdVector<Rank, RankLoad> ranks;         ///< of all ranks
+  std::vector<SubdomainLoad> subdomains;  ///< in ascending order of IDs, each once
+  IdVector<Rank, RankLoad> ranks;         ///< all ranks
 };
 
 struct Move {
@@ -73,24 +72,24 @@ struct Move {
   friend bool operator==(const Move&, const Move&) = default;
 };
 
-/// Of each listed subdomain, the part that was made for its owner.
+/// For each listed subdomain, the part that belongs to its owner.
 [[nodiscard]] std::vector<Part> present_parts(const LoadSnapshot& snapshot);
 
-/// Sets `remaining` of each rank to the sum over the subdomains listed as its own.
+/// Sets `remaining` of each rank to the sum over its listed subdomains.
 void sum_up(LoadSnapshot& snapshot);
 
-/// The listed subdomain of that number, or null.
+/// The listed subdomain with this ID, or null.
 [[nodiscard]] const SubdomainLoad* find(const LoadSnapshot& snapshot, SubdomainId id);
 
-/// The speed of each rank: where it is not known (or not a positive number), the mean of those that are; 1 if none is.
+/// The speed of each rank. Unknown or nonpositive speeds are replaced by the mean of the others, or by 1 if all are.
 [[nodiscard]] IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankLoad> ranks);
 
-/// When the last rank will have finished if nothing moves: the maximum of remaining / speed.
+/// When the last rank finishes if nothing moves: the maximum of remaining / speed.
 [[nodiscard]] double finishing_time(const LoadSnapshot& snapshot);
-/// When all would finish if work could be cut at will: total work / total speed.
+/// When all would finish if work were arbitrarily divisible: total work / total speed.
 [[nodiscard]] double ideal_time(const LoadSnapshot& snapshot);
 
-/// The snapshot after `moves`, which are valid. What is moved more than once ends where the last move takes it.
+/// The snapshot after `moves`, which must be valid. If a subdomain is moved more than once, its last move counts.
 [[nodiscard]] LoadSnapshot after(LoadSnapshot snapshot, std::span<const Move> moves);
 
 /// The moves that lead from one snapshot to another of the same subdomains with other owners.

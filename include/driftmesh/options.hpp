@@ -16,16 +16,16 @@ class Policy;
 }
 struct Decomposition;
 
-/// How far a mesh has come. On many ranks, of this rank's subdomains.
+/// Progress of the refinement; on many ranks, of this rank's subdomains.
 struct Progress {
   std::int64_t triangles = 0;  ///< made so far
-  double forecast = 0;         ///< to be expected in the end
+  double forecast = 0;         ///< expected in the end
 };
 
-/// Whether interfaces are cut to size before refinement.
+/// Whether interfaces are split to size before refinement.
 enum class Presplit {
-  kAuto,  ///< where the bounds say anything about size
-  kOn,    ///< the same, and an error if they do not
+  kAuto,  ///< if there is a bound on area or size
+  kOn,    ///< always; an error without such a bound
   kOff,   ///< never: the protocol of the paper in full
 };
 
@@ -43,60 +43,60 @@ enum class MappingMethod {
   kRoundRobin,  ///< subdomain i on rank i mod P: for experiments, the worst interfaces
 };
 
-/// What a mesh must be like, and how it is made. Every member has a default; name the ones that matter:
-/// {.min_angle = 25, .max_area = 1e-3}. Ranges and meanings are those of `driftmesh mesh --help`. What cannot apply (a
-/// policy where one process is alone) is refused, never ignored: Error.
+/// Requirements on a mesh, and how it is made. Every member has a default; name the ones that matter:
+/// {.min_angle = 25, .max_area = 1e-3}. Ranges and meanings are those of `driftmesh mesh --help`. Options that do not
+/// apply (such as a policy in a single process) are rejected with an Error, never ignored.
 ///
 /// Lengths and areas are in the units of the input, angles in degrees, times in seconds, memory in bytes.
 struct MeshOptions {
   // ---- Triangles ----
   double min_angle = 20;     ///< 0 to 34; smaller ones remain where the input has small angles
   double max_area = 0;       ///< 0: no bound
-  double triangles = 0;      ///< in place of an area: the one that gives about so many triangles; 0: not given
-  bool region_areas = true;  ///< whether the area bounds of the input's regions hold
-  /// Target edge length at a point, > 0, or infinity for no bound: a triangle is too large when its area exceeds that
-  /// of the equilateral triangle with the smallest value at its corners and centroid for a side. Any function of the
-  /// point alone; a SizeField by std::ref. Called often, from the calling thread; on many ranks it must be the same
-  /// function on each of them. What it throws ends the work and passes through.
+  double triangles = 0;      ///< instead of an area: choose the one that gives about this many triangles; 0: not given
+  bool region_areas = true;  ///< whether the area bounds of the input's regions apply
+  /// Target edge length at a point, > 0, or infinity for no bound: a triangle is too large if its area exceeds that of
+  /// the equilateral triangle whose side is the smallest value at its corners and centroid. Must depend on the point
+  /// alone; pass a SizeField by std::ref. Called often, from the calling thread; on many ranks it must be the same
+  /// function on all of them. Exceptions it throws end the work and propagate.
   std::function<double(const Point&)> size{};
 
-  // ---- Limits, of this process ----
-  std::int64_t max_triangles = 0;  ///< LimitError rather than more; 0: what the data structure holds, about 500 million
-  std::int64_t max_memory = 0;     ///< likewise; 0: 90 % of what the machine has free
-  /// Called now and then, at least once; false cancels, which throws Cancelled.
+  // ---- Limits of this process ----
+  std::int64_t max_triangles = 0;  ///< beyond it, LimitError; 0: the capacity of the data structure, about 500 million
+  std::int64_t max_memory = 0;     ///< in bytes, likewise; 0: 90 % of the machine's free memory
+  /// Called from time to time, at least once; returning false cancels the work with Cancelled.
   std::function<bool(const Progress&)> progress{};
 
-  /// The domain in subdomains.
+  /// Decomposition into subdomains.
   struct Subdomains {
-    std::int32_t count = 0;  ///< 0: in one process, one piece; on ranks 20 for each, or what keeps each in cache
-    /// In place of cutting: made from the same input, perhaps with other bounds. See decomposition.hpp.
+    std::int32_t count = 0;  ///< 0: one piece in a single process; else 20 per rank, or more so that each fits in cache
+    /// An existing decomposition of the same input, possibly made with other bounds. See decomposition.hpp.
     std::shared_ptr<const Decomposition> given{};
-    double separator_angle = 60;  ///< smallest angle between separators and all they meet, where the domain allows it
+    double separator_angle = 60;  ///< smallest angle between separators and whatever they meet, where the domain allows
     double skew = 0;              ///< 0: equal work; up to 1: deliberately uneven, for experiments
-    std::int64_t seed = 1;        ///< of the unevenness
+    std::int64_t seed = 1;        ///< for skew
     Presplit presplit = Presplit::kAuto;
     WorkOrder order = WorkOrder::kGiven;
-    std::int64_t slice = 16384;  ///< points inserted between two looks at the network
-    bool sleep = false;  ///< finished subdomains shrink to 10 bytes a triangle, until a neighbor needs them again
+    std::int64_t slice = 16384;  ///< points inserted between polls of the network
+    bool sleep = false;          ///< compress finished subdomains to 10 bytes per triangle until a neighbor needs them
   } subdomains{};
 
   /// Many ranks.
   struct Ranks {
     MappingMethod mapping = MappingMethod::kGraph;
-    std::vector<double> speeds{};    ///< relative speed of each rank, if known: work is dealt in proportion
-    bool map_by_area = false;        ///< deal out area in place of expected work: an uneven start, for experiments
-    std::int64_t aggregation = 512;  ///< split points that travel in one message at most
+    std::vector<double> speeds{};    ///< relative speed of each rank, if known: work is mapped in proportion
+    bool map_by_area = false;        ///< map by area instead of expected work: an uneven start, for experiments
+    std::int64_t aggregation = 512;  ///< most split points in one message
   } ranks{};
 
   /// Subdomains that move between ranks while they are refined.
   struct Balance {
     std::string policy = "none";                      ///< by name: see docs/balancing.md
-    std::map<std::string, std::string> parameters{};  ///< of that policy, as in {{"method", "graph"}}
-    std::shared_ptr<const balancer::Policy> own{};    ///< in place of a name; an equal one on every rank
-    double look = 0.01;                               ///< between two looks of a rank at its own load
-    double gap = 0.02;    ///< between two reports of a rank, and between two plans, at least
-    double interval = 1;  ///< between two reports of a rank that has work, at most
-    double gain = 0.02;   ///< share of the finishing time that moving must save
+    std::map<std::string, std::string> parameters{};  ///< of the policy, as in {{"method", "graph"}}
+    std::shared_ptr<const balancer::Policy> own{};    ///< instead of a name; must be equivalent on every rank
+    double look = 0.01;                               ///< time between a rank's checks of its own load
+    double gap = 0.02;                                ///< shortest time between reports of a rank, and between plans
+    double interval = 1;                              ///< longest time between reports of a rank that has work
+    double gain = 0.02;                               ///< fraction of the finishing time that moving must save
   } balance{};
 };
 

@@ -2,7 +2,7 @@
 
 namespace driftmesh {
 
-/// A point of the plane. Coordinates of an input must be 0 or have magnitudes from 7.6e-37 to 1.7e72, where the
+/// A point in the plane. Input coordinates must be 0 or of magnitude between 7.6e-37 and 1.7e72, the range in which the
 /// geometric predicates are exact.
 struct Point {
   double x = 0;

@@ -11,27 +11,27 @@
 
 namespace driftmesh::balancer {
 
-/// Who plans, and on what knowledge. Controller does what each of them needs.
+/// Who plans, and with what knowledge. Controller implements each placement.
 enum class Placement {
   kNobody,      ///< nothing is reported, nothing moves
-  kLeader,      ///< all report to rank 0, which plans for all
-  kNeighbors,   ///< ranks whose subdomains touch report to each other; each plans for what it owns
-  kRequests,    ///< a rank that will soon be idle asks for work; rank 0 finds it a rank that has much
-  kCollective,  ///< all at the same time, each for what it owns; rank 0 knows sums alone, and calls them together
+  kLeader,      ///< all ranks report to rank 0, which plans for all
+  kNeighbors,   ///< ranks whose subdomains touch report to each other; each plans for its own subdomains
+  kRequests,    ///< a rank that will soon be idle asks for work; rank 0 finds a rank that has plenty
+  kCollective,  ///< all at once, each for its own subdomains; rank 0 knows only totals and calls the rounds
 };
 
 /// Zoltan's parameters by their names, LB_METHOD and the like.
 using ZoltanParameters = std::map<std::string, std::string>;
 
-/// How parts that are made for all ranks are dealt to them.
+/// How parts are assigned to ranks.
 struct Dealing {
-  bool polish = true;       ///< parts that are not even are evened out by single subdomains
-  double tolerance = 0.02;  ///< of a rank's share
+  bool polish = true;       ///< even out unbalanced parts by moving single subdomains
+  double tolerance = 0.02;  ///< fraction of a rank's share
 };
 
-/// Decides who should work on what. Its functions depend on their arguments alone: the same snapshot yields the same
-/// moves. What they throw ends the job. They need not look at the cost of moving, nor at whether it is worth while:
-/// those who call them do.
+/// Decides which rank should work on which subdomains. Its functions depend on their arguments alone: the same snapshot
+/// yields the same moves. Exceptions they throw end the job. They need not consider whether moves are worth their cost;
+/// the caller does.
 class Policy {
  public:
   virtual ~Policy() = default;
@@ -40,33 +40,33 @@ class Policy {
 
   [[nodiscard]] virtual Placement placement() const = 0;
 
-  /// kLeader: moves of any subdomains. kNeighbors: moves of subdomains that `self` owns. Each subdomain at most once,
-  /// to another rank than its owner.
+  /// kLeader: moves of any subdomains. kNeighbors: moves of subdomains that `self` owns. Each subdomain moves at most
+  /// once, and never to its owner.
   [[nodiscard]] virtual std::vector<Move> plan(const LoadSnapshot& snapshot, Rank self) const;
 
-  /// kCollective: how the ranks divide their subdomains into parts, one for each rank and as large as that is fast: by
-  /// Zoltan, with these parameters. Without any, each subdomain stays in the part of its owner. Everybody knows the
-  /// load of all ranks, and lists what it owns itself; so this may look at the load of ranks alone, and is the same for
-  /// all.
+  /// kCollective: parameters with which Zoltan divides the subdomains into parts, one per rank in proportion to its
+  /// speed. Without any, each subdomain stays in the part of its owner. A rank knows the loads of all ranks, but lists
+  /// only its own subdomains; so the result may depend only on the loads of ranks, and is the same on all of them.
   [[nodiscard]] virtual std::optional<ZoltanParameters> partitioning(const LoadSnapshot& own) const;
-  /// kCollective: what is done with the parts. It may look at the load of ranks alone, too.
+  /// kCollective: how the parts are assigned. Again, the result may depend only on the loads of ranks.
   [[nodiscard]] virtual Dealing dealing(const LoadSnapshot& own) const;
 
-  /// kRequests: whether a rank with so many seconds of work left should ask for more.
+  /// kRequests: whether a rank with this many seconds of work left should ask for more.
   [[nodiscard]] virtual bool runs_low(double seconds) const;
-  /// kRequests: the rank that `thief` should get work from, if any. `able` says of each rank whether it has something
-  /// to give. The snapshot lists no subdomains.
+  /// kRequests: the rank from which `thief` should get work, if any. `able` tells for each rank whether it has work to
+  /// give. The snapshot lists no subdomains.
   [[nodiscard]] virtual std::optional<Rank> victim(const LoadSnapshot& snapshot, Rank thief,
                                                    const IdVector<Rank, bool>& able) const;
-  /// kRequests: what `self` gives to a rank that has asked; of what the snapshot lists as its own.
+  /// kRequests: what `self` gives to the requesting rank `to`, out of the subdomains that the snapshot lists as its
+  /// own.
   [[nodiscard]] virtual std::vector<Move> give(const LoadSnapshot& snapshot, Rank self, Rank to) const;
 
  protected:
   Policy() = default;
 };
 
-/// A policy of placement kLeader that is a function: of the load of all ranks, what should move where. It must depend
-/// on its argument alone.
+/// A policy of placement kLeader from a function that maps the load of all ranks to moves. The result must depend on
+/// its argument alone.
 [[nodiscard]] std::shared_ptr<const Policy> leader_policy(
     std::function<std::vector<Move>(const LoadSnapshot& snapshot)> plan);
 

@@ -34,9 +34,9 @@ struct Pslg {
   std::vector<double> attributes;           ///< attributes_per_point values for each point, point by point
   std::int32_t attributes_per_point = 0;    ///< >= 0; the mesher interpolates them at the points that it adds
   std::vector<Segment> segments;
-  std::vector<Point> holes;       ///< removes everything that can be reached from it without crossing a segment
-  std::vector<Region> regions;    ///< where several lie in one region, the last one counts
-  std::int32_t first_number = 1;  ///< what files and messages call points[0]: 0 or 1
+  std::vector<Point> holes;       ///< each removes everything reachable from it without crossing a segment
+  std::vector<Region> regions;    ///< if several seeds lie in one region, the last one counts
+  std::int32_t first_number = 1;  ///< number of points[0] in files and messages: 0 or 1
 };
 
 }  // namespace driftmesh

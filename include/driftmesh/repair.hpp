@@ -8,7 +8,7 @@
 
 namespace driftmesh {
 
-/// One kind of repair: how often it was made, and the first few in words with the numbers that the file uses.
+/// One kind of repair: its count, and the first few cases described with the numbers of the file.
 struct RepairItem {
   static constexpr std::int64_t kMaxExamples = 3;
   std::int64_t count = 0;
@@ -26,7 +26,7 @@ struct RepairReport {
   RepairItem crossings;               ///< both segments split at a new vertex
   RepairItem overlaps;                ///< pieces that two overlapping segments share, kept once
   RepairItem marker_conflicts;        ///< merged segments with different markers; the first marker is kept
-  std::vector<std::string> warnings;  ///< what was left unchanged but may be unintended
+  std::vector<std::string> warnings;  ///< left unchanged, but possibly unintended
 
   /// For each point of the result, its index in the input; -1 for a new one.
   std::vector<std::int32_t> original_point;
@@ -42,11 +42,11 @@ struct RepairReport {
 /// - no two points are equal, or within rounding error of each other (a few units in the last place);
 /// - no segment has length zero, no two join the same points;
 /// - no point lies in the interior of a segment, or within rounding error of it;
-/// - no two segments meet except at a point that is an end of both.
+/// - no two segments meet except at a common endpoint.
 /// Points without segments get the edges of their convex hull as segments with marker 1, which counts as no change.
-/// A Pslg with these properties is left as it is, so repairing twice changes nothing the second time.
-/// Points, holes and regions keep their order, as do segments, cut into pieces. New points lie where segments crossed;
-/// they take the marker of the first of the two segments, and their attributes are interpolated along it.
+/// A Pslg with these properties is left as it is, so a second repair changes nothing.
+/// Points, holes and regions keep their order, and so do segments and their pieces. New points lie where segments
+/// crossed; they take the marker of the first of the two segments, and their attributes are interpolated along it.
 ///
 /// Seeds of holes and regions that are certainly outside are reported as warnings. Throws InputError, naming `file`, if
 /// the intent is not clear: indices or coordinates out of range, fewer than three points or all on one line, a seed on

@@ -11,7 +11,7 @@ class SizeField {
  public:
   virtual ~SizeField() = default;
   /// The target edge length at `p`: > 0, or +infinity where the field sets no bound. Must depend on `p` alone and
-  /// return the same bits on every rank. May throw; the exception ends the meshing and reaches the caller. Not to be
+  /// return the same bits on every rank. May throw; the exception ends meshing and propagates to the caller. Never
   /// called on one object from two threads at once.
   [[nodiscard]] virtual double edge_length(const Point& p) const = 0;
   /// The same, so that MeshOptions::size takes std::ref(field).

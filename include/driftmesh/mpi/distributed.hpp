@@ -10,23 +10,23 @@
 
 namespace driftmesh {
 
-/// Makes a mesh of `input` on all ranks of a communicator, each of which gets its piece. All ranks call it together,
-/// after MPI_Init. Messages travel on duplicates of the communicator, so they cannot meet the caller's.
+/// Makes a mesh of `input` on all ranks of a communicator, each of which gets its piece. Collective; to be called after
+/// MPI_Init. Messages travel on duplicates of the communicator, so they cannot interfere with the caller's.
 ///
-/// The input of rank 0 counts, and so do its options, but for the callables: MeshOptions::size and
-/// MeshOptions::balance.own are each rank's own and must do the same everywhere, and each rank's own
-/// MeshOptions::progress is told of its subdomains, and can cancel the work of all. What holds for the mesh of mesh()
-/// holds for the pieces together; in addition, ranks agree on every point that they share.
+/// Input and options are those of rank 0, except for callables: every rank uses its own MeshOptions::size and
+/// MeshOptions::balance.own, which must behave identically everywhere. Every rank's own MeshOptions::progress is called
+/// for its subdomains, and can cancel the work of all ranks. The pieces together have the properties of mesh(); in
+/// addition, ranks agree on every shared point.
 ///
-/// Errors are those of mesh(), thrown on all ranks alike: what one rank meets by itself, also in a callable, ends the
-/// work of all in good order, as an error of the same kind that names the rank. Only where memory runs out between
-/// refinement and the finished pieces, MPI fails, or a policy of the caller's own throws, the job ends with a message.
+/// Errors are those of mesh(), thrown on all ranks: an error on a single rank, even in a callable, ends the work of all
+/// ranks in an orderly way, with an error of the same type that names the rank. Only if memory runs out between
+/// refinement and the finished pieces, MPI fails, or the caller's own policy throws, does the job end with a message.
 [[nodiscard]] DistributedPiece mesh_distributed(MPI_Comm communicator, const Pslg& input,
                                                 const MeshOptions& options = {});
 
-/// Writes the pieces of all ranks, which call it together: one file each and one that names them if `path` ends in
-/// .pvtu, otherwise one file in the format that the extension names, gathered on rank 0, which needs memory for the
-/// whole mesh. Files appear when they are complete. Throws InputError and FileError, on all ranks if one cannot write.
+/// Writes the pieces of all ranks. Collective. If `path` ends in .pvtu, writes one file per rank and one that lists
+/// them; otherwise one file in the format given by the extension, gathered on rank 0, which needs memory for the whole
+/// mesh. Files appear only when complete. Throws InputError and FileError, on all ranks if one cannot write.
 void write_distributed(MPI_Comm communicator, const DistributedPiece& piece, const std::string& path);
 
 }  // namespace driftmesh
