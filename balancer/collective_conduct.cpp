@@ -61,7 +61,7 @@ void CollectiveConduct::keep_promise() {
 Decision CollectiveConduct::think(const Situation& situation) {
   Decision decision;
   forget_old(situation.now);
-  // What is decided changes what is here: the next look tells of it.
+  // The decision changes what is here; it is reported at the next look.
   if (stage_ == Stage::kStarted) {
     decide(situation, decision);
     return decision;
@@ -82,7 +82,7 @@ void CollectiveConduct::say_to_all(Step step, Decision& decision) const {
 void CollectiveConduct::call(const Situation& situation, Decision& decision) {
   const double now = situation.now;
   if (!fresh_ || !pace_.due(now) || expects_work()) return;
-  // The first round waits a little for all to say how fast they are.
+  // The first round waits a little for the speeds of all ranks.
   if (!news_->complete() && now < start_ + options_.interval) return;
   fresh_ = false;
   pace_.looked(now);
@@ -104,7 +104,7 @@ void CollectiveConduct::answer(const Situation& situation, Decision& decision) {
     decision.messages.push_back({kLeadingRank, JointRound{round_, Step::kReady}});
 }
 
-// Rank 0 itself decides when it thinks next: what it says now must leave before it waits for those who are to hear it.
+// Rank 0 itself decides at its next think(): its messages must be sent before it waits for their receivers.
 void CollectiveConduct::start(Decision& decision) {
   say_to_all(Step::kStart, decision);
   stage_ = Stage::kStarted;
@@ -126,8 +126,8 @@ void CollectiveConduct::decide(const Situation& situation, Decision& decision) {
   pace_.planned(situation.now, decided.any_moves);
 }
 
-// While work is on its way here, rank 0 reckons with what was planned. From the call to the decision it is told
-// nothing: it would take for news what was said before the decision.
+// While work is on its way here, rank 0 assumes what was planned. From the call to the decision it gets no reports: it
+// would take a report from before the decision for news.
 void CollectiveConduct::report(const Situation& situation, Decision& decision) {
   if (waiting() || expects_work()) return;
   const double total = total_work(situation.own);
@@ -151,7 +151,7 @@ Contribution CollectiveConduct::contribution(const Situation& situation) const {
   return own;
 }
 
-// What a giver could not hand over after all is not waited for without end.
+// Do not wait forever for what a giver could not hand over after all.
 void CollectiveConduct::forget_old(double now) {
   std::erase_if(came_, [&](const auto& entry) { return now - entry.second > options_.interval; });
   while (!promises_.empty() && now > promises_.front().when + options_.patience()) promises_.pop_front();

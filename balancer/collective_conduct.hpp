@@ -14,12 +14,11 @@
 
 namespace driftmesh::balancer {
 
-/// How a rank behaves where all plan at the same time (Placement::kCollective). All tell rank 0 how much they have when
-/// that is a surprise. When there is something to gain, rank 0 calls all together; they go on refining until everybody
-/// has heard the call, so that nobody waits for one who is busy with something long. Then they meet in the council,
-/// each with what it owns, and each hands over what was decided.
-///
-/// From the call to the decision no rank is passive: the run does not end around a round, and nobody is missed in it.
+/// Behavior of a rank when all plan at the same time (Placement::kCollective). Ranks report unexpected changes of their
+/// load to rank 0. When there is something to gain, rank 0 calls all ranks; they go on refining until all have
+/// acknowledged the call, so that nobody waits for a rank in a long slice of work. Then they meet in the council, each
+/// with its own subdomains, and hand over what was decided. From the call to the decision no rank is passive: the run
+/// cannot end during a round, and no rank can miss one.
 class CollectiveConduct {
  public:
   /// `council` must outlive it.
@@ -36,10 +35,10 @@ class CollectiveConduct {
 
  private:
   enum class Stage {
-    kApart,    ///< no round goes on
+    kApart,    ///< no round is in progress
     kCalled,   ///< one was called
-    kReady,    ///< and the call answered
-    kStarted,  ///< all have answered
+    kReady,    ///< and the call acknowledged
+    kStarted,  ///< all have acknowledged
   };
   using Step = JointRound::Stage;
 
@@ -65,19 +64,19 @@ class CollectiveConduct {
   std::uint32_t round_ = 0;  // the last one called
   ReportRule rule_;
   std::uint32_t reports_ = 0;
-  bool changed_ = false;                // by a decision, since the last report
-  std::map<SubdomainId, double> came_;  // lately, and when: what came stays for a while
+  bool changed_ = false;                // by a decision since the last report
+  std::map<SubdomainId, double> came_;  // recent arrivals with their times: they stay for a while
   struct Promise {
     JointPlan::Coming coming;
     double when = 0;
   };
-  std::deque<Promise> promises_;  // of decisions, and not kept yet, the oldest first
-  std::int32_t early_ = 0;        // came in a round before the decision that promises them was heard here
+  std::deque<Promise> promises_;  // of decisions, not yet kept, oldest first
+  std::int32_t early_ = 0;        // arrived in a round before the decision that promises them was known here
 
   // Of rank 0:
   std::optional<RankNews> news_;
-  bool fresh_ = false;      // since it was last looked whether there is something to gain
-  std::int32_t ready_ = 0;  // ranks that have answered the call
+  bool fresh_ = false;      // since the last check whether there is something to gain
+  std::int32_t ready_ = 0;  // ranks that have acknowledged the call
   double start_;
   PlanningPace pace_;
 };

@@ -10,45 +10,45 @@
 
 namespace driftmesh::balancer {
 
-/// The rank that plans for all, or calls them together.
+/// The rank that plans for all, or calls the rounds.
 inline constexpr Rank kLeadingRank{0};
 
 struct ControllerOptions {
-  double look = 1e-2;      ///< seconds between two looks at the rank's own load
-  double gap = 0.02;       ///< seconds between two reports of a rank, and between two plans, at least
-  double interval = 1;     ///< seconds between two reports of a rank with work, at most
-  double change = 0.1;     ///< a forecast that is off by this share is reported (see ReportRule)
-  int refusals = 8;        ///< after so many in a row a rank asks for no more work until it was given some
-  double overhead = 0.01;  ///< share of the time that planning may take
+  double look = 1e-2;      ///< seconds between checks of the rank's own load
+  double gap = 0.02;       ///< shortest time in seconds between reports of a rank, and between plans
+  double interval = 1;     ///< longest time in seconds between reports of a rank with work
+  double change = 0.1;     ///< a forecast that is off by this fraction is reported (see ReportRule)
+  int refusals = 8;        ///< after this many in a row a rank stops asking for work until it is given some
+  double overhead = 0.01;  ///< fraction of the time that planning may take
   MoveCost cost;
   Worth worth;
 
-  /// Seconds that a move which was planned is waited for.
+  /// How long to wait for a planned move, in seconds.
   [[nodiscard]] double patience() const { return 3 * interval; }
 };
 
-/// What a rank does for balance at one moment.
+/// Balancing actions of a rank at one moment.
 struct Decision {
   std::vector<Move> moves;  ///< hand these over, now
   std::vector<Outgoing> messages;
-  bool planned = false;  ///< whether to plan was looked at, which may have taken long: tell took()
+  bool planned = false;  ///< planning was considered, which may have taken long: call took()
 };
 
-/// What a rank tells the controller at one moment.
+/// The state of a rank as told to the controller.
 struct Situation {
   double now = 0;
   std::span<const ReportedLoad> own;
   double speed = 0;
 };
 
-/// Of all subdomains in `own`, the work.
+/// Total work of the subdomains in `own`.
 [[nodiscard]] inline double total_work(std::span<const ReportedLoad> own) {
   double total = 0;
   for (const ReportedLoad& load : own) total += load.remaining;
   return total;
 }
 
-/// What a rank has to do, in ascending order of the numbers.
+/// The load of a rank, in ascending order of IDs.
 [[nodiscard]] inline std::vector<SubdomainLoad> states_of(Rank owner, std::span<const ReportedLoad> own) {
   std::vector<SubdomainLoad> states;
   for (const ReportedLoad& load : own)
@@ -57,7 +57,7 @@ struct Situation {
   return states;
 }
 
-/// The news of a rank, `number` counting them from 1. What is worked on now cannot be given away.
+/// The news of a rank; `number` counts them from 1. The subdomain being worked on cannot be given away.
 [[nodiscard]] inline LoadNews news_of(std::uint32_t number, double speed, std::span<const ReportedLoad> own) {
   const double total = total_work(own);
   return {number, total, own.empty() ? 0 : total - own.front().remaining, speed};

@@ -7,7 +7,7 @@
 namespace driftmesh::balancer {
 namespace {
 
-// What each conduct is asked; one that has nothing to say to a question is not.
+// Passes each call on to the conducts that implement it.
 template <class... Answers>
 struct Each : Answers... {
   using Answers::operator()...;
@@ -30,7 +30,7 @@ Controller::Controller(Rank self, std::shared_ptr<const Layout> layout, std::sha
       conduct_.emplace<RequestConduct>(self, std::move(layout), std::move(policy), options, now);
       break;
     case Placement::kCollective:
-      if (!council) throw Error("the ranks are to plan together, and have no council to do it in");
+      if (!council) throw Error("collective planning needs a council");
       conduct_.emplace<CollectiveConduct>(self, std::move(layout), options, *council, now);
       break;
   }

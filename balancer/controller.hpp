@@ -15,44 +15,41 @@
 
 namespace driftmesh::balancer {
 
-/// One rank's side of balancing, as a state machine: it is told the time, the rank's own load and what other ranks
-/// advise, and says what to send and what to hand over. It knows no transport and no clock, so that it runs on real and
-/// on simulated ranks.
-///
-/// How a rank's loop drives it: pass all advice that arrives to receive(), and tell arrived() of each subdomain that
-/// was handed over to this rank. When due(), and when work has just run out,
-/// call think() between taking in what arrived and working; hand over what it says, and send its messages by
-/// RankProtocol::advise. A rank at rest is passive only if also `!waiting()`. Nothing that a rank without work is told
-/// makes it send work: think() moves only what is listed as unfinished.
+/// One rank's side of balancing, as a state machine: it takes the time, the rank's own load and the advice of other
+/// ranks, and returns what to send and what to hand over. It knows no transport and no clock, so that it runs on real
+/// and on simulated ranks. A rank's loop passes all arriving advice to receive(), and calls arrived() for each
+/// subdomain handed over to this rank. When due(), and when work has just run out, it calls think() after handling
+/// arrivals and before working, hands over what think() returns, and sends its messages by RankProtocol::advise. A rank
+/// at rest is passive only if also `!waiting()`. Advice never makes a rank without work send work: think() moves only
+/// subdomains listed as unfinished.
 class Controller {
  public:
-  /// At `now` the run begins. `layout` is equal on all ranks, and so are policy and options. Where all ranks plan
-  /// together they need a `council`, which must outlive the controller: throws Error without one.
+  /// The run starts at `now`. Layout, policy and options are equal on all ranks. Collective planning needs a `council`,
+  /// which must outlive the controller: throws Error without one.
   Controller(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
              const ControllerOptions& options, double now, Council* council = nullptr);
 
-  /// Advice came from another rank. It is looked at in the next think().
+  /// Advice arrived from another rank. It is handled in the next think().
   void receive(Rank source, Message advice, double now);
 
-  /// A subdomain has come from another rank. It may be finished before the next think(), which then does not list it;
-  /// this tells that it is not under way any more.
+  /// A subdomain arrived from another rank. It may be finished before the next think(), which then does not list it;
+  /// this call says that it is no longer in transit.
   void arrived(SubdomainId id, protocol::Epoch epoch, double now);
 
-  /// Whether think() has something to do; costs next to nothing.
+  /// Whether think() has something to do. Cheap.
   [[nodiscard]] bool due(double now) const;
 
-  /// All others may be waiting for this rank: it should think() before it works on.
+  /// Whether all others may be waiting for this rank, so that it should think() before it continues to work.
   [[nodiscard]] bool pressing() const;
 
-  /// `own`: the subdomains here that are not finished, in the order in which they will be worked on as far as it is
-  /// known. `speed`: triangles a second, 0 while it is not known.
+  /// `own`: the unfinished subdomains here, in the order in which they will be worked on, as far as known. `speed`:
+  /// triangles per second, 0 if unknown.
   [[nodiscard]] Decision think(double now, std::span<const ReportedLoad> own, double speed);
 
-  /// A request of this rank has not been answered, something that came has not been looked at, or a plan is being made
-  /// together.
+  /// Whether a request of this rank is unanswered, received advice is unhandled, or a joint plan is in progress.
   [[nodiscard]] bool waiting() const;
 
-  /// The last think() took that long. Plans that take long are made less often.
+  /// The duration of the last think(). Plans that take long are made less often.
   void took(double seconds);
 
  private:

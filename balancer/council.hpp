@@ -7,14 +7,14 @@
 
 namespace driftmesh::balancer {
 
-/// Where all ranks plan together (Placement::kCollective). Real ranks meet in Zoltan, on their communicator; simulated
-/// ones through an object that they share.
+/// The place where all ranks plan together (Placement::kCollective): for real ranks Zoltan on their communicator, for
+/// simulated ranks a shared object.
 class Council {
  public:
   /// For one rank.
   struct Decision {
-    std::vector<Move> moves;          ///< that it is to make
-    IdVector<Rank, RankLoad> states;  ///< of all ranks, when all moves of all have been made
+    std::vector<Move> moves;          ///< that the rank is to make
+    IdVector<Rank, RankLoad> states;  ///< of all ranks after all moves
     JointPlan::Coming coming;         ///< to this rank
     bool any_moves = false;           ///< of any rank
   };
@@ -23,10 +23,10 @@ class Council {
   Council(const Council&) = delete;
   Council& operator=(const Council&) = delete;
 
-  /// A rank is ready for a round, and has this to do at the moment; told again, what it has to do has changed.
+  /// A rank is ready for a round, with its current load. A second call updates the load.
   virtual void announce(std::uint32_t round, const Contribution& contribution) = 0;
 
-  /// Called by each rank once in a round, when all have announced themselves. May wait for all of them to call it.
+  /// Called by each rank once per round, after all have announced themselves. May wait for all of them.
   [[nodiscard]] virtual Decision decide(std::uint32_t round, const Contribution& contribution) = 0;
 
  protected:

@@ -11,8 +11,8 @@
 namespace driftmesh::balancer {
 namespace {
 
-/// Whether a subdomain may leave: one message can carry it, it has not come just now, and to pack it takes less than to
-/// finish it.
+/// Whether a subdomain may leave: it fits in one message, has not just arrived, and takes less time to pack than to
+/// finish.
 class Movable {
  public:
   Movable(const Contribution& contribution, const MoveCost& cost) : contribution_(contribution), cost_(cost) {}
@@ -29,7 +29,7 @@ class Movable {
   const MoveCost& cost_;
 };
 
-/// Bundles as if each were one subdomain, numbered in their order.
+/// The bundles as if each were one subdomain, numbered in order.
 LoadSnapshot as_subdomains(const IdVector<Rank, RankLoad>& states, std::span<const Bundle> bundles) {
   LoadSnapshot snapshot;
   snapshot.ranks = states;
@@ -45,7 +45,7 @@ std::vector<Offer> by_number(std::span<const Offer> offers) {
   return sorted;
 }
 
-/// What is left of the bundles when the offers are taken out; empty ones stay.
+/// The bundles without the offers; empty bundles stay.
 std::vector<Bundle> without(std::span<const Bundle> bundles, const std::vector<Offer>& offers) {
   std::map<std::pair<Rank, Part>, std::size_t> place;
   std::vector<Bundle> rest(bundles.begin(), bundles.end());
@@ -85,7 +85,7 @@ DealtParts deal_parts(const IdVector<Rank, RankLoad>& states, std::span<const Bu
   std::vector<Part> parts;
   for (const Bundle& bundle : bundles) parts.push_back(bundle.part);
   const std::vector<Rank> takers = remap_parts(snapshot, parts, tolerance);
-  // A part that nobody holds any of is nobody's matter.
+  // Parts held by no rank do not matter.
   DealtParts dealt{IdVector<Part, Rank>(states.size(), Rank{0}), states};
   for (std::size_t i = 0; i < bundles.size(); ++i) {
     dealt.rank_of[bundles[i].part] = takers[i];
@@ -140,7 +140,7 @@ DealtOffers deal_offers(const IdVector<Rank, RankLoad>& states, std::span<const 
   if (dealing.polish) offered = deal_surplus(offered, dealing.tolerance);
   for (const SubdomainLoad& s : offered.subdomains) result.takers.push_back(s.owner);
 
-  // All that could move, as if each were one subdomain: what is left of the bundles, then the offers.
+  // All that could move, as if each were one subdomain: the rest of the bundles, then the offers.
   const std::vector<Bundle> rest = without(bundles, result.offers);
   LoadSnapshot before = as_subdomains(states, rest);
   std::vector<Move> moves;

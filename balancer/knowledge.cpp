@@ -6,7 +6,7 @@
 namespace driftmesh::balancer {
 namespace {
 
-// What is left of work in a row when `done` of it is done.
+// The rest of a sequence of work after `done` of it is done.
 double left_of(double work, double& done) {
   const double taken = std::min(work, done);
   done -= taken;

@@ -12,28 +12,28 @@
 
 namespace driftmesh::balancer {
 
-/// What a rank that plans knows of others from their reports, and of what it has planned itself.
+/// A planner's knowledge of other ranks from their reports, and of its own plans.
 class Knowledge {
  public:
-  /// `patience`: seconds after which a planned move of which nothing was heard is forgotten.
+  /// `patience`: seconds after which an unconfirmed planned move is forgotten.
   Knowledge(std::shared_ptr<const Layout> layout, double patience);
 
-  /// Takes in a report that came (or was made here) at `now`. An older one than the last of that rank, and what it says
-  /// of subdomains that have moved since, is ignored.
+  /// Handles a report that arrived (or was made here) at `now`. Ignored if older than the last one of that rank, as is
+  /// what it says of subdomains that have moved since.
   void hear(Rank rank, const LoadReport& report, double now);
 
-  /// These moves were advised, under this number. Until they are seen to be made or not, they count as made.
+  /// Records advised moves under this plan number. They count as made until reports confirm or refute them.
   void expect(std::span<const Move> moves, const LoadSnapshot& planned_on, std::uint32_t plan, double now);
 
-  /// Whether a planned move of it is not settled: it may be anywhere.
+  /// Whether a planned move of this subdomain is unsettled, so that it may be anywhere.
   [[nodiscard]] bool in_motion(SubdomainId id) const { return planned_.contains(id); }
-  /// Whether all ranks have said something.
+  /// Whether all ranks have reported.
   [[nodiscard]] bool complete() const { return heard_ == ranks_.size(); }
-  /// Who owns a subdomain, as far as was heard.
+  /// The owner of a subdomain, as far as known.
   [[nodiscard]] Rank owner_of(SubdomainId id) const;
 
-  /// The load at `now`: reports, less what a rank must have done since at its speed, in the order that it told. Ranks
-  /// that have not said anything have what the layout predicts; their subdomains are listed if `with_silent` says so.
+  /// The load at `now`: reports minus what a rank must have done since at its speed, in its reported order. Ranks
+  /// without a report have the load that the layout predicts; their subdomains are listed if `with_silent`.
   [[nodiscard]] LoadSnapshot snapshot(double now, bool with_silent) const;
 
  private:
@@ -43,7 +43,7 @@ class Knowledge {
     double at = 0;
     double speed = 0;
     std::vector<ReportedLoad> loads;  // in the order of work
-    double predicted = 0;             // of the layout, for one that has said nothing
+    double predicted = 0;             // by the layout, for a rank without a report
   };
   struct Claim {
     Rank owner{};

@@ -8,11 +8,10 @@
 #include "driftmesh/load_snapshot.hpp"
 #include "protocol/epoch.hpp"
 
-/// What ranks say to each other to balance their load. The layout on the wire is in codec.cpp; to the protocol all of
-/// it is advice.
+/// The messages of load balancing. The wire format is in codec.cpp; to the protocol, all of them are advice.
 namespace driftmesh::balancer {
 
-/// A subdomain that is not finished, as its owner reports it.
+/// An unfinished subdomain, as reported by its owner.
 struct ReportedLoad {
   SubdomainId subdomain{};
   protocol::Epoch epoch = 0;  ///< with the sender as owner
@@ -21,12 +20,12 @@ struct ReportedLoad {
   friend bool operator==(const ReportedLoad&, const ReportedLoad&) = default;
 };
 
-/// What the sender has to do, and how fast it is.
+/// The sender's load and speed.
 struct LoadReport {
-  std::uint32_t round = 0;          ///< of the sender's reports, from 1: an older one says nothing new
+  std::uint32_t round = 0;          ///< of the sender's reports, from 1; older ones are ignored
   std::uint32_t plan = 0;           ///< the round of the last Plan that the sender has acted on; 0: none
   double speed = 0;                 ///< triangles a second, a running average; 0: not known yet
-  std::vector<ReportedLoad> loads;  ///< of its subdomains that are not finished, and of those that came lately
+  std::vector<ReportedLoad> loads;  ///< of its unfinished subdomains, and of recent arrivals
   friend bool operator==(const LoadReport&, const LoadReport&) = default;
 };
 
@@ -37,39 +36,39 @@ struct Plan {
   friend bool operator==(const Plan&, const Plan&) = default;
 };
 
-/// What the sender has to do altogether.
+/// The sender's total load.
 struct LoadNews {
-  std::uint32_t round = 0;  ///< of the sender's news, from 1: older ones say nothing new
+  std::uint32_t round = 0;  ///< of the sender's news, from 1; older ones are ignored
   double remaining = 0;     ///< triangles still to be made, predicted
   double spare = 0;         ///< of these, in subdomains that it could give away
   double speed = 0;         ///< triangles a second, a running average; 0: not known yet
   friend bool operator==(const LoadNews&, const LoadNews&) = default;
 };
 
-/// `thief` will soon have nothing to do. It asks rank 0, which passes the request on to a rank that has much. The thief
-/// gets one answer, from whoever has the request in the end.
+/// `thief` will soon be idle. It asks rank 0, which passes the request on to a rank with plenty of work. The thief gets
+/// one answer, from the rank that has the request in the end.
 struct WorkRequest {
   Rank thief{};
   std::uint32_t round = 0;  ///< of the thief's requests, from 1; 0: the thief has not asked, and waits for nothing
-  double remaining = 0;     ///< what the thief has still to do
+  double remaining = 0;     ///< the thief's remaining work
   double speed = 0;
-  std::uint32_t rivals = 0;  ///< idle ranks that will want their share of what the giver has
+  std::uint32_t rivals = 0;  ///< idle ranks that will compete for the giver's work
   friend bool operator==(const WorkRequest&, const WorkRequest&) = default;
 };
 
-/// The answer to a WorkRequest: what is on its way to the receiver, or nothing.
+/// The answer to a WorkRequest: the subdomains on their way to the receiver, or none.
 struct WorkAnswer {
   std::uint32_t round = 0;  ///< of the request
   std::vector<Move> moves;
   friend bool operator==(const WorkAnswer&, const WorkAnswer&) = default;
 };
 
-/// A step on the way to a plan that all ranks make at the same time.
+/// A step toward a plan that all ranks make at the same time.
 struct JointRound {
   enum class Stage : std::uint8_t {
-    kCall,   ///< rank 0 to all: come together
-    kReady,  ///< each to rank 0: the call was heard
-    kStart,  ///< rank 0 to all: everybody has heard it, plan now
+    kCall,   ///< rank 0 to all: a round is called
+    kReady,  ///< each to rank 0: acknowledges the call
+    kStart,  ///< rank 0 to all: all have acknowledged, plan now
   };
   std::uint32_t round = 0;  ///< from 1
   Stage stage = Stage::kCall;
@@ -78,7 +77,7 @@ struct JointRound {
 
 using Message = std::variant<LoadReport, Plan, LoadNews, WorkRequest, WorkAnswer, JointRound>;
 
-/// A message and the rank that it goes to.
+/// A message and its destination.
 struct Outgoing {
   Rank destination{};
   Message message;

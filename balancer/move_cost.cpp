@@ -9,13 +9,13 @@
 namespace driftmesh::balancer {
 namespace {
 
-/// A move, and what it does to the two ranks' finishing times.
+/// A move, and its effect on the finishing times of both ranks.
 struct Candidate {
   Move move;
   Rank from{};
   double giver_saves = 0;  // seconds
   double taker_spends = 0;
-  double price = 0;  // cost over work, in seconds a second
+  double price = 0;  // cost over work, in seconds per second
   bool kept = true;
 };
 
@@ -49,7 +49,7 @@ class Selection {
 
   [[nodiscard]] const IdVector<Rank, double>& times() const { return times_; }
 
-  /// Takes back what nobody needs to finish by `time`.
+  /// Drops moves that are not needed to finish by `time`.
   void drop_needless(double time) {
     std::vector<Candidate*> dearest_first;
     for (Candidate& c : candidates_) dearest_first.push_back(&c);
@@ -82,12 +82,12 @@ class Selection {
   const LoadSnapshot& snapshot_;
   const MoveCost& cost_;
   IdVector<Rank, double> speeds_;
-  IdVector<Rank, double> times_;  // finishing times with the moves that are kept
+  IdVector<Rank, double> times_;  // finishing times with the remaining moves
   std::vector<Candidate> candidates_;
   std::vector<SubdomainId> taken_;  // ascending
 };
 
-// Of subdomains that one message can carry.
+// Only subdomains that fit in one message.
 std::vector<Move> those_that_fit(const LoadSnapshot& snapshot, std::span<const Move> moves) {
   std::vector<Move> fit;
   std::copy_if(moves.begin(), moves.end(), std::back_inserter(fit), [&](const Move& move) {

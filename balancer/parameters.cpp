@@ -11,7 +11,7 @@
 namespace driftmesh::balancer {
 namespace {
 
-// All of `text` as a number; false if it is none.
+// Parses all of `text` as a number; returns false if it is not one.
 template <class T>
 bool parse(const std::string& text, T& value) {
   const char* const end = text.data() + text.size();
@@ -22,7 +22,7 @@ bool parse(const std::string& text, T& value) {
 template <class T>
 std::string range(T least, T most) {
   std::ostringstream text;
-  text << "it is a number from " << least << " to " << most;
+  text << "it must be a number from " << least << " to " << most;
   return text.str();
 }
 
@@ -51,14 +51,14 @@ std::int64_t Parameters::integer(const std::string& name, std::int64_t standard,
   const std::string* const text = take(name);
   std::int64_t value = standard;
   if (text && (!parse(*text, value) || value < least || value > most))
-    fail(name, *text, "it is a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+    fail(name, *text, "it must be a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return value;
 }
 
 bool Parameters::flag(const std::string& name, bool standard) {
   const std::string* const text = take(name);
   if (!text) return standard;
-  if (*text != "true" && *text != "false") fail(name, *text, "it is either true or false");
+  if (*text != "true" && *text != "false") fail(name, *text, "it must be true or false");
   return *text == "true";
 }
 

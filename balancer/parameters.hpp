@@ -7,8 +7,8 @@
 
 namespace driftmesh::balancer {
 
-/// The parameters of one policy, as a user wrote them. Reading one makes its name known; whatever was given and has not
-/// been read when finish() is called is an error. All errors are InputErrors that name policy, parameter and value.
+/// The parameters of one policy, as given by the user. Reading one makes its name known; parameters still unread when
+/// finish() is called are an error. All errors are InputErrors that name policy, parameter and value.
 class Parameters {
  public:
   using Values = std::map<std::string, std::string>;
@@ -20,19 +20,19 @@ class Parameters {
   [[nodiscard]] std::int64_t integer(const std::string& name, std::int64_t standard, std::int64_t least,
                                      std::int64_t most);
   [[nodiscard]] bool flag(const std::string& name, bool standard);
-  /// One of `choices`, of which the first is the standard.
+  /// One of `choices`; the first is the default.
   [[nodiscard]] std::string choice(const std::string& name, const std::vector<std::string>& choices);
-  /// All that were given of these names, whatever their values.
+  /// All given parameters with these names, whatever their values.
   [[nodiscard]] Values any_of(const std::vector<std::string>& names);
 
-  /// Throws for the first parameter that nobody has read, and says which known one is nearest.
+  /// Throws for the first unread parameter, and suggests the nearest known one.
   void finish() const;
 
   /// Throws InputError for the value of a parameter: "policy P: name: value; next".
   [[noreturn]] void fail(const std::string& name, const std::string& value, const std::string& next) const;
 
  private:
-  /// The value that was given, or null.
+  /// The given value, or null.
   const std::string* take(const std::string& name);
 
   std::string policy_;

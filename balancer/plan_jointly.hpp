@@ -10,9 +10,9 @@
 
 namespace driftmesh::balancer {
 
-/// From parts to decisions: the steps of joint_plan.hpp in their order, for the ranks that live in this process,
-/// `here`. `parts` lists those of each rank's subdomains. `from_all(told)` is what all ranks of all processes have told
-/// in a step, given what those here tell, and in the same order everywhere.
+/// From parts to decisions: the steps of joint_plan.hpp in order, for the ranks in this process, `here`. `parts` lists
+/// the parts of each rank's subdomains. `from_all(told)` exchanges the contributions of a step: given those of the
+/// ranks here, it returns those of all ranks, in the same order everywhere.
 template <class FromAll>
 [[nodiscard]] std::vector<Council::Decision> plan_jointly(std::span<const Contribution> here,
                                                           const std::vector<std::vector<Part>>& parts,

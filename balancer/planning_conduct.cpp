@@ -7,7 +7,7 @@
 namespace driftmesh::balancer {
 namespace {
 
-/// The snapshot with work on `self` and on the destinations of `moves` alone: what one rank can judge by itself.
+/// The snapshot with work only on `self` and on the destinations of `moves`: what one rank can judge on its own.
 LoadSnapshot between(LoadSnapshot snapshot, Rank self, std::span<const Move> moves) {
   IdVector<Rank, bool> concerned(snapshot.ranks.size(), false);
   concerned[self] = true;
@@ -78,7 +78,7 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   knowledge_->hear(self_, {++reports_, plan_seen_, situation.speed, with_arrived(own)}, now);
   const bool leads = policy_->placement() == Placement::kLeader;
   if (!news_ || !pace_.due(now)) return;
-  // The first plan waits a little for all to say how fast they are.
+  // The first plan waits a little for the speeds of all ranks.
   if (leads && !knowledge_->complete() && now < start_ + options_.interval) return;
   news_ = false;
   pace_.looked(now);
@@ -134,7 +134,7 @@ void PlanningConduct::report(const Situation& situation, const Loads& own, Decis
     if (rank != self_) decision.messages.push_back({rank, report});
 }
 
-// Who planned a move shall hear that it was made, also if the subdomain has been finished since.
+// The planner of a move must learn that it was made, even if the subdomain has been finished since.
 PlanningConduct::Loads PlanningConduct::with_arrived(Loads own) const {
   for (const ReportedLoad& load : arrived_)
     if (std::none_of(own.begin(), own.end(), [&](const auto& l) { return l.subdomain == load.subdomain; }))
@@ -144,7 +144,7 @@ PlanningConduct::Loads PlanningConduct::with_arrived(Loads own) const {
 
 std::vector<Rank> PlanningConduct::audience(const Loads& own) {
   if (policy_->placement() == Placement::kLeader) return {kLeadingRank};
-  if (own.empty()) return audience_;  // that it is idle matters to those it touched last
+  if (own.empty()) return audience_;  // its idleness matters to the ranks it touched last
   audience_.clear();
   for (const auto& load : own)
     for (const Neighbor& n : (*layout_)[load.subdomain].neighbors)

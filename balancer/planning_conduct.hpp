@@ -13,8 +13,8 @@
 
 namespace driftmesh::balancer {
 
-/// How a rank behaves where plans follow from reports (Placement::kLeader, kNeighbors): it reports to those who plan,
-/// follows their advice, and plans itself if it is one of them.
+/// Behavior of a rank when plans follow from reports (Placement::kLeader, kNeighbors): it reports to the planners,
+/// follows their advice, and plans if it is one of them.
 class PlanningConduct {
  public:
   PlanningConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
@@ -44,11 +44,11 @@ class PlanningConduct {
 
   ReportRule rule_;
   std::uint32_t reports_ = 0;
-  std::vector<SubdomainId> told_;  // ascending; of the last report, less what was handed over since
+  std::vector<SubdomainId> told_;  // ascending; of the last report, minus what was handed over since
   Loads arrived_;                  // since the last report, as if finished
   bool acted_ = false;             // on a plan, since the last report
   std::uint32_t plan_seen_ = 0;
-  std::vector<Plan> advised_;  // and not looked at
+  std::vector<Plan> advised_;  // not yet handled
   std::vector<Rank> audience_;
 
   // Of a rank that plans:
@@ -57,7 +57,7 @@ class PlanningConduct {
   double start_;
   PlanningPace pace_;
   std::uint32_t plans_ = 0;
-  std::map<SubdomainId, double> moved_;  // when a move of it was last planned: it is left alone for a while
+  std::map<SubdomainId, double> moved_;  // when its last move was planned: it is left alone for a while
 };
 
 }  // namespace driftmesh::balancer

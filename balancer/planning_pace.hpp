@@ -6,8 +6,8 @@
 
 namespace driftmesh::balancer {
 
-/// When a rank that plans does so again: not at once, later and later while nothing comes of it, and never so often
-/// that planning takes more than its share of the time.
+/// When a planner plans again: not at once, at growing intervals while nothing comes of it, and never so often that
+/// planning takes more than its share of the time.
 class PlanningPace {
  public:
   PlanningPace(const ControllerOptions& options, double now)
@@ -15,20 +15,20 @@ class PlanningPace {
 
   [[nodiscard]] bool due(double now) const { return now >= next_; }
 
-  /// Whether there is something to gain was looked at.
+  /// The planner checked whether there is something to gain.
   void looked(double now) {
     looked_ = now;
     planned_ = false;
     next_ = now + gap_;
   }
-  /// A plan was made as well.
+  /// It also made a plan.
   void planned(double now, bool moves) {
     looked_ = now;
     planned_ = true;
     pause_ = moves ? gap_ : std::min(2 * pause_, interval_);
     next_ = now + pause_;
   }
-  /// What was done last took that long, waiting for others included: it is time lost to all.
+  /// The duration of the last action, including waiting for others, which is time lost to all.
   void took(double seconds) {
     next_ = std::max(next_, looked_ + seconds / overhead_);
     if (planned_) cost_ = seconds;
@@ -40,9 +40,9 @@ class PlanningPace {
  private:
   double gap_, interval_, overhead_;
   double next_;
-  double pause_;  // after a plan of which nothing came
+  double pause_;  // after a plan without effect
   double looked_ = 0;
-  bool planned_ = false;  // when it looked last
+  bool planned_ = false;  // at the last check
   double cost_ = 0;
 };
 

@@ -27,7 +27,7 @@ bool RankNews::hear(Rank rank, const LoadNews& news, double now) {
 
 void RankNews::expect(Rank from, Rank to, double work, double now) {
   const IdVector<Rank, RankLoad> current = states(now);
-  // What it will get, a rank cannot give yet.
+  // A rank cannot give what it has not received yet.
   const auto change = [&](Rank rank, double amount) {
     Heard& heard = ranks_[rank];
     heard.news.remaining = std::max(0.0, current[rank].remaining + amount);

@@ -9,26 +9,26 @@
 
 namespace driftmesh::balancer {
 
-/// What rank 0 has heard of the load of all ranks, each as a whole: at first what the layout predicts.
+/// Rank 0's knowledge of the total load of each rank: initially what the layout predicts.
 class RankNews {
  public:
   /// At `now` the run begins.
   RankNews(const Layout& layout, double now);
 
-  /// News that came at `now`; ignored if later ones have come before. Whether that rank has something to give, and
-  /// more to do than was believed.
+  /// Handles news that arrived at `now`; ignored if newer ones are known. Returns whether that rank has something to
+  /// give, and more work than assumed.
   bool hear(Rank rank, const LoadNews& news, double now);
-  /// This much work will go from one rank to another, and they have not said so yet.
+  /// This much work will move from one rank to another, which they have not reported yet.
   void expect(Rank from, Rank to, double work, double now);
 
-  /// This is what all ranks have to do at `now`, whatever they said before.
+  /// Sets the load of all ranks at `now`, whatever they reported before.
   void assume(const IdVector<Rank, RankLoad>& states, double now);
-  /// Whether all ranks have said something.
+  /// Whether all ranks have reported.
   [[nodiscard]] bool complete() const;
 
-  /// All ranks at `now`: what was heard, less what they must have done since.
+  /// All ranks at `now`: the last news minus what they must have done since.
   [[nodiscard]] IdVector<Rank, RankLoad> states(double now) const;
-  /// Of each rank, whether it has something to give. It works on that last.
+  /// For each rank, whether it has something to give. It works on that last.
   [[nodiscard]] IdVector<Rank, bool> able(const IdVector<Rank, RankLoad>& states) const;
 
  private:

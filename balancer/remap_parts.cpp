@@ -41,7 +41,7 @@ class Matching {
     for (std::size_t i = 0; i < parts.size(); ++i) rank_of_[parts[i]] = ranks[i];
   }
 
-  // What is left over need not fit: then every rank takes the part that was made for it.
+  // The rest may not fit: then every rank takes its own part.
   void settle() {
     if (std::ranges::any_of(ids_of(rank_of_), [&](Part p) { return time(p, *rank_of_[p]) > limit_; }))
       for (const Part p : ids_of(rank_of_)) rank_of_[p] = made_for(p);
@@ -63,7 +63,7 @@ class Matching {
 }  // namespace
 
 std::vector<Rank> remap_parts(const LoadSnapshot& snapshot, std::span<const Part> parts, double tolerance) {
-  std::map<std::pair<Part, Rank>, double> shared;  // work of a part that a rank owns
+  std::map<std::pair<Part, Rank>, double> shared;  // work of a part owned by a rank
   for (std::size_t i = 0; i < parts.size(); ++i)
     shared[{parts[i], snapshot.subdomains[i].owner}] += snapshot.subdomains[i].remaining;
   std::vector<std::tuple<double, Part, Rank>> most_first;

@@ -6,7 +6,7 @@
 namespace driftmesh::balancer {
 
 bool ReportRule::due(double now, double remaining, double speed, bool changed) const {
-  // A rank with work and no idea of its speed has little to say.
+  // A rank with work but unknown speed has little to report.
   if (!last_) return speed > 0 || remaining <= 0;
   const double elapsed = now - last_->now;
   if (elapsed < gap_) return false;

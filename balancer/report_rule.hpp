@@ -4,15 +4,15 @@
 
 namespace driftmesh::balancer {
 
-/// When a rank's load is worth a message: when those who know the last report are wrong about it. Between reports they
-/// reckon with `remaining - speed * time`, so a rank that works as it said has nothing to tell.
+/// When a rank's load is worth a message: when its last report has become wrong. Between reports the others assume
+/// `remaining - speed * time`, so a rank that works as reported has nothing to add.
 class ReportRule {
  public:
-  /// Reports come at least `gap` seconds after each other, and while there is work at most `interval` seconds. A
-  /// forecast is wrong when it is off by the share `change` of the time that the last report said is left.
+  /// Reports are at least `gap` seconds apart and, while there is work, at most `interval` seconds. A forecast is wrong
+  /// if it is off by the fraction `change` of the remaining time in the last report.
   ReportRule(double gap, double interval, double change) : gap_(gap), interval_(interval), change_(change) {}
 
-  /// `changed`: other subdomains than those of the last report, less what was finished.
+  /// `changed`: the subdomains differ from those of the last report minus finished ones.
   [[nodiscard]] bool due(double now, double remaining, double speed, bool changed) const;
   void told(double now, double remaining, double speed) { last_ = Report{now, remaining, speed}; }
 

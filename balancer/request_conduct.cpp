@@ -14,14 +14,14 @@ double seconds_of(double work, double speed) {
   return work <= 0 ? 0 : speed > 0 ? work / speed : HUGE_VAL;
 }
 
-// How many idle ranks there are for each that can give, besides the one that asks.
+// Idle ranks per possible giver, not counting the one that asks.
 std::uint32_t rivals(const IdVector<Rank, RankLoad>& ranks, const IdVector<Rank, bool>& able) {
   const auto idle = std::count_if(ranks.begin(), ranks.end(), [](const RankLoad& r) { return r.remaining <= 0; });
   const auto givers = std::count(able.begin(), able.end(), true);
   return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(0, idle - 1) / std::max<std::ptrdiff_t>(1, givers));
 }
 
-// What makes both finish at the same time.
+// The amount that makes both finish at the same time.
 double even_share(const RankLoad& victim, double victim_speed, const RankLoad& thief, double thief_speed) {
   const double share = (victim.remaining * thief_speed - thief.remaining * victim_speed) / (victim_speed + thief_speed);
   return std::max(0.0, share);
@@ -53,7 +53,7 @@ void RequestConduct::receive(Rank source, Message advice, double now) {
 void RequestConduct::take_answer(Rank source, const WorkAnswer& answer, double now) {
   if (asked_ && answer.round == round_) {
     asked_ = false;
-    // The broker refuses when nobody has anything to give; then it is for the broker to come back.
+    // The broker refuses when nobody has anything to give; then the broker will come back to it.
     refusals_ = !answer.moves.empty() ? 0 : source == kBroker ? options_.refusals : refusals_ + 1;
   }
   if (answer.moves.empty()) return;
@@ -98,8 +98,8 @@ double RequestConduct::give(const WorkRequest& request, const Situation& situati
   return before - total_work(own);
 }
 
-// What the policy gives, of that what is worth moving, if nobody but the two ranks is looked at. To the policy the
-// giver is as fast as all who will share what it keeps.
+// The worthwhile part of what the policy gives, considering only the two ranks. To the policy, the giver appears as
+// fast as all ranks together that will share the rest.
 std::vector<Move> RequestConduct::gifts(const WorkRequest& request, const Situation& situation,
                                         const Loads& own) const {
   LoadSnapshot snapshot;
@@ -181,7 +181,7 @@ bool RequestConduct::pass_on(WorkRequest request, const Situation& situation, Lo
   return true;
 }
 
-// The broker's own requests are asked anew, all others passed on without anybody waiting for an answer.
+// The broker repeats its own requests; it passes on all others without waiting for an answer.
 void RequestConduct::feed_hungry(const Situation& situation, Loads& own, Decision& decision) {
   if (!std::exchange(surprised_, false)) return;
   const std::set<Rank> hungry = hungry_;

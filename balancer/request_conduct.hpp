@@ -12,10 +12,11 @@
 
 namespace driftmesh::balancer {
 
-/// How a rank behaves where work is asked for (Placement::kRequests). All tell rank 0, the broker, how much they have
-/// when that is a surprise. A rank that runs low asks the broker, who passes the request on to a rank that has much;
-/// that rank decides what it gives, and answers. Every request is answered once, if only with a refusal. The broker
-/// remembers who went away with nothing, and asks on their behalf when somebody turns out to have more than was known.
+/// Behavior of a rank when work is requested (Placement::kRequests). Ranks report unexpected changes of their load to
+/// rank 0, the broker. A rank that runs low asks the broker, which passes the request on to a rank with plenty of work;
+/// that rank decides what to give, and answers. Every request is answered once, if only with a refusal. The broker
+/// remembers which ranks got nothing, and asks on their behalf when some rank turns out to have more work than was
+/// known.
 class RequestConduct {
  public:
   RequestConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
@@ -51,19 +52,19 @@ class RequestConduct {
   ControllerOptions options_;
 
   ReportRule rule_;
-  bool changed_ = false;  // gave work away or refused, since the last report
+  bool changed_ = false;  // gave work away or refused since the last report
   std::uint32_t reports_ = 0;
   std::vector<WorkRequest> requests_;  // not looked at
 
-  bool asked_ = false;                // and not answered
+  bool asked_ = false;                // not yet answered
   std::uint32_t round_ = 0;           // of the last request
   int refusals_ = 0;                  // in a row
-  std::vector<SubdomainId> arrived_;  // since the last request; they may be here before the answer that promises them
-  std::vector<SubdomainId> coming_;   // promised, and not here yet
+  std::vector<SubdomainId> arrived_;  // since the last request; they may arrive before the answer that promises them
+  std::vector<SubdomainId> coming_;   // promised, not yet here
   double promised_ = 0;               // when
 
   std::optional<RankNews> news_;  // of the broker
-  bool surprised_ = false;        // by news since the hungry were last thought of
+  bool surprised_ = false;        // by news since idle ranks were last served
   std::set<Rank> hungry_;
 };
 

@@ -4,16 +4,16 @@
 
 namespace driftmesh::balancer {
 
-/// A rank's speed as a running average: what was done `memory` seconds ago counts 1/e of what is done now.
+/// A rank's speed as a running average: work done `memory` seconds ago has 1/e of the weight of current work.
 class SpeedEstimate {
  public:
   explicit SpeedEstimate(double memory = 2) : memory_(memory) {}
 
-  /// What a slice of work on a subdomain came to.
+  /// Result of a slice of work on a subdomain.
   struct Slice {
     double triangles = 0;   ///< made
-    double seconds = 0;     ///< of the rank's time, whatever else used the processor meanwhile
-    bool prepared = false;  ///< the subdomain was begun in it
+    double seconds = 0;     ///< of the rank's wall-clock time, whatever else used the processor
+    bool prepared = false;  ///< the subdomain was started in it
     bool finished = false;  ///< the subdomain was finished in it
   };
 
@@ -28,9 +28,8 @@ class SpeedEstimate {
     observed_ += slice.seconds;
   }
 
-  /// Triangles a second; 0 while too little was seen to say: less than some time, or the beginning of a subdomain
-  /// alone, which costs time and makes few triangles. A slow rank spends more time on it, and would seem slower than it
-  /// is.
+  /// Triangles per second; 0 while there is too little data: too short a time, or only the start of a subdomain, which
+  /// takes time but makes few triangles. A slow rank spends more time on that, and would seem slower than it is.
   [[nodiscard]] double value() const {
     const bool whole = finished_ || preparing_ <= kPreparing * observed_;
     return observed_ < kEnough || !whole || triangles_ <= 0 ? 0 : triangles_ / seconds_;
@@ -38,7 +37,7 @@ class SpeedEstimate {
 
  private:
   static constexpr double kEnough = 0.02;    // seconds
-  static constexpr double kPreparing = 0.1;  // of the time
+  static constexpr double kPreparing = 0.1;  // fraction of the time
 
   double memory_;
   double triangles_ = 0;

@@ -8,7 +8,7 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-/// Of each rank, the indices of its subdomains, those first that leave most easily.
+/// For each rank, the indices of its subdomains, those first that leave most easily.
 IdVector<Rank, Indices> by_owner(const LoadSnapshot& snapshot) {
   IdVector<Rank, Indices> lists(snapshot.ranks.size());
   for (std::size_t i = 0; i < snapshot.subdomains.size(); ++i) lists[snapshot.subdomains[i].owner].push_back(i);
@@ -56,7 +56,7 @@ class Dealer {
     return pool;
   }
 
-  // Equal finishing times go to the owner, so that nothing moves without a reason.
+  // Ties go to the owner, so that nothing moves without a reason.
   void place(std::size_t i) {
     SubdomainLoad& s = snapshot_.subdomains[i];
     Rank best = s.owner;

@@ -87,15 +87,14 @@ SealReader::SealReader(std::span<const std::byte> bytes, std::string what) : wha
   if (bytes.size() < sizeof header) throw Error(what_ + " is too short to be one");
   std::memcpy(&header, bytes.data(), sizeof header);
   if (header.magic != PackedHeader::kMagic)
-    throw Error(what_ +
-                " does not begin like one; it must come from this program, on a machine of the same byte order");
+    throw Error(what_ + " has no valid header; it must come from this program, on a machine of the same byte order");
   if (header.version != PackedHeader::kVersion)
     throw Error(what_ + " has version " + std::to_string(header.version) + ", but this program reads version " +
                 std::to_string(PackedHeader::kVersion) + "; use the program that wrote it");
   payload_ = bytes.subspan(sizeof header);
   if (header.length != payload_.size() || header.reserved != 0)
     throw Error(what_ + " has " + std::to_string(payload_.size()) + " bytes instead of " +
-                std::to_string(header.length) + ": it was cut off or damaged on its way");
+                std::to_string(header.length) + ": it was truncated or damaged in transit");
   expected_ = header.checksum;
 }
 
@@ -114,7 +113,7 @@ std::size_t SealReader::read(void* to, std::size_t size) {
 }
 
 void SealReader::verify() {
-  if (checksum_.of(payload_) != expected_) throw Error(what_ + " was damaged on its way: its checksum is wrong");
+  if (checksum_.of(payload_) != expected_) throw Error(what_ + " was damaged in transit: its checksum is wrong");
 }
 
 }  // namespace driftmesh

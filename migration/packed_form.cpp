@@ -75,7 +75,7 @@ void load_points(ArchiveReader& in, std::vector<SplitPoint<Root>>& points) {
   in.array(paths);
   require(roots.size() == paths.size(), "split points without roots");
   for (std::size_t i = 0; i < roots.size(); ++i) {
-    require(roots[i] >= 0 && is_path(paths[i]), "a split point has no place");
+    require(roots[i] >= 0 && is_path(paths[i]), "a split point has no valid place");
     points.push_back({Root{roots[i]}, paths[i]});
   }
 }
@@ -219,7 +219,7 @@ void load(ArchiveReader& in, SubdomainState& subdomain) {
   in.value(refined);
   in.value(content);
   require(subdomain.id >= SubdomainId{0}, "it has no number");
-  require(refined <= 1 && content <= Content::kDormant, "it says what cannot be");
+  require(refined <= 1 && content <= Content::kDormant, "it has invalid flags");
   subdomain.refined = refined != 0;
   load_points(in, subdomain.pending);
   if (content == Content::kMesh) {
@@ -234,8 +234,8 @@ void load(ArchiveReader& in, SubdomainState& subdomain) {
 void check(const SubdomainState& subdomain) {
   const bool done =
       subdomain.dormant || (subdomain.body && subdomain.body->refiner.stage == RefinerState::Stage::kDone);
-  require(done || !subdomain.refined, "it is refined and is not");
-  require(subdomain.refined || !subdomain.dormant, "it is dormant and not refined");
+  require(done || !subdomain.refined, "it contradicts itself on being refined");
+  require(subdomain.refined || !subdomain.dormant, "it is dormant but not refined");
   if (subdomain.body) check_body(*subdomain.body);
   if (subdomain.dormant) check_dormant(*subdomain.dormant);
 }

@@ -25,15 +25,15 @@ RefinerState rest_of(const DormantBody& dormant, const Triangulation& mesh, cons
 
 /// Why a mesh is not of subdomain i; empty if it is. `label`: the highest of its region labels.
 std::string misfit(const SubdomainMesh& part, std::uint16_t label, const Decomposition& d, SubdomainId i) {
-  if (!std::ranges::equal(part.roots, d.roots_of(i))) return "its border is another";
+  if (!std::ranges::equal(part.roots, d.roots_of(i))) return "its border differs";
   std::uint16_t last_label = 0;
   for (const GlobalRootId r : part.roots) {
     const Decomposition::Root& root = d.roots[r];
     last_label = std::max({last_label, root.left_region, root.right_region});
   }
-  if (label > last_label) return "it has a region that is not there";
+  if (label > last_label) return "it has an unknown region";
   if (!std::ranges::all_of(part.points, [&](GlobalPointId v) { return d.points.has(v); }))
-    return "it has a point that is not there";
+    return "it has an unknown point";
   return "";
 }
 
@@ -179,8 +179,8 @@ Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainCon
   SubdomainState state = driftmesh::unpack(bytes, source);
   const std::string fault = misfit(state, *context.decomposition);
   if (!fault.empty())
-    throw Error("the packed form of subdomain " + to_string(state.id) + " is not of this decomposition: " + fault +
-                "; use the one that it was packed with");
+    throw Error("the packed form of subdomain " + to_string(state.id) +
+                " does not belong to this decomposition: " + fault + "; use the one that it was packed with");
   Subdomain subdomain(state.id, context);
   subdomain.refined_ = state.refined;
   subdomain.pending_ = std::move(state.pending);

@@ -11,7 +11,7 @@
 
 namespace driftmesh::protocol {
 
-/// A message under way.
+/// A message in transit.
 struct Parcel {
   Rank source;
   Bytes bytes;
@@ -21,30 +21,30 @@ struct Parcel {
 };
 
 enum class Urgency {
-  kAnyTime,  ///< it may come when chance says so
-  kFirst,    ///< before all that is not
-  kNotYet,   ///< it must wait; what waits must be let go some day
+  kAnyTime,  ///< may be delivered at random
+  kFirst,    ///< before all others
+  kNotYet,   ///< must wait; every message must be released eventually
 };
 
-/// How an adversarial network treats its ranks. The seed decides everything that is left open.
+/// How an adversarial network treats its ranks. The seed decides everything else.
 struct Adversary {
   std::uint64_t seed = 1;
   bool fifo = false;      ///< keep the order between each two ranks, as MPI does
   double delay = 0.3;     ///< chance that a poll finds nothing although a message could be delivered
-  bool starve = false;    ///< for a long while one rank is not stepped at all
-  bool hold_one = false;  ///< one of the first messages is held back for a long while
+  bool starve = false;    ///< one rank is not stepped for a long time
+  bool hold_one = false;  ///< one of the first messages is held back for a long time
   double copy = 0;        ///< chance that a message that may_copy is delivered a second time, at any later moment
   std::function<bool(Rank source, std::span<const std::byte>)> may_copy;  ///< none, if empty
-  /// Asked, if there, of each parcel when its receiver polls, with the number of the step.
+  /// If set, called for each parcel when its receiver polls, with the number of the step.
   std::function<Urgency(const Parcel&, std::uint64_t step)> urgency = {};
   std::uint64_t step_limit = 50'000'000;
 
-  /// Everything but the functions drawn from the seed.
+  /// All members except the functions, drawn from the seed.
   static Adversary from_seed(std::uint64_t seed);
 };
 
-/// Ranks in one process and on one thread, with a network that does its worst within the contract of Transport. A run
-/// is repeated exactly by its seed.
+/// Ranks on one thread of one process, with a network that does its worst within the contract of Transport. The seed
+/// makes a run exactly reproducible.
 class AdversarialNetwork {
  public:
   AdversarialNetwork(std::int32_t ranks, Adversary adversary);
@@ -55,15 +55,15 @@ class AdversarialNetwork {
   [[nodiscard]] Transport& transport(Rank rank);
 
   /// Steps the ranks, steps[r] for rank r, in an order drawn from the seed until all have finished or none can go on.
-  /// `after_step` is called after each step with the rank that took it. What a step throws ends the run.
+  /// `after_step` is called after each step with the rank that took it. An exception thrown by a step ends the run.
   RunResult run(IdSpan<Rank, const RankStep> steps, const std::function<void(Rank)>& after_step = {});
 
-  /// What is under way to a rank, copies included.
+  /// Messages in transit to a rank, including copies.
   [[nodiscard]] const std::vector<Parcel>& under_way(Rank destination) const;
   /// Messages sent and not delivered, without copies.
   [[nodiscard]] std::uint64_t in_flight() const { return in_flight_; }
 
-  /// What the adversary really did, so that a test can see that it did something.
+  /// What the adversary really did, so that tests can check that it did something.
   struct Counters {
     std::uint64_t delivered = 0;
     std::uint64_t reordered = 0;  ///< delivered before an older message between the same two ranks
@@ -98,7 +98,7 @@ class AdversarialNetwork {
   std::optional<Rank> starved_;
   std::uint64_t starve_from_ = 0, starve_to_ = 0;  // steps
   std::uint64_t held_serial_ = UINT64_MAX;
-  std::uint64_t release_ = 0;  // the step at which the message held back may go
+  std::uint64_t release_ = 0;  // the step at which the held message is released
   Counters counters_;
 };
 

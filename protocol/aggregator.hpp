@@ -8,10 +8,8 @@
 
 namespace driftmesh::protocol {
 
-/// SPLITs that wait for company: one buffer a destination rank, sent as one message when it reaches the threshold or
-/// when the rank has nothing better to do. (The paper, section 4: aggregation.)
-///
-/// What waits here is on its way as far as termination is concerned.
+/// Aggregates SPLITs: one buffer per destination rank, sent as one message when it reaches the threshold or when the
+/// rank is idle. (Section 4 of the paper: aggregation.) For termination, buffered SPLITs count as in transit.
 class Aggregator {
  public:
   static constexpr std::size_t kDefaultThreshold = 512;
@@ -20,11 +18,11 @@ class Aggregator {
   explicit Aggregator(Rank self, std::size_t threshold = kDefaultThreshold);
 
   /// Adds a SPLIT for subdomain `to`, which `destination` owns in epoch `epoch` as far as this rank knows. Returns the
-  /// batch that became full by it.
+  /// batch if it is now full.
   [[nodiscard]] std::optional<Outgoing> add(Rank destination, SubdomainId to, Epoch epoch,
                                             const SplitPoint<GlobalRootId>& split);
 
-  /// All that waits, a message a destination.
+  /// Everything buffered, one message per destination.
   [[nodiscard]] std::vector<Outgoing> flush();
 
   [[nodiscard]] std::size_t size() const { return size_; }

@@ -56,12 +56,12 @@ std::uint8_t type_of(const Message& message) {
   return narrow<std::uint8_t>(message.index() + (advice != nullptr ? advice->topic : 0), "the topic of advice");
 }
 
-// An empty message of the type that the two bytes in front of every message name.
+// An empty message of the type given by the two leading bytes of every message.
 Message read_head(WireReader& reader) {
   std::uint8_t version = 0, type = 0;
   reader.number(version);
   if (version != kWireVersion)
-    throw Error("it has version " + std::to_string(version) + " where this program speaks " +
+    throw Error("it has version " + std::to_string(version) + ", but this program uses " +
                 std::to_string(kWireVersion) + "; start the same build on every rank");
   reader.number(type);
   Message message = empty_message<Message>(std::min<std::size_t>(type, kAdvice));

@@ -19,7 +19,7 @@ std::optional<Received> DelayingTransport::poll() {
   return message;
 }
 
-// With messages in hand there is nothing to wait for but polls.
+// While messages are held, only polls are needed, so do not idle.
 void DelayingTransport::idle() {
   if (kept_.empty()) TransportLayer::idle();
 }

@@ -7,7 +7,7 @@
 
 namespace driftmesh::protocol {
 
-/// Another transport, made unpleasant: what it receives is kept for a random number of polls and handed out in random
+/// Makes another transport unpleasant: received messages are kept for a random number of polls and delivered in random
 /// order. For tests of real ranks, whose messages otherwise arrive sooner, and in better order, than on a busy network.
 class DelayingTransport final : public TransportLayer {
  public:

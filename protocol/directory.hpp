@@ -7,7 +7,7 @@
 
 namespace driftmesh::protocol {
 
-/// Who owns a subdomain in one of its epochs. An epoch has one owner: the owner of the epoch before chose it.
+/// The owner of a subdomain in one of its epochs. An epoch has one owner, chosen by the owner of the previous epoch.
 struct Location {
   Rank owner{};
   Epoch epoch = 0;
@@ -37,12 +37,12 @@ class Directory {
   [[nodiscard]] bool holds(SubdomainId s) const { return held_.at(s); }
   [[nodiscard]] Route route(SubdomainId s, Epoch epoch) const;
 
-  /// Takes a record over without asking whether it is newer; see RankProtocol, which asks.
+  /// Sets a record without checking whether it is newer; RankProtocol checks that.
   void set(SubdomainId s, const Location& location) { records_.at(s) = location; }
-  /// Lets go of a subdomain held here; returns its next location. Throws Error if it is not held here.
+  /// Gives up a subdomain held here; returns its next location. Throws Error if it is not held here.
   Location depart(SubdomainId s, Rank destination);
-  /// Takes over a subdomain that was handed to this rank. Returns false, and changes nothing, if that cannot be: the
-  /// subdomain is here, or this rank has let go of this epoch before.
+  /// Takes over a subdomain that was handed to this rank. Returns false and changes nothing if that is impossible: the
+  /// subdomain is here, or this rank has already given up this epoch.
   [[nodiscard]] bool arrive(SubdomainId s, Epoch epoch);
 
  private:

@@ -10,7 +10,7 @@
 
 namespace driftmesh::protocol {
 
-/// The transport of a rank that is alone: what it sends, it sends to itself.
+/// The transport of a single rank, which can send only to itself.
 class LoneTransport final : public Transport {
  public:
   [[nodiscard]] Rank rank() const override { return kSelf; }

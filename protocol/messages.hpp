@@ -9,7 +9,7 @@
 #include "dyadic/split_point.hpp"
 #include "protocol/epoch.hpp"
 
-/// What ranks say to each other. The layout on the wire is in codec.cpp; the rules are in docs/protocol.md.
+/// The messages between ranks. The wire format is in codec.cpp, the rules in docs/protocol.md.
 namespace driftmesh::protocol {
 
 // ---- Work: counted by the termination detector -----------------------------------------------------------------
@@ -17,24 +17,24 @@ namespace driftmesh::protocol {
 /// SPLITs for one subdomain, from one rank.
 struct SplitGroup {
   SubdomainId to{};
-  Epoch epoch = 0;         ///< of `to`, as the rank that sent or forwarded the group last believed
+  Epoch epoch = 0;         ///< of `to`, as known to the rank that sent or last forwarded the group
   Rank origin{};           ///< the rank that made the points; it is told when the group had to be forwarded
-  std::uint32_t hops = 0;  ///< how often it was forwarded: not above `epoch`, which rises with each
+  std::uint32_t hops = 0;  ///< how often it was forwarded: at most `epoch`, which rises with every hop
   std::vector<SplitPoint<GlobalRootId>> points;
   friend bool operator==(const SplitGroup&, const SplitGroup&) = default;
 };
 
-/// What an aggregator held for one rank.
+/// The SPLITs that an aggregator held for one rank.
 struct SplitBatch {
   std::vector<SplitGroup> groups;
   friend bool operator==(const SplitBatch&, const SplitBatch&) = default;
 };
 
-/// Packed forms that are estimated longer stay where they are: a message must not reach 2 GiB, and the estimate may be
+/// Subdomains with a larger estimated packed size do not move: a message must stay below 2 GiB, and the estimate may be
 /// a quarter too low.
 inline constexpr std::uint64_t kMostPackedBytes = 1'600'000'000;
 
-/// A subdomain moves to the rank that this is sent to.
+/// Moves a subdomain to the receiver.
 struct HandOff {
   SubdomainId subdomain{};
   Epoch epoch = 0;  ///< with the receiver as owner
@@ -42,9 +42,9 @@ struct HandOff {
   friend bool operator==(const HandOff&, const HandOff&) = default;
 };
 
-// ---- Control: advice, not counted, refused once the work is over -----------------------------------------------
+// ---- Control: advice, not counted, rejected once the work is over -----------------------------------------------
 
-/// Where a subdomain is, or was a while ago.
+/// The current or a former location of a subdomain.
 struct LocationUpdate {
   SubdomainId subdomain{};
   Rank owner{};
@@ -52,19 +52,19 @@ struct LocationUpdate {
   friend bool operator==(const LocationUpdate&, const LocationUpdate&) = default;
 };
 
-/// What whoever plans for the ranks says to another rank. The protocol carries it without knowing what it says.
+/// A message of the load balancer. The protocol carries it without interpreting it.
 struct Advice {
-  std::uint8_t topic = 0;  ///< what kind of advice it is; small, because it travels in the byte of the message's type
+  std::uint8_t topic = 0;  ///< kind of advice; small, because it is encoded in the type byte of the message
   Bytes content;
   friend bool operator==(const Advice&, const Advice&) = default;
 };
 
-/// The sender gives the whole run up: nobody need do any more work.
+/// The sender gives up the whole run: no more work is needed.
 struct Abandon {
   friend bool operator==(const Abandon&, const Abandon&) = default;
 };
 
-// ---- Detection: how the end is found; each of these travels along the ring of ranks ------------------------------
+// ---- Detection of termination; each of these travels along the ring of ranks ------------------------------
 
 /// Safra's token (EWD998).
 struct Token {
@@ -74,7 +74,7 @@ struct Token {
   friend bool operator==(const Token&, const Token&) = default;
 };
 
-/// The work is over; what is left is control traffic under way.
+/// The work is over; only control traffic may still be in transit.
 struct Terminate {
   std::uint64_t pass = 0;    ///< around the ring, from 1
   std::int64_t work = 0;     ///< sent less handled over the ranks visited: an audit, 0 at the end of a pass
@@ -82,7 +82,7 @@ struct Terminate {
   friend bool operator==(const Terminate&, const Terminate&) = default;
 };
 
-/// Nothing is under way any more but this.
+/// Nothing else is in transit any more.
 struct Finish {
   friend bool operator==(const Finish&, const Finish&) = default;
 };
@@ -92,7 +92,7 @@ using Message = std::variant<SplitBatch, HandOff, LocationUpdate, Token, Termina
 enum class Traffic { kWork, kControl, kDetection };
 [[nodiscard]] Traffic traffic_of(const Message& message);
 
-/// A message and the rank that it goes to.
+/// A message and its destination.
 struct Outgoing {
   Rank destination{};
   Message message;

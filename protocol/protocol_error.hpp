@@ -19,8 +19,8 @@ class ProtocolError : public Error {
   Rank sender_;
 };
 
-/// What `read` returns, which reads a message of `sender`: an Error in it becomes a ProtocolError that names the
-/// sender.
+/// Returns the result of `read`, which reads a message from `sender`; turns an Error into a ProtocolError that names
+/// the sender.
 template <class Read>
 auto read_from(Rank sender, const Read& read) {
   try {

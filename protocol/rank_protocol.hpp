@@ -15,15 +15,15 @@
 
 namespace driftmesh::protocol {
 
-/// What a message brought to the program of the rank that received it.
+/// The content of a received message for the program of the rank.
 struct Delivery {
-  std::optional<HandOff> arrival;  ///< a subdomain that now lives here; unpack it before looking at the splits
-  std::vector<SplitGroup> splits;  ///< for subdomains that live here
-  std::optional<Advice> advice;    ///< what the sender said by advise()
-  bool abandoned = false;          ///< the sender has given the run up
+  std::optional<HandOff> arrival;  ///< a subdomain that is now here; unpack it before applying the splits
+  std::vector<SplitGroup> splits;  ///< for subdomains on this rank
+  std::optional<Advice> advice;    ///< sent by advise()
+  bool abandoned = false;          ///< the sender has given up the run
 };
 
-/// How often things happened on one rank.
+/// Counts of events on one rank.
 struct ProtocolCounters {
   std::int64_t splits_sent = 0;     ///< SPLITs made here for subdomains elsewhere
   std::int64_t splits_handled = 0;  ///< SPLITs from other ranks that found their subdomain here
@@ -31,14 +31,14 @@ struct ProtocolCounters {
   std::int64_t hand_offs = 0;       ///< subdomains that left this rank
   std::int64_t hand_off_bytes = 0;  ///< their packed size
   std::int64_t arrivals = 0;        ///< subdomains that came
-  std::int64_t forwarded = 0;       ///< groups that were sent on
-  std::int64_t most_hops = 0;       ///< how often a group had been sent on that found its subdomain here, at most
+  std::int64_t forwarded = 0;       ///< groups that were forwarded
+  std::int64_t most_hops = 0;       ///< most hops of a group that found its subdomain here
   std::int64_t held = 0;            ///< groups that had to wait for their subdomain
 };
 
-/// One rank's side of the protocol: aggregation, the directory, and termination, as one state machine. It is told what
-/// happens (SPLITs made, subdomains given away, messages received, nothing to do) and collects what is to be sent; it
-/// knows no transport, no clock and no mesh.
+/// One rank's side of the protocol: aggregation, the directory, and termination, as one state machine. It takes events
+/// (SPLITs made, subdomains given away, messages received, idleness) and collects outgoing messages; it knows no
+/// transport, no clock and no mesh.
 class RankProtocol {
  public:
   /// `owners[s]` is the rank of subdomain s at the start, equal on all ranks.
@@ -55,34 +55,34 @@ class RankProtocol {
   [[nodiscard]] const ProtocolCounters& counters() const { return counters_; }
   [[nodiscard]] std::size_t aggregated() const { return aggregator_.size(); }
   [[nodiscard]] std::size_t held_groups() const;
-  /// One line for a person who wants to know why nothing goes on: what this rank waits for, and what waits here.
+  /// One line to diagnose a stall: what this rank waits for, and what is waiting here.
   [[nodiscard]] std::string describe() const;
 
-  /// A point was put on an edge shared with subdomain `to`, which is not held here (what is needs no message).
+  /// A point was inserted on an edge shared with subdomain `to`, which must not be held here (no message is needed
+  /// then).
   void send_split(SubdomainId to, const SplitPoint<GlobalRootId>& split);
 
-  /// Subdomain `s`, held here, moves to another rank. Everything it was sent must be inside `packed`. Moving it to this
-  /// rank is the caller's no-op: throws Error.
+  /// Subdomain `s`, held here, moves to another rank. Everything sent to it must be included in `packed`. Throws Error
+  /// if the destination is this rank.
   void hand_off(SubdomainId s, Rank destination, Bytes packed);
 
   /// Sends advice. Returns false, and sends nothing, once the work is over.
   bool advise(Rank destination, Advice advice) { return send_control(destination, std::move(advice)); }
-  /// The same of where a subdomain is. The protocol does so by itself when it forwards SPLITs.
+  /// The same for the location of a subdomain. The protocol also sends it on its own when it forwards SPLITs.
   bool advise(Rank destination, const LocationUpdate& update) { return send_control(destination, update); }
 
-  /// Tells all other ranks that this one gives the run up. They hear of it before the run ends, if it has not ended
-  /// yet.
+  /// Tells all other ranks that this rank gives up the run. They learn of it before the run ends, unless it has ended.
   void abandon();
 
-  /// Takes in a message. What it brings to the program is returned; the program queues it as work of its subdomains
-  /// before it next calls rest(). Throws ProtocolError for a message that must not come.
+  /// Handles a message and returns its content for the program, which queues it as work of its subdomains before it
+  /// next calls rest(). Throws ProtocolError for a message that must not arrive.
   Delivery receive(Rank source, Message message);
 
-  /// Called when the program has nothing to do at the moment: flushes what waits. `program_is_passive` says that no
-  /// subdomain here has work, and no request or plan of this rank is pending.
+  /// Called when the program has nothing to do at the moment: flushes buffered SPLITs. `program_is_passive` says that
+  /// no subdomain here has work, and no request or plan of this rank is pending.
   void rest(bool program_is_passive);
 
-  /// What is to be sent since the last call.
+  /// Messages to send since the last call.
   [[nodiscard]] std::vector<Outgoing> take_outgoing() { return std::exchange(outgoing_, {}); }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace driftmesh::protocol {
 
-/// What one round of a rank's loop came to.
+/// Result of one round of a rank's loop.
 enum class StepResult {
   kBusy,      ///< there is more to do
   kIdle,      ///< nothing to do until a message arrives
@@ -26,7 +26,7 @@ inline void run_rank(Transport& transport, const RankStep& step) {
 
 enum class RunEnd {
   kFinished,   ///< every rank has
-  kStalled,    ///< all others are idle, and no message is under way
+  kStalled,    ///< all others are idle, and no message is in transit
   kStepLimit,  ///< stopped by the limit on steps
 };
 

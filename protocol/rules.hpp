@@ -4,17 +4,17 @@
 
 namespace driftmesh::protocol {
 
-/// The decisions that the proofs in docs/protocol.md rest on, in one place so that tests can replace each by a wrong
-/// one and see that it is noticed.
+/// The decisions that the proofs in docs/protocol.md rely on, in one place, so that tests can replace each by a wrong
+/// one and check that it is detected.
 class Rules {
  public:
-  /// The stations of a SPLIT on its way to the subdomain that it is for, and of a subdomain on its way to a rank.
+  /// The stations of a SPLIT on its way to its subdomain, and of a subdomain on its way to a rank.
   enum class Station {
     kEntersAggregator,
     kLeavesAggregator,
     kForwarded,
     kHeld,
-    kReleased,  ///< was held, and its subdomain has come
+    kReleased,  ///< was held, and its subdomain has arrived
     kReachesSubdomain,
     kGivenAway,
     kArrives
@@ -25,15 +25,15 @@ class Rules {
   Rules(const Rules&) = delete;
   Rules& operator=(const Rules&) = delete;
 
-  /// Each counts as sent once, and from the first moment: nothing that waits anywhere is unknown to the counts.
+  /// Each counts as sent once, from the first moment: nothing that waits anywhere is missing from the counts.
   [[nodiscard]] virtual bool counts_as_sent(Station station) const {
     return station == Station::kEntersAggregator || station == Station::kGivenAway;
   }
-  /// Each counts as handled once, and not before it is where it belongs: what is held back is still under way.
+  /// Each counts as handled once, and not before it reaches its destination: what is held back is still in transit.
   [[nodiscard]] virtual bool counts_as_handled(Station station) const {
     return station == Station::kReachesSubdomain || station == Station::kReleased || station == Station::kArrives;
   }
-  /// A rank with nothing to do does not let others wait for what it has collected.
+  /// An idle rank does not keep others waiting for SPLITs that it has aggregated.
   [[nodiscard]] virtual bool flushes_when_idle() const { return true; }
   /// A rank passes the token only when nothing that it holds could become work.
   [[nodiscard]] virtual bool passive(bool program_is_passive, bool aggregator_empty, bool nothing_held) const {
@@ -47,7 +47,7 @@ class Rules {
   }
 };
 
-/// The rules as they must be.
+/// The correct rules.
 [[nodiscard]] inline const Rules& sound_rules() {
   static const Rules rules;
   return rules;

@@ -7,17 +7,17 @@
 
 namespace driftmesh::protocol {
 
-/// The points on one shared edge, as one side of it knows them: a set of paths that only grows and that holds with a
-/// path its ancestors.
+/// The points on one shared edge, as known to one side: a growing set of paths that contains all ancestors of its
+/// elements.
 ///
 /// Such sets form a join-semilattice under union: union is commutative, associative and idempotent, and the union of
-/// two sets closed under parent is closed under parent. insert(k) joins with the smallest closed set that holds k,
+/// two sets closed under parent is closed under parent. insert(k) joins with the smallest closed set that contains k,
 /// {k and its ancestors}. So two sides that have seen the same SPLITs hold the same set, whatever the order, the
 /// repetitions, and whoever split first.
 class SplitSet {
  public:
-  /// Adds `path` and its missing ancestors; returns what was new, ancestors first: the order in which a mesh can insert
-  /// them. Empty for a path that was known. Needs a valid path (1 or above, depth at most dyadic::kMaxDepth).
+  /// Adds `path` and its missing ancestors; returns the new paths, ancestors first, in the order in which a mesh can
+  /// insert them. Empty for a known path. Requires a valid path (1 or above, depth at most dyadic::kMaxDepth).
   std::vector<dyadic::Path> insert(dyadic::Path path);
   [[nodiscard]] bool contains(dyadic::Path path) const;
 
@@ -29,8 +29,8 @@ class SplitSet {
   std::vector<dyadic::Path> paths_;
 };
 
-/// What two sides compare to see that they hold the same points: 24 bytes whatever the number of points. Sets that
-/// differ have equal digests with a probability of about 2^-64.
+/// Lets two sides check that they hold the same points: 24 bytes for any number of points. Different sets have equal
+/// digests with a probability of about 2^-64.
 struct SplitDigest {
   std::uint64_t count = 0;
   std::uint64_t sum = 0;     ///< of the hashes of the paths

@@ -65,15 +65,15 @@ std::optional<Outgoing> Termination::advance(bool passive) {
   return std::nullopt;
 }
 
-// With one rank there is nobody to ask: what it sent, it sent to itself.
+// A single rank need not ask others: it sends only to itself.
 void Termination::advance_alone(bool passive) {
   if (phase_ == Phase::kWorking && passive && work_ == 0) phase_ = Phase::kDraining;
   if (phase_ == Phase::kDraining && control_ == 0) phase_ = Phase::kFinished;
 }
 
-// Rank 0: judges the token that came back, and sends out the next one, or Terminate.
+// Rank 0: evaluates the returned token, and sends the next one, or Terminate.
 std::optional<Outgoing> Termination::probe() {
-  if (round_ != 0 && !token_) return std::nullopt;  // it is under way
+  if (round_ != 0 && !token_) return std::nullopt;  // it is in transit
   if (token_ && !token_->black && !black_ && token_->count + work_ == 0) {
     phase_ = Phase::kDraining;
     return fence();
@@ -93,9 +93,9 @@ std::optional<Outgoing> Termination::pass_token() {
   return Outgoing{next(), token};
 }
 
-// Rank 0: judges the pass that came back, and sends out the next one, or Finish.
+// Rank 0: evaluates the returned pass, and sends the next one, or Finish.
 std::optional<Outgoing> Termination::fence() {
-  if (pass_ != 0 && !terminate_) return std::nullopt;  // it is under way
+  if (pass_ != 0 && !terminate_) return std::nullopt;  // it is in transit
   if (terminate_) {
     if (terminate_->work != 0)
       throw ProtocolError(Rank{ranks_ - 1}, "after termination " + std::to_string(terminate_->work) +
@@ -115,7 +115,7 @@ std::optional<Outgoing> Termination::pass_terminate() {
   return Outgoing{next(), terminate};
 }
 
-// The last rank of the ring has nobody to tell.
+// The last rank of the ring has no successor to inform.
 std::optional<Outgoing> Termination::finish() {
   phase_ = Phase::kFinished;
   finish_due_ = false;

@@ -7,20 +7,19 @@
 
 namespace driftmesh::protocol {
 
-/// One rank's part in finding the end of the run: Safra's algorithm (Dijkstra, EWD998), then a fence.
+/// One rank's part in termination detection: Safra's algorithm (Dijkstra, EWD998), then a fence.
 ///
 /// Detection. Every rank counts the SPLITs and hand-offs that it sent, less those that it handled, and is black after
 /// it handled one. Rank 0 sends a token along the ring 0, 1, ..., P - 1, 0; a rank passes it on only while passive,
 /// adds its count and its color, and turns white. The work is over when the token comes back white to a white rank 0
-/// with a total of 0. After the last work this takes at most two probes more than the one under way.
+/// with a total of 0. After the last work this takes at most two probes beyond the current one.
 ///
-/// Fence. Then Terminate goes along the same ring. A rank that has seen it sends no control message any more, and adds
-/// the control messages it sent, less those it received. When a pass comes back with a total of 0, none is under way:
-/// Finish goes around, and each rank stops as it passes it on. A pass that comes back with a work count other than 0
-/// shows that the detection was wrong, and is a ProtocolError: the audit of every run, in every build.
-///
-/// A rank may become active again only by handling a counted message: what arrives as control traffic must not make a
-/// passive rank send work. work_sent throws if that rule is broken.
+/// Fence. Then Terminate goes along the same ring. A rank that has seen it sends no more control messages, and adds the
+/// number of control messages it sent minus those it received. When a pass comes back with a total of 0, none is in
+/// transit: Finish goes around, and each rank stops as it passes it on. A pass that comes back with a work count other
+/// than 0 shows that the detection was wrong, and is a ProtocolError: the audit of every run, in every build. A rank
+/// may become active again only by handling a counted message: control traffic must not make a passive rank send work.
+/// work_sent throws if this rule is broken.
 class Termination {
  public:
   enum class Phase {
@@ -36,19 +35,19 @@ class Termination {
   [[nodiscard]] bool has_token() const { return token_.has_value(); }
   [[nodiscard]] std::int64_t work_balance() const { return work_; }  ///< sent less handled
 
-  /// `count` SPLITs or hand-offs started their way: from here on they are somebody's future work.
+  /// `count` SPLITs or hand-offs were sent: from now on they are some rank's future work.
   void work_sent(std::int64_t count);
   /// `count` SPLITs or hand-offs reached the rank that holds their subdomain, and are now that rank's own work.
   void work_handled(std::int64_t count);
   void control_sent() { ++control_; }
   void control_received() { --control_; }
 
-  /// Copies of these messages that arrive again are ignored. Throws ProtocolError for one that cannot be due.
+  /// Duplicates of these messages are ignored. Throws ProtocolError for one that is not due.
   void receive(Rank source, const Token& token);
   void receive(Rank source, const Terminate& terminate);
   void receive(Rank source, const Finish& finish);
 
-  /// What to send on, if anything, given whether the rank is passive at this moment: no work of its own, nothing
+  /// The message to pass on, if any, given whether the rank is passive at this moment: no work of its own, nothing
   /// received that is not handled, nothing held back, nothing in the aggregator. Call it again after each message.
   std::optional<Outgoing> advance(bool passive);
 

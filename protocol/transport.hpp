@@ -12,8 +12,8 @@ struct Received {
   Bytes bytes;
 };
 
-/// How one rank reaches the others. Every message arrives exactly once and unchanged; nothing is promised about order,
-/// not even between two ranks. tests/protocol/transport_contract.hpp is the contract, run against each implementation.
+/// Communication of one rank with the others. Every message arrives exactly once and unchanged; no order is guaranteed,
+/// not even between two ranks. tests/protocol/transport_contract.hpp is the contract, tested on each implementation.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -23,21 +23,20 @@ class Transport {
   [[nodiscard]] virtual Rank rank() const = 0;
   [[nodiscard]] virtual std::int32_t ranks() const = 0;
 
-  /// Sends `bytes` (none is allowed) and returns without waiting for anybody. A rank may send to itself. Throws
-  /// LimitError for a destination that does not exist or a message too long for the transport.
+  /// Sends `bytes` (may be empty) and returns without waiting. A rank may send to itself. Throws LimitError for a
+  /// destination that does not exist or a message too long for the transport.
   virtual void send(Rank destination, Bytes bytes) = 0;
 
-  /// A message that has arrived, if any. Returns without waiting.
+  /// An arrived message, if any. Returns without waiting.
   virtual std::optional<Received> poll() = 0;
 
-  /// A hint that this rank has nothing to do until a message arrives: lets others have the core.
+  /// A hint that this rank has nothing to do until a message arrives: yields the core to others.
   virtual void idle() = 0;
 
-  /// Seconds since some moment in the past, never going back; on simulated ranks, of simulated time.
+  /// Monotonic time in seconds since some moment in the past; simulated time on simulated ranks.
   [[nodiscard]] virtual double now() const = 0;
 
-  /// States that work was done which a rank of the reference machine needs `seconds` for. Real time passes by itself
-  /// and makes this a no-op; simulated time passes by it.
+  /// Accounts for work that takes `seconds` on the reference machine. A no-op in real time; advances simulated time.
   virtual void spend(double seconds) { static_cast<void>(seconds); }
 
  protected:

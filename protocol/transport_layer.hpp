@@ -7,7 +7,7 @@
 
 namespace driftmesh::protocol {
 
-/// Another transport as it is; what derives from it changes, or looks at, what passes. For tests.
+/// Forwards to another transport; derived classes change or observe the messages. For tests.
 class TransportLayer : public Transport {
  public:
   /// `inner` must outlive this one.

@@ -11,14 +11,14 @@
 
 namespace driftmesh::protocol {
 
-/// One direction of the way between two ranks.
+/// One direction of the connection between two ranks.
 struct Link {
   double latency = 50e-6;  ///< seconds
-  double bandwidth = 1e9;  ///< bytes a second
+  double bandwidth = 1e9;  ///< bytes per second
 };
 
-/// A cluster that need not exist. Message costs follow the LogGP model (Alexandrov et al. 1995): a sender is busy for
-/// the overhead, its messages leave one after the other at the bandwidth, and arrive a latency later; the receiver
+/// A simulated cluster. Message costs follow the LogGP model (Alexandrov et al. 1995): a sender is busy for the
+/// overhead, its messages leave one after the other at the given bandwidth and arrive one latency later; the receiver
 /// pays the overhead again.
 struct VirtualCluster {
   IdVector<Rank, double> speeds;                 ///< of each rank, relative to the reference machine
@@ -28,9 +28,9 @@ struct VirtualCluster {
   std::uint64_t step_limit = UINT64_MAX;
 };
 
-/// Ranks in one process and on one thread, each with a clock of its own that advances by what it spends and by
-/// waiting. The rank whose clock is furthest behind steps next, so a message sent at a moment is there for every poll
-/// at later moments. Within a step, poll before spending: what others send during the step is not known to it.
+/// Ranks in one process and on one thread, each with a clock of its own that advances by what it spends and by waiting.
+/// The rank whose clock is furthest behind steps next, so a message sent at some moment is available to every poll at
+/// later moments. Within a step, poll before spending: messages that others send during the step are not visible to it.
 class VirtualNetwork {
  public:
   /// One rank for each entry of `cluster.speeds`. Throws Error for speeds, overheads that are not above 0.
@@ -41,7 +41,7 @@ class VirtualNetwork {
 
   [[nodiscard]] Transport& transport(Rank rank);
 
-  /// Steps the ranks until all have finished or none can go on. What a step throws ends the run.
+  /// Steps the ranks until all have finished or none can go on. An exception thrown by a step ends the run.
   RunResult run(IdSpan<Rank, const RankStep> steps);
 
   [[nodiscard]] double clock(Rank rank) const { return ranks_[rank].clock; }    ///< seconds

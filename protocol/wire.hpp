@@ -17,11 +17,11 @@
 #include "dyadic/path.hpp"
 #include "protocol/protocol_error.hpp"
 
-/// What codecs of messages are made of. One description of each layout serves both directions: fields(archive, message)
-/// hands the archive one field after the other; a WireWriter appends them, a WireReader fetches and checks them.
+/// Building blocks of message codecs. One description of each layout serves both directions: fields(archive, message)
+/// passes the fields to the archive in order; a WireWriter appends them, a WireReader extracts and checks them.
 namespace driftmesh::protocol {
 
-/// What numbers in a message may name: all below these, none negative.
+/// Upper limits of the IDs in a message; none may be negative.
 struct WireLimits {
   std::int32_t ranks = 0;
   std::int32_t subdomains = 0;
@@ -64,8 +64,8 @@ class WireWriter {
   ByteWriter out_;
 };
 
-/// Throws Error for what no WireWriter has written, or what is out of range. No length is believed before the bytes for
-/// it are known to be there.
+/// Throws Error for data that no WireWriter has written, or that is out of range. No length is trusted before the bytes
+/// for it are known to be there.
 class WireReader {
  public:
   WireReader(std::span<const std::byte> bytes, const WireLimits& limits) : in_(bytes), limits_(limits) {}
@@ -80,7 +80,7 @@ class WireReader {
   void path(dyadic::Path& value) {
     number(value);
     if (value == 0 || dyadic::depth(value) > dyadic::kMaxDepth)
-      throw Error("split path " + std::to_string(value) + " is none, or deeper than " +
+      throw Error("split path " + std::to_string(value) + " is invalid, or deeper than " +
                   std::to_string(dyadic::kMaxDepth));
   }
   void flag(bool& value) {
@@ -88,7 +88,7 @@ class WireReader {
     if (byte > 1) throw Error("flag of value " + std::to_string(byte));
     value = byte == 1;
   }
-  /// One of an enumeration over bytes that begins at 0.
+  /// A value of a byte enumeration that starts at 0.
   template <class Enum>
   void choice(Enum& value, Enum last) {
     const auto byte = in_.number<std::uint8_t>();
@@ -107,7 +107,7 @@ class WireReader {
   void list(std::vector<T>& items, std::size_t bytes_each, const Fields& fields) {
     const auto count = in_.number<std::uint32_t>();
     if (count > in_.left() / bytes_each)
-      throw Error("it announces " + std::to_string(count) + " items, and " + std::to_string(in_.left()) +
+      throw Error("it announces " + std::to_string(count) + " items, but " + std::to_string(in_.left()) +
                   " bytes follow");
     items.resize(count);
     for (T& item : items) fields(*this, item);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The whole way on one input: builds driftmesh, generates a bay with islands, meshes it coarsely, finely and on two
-# ranks, has the meshes checked against the input, and draws them.
+# A complete example: builds driftmesh, generates a bay with islands, meshes it coarsely, finely and on two
+# ranks, checks the meshes against the input, and plots them.
 #   scripts/demo.sh [FOLDER]        (default: demo/ in the project)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
@@ -44,7 +44,7 @@ driftmesh plot bay.vtu -o bay.png
 driftmesh plot bay.vtu -o bay.svg
 driftmesh plot bay.vtu --box 43000,17000,52000,25000 -o bay-detail.png
 
-say "Fine everywhere: no triangle larger than 1,000 square metres"
+say "Fine everywhere: no triangle larger than 1,000 square meters"
 driftmesh mesh bay.poly --area 1000 --angle 20 -o bay-fine.vtu
 driftmesh check bay-fine.vtu bay.poly --area 1000 --angle 20 --quiet
 driftmesh plot bay-fine.vtu -o bay-fine.png

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A million adversarial schedules of real meshing with driftmesh-sim, on all cores: says which seeds fail, and in sums what
-# the schedules did. The exit code is 0 if none fails.
+# A million adversarial schedules of real meshing with driftmesh-sim, on all cores: prints the failing seeds, and totals of
+# what the schedules did. The exit code is 0 if none fails.
 #   scripts/nightly.sh [--seeds FIRST..LAST] [--program PATH]      --program: no build first
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
@@ -39,7 +39,7 @@ fi
 logs=$(mktemp -d)
 trap 'rm -rf "$logs"' EXIT
 
-# Parts small enough that all cores finish together; each ends with its sums.
+# Parts small enough that all cores finish together; each ends with its totals.
 part=2000
 say "Seeds $first to $last on $jobs cores"
 result=0
@@ -49,7 +49,7 @@ for ((begin = first; begin <= last; begin += part)); do
 done | xargs -P "$jobs" -I{} sh -c '"$0" --seeds {} >"$1/{}"' "$program" "$logs" || result=1
 cat "$logs"/* | grep -A1 '^seed [0-9]' || true
 
-# Each item of the sums is a number and what it counts.
+# Each total is a number and what it counts.
 say "What was done"
 awk -F '[,;] ' '
   /^seeds / { split($0, words, " "); schedules += words[4] - words[2] + 1; failed += words[5]; next }

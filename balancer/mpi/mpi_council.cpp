@@ -12,7 +12,7 @@ MpiCouncil::MpiCouncil(protocol::MpiTransport& transport, std::shared_ptr<const 
                        std::shared_ptr<const Policy> policy, const ControllerOptions& options)
     : transport_(transport), layout_(std::move(layout)), policy_(std::move(policy)), options_(options) {}
 
-// What every rank tells, one rank after the other.
+// The contributions of all ranks, concatenated in rank order.
 template <class T>
 std::vector<T> MpiCouncil::from_all(const std::vector<T>& own) {
   ByteWriter writer;

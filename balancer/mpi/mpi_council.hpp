@@ -9,7 +9,7 @@
 
 namespace driftmesh::balancer {
 
-/// The council of real ranks: each plans for what it owns while the others do the same, on the communicator of a
+/// The council of real ranks, which plan at the same time, each for its own subdomains, on the communicator of a
 /// transport.
 class MpiCouncil final : public Council {
  public:
@@ -31,7 +31,7 @@ class MpiCouncil final : public Council {
   ControllerOptions options_;
 };
 
-/// What ranks need for plans of this policy: null if it does not make all of them plan together.
+/// The council for plans of this policy; null if it does not plan collectively.
 [[nodiscard]] std::unique_ptr<Council> make_mpi_council(protocol::MpiTransport& transport,
                                                         std::shared_ptr<const Layout> layout,
                                                         std::shared_ptr<const Policy> policy,

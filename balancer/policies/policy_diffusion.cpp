@@ -9,13 +9,13 @@
 namespace driftmesh::balancer {
 namespace {
 
-// Who owns a subdomain, as far as the snapshot tells; else who did at the start.
+// The owner of a subdomain by the snapshot, otherwise its initial owner.
 Rank owner_of(const LoadSnapshot& snapshot, SubdomainId id) {
   const SubdomainLoad* const known = find(snapshot, id);
   return known ? known->owner : (*snapshot.layout)[id].owner;
 }
 
-/// The ranks that each rank touches with a subdomain that is listed, in ascending order.
+/// For each rank, the ranks adjacent to its listed subdomains, in ascending order.
 IdVector<Rank, std::set<Rank>> touching_ranks(const LoadSnapshot& snapshot) {
   IdVector<Rank, std::set<Rank>> touching(snapshot.ranks.size());
   for (const SubdomainLoad& s : snapshot.subdomains)
@@ -46,8 +46,8 @@ class Round {
  private:
   [[nodiscard]] double time(Rank r) const { return snapshot_.ranks[r].remaining / speeds_[r]; }
 
-  // What flows in this round, in triangles: so little that a rank to which all its neighbors send does not get more
-  // than evens it out.
+  // The flow in this round, in triangles: small enough that a rank does not become overloaded even if all its neighbors
+  // send to it.
   [[nodiscard]] double flow(Rank from, Rank to) const {
     const auto degree = std::max(touching_[from].size(), touching_[to].size());
     return rate_ * std::max(0.0, time(from) - time(to)) * std::min(speeds_[from], speeds_[to]) /
@@ -62,7 +62,7 @@ class Round {
     for (const Rank r : touching_[other])
       if (r != self_) from_others += flow(r, other);
     for (const SubdomainLoad& s : easiest_first(other)) {
-      // A flow that is smaller than any subdomain is rounded up if that still evens out, whatever the others send.
+      // A flow smaller than any subdomain is rounded up if that still evens out, whatever the others send.
       const double then = time(other) + (from_others + sent + s.remaining) / speeds_[other];
       const bool rounded_up = sent == 0 && then < (remaining_ - s.remaining) / speeds_[self_];
       if (sent + s.remaining > wanted && !rounded_up) continue;
@@ -105,8 +105,8 @@ class Round {
 };
 
 /// Work flows from a rank to the ranks that its subdomains touch and that would finish earlier, in proportion to the
-/// difference (first-order diffusion, Cybenko 1989, for ranks of different speeds as by Elsaesser, Monien and Preis
-/// 2002). Differences below some subdomains' worth remain.
+/// difference (first-order diffusion, Cybenko 1989; for ranks of different speeds, Elsaesser, Monien and Preis 2002).
+/// Imbalances of a few subdomains remain.
 class Diffusion final : public Policy {
  public:
   explicit Diffusion(double rate) : rate_(rate) {}

@@ -9,8 +9,8 @@
 
 namespace driftmesh::balancer {
 
-/// The policy of that name (see policy_names), with the parameters that a user wrote (each policy's file reads its
-/// own). An unknown name, parameter or value is an InputError that says what was probably meant.
+/// The policy of that name (see policy_names), with the user's parameters (read in each policy's file). An unknown
+/// name, parameter or value is an InputError that suggests the nearest valid one.
 [[nodiscard]] std::unique_ptr<Policy> make_policy(const std::string& name, const Parameters::Values& values = {});
 
 }  // namespace driftmesh::balancer

@@ -7,7 +7,7 @@
 namespace driftmesh::balancer {
 namespace {
 
-/// Deals what ranks have too much of to those that would finish it first. Looks at work and speed, not at borders.
+/// Moves surplus work to the ranks that would finish it first. Considers work and speed, not borders.
 class Greedy final : public Policy {
  public:
   explicit Greedy(double tolerance) : tolerance_(tolerance) {}

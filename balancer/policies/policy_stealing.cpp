@@ -7,9 +7,9 @@
 namespace driftmesh::balancer {
 namespace {
 
-/// A rank whose work will be done within `low_water` seconds asks for more. It gets it from the rank that will finish
-/// last, which gives of what it has as long as the asking rank would finish that earlier than the giver would. (Work
-/// stealing as in PREMA's load balancing library, Barker et al. 2004, weighed with speeds.)
+/// A rank whose work will be done within `low_water` seconds asks for more. It gets some from the rank that would
+/// finish last, which gives work as long as the thief would finish it earlier than the giver. (Work stealing as in
+/// PREMA's load balancing library, Barker et al. 2004, weighted by speed.)
 class Stealing final : public Policy {
  public:
   explicit Stealing(double low_water) : low_water_(low_water) {}

@@ -10,15 +10,16 @@
 namespace driftmesh::balancer {
 namespace {
 
-/// Parts by Zoltan, as large as the ranks are fast: compact, and where the approach is repartition or refine, near to
-/// what there is. Where only little is out of balance, single subdomains are dealt instead of new parts.
+/// Parts by Zoltan, in proportion to the speeds of the ranks: compact and, with the approach repartition or refine,
+/// close to the current distribution. Small imbalances are fixed by moving single subdomains instead of making new
+/// parts.
 class ZoltanPolicy final : public Policy {
  public:
   ZoltanPolicy(ZoltanParameters parameters, Placement placement, double touch_up, const Dealing& dealing)
       : parameters_(std::move(parameters)), placement_(placement), touch_up_(touch_up), dealing_(dealing) {}
 
   [[nodiscard]] Placement placement() const override { return placement_; }
-  // A touch-up is nothing but dealing.
+  // A touch-up only deals single subdomains.
   [[nodiscard]] Dealing dealing(const LoadSnapshot& own) const override {
     return {dealing_.polish || wants_touch_up_alone(own), dealing_.tolerance};
   }
@@ -38,7 +39,7 @@ class ZoltanPolicy final : public Policy {
   }
 
  private:
-  // By the states of ranks, which are equal everywhere.
+  // Depends only on the states of ranks, which are equal everywhere.
   [[nodiscard]] bool wants_touch_up_alone(const LoadSnapshot& snapshot) const {
     return finishing_time(snapshot) <= (1 + touch_up_) * ideal_time(snapshot);
   }
@@ -62,13 +63,13 @@ std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
       {"LB_METHOD", upper_case(parameters.choice("method", {"graph", "rcb", "hsfc", "hypergraph"}))},
       {"LB_APPROACH", upper_case(parameters.choice("approach", {"repartition", "partition", "refine"}))},
       {"IMBALANCE_TOL", "1.03"},
-      // Edges that hold much of a small graph are not left out: nothing would be left.
+      // Do not omit dense hyperedges: in a small graph, none would be left.
       {"PHG_EDGE_SIZE_THRESHOLD", "1.0"},
       {"SEED", std::to_string(parameters.integer("seed", 1, 0, INT32_MAX))}};
-  // Graphs by Zoltan's own partitioner, which is in every build of it.
+  // Partition graphs with Zoltan's own partitioner, available in every build.
   if (all["LB_METHOD"] == "GRAPH") all["GRAPH_PACKAGE"] = "PHG";
   for (const auto& [name, value] : parameters.any_of(zoltan_parameter_names())) {
-    if (!zoltan_accepts(name, value)) parameters.fail(name, value, "Zoltan's user guide says what it takes");
+    if (!zoltan_accepts(name, value)) parameters.fail(name, value, "Zoltan's user guide lists valid values");
     all[name] = value;
   }
   const bool collective = parameters.choice("placement", {"leader", "collective"}) == "collective";

@@ -14,7 +14,7 @@ SimulatedCouncil::SimulatedCouncil(std::shared_ptr<const Layout> layout, std::sh
                                    const ControllerOptions& options)
     : layout_(std::move(layout)), policy_(std::move(policy)), options_(options) {}
 
-// A subdomain may have moved since its former owner announced itself: it is listed once.
+// A subdomain may have moved since its former owner announced it: list it only once.
 void SimulatedCouncil::announce(std::uint32_t round, const Contribution& contribution) {
   last_ = std::max(last_, round);
   Round& at = rounds_[round];
@@ -23,7 +23,7 @@ void SimulatedCouncil::announce(std::uint32_t round, const Contribution& contrib
   for (const SubdomainLoad& s : own.own) at.listed.erase(s.id);
   own = contribution;
   std::erase_if(own.own, [&](const SubdomainLoad& s) { return !at.listed.insert(s.id).second; });
-  // Who has announced itself here decides in no earlier round any more.
+  // A rank announced here no longer decides in an earlier round.
   if (at.contributions.size() == to_index(layout_->ranks)) rounds_.erase(rounds_.begin(), rounds_.find(round));
 }
 
@@ -42,7 +42,7 @@ bool SimulatedCouncil::in_session() const {
   return last != rounds_.end() && (!last->second.decided || last->second.decisions.contains(Rank{0}));
 }
 
-// Parts are made for all at once, and given to each rank for what it listed.
+// Parts are made for all ranks at once; each rank gets those of its listed subdomains.
 std::vector<std::vector<Part>> SimulatedCouncil::parts_of(const std::vector<Contribution>& contributions,
                                                           const IdVector<Rank, RankLoad>& states) const {
   LoadSnapshot all{layout_, {}, states};
@@ -69,7 +69,7 @@ void SimulatedCouncil::conclude_round(Round& round) const {
     contributions.push_back(contribution);
     states.push_back(contribution.state);
   }
-  // All ranks are here: what they tell is what all have told.
+  // All ranks are here: their contributions are those of all ranks.
   auto decisions =
       plan_jointly(contributions, parts_of(contributions, states), states, policy_->dealing({layout_, {}, states}),
                    options_, [](const auto& told) { return told; });

@@ -10,8 +10,7 @@
 
 namespace driftmesh::balancer {
 
-/// The council of ranks that live in one process, all of which share it. Nobody waits: what is decided follows from
-/// what they had to do when they announced themselves.
+/// The council shared by all ranks of one process. Nobody waits: decisions follow from the loads announced.
 class SimulatedCouncil final : public Council {
  public:
   SimulatedCouncil(std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
@@ -20,15 +19,15 @@ class SimulatedCouncil final : public Council {
   void announce(std::uint32_t round, const Contribution& contribution) override;
   [[nodiscard]] Decision decide(std::uint32_t round, const Contribution& contribution) override;
 
-  /// Whether a round was begun that rank 0, which calls all together, has not decided in. Others may have heard of its
-  /// start too late, after the end of all work or the call to the next round; real ranks would be waited for.
+  /// Whether rank 0, which calls the rounds, has not decided in a round that was started. Other ranks may have learned
+  /// of its start too late, after the end of all work or the call to the next round; real ranks would be waited for.
   [[nodiscard]] bool in_session() const;
 
  private:
   struct Round {
     std::map<Rank, Contribution> contributions;
     std::unordered_set<SubdomainId> listed;
-    std::map<Rank, Decision> decisions;  // not fetched yet
+    std::map<Rank, Decision> decisions;  // not yet fetched
     bool decided = false;
   };
   void conclude_round(Round& round) const;
@@ -42,7 +41,7 @@ class SimulatedCouncil final : public Council {
   std::uint32_t last_ = 0;
 };
 
-/// What simulated ranks need for plans of this policy: null if it does not make all of them plan together.
+/// The council of simulated ranks for plans of this policy; null if it does not plan collectively.
 [[nodiscard]] std::unique_ptr<SimulatedCouncil> make_simulated_council(std::shared_ptr<const Layout> layout,
                                                                        std::shared_ptr<const Policy> policy,
                                                                        const ControllerOptions& options);

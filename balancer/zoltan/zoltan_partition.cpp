@@ -17,7 +17,7 @@ namespace {
 
 using Ids = ZOLTAN_ID_PTR;
 
-// Zoltan initializes MPI if that was not done; who starts it also ends it.
+// Zoltan initializes MPI if necessary; whoever initializes it also finalizes it.
 void initialize_once() {
   static const bool done = [] {
     int mpi_was_there = 0;
@@ -30,7 +30,7 @@ void initialize_once() {
   static_cast<void>(done);
 }
 
-/// A Zoltan object, freed with it: after MPI_Finalize it would abort.
+/// Owns a Zoltan object; freeing one after MPI_Finalize would abort.
 class Zoltan {
  public:
   explicit Zoltan(MPI_Comm communicator) {
@@ -51,8 +51,7 @@ class Zoltan {
   Zoltan_Struct* zoltan_ = nullptr;
 };
 
-/// Which process has a subdomain, for all processes of a communicator: none has it all, each asks together with the
-/// others.
+/// A distributed directory of the processes that have each subdomain. All calls are collective.
 class Whereabouts {
  public:
   explicit Whereabouts(MPI_Comm communicator) {
@@ -67,9 +66,9 @@ class Whereabouts {
   void enter(std::vector<ZOLTAN_ID_TYPE> ids) {
     const int result =
         Zoltan_DD_Update(directory_, ids.data(), nullptr, nullptr, nullptr, static_cast<int>(ids.size()));
-    if (result != ZOLTAN_OK) throw Error("Zoltan's directory takes no subdomains");
+    if (result != ZOLTAN_OK) throw Error("Zoltan's directory rejected subdomains");
   }
-  /// Of each of them, or -1 where no process has it: Zoltan warns of those.
+  /// The process of each subdomain, or -1 if none has it: Zoltan warns of those.
   [[nodiscard]] std::vector<int> find(std::vector<ZOLTAN_ID_TYPE> ids) {
     std::vector<int> processes(ids.size(), -1);
     const int result = Zoltan_DD_Find(directory_, ids.data(), nullptr, nullptr, nullptr, static_cast<int>(ids.size()),
@@ -82,13 +81,13 @@ class Whereabouts {
   Zoltan_DD_Struct* directory_ = nullptr;
 };
 
-/// What Zoltan asks for: the listed subdomains as vertices of a graph, with edges to all neighbors that are listed,
-/// here or on another process.
+/// The input for Zoltan: the listed subdomains as vertices of a graph, with edges to all listed neighbors, here or on
+/// another process.
 struct Graph {
   const LoadSnapshot* snapshot;
   IdVector<ZOLTAN_ID_TYPE, int> first{0};  // edges of vertex i: first[i] up to first[i + 1]
   IdVector<int, ZOLTAN_ID_TYPE> target;
-  IdVector<int, int> process;  // that has the target
+  IdVector<int, int> process;  // of the target
   IdVector<int, float> weight;
 
   explicit Graph(const LoadSnapshot& s) : snapshot(&s) {}
@@ -122,7 +121,7 @@ const Graph& graph_of(void* data) {
   return *static_cast<const Graph*>(data);
 }
 
-// Zoltan's questions. Global ids are the numbers of subdomains, local ones indices into the list of the snapshot.
+// Zoltan's query functions. Global IDs are subdomain IDs, local IDs are indices into the list of the snapshot.
 
 int count_objects(void* data, int* error) {
   *error = ZOLTAN_OK;
@@ -134,7 +133,8 @@ void list_objects(void* data, int, int, Ids global, Ids local, int, float* weigh
   for (int i = 0; i < graph.size(); ++i) {
     local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
     global[i] = static_cast<ZOLTAN_ID_TYPE>(graph.at(local[i]).id);
-    weights[i] = static_cast<float>(std::max(1.0, graph.at(local[i]).remaining));  // none is nothing to Zoltan's curves
+    weights[i] =
+        static_cast<float>(std::max(1.0, graph.at(local[i]).remaining));  // Zoltan's curves do not accept zero weights
   }
   *error = ZOLTAN_OK;
 }
@@ -182,7 +182,7 @@ void list_edges(void* data, int, int, int count, Ids, Ids local, int*, Ids targe
   *error = ZOLTAN_OK;
 }
 
-// As a hypergraph: for each subdomain an edge of it and its neighbors, because each of these hears of its points.
+// As a hypergraph: one hyperedge for each subdomain and its neighbors, since all of these receive its points.
 
 void hypergraph_size(void* data, int* lists, int* pins, int* format, int* error) {
   const Graph& graph = graph_of(data);
@@ -231,7 +231,7 @@ void set_part_sizes(Zoltan_Struct* zoltan, const LoadSnapshot& snapshot) {
   Zoltan_LB_Set_Part_Sizes(zoltan, 1, static_cast<int>(parts.size()), parts.data(), weight_index.data(), sizes.data());
 }
 
-/// What Zoltan_LB_Partition returns, freed with it.
+/// Owns the arrays that Zoltan_LB_Partition returns.
 struct Answer {
   int changes = 0, global_size = 0, local_size = 0, imports = 0, exports = 0;
   Ids import_global = nullptr, import_local = nullptr, export_global = nullptr, export_local = nullptr;
@@ -245,7 +245,8 @@ struct Answer {
   }
 };
 
-/// What both ways have in common: by all processes of `communicator`, of which each lists its own in `snapshot`.
+/// Common to both variants: partitions by all processes of `communicator`, each of which lists its own subdomains in
+/// `snapshot`.
 template <class ProcessOf>
 std::vector<Part> partition(MPI_Comm communicator, const LoadSnapshot& snapshot, const ZoltanParameters& parameters,
                             const ProcessOf& process_of) {
@@ -266,7 +267,7 @@ std::vector<Part> partition(MPI_Comm communicator, const LoadSnapshot& snapshot,
                              {"RETURN_LISTS", communicator == MPI_COMM_SELF ? "PARTS" : "EXPORT"}};
   all.insert(own.begin(), own.end());
   for (const auto& [name, value] : all)
-    if (!zoltan.set(name, value)) throw Error("Zoltan does not take " + name + " = " + value);
+    if (!zoltan.set(name, value)) throw Error("Zoltan rejects " + name + " = " + value);
   set_part_sizes(zoltan.get(), snapshot);
   Graph graph(snapshot);
   graph.add_edges(process_of);
@@ -277,10 +278,10 @@ std::vector<Part> partition(MPI_Comm communicator, const LoadSnapshot& snapshot,
       zoltan.get(), &answer.changes, &answer.global_size, &answer.local_size, &answer.imports, &answer.import_global,
       &answer.import_local, &answer.import_process, &answer.import_part, &answer.exports, &answer.export_global,
       &answer.export_local, &answer.export_process, &answer.export_part);
-  // A warning says that the parts are not as even as was asked for.
+  // A warning means that the parts are less balanced than requested.
   if (result != ZOLTAN_OK && result != ZOLTAN_WARN)
     throw Error("Zoltan cannot partition with LB_METHOD = " + all["LB_METHOD"] +
-                ", LB_APPROACH = " + all["LB_APPROACH"] + "; its message stands above");
+                ", LB_APPROACH = " + all["LB_APPROACH"] + "; see its message above");
   std::vector<Part> parts = present_parts(snapshot);
   for (int i = 0; i < answer.exports; ++i) parts[answer.export_local[i]] = Part{answer.export_part[i]};
   return parts;

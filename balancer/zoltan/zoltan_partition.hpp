@@ -6,23 +6,22 @@
 #include "driftmesh/load_snapshot.hpp"
 #include "driftmesh/policy.hpp"
 
-/// The only part of the project that knows Zoltan.
+/// The only part of the project that uses Zoltan.
 namespace driftmesh::balancer {
 
-/// The names of the parameters that Zoltan's partitioners read, but for those that zoltan_partition sets itself.
+/// The names of the parameters of Zoltan's partitioners, except those that zoltan_partition sets itself.
 [[nodiscard]] const std::vector<std::string>& zoltan_parameter_names();
 
-/// Whether Zoltan takes this parameter with this value. Some values it looks at only when it partitions.
+/// Whether Zoltan accepts this parameter value. It checks some values only when it partitions.
 [[nodiscard]] bool zoltan_accepts(const std::string& name, const std::string& value);
 
-/// The part, 0 .. ranks - 1, of each listed subdomain: parts are as large as the ranks' speeds relative to each other,
-/// measured in remaining work. It runs within this process and the same arguments give the same parts. Parts may be
-/// empty. Initializes MPI if nobody has. Throws Error if Zoltan fails.
+/// The part, 0 .. ranks - 1, of each listed subdomain: the remaining work of the parts is in proportion to the speeds
+/// of the ranks. Runs within this process; the same arguments give the same parts. Parts may be empty. Initializes MPI
+/// if necessary. Throws Error if Zoltan fails.
 [[nodiscard]] std::vector<Part> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters);
 
-/// The same by all processes of an MPI communicator, named by its Fortran handle, at the same time: each lists its own
-/// subdomains, no one is listed twice, and the states of ranks are equal everywhere. Returns the parts of `own`. Waits
-/// for the other processes.
+/// The same collectively by all processes of an MPI communicator, given by its Fortran handle: each lists its own
+/// subdomains, none is listed twice, and the states of ranks are equal everywhere. Returns the parts of `own`.
 [[nodiscard]] std::vector<Part> zoltan_partition(const LoadSnapshot& own, const ZoltanParameters& parameters,
                                                  int communicator);
 

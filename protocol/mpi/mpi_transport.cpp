@@ -17,15 +17,15 @@
 namespace driftmesh::protocol {
 namespace {
 
-constexpr int kTag = 0;  // of all messages: the communicator is ours alone
+constexpr int kTag = 0;  // of all messages: no one else uses the communicator
 
-// So many polls in a row that found nothing make a rank sleep instead of asking again at once.
+// After this many empty polls in a row, a rank sleeps before it polls again.
 constexpr int kPatience = 2000;
 constexpr std::chrono::microseconds kNap{20};
 
 constexpr std::size_t kBroadcastPart = std::size_t{1} << 30;  // MPI counts with an int
 
-/// Whether this call began MPI.
+/// Returns whether this call initialized MPI.
 bool begin_mpi(int* argc, char*** argv) {
   int initialized = 0, provided = 0;
   MPI_Initialized(&initialized);
@@ -48,7 +48,7 @@ int MpiSession::world() {
 }
 
 std::optional<Rank> MpiSession::launched_as() {
-  // Open MPI, MPICH and its kin, Slurm.
+  // Open MPI, MPICH and derivatives, Slurm.
   for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"})
     if (const char* rank = std::getenv(name)) return Rank{std::atoi(rank)};
   return std::nullopt;
@@ -165,13 +165,13 @@ class MpiTransport::Impl {
   }
 
  private:
-  // What several ranks have sent, one after the other.
+  // Contributions of several ranks, concatenated.
   struct Parts {
     std::vector<int> sizes, begin;
     Bytes bytes;
 
     explicit Parts(int count) : sizes(to_index(count)) {}
-    // Makes room, once the sizes are known.
+    // Allocates space once the sizes are known.
     void place() {
       std::size_t total = 0;
       for (const int size : sizes) {
@@ -217,7 +217,7 @@ class MpiTransport::Impl {
     return std::nullopt;
   }
 
-  // Starts to receive what has been announced, until something is there at once.
+  // Starts to receive announced messages until one completes immediately.
   std::optional<Received> next_announced() {
     for (;;) {
       int announced = 0, size = 0;
@@ -235,7 +235,7 @@ class MpiTransport::Impl {
     }
   }
 
-  // Frees the buffers of messages that have left. A completed request becomes MPI_REQUEST_NULL.
+  // Frees the buffers of sent messages. A completed request becomes MPI_REQUEST_NULL.
   void forget_sent() {
     sent_since_look_ = 0;
     if (requests_.empty()) return;
@@ -248,7 +248,7 @@ class MpiTransport::Impl {
       if (requests_[i] == MPI_REQUEST_NULL) continue;
       if (kept != i) {
         requests_[kept] = requests_[i];
-        sending_[kept] = std::move(sending_[i]);  // the bytes themselves stay where MPI reads them
+        sending_[kept] = std::move(sending_[i]);  // the bytes themselves are not moved
       }
       ++kept;
     }
@@ -270,7 +270,7 @@ class MpiTransport::Impl {
 
 MpiTransport::MpiTransport(int communicator) : impl_(std::make_unique<Impl>(communicator)) {}
 
-// MPI may still read the buffers of messages that are being sent: they are left to it.
+// MPI may still read the buffers of messages that are being sent: leak them.
 MpiTransport::~MpiTransport() {
   static_cast<void>(impl_.release());
 }

@@ -33,11 +33,11 @@ Call::Call(const Pslg& input, const MeshOptions& options, const balancer::Policy
 
 void Call::check(job::Place place) const {
   if (options_.balance.own && place != job::kRanks)
-    throw Error("MeshOptions::balance.own is for many ranks, and this process is alone; remove it");
+    throw Error("MeshOptions::balance.own is for many ranks, but this process is alone; remove it");
   if (options_.balance.own && options_.balance.policy != MeshOptions{}.balance.policy)
-    throw Error("MeshOptions::balance.own is given, and so is the name of another policy; remove one");
+    throw Error("MeshOptions::balance.own is given along with the name of another policy; remove one");
   if (options_.subdomains.given && options_.subdomains.count != 0)
-    throw Error("MeshOptions::subdomains.count does not go with a decomposition that is given; remove one");
+    throw Error("MeshOptions::subdomains.count cannot be combined with a given decomposition; remove one");
   job::check(request_, place, given_.policies);
 }
 

@@ -15,7 +15,7 @@
 
 namespace driftmesh {
 
-/// A size field that is a function of the caller's.
+/// A size field from a function of the caller.
 class FunctionField final : public SizeField {
  public:
   explicit FunctionField(const std::function<double(const Point&)>& function) : function_(function) {}
@@ -26,21 +26,21 @@ class FunctionField final : public SizeField {
   const std::function<double(const Point&)>& function_;
 };
 
-/// Tells the caller how the work goes on, and lets it cancel.
+/// Reports progress to the caller, and lets it cancel.
 class CallerWatch final : public job::Watch {
  public:
   explicit CallerWatch(const std::function<bool(const Progress&)>& progress) : progress_(progress) {}
-  /// Throws Cancelled if the caller does not want to go on.
+  /// Throws Cancelled if the caller cancels.
   void refining(std::int64_t triangles, double forecast) override;
 
  private:
   const std::function<bool(const Progress&)>& progress_;
 };
 
-/// A call of the library: the caller's options as the job takes them. Input and options outlive it.
+/// A call of the library: the caller's options in the form of the job. Input and options must outlive it.
 class Call {
  public:
-  /// `policies`: those that can be made by name where this is called.
+  /// `policies`: makes those available by name to this caller.
   Call(const Pslg& input, const MeshOptions& options, const balancer::PolicyMaker& policies = nullptr);
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
@@ -49,11 +49,11 @@ class Call {
   [[nodiscard]] const job::Given& given() const { return given_; }
   [[nodiscard]] job::Watch& watch() { return watch_; }
 
-  /// Whether subdomains are asked for.
+  /// Whether subdomains are requested.
   [[nodiscard]] bool in_subdomains() const { return request_.decomposition.subdomains > 0 || given_.decomposition; }
-  /// Throws Error for options that are out of range or mean nothing at this place.
+  /// Throws Error for options that are out of range or have no meaning at this place.
   void check(job::Place place) const;
-  /// The domain, prepared for a team. On rank 0. Throws what the job throws.
+  /// The domain prepared for a team, on rank 0. Throws like the job.
   [[nodiscard]] job::Order order_for(const job::Team& team, job::Place place);
 
  private:

@@ -45,13 +45,13 @@ void visit_options(const MeshOptions& o, job::Request& r, const Visit& visit) {
   visit("balance.gain", "balance.gain", b.gain, r.balance.gain);
 }
 
-/// The request that the options stand for. Nothing is checked.
+/// The request equivalent to the options. Nothing is checked.
 [[nodiscard]] job::Request request_of(const MeshOptions& options);
 
-/// The message of an error of the job, with members of MeshOptions in place of keys and of options of the command line.
+/// An error message of the job, with keys and command line options replaced by members of MeshOptions.
 [[nodiscard]] std::string in_words_of_options(const std::string& message);
 
-/// What `work` returns; errors that name keys or options come in the words of MeshOptions.
+/// Returns the result of `work`; errors that name keys or options are rephrased in terms of MeshOptions.
 template <class Work>
 auto with_words_of_options(const Work& work) {
   try {

@@ -35,7 +35,7 @@ Mesh in_subdomains(Call& call) {
   ExchangeRunner ranks(channel->transport());
   Mesh mesh = run.assemble(ranks).mesh;
   channel->close();
-  mesh.numbers.clear();  // of points of a piece, and this is the whole
+  mesh.numbers.clear();  // only for points of a piece; this is the whole mesh
   mesh.ranks.clear();
   return mesh;
 }

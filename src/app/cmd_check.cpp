@@ -35,7 +35,7 @@ struct CheckOptions {
   bool quiet = false;
 };
 
-/// Every piece for itself: the digest of the whole is the sum.
+/// Piece by piece: the digest of the whole mesh is the sum.
 std::vector<Mesh> read_and_digest(const CheckOptions& options) {
   std::vector<Mesh> pieces;
   if (is_in_pieces(options.mesh))

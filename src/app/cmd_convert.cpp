@@ -15,8 +15,7 @@ struct ConvertOptions {
   std::string output;
 };
 
-// Triangle's set of files has five names, a mesh in pieces has some too; writing one must not replace another that is
-// being read.
+// Triangle's file set and a mesh in pieces consist of several files; none of them may overwrite one being read.
 void refuse_to_overwrite_input(const ConvertOptions& options) {
   std::error_code ignored;
   for (const std::string& read : files_to_read(options.input))

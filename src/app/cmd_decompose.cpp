@@ -35,7 +35,7 @@ struct DecomposeCommand {
   bool quiet = false;
 };
 
-/// Prints repairs, unless nothing is to be printed.
+/// Prints repairs unless quiet.
 class RepairView final : public job::Watch {
  public:
   explicit RepairView(bool quiet) : quiet_(quiet) {}

@@ -36,7 +36,7 @@ void report(const Pslg& pslg, const std::string& file) {
                     pslg.holes.size()));
 }
 
-/// The command of a kind.
+/// The command for one kind.
 template <class Options>
 cli::Command kind(const std::string& name, const std::string& what, Pslg (*make)(const Options&)) {
   const auto request = std::make_shared<Asked<Options>>();

@@ -11,7 +11,7 @@
 namespace driftmesh::app {
 namespace {
 
-/// The help of the command that the words name, as `driftmesh generate bay --help` prints it.
+/// The help of the command named by the words, as printed by `driftmesh generate bay --help`.
 std::string help_of(const cli::Command& program, const std::vector<std::string>& words) {
   const cli::Command* command = &program;
   std::string name = program.name;
@@ -26,7 +26,7 @@ std::string help_of(const cli::Command& program, const std::vector<std::string>&
 }
 
 std::vector<std::string> names_of_all(const cli::Command& program) {
-  std::vector<std::string> names{"help"};  // the program does not have it yet
+  std::vector<std::string> names{"help"};  // not yet part of the program
   for (const cli::NamedCommand& named : cli::all_commands(program))
     if (named.command != &program) names.push_back(named.command->name);
   return names;

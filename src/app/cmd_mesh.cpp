@@ -18,7 +18,7 @@ struct MeshCommand {
   std::string config;
 };
 
-/// What the command line asks for, and the settings that it names.
+/// The request of the command line, and its settings file.
 int run(const MeshCommand& command) {
   const bool launched = protocol::MpiSession::launched_as().has_value();
   if (launched && is_standard_stream(command.config))

@@ -31,7 +31,7 @@ std::vector<std::string> words_of(const Names<Value>& names) {
   return words;
 }
 
-/// Stores what a name stands for.
+/// Stores the value that a name stands for.
 template <class Value>
 cli::Take into(Value& to, const Names<Value>& names) {
   return [&](const std::string& text) {
@@ -61,7 +61,7 @@ void read_box(const std::string& text, PlotOptions& plot) {
   plot.box = Box{{box[0], box[1]}, {box[2], box[3]}};
 }
 
-// A .node file without an .ele beside it is points alone.
+// A .node file without an .ele next to it contains only points.
 bool holds_input(const std::filesystem::path& path) {
   if (path.extension() != ".node") return path.extension() == ".poly";
   return !std::filesystem::exists(std::filesystem::path(path).replace_extension(".ele"));
@@ -81,7 +81,7 @@ std::string title_of(const std::string& input) {
 }
 
 void run_plot(const cli::Call& call, PlotCommand& command) {
-  if (call.has("size") && call.has("width")) throw cli::UsageError("--size says the width too: leave out --width");
+  if (call.has("size") && call.has("width")) throw cli::UsageError("--size includes the width: leave out --width");
   const std::filesystem::path input(command.input);
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
   if (command.plot.title.empty()) command.plot.title = title_of(command.input);
@@ -115,7 +115,7 @@ std::vector<cli::Option> plot_options(PlotCommand& command) {
            .take = into(command.plot.color, kColors)},
           {.name = "edges",
            .value = "WHEN",
-           .help = "Draw the edges of triangles: on, off or auto, which is where they can be seen",
+           .help = "Draw the edges of triangles: on, off or auto (where they are visible)",
            .standard = kEdges.front().first,
            .choices = words_of(kEdges),
            .take = into(command.plot.edges, kEdges)},

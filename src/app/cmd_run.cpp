@@ -41,7 +41,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(folder.string(), "cannot be made: " + error.message());
+  if (error) throw FileError(folder.string(), "cannot be created: " + error.message());
 }
 
 void write_lb_statistics(const ExperimentRun& run, const std::filesystem::path& folder) {
@@ -50,7 +50,7 @@ void write_lb_statistics(const ExperimentRun& run, const std::filesystem::path& 
   for (const std::string& text : lb_statistics(run)) write_file(folder / fmt::format("data.{}.json", rank++), text);
 }
 
-/// Shows the refinement of a run, and what a rank has to say.
+/// Shows the progress of a run, and messages of its ranks.
 class RunView final : public job::Watch {
  public:
   explicit RunView(ProgressLine& line) : line_(line) {}

@@ -4,8 +4,8 @@
 
 namespace driftmesh::app {
 
-// The commands of the program. What they run throws driftmesh::Error for what the user can mend: main prints its
-// message and exits with 1, or with 3 for a LimitError.
+// The commands of the program. They throw driftmesh::Error for errors that the user can fix: main prints the message
+// and exits with 1, or with 3 for a LimitError.
 
 [[nodiscard]] cli::Command mesh_command();
 [[nodiscard]] cli::Command check_command();
@@ -14,7 +14,7 @@ namespace driftmesh::app {
 [[nodiscard]] cli::Command generate_command();
 [[nodiscard]] cli::Command plot_command();
 [[nodiscard]] cli::Command run_command();
-/// These speak about the whole program, which must outlive them.
+/// These refer to the whole program, which must outlive them.
 [[nodiscard]] cli::Command config_command(const cli::Command& program);
 [[nodiscard]] cli::Command help_command(const cli::Command& program);
 

@@ -33,7 +33,7 @@ IdVector<SubdomainId, int> color_subdomains(const Decomposition& d) {
   return color;
 }
 
-/// The subdomains triangulated, in pieces of the plane that a picture can show.
+/// A triangulation of the subdomains for plotting.
 Mesh subdomains_as_mesh(const Decomposition& d) {
   Mesh piece;
   piece.points = d.points;

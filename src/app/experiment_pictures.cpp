@@ -36,7 +36,7 @@ ChartText text_of(const ExperimentRun& run, std::string title) {
 
 void draw_times(const ExperimentRun& run, const std::string& path) {
   StackedBars bars;
-  bars.text = text_of(run, "Where the time of each rank went");
+  bars.text = text_of(run, "Time of each rank");
   bars.text.x_label = "rank";
   bars.text.y_label = "seconds";
   bars.parts = {{"computing", kComputing, {}},
@@ -56,14 +56,14 @@ void draw_times(const ExperimentRun& run, const std::string& path) {
   plot_chart(bars, path);
 }
 
-/// Seconds of work that each rank has left, by what is expected, over time: the mean, and from the least to the most.
+/// Expected seconds of work left per rank over time: mean, minimum and maximum.
 void draw_load(const ExperimentRun& run, const std::string& path) {
   const ClusterRun& outcome = run.outcome;
   LineChart chart;
-  chart.text = text_of(run, "Work left on a rank, over time");
+  chart.text = text_of(run, "Work left per rank over time");
   chart.text.x_label = "seconds";
-  chart.text.y_label = "seconds of work, as expected";
-  LineChart::Curve band{"least to most of all ranks", {0.80, 0.86, 0.93}, {}, {}};
+  chart.text.y_label = "expected seconds of work";
+  LineChart::Curve band{"minimum to maximum of all ranks", {0.80, 0.86, 0.93}, {}, {}};
   LineChart::Curve mean{"mean", kComputing, {}, {}};
   IdVector<Rank, double> left(outcome.ranks.size(), 0);
   const auto take = [&](const LoadSample& s) { left[s.rank] = s.remaining / run.speeds[s.rank]; };
@@ -122,7 +122,7 @@ void draw_run(const ExperimentRun& run, const std::string& folder) {
 
 void draw_sweep(const ExperimentTable& table, const std::string& title, const std::string& folder) {
   LineChart::Curve efficiency{"efficiency", kComputing, {}, {}, true};
-  LineChart::Curve communication{"share of sending and polling", kSending, {}, {}, true};
+  LineChart::Curve communication{"fraction of sending and polling", kSending, {}, {}, true};
   for (const ExperimentTable::Row& row : table.rows()) {
     const std::optional<double> x = row.swept.size() == 1 ? number_of(row.swept[0].second) : std::nullopt;
     if (!x) return;
@@ -134,7 +134,7 @@ void draw_sweep(const ExperimentTable& table, const std::string& title, const st
   std::stable_sort(efficiency.points.begin(), efficiency.points.end(), by_x);
   std::stable_sort(communication.points.begin(), communication.points.end(), by_x);
   LineChart chart;
-  chart.text = {title, "triangles a second for the speed of the cluster, against the first run",
+  chart.text = {title, "triangles per second relative to cluster speed and first run",
                 table.rows().front().swept[0].first, ""};
   chart.logarithmic_x =
       efficiency.points.front().x > 0 && efficiency.points.back().x >= 10 * efficiency.points.front().x;

@@ -7,13 +7,13 @@
 
 namespace driftmesh::app {
 
-/// Draws a run: FOLDER/NAME-time.png (where the time of each rank went), -load.png (what was left to do over time),
-/// -owners-before.png, and, if subdomains moved, -owners-after.png and -moves.png (who moved, when, from where to
-/// where).
+/// Plots a run: FOLDER/NAME-time.png (how each rank spent its time), -load.png (work left over time),
+/// -owners-before.png and, if subdomains moved, -owners-after.png and -moves.png (which subdomain moved when, from
+/// which rank to which).
 void draw_run(const ExperimentRun& run, const std::string& folder);
 
-/// Draws FOLDER/sweep.png: time and efficiency over the key that was swept over. Nothing if it was not exactly one key,
-/// with numbers as values.
+/// Plots FOLDER/sweep.png: time and efficiency over the swept key. Does nothing unless exactly one key with numeric
+/// values was swept.
 void draw_sweep(const ExperimentTable& table, const std::string& title, const std::string& folder);
 
 }  // namespace driftmesh::app

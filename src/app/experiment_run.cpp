@@ -20,15 +20,15 @@ using config::Json;
 
 constexpr std::size_t kRecordedSamples = 200;  // of the load over time, in a record
 
-/// Triangles a second of real ranks in this run: one with the whole of its time is taken to be as fast as any other.
+/// Triangles per second of real ranks in this run, assuming that all ranks are equally fast without drag.
 IdVector<Rank, double> measured_speeds(const ClusterRun& run, IdVector<Rank, double> shares) {
-  double seconds = 0;  // that the work would have taken one rank
+  double seconds = 0;  // that one rank would have needed for the work
   for (const Rank r : ids_of(shares)) seconds += run.ranks[r].times.computing * shares[r];
   for (double& share : shares) share *= static_cast<double>(run.triangles()) / seconds;
   return shares;
 }
 
-/// Speeds of the ranks, as far as they are known before the run; of real ones the ratios alone.
+/// Speeds of the ranks as known before the run; for real ranks, only the ratios.
 IdVector<Rank, double> known_speeds(const job::Request& request, const RealCluster* cluster) {
   return cluster == nullptr ? speeds_of(job::cluster_of(request), {}) : job::shares_of_time(request, cluster->ranks());
 }
@@ -42,7 +42,7 @@ void run_real(ExperimentRun& run, RealCluster& cluster, job::Prepared&& prepared
   run.speeds = measured_speeds(run.outcome, run.speeds);
 }
 
-/// What is left to do on all ranks together, over time.
+/// The remaining work of all ranks together over time.
 Json load_json(const ClusterRun& outcome) {
   IdVector<Rank, double> remaining(outcome.ranks.size(), 0);
   double total = 0;
@@ -118,7 +118,7 @@ std::string chrome_trace(const ExperimentRun& run) {
                         {"ts", kMicro * (s.time - s.worked)},
                         {"dur", kMicro * s.worked},
                         {"args", {{"triangles", s.triangles}, {"to_be_made", s.remaining}}}});
-  // A move is two moments, which need a duration to be seen, and an arrow between them.
+  // A move is two events, which need a duration to be visible, and an arrow between them.
   for (std::size_t i = 0; i < run.outcome.moves.size(); ++i) {
     const MoveRecord& m = run.outcome.moves[i];
     const std::string name = "subdomain " + to_string(m.subdomain);

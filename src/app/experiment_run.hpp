@@ -21,13 +21,13 @@ struct ExperimentRun {
   job::Request request;
 
   RunPlan plan;                   ///< without a size field
-  IdVector<Rank, double> speeds;  ///< of the ranks, in triangles a second; of real ones, as they were in this run
+  IdVector<Rank, double> speeds;  ///< of the ranks, in triangles per second; for real ranks, measured in this run
   ClusterRun outcome;
   job::RunRecord record;
 };
 
-/// Makes the run that run.request describes, and fills in what came out: on `cluster` if it is one for real ranks, in
-/// virtual time otherwise.
+/// Makes the run described by run.request, and fills in the results: on `cluster` if it asks for real ranks, otherwise
+/// in virtual time.
 void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch);
 
 /// The slices of work of all ranks and the moves between them, as a Chrome trace, which https://ui.perfetto.dev opens.

@@ -14,7 +14,7 @@ namespace {
 using Row = ExperimentTable::Row;
 using Cells = std::vector<std::pair<std::string, std::string>>;  // column, value
 
-/// Where the time of all ranks went, as shares. What a rank waits after it has left the loop is idle too.
+/// How all ranks spent their time, as fractions. Waiting after a rank has left the loop is idle time too.
 RankTimes shares_of(const ClusterRun& outcome) {
   RankTimes sum;
   for (const RankOutcome& rank : outcome.ranks) {
@@ -31,7 +31,7 @@ RankTimes shares_of(const ClusterRun& outcome) {
   return sum;
 }
 
-/// Whether two runs are at the same point of the sweep but for the policy.
+/// Whether two runs are at the same point of the sweep except for the policy.
 bool same_but_policy(const Row& a, const Row& b) {
   return std::equal(a.swept.begin(), a.swept.end(), b.swept.begin(), b.swept.end(), [](const auto& x, const auto& y) {
     return x == y || (x.first == y.first && x.first == "balance.policy");
@@ -70,7 +70,7 @@ Cells all_cells(const Row& row, std::optional<double> recovered) {
   return cells;
 }
 
-/// `recovered`: what to say of it, if the table says anything of it.
+/// `recovered`: its text, if the table has this column.
 Cells telling_cells(const Row& row, bool repeated, const std::optional<std::string>& recovered) {
   Cells cells = swept_cells(row, repeated);
   const bool ranks_swept =

@@ -14,9 +14,9 @@ class ExperimentTable {
   /// A row for a run that has ended.
   void add(const ExperimentRun& run);
 
-  /// All figures, comma-separated; the first line names the columns (docs/experiments.md says what they are).
+  /// All figures, comma-separated; the first line names the columns (see docs/experiments.md).
   [[nodiscard]] std::string csv() const;
-  /// The most telling figures in Markdown, aligned, one line a run.
+  /// The most important figures in Markdown, aligned, one line per run.
   [[nodiscard]] std::string markdown() const;
 
   struct Row {
@@ -27,22 +27,22 @@ class ExperimentTable {
     std::size_t ranks = 0, subdomains = 0;
     std::int64_t triangles = 0;
     double seconds = 0;
-    double ideal_seconds = 0;  ///< if every rank computed from beginning to end
+    double ideal_seconds = 0;  ///< if every rank computed from start to end
     double rate = 0;           ///< triangles a second
-    double efficiency = 0;     ///< rate for the cluster's speed, against that of the first run
-    RankTimes times;           ///< of all ranks together, as shares of ranks x seconds
+    double efficiency = 0;     ///< rate relative to the cluster's speed, normalized by the first run
+    RankTimes times;           ///< of all ranks together, as fractions of ranks x seconds
     std::int64_t splits = 0, split_messages = 0, hand_offs = 0, hand_off_bytes = 0;
     std::uint64_t messages = 0, message_bytes = 0;
   };
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 
-  /// Of the time that perfect balance would save of the run that differs from this one in having no balancing, the
-  /// share that this run saves. Nothing if there is no such run, or nothing to save.
+  /// Of the time that perfect balance would save in the same run without balancing, the fraction that this run saves.
+  /// Empty if there is no such run, or nothing to save.
   [[nodiscard]] std::optional<double> recovered(const Row& row) const;
 
  private:
   std::vector<Row> rows_;
-  double first_rate_ = 0;  // for the cluster's speed
+  double first_rate_ = 0;  // relative to the cluster's speed
 };
 
 }  // namespace driftmesh::app

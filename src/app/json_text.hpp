@@ -5,8 +5,8 @@
 
 namespace driftmesh::app {
 
-/// JSON as a file holds it, by lines indented by so many blanks, or in one line (-1). What is no UTF-8, as names of
-/// files need not be, is replaced.
+/// JSON text, indented by this many blanks, or on one line (-1). Bytes that are not valid UTF-8, possible in file
+/// names, are replaced.
 template <class Json>
 [[nodiscard]] std::string json_text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";

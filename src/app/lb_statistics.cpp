@@ -14,9 +14,9 @@ namespace {
 using config::Json;
 
 constexpr double kSplitBytes = protocol::kSplitPointBytes;
-constexpr int kCollection = 1;  // that all subdomains belong to
+constexpr int kCollection = 1;  // the collection of all subdomains
 
-// vt's numbers of objects: two bits for the kind, sixteen for the rank they are at home on, the rest their own number.
+// vt's object IDs: two bits for the kind, sixteen for the home rank, the rest for the object's own number.
 constexpr std::int64_t kFixedObject = 1, kMovableObject = 3;
 std::int64_t object_id(std::int64_t number, Rank home, std::int64_t kind) {
   return number << 18 | std::int64_t{to_int(home)} << 2 | kind;
@@ -25,10 +25,10 @@ std::int64_t object_id(std::int64_t number, Rank home, std::int64_t kind) {
 /// What happened in one phase.
 struct Phase {
   std::map<SubdomainId, std::map<Rank, double>> worked;              // seconds
-  std::map<std::pair<SubdomainId, SubdomainId>, std::int64_t> told;  // points on interfaces, by from and to
-  IdVector<SubdomainId, Rank> holder;                                // at its end
+  std::map<std::pair<SubdomainId, SubdomainId>, std::int64_t> told;  // points on interfaces, by sender and receiver
+  IdVector<SubdomainId, Rank> holder;                                // at the end of the phase
 
-  /// Where a subdomain counts as a task.
+  /// The rank on which a subdomain counts as a task.
   [[nodiscard]] Rank place_of(SubdomainId s) const {
     const auto work = worked.find(s);
     if (work == worked.end()) return holder[s];
@@ -55,7 +55,7 @@ class Phases {
     }
   }
 
-  /// What each rank's file says of each phase.
+  /// The phases of each rank's file.
   [[nodiscard]] IdVector<Rank, Json> json() const {
     IdVector<Rank, Json> of_rank(run_.outcome.ranks.size(), Json::array());
     for (std::size_t p = 0; p < phases_.size(); ++p) {
@@ -73,7 +73,7 @@ class Phases {
     return std::min(static_cast<std::size_t>(std::max(time, 0.0) / length_), phases_.size() - 1);
   }
 
-  /// A slice of work, which may lie in several phases.
+  /// Adds a slice of work, which may span several phases.
   void add_work(const LoadSample& s) {
     const double begin = s.time - s.worked;
     const std::size_t last = phase_at(s.time);
@@ -94,7 +94,7 @@ class Phases {
             {"type", "object"}};
   }
 
-  // What describes a subdomain are attributes: of user_defined, if there is any, LBAF expects figures on memory.
+  // Describe the subdomain by attributes: LBAF expects memory figures in user_defined.
   [[nodiscard]] Json task(SubdomainId s, Rank rank, double seconds) const {
     const Decomposition::Subdomain& known = run_.plan.decomposition.subdomains[s];
     return {
@@ -105,7 +105,7 @@ class Phases {
         {"attributes", {{"x", known.centroid.x}, {"y", known.centroid.y}, {"predicted_triangles", known.predicted}}}};
   }
 
-  /// For what a rank did on subdomains that are tasks of others.
+  /// For a rank's work on subdomains that are tasks of other ranks.
   [[nodiscard]] static Json fixed_task(Rank rank, double seconds) {
     return {{"entity",
              {{"home", rank}, {"id", object_id(0, rank, kFixedObject)}, {"migratable", false}, {"type", "object"}}},
@@ -115,7 +115,7 @@ class Phases {
   }
 
   [[nodiscard]] IdVector<Rank, Json> phase_json(const Phase& phase) const {
-    // Where nothing was said, the list is empty: what checks that ends of communications are tasks asks for it.
+    // The list exists even if empty: the validator of communications requires it.
     IdVector<Rank, Json> of_rank(run_.outcome.ranks.size(),
                                  {{"id", 0}, {"tasks", Json::array()}, {"communications", Json::array()}});
     IdVector<Rank, double> elsewhere(of_rank.size(), 0);

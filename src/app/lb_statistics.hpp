@@ -7,10 +7,10 @@
 
 namespace driftmesh::app {
 
-/// A run in the form in which DARMA vt writes what its load balancers saw, and LBAF reads it: one JSON text a rank. The
-/// time of the run is divided into run.request.lb_phases equal phases. In each, every subdomain is a task of the
-/// rank where it worked longest, or of the one that holds it at the end if it did not work, with the seconds that it
-/// worked there. Seconds that subdomains worked elsewhere within the phase are a task that cannot move.
+/// A run in the format of DARMA vt's load balancing statistics, which LBAF reads: one JSON text per rank. The run time
+/// is divided into run.request.lb_phases equal phases. In each, every subdomain is a task on the rank where it worked
+/// longest, or that holds it at the end if it did not work, with the seconds that it worked there. Work of subdomains
+/// on other ranks within the phase is a task that cannot move.
 [[nodiscard]] std::vector<std::string> lb_statistics(const ExperimentRun& run);
 
 }  // namespace driftmesh::app

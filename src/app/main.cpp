@@ -50,13 +50,13 @@ cli::Command commands_of_program() {
               ".poly. What is printed goes to standard error while a file goes to standard output."};
 }
 
-/// Writes what is still in buffers.
+/// Flushes all buffers.
 int flushed(int code) {
   flush_standard_output();
   return code;
 }
 
-/// A process of mpirun other than rank 0: what it says is not shown, for rank 0 says the same.
+/// A process of mpirun other than rank 0: its output is suppressed, since rank 0 prints the same.
 class Follower {
  public:
   Follower() : errors_(std::cerr.rdbuf(said_.rdbuf())) { mute_standard_output(); }
@@ -64,8 +64,9 @@ class Follower {
   Follower(const Follower&) = delete;
   Follower& operator=(const Follower&) = delete;
 
-  /// Its exit code. An error before the ranks have met is usually everybody's: then rank 0 has said so, and mpirun ends
-  /// this process while it waits. Otherwise it is this one's alone, a file that is missing on this host perhaps.
+  /// Its exit code. An error before the ranks have met usually occurs on all of them: then rank 0 has reported it, and
+  /// mpirun ends this process while it waits. Otherwise only this process has it, perhaps because a file is missing on
+  /// this host.
   [[nodiscard]] int end(int code) const {
     if (code == 0) return 0;
     std::this_thread::sleep_for(std::chrono::seconds(5));

@@ -88,7 +88,7 @@ int mesh_in_one_piece(const Request& request, const std::string& command) {
 
 // ---- In subdomains ---------------------------------------------------------------------------------------------
 
-/// What rank 0 does before all others.
+/// The part of rank 0 before the others start.
 job::Order prepare_order(const Request& request, job::Place place, const job::Team& team, RunNotes& notes) {
   job::check_ranks(request, place, team.ranks());
   check_outputs_of(request, team.ranks());
@@ -135,7 +135,7 @@ void assemble_and_write(const Request& request, job::Team& team, std::optional<j
     ExchangeRunner ranks(channel->transport());
     const DistributedPiece piece = timed(notes, "assemble", [&] { return run->assemble(ranks); });
     const std::vector<Point> holes = run->holes();
-    run.reset();  // the subdomains are not needed any more
+    run.reset();  // the subdomains are no longer needed
     write_pieces(request, team, piece, ranks, holes, notes);
   });
   channel->close();
@@ -160,7 +160,7 @@ int mesh_on_ranks(const Request& request, const std::string& command) {
     mesh_in_subdomains(request, job::kRanks, command, team);
   } catch (const std::exception&) {
     if (team.leads()) throw;
-    return 0;  // all ranks have the error, and rank 0 says so
+    return 0;  // all ranks have the error, and rank 0 reports it
   }
   team.close();
   return 0;

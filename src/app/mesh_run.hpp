@@ -7,11 +7,9 @@
 
 namespace driftmesh::app {
 
-/// `driftmesh mesh`: makes the mesh that a (checked) request asks for at this place, writes and draws it, and reports.
-/// `command` repeats the run. Returns the exit code.
-///
-/// On many ranks, all processes call it. What rank 0 throws before the work begins ends all ranks in good order; later
-/// errors of any rank stop all of them with one message.
+/// `driftmesh mesh`: makes the mesh of a (checked) request at this place, writes and plots it, and reports. `command`
+/// repeats the run. Returns the exit code. With many ranks, collective. An exception on rank 0 before the work starts
+/// ends all ranks cleanly; later errors on any rank stop all of them with one message.
 [[nodiscard]] int run_mesh(const job::Request& request, job::Place place, const std::string& command);
 
 }  // namespace driftmesh::app

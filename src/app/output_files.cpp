@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Opens it as writing will, and lets go. Not what is no regular file: opening a pipe already does something.
+/// Tests whether a file can be opened for writing. Skips anything but regular files: opening a pipe has side effects.
 void try_to_open(const std::string& file) {
   std::error_code ignored;
   if (is_standard_stream(file)) return;
@@ -31,7 +31,7 @@ bool same_file(const std::string& a, const std::string& b) {
 void check_file(const std::string& file, const std::string& input) {
   for (const std::string& read : {input, fs::path(input).replace_extension(".node").string()})
     if (same_file(file, read))
-      throw InputError({file}, "this is the input, or beside it", "give the mesh another name");
+      throw InputError({file}, "would overwrite the input or its .node file", "give the mesh another name");
   try_to_open(file);
 }
 

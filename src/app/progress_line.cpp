@@ -36,7 +36,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 }  // namespace
 
-// What matters most comes first: a narrow terminal shows the beginning.
+// The most important part comes first: a narrow terminal shows only the beginning.
 std::string refining_words(std::int64_t triangles, double forecast, double seconds) {
   const double left = forecast - static_cast<double>(triangles), rate = static_cast<double>(triangles) / seconds;
   const bool forecast_holds = left > 0 && forecast < 1e15;
@@ -98,7 +98,7 @@ void ProgressLine::run(const std::stop_token& stop) {
   }
 }
 
-// Lines come as far from each other as the run is old.
+// The interval between lines is the age of the run.
 ProgressLine::Clock::duration ProgressLine::next_wait(Clock::time_point begin) const {
   if (rewrites_) return kEvery;
   return std::min<Clock::duration>(Clock::now() - begin, kLineAtLeastEvery);

@@ -12,10 +12,9 @@ namespace driftmesh::app {
 /// "refining  31 %  2 s left  3,400,000 of about 10,900,000 triangles  5.31 M/s"
 [[nodiscard]] std::string refining_words(std::int64_t triangles, double forecast, double seconds);
 
-/// Says on stderr what is going on and for how long, by a thread of its own, so that it shows also what reports
-/// nothing. A terminal shows one line, rewritten in place after half a second of silence. Anything else, such as the
-/// pipe that mpirun makes of stderr, gets a line after 5, 10, 20, 40 and 80 seconds and then every minute. Does nothing
-/// when it is not enabled.
+/// Shows progress on stderr from its own thread, so that stages that report nothing are shown too. A terminal shows one
+/// line, rewritten in place after half a second of silence. Anything else, such as the pipe that mpirun makes of
+/// stderr, gets a line after 5, 10, 20, 40 and 80 seconds and then every minute. Does nothing unless enabled.
 class ProgressLine {
  public:
   explicit ProgressLine(bool enabled);
@@ -23,9 +22,9 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Work of this name begins.
+  /// A stage of this name begins.
   void begin(const std::string& stage);
-  /// How far refinement is; the first call starts its clock.
+  /// Progress of refinement; the first call starts its clock.
   void refining(std::int64_t triangles, double forecast);
   /// Writes `text`, whole lines, to stderr without mixing the two.
   void write(const std::string& text);
@@ -40,7 +39,7 @@ class ProgressLine {
   void rewrite_line();
   void erase();
 
-  std::mutex mutex_;  // guards what follows, and stderr while the thread runs
+  std::mutex mutex_;  // guards the members below, and stderr while the thread runs
   std::condition_variable_any wake_;
   const bool rewrites_;
   std::string stage_;

@@ -11,9 +11,9 @@
 
 namespace driftmesh::app {
 
-/// The ranks that mpirun has started, or this process alone, and the runs that they make together. All processes of a
-/// job make one; then rank 0 says what is run, and the others serve. What ends a run ends it for all of them, and rank
-/// 0 has the error; what rank 0 throws between runs sends the others home.
+/// The ranks that mpirun has started, or this process alone, and their joint runs. All processes of a job construct
+/// one; then rank 0 decides what to run, and the others serve. An error ends a run on all ranks, and rank 0 gets it; an
+/// exception on rank 0 between runs ends the other ranks.
 class RealCluster {
  public:
   RealCluster();
@@ -25,7 +25,7 @@ class RealCluster {
   [[nodiscard]] std::int32_t ranks() const { return team_.ranks(); }
   [[nodiscard]] int ranks_on_machine() const { return team_.ranks_on_machine(); }
 
-  /// Rank 0: makes a run with all ranks. The record gets what they report; `watch` sees rank 0's part.
+  /// Rank 0: makes a run with all ranks. Their reports go into the record; `watch` sees rank 0's part.
   [[nodiscard]] ClusterRun run(job::Order&& order, job::RunRecord& record, job::Watch& watch);
 
   /// The other ranks: takes part in runs until rank 0 has no more.

@@ -24,7 +24,7 @@ std::vector<double> numbers_of(const Key& key, const std::string& text) {
   return numbers;
 }
 
-/// The value that one more word gives a key, which has `old`.
+/// The value of a key after one more word, given its `old` value.
 Value given_value(const Key& key, const std::string& text, const Value& old) {
   if (key.kind == Kind::kNumbers) return numbers_of(key, text);
   if (key.kind == Kind::kOutputs) {
@@ -44,7 +44,7 @@ Value given_value(const Key& key, const std::string& text, const Value& old) {
   return job::read_value(key, text);
 }
 
-/// What stands behind an option, once for each time that it is given.
+/// The arguments of an option, one for each time it is given.
 std::vector<std::string> words_of(const Value& value) {
   if (const auto* files = std::get_if<std::vector<std::string>>(&value)) return *files;
   if (const auto* text = std::get_if<std::string>(&value)) return {*text};
@@ -74,7 +74,7 @@ cli::Option::Completes completes(const Key& key) {
   return file ? cli::Option::Completes::kFile : cli::Option::Completes::kNothing;
 }
 
-/// Zero and nothing are said in the help of their keys, where they mean anything.
+/// Zero and empty defaults are explained in the help of their keys, if they mean anything.
 std::string shown_default(const Key& key) {
   const std::string text = job::text_of(key.standard);
   const bool tells = key.kind != Kind::kFlag && text != "0" && text != "\"\"" && text != "[]" && text != "{}" &&
@@ -82,7 +82,7 @@ std::string shown_default(const Key& key) {
   return tells ? text : "";
 }
 
-/// The text with options in place of the full names of keys that have one.
+/// The text with full names of keys replaced by their options.
 std::string in_words_of_options(std::string text) {
   constexpr const char* kOfNames = "abcdefghijklmnopqrstuvwxyz.-";
   for (const Key& key : job::keys()) {
@@ -131,7 +131,7 @@ std::vector<cli::Option> key_options(job::Door door, GivenKeys& given, const std
       try {
         static_cast<void>(given_value(key, text, key.standard));
       } catch (const KeyError& error) {
-        throw cli::UsageError(error.problem() + "; " + error.next());  // whoever parses puts the option before it
+        throw cli::UsageError(error.problem() + "; " + error.next());  // the parser prepends the option
       }
       given.items.push_back({&key, text});
     };

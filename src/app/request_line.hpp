@@ -11,7 +11,7 @@
 
 namespace driftmesh::app {
 
-/// The keys that a command line has given values, in their order, as its words.
+/// The keys given on a command line, in order, with their words.
 struct GivenKeys {
   struct Item {
     const job::Key* key = nullptr;
@@ -19,8 +19,8 @@ struct GivenKeys {
   };
   std::vector<Item> items;
 
-  /// Gives `request` these values. Lists and tables of a command line take the place of those that the request has.
-  /// Throws KeyError.
+  /// Stores these values in `request`. Lists and tables from a command line replace those of the request. Throws
+  /// KeyError.
   void apply(job::Request& request) const;
 };
 
@@ -28,13 +28,13 @@ struct GivenKeys {
 /// outlive them. `group` names the heading for all of them, in place of their own.
 [[nodiscard]] std::vector<cli::Option> key_options(job::Door door, GivenKeys& given, const std::string& group = "");
 
-/// Throws the error of a key in the words of its option, as a UsageError, or, if a YAML file has given the key, with
-/// its place there.
+/// Rethrows the error of a key in terms of its option, as a UsageError, or, if the key came from a YAML file, with its
+/// place there.
 [[noreturn]] void throw_with_option(const job::KeyError& error, const GivenKeys& given,
                                     const config::SourcePlaces& places);
 
-/// Does `work` on the request of a command line; KeyErrors in it become UsageErrors in the words of the options, or,
-/// for what a YAML file has given, InputErrors with its place there.
+/// Does `work` on the request of a command line; KeyErrors become UsageErrors in terms of the options or, for keys from
+/// a YAML file, InputErrors with the place there.
 template <class Work>
 void in_words_of_options(const GivenKeys& given, const config::SourcePlaces& places, const Work& work) {
   try {
@@ -44,11 +44,11 @@ void in_words_of_options(const GivenKeys& given, const config::SourcePlaces& pla
   }
 }
 
-/// The command line that asks for the same at a door: every key with an option whose value is not the default, quoted
-/// for a shell. `name` begins it: "driftmesh mesh".
+/// The command line for the same request at a door: every key with an option and a value other than the default, quoted
+/// for a shell. It starts with `name`: "driftmesh mesh".
 [[nodiscard]] std::string command_line_of(const std::string& name, const job::Request& request, job::Door door);
 
-/// A word as a POSIX shell reads it back.
+/// A word quoted for a POSIX shell.
 [[nodiscard]] std::string shell_quoted(const std::string& word);
 
 }  // namespace driftmesh::app

@@ -32,7 +32,7 @@ void RunNotes::stalled(const std::string& why) {
 
 void RunNotes::note_file(const std::string& file) {
   if (is_standard_stream(file)) return;
-  std::error_code unknown;  // of a pipe, or of a piece that the network file system does not show yet
+  std::error_code unknown;  // for a pipe, or a piece that the network file system does not show yet
   const std::uintmax_t size = std::filesystem::file_size(file, unknown);
   run.files.push_back({file, unknown ? 0 : size});
 }

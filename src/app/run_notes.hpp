@@ -9,12 +9,11 @@
 
 namespace driftmesh::app {
 
-/// What is noted and shown of a run of `driftmesh mesh` while it goes on: the stages with their times, progress, the
-/// record and its summary.
+/// Records and shows a run of `driftmesh mesh` in progress: the stages with their times, progress, the record and its
+/// summary.
 class RunNotes final : public job::Watch {
  public:
-  /// `command`: a command line that makes the same mesh. `silent`: this is a rank that shows nothing, whatever the
-  /// request says.
+  /// `command`: a command line that makes the same mesh. `silent`: this rank shows nothing, whatever the request says.
   RunNotes(const job::Request& request, std::string command, bool silent = false);
 
   job::RunRecord run;
@@ -26,7 +25,7 @@ class RunNotes final : public job::Watch {
   void stalled(const std::string& why) override;
 
   void note_file(const std::string& file);
-  /// The summary, and the record where one is asked for.
+  /// Prints the summary, and writes the record if requested.
   void finish();
 
  private:

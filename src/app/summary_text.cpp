@@ -40,10 +40,10 @@ void add_mesh(const RunRecord& run, Text out) {
                  counted(run.subsegments, "subsegment"));
   if (!run.complete) fmt::format_to(out, "             INCOMPLETE: stopped by {}\n", run.stopped_by);
   fmt::format_to(out, "angles       {:.4f} to {:.4f} degrees", run.shape.smallest, run.shape.largest);
-  if (run.min_angle > 0) fmt::format_to(out, "; asked for at least {}", run.min_angle);
+  if (run.min_angle > 0) fmt::format_to(out, "; at least {} requested", run.min_angle);
   fmt::format_to(out, "\nareas        {:.6g} to {:.6g}", run.shape.smallest_area, run.shape.largest_area);
-  if (run.max_area > 0) fmt::format_to(out, "; asked for at most {:.10g}", run.max_area);
-  fmt::format_to(out, "; {:.10g} in all\n", run.shape.total_area);
+  if (run.max_area > 0) fmt::format_to(out, "; at most {:.10g} requested", run.max_area);
+  fmt::format_to(out, "; {:.10g} in total\n", run.shape.total_area);
   if (!run.sizing.empty()) fmt::format_to(out, "edge length  {}\n", run.sizing);
 }
 
@@ -66,7 +66,7 @@ void add_exceptions(const RunRecord& run, Text out) {
 }
 
 void add_work(const RunRecord& run, Text out) {
-  if (run.seconds_refine > 0.02)  // below, the clock decides
+  if (run.seconds_refine > 0.02)  // below that, clock resolution dominates
     fmt::format_to(out, "refinement   {} triangles per second\n", rate_words(run.triangles_per_second()));
   fmt::format_to(out, "time         {}", duration_words(run.seconds));
   const char* separator = ":";
@@ -78,15 +78,15 @@ void add_work(const RunRecord& run, Text out) {
   const auto per_triangle = [&](std::uint64_t bytes) {
     return static_cast<double>(bytes) / static_cast<double>(std::max<std::int64_t>(1, run.triangles));
   };
-  fmt::format_to(out, "\nmemory       {} at most, while refining {}", bytes_words(run.peak),
+  fmt::format_to(out, "\nmemory       peak {}, while refining {}", bytes_words(run.peak),
                  bytes_words(run.peak_refining));
-  if (run.triangles >= 1'000'000)  // below, the program itself and its input weigh more
-    fmt::format_to(out, "; {:.1f} and {:.1f} bytes a triangle", per_triangle(run.peak),
+  if (run.triangles >= 1'000'000)  // below that, the program itself and its input dominate
+    fmt::format_to(out, "; {:.1f} and {:.1f} bytes per triangle", per_triangle(run.peak),
                    per_triangle(run.peak_refining));
   fmt::format_to(out, "\n");
 }
 
-/// One row a rank, or where there are many the extremes of each column.
+/// One row per rank, or the extremes if there are many.
 void add_rank_table(const RunRecord& run, Text out) {
   constexpr std::size_t kMostRows = 16;
   fmt::format_to(out, "  {:>8} {:>14} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "rank", "triangles", "subdomains",
@@ -105,7 +105,7 @@ void add_rank_table(const RunRecord& run, Text out) {
                                                    [&](const auto& a, const auto& b) { return value(a) < value(b); });
     row(std::to_string(least - run.ranks.begin()), *least);
     row(std::to_string(most - run.ranks.begin()), *most);
-    fmt::format_to(out, "           (least and most {})\n", what);
+    fmt::format_to(out, "           (minimum and maximum of {})\n", what);
   };
   by([](const RunRecord::Rank& r) { return r.triangles; }, "triangles");
   by([](const RunRecord::Rank& r) { return r.times.computing; }, "computing");
@@ -134,7 +134,7 @@ void add_ranks(const RunRecord& run, Text out) {
     fmt::format_to(out, "             {} moved between ranks, {}\n", counted(sum.hand_offs, "subdomain"),
                    bytes_words(static_cast<std::uint64_t>(sum.hand_off_bytes)));
   if (sum.forwarded > 0 || sum.held > 0)
-    fmt::format_to(out, "             {} of split points sent on after a subdomain, by {} at most; {} waited for one\n",
+    fmt::format_to(out, "             {} of split points forwarded after a subdomain, {} at most; {} held for one\n",
                    counted(sum.forwarded, "group"), counted(sum.most_hops, "hop"), grouped(sum.held));
   add_rank_table(run, out);
 }
@@ -159,7 +159,7 @@ std::string histogram_text(const AngleSummary& shape) {
   std::string text;
   for (std::size_t i = 0; i < shape.bins.size(); ++i) {
     const auto count = static_cast<double>(shape.bins[i]);
-    const auto length = static_cast<std::size_t>(std::ceil(kBarLength * count / most));  // what is there can be seen
+    const auto length = static_cast<std::size_t>(std::ceil(kBarLength * count / most));  // every nonempty bin shows
     fmt::format_to(std::back_inserter(text), "  {:>3} - {:>3} {:>14}  {:>5.1f} %  {}", 10 * i, 10 * i + 10,
                    grouped(shape.bins[i]), 100 * count / static_cast<double>(total), std::string(length, '#'));
     text.erase(text.find_last_not_of(' ') + 1);

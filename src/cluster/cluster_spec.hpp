@@ -20,7 +20,7 @@ struct ClusterSpec {
   std::vector<RankGroup> groups;
   IdVector<Rank, double> drag;  ///< the share of its speed that is left to a rank; empty: all of it
   double latency = 50e-6;       ///< seconds from the end of sending to arrival
-  double bandwidth = 1e9;       ///< bytes a second that leave a rank
+  double bandwidth = 1e9;       ///< bytes per second that leave a rank
   double message_overhead =
       1e-6;  ///< seconds of a rank, whatever its speed, for each message that it sends or receives
 };

@@ -63,7 +63,7 @@ class Origin {
   bool has_lines_;
 };
 
-/// Turns what YAML holds into values that a key accepts.
+/// Converts YAML nodes to values of a key.
 class Values {
  public:
   explicit Values(const Origin& origin) : origin_(origin) {}
@@ -144,7 +144,7 @@ class Values {
     return list;
   }
 
-  /// One item of a list: all fields, those that are not given with their default values.
+  /// One item of a list: all fields, with defaults for those not given.
   [[nodiscard]] Record record(const KeyInfo& key, const YAML::Node& node) const {
     if (!node.IsMap())
       fail(key.name, node, "has an item that is not a table", "write for example {ranks: 4, speed: 1e6}");
@@ -172,7 +172,7 @@ class Values {
   const Origin& origin_;
 };
 
-/// Does `work`; where it finds a value wrong, the error says where that was given.
+/// Does `work`; if it rejects a value, the error says where the value was given.
 template <class Work>
 void place_errors(const Experiment& experiment, const Work& work) {
   try {
@@ -191,7 +191,7 @@ class KeyReader {
  public:
   using TakeOther = std::function<bool(const std::string& name, const YAML::Node& key, const YAML::Node& value)>;
 
-  /// `other` takes what is no key, if it can.
+  /// `other` handles names that are not keys, if it can.
   KeyReader(const Origin& origin, job::Door door, Request& request, SourcePlaces& places, TakeOther other = {})
       : origin_(origin), door_(door), request_(request), places_(places), other_(std::move(other)) {}
 
@@ -212,7 +212,7 @@ class KeyReader {
     places_[path.key->name] = origin.place(node.Mark());
   }
 
-  /// The key of that name, or of the option of that name.
+  /// The key with that name, or with an option of that name.
   [[nodiscard]] KeyPath known_key(const Origin& origin, const std::string& name, const YAML::Mark& mark) const {
     KeyPath path = job::find_key(name);
     if (path.key == nullptr) path = job::find_option(name);
@@ -235,7 +235,7 @@ class KeyReader {
     }
   }
 
-  /// Some options are called as sections are; these have no single value.
+  /// Some options have the names of sections, which have no single value.
   [[nodiscard]] static bool is_option(const std::string& name, const YAML::Node& node) {
     return !node.IsMap() && !node.IsNull() && job::find_option(name).key != nullptr;
   }
@@ -309,7 +309,7 @@ class ExperimentReader {
     const std::string text = setting.substr(equals + 1);
     YAML::Node value = origin.parse(text);
     const KeyPath path = keys_.known_key(origin, name, YAML::Mark::null_mark());
-    // YAML takes the colon of `a ? b : c` for that of a table.
+    // YAML takes the colon of `a ? b : c` for a table.
     if (value.IsMap() && path.key->kind == Kind::kText) value = YAML::Node(text);
     std::erase_if(result_.sweep, [&](const Experiment::Axis& axis) { return axis.key == name; });
     const bool one_list = path.key->kind == Kind::kList || path.key->kind == Kind::kNumbers;

@@ -194,7 +194,7 @@ void allot_parts(const PlanarMap& map, std::vector<Piece>& pieces, std::int32_t 
   std::erase_if(members, [](const auto& m) { return m.empty(); });
   if (members.size() > to_index(parts))
     throw Error("the domain consists of " + std::to_string(members.size()) +
-                " parts that do not touch: it cannot become " + std::to_string(parts) +
+                " disconnected parts: it cannot be cut into " + std::to_string(parts) +
                 " connected subdomains; ask for at least " + std::to_string(members.size()));
   std::vector<double> work;
   for (const auto& part : members) {

@@ -27,7 +27,7 @@ std::vector<SubdomainCensus> take_census(const Decomposition& decomposition, con
   std::vector<SubdomainCensus> all;
   held([&](SubdomainId i, const SubdomainMesh& part) {
     if (!decomposition.subdomains.has(i) || (!all.empty() && i <= all.back().id))
-      throw Error("subdomain " + to_string(i) + " is shown out of order, or is none of the decomposition");
+      throw Error("subdomain " + to_string(i) + " is visited out of order, or not in the decomposition");
     const auto roots = decomposition.roots_of(i);
     if (!std::equal(roots.begin(), roots.end(), part.roots.begin(), part.roots.end()))
       throw Error("subdomain " + to_string(i) + " does not have the roots that the decomposition gives it");

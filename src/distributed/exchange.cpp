@@ -71,7 +71,7 @@ bool ExchangeRunner::end_round(Exchange& exchange) {
   std::vector<Mail> mail;
   for (auto& [source, arriving] : arrived) {
     if (!std::binary_search(senders_.begin(), senders_.end(), source))
-      throw ProtocolError(source, "nothing was due from it in round " + std::to_string(serial_));
+      throw ProtocolError(source, "no message was due from it in round " + std::to_string(serial_));
     mail.push_back({source, std::move(arriving).joined()});
   }
   arrived_.erase(serial_++);
@@ -84,7 +84,7 @@ void ExchangeRunner::keep(protocol::Received message) {
   std::uint32_t serial = 0, part = 0, parts = 0;
   Bytes bytes;
   read_mail({message.source, std::move(message.bytes)}, [&](ByteReader& reader) {
-    if (reader.value<std::uint32_t>() != kMark) throw Error("it is not of an exchange in rounds");
+    if (reader.value<std::uint32_t>() != kMark) throw Error("it is not part of an exchange in rounds");
     reader.value(serial);
     reader.value(part);
     reader.value(parts);

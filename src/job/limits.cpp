@@ -30,7 +30,7 @@ std::string advice(const Limits& limits) {
   return fmt::format("allow more with {}, or ask for larger triangles", limits.option());
 }
 
-/// Good angles take triangles as small as the gap, all along it.
+/// Good angles require triangles as small as the gap all along it.
 std::string narrow_words(const NarrowPlace& narrow, const Limits& limits) {
   return fmt::format(
       "near ({:.10g}, {:.10g}) two segments of the input that do not touch are {:.3g} apart and run side by side for "

@@ -11,12 +11,12 @@
 
 namespace driftmesh::job {
 
-/// What the mesh of one process may cost.
+/// Limits on the mesh of one process.
 struct Limits {
-  std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop there
+  std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop at this number
   bool by_memory = false;                                ///< because of memory: max_triangles allows more
-  std::uint64_t memory = 0;                              ///< bytes that the process may take, 0: unknown
-  std::uint64_t bytes_per_triangle = 0;                  ///< what a triangle is expected to take at the worst moment
+  std::uint64_t memory = 0;                              ///< bytes that the process may use; 0: unknown
+  std::uint64_t bytes_per_triangle = 0;                  ///< expected peak per triangle
 
   /// The option that sets the limit.
   [[nodiscard]] std::string option() const { return by_memory ? "--max-memory" : "--max-triangles"; }
@@ -31,15 +31,15 @@ struct Limits {
 /// The same for all of `ranks` processes together: memory is that of each, max_triangles the limit of all.
 [[nodiscard]] Limits limits_of_all(const Request::Limits& asked, Limits of_one, int ranks);
 
-/// What ends a program that a limit has stopped.
+/// Exit code of a program stopped by a limit.
 inline constexpr int kStoppedByLimit = 3;
 
-/// Throws LimitError when a forecast of the number of triangles is beyond the limit by more than forecasts err.
-/// `may_keep`: whether a mesh that was stopped can be kept.
+/// Throws LimitError if the forecast of the number of triangles exceeds the limit by more than the error of forecasts.
+/// `may_keep`: whether an incomplete mesh can be kept.
 void check_forecast(const Limits& limits, double forecast, bool may_keep = true);
 
-/// What to tell the user whose mesh hit the limit. `narrow` is the place of the input that needs the most triangles for
-/// being narrow; it is named if it accounts for a good part of them.
+/// The message for a mesh that hit the limit. `narrow` is the narrow place of the input that needs the most triangles;
+/// it is named if it accounts for a large part of them.
 [[nodiscard]] std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept,
                                           const std::optional<NarrowPlace>& narrow = {});
 

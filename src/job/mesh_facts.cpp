@@ -34,7 +34,7 @@ Point centroid(const Triangulation& mesh, TriangleId t) {
   return {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
 }
 
-/// The corner with the smallest angle: the one opposite to the shortest edge.
+/// The corner with the smallest angle: the one opposite the shortest edge.
 const Point& sharpest_corner(const Triangulation& mesh, TriangleId t) {
   std::array<double, 3> opposite{};
   for (int i = 0; i < 3; ++i)

@@ -10,11 +10,11 @@
 
 namespace driftmesh::job {
 
-/// What can be seen of a finished mesh, or of a part of one: the facts of parts add up to those of the whole. Angles
-/// are in degrees.
+/// Facts about a finished mesh, or a part of one: those of the parts add up to those of the whole. Angles are in
+/// degrees.
 struct MeshFacts {
   std::int64_t triangles = 0;
-  std::int64_t vertices = 0;  ///< those that parts share count once a part
+  std::int64_t vertices = 0;  ///< shared ones count once in each part
   std::int64_t subsegments = 0;
   RefineCounters counters;
   AngleSummary shape;
@@ -30,14 +30,14 @@ struct MeshFacts {
     std::string cause;
     std::int64_t count = 0;
     double worst_angle = 180;   ///< of those below the angle bound
-    std::vector<Place> places;  ///< of the worst: the corners with the small angles, each once
+    std::vector<Place> places;  ///< the worst: corners with the smallest angles, each once
   };
   std::vector<ExceptionGroup> exceptions;
 };
 
-/// Adds what `mesh`, a part refined to `bounds`, shows. `complete`: refinement was not stopped by a limit.
+/// Adds the facts of `mesh`, a part refined to `bounds`. `complete`: refinement was not stopped by a limit.
 void add_part(MeshFacts& facts, const Triangulation& mesh, const QualityBounds& bounds, bool complete);
-/// Adds the work that refining a part took.
+/// Adds the work of refining a part.
 void add_counters(MeshFacts& facts, const RefineCounters& counters);
 /// Adds the facts of other parts.
 void add_facts(MeshFacts& facts, const MeshFacts& others);

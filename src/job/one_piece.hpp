@@ -15,9 +15,9 @@ struct OnePiece {
   double forecast = 0;  ///< of triangles, before refinement
 };
 
-/// Meshes the domain as one piece. `writes`: the mesh is written or drawn afterward, which takes memory too. Throws
-/// Error for what the domain and the bounds do not allow, and LimitError before the work if far more triangles than the
-/// limits allow are to be expected and the request does not keep incomplete meshes. `may_keep`: it could.
+/// Meshes the domain as one piece. `writes`: the mesh is written or plotted afterward, which takes memory too. Throws
+/// Error if domain and bounds are incompatible, and LimitError before the work if the forecast far exceeds the limits
+/// and the request does not keep incomplete meshes. `may_keep`: whether the request could ask to keep one.
 [[nodiscard]] OnePiece mesh_in_one_piece(const Request& request, const Domain& domain, bool writes, Watch& watch,
                                          bool may_keep = true);
 

@@ -13,7 +13,7 @@ namespace {
 
 enum class Letter : std::uint8_t { kOrder, kNothing, kError };
 
-// The fields besides plan and input, in one order for both directions.
+// The fields other than plan and input, in one order for both directions.
 template <class Stream, class Fields>
 void transfer_rest(Stream& stream, Fields& order) {
   stream.value(order.sizing.gradation);
@@ -61,7 +61,7 @@ Bytes error(const Failure& failure) {
   return writer.take();
 }
 
-/// What rank 0 says. Where making the order fails, it says so before it throws.
+/// The part of rank 0. If making the order fails, it tells the other ranks before it throws.
 Bytes words_of_leader(Team& team, const std::function<std::optional<Order>()>& make) {
   try {
     const std::optional<Order> order = make();

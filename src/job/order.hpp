@@ -15,9 +15,9 @@
 
 namespace driftmesh::job {
 
-/// What rank 0 gives to all ranks before they refine.
+/// What rank 0 sends to all ranks before they refine.
 struct Order {
-  RunPlan plan;  ///< its size field is not part of the order: each rank makes its own, or has been given it
+  RunPlan plan;  ///< without its size field: each rank makes its own, or was given one
   Pslg pslg;     ///< repaired
   Request::Sizing sizing;
   Request::Limits limits;
@@ -25,9 +25,9 @@ struct Order {
   bool writes = false;            ///< the mesh is written or drawn afterward
 };
 
-/// The order that rank 0 makes, on all ranks; nothing if it makes none, because there is no more to do. All ranks call
-/// it together; `make` is called on rank 0 alone. What it throws is thrown there, and an error of the same kind and
-/// with the same message on the others. `policies` makes the plan's policy, on each rank its own.
+/// The order that rank 0 makes, on all ranks; empty if it makes none because there is no more to do. Collective; only
+/// rank 0 calls `make`. An exception from it is thrown there, and an error of the same type and with the same message
+/// on the others. `policies` makes the plan's policy separately on each rank.
 [[nodiscard]] std::optional<Order> share(Team& team, const std::function<std::optional<Order>()>& make,
                                          const balancer::PolicyMaker& policies = nullptr);
 

@@ -41,7 +41,7 @@ Balancing balancing_of(const Request& request, Place place) {
   balancing.options.gap = request.balance.gap;
   balancing.options.interval = request.balance.interval;
   balancing.options.worth.gain = request.balance.gain;
-  if (place == kSimulated) {  // what moves cost is known
+  if (place == kSimulated) {  // the cost of moves is known
     balancing.options.cost.latency = request.cluster.latency + 2 * request.cluster.message_overhead;
     balancing.options.cost.bandwidth = request.cluster.bandwidth;
   }

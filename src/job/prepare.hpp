@@ -28,7 +28,7 @@ struct Prepared {
 [[nodiscard]] Prepared prepare(const Request& request, const Domain& domain, const Given& given, Place place,
                                const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch);
 
-/// The domain cut as the request says, on so many ranks.
+/// The domain cut as requested, on this number of ranks.
 [[nodiscard]] Decomposition cut(const Request& request, const Triangulation& mesh, const QualityBounds& bounds,
                                 std::int32_t ranks);
 

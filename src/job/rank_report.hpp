@@ -8,7 +8,7 @@
 
 namespace driftmesh::job {
 
-/// What one rank of a parallel run tells rank 0 at the end.
+/// The report of one rank of a parallel run to rank 0 at the end.
 struct RankReport {
   RunRecord::Rank rank;
   MeshFacts facts;  ///< vertices and subsegments on roots count for the rank that numbers them
@@ -17,16 +17,16 @@ struct RankReport {
   [[nodiscard]] static RankReport read(ByteReader& reader);
 };
 
-/// The report of a rank whose loop has come to its end, on `plan`.
+/// The report of a rank whose loop has ended, on `plan`.
 [[nodiscard]] RankReport report_of(const RankLoop& loop, const RunPlan& plan);
 
-/// Adds what a rank reports to the record of its run.
+/// Adds the report of a rank to the record of its run.
 void add_report(RunRecord& run, const RankReport& report);
 
-/// Adds what all ranks have in common, and none reports.
+/// Adds what all ranks have in common and none reports.
 void add_plan(RunRecord& run, const RunPlan& plan);
 
-/// Adds what preparing the run has shown.
+/// Adds the results of preparing the run.
 void add_prepared(RunRecord& run, const Prepared& prepared);
 
 }  // namespace driftmesh::job

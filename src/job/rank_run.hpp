@@ -25,8 +25,8 @@ struct RankHooks {
   std::function<void(const RankLoop::Slice&)> after_slice;
 };
 
-/// One rank's part in the refinement of a mesh by a team, and what it has in the end. What a rank meets outside of its
-/// work on subdomains ends the job (see by_itself).
+/// One rank's part in the refinement of a mesh by a team, and its results. An error on a rank outside its work on
+/// subdomains ends the job (see by_itself).
 class RankRun {
  public:
   /// `size`: in place of the size field that the order describes, or null; not owned. `team` and `watch` outlive the
@@ -45,7 +45,7 @@ class RankRun {
   [[nodiscard]] const RankLog& log() const { return *log_; }
   [[nodiscard]] const RunPlan& plan() const { return order_.plan; }
   [[nodiscard]] const std::vector<Point>& holes() const { return order_.pslg.holes; }
-  /// This rank's piece of the whole mesh. All ranks together.
+  /// This rank's piece of the whole mesh. Collective.
   [[nodiscard]] DistributedPiece assemble(ExchangeRunner& ranks) const;
 
  private:
@@ -61,10 +61,10 @@ class RankRun {
   Watch& watch_;
   Limits limits_;
   std::unique_ptr<Channel> channel_;
-  std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
+  std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   std::optional<RankLog> log_;
   std::optional<RankLoop> loop_;
-  std::exception_ptr failure_;  // of the work here
+  std::exception_ptr failure_;  // of the work on this rank
 };
 
 /// One run of a team for rank 0's record: every rank refines what `order` says. On rank 0, adds what all report to

@@ -13,8 +13,8 @@
 
 namespace driftmesh::job {
 
-/// What is known of the making of one mesh: what its summary and its JSON file say. Times are in seconds, memory in
-/// bytes, angles in degrees.
+/// All facts about the making of one mesh, for its summary and its JSON file. Times are in seconds, memory in bytes,
+/// angles in degrees.
 struct RunRecord : MeshFacts {
   Request request;
   std::string command;  ///< a command line that makes the same mesh
@@ -37,7 +37,7 @@ struct RunRecord : MeshFacts {
   };
   std::vector<Stage> stages;
   double seconds_refine = 0;
-  double seconds = 0;  ///< all stages and what lies between
+  double seconds = 0;  ///< all stages and the time between them
   std::uint64_t peak_refining = 0, peak = 0;
 
   struct File {
@@ -59,10 +59,10 @@ struct RunRecord : MeshFacts {
   }
 };
 
-/// Fills in what was asked for, and what the domain is.
+/// Fills in the request and the domain.
 void record_domain(RunRecord& run, const Request& request, const Domain& domain);
 
-/// Fills in what the finished mesh shows: counts, angles, areas, exceptions, digest.
+/// Fills in the facts of the finished mesh: counts, angles, areas, exceptions, digest.
 void record_mesh(RunRecord& run, const MeshResult& result);
 
 }  // namespace driftmesh::job

@@ -22,9 +22,9 @@ enum class ClusterKind {
   kReal,       ///< the processes that mpirun has started
 };
 
-/// Everything a mesh can be asked for, whoever asks: a command line, a YAML file, or a program that uses the library.
-/// keys.cpp declares each member once: its name, unit, range, default, help, and where it applies. Members are grouped
-/// as the sections of a file are. Nothing here is checked yet (see check.hpp).
+/// All settings of a mesh, from a command line, a YAML file, or a program that uses the library. keys.cpp declares each
+/// member once: its name, unit, range, default, help, and where it applies. Members are grouped as the sections of a
+/// file are. Nothing here is checked yet (see check.hpp).
 struct Request {
   struct Input {
     std::string file;

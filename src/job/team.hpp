@@ -13,8 +13,8 @@
 
 namespace driftmesh::job {
 
-/// What refinement runs on: messages on it meet no others, and its council is there for plans that all ranks make
-/// together.
+/// The communication channel of refinement: its messages cannot mix with others, and its council serves collective
+/// plans.
 class Channel {
  public:
   virtual ~Channel() = default;
@@ -32,8 +32,8 @@ class Channel {
   Channel() = default;
 };
 
-/// The ranks that make a mesh together: this process alone, or those of a communicator (mpi/mpi_team.hpp). What all
-/// ranks do together, each calls in the same order.
+/// The ranks that make a mesh together: this process alone, or those of a communicator (mpi/mpi_team.hpp). All ranks
+/// must make collective calls in the same order.
 class Team {
  public:
   virtual ~Team() = default;
@@ -44,14 +44,14 @@ class Team {
   [[nodiscard]] virtual std::int32_t ranks() const = 0;
   [[nodiscard]] bool leads() const { return rank() == Rank{0}; }
   [[nodiscard]] bool alone() const { return ranks() == 1; }
-  /// Ranks that share this machine's memory.
+  /// The number of ranks that share this machine's memory.
   [[nodiscard]] virtual int ranks_on_machine() const = 0;
 
-  /// The `bytes` of rank 0, on every rank. All ranks together.
+  /// The `bytes` of rank 0, on every rank. Collective.
   [[nodiscard]] virtual Bytes broadcast(Bytes bytes) = 0;
-  /// On rank 0 the bytes of every rank; nothing elsewhere. All ranks together. For reports, not for meshes.
+  /// On rank 0 the bytes of every rank; empty elsewhere. Collective. For reports, not for meshes.
   [[nodiscard]] virtual std::vector<Bytes> gather(const Bytes& bytes) = 0;
-  /// Returns when all ranks have called it.
+  /// A barrier.
   void meet() {
     static_cast<void>(gather({}));
     static_cast<void>(broadcast({}));
@@ -59,7 +59,7 @@ class Team {
   /// All ranks together.
   [[nodiscard]] virtual std::unique_ptr<Channel> open() = 0;
 
-  /// Prints `message` and ends the whole job: all ranks wait for one that fails by itself, so it takes them with it.
+  /// Prints `message` and ends the whole job: the others would wait forever for a rank that failed on its own.
   [[noreturn]] virtual void abort(const std::string& message, int code) = 0;
 
  protected:
@@ -69,8 +69,8 @@ class Team {
 /// This process alone.
 [[nodiscard]] std::unique_ptr<Team> lone_team();
 
-/// Called while an exception is handled that a rank met by itself: throws it on where the rank is alone, and ends the
-/// job with its message otherwise.
+/// Called while handling an exception that occurred on one rank only: rethrows it if the rank is alone, and otherwise
+/// ends the job with its message.
 [[noreturn]] void fail_alone(Team& team);
 
 /// Does what a rank does by itself, and lets it fail_alone.

@@ -10,7 +10,7 @@
 namespace driftmesh::job {
 namespace {
 
-/// The power of a thousand that a unit stands for; -1: none is known.
+/// The power of a thousand that a unit stands for; -1: unknown unit.
 int power_of(std::string_view unit, bool binary) {
   if (binary && (unit.ends_with('B') || unit.ends_with('b'))) unit.remove_suffix(1);
   if (binary && unit.size() == 2 && unit[1] == 'i') unit.remove_suffix(1);
@@ -92,7 +92,7 @@ std::string text_of(const Value& value) {
 bool read_number(const std::string& text, bool binary, double& number) {
   const char* begin = text.data();
   const char* const all = begin + text.size();
-  if (begin != all && *begin == '+') ++begin;  // from_chars knows no plus
+  if (begin != all && *begin == '+') ++begin;  // from_chars rejects a plus sign
   const auto [end, error] = std::from_chars(begin, all, number);
   if (error != std::errc{}) return false;
   const int power = power_of({end, static_cast<std::size_t>(all - end)}, binary);

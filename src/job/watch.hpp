@@ -10,8 +10,8 @@
 
 namespace driftmesh::job {
 
-/// Whoever wants to see how the making of a mesh goes on: a progress line, a summary, a caller of the library. What a
-/// call throws ends the work and passes through.
+/// An observer of the work on a mesh: a progress line, a summary, a caller of the library. Exceptions thrown by its
+/// functions end the work and propagate.
 class Watch {
  public:
   virtual ~Watch() = default;
@@ -23,7 +23,7 @@ class Watch {
   /// Also called when the stage fails.
   virtual void ends(const std::string& /*stage*/, double /*seconds*/) {}
   virtual void repaired(const RepairReport& /*repairs*/) {}
-  /// Called now and then during refinement. On many ranks, `triangles` and `forecast` are of this rank.
+  /// Called from time to time during refinement. With many ranks, `triangles` and `forecast` are those of this rank.
   virtual void refining(std::int64_t /*triangles*/, double /*forecast*/) {}
   /// Nothing has moved on this rank for a minute.
   virtual void stalled(const std::string& /*why*/) {}

@@ -15,7 +15,7 @@ TEST_CASE("the factory makes the policy of the page") {
   CHECK_THROWS_WITH_AS(static_cast<void>(make_policy("pairs", {{"shares", "0.5"}})),
                        "policy pairs: unknown parameter 'shares'; the nearest one is 'share'", InputError);
   CHECK_THROWS_WITH_AS(static_cast<void>(make_policy("pairs", {{"share", "2"}})),
-                       "policy pairs: share: '2' cannot be used; it is a number from 0 to 1", InputError);
+                       "policy pairs: share: '2' cannot be used; it must be a number from 0 to 1", InputError);
 }
 
 TEST_CASE("it evens out pairs of ranks") {

@@ -104,19 +104,19 @@ TEST_CASE("refusals say what is wrong") {
     return error_of(bytes);
   };
   CHECK(with(Finish{}, 0, 9) ==
-        "message from rank 5: it has version 9 where this program speaks 2; start the same build on every rank");
+        "message from rank 5: it has version 9, but this program uses 2; start the same build on every rank");
   CHECK(with(Token{1, 2, true}, 18, 2) == "message from rank 5: flag of value 2");
   CHECK(with(LocationUpdate{1_sub, 2_rank, 3}, 2, 100) == "message from rank 5: subdomain 100 is outside 0 .. 99");
   CHECK(with(LocationUpdate{1_sub, 2_rank, 3}, 9, 0xff) == "message from rank 5: rank -16777214 is outside 0 .. 6");
   CHECK(error_of(encode(SplitBatch{{{1_sub, 1, 1_rank, 0, {{1_root, 0}}}}})) ==
-        "message from rank 5: split path 0 is none, or deeper than 60");
+        "message from rank 5: split path 0 is invalid, or deeper than 60");
   CHECK(error_of({}) == "message from rank 5: it ends too early");
 }
 
 TEST_CASE("an announced length costs no memory before its bytes are there") {
   Bytes bytes = encode(SplitBatch{});
   for (std::size_t i = 2; i < 6; ++i) bytes[i] = std::byte{0xff};
-  CHECK(error_of(bytes) == "message from rank 5: it announces 4294967295 items, and 0 bytes follow");
+  CHECK(error_of(bytes) == "message from rank 5: it announces 4294967295 items, but 0 bytes follow");
 }
 
 TEST_CASE("advice is carried as it is, and its topic takes no room") {

@@ -103,7 +103,7 @@ class AdversarialRun {
   Rumors rumors_;
   Witness witness_;
   std::vector<std::unique_ptr<protocol::Transport>> layers_;  // between ranks and network
-  std::unique_ptr<balancer::SimulatedCouncil> council_;       // if the policy asks for one
+  std::unique_ptr<balancer::SimulatedCouncil> council_;       // if the policy needs one
   IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
   IdVector<Rank, std::int64_t> arrivals_seen_;
   std::optional<std::uint64_t> quiet_since_;  // probes that were out or over then

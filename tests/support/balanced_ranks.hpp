@@ -208,7 +208,7 @@ class WorkingRanks {
 
  private:
   const Jobs& jobs_;
-  std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
+  std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   std::vector<std::unique_ptr<WorkingRank>> ranks_;
   IdVector<Rank, protocol::RankStep> steps_;
 };

@@ -88,7 +88,7 @@ TEST_CASE("The summary of a run on ranks has a row a rank, or the extremes of ma
        {"40 subdomains on 2 ranks",
         "30 split points put on interfaces by refinement, 12 sent between ranks in 1 message",
         "3 subdomains moved between ranks",
-        "5 groups of split points sent on after a subdomain, by 2 hops at most; 4 waited for one", "7,654,321"})
+        "5 groups of split points forwarded after a subdomain, 2 hops at most; 4 held for one", "7,654,321"})
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
   const std::string json = summary_json(run);
   for (const char* expected :

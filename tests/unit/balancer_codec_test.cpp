@@ -148,5 +148,5 @@ TEST_CASE("refusals of advice say what is wrong") {
 TEST_CASE("an announced length of advice costs no memory before its bytes are there") {
   Advice advice = encode(Plan{1, {}});
   for (std::size_t i = 4; i < 8; ++i) advice.content[i] = std::byte{0xff};
-  CHECK(error_of(advice) == "message from rank 5: it announces 4294967295 items, and 0 bytes follow");
+  CHECK(error_of(advice) == "message from rank 5: it announces 4294967295 items, but 0 bytes follow");
 }

@@ -40,21 +40,21 @@ TEST_CASE("wrong names, parameters and values are errors that say what was meant
   CHECK(error_of("greedy", {{"tolerence", "1"}}) ==
         "policy greedy: unknown parameter 'tolerence'; the nearest one is 'tolerance'");
   CHECK(error_of("greedy", {{"tolerance", "much"}}) ==
-        "policy greedy: tolerance: 'much' cannot be used; it is a number from 0 to 10");
+        "policy greedy: tolerance: 'much' cannot be used; it must be a number from 0 to 10");
   CHECK(error_of("greedy", {{"tolerance", "nan"}}) ==
-        "policy greedy: tolerance: 'nan' cannot be used; it is a number from 0 to 10");
+        "policy greedy: tolerance: 'nan' cannot be used; it must be a number from 0 to 10");
   CHECK(error_of("stealing", {{"low-water", "-1"}}) ==
-        "policy stealing: low-water: '-1' cannot be used; it is a number from 1e-06 to 1e+06");
+        "policy stealing: low-water: '-1' cannot be used; it must be a number from 1e-06 to 1e+06");
   CHECK(error_of("zoltan", {{"method", "hypergraf"}}) ==
         "policy zoltan: method: 'hypergraf' cannot be used; the nearest choice is 'hypergraph'");
   CHECK(error_of("zoltan", {{"polish", "yes"}}) ==
-        "policy zoltan: polish: 'yes' cannot be used; it is either true or false");
+        "policy zoltan: polish: 'yes' cannot be used; it must be true or false");
   CHECK(error_of("zoltan", {{"seed", "1.5"}}) ==
-        "policy zoltan: seed: '1.5' cannot be used; it is a whole number from 0 to 2147483647");
+        "policy zoltan: seed: '1.5' cannot be used; it must be a whole number from 0 to 2147483647");
   CHECK(error_of("zoltan", {{"PHG_REPART_MULTIPLYER", "10"}}) ==
         "policy zoltan: unknown parameter 'PHG_REPART_MULTIPLYER'; the nearest one is 'PHG_REPART_MULTIPLIER'");
   CHECK(error_of("zoltan", {{"IMBALANCE_TOL", "tight"}}) ==
-        "policy zoltan: IMBALANCE_TOL: 'tight' cannot be used; Zoltan's user guide says what it takes");
+        "policy zoltan: IMBALANCE_TOL: 'tight' cannot be used; Zoltan's user guide lists valid values");
   for (const std::string& name : policy_names()) CHECK(error_of(name) == "");
 }
 

@@ -71,7 +71,7 @@ class LateRun {
 
   const RunPlan& plan_;
   VirtualNetwork network_;
-  std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
+  std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
 };
 

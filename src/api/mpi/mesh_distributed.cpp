@@ -19,8 +19,7 @@
 namespace driftmesh {
 namespace {
 
-/// Does `work` with a team of the communicator's ranks, and closes it in good order, also where work fails on all
-/// alike.
+/// Does `work` with a team of the communicator's ranks, and closes it cleanly, even if the work fails on all ranks.
 template <class Work>
 auto with_team(MPI_Comm communicator, const Work& work) {
   job::MpiTeam team(MPI_Comm_c2f(communicator));
@@ -49,7 +48,7 @@ auto with_channel(job::Team& team, const Work& work) {
   }
 }
 
-/// Which of the callables that the work depends on the caller gives on this rank.
+/// Which of the callables that affect the mesh the caller gives on this rank.
 Bytes callables_of(const MeshOptions& options) {
   ByteWriter writer;
   writer.value(static_cast<bool>(options.size));
@@ -67,7 +66,7 @@ void check_callables(const std::vector<Bytes>& of_ranks) {
 
 DistributedPiece mesh_on(job::Team& team, Call& call, const MeshOptions& options) {
   const std::vector<Bytes> callables = team.gather(callables_of(options));
-  // In the words of options already where the error is met: only what it says travels to the other ranks.
+  // Rephrase the error where it occurs: only its message travels to the other ranks.
   const auto make = [&] {
     return with_words_of_options([&] {
       check_callables(callables);

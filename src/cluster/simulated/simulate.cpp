@@ -92,7 +92,7 @@ class Simulation {
   }
 
   protocol::VirtualNetwork network_;
-  std::unique_ptr<balancer::Council> council_;  // if the policy asks for one
+  std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   const SimulationObservers& observers_;
   IdVector<Rank, std::int64_t> of_rank_;  // triangles of each, when it was last heard of
   std::int64_t triangles_ = 0;

@@ -23,13 +23,13 @@ class MpiTeam final : public Team {
   [[nodiscard]] std::unique_ptr<Channel> open() override;
   [[noreturn]] void abort(const std::string& message, int code) override;
 
-  /// In good order. Without it, what others have still to say is not waited for.
+  /// Shuts down cleanly. Without it, pending messages of other ranks are not waited for.
   void close() { control_.close(); }
 
  private:
   int communicator_;
   int ranks_on_machine_;
-  protocol::MpiTransport control_;  // for what is said between runs
+  protocol::MpiTransport control_;  // for messages between runs
 };
 
 }  // namespace driftmesh::job
