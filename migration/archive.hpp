@@ -16,8 +16,8 @@
 #include "driftmesh/error.hpp"
 #include "migration/packed_bytes.hpp"
 
-// Boost's binary archives on bytes in memory, for values and flat arrays of values that are bytes already. An array
-// goes as one block.
+// Boost's binary archives on bytes in memory, for values and flat arrays of trivially copyable values. An array is
+// stored as one block.
 
 BOOST_IS_BITWISE_SERIALIZABLE(std::byte)
 
@@ -25,7 +25,7 @@ namespace driftmesh {
 
 inline constexpr unsigned kArchiveFlags = boost::archive::no_header | boost::archive::no_codecvt;
 
-/// What may stand in an array: Boost would otherwise go element by element, and turn enumerators into ints.
+/// Allowed array elements: Boost would otherwise serialize element by element, and turn enumerators into ints.
 template <class T>
 inline constexpr bool kIsFlat = boost::serialization::is_bitwise_serializable<T>::value;
 
@@ -63,7 +63,7 @@ class ByteSource : public std::streambuf {
   SealReader& bytes_;
 };
 
-/// Saves values and arrays; an ArchiveReader takes them out in the same order.
+/// Saves values and arrays; an ArchiveReader loads them in the same order.
 class ArchiveWriter {
  public:
   explicit ArchiveWriter(SealedBytes& bytes) : sink_(bytes), archive_(sink_, kArchiveFlags) {}
@@ -86,7 +86,7 @@ class ArchiveWriter {
   boost::archive::binary_oarchive archive_;
 };
 
-/// Throws Error when there are fewer bytes than an array or value needs, before memory is asked for.
+/// Throws Error if there are fewer bytes than an array or value needs, before memory is allocated.
 class ArchiveReader {
  public:
   explicit ArchiveReader(SealReader& bytes) : bytes_(bytes), source_(bytes), archive_(source_, kArchiveFlags) {}

@@ -40,7 +40,7 @@ class BitReader {
     ++used_;
     return bit;
   }
-  /// Passes over `trees` whole trees.
+  /// Skips `trees` whole trees.
   void skip(std::size_t trees) {
     while (trees > 0) get() ? ++trees : --trees;
   }
@@ -63,7 +63,7 @@ void visit_tree(const Triangulation& mesh, SubsegmentId s, Visit&& visit) {
   visit_tree(mesh, after(child), visit);
 }
 
-/// Cuts leaf s as the bits say.
+/// Splits leaf s according to the bits.
 void grow_tree(Triangulation& mesh, SubsegmentId s, BitReader& bits) {
   if (!bits.get()) return;
   if (dyadic::depth(mesh.subsegments[s].path) >= dyadic::kMaxDepth) throw Error("a subsegment is cut too deep");
@@ -79,7 +79,7 @@ std::uint8_t sides_of(const Triangulation& mesh, SubsegmentId s) {
   return static_cast<std::uint8_t>((half[0] != kNone ? 1 : 0) | (half[1] != kNone ? 2 : 0));
 }
 
-// ---- Names: each number as the difference to one that it tends to follow ----
+// ---- Names: each number as the difference from one that it tends to follow ----
 
 [[nodiscard]] Bytes names_of(const SubdomainMesh& part, const IdVector<VertexId, VertexId>& number, std::size_t given) {
   const Triangulation& mesh = part.mesh;
@@ -107,7 +107,7 @@ std::uint8_t sides_of(const Triangulation& mesh, SubsegmentId s) {
   return out.take();
 }
 
-/// A number that is no more than `most`, to make room by.
+/// A number that is at most `most`, for allocation.
 std::size_t count_of(ByteReader& in, std::size_t most) {
   const std::uint64_t n = in.varint();
   if (n > most) throw Error("a list of names is longer than its bytes");
@@ -246,7 +246,7 @@ SubdomainMesh DormantMesh::wake() const {
 
 IdVector<SubsegmentId, SubsegmentId> DormantMesh::waking_subsegments(const Triangulation& mesh) {
   IdVector<SubsegmentId, SubsegmentId> waking(mesh.subsegments.size(), kNone);
-  auto next = static_cast<SubsegmentId>(mesh.roots.size());  // the roots' trees come first, then halves two by two
+  auto next = static_cast<SubsegmentId>(mesh.roots.size());  // roots come first, then pairs of halves
   for (const RootId r : ids_of(mesh.roots)) {
     waking[mesh.roots[r].tree] = SubsegmentId{to_int(r)};
     visit_tree(mesh, mesh.roots[r].tree, [&](SubsegmentId s) {

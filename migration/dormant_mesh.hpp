@@ -9,25 +9,24 @@
 
 namespace driftmesh {
 
-/// A finished subdomain's mesh in about 10 bytes a triangle, of which 8 are the coordinates of free vertices: what it
-/// shrinks to until somebody needs it. Triangles are a code of a byte each (triangle_code.hpp); points on segments are
-/// the shape of their root's tree, two bits each, since their coordinates follow from it; what was given (corners,
-/// roots) is kept as numbers of few bytes.
-///
-/// Vertices are numbered anew: given ones in their order, then those on segments, root by root and each after its
-/// parent, then the free ones. Slots, and with them the order in which refinement goes on, are not kept; the mesh is:
-/// triangles, constrained edges with roots and paths, regions, origins, to the last bit.
+/// A finished subdomain's mesh in about 10 bytes per triangle, 8 of which are the coordinates of free vertices: the
+/// compressed form until it is needed again. Triangles are coded in one byte each (triangle_code.hpp); points on
+/// segments are given by the shape of their root's tree, two bits each, since their coordinates follow from it; given
+/// data (corners, roots) are stored as numbers of a few bytes. Vertices are renumbered: given ones in their order, then
+/// those on segments, root by root and each after its parent, then the free ones. Slots, and with them the order of
+/// further refinement, are not preserved; the mesh is: triangles, constrained edges with roots and paths, regions,
+/// origins, to the last bit.
 class DormantMesh {
  public:
   DormantMesh() = default;
-  /// Throws Error if triangles cannot be reached from the border (a sound mesh has none).
+  /// Throws Error if triangles cannot be reached from the border (impossible in a valid mesh).
   explicit DormantMesh(const SubdomainMesh& part);
 
   [[nodiscard]] std::int32_t triangles() const { return triangles_.triangles; }
   [[nodiscard]] std::int32_t vertices() const { return triangles_.vertices; }
   [[nodiscard]] std::size_t bytes() const;  ///< of memory, all of it
 
-  /// Whether the point is there: needs no mesh. `root` counts the subdomain's own.
+  /// Whether the point exists, without waking the mesh. `root` is local to the subdomain.
   [[nodiscard]] bool holds(RootId root, dyadic::Path path) const;
   /// The mesh without its triangles and free vertices: roots with their trees, numbers, given points.
   [[nodiscard]] SubdomainMesh skeleton() const { return frame().part; }
@@ -40,11 +39,11 @@ class DormantMesh {
     decode_triangles(triangles_, border(), visit);
   }
 
-  /// For a form that came from elsewhere: throws Error if the rest of this class could not go by it.
+  /// For a form from elsewhere: throws Error if it is not usable by the rest of this class.
   void check() const;
-  /// The mesh again. Throws Error if this is not what the constructor made of a sound mesh.
+  /// Restores the mesh. Throws Error if this is not what the constructor makes of a valid mesh.
   [[nodiscard]] SubdomainMesh wake() const;
-  /// What subsegment s of the mesh that was given to the constructor is in the mesh that wakes.
+  /// The subsegment of the restored mesh that corresponds to subsegment s of the constructor's mesh.
   [[nodiscard]] static IdVector<SubsegmentId, SubsegmentId> waking_subsegments(const Triangulation& mesh);
 
   /// Calls transfer(field) for each field: to store and to load.
@@ -73,7 +72,7 @@ class DormantMesh {
   [[nodiscard]] static std::vector<BorderEdge> border_of(const Frame& frame);
 
   Bytes names_;               // given vertices, root and point numbers
-  Bytes trees_;               // of each root: its nodes, parents first, a bit each: 1 if cut
+  Bytes trees_;               // of each root: its nodes, parents first, one bit each: 1 if split
   std::vector<Point> given_;  // coordinates of given vertices
   std::vector<Point> free_;   // and of free ones, as the walk meets them
   CodedTriangles triangles_;

@@ -21,7 +21,7 @@ Pair load(const From* from) {
   return pair;
 }
 
-/// Bytes copied before they are summed up, so that they are in the cache then.
+/// Bytes copied before they are summed up, so that they are still in the cache.
 constexpr std::size_t kInCache = 65536;
 
 }  // namespace

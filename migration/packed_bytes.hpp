@@ -10,7 +10,7 @@
 
 namespace driftmesh {
 
-/// What stands before a packed form, so that anything else is told from it.
+/// The header of a packed form, which distinguishes it from anything else.
 struct PackedHeader {
   static constexpr std::uint64_t kMagic = 0x4B43415048534D44;  ///< "DMSHPACK" where the lowest byte comes first
   static constexpr std::uint32_t kVersion = 1;
@@ -22,11 +22,11 @@ struct PackedHeader {
 };
 
 /// A checksum made for memory speed: in each of eight lanes of 64 bits, the sum of the words and the sum of these sums
-/// (Fletcher 1982, with longer words), mixed in the end. Finds every change within one word, and others but for a
-/// chance of about 2^-64. No defence against forgery.
+/// (Fletcher 1982, with longer words), mixed in the end. Detects every change within one word, and misses others with a
+/// probability of about 2^-64. No defense against forgery.
 class Checksum {
  public:
-  /// Takes in what `bytes`, which has grown since the last call, has more in whole blocks.
+  /// Adds the whole blocks by which `bytes` has grown since the last call.
   void catch_up(std::span<const std::byte> bytes);
   /// Of all bytes, including those of the last block.
   [[nodiscard]] std::uint64_t of(std::span<const std::byte> bytes);
@@ -39,13 +39,13 @@ class Checksum {
   Words sum_{}, sum_of_sums_{};
 };
 
-/// Bytes that grow behind a header and are summed up while they are in the cache.
+/// Bytes appended after a header, and summed up while they are in the cache.
 class SealedBytes {
  public:
-  /// `capacity`: what to make room for at once.
+  /// `capacity`: bytes to reserve.
   explicit SealedBytes(std::size_t capacity);
   void append(const void* data, std::size_t size);
-  /// The bytes with the header that goes with them.
+  /// The bytes with their header.
   [[nodiscard]] Bytes take();
 
  private:
@@ -54,15 +54,15 @@ class SealedBytes {
   Checksum checksum_;
 };
 
-/// Reads what follows the header, and sums it up while it is in the cache.
+/// Reads the payload after the header, and sums it up while it is in the cache.
 class SealReader {
  public:
-  /// Throws Error, beginning with `what`, if the bytes have no such header or have another length than it says.
+  /// Throws Error, starting with `what`, if the bytes have no such header or do not have the length that it says.
   SealReader(std::span<const std::byte> bytes, std::string what);
   [[nodiscard]] std::size_t left() const { return payload_.size() - read_; }
-  /// Copies as many bytes, but no more than are left. Returns how many.
+  /// Copies this many bytes, or as many as are left. Returns the number.
   std::size_t read(void* to, std::size_t size);
-  /// Throws Error if the bytes, all of them, have changed since they were sealed.
+  /// Throws Error if any of the bytes have changed since they were sealed.
   void verify();
 
  private:

@@ -12,7 +12,7 @@
 #include "migration/archive.hpp"
 #include "migration/packed_bytes.hpp"
 
-// What lies in an archive as it lies in memory. No padding: the same state gives the same bytes.
+// Types stored as they are in memory. No padding: the same state gives the same bytes.
 static_assert(std::has_unique_object_representations_v<driftmesh::Triangle>);
 static_assert(std::has_unique_object_representations_v<driftmesh::Subsegment>);
 static_assert(std::has_unique_object_representations_v<driftmesh::RootSegment>);
@@ -53,7 +53,7 @@ bool is_path(dyadic::Path path) {
   return path >= dyadic::kWhole && dyadic::depth(path) <= dyadic::kMaxDepth;
 }
 
-// ---- Points on edges: numbers and paths apart, since a struct of both has holes ----
+// ---- Points on edges: numbers and paths separately, since a struct of both has padding ----
 
 template <class Root>
 void save_points(ArchiveWriter& out, const std::vector<SplitPoint<Root>>& points) {
@@ -240,7 +240,7 @@ void check(const SubdomainState& subdomain) {
   if (subdomain.dormant) check_dormant(*subdomain.dormant);
 }
 
-/// What a step throws, in words; empty if it does not.
+/// The message of the error that a step throws; empty if it does not throw.
 template <class Step>
 std::string complaint_of(Step&& step) {
   try {
@@ -293,7 +293,7 @@ SubdomainState unpack(std::span<const std::byte> bytes, Source source) {
     ArchiveReader in(sealed);
     load(in, subdomain);
   });
-  sealed.verify();  // first of all complaints: bytes that have changed say nothing about who packed them
+  sealed.verify();  // reported first: damaged bytes explain all other errors
   const bool vouched_for = source == Source::kThisRun && !kCheckAll;
   if (complaint.empty() && !vouched_for) complaint = complaint_of([&] { check(subdomain); });
   if (!complaint.empty())

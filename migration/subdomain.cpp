@@ -23,7 +23,7 @@ RefinerState rest_of(const DormantBody& dormant, const Triangulation& mesh, cons
   return state;
 }
 
-/// Why a mesh is not of subdomain i; empty if it is. `label`: the highest of its region labels.
+/// Why a mesh does not belong to subdomain i; empty if it does. `label`: its highest region label.
 std::string misfit(const SubdomainMesh& part, std::uint16_t label, const Decomposition& d, SubdomainId i) {
   if (!std::ranges::equal(part.roots, d.roots_of(i))) return "its border differs";
   std::uint16_t last_label = 0;
@@ -46,7 +46,7 @@ std::uint16_t highest_label(const SubdomainState& state) {
   return label;
 }
 
-/// Why an unpacked subdomain is none of this decomposition; empty if it is one.
+/// Why an unpacked subdomain does not belong to this decomposition; empty if it does.
 std::string misfit(const SubdomainState& state, const Decomposition& d) {
   if (!d.subdomains.has(state.id)) return "there are only " + std::to_string(d.size());
   for (const SplitPoint<GlobalRootId>& split : state.pending)
@@ -93,7 +93,7 @@ double Subdomain::remaining() const {
   const double forecast = dormant_ ? dormant_->forecast
                           : body_  ? body_->forecast
                                    : context_->decomposition->subdomains[id_].predicted;
-  // What is left of a subdomain that has outgrown its forecast, or met its bounds before, is a matter of single points.
+  // Only single points remain for a subdomain that has exceeded its forecast, or has met its bounds before.
   return std::max(forecast - static_cast<double>(triangles()), 1 + static_cast<double>(pending_.size()));
 }
 
@@ -160,7 +160,7 @@ void Subdomain::wake() {
   dormant_.reset();
 }
 
-/// Whether it holds the point already.
+/// Whether it already has the point.
 bool Subdomain::sleeps_through(const SplitPoint<GlobalRootId>& split) const {
   const auto roots = context_->decomposition->roots_of(id_);
   const auto place = std::ranges::lower_bound(roots, split.root);

@@ -17,29 +17,28 @@
 
 namespace driftmesh {
 
-/// What all subdomains of a run share, on every rank alike. Not owned; outlives them.
+/// Shared by all subdomains of a run, equal on every rank. Not owned; must outlive them.
 struct SubdomainContext {
   const Decomposition* decomposition = nullptr;
   QualityBounds bounds;
   bool presplit = false;  ///< cut interfaces to the bounds' size before refinement (see decompose/presplit.hpp)
 };
 
-/// What a slice of work came to.
+/// Result of a slice of work.
 struct SliceWork {
   std::int64_t points = 0;     ///< inserted
   std::int64_t triangles = 0;  ///< more than before
   std::int64_t prepared = 0;   ///< triangles of the initial triangulation, if it was made in this slice
-  std::int64_t woken = 0;      ///< triangles that it had asleep, if it was woken in this slice
+  std::int64_t woken = 0;      ///< triangles of the dormant mesh, if it was woken in this slice
 };
 
-/// One subdomain: it refines itself, says which points it puts on the edges that it shares, and takes in those of its
-/// neighbors. Its mesh is made when it first works; until then it is a number and what it has been told.
+/// One subdomain: it refines itself, reports the points it inserts on shared edges, and inserts those of its neighbors.
+/// Its mesh is made in its first slice of work; until then it is only a number and a queue of received points.
 ///
 /// A split point from a neighbor is queued and inserted in the next slice, with its ancestors, in any order of arrival
-/// and any number of times: the points on a shared edge are a set that only grows (docs/protocol.md).
-///
-/// When it has nothing to do it can be put to sleep: it then takes a third of the memory, or less, and wakes by itself
-/// when it has to take in a point that it does not hold.
+/// and any number of times: the points on a shared edge are a set that only grows (docs/protocol.md). When it has
+/// nothing to do it can be put to sleep: it then takes a third of the memory, or less, and wakes by itself when it
+/// receives a point that it does not have.
 class Subdomain {
  public:
   Subdomain(SubdomainId id, const SubdomainContext& context);
@@ -48,46 +47,46 @@ class Subdomain {
   ~Subdomain();
 
   [[nodiscard]] SubdomainId id() const { return id_; }
-  /// Whether there is something to do: bounds not met yet, or points to take in.
+  /// Whether there is something to do: bounds not met yet, or points to insert.
   [[nodiscard]] bool active() const { return !refined_ || !pending_.empty(); }
-  /// Whether it has met all bounds once. Points that it is told of later may make more work.
+  /// Whether it has met all bounds once. Points received later may make more work.
   [[nodiscard]] bool refined() const { return refined_; }
-  /// Points that it was told of and has not taken in.
+  /// Received points not yet inserted.
   [[nodiscard]] std::size_t backlog() const { return pending_.size(); }
   /// A forecast of the triangles still to be made; 0 when it is not active.
   [[nodiscard]] double remaining() const;
-  /// Triangles that there are now.
+  /// The current number of triangles.
   [[nodiscard]] std::int64_t triangles() const;
 
-  /// About how long pack() would be, in bytes.
+  /// Estimated size of pack(), in bytes.
   [[nodiscard]] std::uint64_t packed_bytes() const;
 
-  /// A neighbor has put a point on a shared edge.
+  /// A neighbor has inserted a point on a shared edge.
   void tell(const SplitPoint<GlobalRootId>& split) {
     if (!dormant_ || !sleeps_through(split)) pending_.push_back(split);
   }
 
-  /// Works for about so many insertions. Points put on shared edges are appended to `said`, each after its ancestors.
-  /// Throws Error when a shared edge cannot be split where the neighbor has split it, LimitError at the limit of what
-  /// handles can name.
+  /// Works for about this many insertions. Points inserted on shared edges are appended to `said`, each after its
+  /// ancestors. Throws Error if a shared edge cannot be split where the neighbor has split it, LimitError at the
+  /// capacity of handles.
   SliceWork work(std::int64_t insertions, std::vector<SplitPoint<GlobalRootId>>& said);
 
-  /// Shrinks to the dormant form (see dormant_mesh.hpp), if it has worked and has nothing to do. What refinement does
-  /// after waking, if anything, meets the same bounds but need not be the same to the bit as without sleep.
+  /// Shrinks to the dormant form (see dormant_mesh.hpp), if it has worked and has nothing to do. Refinement after
+  /// waking, if any, meets the same bounds but need not be bit-identical to that without sleep.
   void sleep();
   void wake();
   [[nodiscard]] bool dormant() const { return dormant_ != nullptr; }
-  /// The mesh as it sleeps. Only while dormant().
+  /// The dormant mesh. Only while dormant().
   [[nodiscard]] const DormantMesh& dormant_mesh() const { return dormant_->mesh; }
 
-  /// Everything as bytes (see packed_form.hpp), little more than none before the first work(); the subdomain that
-  /// unpack makes of them goes on exactly as this one would.
+  /// Everything as bytes (see packed_form.hpp), very few before the first work(); the subdomain that unpack makes of
+  /// them continues exactly as this one would.
   [[nodiscard]] Bytes pack() const;
   /// Throws Error, naming the subdomain, for bytes that are not the packed form of a subdomain of this context.
   [[nodiscard]] static Subdomain unpack(std::span<const std::byte> bytes, const SubdomainContext& context,
                                         Source source = Source::kUnknown);
 
-  /// The mesh as it is now. Only after work() was called once, and while it is awake.
+  /// The current mesh. Only after the first work(), and while awake.
   [[nodiscard]] const SubdomainMesh& mesh() const;
   [[nodiscard]] bool started() const { return body_ != nullptr || dormant_ != nullptr; }
   [[nodiscard]] const RefineCounters& counters() const;

@@ -36,7 +36,7 @@ class Encoder {
     coded_.fixed = coded_.vertices = fixed;
   }
 
-  /// The walk over all that can be reached from the triangle of `entrance`, a half-edge on the domain's border.
+  /// The walk over all triangles reachable from that of `entrance`, a half-edge on the domain's border.
   void walk_from(HalfEdge entrance) {
     if (visited_[triangle_of(entrance)]) return;
     out_.varint(to_index(number_of(mesh_.edge_start(entrance))));
@@ -59,7 +59,7 @@ class Encoder {
   [[nodiscard]] std::int32_t triangles() const { return coded_.triangles; }
 
  private:
-  /// An edge through which the walk may go on; whether it does is noted in the code of the triangle that it leaves.
+  /// An edge through which the walk may continue; whether it does is recorded in the code of the triangle it leaves.
   struct Way {
     HalfEdge through;
     std::size_t place;

@@ -13,18 +13,19 @@
 
 namespace driftmesh {
 
-// The triangles of a finished mesh in about a byte each, without their order. A walk over the mesh, depth first and
-// always to the right where it can, enters each triangle through an edge of one that it has been in; so all there is to
-// tell of a triangle is the corner opposite to that edge. That is a vertex met for the first time, or most often the
-// next vertex along the border of what the walk has covered. This is the idea of Edgebreaker (Rossignac 1999) and of
-// the cut-border machine (Gumhold and Strasser 1998). Simpler here: the border is kept as a guess, one successor and
-// one predecessor for each vertex, and a corner that the guess does not name is named by its number. So holes, several
-// components and vertices at which the border touches itself need no cases.
+// The triangles of a finished mesh in about one byte each, without their order. A depth-first walk over the mesh, to
+// the right wherever possible, enters each triangle through an edge of a visited one; so only the corner opposite that
+// edge needs to be coded. That is a vertex met for the first time, or most often the next vertex along the border of
+// what the walk has covered. This is the idea of Edgebreaker (Rossignac 1999) and of the cut-border machine (Gumhold
+// and Strasser 1998). Simpler here: the border is kept as a guess, one successor and one predecessor for each vertex,
+// and a corner that the guess misses is given by its number. So holes, several components and vertices at which the
+// border touches itself need no special cases.
 
 /// An edge of the domain's border, with the domain on its left.
 using BorderEdge = std::array<VertexId, 2>;
 
-/// The border of the part of the domain that the walk has not covered, as far as one edge from and to each vertex tell.
+/// The border of the part of the domain that the walk has not covered, approximated by one edge from and to each
+/// vertex.
 class BorderGuess {
  public:
   BorderGuess(std::size_t vertices, std::span<const BorderEdge> border);
@@ -37,11 +38,11 @@ class BorderGuess {
   IdVector<VertexId, VertexId> after_, before_;  // kNone where nothing is known
 };
 
-/// What there is to know beside the code to read it.
+/// Data needed in addition to the code to decode it.
 struct CodedTriangles {
   Bytes code;
   std::int32_t triangles = 0;
-  std::int32_t fixed = 0;     ///< vertices that are known beforehand have the numbers below this
+  std::int32_t fixed = 0;     ///< vertices known beforehand have numbers below this
   std::int32_t vertices = 0;  ///< all; the others are numbered as the walk meets them
 };
 

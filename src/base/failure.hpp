@@ -14,8 +14,8 @@ inline constexpr const char* kOutOfMemory =
 
 /// An error as it travels from the rank that met it to the others, which throw it too.
 struct Failure {
-  enum class Kind : std::uint8_t { kNone, kInput, kFile, kLimit, kCancelled, kOther };
-  Kind kind = Kind::kNone;
+  enum class Kind : std::uint8_t { kNothing, kInput, kFile, kLimit, kCancelled, kOther };
+  Kind kind = Kind::kNothing;
   std::string message;
 
   void write(ByteWriter& writer) const;

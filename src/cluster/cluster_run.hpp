@@ -8,17 +8,17 @@
 
 namespace driftmesh {
 
-/// What one rank had to do at one moment.
+/// The load of one rank at one moment.
 struct LoadSample {
-  double time = 0;                       ///< seconds since the run began
-  Rank rank{};                           ///< whose work changed at that time
+  double time = 0;                       ///< seconds since the start of the run
+  Rank rank{};                           ///< whose load changed at that time
   std::int64_t triangles = 0;            ///< that its subdomains have
-  double remaining = 0;                  ///< that they are expected to need still
+  double remaining = 0;                  ///< expected number still to be made
   double worked = 0;                     ///< seconds of refinement that ended at that time
   SubdomainId subdomain = kNoSubdomain;  ///< that was refined, where `worked` is above 0
 };
 
-/// Points that a slice of work put on the interfaces of a subdomain with one neighbor.
+/// Points that a slice of work inserted on the interfaces of a subdomain with one neighbor.
 struct SplitRecord {
   double time = 0;  ///< when the slice ended
   Rank rank{};      ///< where the slice was done
@@ -26,15 +26,15 @@ struct SplitRecord {
   std::int32_t points = 0;
 };
 
-/// A subdomain that went from one rank to another.
+/// A subdomain that moved from one rank to another.
 struct MoveRecord {
   SubdomainId subdomain{};
   Rank from{}, to{};
-  double left = 0, arrived = 0;  ///< seconds since the run began: packed and gone; unpacked
+  double left = 0, arrived = 0;  ///< seconds since the start of the run: packed and gone; unpacked
   std::uint64_t bytes = 0;       ///< its packed size
 };
 
-/// What a run on a cluster came to, real or simulated.
+/// Results of a run on a real or simulated cluster.
 struct ClusterRun {
   double makespan = 0;  ///< seconds from the start to the moment when the last rank knows that all is done
   IdVector<Rank, RankOutcome> ranks;
@@ -48,8 +48,8 @@ struct ClusterRun {
   [[nodiscard]] std::uint64_t message_bytes() const;  ///< of these messages
 };
 
-/// Seconds that the work of `run` would take if every rank computed from beginning to end: the sum of computing times
-/// by speed over the sum of speeds.
+/// Seconds that the work of `run` would take if every rank computed from start to end: the sum of computing times
+/// weighted by speed over the sum of speeds.
 [[nodiscard]] double ideal_seconds(const ClusterRun& run, const IdVector<Rank, double>& speeds);
 
 }  // namespace driftmesh

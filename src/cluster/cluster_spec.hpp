@@ -15,10 +15,11 @@ struct RankGroup {
   double speed = 0;  ///< triangles a second that one of them refines; 0: reference_speed
 };
 
-/// A cluster to simulate. Its ranks are numbered through the groups. Every rank has a line of its own to all others.
+/// A cluster to simulate. Ranks are numbered consecutively through the groups. Every rank has its own link to all
+/// others.
 struct ClusterSpec {
   std::vector<RankGroup> groups;
-  IdVector<Rank, double> drag;  ///< the share of its speed that is left to a rank; empty: all of it
+  IdVector<Rank, double> drag;  ///< the fraction of its speed that is left to a rank; empty: all of it
   double latency = 50e-6;       ///< seconds from the end of sending to arrival
   double bandwidth = 1e9;       ///< bytes per second that leave a rank
   double message_overhead =

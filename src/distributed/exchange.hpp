@@ -37,9 +37,9 @@ void read_mail(const Mail& mail, const Read& read) {
   });
 }
 
-/// One rank's part of a conversation in rounds: in each, ranks send at most one message to each rank (themselves
-/// included), then take in what was sent to them. What is said is decided here, how it travels elsewhere: by a
-/// Transport, or directly between ranks of one process.
+/// One rank's part of an exchange in rounds: in each, ranks send at most one message to each rank (themselves
+/// included), then handle what was sent to them. Content is decided here, delivery elsewhere: by a Transport, or
+/// directly between ranks of one process.
 class Exchange {
  public:
   virtual ~Exchange() = default;
@@ -47,31 +47,33 @@ class Exchange {
   Exchange& operator=(const Exchange&) = delete;
 
   [[nodiscard]] virtual int rounds() const = 0;
-  /// What this rank sends in a round. Rounds come in ascending order, each after the one before was received.
+  /// The messages of this rank in a round. Called in ascending order of rounds, each after the previous one was
+  /// received.
   [[nodiscard]] virtual std::vector<Mail> send(int round) = 0;
-  /// The ranks whose messages of this round come here, ascending. Asked after send(round).
+  /// The ranks that send to this rank in this round, ascending. Called after send(round).
   [[nodiscard]] virtual std::vector<Rank> senders(int round) const = 0;
-  /// `mail` is ascending by rank and has one message from each sender. Throws Error for what must not come.
+  /// `mail` is sorted by rank and has one message from each sender. Throws Error for invalid messages.
   virtual void receive(int round, std::vector<Mail> mail) = 0;
 
  protected:
   Exchange() = default;
 };
 
-/// A rank that talks over a Transport, in one conversation after another. Rounds are numbered through, so a message of
-/// a rank that is ahead waits for its turn. Nothing else may use the transport meanwhile: on MPI, make one for this.
+/// A rank that performs exchanges over a Transport, one after another. Rounds are numbered consecutively over all
+/// exchanges, so a message of a rank that is ahead waits for its turn. Nothing else may use the transport meanwhile: on
+/// MPI, create one for this purpose.
 class ExchangeRunner {
  public:
   static constexpr std::size_t kPart = std::size_t{1} << 30;  ///< MPI counts the bytes of a message with an int
 
-  /// What is longer than `part` bytes travels in parts of that length.
+  /// Messages longer than `part` bytes are sent in parts of that length.
   explicit ExchangeRunner(protocol::Transport& transport, std::size_t part = kPart)
       : transport_(transport), part_(part) {}
 
-  /// The whole conversation. Every rank makes the same sequence of calls. Throws ProtocolError for a message that is
-  /// none of a conversation or that was not due.
+  /// Performs a whole exchange. Every rank makes the same sequence of calls. Throws ProtocolError for a message that is
+  /// not part of an exchange or was not due.
   void run(Exchange& exchange);
-  /// One step of it, for simulated ranks: kFinished when the conversation is over.
+  /// One step of it, for simulated ranks: kFinished when the exchange is over.
   protocol::StepResult step(Exchange& exchange);
 
  private:
@@ -99,7 +101,7 @@ class ExchangeRunner {
   std::map<std::uint32_t, Arrivals> arrived_;  // by round and sender
 };
 
-/// The whole conversation between ranks of this process, ranks[r] being rank r.
+/// A whole exchange between ranks of this process, ranks[r] being rank r.
 void exchange_directly(IdSpan<Rank, Exchange* const> ranks);
 
 }  // namespace driftmesh

@@ -19,11 +19,11 @@ struct SubdomainTable {
   std::int64_t triangles = 0;                        ///< of the whole mesh
 };
 
-/// The points on a root, as the rank at one or both of its sides has them.
+/// The points on a root, as known to the rank on one or both of its sides.
 struct NumberedRoot {
   GlobalRootId root{};
   protocol::SplitDigest splits;
-  std::int64_t first_number = -1;  ///< of the points, in order of position; -1 while it is not known
+  std::int64_t first_number = -1;  ///< of the points, in order of position; -1 while unknown
 };
 
 }  // namespace driftmesh

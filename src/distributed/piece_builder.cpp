@@ -104,7 +104,7 @@ void PieceBuilder::place_added_points() {
   is_placed_.resize(piece_.mesh.numbers.size(), false);
 }
 
-/// Growing arrays of this size step by step would touch twice the memory, which takes longer than filling them.
+/// Growing such large arrays step by step would touch twice the memory, which takes longer than filling them.
 void PieceBuilder::reserve_triangles() {
   std::size_t triangles = 0;
   for (const SubdomainCensus& census : census_) triangles += to_index(census.triangles);
@@ -180,8 +180,8 @@ void PieceBuilder::add_edges(SubdomainId i, const SubdomainMesh& part, const IdV
   }
 }
 
-/// From the decomposition and the input, so that all ranks say the same: a point of the input keeps its marker, a point
-/// on segments takes the first of theirs that is not 0.
+/// From the decomposition and the input, so that all ranks agree: an input point keeps its marker, a point on segments
+/// takes the first nonzero marker of these.
 void PieceBuilder::mark_points(const Pslg& pslg) {
   auto& markers = piece_.mesh.point_markers;
   for (const NumberedRoot& r : roots_)

@@ -12,10 +12,10 @@
 
 namespace driftmesh {
 
-/// The entry of a root in a list that ascends, or null.
+/// The entry of a root in a sorted list, or null.
 [[nodiscard]] NumberedRoot* find_root(std::span<NumberedRoot> roots, GlobalRootId root);
 
-/// Joins a rank's subdomains to one piece. Everything that ranks must agree on has been agreed on before.
+/// Joins a rank's subdomains into one piece. Ranks have already agreed on all common data.
 class PieceBuilder {
  public:
   PieceBuilder(Rank rank, const Decomposition& decomposition, const SubdomainTable& subdomains,

@@ -12,10 +12,10 @@
 
 namespace driftmesh {
 
-/// Brings the pieces of all ranks to rank 0, which merges them. If that fails, all throw.
+/// Gathers the pieces of all ranks on rank 0, which merges them. On failure, all ranks throw.
 class GatherPieces final : public Exchange {
  public:
-  /// `piece` outlives the object.
+  /// `piece` must outlive the object.
   explicit GatherPieces(const DistributedPiece& piece) : piece_(piece) {}
 
   [[nodiscard]] int rounds() const override { return 2; }
@@ -40,7 +40,7 @@ class GatherPieces final : public Exchange {
 /// it.
 class WritePieces final : public Exchange {
  public:
-  /// `piece` outlives the object. `path` ends in .pvtu and is in a folder that all ranks share.
+  /// `piece` must outlive the object. `path` ends in .pvtu and is in a folder that all ranks share.
   WritePieces(const DistributedPiece& piece, std::string path);
 
   [[nodiscard]] int rounds() const override { return 3; }

@@ -22,7 +22,7 @@ Failure failure_in(const Bytes& bytes) {
 Failure first_of(const std::vector<Bytes>& failures) {
   for (const Rank rank : first_ids<Rank>(failures.size())) {
     Failure failure = failure_in(failures[to_index(rank)]);
-    if (failure.kind == Failure::Kind::kNone) continue;
+    if (failure.kind == Failure::Kind::kNothing) continue;
     failure.message = "rank " + to_string(rank) + ": " + failure.message;
     return failure;
   }
@@ -36,7 +36,7 @@ void agree_on_failure(Team& team, const std::exception_ptr& own) {
   if (team.alone()) return;
   const std::vector<Bytes> failures = team.gather(bytes_of(failure_of(own)));
   const Failure first = failure_in(team.broadcast(team.leads() ? bytes_of(first_of(failures)) : Bytes()));
-  if (first.kind != Failure::Kind::kNone) raise(first);
+  if (first.kind != Failure::Kind::kNothing) raise(first);
 }
 
 }  // namespace driftmesh::job

@@ -11,7 +11,7 @@
 namespace driftmesh {
 namespace {
 
-/// METIS's manual advises recursive bisection up to this many parts.
+/// METIS's manual recommends recursive bisection up to this many parts.
 constexpr std::int32_t kMostForRecursive = 8;
 
 IdVector<Rank, double> speeds_of(const MappingOptions& options) {
@@ -55,7 +55,7 @@ WeightedGraph graph_of(const Decomposition& d, std::vector<double> weights) {
   return graph;
 }
 
-/// Consecutive subdomains: each goes where its middle falls when all weights are laid out along the ranks.
+/// Consecutive subdomains: each goes to the rank at its midpoint when all weights are laid out along the ranks.
 Assignment map_blocks(const std::vector<double>& weights, const IdVector<Rank, double>& speeds) {
   const double per_speed =
       std::accumulate(weights.begin(), weights.end(), 0.0) / std::accumulate(speeds.begin(), speeds.end(), 0.0);

@@ -13,25 +13,25 @@ namespace driftmesh {
 /// The rank of each subdomain.
 using Assignment = IdVector<SubdomainId, Rank>;
 
-/// What is dealt out evenly.
+/// The quantity to balance.
 enum class MappingWeight {
   kWork,  ///< predicted triangles
-  kArea,  ///< for experiments: as one deals who does not know how small triangles will be where
+  kArea,  ///< for experiments: a mapping that ignores the sizes of triangles
 };
 
 struct MappingOptions {
   std::int32_t ranks = 1;
-  /// Relative speed of each rank: work is dealt in proportion (round-robin ignores it). Empty: all equal.
+  /// Relative speed of each rank: work is mapped in proportion (round-robin ignores it). Empty: all equal.
   IdVector<Rank, double> speeds;
   MappingMethod method = MappingMethod::kGraph;
   MappingWeight weight = MappingWeight::kWork;
 };
 
-/// Maps subdomains to ranks by their weights. Deterministic. A rank may be left without work when there are not many
-/// more subdomains than ranks. Throws Error for options out of range.
+/// Maps subdomains to ranks by weight. Deterministic. A rank may be left without work if there are not many more
+/// subdomains than ranks. Throws Error for options out of range.
 [[nodiscard]] Assignment map_subdomains(const Decomposition& decomposition, const MappingOptions& options);
 
-/// What an assignment means for the ranks.
+/// Quality of a mapping.
 struct MappingReport {
   double largest_load = 0;         ///< work of a rank over its speed, in units of the mean: 1 is perfect
   double interface_length = 0;     ///< of interfaces between ranks

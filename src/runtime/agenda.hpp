@@ -11,9 +11,9 @@
 
 namespace driftmesh {
 
-/// The subdomains of a rank that have something to do, in the order of a policy. Whatever the policy: what is begun is
-/// finished first, since its mesh is in the cache; and subdomains that have met their bounds once, and were told of
-/// points since, come last, since more points may be on their way to them.
+/// The subdomains of a rank that have something to do, in the order of a policy. With any policy, started subdomains
+/// are finished first, since their meshes are in the cache; and subdomains that have met their bounds once, and have
+/// received points since, come last, since more points may be in transit.
 class Agenda {
  public:
   explicit Agenda(WorkOrder order) : order_(order) {}
@@ -23,9 +23,9 @@ class Agenda {
     bool begun = false;       ///< has worked, and has not met its bounds yet
     bool refined = false;     ///< has met its bounds before
     double remaining = 0;     ///< triangles to be made
-    std::size_t backlog = 0;  ///< points to take in
+    std::size_t backlog = 0;  ///< points to insert
   };
-  /// Enters a subdomain, or changes its place.
+  /// Adds a subdomain, or updates its position.
   void put(const Item& item);
   void remove(SubdomainId id);
   void clear() {

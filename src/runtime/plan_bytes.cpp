@@ -47,7 +47,7 @@ void transfer_pslg(Stream& stream, Input& pslg) {
   stream.value(pslg.first_number);
 }
 
-/// Has `read(ByteReader&)` read all of what another rank has written.
+/// Lets `read(ByteReader&)` read everything that another rank has written.
 template <class Read>
 void read_all(const char* what, std::span<const std::byte> bytes, const Read& read) {
   try {

@@ -8,12 +8,12 @@
 
 namespace driftmesh {
 
-/// A plan as bytes, for ranks of the same program on machines of the same kind (the arrays lie in it as they lie in
-/// memory). The size field is not in it: each rank makes its own.
+/// A plan as bytes, for ranks of the same program on machines of the same kind (arrays are stored as they are in
+/// memory). Without the size field: each rank makes its own.
 [[nodiscard]] Bytes plan_to_bytes(const RunPlan& plan);
 
-/// The plan, for so many ranks, that plan_to_bytes was given, without its size field. `policies` makes its policy, as
-/// in plan_run. Throws Error if the bytes are not such a plan.
+/// The plan that plan_to_bytes was given, for this number of ranks, without its size field. `policies` makes its
+/// policy, as in plan_run. Throws Error if the bytes are not such a plan.
 [[nodiscard]] RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks,
                                       const balancer::PolicyMaker& policies = nullptr);
 

@@ -22,11 +22,11 @@ struct PlanOptions {
   Balancing balancing;
 };
 
-/// Subdomains for a mesh of about so many triangles on so many ranks: 20 for each rank, and more where they would
-/// otherwise outgrow a second-level cache.
+/// The number of subdomains for a mesh of about this many triangles on this many ranks: 20 per rank, and more if they
+/// would otherwise exceed a second-level cache.
 [[nodiscard]] std::int32_t default_subdomains(double triangles, std::int32_t ranks);
 
-/// How many triangles a domain (triangulated, corners prepared) is expected to take within these bounds.
+/// The forecast of the number of triangles for a domain (triangulated, corners prepared) with these bounds.
 [[nodiscard]] double forecast_triangles(Triangulation mesh, const QualityBounds& bounds);
 
 /// Cuts the domain (triangulated, corners prepared) as `options` say; with options.subdomains = 0 into
@@ -38,7 +38,7 @@ struct PlanOptions {
 [[nodiscard]] RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options,
                                const balancer::PolicyMaker& policies = nullptr);
 
-/// Makes the plan's layout and policy from the rest of it. Throws what `policies` throws.
+/// Makes the plan's layout and policy from its other members. Throws what `policies` throws.
 void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::PolicyMaker& policies);
 
 }  // namespace driftmesh

@@ -121,7 +121,7 @@ void RankLoop::settle(const protocol::HandOff& arrival, Rank sender) {
     observers_.settled(*this, {arrival.subdomain, arrival.epoch, transport_.rank(), arrival.packed.size()});
 }
 
-// A slice of the subdomain whose turn it is. False if none has anything to do.
+// One slice of work on the next subdomain. False if none has anything to do.
 bool RankLoop::work() {
   const auto id = agenda_.first();
   if (!id) return false;
@@ -151,8 +151,8 @@ bool RankLoop::work() {
   return true;
 }
 
-// Lets the controller look, when it is time or when work has just run out, and not once all work is over. Whether
-// anything came of it.
+// Calls the controller when it is due or work has just run out, but not after termination. Returns whether it did
+// anything.
 bool RankLoop::balance(bool worked) {
   const bool ran_out = std::exchange(worked_, worked) && agenda_.empty();
   if (!controller_ || !(controller_->due(clock_) || ran_out)) return false;
@@ -168,7 +168,7 @@ bool RankLoop::balance(bool worked) {
   return !decision.moves.empty() || !decision.messages.empty();
 }
 
-// What is to be done here, in the order in which it will be.
+// The work here, in order.
 std::vector<balancer::ReportedLoad> RankLoop::loads() const {
   std::vector<balancer::ReportedLoad> own;
   for (const SubdomainId id : agenda_.in_order()) {
@@ -197,7 +197,7 @@ bool RankLoop::send() {
   return !outgoing.empty();
 }
 
-// Adds the time since the last call to one kind.
+// Adds the time since the last call to one category.
 void RankLoop::charge(double RankTimes::*kind) {
   const double now = transport_.now();
   times_.*kind += now - std::exchange(clock_, now);
@@ -211,8 +211,8 @@ void RankLoop::watch(bool moved) {
                        protocol_.describe());
 }
 
-// Whether something must come before this rank can go on. One that is through with its work waits for others to be,
-// too, but that may well take long.
+// Whether this rank waits for a message. A rank that has finished waits for the others, too, but that may well take
+// long.
 bool RankLoop::waits() const {
   return at_work() || (controller_ && controller_->waiting()) ||
          protocol_.phase() != protocol::Termination::Phase::kWorking;

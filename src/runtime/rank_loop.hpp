@@ -25,7 +25,7 @@
 namespace driftmesh {
 
 /// The loop of one rank: poll the transport, dispatch what arrived, refine one subdomain for a slice, send. It runs on
-/// one thread, on real ranks and on simulated ones alike; it waits for nobody, but in a council, and prints nothing.
+/// one thread, on real ranks and on simulated ones alike; it never waits, except in a council, and prints nothing.
 class RankLoop {
  public:
   /// A slice of work that was done.
@@ -34,14 +34,14 @@ class RankLoop {
     double seconds = 0;
     std::span<const SplitPoint<GlobalRootId>> said;  ///< points that it put on interfaces
   };
-  /// A subdomain that leaves this rank or has come to it; `epoch` is the one that begins with this move.
+  /// A subdomain that leaves this rank or has arrived; `epoch` is the one that starts with this move.
   struct Passage {
     SubdomainId subdomain{};
     protocol::Epoch epoch = 0;
     Rank to{};
     std::size_t bytes = 0;  ///< its packed size
   };
-  /// What the loop tells its surroundings; each may be empty.
+  /// Observers of the loop; each may be empty.
   struct Observers {
     std::function<void(const RankLoop&, const Slice&)> after_slice;
     /// Nothing has moved for a minute: what this rank waits for, and what waits here.
@@ -50,39 +50,39 @@ class RankLoop {
     std::function<void(const RankLoop&, const Passage&)> settled;
   };
 
-  /// `transport`, `plan`, `council` and `rules` must outlive the loop. Policies by which all ranks plan together need a
-  /// council. Rules are the protocol's; tests put broken ones in.
+  /// `transport`, `plan`, `council` and `rules` must outlive the loop. Collective policies need a council. `rules` are
+  /// those of the protocol; tests pass broken ones.
   RankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs = {}, Observers observers = {},
            balancer::Council* council = nullptr, const protocol::Rules& rules = protocol::sound_rules());
   RankLoop(const RankLoop&) = delete;
   RankLoop& operator=(const RankLoop&) = delete;
 
-  /// Subdomain `id` goes to rank `to`, packed, with everything it was told. Between steps only, and not once this rank
-  /// has nothing to do: then it may make no work for others (docs/protocol.md, rule 6). False, and nothing happens, if
-  /// the subdomain is not here, is finished, would stay, or is too large for one message.
+  /// Moves subdomain `id` to rank `to`, with all points it has received. Only between steps, and not once this rank has
+  /// nothing to do: then it must not make work for others (docs/protocol.md, rule 6). Returns false, and does nothing,
+  /// if the subdomain is not here, is finished, would stay, or is too large for one message.
   bool hand_over(SubdomainId id, Rank to);
 
-  /// Gives the run up: nothing more is refined here, nor on other ranks once they hear of it. The loop is stepped on
-  /// until it is finished; what it holds then is no mesh. May be called when step() has thrown what a slice of work
-  /// threw.
+  /// Gives up the run: refinement stops here, and on other ranks once they learn of it. The loop must be stepped until
+  /// it is finished; its subdomains are then incomplete. May be called after step() has rethrown an error of a slice of
+  /// work.
   void abandon();
-  /// Whether this rank or another one has given the run up.
+  /// Whether this rank or another one has given up the run.
   [[nodiscard]] bool abandoned() const { return abandoned_; }
-  /// Whether step() has thrown what a slice of work threw, so that abandon() can end the run in good order.
+  /// Whether step() has rethrown an error of a slice of work, so that abandon() can end the run cleanly.
   [[nodiscard]] bool failed_at_work() const { return at_slice_; }
 
-  /// One round. What it throws ends the run on all ranks, unless it failed_at_work.
+  /// One round. An exception ends the run on all ranks, unless failed_at_work().
   protocol::StepResult step();
 
   [[nodiscard]] const protocol::RankProtocol& protocol() const { return protocol_; }
   [[nodiscard]] const std::map<SubdomainId, Subdomain>& subdomains() const { return subdomains_; }
   [[nodiscard]] const RankTimes& times() const { return times_; }
   [[nodiscard]] std::int64_t triangles() const { return triangles_; }  ///< of all subdomains here
-  /// Points that refinement put on interfaces here, whoever holds the other side.
+  /// Points that refinement inserted on interfaces here, whichever rank holds the other side.
   [[nodiscard]] std::int64_t interface_splits() const { return interface_splits_; }
-  /// What this rank came to so far.
+  /// Results of this rank so far.
   [[nodiscard]] RankOutcome outcome() const;
-  /// Whether something here is work, or will become some.
+  /// Whether there is work here, or something that will become work.
   [[nodiscard]] bool at_work() const;
 
  private:

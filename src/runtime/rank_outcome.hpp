@@ -7,7 +7,7 @@
 
 namespace driftmesh {
 
-/// What one rank came to in a run.
+/// Results of one rank in a run.
 struct RankOutcome {
   RankTimes times;
   protocol::ProtocolCounters counters;

@@ -2,8 +2,8 @@
 
 namespace driftmesh {
 
-/// Where a rank's time went, in seconds: the kinds of the paper's Figure 11. They add up to the time from the first
-/// step of its loop to the last.
+/// How a rank spent its time, in seconds: the categories of the paper's Figure 11. They add up to the time from the
+/// first step of its loop to the last.
 struct RankTimes {
   double computing = 0;  ///< refinement, and the initial triangulations of subdomains
   double sending = 0;    ///< encoding messages and giving them to the transport

@@ -18,14 +18,14 @@
 
 namespace driftmesh {
 
-/// Who moves subdomains between ranks during a run, and when.
+/// Which policy moves subdomains between ranks during a run, and when.
 struct Balancing {
   std::string policy = "none";  ///< see balancer/policy_list.hpp
   balancer::Parameters::Values parameters;
   balancer::ControllerOptions options;
 };
 
-/// What every rank of a parallel run knows from the start, equal on all of them.
+/// What every rank of a parallel run knows from the start, equal on all ranks.
 struct RunPlan {
   Decomposition decomposition;
   IdVector<SubdomainId, Rank> owners;  ///< at the start
@@ -35,16 +35,16 @@ struct RunPlan {
   /// Insertions between two looks at the transport: some milliseconds, and most subdomains in one go.
   std::int64_t slice = 16384;
   WorkOrder order = WorkOrder::kGiven;
-  bool sleep = false;  ///< finished subdomains shrink to a quarter of their memory, until somebody needs them
+  bool sleep = false;  ///< compress finished subdomains to a quarter of their memory until a neighbor needs them
   std::int64_t max_triangles = INT64_MAX;  ///< on one rank; more is a LimitError
 
   Balancing balancing;
-  /// Made from the above by prepare_balancing; null where nothing is to be balanced.
+  /// Made from the above by prepare_balancing; null without balancing.
   std::shared_ptr<const balancer::Layout> layout;
   std::shared_ptr<const balancer::Policy> policy;
 };
 
-/// What a rank of the reference machine needs for its work, in seconds: simulated time passes by it. Measured with
+/// Costs of a rank's work on the reference machine, in seconds, used for simulated time. Measured with
 /// `driftmesh_bench_costs` (docs/benchmarks.md).
 struct CostModel {
   double start = 29e-6;         ///< of the initial triangulation of a subdomain

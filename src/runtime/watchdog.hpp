@@ -4,10 +4,10 @@
 
 namespace driftmesh {
 
-/// Notices when nothing moves for too long. Pure: it is told the time.
+/// Detects when nothing moves for too long. Pure: time is an argument.
 class Watchdog {
  public:
-  /// Barks after so many seconds without movement, and again after as many more.
+  /// Triggers after this many seconds without movement, and again after as many more.
   explicit Watchdog(double patience) : patience_(patience) {}
 
   void moved(double now) { since_ = last_bark_ = now; }

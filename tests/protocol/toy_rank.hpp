@@ -40,7 +40,7 @@ class ToyRank {
 
   [[nodiscard]] const RankProtocol& protocol() const { return protocol_; }
   [[nodiscard]] const std::map<SubdomainId, Subdomain>& subdomains() const { return subdomains_; }
-  /// Whether something here is work, or will become some.
+  /// Whether there is work here, or something that will become work.
   [[nodiscard]] bool at_work() const {
     return protocol_.aggregated() > 0 || protocol_.held_groups() > 0 || any_active();
   }
