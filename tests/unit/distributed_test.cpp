@@ -244,7 +244,7 @@ TEST_CASE("messages that do not belong into an exchange are errors that name the
   CHECK(send_to_rank_0(message(kMark, 0, {})).find("message from rank 1: it ends too early") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {4'000'000'000})).find("message from rank 1: it ends too early") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0, 7})).find("message from rank 1: it goes on after its end") == 0);
-  CHECK(send_to_rank_0(message(7, 0, {0})).find("message from rank 1: it is not of an exchange") == 0);
+  CHECK(send_to_rank_0(message(7, 0, {0})).find("message from rank 1: it is not part of an exchange") == 0);
   CHECK(send_to_rank_0({}).find("message from rank 1: it ends too early") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0}, 3, 3)).find("message from rank 1: it is part 3 of 3") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0}, 0, 0xFFFFFFFF)).find("message from rank 1: it is part 0 of") == 0);

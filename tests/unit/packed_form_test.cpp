@@ -130,7 +130,7 @@ TEST_CASE("bytes that are cut off, prolonged, changed or foreign are refused in 
 
 TEST_CASE("the packed form of another decomposition is refused") {
   RandomSubdomains one(11, 5, 300), other(12, 3, 300);
-  CHECK(refusal_of(half_refined(one, 1_sub).pack(), other.context()).find("not of this decomposition") !=
+  CHECK(refusal_of(half_refined(one, 1_sub).pack(), other.context()).find("not belong to this decomposition") !=
         std::string::npos);
   CHECK(refusal_of(Subdomain(4_sub, one.context()).pack(), other.context()).find("only 3") != std::string::npos);
 }
