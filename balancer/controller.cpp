@@ -12,6 +12,8 @@ template <class... Answers>
 struct Each : Answers... {
   using Answers::operator()...;
 };
+template <class... Answers>
+Each(Answers...) -> Each<Answers...>;  // clang deduces it for aggregates from version 17 on
 
 }  // namespace
 

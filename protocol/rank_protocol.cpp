@@ -83,7 +83,7 @@ void RankProtocol::abandon() {
 
 Delivery RankProtocol::receive(Rank source, Message message) {
   Delivery delivery;
-  std::visit([&](auto&& m) { take(source, std::move(m), delivery); }, std::move(message));
+  std::visit([&](auto& m) { take(source, std::move(m), delivery); }, message);
   return delivery;
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds and runs every test: optimized with warnings as errors, then under the address and undefined-behavior
-# sanitizers, then checks the formatting. The last line is "N passed, N failed"; the exit code is 0 if none failed.
-#   scripts/test.sh [--quick]        --quick skips the sanitizers
+# sanitizers, then clang-tidy and the formatting. The last line is "N passed, N failed"; the exit code says it too.
+#   scripts/test.sh [--quick]        --quick leaves the sanitizers out
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 cd "$project_root"
@@ -70,6 +70,8 @@ formatted() {
 scripts/setup.sh build test hosts
 run_preset ci
 [[ $quick == yes ]] || run_preset asan-ubsan
+say "clang-tidy"
+one "clang-tidy" scripts/tidy.sh ci
 say "Formatting"
 one "formatting" formatted
 

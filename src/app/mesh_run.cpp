@@ -47,7 +47,8 @@ void draw(const Request& request, const Mesh& mesh) {
 
 // ---- In one piece ----------------------------------------------------------------------------------------------
 
-Mesh converted(Triangulation mesh, const Pslg& pslg) {
+// By value, so that its memory is free before the mesh is written.
+Mesh converted(Triangulation mesh, const Pslg& pslg) {  // NOLINT(performance-unnecessary-value-param)
   Mesh piece = to_piece(mesh, pslg);
   interpolate_attributes(pslg, piece);
   return piece;

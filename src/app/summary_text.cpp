@@ -58,8 +58,8 @@ void add_exceptions(const RunRecord& run, Text out) {
     if (group.worst_angle < 180) fmt::format_to(out, ", from {:.4f} degrees", group.worst_angle);
     fmt::format_to(out, "\n             at");
     for (const auto& p : group.places) fmt::format_to(out, " ({:.9g}, {:.9g})", p.at.x, p.at.y);
-    const bool all_listed =
-        group.places.size() < group.kMaxPlaces || group.count == static_cast<std::int64_t>(group.kMaxPlaces);
+    constexpr std::size_t kMax = RunRecord::ExceptionGroup::kMaxPlaces;
+    const bool all_listed = group.places.size() < kMax || group.count == static_cast<std::int64_t>(kMax);
     fmt::format_to(out, "{}\n", all_listed ? "" : " ...");
     label = "";
   }

@@ -6,8 +6,8 @@
 #include "driftmesh/point.hpp"
 #include "picture/plot_color.hpp"
 
-struct _cairo;
-struct _cairo_surface;
+struct _cairo;          // NOLINT(bugprone-reserved-identifier): cairo's own name
+struct _cairo_surface;  // NOLINT(bugprone-reserved-identifier)
 
 namespace driftmesh {
 

@@ -16,7 +16,8 @@ struct Grid {
 
   [[nodiscard]] std::size_t index(std::size_t column, std::size_t row) const { return row * columns + column; }
   [[nodiscard]] Point place(std::size_t i) const {
-    return {static_cast<double>(i % columns) * spacing, static_cast<double>(i / columns) * spacing};
+    const std::size_t column = i % columns, row = i / columns;
+    return {static_cast<double>(column) * spacing, static_cast<double>(row) * spacing};
   }
   [[nodiscard]] bool on_frame(std::size_t i) const {
     const std::size_t column = i % columns, row = i / columns;
