@@ -70,7 +70,7 @@ TEST_CASE("what is not a decomposition is refused with file and line") {
   CHECK_THROWS_WITH_AS(parse(replaced(text, "decomposition 2", "decomposition 1")), doctest::Contains("f:1:"),
                        InputError);
   CHECK_THROWS_WITH_AS(parse(text.substr(0, text.size() / 2)), doctest::Contains("f:"), InputError);
-  CHECK_THROWS_WITH_AS(parse(text + "1 2\n"), doctest::Contains("more than"), InputError);
+  CHECK_THROWS_WITH_AS(parse(text + "1 2\n"), doctest::Contains("more records than"), InputError);
   CHECK_THROWS_WITH_AS(parse(replaced(text, "separator\n", "separator\n-1 5 ")), doctest::Contains("first point"),
                        InputError);
   CHECK_THROWS_WITH_AS(parse(replaced(text, "separator\n", "separator\n999999 5 ")),
