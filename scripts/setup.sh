@@ -10,7 +10,7 @@ packages_of() {
     build) echo g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev \
       libmuparser-dev libyaml-cpp-dev libcairo2-dev libmetis-dev libtrilinos-zoltan-dev \
       libboost-serialization-dev libopenmpi-dev openmpi-bin ;;
-    test) echo doctest-dev libboost-dev libcgal-dev clang-format clang-tidy dpkg-dev fish gmsh man-db python3 python3-yaml spin zsh ;;
+    test) echo doctest-dev libboost-dev libcgal-dev clang-format clang-tidy dpkg-dev file fish gmsh man-db python3 python3-yaml spin zsh ;;
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
     hosts) echo iproute2 nftables ;;
