@@ -8,10 +8,8 @@
 #include "api/library_request.hpp"
 #include "decompose/decomposition_file.hpp"
 #include "driftmesh/repair.hpp"
-#include "job/bounds.hpp"
 #include "job/prepare.hpp"
-#include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
+#include "job/triangulated.hpp"
 
 namespace driftmesh {
 namespace {
@@ -28,10 +26,8 @@ std::shared_ptr<const Decomposition> cut_domain(const Pslg& input, const MeshOpt
     Call call(input, options);
     call.check(ranks > 1 ? job::kRanks : job::kSubdomains);
     const job::Domain domain = job::read_domain(call.request(), call.given(), call.watch());
-    Triangulation mesh = triangulate(domain.pslg);
-    prepare_corners(mesh);
-    const QualityBounds bounds = job::bounds_of(call.request(), domain, mesh, ranks);
-    return std::make_shared<const Decomposition>(job::cut(call.request(), mesh, bounds, ranks));
+    const job::Triangulated triangulated = job::triangulate_domain(call.request(), domain, ranks, call.watch());
+    return std::make_shared<const Decomposition>(job::cut(call.request(), triangulated, ranks));
   });
 }
 

@@ -18,12 +18,10 @@
 #include "decompose/decomposition_file.hpp"
 #include "decompose/presplit.hpp"
 #include "driftmesh/error.hpp"
-#include "job/bounds.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
 #include "job/prepare.hpp"
-#include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
+#include "job/triangulated.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -80,11 +78,9 @@ void run_decompose(const DecomposeCommand& command) {
   check_outputs({}, command.picture, command.output, input);
   RepairView view(command.quiet);
   const job::Domain domain = job::read_domain(request, {}, view);
-  Triangulation mesh = triangulate(domain.pslg);
-  prepare_corners(mesh);
-  const QualityBounds bounds = job::bounds_of(request, domain, mesh, 1);
+  const job::Triangulated triangulated = job::triangulate_domain(request, domain, 1, view);
   const Stopwatch watch;
-  const Decomposition d = job::cut(request, mesh, bounds, 1);
+  const Decomposition d = job::cut(request, triangulated, 1);
   const double seconds = watch.seconds();
   const DecompositionReport report = check_decomposition(d);
   if (!report.valid()) throw Error("the decomposition is broken (please report this): " + report.problems[0]);
@@ -92,7 +88,7 @@ void run_decompose(const DecomposeCommand& command) {
   if (!command.picture.empty())
     plot_decomposition(d, command.picture,
                        fmt::format("{}: {} subdomains", std::filesystem::path(input).filename().string(), d.size()));
-  if (!command.quiet) print(summary(d, report, bounds_size(bounds), seconds));
+  if (!command.quiet) print(summary(d, report, bounds_size(triangulated.bounds), seconds));
 }
 
 std::vector<cli::Option> decompose_options(DecomposeCommand& command) {

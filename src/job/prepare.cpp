@@ -6,9 +6,6 @@
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
 #include "decompose/same_input.hpp"
-#include "job/bounds.hpp"
-#include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh::job {
@@ -25,12 +22,11 @@ Decomposition given_decomposition(const Decomposition& decomposition, const Pslg
 }
 
 Decomposition decomposition_of(const Request& request, const Domain& domain, const Given& given,
-                               const Triangulation& mesh, const QualityBounds& bounds, std::int32_t ranks,
-                               Watch& watch) {
+                               const Triangulated& triangulated, std::int32_t ranks, Watch& watch) {
   if (given.decomposition != nullptr) return given_decomposition(*given.decomposition, domain.pslg);
   const std::string& file = request.decomposition.file;
   if (!file.empty()) return timed(watch, "load", [&] { return read_decomposition(file, domain.pslg); });
-  return timed(watch, "decompose", [&] { return cut(request, mesh, bounds, ranks); });
+  return timed(watch, "decompose", [&] { return cut(request, triangulated, ranks); });
 }
 
 Balancing balancing_of(const Request& request, Place place) {
@@ -65,31 +61,28 @@ PlanOptions plan_options(const Request& request, Place place, const IdVector<Ran
 
 }  // namespace
 
-Decomposition cut(const Request& request, const Triangulation& mesh, const QualityBounds& bounds, std::int32_t ranks) {
+Decomposition cut(const Request& request, const Triangulated& triangulated, std::int32_t ranks) {
   DecomposeOptions cutting;
   cutting.subdomains = wanted_subdomains(request.decomposition, ranks);
   cutting.min_angle = request.decomposition.separator_angle;
-  cutting.bounds = bounds;
+  cutting.bounds = triangulated.bounds;
   cutting.skew = request.decomposition.skew;
   cutting.seed = static_cast<std::uint64_t>(request.seed);
-  return decompose_for(mesh, cutting, ranks);
+  return decompose_for(triangulated.mesh, cutting, ranks);
 }
 
 Prepared prepare(const Request& request, const Domain& domain, const Given& given, Place place,
                  const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch) {
   const auto ranks = static_cast<std::int32_t>(speeds.size());
+  const Triangulated triangulated = triangulate_domain(request, domain, ranks, watch);
   Prepared prepared;
-  const Triangulation mesh = timed(watch, "triangulate", [&] {
-    Triangulation made = triangulate(domain.pslg);
-    prepared.acute_corners = prepare_corners(made);
-    return made;
-  });
-  const QualityBounds bounds = bounds_of(request, domain, mesh, ranks);
-  check_forecast(limits, forecast_triangles(mesh, bounds), false);
-  Decomposition decomposition = decomposition_of(request, domain, given, mesh, bounds, ranks, watch);
+  prepared.acute_corners = triangulated.acute_corners;
+  check_forecast(limits, forecast_triangles(triangulated.mesh, triangulated.bounds), false);
+  Decomposition decomposition = decomposition_of(request, domain, given, triangulated, ranks, watch);
   for (const Decomposition::Subdomain& s : decomposition.subdomains) prepared.forecast += s.predicted;
   prepared.plan = timed(watch, "map", [&] {
-    return plan_run(std::move(decomposition), bounds, plan_options(request, place, speeds), given.policies);
+    return plan_run(std::move(decomposition), triangulated.bounds, plan_options(request, place, speeds),
+                    given.policies);
   });
   return prepared;
 }

@@ -9,8 +9,8 @@
 #include "job/domain.hpp"
 #include "job/limits.hpp"
 #include "job/request.hpp"
+#include "job/triangulated.hpp"
 #include "job/watch.hpp"
-#include "mesh/triangulation.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh::job {
@@ -29,7 +29,6 @@ struct Prepared {
                                const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch);
 
 /// The domain cut as requested, on this number of ranks.
-[[nodiscard]] Decomposition cut(const Request& request, const Triangulation& mesh, const QualityBounds& bounds,
-                                std::int32_t ranks);
+[[nodiscard]] Decomposition cut(const Request& request, const Triangulated& triangulated, std::int32_t ranks);
 
 }  // namespace driftmesh::job

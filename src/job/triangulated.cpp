@@ -1,7 +1,9 @@
-#include "job/bounds.hpp"
+#include "job/triangulated.hpp"
 
 #include "decompose/work.hpp"
 #include "geometry/triangle_geometry.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
 #include "mesh/mesher.hpp"
 
 namespace driftmesh::job {
@@ -19,13 +21,23 @@ double area_bound_of(const Request::Bounds& bounds, const Triangulation& mesh, s
   return triangles > 0 ? kTrianglesPerBound * area_of(mesh) / triangles : bounds.area;
 }
 
-}  // namespace
-
 QualityBounds bounds_of(const Request& request, const Domain& domain, const Triangulation& mesh, std::int32_t ranks) {
   return driftmesh::bounds_of(domain.pslg, {.min_angle = request.bounds.angle,
                                             .max_area = area_bound_of(request.bounds, mesh, ranks),
                                             .region_areas = request.bounds.region_areas,
                                             .size = domain.size});
+}
+
+}  // namespace
+
+Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks, Watch& watch) {
+  Triangulated result;
+  timed(watch, "triangulate", [&] {
+    result.mesh = triangulate(domain.pslg);
+    result.acute_corners = prepare_corners(result.mesh);
+  });
+  result.bounds = bounds_of(request, domain, result.mesh, ranks);
+  return result;
 }
 
 }  // namespace driftmesh::job

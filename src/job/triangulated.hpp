@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "job/domain.hpp"
+#include "job/request.hpp"
+#include "job/watch.hpp"
+#include "mesh/bounds.hpp"
+#include "mesh/triangulation.hpp"
+
+namespace driftmesh::job {
+
+/// A domain from which refinement or decomposition starts.
+struct Triangulated {
+  Triangulation mesh;  ///< constrained Delaunay, acute corners prepared
+  std::int32_t acute_corners = 0;
+  QualityBounds bounds;  ///< refers to the domain's size field
+};
+
+/// Triangulates the domain, prepares its corners, and states the bounds that the request sets on its mesh on so many
+/// ranks: where it names a number of triangles, the area bound is the one that gives about as many. Throws what
+/// triangulate throws.
+[[nodiscard]] Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks,
+                                              Watch& watch);
+
+}  // namespace driftmesh::job
