@@ -37,6 +37,11 @@ Failure failure_of(const std::exception_ptr& error) {
   }
 }
 
+Failure met_by(Rank rank, Failure failure) {
+  if (failure.kind != Failure::Kind::kNothing) failure.message.insert(0, "rank " + to_string(rank) + ": ");
+  return failure;
+}
+
 void raise(const Failure& failure) {
   switch (failure.kind) {
     case Failure::Kind::kInput:

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/bytes.hpp"
+#include "driftmesh/ids.hpp"
 
 namespace driftmesh {
 
@@ -24,6 +25,9 @@ struct Failure {
 
 /// What an exception says; null says nothing.
 [[nodiscard]] Failure failure_of(const std::exception_ptr& error);
+
+/// The same as other ranks are told it: with the rank that met it. Nothing stays nothing.
+[[nodiscard]] Failure met_by(Rank rank, Failure failure);
 
 /// Throws an exception of the failure's kind.
 [[noreturn]] void raise(const Failure& failure);

@@ -68,9 +68,7 @@ void throw_first_failure(const std::vector<Mail>& statuses) {
   for (const Mail& mail : statuses) {
     Failure failure;
     read_mail(mail, [&](ByteReader& reader) { failure = Failure::read(reader); });
-    if (failure.kind == Failure::Kind::kNothing) continue;
-    failure.message = "rank " + to_string(mail.rank) + ": " + failure.message;
-    raise(failure);
+    if (failure.kind != Failure::Kind::kNothing) raise(met_by(mail.rank, std::move(failure)));
   }
 }
 

@@ -21,10 +21,8 @@ Failure failure_in(const Bytes& bytes) {
 /// Of all ranks' failures the one that is thrown.
 Failure first_of(const std::vector<Bytes>& failures) {
   for (const Rank rank : first_ids<Rank>(failures.size())) {
-    Failure failure = failure_in(failures[to_index(rank)]);
-    if (failure.kind == Failure::Kind::kNothing) continue;
-    failure.message = "rank " + to_string(rank) + ": " + failure.message;
-    return failure;
+    Failure failure = met_by(rank, failure_in(failures[to_index(rank)]));
+    if (failure.kind != Failure::Kind::kNothing) return failure;
   }
   return {};
 }
