@@ -19,33 +19,32 @@
 namespace driftmesh {
 namespace {
 
-/// Does `work` with a team of the communicator's ranks, and closes it cleanly, even if the work fails on all ranks.
-template <class Work>
-auto with_team(MPI_Comm communicator, const Work& work) {
-  job::MpiTeam team(MPI_Comm_c2f(communicator));
+/// What `work` returns; then closes `open`, a team or a channel of one, cleanly, even if the work fails on all ranks.
+template <class Open, class Work>
+auto then_close(Open& open, const Work& work) {
   try {
-    auto result = work(team);
-    team.close();
+    auto result = work();
+    open.close();
     return result;
   } catch (const std::exception&) {
-    team.close();
+    open.close();
     throw;
   }
 }
 
-/// The same with a channel of the team.
+template <class Work>
+auto with_team(MPI_Comm communicator, const Work& work) {
+  job::MpiTeam team(MPI_Comm_c2f(communicator));
+  return then_close(team, [&] { return work(team); });
+}
+
 template <class Work>
 auto with_channel(job::Team& team, const Work& work) {
   const std::unique_ptr<job::Channel> channel = team.open();
-  try {
+  return then_close(*channel, [&] {
     ExchangeRunner ranks(channel->transport());
-    auto result = work(ranks);
-    channel->close();
-    return result;
-  } catch (const std::exception&) {
-    channel->close();
-    throw;
-  }
+    return work(ranks);
+  });
 }
 
 /// Which of the callables that affect the mesh the caller gives on this rank.
