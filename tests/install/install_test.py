@@ -4,29 +4,18 @@
 usage: install_test.py SOURCE_FOLDER BUILD_FOLDER VERSION COMPILER GENERATOR MPIEXEC
 """
 
-import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
+from command import run
+
 SOURCE, BUILD, VERSION, COMPILER, GENERATOR, MPIEXEC = sys.argv[1:7]
 EXAMPLES = pathlib.Path(SOURCE) / "examples"
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -DOMPI_SKIP_MPICXX"
-ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                            "OMPI_MCA_rmaps_base_oversubscribe": "1"}
-
-
-def run(*command, **how):
-    """What the command prints. Its whole output is in the failure if it fails."""
-    done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          env=ENVIRONMENT, check=False, **how)
-    if done.returncode != 0:
-        raise AssertionError(f"{' '.join(map(str, command))} ended with {done.returncode}:\n{done.stdout}")
-    return done.stdout
 
 
 class Installed(unittest.TestCase):

@@ -5,19 +5,13 @@ usage: package_test.py BUILD_FOLDER VERSION
 """
 
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
 
+from command import run
+
 BUILD, VERSION = sys.argv[1:3]
-
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-    if done.returncode != 0:
-        raise AssertionError(f"{' '.join(map(str, command))} ended with {done.returncode}:\n{done.stdout}")
-    return done.stdout
 
 
 class Packages(unittest.TestCase):
