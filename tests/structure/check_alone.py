@@ -19,15 +19,21 @@ import sys
 from boxes import declared_boxes
 
 
-def flags_of_boxes(build):
-    """{folder of a box relative to the project: the compiler and its flags} from the compilation database."""
-    flags = {}
+def compilations(build):
+    """[source, output, the compiler and its flags] for each entry of the compilation database."""
     for entry in json.loads((build / "compile_commands.json").read_text()):
         words = shlex.split(entry["command"])
         output = words.index("-o")
-        if match := re.match(r"(.*)/CMakeFiles/dm_", words[output + 1]):
-            compiler = next(place for place, word in enumerate(words) if not re.search(r"ccache|distcc", word))
-            flags.setdefault(match.group(1), words[compiler:output])
+        compiler = next(place for place, word in enumerate(words) if not re.search(r"ccache|distcc", word))
+        yield pathlib.Path(entry["file"]), words[output + 1], words[compiler:output]
+
+
+def flags_of_boxes(build):
+    """{folder of a box relative to the project: the compiler and its flags}"""
+    flags = {}
+    for _, output, words in compilations(build):
+        if match := re.match(r"(.*)/CMakeFiles/dm_", output):
+            flags.setdefault(match.group(1), words)
     return flags
 
 
@@ -49,6 +55,7 @@ def main():
     root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[-2:])
     flags = flags_of_boxes(build)
     all_flags = flags_of_all(flags)
+    own_flags = {source: words for source, _, words in compilations(build)}
     texts = {}
     for box in declared_boxes(root):
         folder = str(box.folder.relative_to(root))
@@ -56,7 +63,7 @@ def main():
         for header in sorted(box.folder.glob("*.hpp")):
             texts[header] = (command, f'#include "{header}"\n' * 2)
         for source in sorted(box.folder.glob("*.cpp")) if "--sources" in sys.argv else []:
-            texts[source] = (command, f'#include "{source}"\n')
+            texts[source] = (own_flags.get(source, command), f'#include "{source}"\n')
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(lambda text: compiled_alone(*text, build), texts.values()))
     failed = [(path.relative_to(root), result.stderr) for path, result in zip(texts, results) if result.returncode != 0]

@@ -20,7 +20,7 @@ class CheckAlone(unittest.TestCase):
         self.write("src/one/one.hpp", "#pragma once\n#include <string>\ninline std::string one() { return GREETING; }\n")
         self.write("src/one/a.cpp", '#include "one/one.hpp"\nstd::string a() { return one(); }\n')
         command = f"ccache c++ -I{self.root}/src '-DGREETING=\"good day\"' -o src/one/CMakeFiles/dm_one.dir/a.o -c a.cpp"
-        self.write("compile_commands.json", json.dumps([{"command": command}]))
+        self.write("compile_commands.json", json.dumps([{"file": f"{self.root}/src/one/a.cpp", "command": command}]))
 
     def write(self, name, text):
         path = self.root / name
@@ -49,6 +49,14 @@ class CheckAlone(unittest.TestCase):
         self.write("src/one/b.cpp", "std::string b() { return one(); }\n")
         self.assertEqual(self.check().returncode, 0)
         self.assertIn("src/one/b.cpp does not compile alone", self.check("--sources").stdout)
+
+    def test_source_with_flags_of_its_own(self):
+        self.write("src/one/b.cpp", "const char* b() { return PARTING; }\n")
+        self.assertIn("src/one/b.cpp does not compile alone", self.check("--sources").stdout)
+        entries = json.loads((self.root / "compile_commands.json").read_text())
+        entries.append({"file": f"{self.root}/src/one/b.cpp", "command": "c++ '-DPARTING=\"good night\"' -o b.o -c b.cpp"})
+        self.write("compile_commands.json", json.dumps(entries))
+        self.assertEqual(self.check("--sources").returncode, 0)
 
 
 if __name__ == "__main__":
