@@ -26,9 +26,6 @@ extern "C" const char* __lsan_default_options() {
 namespace driftmesh {
 namespace {
 
-constexpr int kSmallest = 100;
-constexpr int kLargest = 20000;
-
 /// ".png", ".svg" or ".pdf"; anything else if it is not a picture.
 std::string format_of(const std::string& path) {
   return names_no_format(path) ? ".png" : std::filesystem::path(path).extension().string();
@@ -38,9 +35,10 @@ std::string checked_name(const std::string& path, int width, int height) {
   if (!is_picture_name(path))
     throw InputError({path, 0}, "is not a picture format", "use a name that ends in .png, .svg or .pdf");
   for (int length : {width, height})
-    if (length < kSmallest || length > kLargest)
-      throw InputError({path, 0}, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
-                       "each side may have " + std::to_string(kSmallest) + " to " + std::to_string(kLargest));
+    if (length < Canvas::kSmallest || length > Canvas::kLargest)
+      throw InputError(
+          {path, 0}, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
+          "each side may have " + std::to_string(Canvas::kSmallest) + " to " + std::to_string(Canvas::kLargest));
   return path;
 }
 

@@ -39,6 +39,9 @@ struct PictureFile {
 /// The picture being drawn, with the operations that all parts need; for special ones there is cairo().
 class Canvas {
  public:
+  static constexpr int kSmallest = 100;  ///< pixels, in each direction
+  static constexpr int kLargest = 20000;
+
   /// The extension of the path selects the format: .png, .svg or .pdf. Errors: InputError for another extension or a
   /// size out of range, FileError.
   Canvas(const std::string& path, int width, int height);

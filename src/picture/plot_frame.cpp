@@ -37,14 +37,17 @@ double left_margin(const Box& shown, double height) {
 
 }  // namespace
 
-PlotFrame::PlotFrame(const Box& shown, int width, int height, bool has_legend)
+PlotFrame::PlotFrame(const Box& shown, int width, int height, bool wants_legend)
     : width_(width), height_(height), unit_(std::clamp(width / 1000.0, 0.6, 4.0)), shown_(with_extent(shown)) {
   left_ = left_margin(shown_, 12) * unit_;
-  const double legend = has_legend ? kLegendWidth * unit_ : 0;
-  const double room_x = width_ - left_ - kRightMargin * unit_ - legend;
+  const double inner = width_ - left_ - kRightMargin * unit_;
+  const double legend = wants_legend && inner >= 2 * kLegendWidth * unit_ ? kLegendWidth * unit_ : 0;
+  const double room_x = inner - legend;
   const double aspect = (shown_.high.y - shown_.low.y) / (shown_.high.x - shown_.low.x);
   const double margins_y = (kTopMargin + kBottomMargin) * unit_;
-  if (height_ == 0) height_ = static_cast<int>(std::lround(margins_y + std::clamp(aspect, 0.3, 1.4) * room_x));
+  if (height_ == 0)
+    height_ =
+        std::max(static_cast<int>(std::lround(margins_y + std::clamp(aspect, 0.3, 1.4) * room_x)), Canvas::kSmallest);
   const double room_y = height_ - margins_y;
   scale_ = std::min(room_x / (shown_.high.x - shown_.low.x), room_y / (shown_.high.y - shown_.low.y));
   plot_.width = std::max(std::floor((shown_.high.x - shown_.low.x) * scale_), 1.0);
@@ -55,8 +58,17 @@ PlotFrame::PlotFrame(const Box& shown, int width, int height, bool has_legend)
 }
 
 void PlotFrame::draw_title(Canvas& canvas, const std::string& title, const std::string& subtitle) const {
-  canvas.text({left_, 34 * unit_}, title, {.size = 20 * unit_, .bold = true});
-  canvas.text({left_, 56 * unit_}, subtitle, {.size = 13 * unit_, .color = kFaintInk});
+  const double room = width_ - left_ - kRightMargin * unit_;
+  TextStyle large{.size = 20 * unit_, .bold = true};
+  large.size *= std::min(1.0, room / std::max(canvas.text_width(title, large), 1.0));
+  canvas.text({left_, 34 * unit_}, title, large);
+  const TextStyle small{.size = 13 * unit_, .color = kFaintInk};
+  std::string shown = subtitle;
+  while (canvas.text_width(shown, small) > room) {
+    const std::size_t last = shown.rfind("   ");
+    shown.resize(last == std::string::npos ? 0 : last);
+  }
+  canvas.text({left_, 56 * unit_}, shown, small);
 }
 
 void PlotFrame::draw_axes(Canvas& canvas) const {

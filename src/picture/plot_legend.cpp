@@ -12,19 +12,15 @@ constexpr double kTickRoom = 46;  // units, left of the bar
 constexpr double kBarWidth = 14;
 constexpr double kHistogramWidth = 72;
 
-// The baseline of the title, and the top of what follows below it.
-struct LegendTop {
-  double title;
-  double content;
-};
-
-LegendTop draw_legend_title(Canvas& canvas, const PlotFrame& frame, const std::string& title, const std::string& unit) {
+// Draws the title and the notes below it, and returns the top of what follows.
+double draw_legend_title(Canvas& canvas, const PlotFrame& frame, const std::string& title,
+                         const std::vector<std::string>& notes) {
   const double u = frame.unit();
-  const double first = frame.legend().y + 10 * u;
-  canvas.text({frame.legend().x, first}, title, {.size = 12.5 * u, .bold = true});
-  if (unit.empty()) return {first, first + 14 * u};
-  canvas.text({frame.legend().x, first + 16 * u}, unit, {.size = 11.5 * u, .color = kFaintInk});
-  return {first, first + 32 * u};
+  double baseline = frame.legend().y + 10 * u;
+  canvas.text({frame.legend().x, baseline}, title, {.size = 12.5 * u, .bold = true});
+  for (const std::string& note : notes)
+    canvas.text({frame.legend().x, baseline += 16 * u}, note, {.size = 11.5 * u, .color = kFaintInk});
+  return baseline + (notes.empty() ? 14 : 16) * u;
 }
 
 void fill_bar(Canvas& canvas, const PixelRect& rect) {
@@ -56,8 +52,9 @@ void draw_histogram(Canvas& canvas, const PixelRect& room, const std::vector<std
 }  // namespace
 
 void draw_color_bar(Canvas& canvas, const PlotFrame& frame, const ColorBar& bar) {
+  if (!frame.has_legend()) return;
   const double u = frame.unit();
-  const double top = draw_legend_title(canvas, frame, bar.title, bar.unit).content;
+  const double top = draw_legend_title(canvas, frame, bar.title, bar.notes);
   const double height = std::clamp(frame.legend().y + frame.legend().height - top, 80 * u, 380 * u);
   const PixelRect rect{frame.legend().x + kTickRoom * u, top, kBarWidth * u, height};
   fill_bar(canvas, rect);
@@ -72,9 +69,10 @@ void draw_color_bar(Canvas& canvas, const PlotFrame& frame, const ColorBar& bar)
 
 void draw_swatches(Canvas& canvas, const PlotFrame& frame, const std::string& title,
                    const std::vector<Swatch>& swatches) {
+  if (!frame.has_legend()) return;
   const double u = frame.unit();
   const double line = 19 * u;
-  double y = draw_legend_title(canvas, frame, title, "").content;
+  double y = draw_legend_title(canvas, frame, title, {});
   const double bottom = std::max(frame.legend().y + frame.legend().height, y + 3 * line);
   const auto room = static_cast<std::size_t>(std::max((bottom - y) / line, 1.0));
   const std::size_t shown = swatches.size() <= room ? swatches.size() : room - 1;

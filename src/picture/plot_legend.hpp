@@ -12,7 +12,7 @@ namespace driftmesh {
 /// A vertical bar of the colors of viridis from low to high, with ticks on its left and a histogram on its right.
 struct ColorBar {
   std::string title;
-  std::string unit;  ///< a second line; may be empty
+  std::vector<std::string> notes;  ///< lines below the title: the unit, and what a pixel shows
   double low = 0;
   double high = 1;
   std::vector<Tick> ticks;             ///< values on the scale of low and high
@@ -25,6 +25,7 @@ struct Swatch {
   std::string label;
 };
 
+/// Draws nothing, like draw_swatches, if the frame has no room for a legend.
 void draw_color_bar(Canvas& canvas, const PlotFrame& frame, const ColorBar& bar);
 
 /// Draws as many as there is room for, then says how many more there are.

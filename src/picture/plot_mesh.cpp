@@ -209,7 +209,8 @@ class MeshPlot {
     if (!has_legend(options_)) return;
     if (!is_range()) return draw_swatches(canvas_, frame_, values_.title, values_.swatches);
     ColorBar bar = values_.bar;
-    if (is_dense_) bar.unit += options_.color == PlotColor::angle ? ", worst of each pixel" : ", mean of each pixel";
+    if (is_dense_)
+      bar.notes.emplace_back(options_.color == PlotColor::angle ? "worst of each pixel" : "mean of each pixel");
     draw_color_bar(canvas_, frame_, bar);
   }
 

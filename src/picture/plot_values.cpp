@@ -58,7 +58,7 @@ PlotValues angle_values(const Mesh& mesh, const Box& shown) {
     result.of_triangle.push_back(static_cast<float>(extreme_angles({mesh, t})[0]));
   set_bar_range(result, 0, kBestAngle);
   result.bar.title = "Smallest angle";
-  result.bar.unit = "degrees";
+  result.bar.notes = {"degrees"};
   result.bar.ticks = linear_ticks(0, kBestAngle, 6);
   result.bar.histogram = histogram(mesh, shown, result.of_triangle, 0, kBestAngle);
   return result;
@@ -92,7 +92,7 @@ PlotValues area_values(const Mesh& mesh, const Box& shown) {
   const auto [low, high] = area_range(mesh, shown, result.of_triangle);
   set_bar_range(result, low, high);
   result.bar.title = "Area";
-  result.bar.unit = "log scale";
+  result.bar.notes = {"log scale"};
   result.bar.ticks = logarithmic_ticks(std::pow(10, low), std::pow(10, high), 7);
   for (Tick& tick : result.bar.ticks) tick.value = std::log10(tick.value);
   result.bar.histogram = histogram(mesh, shown, result.of_triangle, low, high);

@@ -216,6 +216,22 @@ TEST_CASE("a coarse mesh in SVG is made of polygons, and the file is XML") {
   CHECK(paths >= 8);
 }
 
+TEST_CASE("text stays inside a narrow picture, and a legend leaves room for the plot") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "narrow.png";
+  const RandomMesh random(5, 250, 250);
+  for (const int width : {100, 150, 200, 300, 450, 700}) {
+    CAPTURE(width);
+    for (const PlotColor color : {PlotColor::angle, PlotColor::area, PlotColor::region}) {
+      plot_mesh(random.mesh(), path,
+                {.width = width, .color = color, .title = "a-file-with-a-name-of-medium-length.vtu"});
+      const Picture picture(path);
+      CHECK(picture.drawn(width - 1, 0, width, picture.height()) == 0);
+      CHECK(picture.drawn(0, 0, width, picture.height()) > width * width / 10);
+    }
+  }
+}
+
 TEST_CASE("meshes without anything to see, and parts beyond the mesh, are drawn without a complaint") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.png";
