@@ -223,13 +223,17 @@ class Cutter {
   CutSearch search_;
 };
 
+template <class Number>
+void check_range(const std::string& what, Number value, std::int32_t least, std::int32_t most) {
+  if (!(value >= least && value <= most))
+    throw Error(what + " must be from " + std::to_string(least) + " to " + std::to_string(most) + ", not " +
+                std::to_string(value));
+}
+
 void check_options(const DecomposeOptions& o) {
-  if (o.subdomains < 1 || o.subdomains > kMaxSubdomains)
-    throw Error("the number of subdomains must be from 1 to " + std::to_string(kMaxSubdomains) + ", not " +
-                std::to_string(o.subdomains));
-  if (!(o.min_angle >= 0 && o.min_angle <= 80))
-    throw Error("the angle of separators must be from 0 to 80 degrees, not " + std::to_string(o.min_angle));
-  if (!(o.skew >= 0 && o.skew <= 10)) throw Error("the skew must be from 0 to 10, not " + std::to_string(o.skew));
+  check_range("the number of subdomains", o.subdomains, 1, kMaxSubdomains);
+  check_range("the angle of separators in degrees", o.min_angle, 0, kMaxSeparatorAngle);
+  check_range("the skew", o.skew, 0, kMaxSkew);
 }
 
 double area_of(const Triangulation& mesh) {

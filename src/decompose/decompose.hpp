@@ -10,16 +10,20 @@ namespace driftmesh {
 
 struct DecomposeOptions {
   std::int32_t subdomains = 1;
-  double min_angle = 60;  ///< degrees, 0 to 80: that separators make with everything, where the domain allows it
+  /// Degrees, 0 to kMaxSeparatorAngle: the smallest angle between separators and whatever they meet, where the domain
+  /// allows it.
+  double min_angle = 60;
   /// What the mesh must meet: subdomains are balanced by the triangles it asks for. Without any bound on size, by area.
   QualityBounds bounds;
-  /// 0: equal work. Above, up to 1: deliberately uneven, for experiments; each cut gives one side up to (1 + skew)
-  /// times its due, at random.
+  /// 0: equal work. Above, up to kMaxSkew: deliberately uneven, for experiments; each cut gives one side up to (1 +
+  /// skew) times its due, at random.
   double skew = 0;
   std::uint64_t seed = 1;  ///< of that randomness
 };
 
 inline constexpr std::int32_t kMaxSubdomains = 10'000'000;
+inline constexpr int kMaxSeparatorAngle = 80;  // degrees
+inline constexpr int kMaxSkew = 1;
 
 /// Cuts a triangulated domain (see triangulate and prepare_corners; not refined yet) into connected subdomains of about
 /// equal work, with short straight separators that keep an angle to everything. Deterministic: the same triangulation

@@ -289,11 +289,11 @@ Section parts_section() {
            doors(kMesh | kExperiment)),
        key("decomposition.separator-angle", &R::decomposition, &R::Decomposition::separator_angle,
            "Smallest angle between separators and everything they meet, where the domain allows it", unit("degrees"),
-           in(0, 80), option("separator-angle", "DEGREES"), doors(kMeshers | kDecompose)),
+           in(0, kMaxSeparatorAngle), option("separator-angle", "DEGREES"), doors(kMeshers | kDecompose)),
        key("decomposition.skew", &R::decomposition, &R::Decomposition::skew,
            "0: equal work. Above: deliberately uneven subdomains, for experiments; each cut gives one side up to "
            "1 + S times its due",
-           in(0, 1), option("split-skew", "S"), doors(kMeshers | kDecompose)),
+           in(0, kMaxSkew), option("split-skew", "S"), doors(kMeshers | kDecompose)),
        key("seed", &R::seed, "Seed of the unevenness; each repetition of an experiment adds one", from(0),
            option("seed", "N"), doors(kMeshers | kDecompose)),
        choice(

@@ -339,6 +339,8 @@ TEST_CASE("options out of range are refused") {
   options.min_angle = 85;
   CHECK_THROWS_AS(decompose(mesh, options), Error);
   options.min_angle = 60;
-  options.skew = -1;
-  CHECK_THROWS_AS(decompose(mesh, options), Error);
+  for (const double skew : {-1.0, 1.5}) {
+    options.skew = skew;
+    CHECK_THROWS_WITH_AS(decompose(mesh, options), doctest::Contains("the skew must be from 0 to 1, not "), Error);
+  }
 }
