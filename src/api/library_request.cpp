@@ -41,6 +41,7 @@ std::string in_words_of_options(const std::string& message) {
     const std::string option = job::find_key(key).key->option;
     if (!option.empty()) replace_word(text, "--" + option, own);
   });
+  replace_word(text, "sizing.size", "MeshOptions::size");  // a function, which no key can hold
   return text;
 }
 

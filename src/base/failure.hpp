@@ -9,9 +9,10 @@
 
 namespace driftmesh {
 
-/// What to say when memory ends before a limit does.
+/// The message when memory runs out before a limit stops the work. Like other limits it names an option of the command
+/// line, which the library replaces by its own.
 inline constexpr const char* kOutOfMemory =
-    "out of memory; ask for larger triangles, or see --max-memory of driftmesh mesh";
+    "out of memory; ask for larger triangles, or have the work stop in time with --max-memory";
 
 /// An error as it travels from the rank that met it to the others, which throw it too.
 struct Failure {

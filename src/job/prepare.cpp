@@ -5,7 +5,9 @@
 
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
+#include "decompose/presplit.hpp"
 #include "decompose/same_input.hpp"
+#include "job/key.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh::job {
@@ -27,6 +29,12 @@ Decomposition decomposition_of(const Request& request, const Domain& domain, con
   const std::string& file = request.decomposition.file;
   if (!file.empty()) return timed(watch, "load", [&] { return read_decomposition(file, domain.pslg); });
   return timed(watch, "decompose", [&] { return cut(request, triangulated, ranks); });
+}
+
+void check_presplit(const Request& request, const QualityBounds& bounds) {
+  if (request.run.presplit == Presplit::kOn && !bounds_size(bounds))
+    throw KeyError("run.presplit", "is on, but nothing says how long the pieces of interfaces may be",
+                   "give bounds.area, bounds.triangles or sizing.size, or remove it");
 }
 
 Balancing balancing_of(const Request& request, Place place) {
@@ -77,6 +85,7 @@ Prepared prepare(const Request& request, const Domain& domain, const Given& give
   const Triangulated triangulated = triangulate_domain(request, domain, ranks, watch);
   Prepared prepared;
   prepared.acute_corners = triangulated.acute_corners;
+  check_presplit(request, triangulated.bounds);
   check_forecast(limits, forecast_triangles(triangulated.mesh, triangulated.bounds), false);
   Decomposition decomposition = decomposition_of(request, domain, given, triangulated, ranks, watch);
   for (const Decomposition::Subdomain& s : decomposition.subdomains) prepared.forecast += s.predicted;

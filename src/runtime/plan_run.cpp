@@ -46,8 +46,6 @@ RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const
   require_possible(bounds);
   if (options.slice < 1) throw Error("a slice must be at least one insertion");
   const bool sized = bounds_size(bounds);
-  if (options.presplit == Presplit::kOn && !sized)
-    throw Error("interfaces have no target size: presplit on needs a bound on area or size");
   RunPlan plan;
   plan.owners = map_subdomains(decomposition, options.mapping);
   plan.decomposition = std::move(decomposition);

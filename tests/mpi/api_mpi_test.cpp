@@ -2,6 +2,7 @@
 #include <mpi.h>
 
 #include <filesystem>
+#include <new>
 #include <string>
 
 #include "driftmesh/decomposition.hpp"
@@ -158,6 +159,14 @@ TEST_CASE("what one rank meets while it works ends the work of all, which can go
     return 0.01;
   };
   if (ranks > 1) CHECK_THROWS_AS(make(), FileError);
+  options.size = [&](const Point&) -> double {
+    if (own_rank() == guilty) throw std::bad_alloc();
+    return 0.01;
+  };
+  if (ranks > 1) {
+    CHECK_THROWS_AS(make(), LimitError);
+    CHECK(common_error(make).ends_with("MeshOptions::max_memory"));
+  }
   options.size = {};
   options.max_triangles = 1000;
   CHECK(common_error(make).find("MeshOptions::max_triangles") != std::string::npos);

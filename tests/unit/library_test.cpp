@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "api/library_request.hpp"
+#include "base/failure.hpp"
 #include "driftmesh/driftmesh.hpp"
 #include "job/keys.hpp"
 #include "mesh/digest.hpp"
@@ -161,6 +162,10 @@ TEST_CASE("options are checked against the table of keys, and named as the calle
   const std::string too_many = error_of_options({.max_area = 1e-5, .max_triangles = 100});
   CHECK(too_many.find("MeshOptions::max_triangles") != std::string::npos);
   CHECK(too_many.find("--") == std::string::npos);
+  CHECK(in_words_of_options(kOutOfMemory).ends_with("have the work stop in time with MeshOptions::max_memory"));
+  CHECK(error_of_options({.subdomains = {.count = 4, .presplit = Presplit::kOn}}) ==
+        "MeshOptions::subdomains.presplit is on, but nothing says how long the pieces of interfaces may be; give "
+        "MeshOptions::max_area, MeshOptions::triangles or MeshOptions::size, or remove it");
   // What means nothing here is refused.
   CHECK(error_of_options({.subdomains = {.slice = 100}}).starts_with("MeshOptions::subdomains.slice "));
   CHECK(error_of_options({.subdomains = {.count = 4}, .balance = {.policy = "greedy"}})

@@ -32,9 +32,18 @@ auto then_close(Open& open, const Work& work) {
   }
 }
 
+/// Speaks of the library's options even when it ends the job.
+class LibraryTeam final : public job::MpiTeam {
+ public:
+  explicit LibraryTeam(MPI_Comm communicator) : MpiTeam(MPI_Comm_c2f(communicator)) {}
+  [[noreturn]] void abort(const std::string& message, int code) override {
+    MpiTeam::abort(in_words_of_options(message), code);
+  }
+};
+
 template <class Work>
 auto with_team(MPI_Comm communicator, const Work& work) {
-  job::MpiTeam team(MPI_Comm_c2f(communicator));
+  LibraryTeam team(communicator);
   return then_close(team, [&] { return work(team); });
 }
 

@@ -11,7 +11,7 @@ namespace driftmesh::job {
 
 /// The ranks of an MPI communicator, named by its Fortran handle; MPI has been initialized. All of them make one and
 /// close it together.
-class MpiTeam final : public Team {
+class MpiTeam : public Team {
  public:
   explicit MpiTeam(int communicator);
 
