@@ -6,6 +6,7 @@
 #include "app/request_line.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/standard_streams.hpp"
+#include "cli/values.hpp"
 #include "config/experiment.hpp"
 #include "job/check.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
@@ -29,7 +30,9 @@ int run(const MeshCommand& command) {
   in_words_of_options(command.given, settings.places, [&] {
     command.given.apply(settings.request);
     const job::Request& request = settings.request;
-    if (request.input.file.empty() && request.input.generator.empty()) throw cli::UsageError("INPUT is missing");
+    const job::Request::Input& input = request.input;
+    if (input.file.empty() && input.generator.empty() && input.parameters.empty())
+      throw cli::UsageError("INPUT is missing");
     const job::Place place = job::place_of(request, job::kMesh, launched);
     job::check(request, place, balancer::make_policy);
     code = run_mesh(request, place, command_line_of("driftmesh mesh", request, job::kMesh));
@@ -47,10 +50,7 @@ cli::Command mesh_command() {
                      .help = "Take options from a YAML file, by their long names (input: bay.poly, area: 5000, output: "
                              "[a.vtu]) or by those of experiments; what the command line gives wins",
                      .completes = cli::Option::Completes::kFile,
-                     .take = [command](const std::string& file) {
-                       if (file.empty()) throw cli::UsageError("is empty; give it a value, or leave it out");
-                       command->config = file;
-                     }});
+                     .take = cli::into(command->config)});
   return {.name = "mesh",
           .summary = "Make a quality mesh of a domain",
           .options = std::move(options),

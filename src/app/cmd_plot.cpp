@@ -1,6 +1,10 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +15,7 @@
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "picture/plot.hpp"
+#include "picture/plot_values.hpp"
 #include "pslg/poly_file.hpp"
 
 namespace driftmesh::app {
@@ -76,6 +81,28 @@ void check_color(const PlotCommand& command, const Mesh& mesh) {
   if (command.plot.color == PlotColor::rank && mesh.ranks.empty()) refuse("rank");
 }
 
+/// Throws InputError for a box that would make an empty picture: `shows` says that something is in it.
+void check_box(const PlotCommand& command, const std::vector<Point>& points, bool shows) {
+  if (shows || points.empty()) return;
+  const Box extent = Box::of(points);
+  throw InputError(
+      {command.input, 0},
+      fmt::format("has nothing in the --box given: it extends from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g})",
+                  extent.low.x, extent.low.y, extent.high.x, extent.high.y),
+      "choose a part of that");
+}
+
+void check_box(const PlotCommand& command, const Pslg& pslg) {
+  if (command.plot.box) check_box(command, pslg.points, command.plot.box->overlaps(Box::of(pslg.points)));
+}
+
+void check_box(const PlotCommand& command, const Mesh& mesh) {
+  if (!command.plot.box) return;
+  const auto triangles = std::views::iota(std::size_t{0}, mesh.triangles.size());
+  check_box(command, mesh.points,
+            std::ranges::any_of(triangles, [&](std::size_t t) { return is_shown(mesh, t, *command.plot.box); }));
+}
+
 std::string title_of(const std::string& input) {
   return is_standard_stream(input) ? "standard input" : std::filesystem::path(input).filename().string();
 }
@@ -85,8 +112,13 @@ void run_plot(const cli::Call& call, PlotCommand& command) {
   const std::filesystem::path input(command.input);
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
   if (command.plot.title.empty()) command.plot.title = title_of(command.input);
-  if (holds_input(input)) return plot_pslg(read_poly(command.input), command.output, command.plot);
+  if (holds_input(input)) {
+    const Pslg pslg = read_poly(command.input);
+    check_box(command, pslg);
+    return plot_pslg(pslg, command.output, command.plot);
+  }
   const Mesh mesh = read_mesh(command.input);
+  check_box(command, mesh);
   check_color(command, mesh);
   plot_mesh(mesh, command.output, command.plot);
 }

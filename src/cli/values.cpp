@@ -44,6 +44,13 @@ std::int64_t read_integer(const std::string& text, const Range& range) {
   return read<std::int64_t>(text, range, "a whole number");
 }
 
+Take into(std::string& to) {
+  return [&to](const std::string& text) {
+    if (text.empty()) throw UsageError("is empty; give it a value, or leave it out");
+    to = text;
+  };
+}
+
 Take into(std::vector<double>& to, const Range& range) {
   return [&to, range](const std::string& text) {
     std::istringstream items(text);

@@ -38,9 +38,8 @@ template <std::integral Number>
   range.most = std::min(range.most, static_cast<double>(std::numeric_limits<Number>::max()));
   return [&to, range](const std::string& text) { to = static_cast<Number>(read_integer(text, range)); };
 }
-[[nodiscard]] inline Take into(std::string& to) {
-  return [&to](const std::string& text) { to = text; };
-}
+/// A text that is not empty.
+[[nodiscard]] Take into(std::string& to);
 /// One more.
 [[nodiscard]] inline Take into(std::vector<std::string>& to) {
   return [&to](const std::string& text) { to.push_back(text); };

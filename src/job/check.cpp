@@ -54,7 +54,7 @@ void check_places(const Request& request, Place place) {
 void check_input(const Request::Input& input) {
   require(input.file.empty() || input.generator.empty(), "input.generate", "names a second domain",
           "remove it or input.file");
-  require(!input.generator.empty() || input.parameters.empty(), "input.parameters", "has no generator to go to",
+  require(!input.generator.empty() || input.parameters.empty(), "input.parameters", "needs a model to generate",
           "name one with input.generate");
   if (input.generator.empty()) return;
   try {

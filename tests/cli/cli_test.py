@@ -110,6 +110,10 @@ class Pipeline(Cli):
             self.refuse("plot", "square.msh", "-o", "b.png", *options, code=2, says=[word])
         self.refuse("plot", "square.msh", "-o", "b.png", "--width", "20", code=2, says=["--width", "100 to 20000"])
         self.refuse("plot", "square.msh", "-o", "b.png", "--size", "20x500", says=["each side may have"])
+        for option in "--output", "--title":
+            self.refuse("plot", "square.msh", option, "", code=2, says=[option, "is empty"])
+        for input in "square.msh", "square.poly":
+            self.refuse("plot", input, "-o", "b.png", "--box", "5,5,6,6", says=[input, "--box", "from (0, 0) to (4, 4)"])
         self.assertEqual(self.files(), before)
 
     def test_options_may_stand_before_the_input(self):
@@ -255,7 +259,8 @@ class Errors(Cli):
                                (["--slice", "10"], "--subdomains"), (["--presplit", "off"], "--subdomains")):
             with self.subTest(options=options):
                 self.refuse("mesh", "square.poly", *options, "-o", "x.vtu", code=2, says=[options[0], place])
-        for options in (["--balance", "zoltan"], ["--aggregation", "3"], ["--keep-incomplete"]):
+        self.refuse("mesh", "--generate-with", "x=1", code=2, says=["--generate-with needs a model", "--generate;"])
+        for options in (["--balance", "zoltan"], ["--aggregation", "3"], ["--keep-incomplete"], ["--presplit", "on"]):
             with self.subTest(options=options):
                 self.refuse("mesh", "square.poly", "-n", "4", *options, code=2, says=[options[0]])
         self.refuse("decompose", "square.poly", "-n", "4", "--split-skew", "5", code=2, says=["--split-skew", "at most 1"])

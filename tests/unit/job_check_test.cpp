@@ -71,6 +71,7 @@ TEST_CASE("values that do not go together are refused") {
   CHECK(refused(kOnePiece, [](Request& r) { r.sizing.shortest = 2; }) == "sizing.min");
   CHECK(refused(kOnePiece, [](Request& r) { r.input.file = r.input.generator = "pipe"; }) == "input.generate");
   CHECK(refused(kOnePiece, [](Request& r) { r.input.generator = "pip"; }) == "input.generate");
+  CHECK(refused(kOnePiece, [](Request& r) { r.input.parameters = {{"x", "1"}}; }) == "input.parameters");
   CHECK(refused(kSubdomains, [](Request& r) { r.decomposition.file = "a.parts", r.decomposition.subdomains = 3; }) ==
         "decomposition.file");
   CHECK(refused(kRanks, [](Request& r) { r.mapping.speeds = {1}, r.mapping.by_speed = true; }) == "mapping.by-speed");
