@@ -29,7 +29,7 @@ Format named_format(const std::string& path) {
 Format format_of(const std::string& path) {
   const Format format = named_format(path);
   if (is_standard_stream(path) && (format == Format::kTriangle || format == Format::kPvtu))
-    throw InputError({path, 0}, "is for a mesh in several files, and a standard stream is one",
+    throw InputError({path, 0}, "means several files, but a standard stream is only one",
                      "use - or -.vtu, or -.msh, or name a file");
   return format;
 }
@@ -45,7 +45,7 @@ void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& o
     case Format::kVtu:
       return write_vtu(mesh, path);
     case Format::kPvtu:
-      throw InputError({path, 0}, "is for a mesh in pieces", "this mesh is one: write a .vtu");
+      throw InputError({path, 0}, "is for a mesh in pieces", "this mesh is in one piece; write a .vtu");
     case Format::kMsh:
       return write_msh(mesh, path);
     case Format::kTriangle:

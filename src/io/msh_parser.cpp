@@ -74,7 +74,7 @@ class MshParser {
       fail("has sizes of " + std::to_string(size_bytes) + " bytes, not 8", "write it on a 64-bit system");
     (void)cursor_.take_line();
     if (is_binary_ && cursor_.take<std::int32_t>("$MeshFormat") != 1)
-      fail("has the other byte order", "convert it to ASCII first");
+      fail("is in the other byte order", "convert it to ASCII first");
   }
 
   void parse_physical_names() {

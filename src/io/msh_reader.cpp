@@ -79,7 +79,7 @@ class MshAssembler {
     }
   }
 
-  // Only if each triangle has one; values of lines are skipped.
+  // Only if each triangle has one; values on lines are skipped.
   [[nodiscard]] std::vector<std::int32_t> values_of_triangles(const std::vector<RawMsh::ElementValue>& values) const {
     if (values.empty()) return {};
     std::vector<std::uint64_t> tags = raw_.triangles.tags;

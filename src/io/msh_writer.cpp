@@ -285,7 +285,7 @@ void write_attribute(FileSink& sink, const Mesh& mesh, std::size_t k) {
   end_of_binary_section(sink, "EndNodeData");
 }
 
-// Where the triangles were made, as a view on them: physical groups for this would change what solvers load.
+// Where the triangles were made, as a view of them: physical groups would change what solvers load.
 void write_triangle_data(FileSink& sink, const Mesh& mesh, std::string_view name,
                          const std::vector<std::int32_t>& values) {
   section(sink, "ElementData");
@@ -301,7 +301,7 @@ void write_triangle_data(FileSink& sink, const Mesh& mesh, std::string_view name
   end_of_binary_section(sink, "EndElementData");
 }
 
-// Text, also in a binary file: readers that do not know the section look for its end line by line.
+// As text even in a binary file: readers that do not know the section look for its end line by line.
 void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& markers) {
   section(sink, "DriftmeshPointMarkers");
   sink.number(markers.size() - std::count(markers.begin(), markers.end(), 0));

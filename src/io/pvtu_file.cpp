@@ -121,7 +121,7 @@ Mesh read_pvtu(const std::string& path) {
   }
   if (faults.count != 0)
     throw InputError({path, 0}, "its pieces do not fit together: " + faults.first[0],
-                     "driftmesh check lists all that is wrong");
+                     "driftmesh check lists all faults");
   return mesh;
 }
 

@@ -9,7 +9,7 @@ namespace driftmesh {
 /// that the tags are consecutive numbers.
 [[nodiscard]] std::vector<std::size_t> order_by_tag(const std::vector<std::uint64_t>& tags);
 
-/// Finds the place of a tag among tags in ascending order.
+/// Finds the position of a tag among tags in ascending order.
 class TagIndex {
  public:
   explicit TagIndex(std::vector<std::uint64_t> ascending);

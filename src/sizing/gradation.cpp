@@ -11,7 +11,7 @@ namespace driftmesh {
 namespace {
 
 /// The points that each point shares an edge with, in one array: those of point i from begin[i] to begin[i + 1]. Most
-/// appear twice, once for each triangle at the edge.
+/// appear twice, once for each triangle on the edge.
 struct Neighbors {
   std::vector<std::size_t> begin;
   std::vector<std::int32_t> points;
@@ -36,7 +36,7 @@ Neighbors neighbors_along_edges(std::size_t point_count, const std::vector<std::
 void limit_gradation(const std::vector<Point>& points, const std::vector<std::array<std::int32_t, 3>>& triangles,
                      double gradation, std::vector<double>& lengths) {
   const Neighbors neighbors = neighbors_along_edges(points.size(), triangles);
-  // Dijkstra from all points at once: the shortest length is final and limits those around it.
+  // Dijkstra's algorithm from all points at once: the shortest length is final and limits those around it.
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (std::size_t i = 0; i < points.size(); ++i)

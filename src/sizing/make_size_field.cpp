@@ -82,7 +82,8 @@ std::unique_ptr<SizeField> read_background_field(const std::string& path, std::o
   if (gradation && !(*gradation > 0 && std::isfinite(*gradation)))
     throw InputError({"gradation"}, std::to_string(*gradation), "it must be positive; 0.2 to 0.3 grade well");
   if (is_standard_stream(path))
-    throw InputError({path}, "a background mesh is two or three files, and standard input is one", "name its .node");
+    throw InputError({path}, "a background mesh consists of two or three files, but standard input is only one",
+                     "name its .node");
   const std::string stem = stem_of(path);
   const NodeTable nodes = read_node(stem + ".node");
   EleTable elements = read_ele(stem + ".ele", nodes);

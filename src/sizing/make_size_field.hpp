@@ -9,7 +9,7 @@
 
 namespace driftmesh {
 
-/// What a user may ask for regarding the sizes of triangles. Everything given holds: the shortest length wins.
+/// Requirements on the sizes of triangles. All that are given apply: the shortest length wins.
 struct SizingOptions {
   /// A target edge length in x and y; see ExpressionField. Empty: none.
   std::string expression{};

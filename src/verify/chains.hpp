@@ -9,7 +9,7 @@
 
 namespace driftmesh {
 
-/// The subsegments of a mesh put end to end: a chain runs between two corners (points of the input) through vertices
+/// The subsegments of a mesh joined end to end: a chain runs between two corners (points of the input) through vertices
 /// that have exactly two subsegments, so it is what one input segment was split into.
 class Chains {
  public:

@@ -8,8 +8,8 @@
 
 namespace driftmesh {
 
-/// The corners at each point of a mesh, found by counting: corner 3 t + k is corner k of triangle t. The
-/// checks use no other adjacency. 14 bytes a triangle.
+/// The corners at each point of a mesh, found by counting: corner 3 t + k is corner k of triangle t.
+/// The checks use no other adjacency. 14 bytes per triangle.
 class CornerTable {
  public:
   /// Every index of `mesh` is valid. Throws LimitError above 1.4 billion triangles.

@@ -35,7 +35,7 @@ enum class Flaw : std::uint8_t {
   unknown_subsegment,  ///< a chain of subsegments joins input points that no input segment joins
   off_segment,         ///< a vertex of a chain is off its input segment, or out of order along it
   wrong_marker,        ///< a subsegment does not carry the marker of its input segment
-  not_covered,         ///< a part of the domain along an input segment has no triangle
+  not_covered,         ///< a part of the domain along an input segment has no triangles
   outside_filled,      ///< a triangle lies outside the outer boundary
   hole_filled,         ///< a triangle lies in a hole
   wrong_area,          ///< the triangles' areas do not sum to the area of the domain

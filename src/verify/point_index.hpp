@@ -8,7 +8,7 @@
 
 namespace driftmesh {
 
-/// Finds points by their exact coordinates. 8 to 16 bytes a point.
+/// Finds points by their exact coordinates. 8 to 16 bytes per point.
 class PointIndex {
  public:
   /// `points` must outlive the index.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kSlack = 1e-9;         // relative, for rounding
 constexpr double kSameDistance = 1e-6;  // relative: two vertices count as equally far from their apex
-// In a wedge narrower than this, in degrees, distances count as equal up to a share of the wedge's width: where
+// In a wedge narrower than this, in degrees, distances count as equal up to a fraction of the wedge's width: where
 // segments hardly diverge and end almost side by side, no points are needed to separate their ends.
 constexpr double kNarrowWedge = 1;
 constexpr double kShareOfWidth = 0.3;

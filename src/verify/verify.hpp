@@ -47,25 +47,21 @@ struct VerifyReport {
   [[nodiscard]] bool accepted() const { return findings.empty(); }
 };
 
-/// Checks a finished mesh independently of how it was made (the exact predicates are all that is shared with the
-/// mesher):
+/// Checks a finished mesh independently of how it was made (it shares only the exact predicates with the mesher):
 /// - it is a triangulation: every triangle is counterclockwise, every edge belongs to two triangles or is a subsegment
-/// of
-///   the boundary, and the boundary does not intersect itself. Together these prove that no point of the plane is
+///   of the boundary, and the boundary does not intersect itself. Together these prove that no point of the plane is
 ///   covered twice, since the number of triangles over a point is the winding number of the boundary around it;
 /// - it is constrained Delaunay: no point opposite an unconstrained edge lies inside the circumcircle. If this holds at
 ///   every such edge, it holds everywhere (Chew 1989). Edges between triangles of different subdomains
 ///   (Mesh::subdomains) count as constrained here;
 /// - areas and angles meet the bounds of `options`; see ExceptionReason for accepted exceptions.
-/// Flaws of the mesh are reported, never thrown, whatever its arrays contain. Linear time but for the boundary, which
-/// takes O(n log n); about 55 bytes per triangle besides the mesh. Throws LimitError above 1.4 billion triangles.
+/// Flaws of the mesh are reported, never thrown, whatever its arrays contain. Linear time except for the boundary,
+/// which takes O(n log n); about 55 bytes per triangle besides the mesh. Throws LimitError above 1.4 billion triangles.
 [[nodiscard]] VerifyReport verify(const Mesh& mesh, const VerifyOptions& options);
 
-/// Also checks the mesh against its input, which must be planar as repair() leaves it (if not, that is reported as a
-/// flaw):
+/// Also checks the mesh against its input, which must be planar, as repair() leaves it; otherwise, that is a flaw:
 /// - the boundary of the mesh is the boundary of the domain, found from an arrangement of the input segments without
-/// any
-///   triangulation; so every point of the domain is covered once, and nothing else is;
+///   any triangulation; so every point of the domain is covered once, and nothing else is;
 /// - every input segment in the domain is one chain of subsegments with its marker, in order along it and on it up to
 ///   the rounding of repeated midpoints; there are no other subsegments;
 /// - every input point in the domain is a vertex; area, Euler number and region attributes (if listed) agree.
