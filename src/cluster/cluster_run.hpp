@@ -11,17 +11,17 @@ namespace driftmesh {
 /// The load of one rank at one moment.
 struct LoadSample {
   double time = 0;                       ///< seconds since the start of the run
-  Rank rank{};                           ///< whose load changed at that time
-  std::int64_t triangles = 0;            ///< that its subdomains have
+  Rank rank{};                           ///< the rank whose load changed at that time
+  std::int64_t triangles = 0;            ///< in its subdomains
   double remaining = 0;                  ///< expected number still to be made
   double worked = 0;                     ///< seconds of refinement that ended at that time
-  SubdomainId subdomain = kNoSubdomain;  ///< that was refined, where `worked` is above 0
+  SubdomainId subdomain = kNoSubdomain;  ///< the one refined, if `worked` is above 0
 };
 
 /// Points that a slice of work inserted on the interfaces of a subdomain with one neighbor.
 struct SplitRecord {
   double time = 0;  ///< when the slice ended
-  Rank rank{};      ///< where the slice was done
+  Rank rank{};      ///< that did the slice
   SubdomainId from{}, to{};
   std::int32_t points = 0;
 };
@@ -30,15 +30,15 @@ struct SplitRecord {
 struct MoveRecord {
   SubdomainId subdomain{};
   Rank from{}, to{};
-  double left = 0, arrived = 0;  ///< seconds since the start of the run: packed and gone; unpacked
+  double left = 0, arrived = 0;  ///< when it was packed and sent, and when unpacked; seconds since the start of the run
   std::uint64_t bytes = 0;       ///< its packed size
 };
 
 /// Results of a run on a real or simulated cluster.
 struct ClusterRun {
-  double makespan = 0;  ///< seconds from the start to the moment when the last rank knows that all is done
+  double makespan = 0;  ///< seconds from the start until the last rank knows that all work is done
   IdVector<Rank, RankOutcome> ranks;
-  std::vector<MoveRecord> moves;       ///< in the order of leaving
+  std::vector<MoveRecord> moves;       ///< in order of departure
   std::vector<LoadSample> samples;     ///< in the order of time
   std::vector<SplitRecord> splits;     ///< in the order of time
   IdVector<SubdomainId, Rank> owners;  ///< at the end
@@ -48,8 +48,8 @@ struct ClusterRun {
   [[nodiscard]] std::uint64_t message_bytes() const;  ///< of these messages
 };
 
-/// Seconds that the work of `run` would take if every rank computed from start to end: the sum of computing times
-/// weighted by speed over the sum of speeds.
+/// The time in seconds that the work of `run` would take if every rank computed from start to end: the sum of computing
+/// times weighted by speed over the sum of speeds.
 [[nodiscard]] double ideal_seconds(const ClusterRun& run, const IdVector<Rank, double>& speeds);
 
 }  // namespace driftmesh

@@ -24,7 +24,7 @@ IdVector<Rank, double> speeds_of(const ClusterSpec& cluster, const CostModel& co
                   " ranks; give it at least one");
     if (!(group.speed >= 0 && std::isfinite(group.speed)))
       throw Error("group '" + group.name + "' of the cluster has a speed of " + std::to_string(group.speed) +
-                  " triangles a second; give one above 0, or 0 for that of the machine in docs/benchmarks.md");
+                  " triangles per second; it must be above 0, or 0 for the speed of the machine in docs/benchmarks.md");
     speeds.insert(speeds.end(), to_index(group.ranks), group.speed > 0 ? group.speed : reference_speed(costs));
   }
   if (speeds.empty()) throw Error("a cluster needs at least one rank");
@@ -33,7 +33,8 @@ IdVector<Rank, double> speeds_of(const ClusterSpec& cluster, const CostModel& co
     throw Error("the cluster has " + std::to_string(speeds.size()) + " ranks, but drag for " +
                 std::to_string(cluster.drag.size()));
   for (const Rank r : ids_of(speeds)) {
-    if (!(cluster.drag[r] > 0)) throw Error("rank " + to_string(r) + " of the cluster is dragged to a stop");
+    if (!(cluster.drag[r] > 0))
+      throw Error("rank " + to_string(r) + " of the cluster has no speed left; its drag must be above 0");
     speeds[r] *= cluster.drag[r];
   }
   return speeds;

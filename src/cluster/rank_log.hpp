@@ -11,7 +11,8 @@
 
 namespace driftmesh {
 
-/// What one rank did and when: its loop tells it, and join() makes of the logs of all ranks what the run came to.
+/// A record of what one rank did and when. Its loop writes it, and join() turns the logs of all ranks into the result
+/// of the run.
 class RankLog {
  public:
   /// An empty one, for read() to fill.
@@ -20,7 +21,7 @@ class RankLog {
   RankLog(const protocol::Transport& transport, const RunPlan& plan);
 
   void begins(const RankLoop& loop);
-  /// `seconds`: that the slice took, with what slowed it down.
+  /// `seconds`: the duration of the slice, drag included.
   void worked(const RankLoop& loop, const RankLoop::Slice& slice, double seconds);
   void departs(const RankLoop& loop, const RankLoop::Passage& passage);
   void arrives(const RankLoop& loop, const RankLoop::Passage& passage);
@@ -29,7 +30,7 @@ class RankLog {
   void write(ByteWriter& writer) const;
   [[nodiscard]] static RankLog read(ByteReader& reader);
 
-  /// The run of all ranks' logs.
+  /// The run that the logs of all ranks describe.
   [[nodiscard]] static ClusterRun join(const IdVector<Rank, RankLog>& logs);
 
  private:
@@ -52,7 +53,7 @@ class RankLog {
   std::vector<SplitRecord> splits_;
   std::vector<Passage> departures_, arrivals_;
   std::vector<SubdomainId> held_;             // at the end
-  std::map<SubdomainId, std::int32_t> told_;  // by the slice that is being written: points by neighbor
+  std::map<SubdomainId, std::int32_t> told_;  // points by neighbor, of the slice that is being written
 };
 
 }  // namespace driftmesh

@@ -27,7 +27,7 @@ using job::Value;
 using Kind = job::KeyInfo::Kind;
 using Table = std::map<std::string, std::string>;
 
-/// Where a YAML text comes from: a file, or one setting of the command line.
+/// The source of a YAML text: a file, or one --set of the command line.
 class Origin {
  public:
   static Origin file(const std::string& path) {
@@ -144,7 +144,7 @@ class Values {
     return list;
   }
 
-  /// One item of a list: all fields, with defaults for those not given.
+  /// One item of a list: all fields, with defaults for those that are missing.
   [[nodiscard]] Record record(const KeyInfo& key, const YAML::Node& node) const {
     if (!node.IsMap())
       fail(key.name, node, "has an item that is not a table", "write for example {ranks: 4, speed: 1e6}");
@@ -172,7 +172,7 @@ class Values {
   const Origin& origin_;
 };
 
-/// Does `work`; if it rejects a value, the error says where the value was given.
+/// Does `work`; if it rejects a value, the error names the place where the value was given.
 template <class Work>
 void place_errors(const Experiment& experiment, const Work& work) {
   try {
@@ -186,7 +186,7 @@ bool is_section(const std::string& name) {
   return std::ranges::any_of(job::keys(), [&](const job::Key& key) { return key.name.starts_with(name + "."); });
 }
 
-/// Reads the keys of one file, and of the settings of a command line, into a request.
+/// Reads the keys of one file, and those set on the command line, into a request.
 class KeyReader {
  public:
   using TakeOther = std::function<bool(const std::string& name, const YAML::Node& key, const YAML::Node& value)>;
@@ -212,7 +212,7 @@ class KeyReader {
     places_[path.key->name] = origin.place(node.Mark());
   }
 
-  /// The key with that name, or with an option of that name.
+  /// The key with this name, or with an option of this name.
   [[nodiscard]] KeyPath known_key(const Origin& origin, const std::string& name, const YAML::Mark& mark) const {
     KeyPath path = job::find_key(name);
     if (path.key == nullptr) path = job::find_option(name);
@@ -235,7 +235,7 @@ class KeyReader {
     }
   }
 
-  /// Some options have the names of sections, which have no single value.
+  /// Some options are named like sections, which have no single value.
   [[nodiscard]] static bool is_option(const std::string& name, const YAML::Node& node) {
     return !node.IsMap() && !node.IsNull() && job::find_option(name).key != nullptr;
   }
@@ -257,7 +257,7 @@ class KeyReader {
   std::set<std::string> seen_;
 };
 
-/// Reads the file of an experiment with the settings of the command line.
+/// Reads the file of an experiment and the settings of the command line.
 class ExperimentReader {
  public:
   explicit ExperimentReader(const std::string& path)
@@ -309,7 +309,7 @@ class ExperimentReader {
     const std::string text = setting.substr(equals + 1);
     YAML::Node value = origin.parse(text);
     const KeyPath path = keys_.known_key(origin, name, YAML::Mark::null_mark());
-    // YAML takes the colon of `a ? b : c` for a table.
+    // YAML takes `a ? b : c` for a table because of its colon.
     if (value.IsMap() && path.key->kind == Kind::kText) value = YAML::Node(text);
     std::erase_if(result_.sweep, [&](const Experiment::Axis& axis) { return axis.key == name; });
     const bool one_list = path.key->kind == Kind::kList || path.key->kind == Kind::kNumbers;
@@ -370,7 +370,7 @@ void check_processes(const Experiment& experiment, std::int32_t processes) {
         job::check_ranks(point.request, place, processes);
       else if (processes > 1)
         throw KeyError("cluster.kind",
-                       "is simulated, in one process, and mpirun has started " + std::to_string(processes),
+                       "is simulated, which takes one process, but mpirun has started " + std::to_string(processes),
                        "start it without mpirun, or write kind: real");
     }
   });

@@ -11,7 +11,7 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json json_of(const job::Value& value);
 
-/// Every key of a request that `doors` know, with its value, by its full name.
+/// All keys of a request that `doors` know, by their full names, with their values.
 [[nodiscard]] Json json_of(const job::Request& request, unsigned doors);
 
 }  // namespace driftmesh::config

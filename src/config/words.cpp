@@ -14,7 +14,7 @@ using job::KeyInfo;
 using job::Value;
 using Kind = job::KeyInfo::Kind;
 
-/// Where the section of a key ends: behind its last dot, or 0.
+/// The length of a key's section, including the dot; 0 if it has none.
 std::size_t section_end(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   return dot == std::string::npos ? 0 : dot + 1;
@@ -42,7 +42,7 @@ void add_range(Json& schema, const KeyInfo& key) {
   if (std::isfinite(key.most)) schema["maximum"] = key.most;
 }
 
-/// A number, or one with a unit, which YAML takes for text: 5k.
+/// A number, or one with a unit, such as 5k, which is text to YAML.
 Json number_schema(const KeyInfo& key) {
   Json number = {{"type", key.kind == Kind::kInteger ? "integer" : "number"}};
   add_range(number, key);
@@ -103,7 +103,7 @@ std::string row(const std::string& name, const KeyInfo& key) {
   return "| `" + name + "` | " + values_words(key) + " | " + standard + " | " + help_of(key) + " |\n";
 }
 
-/// The value in words that mean the same wherever the file lies that they are written into.
+/// The value in a form that does not depend on the folder of the file it is written to.
 Value from_anywhere(const KeyInfo& key, const Value& value) {
   if (key.kind != Kind::kFile || is_standard_stream(value.as<std::string>()) || value.as<std::string>().empty())
     return value;
@@ -133,7 +133,7 @@ std::string json_schema() {
     swept[key.name] = {{"type", "array"}, {"minItems", 1}, {"items", schema_of(key)}, {"description", help_of(key)}};
   }
   sections["sweep"] = {{"type", "object"},
-                       {"description", "Keys, each with the list of values that it takes; all combinations are run"},
+                       {"description", "Keys, each with a list of values; all combinations are run"},
                        {"properties", swept}};
   const Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                        {"title", "driftmesh experiment"},

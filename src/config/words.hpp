@@ -6,13 +6,13 @@
 
 namespace driftmesh::config {
 
-/// The JSON schema of an experiment's file, for editors that check YAML while it is written.
+/// The JSON schema of experiment files, for editors that check YAML while you type.
 [[nodiscard]] std::string json_schema();
 
 /// All keys as a table in Markdown.
 [[nodiscard]] std::string keys_table();
 
-/// A request in full: every key of an experiment with its value, as a file that says the same in any folder.
+/// A request in full: every key of an experiment with its value, as a YAML file that means the same in any folder.
 [[nodiscard]] std::string experiment_text(const job::Request& request);
 
 /// The same with the sweep.

@@ -66,7 +66,7 @@ bool cut_leaf(Triangulation& mesh, Cavity& cavity, SubsegmentId s, const Point& 
 /// Halves the leaves of straight segments until they are no longer than `spacing`.
 void refine_borders(Triangulation& mesh, double spacing) {
   Cavity cavity(mesh);
-  for (SubsegmentId s{0}; mesh.subsegments.has(s); s = after(s)) {  // those that are added, too
+  for (SubsegmentId s{0}; mesh.subsegments.has(s); s = after(s)) {  // including those added meanwhile
     const Subsegment leaf = mesh.subsegments[s];
     if (!leaf.is_leaf() || mesh.roots[leaf.root].shell != kNone) continue;
     const Point &a = mesh.points[leaf.vertex[0]], &b = mesh.points[leaf.vertex[1]];
@@ -75,7 +75,7 @@ void refine_borders(Triangulation& mesh, double spacing) {
   }
 }
 
-/// Names of shells and shell ends above all that are in use.
+/// The first number that no shell and no shell end has.
 std::int32_t fresh_shell_name(const Triangulation& mesh) {
   std::int32_t name = 0;
   for (const RootSegment& root : mesh.roots) name = std::max(name, root.shell + 1);
@@ -88,7 +88,7 @@ std::int32_t fresh_shell_name(const Triangulation& mesh) {
 bool halve_shell(Triangulation& mesh, Cavity& cavity, std::int32_t shell) {
   const std::int32_t name = fresh_shell_name(mesh);
   bool any = false;
-  for (const RootId r : ids_of(mesh.roots)) {  // without those that are added
+  for (const RootId r : ids_of(mesh.roots)) {  // not those added meanwhile
     if (mesh.roots[r].shell != shell) continue;
     const SubsegmentId s = mesh.roots[r].tree;
     const auto [u, v] = mesh.roots[r].vertex;
@@ -104,7 +104,7 @@ bool halve_shell(Triangulation& mesh, Cavity& cavity, std::int32_t shell) {
   return any;
 }
 
-/// Where segments lie beside points that no bridge connects with them yet.
+/// The segments next to points that no bridge connects to them yet.
 struct Unreached {
   std::map<SubsegmentId, std::pair<double, Point>> feet;  ///< of each leaf: squared distance and foot of the nearest
   std::set<std::int32_t> shells;                          ///< of segments that cannot be cut at a foot
@@ -132,8 +132,8 @@ Unreached find_unreached(const Triangulation& mesh, ConnectedVertices& sets) {
   return found;
 }
 
-/// Cuts segments at the feet of perpendiculars from points that no bridge connects with them yet: the shortest way
-/// between two parts of the border ends at a foot or at a corner that bulges. Shell pieces are halved instead. Returns
+/// Cuts segments at the feet of perpendiculars from points that no bridge connects to them yet: the shortest connection
+/// of two parts of the border ends at such a foot or at a convex corner. Shell pieces are halved instead. Returns
 /// whether there were any.
 bool refine_unreached(Triangulation& mesh, ConnectedVertices& sets) {
   const Unreached found = find_unreached(mesh, sets);
@@ -144,7 +144,7 @@ bool refine_unreached(Triangulation& mesh, ConnectedVertices& sets) {
   return any;
 }
 
-/// The angle from the edge to the first wall that follows around its start, on the side that opens less.
+/// The smaller of the two angles between the edge and the walls next to it around its start.
 double angle_at_start(const WalledMesh& walled, HalfEdge edge) {
   const Triangulation& mesh = walled.mesh;
   const VertexId u = mesh.edge_start(edge), v = mesh.edge_end(edge);
@@ -196,8 +196,8 @@ void choose_bridges(WalledMesh& walled, ConnectedVertices& sets, double bound) {
   }
 }
 
-/// Bridges until everything is connected. Where none keeps the angle, the border is refined further; smaller angles
-/// come last.
+/// Adds bridges until everything is connected. Where none keeps the angle, the border is refined further; smaller
+/// angles are the last resort.
 void build_bridges(WalledMesh& walled, double angle) {
   constexpr int kRounds = 8;
   ConnectedVertices sets(0);
@@ -213,8 +213,8 @@ void build_bridges(WalledMesh& walled, double angle) {
   for (const double part : {0.9, 0.75, 0.5, 0.0}) choose_bridges(walled, sets, part * angle);
 }
 
-/// Turns the walls of a triangulation into a map. Points that were only put on segments for bridges to end at, and
-/// where none ends, are left out.
+/// Turns the walls of a triangulation into a map. Points that were put on segments as ends for bridges, but became
+/// none, are left out.
 class MapBuilder {
  public:
   MapBuilder(const WalledMesh& walled, std::size_t given_points)

@@ -100,7 +100,7 @@ class Checker {
     if (share) return overlap_at_common_end(r, s);
     const double ra = side(s.a, s.b, r.a), rb = side(s.a, s.b, r.b);
     const double sa = side(r.a, r.b, s.a), sb = side(r.a, r.b, s.b);
-    if (ra == 0 && rb == 0) return true;  // on one line, and their boxes overlap
+    if (ra == 0 && rb == 0) return true;  // collinear, and their boxes overlap
     return opposite(ra, rb) && opposite(sa, sb);
   }
   static bool opposite(double u, double v) { return (u >= 0 && v <= 0) || (u <= 0 && v >= 0); }
@@ -111,7 +111,7 @@ class Checker {
     return orient2d(o, p, q) == 0 && (p.x - o.x) * (q.x - o.x) + (p.y - o.y) * (q.y - o.y) > 0;
   }
 
-  /// Sorts the darts of every point by angle, which gives the loops of the borders, and looks at each sector.
+  /// Sorts the darts at every point by angle, which yields the loops of the borders, and checks each sector.
   void check_points() {
     std::vector<Dart> darts(2 * d_.roots.size());
     std::iota(darts.begin(), darts.end(), 0);
@@ -123,7 +123,7 @@ class Checker {
     }
   }
 
-  /// Counterclockwise order of darts with a common start, from the positive x axis on.
+  /// Counterclockwise order of darts with a common start, beginning at the positive x axis.
   [[nodiscard]] bool before(Dart e, Dart f) const {
     const Point &o = point(start(e)), &p = point(end(e)), &q = point(end(f));
     const auto lower = [&](const Point& r) { return r.y < o.y || (r.y == o.y && r.x < o.x); };
@@ -137,7 +137,7 @@ class Checker {
     next_[f ^ 1] = e;  // a border comes in along f and leaves along e, the sector on its left
     if (left(e) != left(f ^ 1) || (left(e) != kNoSubdomain && left_region(e) != left_region(f ^ 1)))
       problem("at " + place(start(e)) + ", roots " + to_string(root_of(e)) + " and " + to_string(root_of(f)) +
-              " disagree about the subdomain between them: " + to_string(left(e)) + " and " + to_string(left(f ^ 1)));
+              " disagree on the subdomain between them: " + to_string(left(e)) + " and " + to_string(left(f ^ 1)));
     if (left(e) == kNoSubdomain || e == f || (!root(e).separator && !root(f).separator)) return;
     const Point &o = point(start(e)), &p = point(end(e)), &q = point(end(f));
     if (orient2d(o, p, q) < 0) return;  // more than 180 degrees
@@ -148,7 +148,7 @@ class Checker {
     report_.smallest_at = start(e);
   }
 
-  /// Follows every border: of each subdomain, one that is not connected with a hole's goes around it counterclockwise.
+  /// Follows every border. Each subdomain must have exactly one outer border, and the area that it claims.
   void check_borders() {
     IdVector<SubdomainId, double> area(d_.size(), 0);
     IdVector<Border, SubdomainId> subdomain_of;

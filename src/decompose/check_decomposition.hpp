@@ -7,17 +7,17 @@
 
 namespace driftmesh {
 
-/// What a decomposition is like, and what is wrong with it.
+/// Measurements of a decomposition, and its faults.
 struct DecompositionReport {
-  /// Broken invariants in words, at most kMaxProblems; empty if there are none.
+  /// Descriptions of broken invariants, at most kMaxProblems.
   std::vector<std::string> problems;
-  double smallest_angle = 180;           ///< degrees, between a separator and any root beside it, inside the domain
-  GlobalPointId smallest_at = kNoPoint;  ///< where
+  double smallest_angle = 180;                ///< degrees, between a separator and any adjacent root, inside the domain
+  GlobalPointId smallest_at = kNoPoint;       ///< where
   std::vector<std::int32_t> angle_histogram;  ///< of those angles, in steps of 10 degrees: [0, 10), ..., [170, 180]
   double area = 0;                            ///< of all subdomains
   double border_length = 0;                   ///< of roots with the domain on one side
   double separator_length = 0;
-  double largest_load = 0;  ///< predicted work of a subdomain over the mean
+  double largest_load = 0;  ///< predicted work of a subdomain, relative to the mean
   double smallest_load = 0;
 
   static constexpr std::size_t kMaxProblems = 20;
@@ -25,8 +25,8 @@ struct DecompositionReport {
 };
 
 /// Checks the invariants that Decomposition states, from the points and roots alone: indices in range, each root's
-/// direction, coordinates in range; around every point the roots agree about the subdomain and region between them;
-/// each subdomain has one outer border (it is connected) and the area that it claims; the lists match the roots; no two
+/// direction, coordinates in range; the roots around every point agree on the subdomains and regions between them; each
+/// subdomain has one outer border (it is connected) and the area that it claims; the lists match the roots; no two
 /// roots cross. Uses exact orientation; areas must agree to about 1e-9 of the domain.
 [[nodiscard]] DecompositionReport check_decomposition(const Decomposition& decomposition);
 

@@ -9,10 +9,10 @@
 namespace driftmesh {
 namespace {
 
-/// The border of a compact subdomain over the root of its area, as measured for good decompositions.
+/// The length of a compact subdomain's border over the square root of its area, as measured for good decompositions.
 constexpr double kPerimeter = 4.1;
 
-/// The sum of the borders of `parts` subdomains that a piece will be cut into: of compact ones, or of slices if the
+/// The total border length of the `parts` subdomains that a piece will be cut into: compact ones, or slices if the
 /// piece is long and thin.
 double expected_border(double area, double length, std::int32_t parts) {
   if (parts == 1) return length;
@@ -21,7 +21,7 @@ double expected_border(double area, double length, std::int32_t parts) {
   return std::max(compact, slices);
 }
 
-/// What a deviation from the mean work costs, in units of the expected border.
+/// The cost of a deviation from the mean work, in units of the expected border.
 double imbalance_cost(double load) {
   const double over = std::max(0.0, load - 1.25);
   return 0.3 * (load - 1) * (load - 1) + 8 * over * over;
@@ -29,7 +29,7 @@ double imbalance_cost(double load) {
 
 }  // namespace
 
-/// Every usable station, or of every stretch of the border the one that offers the widest sector.
+/// All usable stations, or, of each stretch of the border, the one with the widest sector.
 void CutSearch::select_stations() {
   selected_.clear();
   const auto& stations = outline_->stations;
@@ -71,7 +71,7 @@ void CutSearch::rank(std::size_t i, std::size_t j, std::vector<Cut>& ranked) con
   const double share = outline_->share_between(i, j);
   if (!(share > 0 && share < 1)) return;
   const double fair =
-      share / (share + goal_.bias * (1 - share));  // the share in parts that deserves this share of work
+      share / (share + goal_.bias * (1 - share));  // the share of the parts that corresponds to this share of the work
   const auto n = goal_.parts;
   const auto between = std::clamp(static_cast<std::int32_t>(std::lround(fair * n)), 1, n - 1);
   const double load_between = goal_.load * fair * n / between;
@@ -146,7 +146,7 @@ Cut CutSearch::first_inside(std::vector<Cut>& ranked) const {
   return {};
 }
 
-/// Tries the neighbors of a cut's ends that the selection left out, in ever smaller steps.
+/// Tries the neighbors of a cut's ends that the selection left out, in decreasing steps.
 Cut CutSearch::refine(Cut cut) {
   const auto count = static_cast<std::ptrdiff_t>(outline_->stations.size());
   for (std::ptrdiff_t step = static_cast<std::ptrdiff_t>(stride_ + 1) / 2; stride_ > 1 && step >= 1; step /= 2) {

@@ -8,14 +8,14 @@
 
 namespace driftmesh {
 
-/// What a cut of one piece should reach.
+/// The goal of cutting one piece.
 struct CutGoal {
-  std::int32_t parts = 2;  ///< subdomains that the piece is to become; >= 2
+  std::int32_t parts = 2;  ///< number of subdomains to be made of the piece; >= 2
   double load = 1;         ///< work per part in this piece over that in the whole domain
-  double bias = 1;         ///< how many times its due the side between the stations is to get; 1 is fair
-  double angle = 0;        ///< that the outline was read with, radians
+  double bias = 1;         ///< work that the side between the stations is to get, relative to its fair share
+  double angle = 0;        ///< radians; the one the outline was read with
   double clearance = 0;    ///< distance to keep from other corners, in units of the shorter of spacing and separator
-  std::size_t max_stations = 64;  ///< that are tried against each other; more are thinned out first
+  std::size_t max_stations = 64;  ///< more are thinned out before all pairs are tried
 };
 
 /// A straight separator between two stations of an outline, first < second.
@@ -27,9 +27,9 @@ struct Cut {
   explicit operator bool() const { return parts_between != 0; }
 };
 
-/// Finds the best straight cut of a piece with one loop: all pairs of stations (of a selection, where there are many;
-/// then its neighbors) are ranked by the separator length that the finished decomposition can be expected to have and
-/// by the balance of work; the best one that stays inside the piece is taken. The object keeps its buffers.
+/// Finds the best straight cut of a piece with one loop: all pairs of stations (of a selection if there are many, then
+/// their neighbors) are ranked by the expected separator length of the finished decomposition and by the balance of
+/// work; the best one that stays inside the piece wins. The object keeps its buffers between searches.
 class CutSearch {
  public:
   Cut find(const PlanarMap& map, const Outline& outline, const CutGoal& goal);

@@ -18,23 +18,24 @@
 namespace driftmesh {
 namespace {
 
-/// How hard a cut is searched for, the first way that gives a good one counts. Most pieces are done by the first.
+/// How thorough the search for a cut is. Efforts are tried in order until one finds a good cut; for most pieces the
+/// first one does.
 struct Effort {
-  double angle;    ///< of the asked minimum
-  double spacing;  ///< of stations, over the root of the piece's area
+  double angle;    ///< relative to the requested minimum
+  double spacing;  ///< of stations, relative to the square root of the piece's area
   std::size_t max_stations;
   double clearance;
 };
-/// No cut makes an angle below half the asked one: under 30 degrees refinement could split its two sides by turns.
+/// No cut makes an angle below half the requested one: below 30 degrees, refinement could split its two sides in turns.
 constexpr Effort kEfforts[] = {{1, 1.0 / 11, 64, 0.2},     {1, 1.0 / 25, 128, 0.2},    {1, 1.0 / 60, 300, 0.1},
                                {0.9, 1.0 / 60, 300, 0.1},  {0.75, 1.0 / 60, 300, 0.1}, {0.6, 1.0 / 60, 300, 0.05},
                                {0.5, 1.0 / 100, 400, 0.02}};
-/// A cut that leaves a finished subdomain with more than this much work over the mean asks for another effort, as long
-/// as the angle need not suffer.
+/// If a cut leaves a finished subdomain with more work than this, relative to the mean, the next effort is tried,
+/// unless it has a smaller angle.
 constexpr double kGoodLoad = 1.38;
-/// A decomposition with a larger load than this is tried again by grouping smaller pieces.
+/// A decomposition with a larger load than this is made again by grouping smaller pieces.
 constexpr double kFairLoad = 1.45;
-/// Samples of work for each subdomain, and as many as a search looks at.
+/// Samples of work per subdomain, and the largest number that a search uses.
 constexpr double kSamplesPerSubdomain = 60;
 constexpr std::size_t kMostSamples = 250;
 
@@ -54,7 +55,7 @@ double work_of(const WorkSamples& samples) {
   return work;
 }
 
-/// Samples of the work in each piece, which then is the piece's work; none without a size field.
+/// Samples of the work in each piece, which set the piece's work; none without a size field.
 std::vector<WorkSamples> sample_pieces(const PlanarMap& map, std::vector<Piece>& pieces, const Triangulation& mesh,
                                        const DecomposeOptions& options) {
   std::vector<WorkSamples> samples(pieces.size());
@@ -83,7 +84,7 @@ class Cutter {
     mean_ = work / parts;
   }
 
-  /// Returns how many parts could not be made.
+  /// Returns the number of parts that could not be made.
   std::int32_t run() {
     for (std::size_t i = 0; i < pieces_.size(); ++i) enqueue(i);
     while (!queue_.empty()) {
@@ -107,7 +108,7 @@ class Cutter {
     solid_[piece] = true;
   }
 
-  /// Parts that a piece could not be cut into go to the heaviest subdomains that can be cut.
+  /// The heaviest subdomains that can be cut take over the parts that a piece could not be cut into.
   void spend_spare_parts() {
     while (spare_ > 0) {
       solid_.resize(pieces_.size(), false);
@@ -194,7 +195,7 @@ class Cutter {
     return true;
   }
 
-  /// The search works with some of the samples; all of them say what each side has become, and deserves.
+  /// The search uses some of the samples; the work of each side, and its number of parts, follow from all of them.
   void share_samples(std::size_t rest, std::size_t between) {
     samples_[between] = take_inside(samples_[rest], border_of(map_, pieces_[between].side));
     const double work = pieces_[rest].work + pieces_[between].work;
@@ -216,7 +217,7 @@ class Cutter {
   double skew_;
   std::mt19937_64 random_;
   std::priority_queue<std::pair<std::int32_t, std::size_t>> queue_;
-  std::vector<bool> solid_;  // pieces that no cut was found for
+  std::vector<bool> solid_;  // pieces for which no cut was found
   std::int32_t spare_ = 0;
   Outline outline_;
   Outline::Station chosen_[2];
@@ -246,7 +247,7 @@ double area_of(const Triangulation& mesh) {
   return twice / 2;
 }
 
-/// The domain before its first cut.
+/// The domain before the first cut.
 struct Domain {
   PlanarMap map;
   std::vector<Piece> pieces;
@@ -263,7 +264,7 @@ Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options
 }
 
 /// Cuts into `finer` times as many pieces as subdomains are wanted, and groups them. Bridges leave few ways to cut a
-/// domain with many holes into a few subdomains; groups of smaller pieces are not bound to them.
+/// domain with many holes into a few subdomains; groups of smaller pieces have more.
 Decomposition cut_domain(Domain domain, const DecomposeOptions& options, std::int32_t finer) {
   const std::int32_t parts = finer * options.subdomains;
   allot_parts(domain.map, domain.pieces, parts);

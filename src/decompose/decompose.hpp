@@ -13,10 +13,11 @@ struct DecomposeOptions {
   /// Degrees, 0 to kMaxSeparatorAngle: the smallest angle between separators and whatever they meet, where the domain
   /// allows it.
   double min_angle = 60;
-  /// What the mesh must meet: subdomains are balanced by the triangles it asks for. Without any bound on size, by area.
+  /// The bounds on the mesh: subdomains are balanced by the number of triangles they require, or by area if there is no
+  /// bound on size.
   QualityBounds bounds;
   /// 0: equal work. Above, up to kMaxSkew: deliberately uneven, for experiments; each cut gives one side up to (1 +
-  /// skew) times its due, at random.
+  /// skew) times its fair share, at random.
   double skew = 0;
   std::uint64_t seed = 1;  ///< of that randomness
 };
@@ -26,16 +27,16 @@ inline constexpr int kMaxSeparatorAngle = 80;  // degrees
 inline constexpr int kMaxSkew = 1;
 
 /// Cuts a triangulated domain (see triangulate and prepare_corners; not refined yet) into connected subdomains of about
-/// equal work, with short straight separators that keep an angle to everything. Deterministic: the same triangulation
-/// and options give the same decomposition.
+/// equal work, with short straight separators that make large angles with everything they meet. Deterministic: the same
+/// triangulation and options give the same decomposition.
 ///
 /// After Linardakis and Chrisochoides, "Algorithm 870: A Static Geometric Medial Axis Domain Decomposition in 2D
 /// Euclidean Space" (2008), recursive bisection by separators between points of the border; the search for the best
-/// separator is our own (docs/decomposition.md says how and why). Segments inside the domain are borders of subdomains
-/// where that suits the balance, else they stay inside one. Shell pieces of acute corners stay shell pieces.
+/// separator is our own (see docs/decomposition.md). Segments inside the domain become borders of subdomains where that
+/// suits the balance; otherwise they stay inside one. Shell pieces of acute corners stay shell pieces.
 ///
-/// Throws Error for options out of range, if the domain has more parts that do not touch than subdomains are wanted,
-/// and if it cannot be cut into so many pieces.
+/// Throws Error for options out of range, if the domain has more disconnected parts than subdomains are requested, and
+/// if it cannot be cut into that many.
 [[nodiscard]] Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& options);
 
 }  // namespace driftmesh

@@ -21,13 +21,13 @@ inline constexpr GlobalPointId kNoPoint{-1};
   return std::to_string(to_int(point));
 }
 
-/// A domain cut into subdomains. Plain data in flat arrays: what is mapped to ranks, saved and loaded.
+/// A domain cut into subdomains. Plain data in flat arrays, which can be mapped to ranks, saved and loaded.
 ///
 /// Invariants (check_decomposition tests them): subdomains are connected and cover the domain without overlap; their
-/// borders consist of roots alone; a root has one or two sides in the domain; roots meet only at their ends. An input
+/// borders consist of roots only; a root has one or two sides in the domain; roots meet only at their ends. An input
 /// segment is a root, or a chain of roots where separators end on it.
 struct Decomposition {
-  /// A segment that refinement cuts at dyadic points only, as both sides do alike.
+  /// A segment that refinement cuts only at dyadic points, which are the same on both sides.
   struct Root {
     GlobalPointId a{};  ///< a < b: the root's direction
     GlobalPointId b{};
@@ -37,8 +37,8 @@ struct Decomposition {
     SubdomainId right = kNoSubdomain;
     std::uint16_t left_region = 0;  ///< label of the region on that side (see mesh/cdt.hpp), 0 without a side
     std::uint16_t right_region = 0;
-    bool separator = false;  ///< made here, not on any segment of the input
-    /// Whether two subdomains share it.
+    bool separator = false;  ///< made by the decomposition, not part of a segment of the input
+    /// Whether it is shared by two subdomains.
     [[nodiscard]] bool is_interface() const { return left != kNoSubdomain && right != kNoSubdomain && left != right; }
     /// The subdomain on the other side of an interface.
     [[nodiscard]] SubdomainId across_from(SubdomainId one) const { return left == one ? right : left; }
@@ -48,7 +48,7 @@ struct Decomposition {
     double area = 0;
     double predicted = 0;  ///< triangles after refinement, in the unit of the work measure it was made with
     Point centroid;
-    std::uint16_t region = 0;  ///< the region label of most of its area
+    std::uint16_t region = 0;  ///< the region label of the largest part of its area
     friend bool operator==(const Subdomain&, const Subdomain&) = default;
   };
 
@@ -57,11 +57,11 @@ struct Decomposition {
   IdVector<GlobalPointId, VertexOrigin> origin;
   IdVector<GlobalRootId, Root> roots;
   IdVector<SubdomainId, Subdomain> subdomains;
-  /// Roots of subdomain i, ascending: root_list[root_begin[i]] up to root_begin[i + 1]. A root inside the subdomain
-  /// (both sides) stands there once.
+  /// Roots of subdomain i, ascending: root_list[root_begin[i]] up to root_begin[i + 1]. A root inside the subdomain (on
+  /// both sides) is listed once.
   std::vector<std::int32_t> root_begin{0};
   std::vector<GlobalRootId> root_list;
-  /// Points inside subdomain i that are on no root (isolated input points), the same way.
+  /// Likewise, the points inside subdomain i that are on no root (isolated input points).
   std::vector<std::int32_t> point_begin{0};
   std::vector<GlobalPointId> point_list;
 
@@ -82,14 +82,14 @@ struct Decomposition {
 /// Sets root_begin and root_list from the sides of the roots.
 void list_roots(Decomposition& decomposition);
 
-/// Two subdomains that share roots.
+/// Two subdomains with common roots.
 struct Interface {
   SubdomainId first;  ///< first < second
   SubdomainId second;
   double length;  ///< of all roots they share
 };
 
-/// Every pair of subdomains with a common root once, in ascending order.
+/// Each pair of subdomains with a common root once, in ascending order.
 [[nodiscard]] std::vector<Interface> interfaces(const Decomposition& decomposition);
 
 }  // namespace driftmesh

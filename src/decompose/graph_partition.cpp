@@ -15,9 +15,9 @@
 namespace driftmesh {
 namespace {
 
-static_assert(sizeof(idx_t) == sizeof(std::int32_t), "graphs are handed to a METIS with 32-bit indices");
+static_assert(sizeof(idx_t) == sizeof(std::int32_t), "METIS must have 32-bit indices");
 
-/// Integers in proportion to the weights. Sums of them must fit METIS's 32-bit integers.
+/// Integers in proportion to the weights. Their sums must fit METIS's 32-bit integers.
 std::vector<idx_t> to_integers(const std::vector<double>& weights, double least) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   const double scale = sum > 0 ? 5e8 / sum : 0;
@@ -33,8 +33,8 @@ std::vector<real_t> normalized(const std::vector<double>& shares) {
   return targets;
 }
 
-/// METIS draws from the C library's one random sequence, which it seeds anew, and sets signal handlers while it works:
-/// of two threads each would change what the other gets.
+/// METIS reseeds and uses the C library's global random sequence and sets signal handlers while it works, so two
+/// concurrent calls would influence each other.
 std::mutex one_at_a_time;
 
 }  // namespace

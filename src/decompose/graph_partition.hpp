@@ -7,7 +7,7 @@
 
 namespace driftmesh {
 
-/// An undirected graph with weights. Each edge stands at both of its ends.
+/// An undirected graph with weights. Each edge is listed at both of its ends.
 struct WeightedGraph {
   IdVector<std::int32_t, std::int32_t> begin{0};  ///< neighbors of vertex v: from begin[v] up to begin[v + 1]
   IdVector<std::int32_t, std::int32_t> neighbor;
@@ -21,9 +21,9 @@ enum class PartitionMethod {
   kDirect,     ///< k-way: better for more
 };
 
-/// Cuts a graph into parts of the given shares of the weight (any positive scale, one for each part), with little edge
-/// weight between them. A part may come out empty or in several pieces. Deterministic for a seed, whatever other
-/// threads do; one call at a time works, others wait. Uses METIS (Karypis and Kumar 1998). Throws Error if METIS fails.
+/// Partitions a graph into parts with the given shares of the weight (positive, on any scale, one for each part) and
+/// little edge weight between them. A part may be empty or disconnected. Deterministic for a seed, whatever other
+/// threads do; concurrent calls are serialized. Uses METIS (Karypis and Kumar 1998). Throws Error if METIS fails.
 [[nodiscard]] IdVector<std::int32_t, std::int32_t> partition_graph(const WeightedGraph& graph,
                                                                    const std::vector<double>& shares,
                                                                    PartitionMethod method, std::int32_t seed = 1);

@@ -44,7 +44,7 @@ class Sectors {
   double angle_, cosine_, sine_;
 };
 
-/// How many equal parts a wall is cut into by places.
+/// The number of equal parts into which places divide a wall.
 int parts_of(const PlanarMap::Wall& wall, double length, double spacing) {
   const double parts = std::floor(length / spacing + 0.3);
   if (parts < 2) return 1;
@@ -55,7 +55,7 @@ SideId split_at(PlanarMap& map, SideId h, const Point& p, VertexOrigin what) {
   return map.split(h, map.add_point(p, what));
 }
 
-/// Names of shells and shell ends above all that are in use.
+/// The first number that no shell and no shell end has.
 std::int32_t fresh_shell_name(const PlanarMap& map) {
   std::int32_t name = 0;
   for (const PlanarMap::Wall& w : map.walls) name = std::max(name, w.shell + 1);
@@ -157,7 +157,7 @@ void read_outline(const PlanarMap& map, SideId side, double spacing, double angl
 
 SideId realize(PlanarMap& map, const Outline::Station& station) {
   if (station.corner) return station.side;
-  // A shell of which both ends of a separator are places is halved by the first of them.
+  // If both ends of a separator are places on the same shell, the first one has halved it already.
   const auto found = [&]() -> SideId {
     if (map.at(map.start(station.side)) == station.at) return station.side;
     if (map.at(map.end(station.side)) == station.at) return map.side(station.side).next;

@@ -18,7 +18,7 @@
 namespace driftmesh {
 namespace {
 
-/// Pieces that touch along walls, by connected part of the domain.
+/// Sets of pieces that touch along walls: the connected parts of the domain.
 DisjointSets<PieceId> connected_parts(const PlanarMap& map, const IdVector<SideId, PieceId>& piece_of,
                                       std::size_t pieces) {
   DisjointSets sets(pieces);
@@ -27,11 +27,11 @@ DisjointSets<PieceId> connected_parts(const PlanarMap& map, const IdVector<SideI
   return sets;
 }
 
-/// Rounds shares of `total` (by weight) to integers of that sum, each at least `least`: largest remainders.
+/// Divides `total` by weight into integers, each at least `least`, by the method of largest remainders.
 std::vector<std::int32_t> round_shares(const std::vector<double>& weights, std::int32_t total, std::int32_t least) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   std::vector<std::int32_t> shares;
-  std::vector<std::pair<double, std::size_t>> by_rest;  // most deserving first
+  std::vector<std::pair<double, std::size_t>> by_rest;  // largest remainder first
   std::int32_t dealt = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const double due = total * (weights[i] / sum);
@@ -77,7 +77,7 @@ void for_each_edge(const WeightedGraph& graph, Visit&& visit) {
     for (std::int32_t k = graph.begin[v]; k < graph.begin[v + 1]; ++k) visit(v, graph.neighbor[k]);
 }
 
-/// Groups of pieces, the lightest first, with the groups that each touches.
+/// Groups of pieces, lightest first, with their adjacent groups.
 class Groups {
  public:
   explicit Groups(const WeightedGraph& graph)
@@ -103,7 +103,7 @@ class Groups {
     return false;
   }
 
-  /// Joins the groups of two pieces that touch, if they are not one yet.
+  /// Joins the groups of two adjacent pieces, if they are different.
   void join_pieces(std::int32_t piece, std::int32_t other) {
     const std::int32_t group = sets_.find(piece), second = sets_.find(other);
     if (group == second) return;
@@ -143,8 +143,8 @@ class Groups {
   std::size_t finished_ = 0;
 };
 
-/// Where there are many more pieces than groups, METIS says which belong together. Its parts need not be connected:
-/// their connected pieces become groups. Nothing is joined if it leaves parts empty.
+/// If there are many more pieces than groups, METIS partitions them. Its parts need not be connected, so their
+/// connected components become the groups. Nothing is joined if METIS leaves parts empty.
 void join_by_partition(const WeightedGraph& graph, std::int32_t count, Groups& groups) {
   const IdVector<PieceId, std::int32_t> part =
       partition_graph(graph, std::vector<double>(to_index(count), 1.0),

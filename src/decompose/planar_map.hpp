@@ -51,13 +51,14 @@ class PlanarMap {
   [[nodiscard]] const Point& at(MapVertexId v) const { return points[v]; }
 
   MapVertexId add_point(const Point& p, VertexOrigin what);
-  /// A wall with sides a -> b and b -> a, not linked to anything. Returns the first.
+  /// Adds a wall with sides a -> b and b -> a, not linked to anything. Returns the first side.
   SideId add_wall(MapVertexId a, MapVertexId b, const Wall& wall);
   void link(SideId first, SideId second);
-  /// Cuts the wall of `h` at point `m`. `h` keeps the part before m; returns the part behind it.
+  /// Cuts the wall of `h` at point `m`. `h` keeps the part before m; returns the part after it.
   SideId split(SideId h, MapVertexId m);
-  /// Joins the corners where `u` and `v` start by a wall. If they are on one loop it becomes two, each with one side of
-  /// the new wall; two loops become one. Returns the side that leaves u's corner, which takes the place of u before v.
+  /// Connects the corners where `u` and `v` start by a wall. If they are on the same loop, it becomes two loops, each
+  /// with one side of the new wall; two loops become one. Returns the side from u's corner to v's, which now precedes
+  /// v.
   SideId connect(SideId u, SideId v, Kind kind);
 };
 

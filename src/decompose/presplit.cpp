@@ -13,7 +13,7 @@ struct Spacing {
   double area_bound;
   const SizeField* size;
 
-  /// Squared length that a subsegment from a to b around m may have.
+  /// The largest squared length of a subsegment from a to b with midpoint m.
   [[nodiscard]] double most(const Point& a, const Point& m, const Point& b) const {
     double bound = area_bound;
     if (size != nullptr)
@@ -22,7 +22,7 @@ struct Spacing {
   }
 };
 
-/// A size field without a lower limit must not lead to points that coordinates cannot tell apart.
+/// A size field without a lower limit must not lead to points with equal coordinates.
 constexpr int kDeepest = 40;
 
 void cut(const Spacing& spacing, const Point& a, const Point& b, dyadic::Path path, std::vector<dyadic::Path>& paths) {

@@ -14,17 +14,18 @@ namespace driftmesh {
 /// of the equilateral triangle of area 1. Less by a margin for rounding.
 inline constexpr double kPresplitSpacing = 1.5196;
 
-/// The split points that a root gets before refinement starts, each after its ancestors, so that its subsegments are
-/// at most kPresplitSpacing times the square root of the area bound there: of the smaller bound of its two sides, and
-/// of the size field at the ends and the middle of each subsegment. A function of the root and the bounds alone: both
-/// sides come to the same points without a word. Empty for roots that are no interface, and without bounds on size.
+/// The split points that a root gets before refinement starts, each after its ancestors, so that its subsegments are at
+/// most kPresplitSpacing times the square root of the area bound there: of the smaller bound of its two sides, and of
+/// the size field at the ends and the middle of each subsegment. They depend only on the root and the bounds, so both
+/// sides get the same points without communication. Empty for roots that are no interfaces, and if there are no bounds
+/// on size.
 ///
 /// With a uniform area bound, refinement then splits interfaces only where features or small angles ask for more; after
 /// Linardakis and Chrisochoides (2006), who decouple subdomains by discretizing interfaces beforehand.
 [[nodiscard]] std::vector<dyadic::Path> presplit_paths(const Decomposition& decomposition, GlobalRootId root,
                                                        const QualityBounds& bounds);
 
-/// Whether the bounds say anything about size, without which presplitting has nothing to go by.
+/// Whether there is any bound on size. Presplitting needs one.
 [[nodiscard]] bool bounds_size(const QualityBounds& bounds);
 
 }  // namespace driftmesh

@@ -12,7 +12,7 @@
 namespace driftmesh {
 namespace {
 
-/// Numbers one after another, condensed.
+/// A digest of a sequence of numbers.
 class Condenser {
  public:
   void add(std::uint64_t value) { state_ = mix(state_ + value + kMixStep); }
@@ -20,15 +20,15 @@ class Condenser {
     add(std::bit_cast<std::uint64_t>(p.x));
     add(std::bit_cast<std::uint64_t>(p.y));
   }
-  /// As many bits as a whole number in a file has.
+  /// As many bits as an integer in a file has.
   [[nodiscard]] std::int32_t value() const { return static_cast<std::int32_t>(state_ >> 33); }
 
  private:
   std::uint64_t state_ = 0;
 };
 
-/// The input's segments that a decomposition's roots make up: chains of roots that are no separators, from one point of
-/// the input to the next, as ends (the smaller first) and marker.
+/// The input's segments as a decomposition's roots represent them: chains of roots that are not separators, from one
+/// point of the input to the next. Each is given by its ends (the smaller first) and its marker.
 class Chains {
  public:
   explicit Chains(const Decomposition& d) : d_(d), at_(d.points.size()) {
@@ -46,7 +46,7 @@ class Chains {
   }
 
  private:
-  /// Along root `r` from point `v` to the next point of the input; kNone if there is none.
+  /// Follows root `r` from point `v` to the next point of the input; kNone if there is none.
   [[nodiscard]] std::int32_t follow(GlobalPointId v, GlobalRootId r) const {
     for (std::size_t steps = 0; steps < d_.roots.size(); ++steps) {
       const Decomposition::Root& root = d_.roots[r];

@@ -43,7 +43,7 @@ SubdomainMesh subdomain_triangulation(const Decomposition& d, SubdomainId i) {
   }
   result.mesh = triangulate(pslg, sides);
   if (result.mesh.roots.size() != result.roots.size())
-    throw Error("subdomain " + to_string(i) + " of the decomposition is broken: roots lie twice on one line");
+    throw Error("subdomain " + to_string(i) + " of the decomposition is broken: two roots coincide");
   for (const RootId r : ids_of(result.roots)) result.mesh.roots[r].shell = d.roots[result.roots[r]].shell;
   for (VertexOrigin& origin : result.mesh.origin) {
     const GlobalPointId v = points[VertexId{origin}];  // the points of the PSLG

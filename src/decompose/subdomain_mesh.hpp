@@ -11,7 +11,7 @@ namespace driftmesh {
 struct SubdomainMesh {
   /// Root i of the mesh is root roots[i] of the decomposition, with the same direction and shell; vertex v is its point
   /// points[v]. The origin of a vertex is that GlobalPointId, or the shell end that the decomposition names. Regions
-  /// are labelled as in the whole domain.
+  /// are labeled as in the whole domain.
   Triangulation mesh;
   IdVector<RootId, GlobalRootId> roots;
   IdVector<VertexId, GlobalPointId> points;

@@ -91,7 +91,7 @@ void set_roots(Decomposition& d, const PlanarMap& map, const IdVector<SideId, Su
   }
 }
 
-/// Before set_points: makes one root again of two that meet where a dropped bridge ended on an input segment.
+/// Before set_points: rejoins two roots that meet where a dropped bridge ended on an input segment.
 class Rejoiner {
  public:
   Rejoiner(Decomposition& d, const PlanarMap& map) : d_(d), map_(map), ending_(map.points.size()) {
@@ -130,8 +130,7 @@ class Rejoiner {
   IdVector<GlobalPointId, std::vector<GlobalRootId>> ending_;  // the roots that end at each point
 };
 
-/// Which subdomain each point that no root uses lies in, by a bridge that once led there; kNoSubdomain for other
-/// points.
+/// The subdomain of each point that is on no root, known from a former bridge to it; kNoSubdomain for other points.
 IdVector<GlobalPointId, SubdomainId> find_isolated(const Decomposition& d, const PlanarMap& map,
                                                    const IdVector<SideId, SubdomainId>& subdomain_of) {
   IdVector<GlobalPointId, SubdomainId> inside(map.points.size(), kNoSubdomain);

@@ -8,8 +8,9 @@
 
 namespace driftmesh {
 
-/// The finished value: piece i becomes part of subdomain group_of[i]. Separators and bridges inside one subdomain are
-/// dropped, with the points that only they used. Subdomains are renumbered along a Hilbert curve of their centroids.
+/// The finished decomposition: piece i becomes part of subdomain group_of[i]. Separators and bridges inside a subdomain
+/// are dropped, along with the points that only they used. Subdomains are renumbered along a Hilbert curve of their
+/// centroids.
 [[nodiscard]] Decomposition to_decomposition(const PlanarMap& map, const std::vector<Piece>& pieces,
                                              const std::vector<std::int32_t>& group_of, std::int32_t count);
 

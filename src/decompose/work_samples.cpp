@@ -11,7 +11,7 @@
 namespace driftmesh {
 namespace {
 
-/// A field of lengths made longer.
+/// A size field with all lengths multiplied by a factor.
 class ScaledField final : public SizeField {
  public:
   ScaledField(const SizeField& field, double factor) : field_(field), factor_(factor) {}
@@ -31,7 +31,7 @@ QualityBounds coarser(const QualityBounds& bounds, double factor, const SizeFiel
   return coarse;
 }
 
-/// Triangles in a triangle of the coarse mesh: the density, averaged over it.
+/// The expected number of triangles in a triangle of the coarse mesh: the average density times the area.
 double work_in(const Triangulation& mesh, TriangleId t, const QualityBounds& bounds) {
   const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
   const double area = orient2d(a, b, c) / 2;
@@ -45,7 +45,7 @@ double work_in(const Triangulation& mesh, TriangleId t, const QualityBounds& bou
   return std::max(1.0, area * density / 3);
 }
 
-/// The samples whose ray to the right can meet an edge between two heights.
+/// The samples whose ray to the right can meet an edge between two values of y.
 std::span<const WorkSample> between(std::span<const WorkSample> samples, double low, double high) {
   const auto below = [](const WorkSample& s, double y) { return s.at.y < y; };
   const auto first = std::lower_bound(samples.begin(), samples.end(), low, below);

@@ -10,29 +10,29 @@
 
 namespace driftmesh {
 
-/// A place that stands for some of the work around it.
+/// A point that represents some of the work around it.
 struct WorkSample {
   Point at;
   double work;  ///< triangles
 };
 
-/// Samples of ascending y: the work of a sizing function has no formula, so it is looked up at points of a coarse mesh
-/// that the function itself grades.
+/// Samples in ascending order of y. There is no formula for the work that a size function requires, so it is sampled at
+/// points of a coarse mesh graded by the function itself.
 using WorkSamples = std::vector<WorkSample>;
 
-/// The triangles that refinement to `bounds` can be expected to make, as the centroids of a mesh with about `count`
-/// triangles of about equal work (more if features of the domain ask for them). Each of its triangles stays at least
-/// one.
+/// The number of triangles that refinement to `bounds` is expected to make, sampled at the centroids of a coarse mesh
+/// of about `count` triangles of similar work (more if features of the domain require them). Each of these counts as at
+/// least one.
 [[nodiscard]] WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double count);
 
-/// The work of the samples that a ray to the right meets edge ab from, counted > 0 where the edge goes up and < 0 where
-/// it goes down. Over all edges of a counterclockwise border this sums to the work inside.
+/// The work of the samples from which a ray to the right meets edge ab, > 0 if the edge goes up and < 0 if it goes
+/// down. Over all edges of a counterclockwise border this sums to the work inside.
 [[nodiscard]] double crossing_work(std::span<const WorkSample> samples, const Point& a, const Point& b);
 
 /// Moves the samples inside the closed counterclockwise `border` out of `samples`; both keep their order.
 [[nodiscard]] WorkSamples take_inside(WorkSamples& samples, std::span<const Point> border);
 
-/// Every k-th of many samples, about `most`, with their work.
+/// Every k-th sample, about `most` in total, representing all the work.
 [[nodiscard]] WorkSamples thinned(const WorkSamples& samples, std::size_t most);
 
 }  // namespace driftmesh

@@ -55,7 +55,7 @@ std::vector<NumberedRoot> read_roots(const Mail& mail) {
   for (const HeldEntry& entry : entries)
     if (entry.subdomain == subdomain) ranks += (ranks.empty() ? "" : " and ") + to_string(entry.rank);
   throw Error("subdomain " + to_string(subdomain) + " is held by " + (ranks.empty() ? "no rank" : "ranks " + ranks) +
-              ": migration lost or copied it");
+              ": migration lost or duplicated it");
 }
 
 std::string root_words(const Decomposition& d, GlobalRootId r) {
@@ -91,7 +91,7 @@ PieceAssembly::PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition&
   roots_.erase(std::unique(roots_.begin(), roots_.end(), same), roots_.end());
 }
 
-/// Both sides of a root lie next to each other in roots_.
+/// Both sides of a root are adjacent in roots_.
 void PieceAssembly::compare_own_sides() const {
   for (std::size_t k = 1; k < roots_.size(); ++k) {
     const NumberedRoot &one = roots_[k - 1], &other = roots_[k];

@@ -11,15 +11,16 @@
 
 namespace driftmesh {
 
-/// Makes one distributed mesh of the subdomains that ranks hold: who holds what, equal points on both sides of every
-/// shared root, one number for each vertex. Two rounds of messages; then piece() says what this rank has.
+/// Assembles a distributed mesh from the subdomains that ranks hold: finds out who holds what, checks that both sides
+/// of every shared root have the same points, and numbers the vertices. Takes two rounds of messages; then piece()
+/// returns the part of this rank.
 ///
 /// - Round 1: every rank tells every rank which subdomains it holds, and how many vertices each of them owns.
-/// - Round 2: ranks with a common root tell each other which points they have on it, as a digest; the side that owns
-///   the root adds the number of the first one.
+/// - Round 2: ranks with a common root send each other a digest of the points they have on it; the side that owns the
+///   root adds the number of the first one.
 ///
-/// Errors name the subdomain or root and the ranks: a subdomain that no rank or more than one rank holds, sides of a
-/// root with different points.
+/// Throws Error, naming the subdomain or root and the ranks, if a subdomain is held by no rank or by several, or if the
+/// sides of a root have different points.
 class PieceAssembly final : public Exchange {
  public:
   /// The decomposition outlives the object. `held` is called here and in piece().
@@ -30,8 +31,8 @@ class PieceAssembly final : public Exchange {
   [[nodiscard]] std::vector<Rank> senders(int round) const override;
   void receive(int round, std::vector<Mail> mail) override;
 
-  /// After the conversation. `pslg` is the (repaired) input that the decomposition was made from: markers, attributes
-  /// and regions come from it. Throws Error if the coordinates of a point differ between two subdomains of this rank.
+  /// After the exchange. `pslg` is the (repaired) input that the decomposition was made from: markers, attributes and
+  /// regions come from it. Throws Error if the coordinates of a point differ between two subdomains of this rank.
   [[nodiscard]] DistributedPiece piece(const Pslg& pslg) const;
 
  private:

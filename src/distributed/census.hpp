@@ -8,7 +8,7 @@
 
 namespace driftmesh {
 
-/// How many vertices a subdomain has of each kind, and which.
+/// The numbers of vertices of each kind in a subdomain, and the points on its roots.
 struct SubdomainCensus {
   struct Root {
     GlobalRootId root{};
@@ -20,11 +20,11 @@ struct SubdomainCensus {
   std::vector<Root> roots;  ///< ascending
 };
 
-/// Of each subdomain shown, ascending. Throws Error if they are not shown in ascending order, or are not of the
-/// decomposition.
+/// The census of each subdomain visited. Throws Error if they are not visited in ascending order, or do not belong to
+/// the decomposition.
 [[nodiscard]] std::vector<SubdomainCensus> take_census(const Decomposition& decomposition, const HeldSubdomains& held);
 
-/// The numbers of points on roots that subdomain `census.id` owns, and of those inside it.
+/// The number of points on roots that subdomain `census.id` owns, plus the number of those inside it.
 [[nodiscard]] std::int64_t owned_points(const Decomposition& decomposition, const SubdomainCensus& census);
 
 }  // namespace driftmesh

@@ -11,7 +11,7 @@ using protocol::StepResult;
 
 namespace {
 
-/// In front of every message: what it is, then its round, and which part of how many it is.
+/// The header of every message: a mark, its round, its part number, and the number of parts.
 constexpr std::uint32_t kMark = 0x32584d44;  // "DMX2"
 
 constexpr std::uint32_t kMostParts = 1 << 20;
@@ -71,7 +71,7 @@ bool ExchangeRunner::end_round(Exchange& exchange) {
   std::vector<Mail> mail;
   for (auto& [source, arriving] : arrived) {
     if (!std::binary_search(senders_.begin(), senders_.end(), source))
-      throw ProtocolError(source, "no message was due from it in round " + std::to_string(serial_));
+      throw ProtocolError(source, "no message was expected from it in round " + std::to_string(serial_));
     mail.push_back({source, std::move(arriving).joined()});
   }
   arrived_.erase(serial_++);

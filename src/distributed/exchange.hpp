@@ -15,7 +15,7 @@
 
 namespace driftmesh {
 
-/// A message and the rank at its other end: the one that it goes to, or the one that it came from.
+/// A message and the rank at the other end: its destination or its source.
 struct Mail {
   Rank rank{};
   Bytes bytes;
@@ -27,7 +27,8 @@ struct Mail {
   return {all.begin(), all.end()};
 }
 
-/// Has `read(ByteReader&)` read a message, to its end. An Error in it becomes a ProtocolError that names the sender.
+/// Lets `read(ByteReader&)` read a message, which it must read to the end. An Error becomes a ProtocolError that names
+/// the sender.
 template <class Read>
 void read_mail(const Mail& mail, const Read& read) {
   protocol::read_from(mail.rank, [&] {
@@ -37,9 +38,9 @@ void read_mail(const Mail& mail, const Read& read) {
   });
 }
 
-/// One rank's part of an exchange in rounds: in each, ranks send at most one message to each rank (themselves
-/// included), then handle what was sent to them. Content is decided here, delivery elsewhere: by a Transport, or
-/// directly between ranks of one process.
+/// One rank's part of an exchange in rounds: in each round, ranks send at most one message to each rank (themselves
+/// included), then handle the messages sent to them. An exchange decides what to send; delivery is the task of a
+/// Transport, or direct between ranks of one process.
 class Exchange {
  public:
   virtual ~Exchange() = default;
@@ -60,8 +61,8 @@ class Exchange {
 };
 
 /// A rank that performs exchanges over a Transport, one after another. Rounds are numbered consecutively over all
-/// exchanges, so a message of a rank that is ahead waits for its turn. Nothing else may use the transport meanwhile: on
-/// MPI, create one for this purpose.
+/// exchanges, so a message from a rank that is ahead waits until its round. Nothing else may use the transport
+/// meanwhile; with MPI, create one for this purpose.
 class ExchangeRunner {
  public:
   static constexpr std::size_t kPart = std::size_t{1} << 30;  ///< MPI counts the bytes of a message with an int
@@ -71,13 +72,13 @@ class ExchangeRunner {
       : transport_(transport), part_(part) {}
 
   /// Performs a whole exchange. Every rank makes the same sequence of calls. Throws ProtocolError for a message that is
-  /// not part of an exchange or was not due.
+  /// not part of an exchange or was not expected.
   void run(Exchange& exchange);
-  /// One step of it, for simulated ranks: kFinished when the exchange is over.
+  /// One step of an exchange, for simulated ranks: kFinished when it is over.
   protocol::StepResult step(Exchange& exchange);
 
  private:
-  /// What has come of one mail.
+  /// The parts of a message that have arrived.
   struct Arriving {
     std::vector<Bytes> parts;
     std::vector<bool> there;
@@ -94,10 +95,10 @@ class ExchangeRunner {
 
   protocol::Transport& transport_;
   std::size_t part_;
-  int round_ = 0;  // of the present conversation
+  int round_ = 0;  // of the current exchange
   bool sent_ = false;
   std::vector<Rank> senders_;
-  std::uint32_t serial_ = 0;                   // of the present round, over all conversations
+  std::uint32_t serial_ = 0;                   // of the current round, over all exchanges
   std::map<std::uint32_t, Arrivals> arrived_;  // by round and sender
 };
 

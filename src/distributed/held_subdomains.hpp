@@ -9,8 +9,8 @@
 
 namespace driftmesh {
 
-/// Passes the subdomains that a rank holds to a function, one at a time and in ascending order, so that at most one has
-/// to be unpacked. May be called repeatedly, with the same result each time.
+/// Calls a function with each subdomain that a rank holds, in ascending order, so that only one has to be unpacked at a
+/// time. May be called repeatedly, with the same result each time.
 using ShowSubdomain = std::function<void(SubdomainId, const SubdomainMesh&)>;
 using HeldSubdomains = std::function<void(const ShowSubdomain&)>;
 

@@ -9,8 +9,8 @@
 
 namespace driftmesh {
 
-/// What all ranks know of all subdomains. Vertices of the whole mesh are numbered: first the points of the
-/// decomposition; then, subdomain by subdomain, the points on the roots that it owns (root by root, in order of
+/// What all ranks know about all subdomains. Vertices of the whole mesh are numbered in this order: first the points of
+/// the decomposition; then, subdomain by subdomain, the points on the roots that it owns (root by root, in order of
 /// position), and those inside it.
 struct SubdomainTable {
   IdVector<SubdomainId, Rank> rank;                  ///< that holds it

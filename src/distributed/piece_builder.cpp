@@ -70,7 +70,7 @@ void PieceBuilder::place_decomposition_points() {
   is_placed_.assign(corners_.size(), true);
 }
 
-/// Points on roots and inner points in blocks of consecutive numbers, ascending.
+/// Points on roots and inner points, in blocks of consecutive numbers, ascending.
 void PieceBuilder::place_added_points() {
   struct Block {
     std::int64_t first_number;
@@ -104,7 +104,7 @@ void PieceBuilder::place_added_points() {
   is_placed_.resize(piece_.mesh.numbers.size(), false);
 }
 
-/// Growing such large arrays step by step would touch twice the memory, which takes longer than filling them.
+/// Growing such large arrays step by step would touch twice the memory, which takes more time than filling them.
 void PieceBuilder::reserve_triangles() {
   std::size_t triangles = 0;
   for (const SubdomainCensus& census : census_) triangles += to_index(census.triangles);
@@ -119,7 +119,7 @@ void PieceBuilder::add_subdomain(SubdomainId i, const SubdomainMesh& part, const
   add_edges(i, part, place);
 }
 
-/// Where each vertex of the subdomain's mesh is in the piece.
+/// The place in the piece of each vertex of the subdomain's mesh.
 IdVector<VertexId, PieceBuilder::Place> PieceBuilder::place_vertices(SubdomainId i, const SubdomainMesh& part) {
   const Triangulation& mesh = part.mesh;
   IdVector<VertexId, Place> place(mesh.points.size(), kNone);
@@ -142,8 +142,8 @@ void PieceBuilder::set_point(Place place, const Point& p, SubdomainId i) {
   Point& point = piece_.mesh.points[place];
   if (is_placed_[place] && !(point == p))
     throw Error("point " + std::to_string(piece_.mesh.numbers[place]) +
-                " of the mesh has other coordinates in subdomain " + to_string(i) +
-                " than in its neighbor on the same rank");
+                " of the mesh has different coordinates in subdomain " + to_string(i) +
+                " and in its neighbor on the same rank");
   point = p;
   is_placed_[place] = true;
 }
@@ -163,7 +163,7 @@ void PieceBuilder::add_triangles(SubdomainId i, const Triangulation& mesh, const
   piece.subdomains.resize(piece.triangles.size(), to_int(i));
 }
 
-/// The subsegments of the input. One between two subdomains of this rank is taken from the side that owns it.
+/// The subsegments of the input. A subsegment between two subdomains of this rank is taken from the side that owns it.
 void PieceBuilder::add_edges(SubdomainId i, const SubdomainMesh& part, const IdVector<VertexId, Place>& place) {
   for (const RootId r : ids_of(part.roots)) {
     const Decomposition::Root& root = decomposition_.roots[part.roots[r]];
@@ -180,8 +180,8 @@ void PieceBuilder::add_edges(SubdomainId i, const SubdomainMesh& part, const IdV
   }
 }
 
-/// From the decomposition and the input, so that all ranks agree: an input point keeps its marker, a point on segments
-/// takes the first nonzero marker of these.
+/// Markers follow from the decomposition and the input, so all ranks agree: an input point keeps its marker; a point on
+/// segments gets their first nonzero marker.
 void PieceBuilder::mark_points(const Pslg& pslg) {
   auto& markers = piece_.mesh.point_markers;
   for (const NumberedRoot& r : roots_)
@@ -214,8 +214,8 @@ void PieceBuilder::set_attributes(const Pslg& pslg) {
   }
 }
 
-/// Who has which vertex follows from who holds which subdomain. A corner belongs to the rank of the lowest subdomain
-/// at it.
+/// Which ranks have a vertex follows from which subdomains they hold. A corner belongs to the rank of the lowest
+/// subdomain at it.
 void PieceBuilder::find_sharers() {
   std::vector<std::pair<Rank, Place>> shared;
   IdVector<Place, SubdomainId> lowest(corners_.size(), kNoSubdomain);

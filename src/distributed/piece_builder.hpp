@@ -15,7 +15,7 @@ namespace driftmesh {
 /// The entry of a root in a sorted list, or null.
 [[nodiscard]] NumberedRoot* find_root(std::span<NumberedRoot> roots, GlobalRootId root);
 
-/// Joins a rank's subdomains into one piece. Ranks have already agreed on all common data.
+/// Merges a rank's subdomains into one piece. Ranks have already agreed on all shared data.
 class PieceBuilder {
  public:
   PieceBuilder(Rank rank, const Decomposition& decomposition, const SubdomainTable& subdomains,

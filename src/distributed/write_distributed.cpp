@@ -49,7 +49,7 @@ Mesh unpack(const Mail& mail) {
   return mesh;
 }
 
-/// What became of a rank's work, for all to know.
+/// The outcome of a rank's work, shared with all ranks.
 std::vector<Mail> status_to_all(std::int32_t ranks, const std::function<void()>& work) {
   Failure failure;
   try {
@@ -72,7 +72,7 @@ void throw_first_failure(const std::vector<Mail>& statuses) {
   }
 }
 
-/// Of every piece alike, whatever this one happens to hold.
+/// The same for every piece, whatever this one happens to hold.
 VtuArrays arrays_of_pieces(const DistributedPiece& piece) {
   return {true, piece.mesh.attributes_per_point, true, true, piece.has_regions, true, true};
 }

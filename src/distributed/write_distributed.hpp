@@ -23,8 +23,8 @@ class GatherPieces final : public Exchange {
   [[nodiscard]] std::vector<Rank> senders(int round) const override;
   void receive(int round, std::vector<Mail> mail) override;
 
-  /// After the conversation: on rank 0 the whole mesh, the same for every distribution of the same subdomains but for
-  /// Mesh::ranks; on others nothing.
+  /// After the exchange: on rank 0 the whole mesh, which, except for Mesh::ranks, is the same for every distribution of
+  /// the same subdomains; empty on other ranks.
   [[nodiscard]] const Mesh& whole() const { return whole_; }
 
  private:
@@ -35,9 +35,9 @@ class GatherPieces final : public Exchange {
   Mesh whole_;
 };
 
-/// Writes a mesh from all ranks at once, each its piece (mesh_0.vtu, mesh_1.vtu, ... beside mesh.pvtu). No file gets
-/// its name before all pieces are complete, the .pvtu last. If one rank cannot write, all throw a FileError that names
-/// it.
+/// Writes a mesh from all ranks in parallel, each its own piece (mesh_0.vtu, mesh_1.vtu, ... next to mesh.pvtu). No
+/// file appears under its name before all pieces are complete; the .pvtu appears last. If one rank cannot write, all
+/// throw a FileError that names it.
 class WritePieces final : public Exchange {
  public:
   /// `piece` must outlive the object. `path` ends in .pvtu and is in a folder that all ranks share.
@@ -53,13 +53,13 @@ class WritePieces final : public Exchange {
 
   const DistributedPiece& piece_;
   std::string path_;
-  std::unique_ptr<FileSink> file_;  // written, and not yet under its name
+  std::unique_ptr<FileSink> file_;  // complete, but not yet under its name
 };
 
-/// Writes a mesh that rank 0 has gathered, and tells the others how that went: on failure, all throw.
+/// Writes a mesh that rank 0 has gathered. On failure, all ranks throw.
 class WriteWhole final : public Exchange {
  public:
-  /// `whole` (of rank 0; ignored elsewhere) outlives the object.
+  /// `whole`, which matters only on rank 0, must outlive the object.
   WriteWhole(const DistributedPiece& piece, const Mesh& whole, std::string path, WriteOptions options = {});
 
   [[nodiscard]] int rounds() const override { return 1; }
@@ -74,8 +74,9 @@ class WriteWhole final : public Exchange {
   WriteOptions options_;
 };
 
-/// Writes the mesh to each of `paths` from all ranks together: in pieces if it ends in .pvtu, else as one file of any
-/// format that write_mesh knows, which takes the memory for the whole mesh on rank 0. If one rank fails, all throw.
+/// Writes the mesh to each of `paths`; all ranks call it together. A path that ends in .pvtu means a mesh in pieces;
+/// any other, one file in a format that write_mesh knows, which takes memory for the whole mesh on rank 0. If one rank
+/// fails, all throw.
 void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, std::span<const std::string> paths,
                        const WriteOptions& options = {});
 

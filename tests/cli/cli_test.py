@@ -693,7 +693,7 @@ class Experiments(Cli):
                             "  ranks: 3\n  drag: [1, 1, 0.5]\n")
         real = ["--set", "cluster.kind=real"]
         for settings, place, message in (
-                ([], "both.yaml:4:9:", "is simulated, in one process, and mpirun has started 2"),
+                ([], "both.yaml:4:9:", "is simulated, which takes one process, but mpirun has started 2"),
                 (real, "both.yaml:5:10:", "is 3, and mpirun has started 2 processes"),
                 ([*real, "--set", "cluster.ranks=0"], "both.yaml:6:9:", "has 3 values for 2 ranks"),
                 ([*real, "--set", "cluster.speed=1e6"], "--set cluster.speed=1e6", "real ranks are as they are"),

@@ -98,7 +98,7 @@ TEST_CASE("a broken decomposition is refused with what is broken") {
       std::swap(root.left, root.right);
       break;
     }
-  refused(broken, "disagree about the subdomain");
+  refused(broken, "disagree on the subdomain");
 }
 
 TEST_CASE("damaged files are refused or read, never worse") {

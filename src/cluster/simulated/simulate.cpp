@@ -32,7 +32,7 @@ void require_fit(const RunPlan& plan, std::int32_t ranks) {
                 " ranks");
 }
 
-/// The ranks of one run with their network.
+/// The ranks of one run, and their network.
 class Simulation {
  public:
   Simulation(const RunPlan& plan, const ClusterSpec& cluster, const CostModel& costs,
@@ -43,7 +43,7 @@ class Simulation {
     const std::int32_t ranks = ranks_of(cluster);
     require_fit(plan, ranks);
     of_rank_.resize(to_index(ranks));
-    logs_.reserve(to_index(ranks));  // the observers refer to them
+    logs_.reserve(to_index(ranks));  // the observers refer to its elements
     for (const Rank r : first_ids<Rank>(ranks)) {
       RankLog& log = logs_.emplace_back(network_.transport(r), plan);
       RankLoop::Observers watch;
@@ -69,7 +69,7 @@ class Simulation {
     IdVector<Rank, protocol::RankStep> steps;
     for (const auto& loop : loops_) steps.push_back([l = loop.get()] { return l->step(); });
     if (network_.run(steps).end != protocol::RunEnd::kFinished)
-      throw Error("the simulated ranks wait for each other: " + describe());
+      throw Error("deadlock of the simulated ranks: " + describe());
     for (const Rank r : ids_of(loops_)) {
       logs_[r].ends(*loops_[r]);
       if (observers_.finished) observers_.finished(*loops_[r]);
@@ -78,7 +78,7 @@ class Simulation {
   }
 
  private:
-  /// Tells what all ranks together have, now that rank `r` has so many.
+  /// Reports the triangles of all ranks together, now that rank `r` has this many.
   void count(Rank r, std::int64_t triangles) {
     triangles_ += triangles - std::exchange(of_rank_[r], triangles);
     if (observers_.progress) observers_.progress(triangles_);
@@ -94,7 +94,7 @@ class Simulation {
   protocol::VirtualNetwork network_;
   std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   const SimulationObservers& observers_;
-  IdVector<Rank, std::int64_t> of_rank_;  // triangles of each, when it was last heard of
+  IdVector<Rank, std::int64_t> of_rank_;  // triangles of each rank, as last reported
   std::int64_t triangles_ = 0;
   IdVector<Rank, RankLog> logs_;
   IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
