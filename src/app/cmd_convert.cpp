@@ -1,10 +1,9 @@
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "app/commands.hpp"
+#include "app/run_files.hpp"
 #include "cli/values.hpp"
-#include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 
 namespace driftmesh::app {
@@ -15,13 +14,11 @@ struct ConvertOptions {
   std::string output;
 };
 
-// Triangle's file set and a mesh in pieces consist of several files; none of them may overwrite one being read.
-void refuse_to_overwrite_input(const ConvertOptions& options) {
-  std::error_code ignored;
-  for (const std::string& read : files_to_read(options.input))
-    for (const std::string& written : mesh_files(options.output))
-      if (std::filesystem::equivalent(read, written, ignored))
-        throw InputError({written, 0}, "is the input itself", "choose another name for the output");
+void run_convert(const ConvertOptions& options) {
+  FileRegistry files;
+  register_mesh_input(files, options.input, "INPUT");
+  register_mesh_output(files, options.output, "OUTPUT");
+  write_mesh(read_mesh(options.input), options.output);
 }
 
 }  // namespace
@@ -47,8 +44,7 @@ cli::Command convert_command() {
           .examples = {"driftmesh convert bay.vtu bay.msh"},
           .exit_codes = "0 done, 1 error, 2 wrong usage",
           .run = [options](cli::Call&) {
-            refuse_to_overwrite_input(*options);
-            write_mesh(read_mesh(options->input), options->output);
+            run_convert(*options);
             return 0;
           }};
 }

@@ -9,8 +9,8 @@
 
 #include "app/commands.hpp"
 #include "app/decomposition_picture.hpp"
-#include "app/output_files.hpp"
 #include "app/request_line.hpp"
+#include "app/run_files.hpp"
 #include "base/standard_streams.hpp"
 #include "base/stopwatch.hpp"
 #include "cli/values.hpp"
@@ -20,6 +20,7 @@
 #include "driftmesh/error.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
+#include "job/files.hpp"
 #include "job/prepare.hpp"
 #include "job/triangulated.hpp"
 
@@ -72,10 +73,16 @@ std::string summary(const Decomposition& d, const DecompositionReport& report, b
   return text;
 }
 
+void register_files(const DecomposeCommand& command, const job::Request& request) {
+  FileRegistry files;
+  job::register_reads(request, job::kDecompose, files);
+  register_output(files, command.output, "--output");
+  register_picture(files, command.picture, "--plot");
+}
+
 void run_decompose(const DecomposeCommand& command) {
   const job::Request request = request_of(command.given);
-  const std::string& input = request.input.file;
-  check_outputs({}, command.picture, command.output, input);
+  register_files(command, request);
   RepairView view(command.quiet);
   const job::Domain domain = job::read_domain(request, {}, view);
   const job::Triangulated triangulated = job::triangulate_domain(request, domain, 1, view);
@@ -86,8 +93,9 @@ void run_decompose(const DecomposeCommand& command) {
   if (!report.valid()) throw Error("the decomposition is broken (please report this): " + report.problems[0]);
   if (!command.output.empty()) write_decomposition(d, domain.pslg, command.output);
   if (!command.picture.empty())
-    plot_decomposition(d, command.picture,
-                       fmt::format("{}: {} subdomains", std::filesystem::path(input).filename().string(), d.size()));
+    plot_decomposition(
+        d, command.picture,
+        fmt::format("{}: {} subdomains", std::filesystem::path(request.input.file).filename().string(), d.size()));
   if (!command.quiet) print(summary(d, report, bounds_size(triangulated.bounds), seconds));
 }
 

@@ -35,7 +35,7 @@ int run(const MeshCommand& command) {
       throw cli::UsageError("INPUT is missing");
     const job::Place place = job::place_of(request, job::kMesh, launched);
     job::check(request, place, balancer::make_policy);
-    code = run_mesh(request, place, command_line_of("driftmesh mesh", request, job::kMesh));
+    code = run_mesh(request, place, command_line_of("driftmesh mesh", request, job::kMesh), command.config);
   });
   return code;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/run_files.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
@@ -107,11 +108,21 @@ std::string title_of(const std::string& input) {
   return is_standard_stream(input) ? "standard input" : std::filesystem::path(input).filename().string();
 }
 
+void register_files(const PlotCommand& command) {
+  FileRegistry files;
+  if (holds_input(command.input))
+    for (const std::string& file : poly_files(command.input)) files.reads(file, "INPUT");
+  else
+    register_mesh_input(files, command.input, "INPUT");
+  register_picture(files, command.output, "--output");
+}
+
 void run_plot(const cli::Call& call, PlotCommand& command) {
   if (call.has("size") && call.has("width")) throw cli::UsageError("--size includes the width: leave out --width");
   const std::filesystem::path input(command.input);
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
   if (command.plot.title.empty()) command.plot.title = title_of(command.input);
+  register_files(command);
   if (holds_input(input)) {
     const Pslg pslg = read_poly(command.input);
     check_box(command, pslg);

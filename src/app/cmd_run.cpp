@@ -15,10 +15,13 @@
 #include "app/progress_line.hpp"
 #include "app/real_cluster.hpp"
 #include "base/atomic_file.hpp"
+#include "base/file_registry.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "config/words.hpp"
 #include "driftmesh/error.hpp"
+#include "job/check.hpp"
+#include "job/files.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 
 namespace driftmesh::app {
@@ -31,6 +34,14 @@ struct RunCommand {
   bool dry = false;
   bool quiet = false;
 };
+
+// In the folder of the results; endings follow the name of a run.
+constexpr const char *kExperimentFile = "experiment.yaml", *kTableFile = "table.csv", *kRecordEnding = ".json",
+                     *kTraceEnding = ".trace.json", *kStatisticsEnding = ".lb-stats";
+
+std::string statistics_file(std::int32_t rank) {
+  return fmt::format("data.{}.json", rank);
+}
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
   AtomicFile file(path.string());
@@ -46,8 +57,8 @@ void make_folder(const std::filesystem::path& folder) {
 
 void write_lb_statistics(const ExperimentRun& run, const std::filesystem::path& folder) {
   make_folder(folder);
-  std::size_t rank = 0;
-  for (const std::string& text : lb_statistics(run)) write_file(folder / fmt::format("data.{}.json", rank++), text);
+  std::int32_t rank = 0;
+  for (const std::string& text : lb_statistics(run)) write_file(folder / statistics_file(rank++), text);
 }
 
 /// Shows the progress of a run, and messages of its ranks.
@@ -73,14 +84,12 @@ class Runner {
         progress_(!command.quiet) {}
 
   void go() {
+    register_files();
     make_folder(folder_);
-    write_file(folder_ / "experiment.yaml", config::experiment_text(file_));
-    const std::size_t repetitions = static_cast<std::size_t>(file_.base.repetitions);
-    const std::size_t runs = file_.points.size() * repetitions;
-    for (std::size_t i = 0; i < runs; ++i) {
-      progress_.begin(fmt::format("run {} of {}", i + 1, runs));
-      do_run(fmt::format("run-{:0{}}", i + 1, std::to_string(runs).size()), file_.points[i / repetitions],
-             static_cast<std::int32_t>(i % repetitions));
+    write_file(folder_ / kExperimentFile, config::experiment_text(file_));
+    for (std::size_t i = 0; i < runs(); ++i) {
+      progress_.begin(fmt::format("run {} of {}", i + 1, runs()));
+      do_run(name_of(i), point_of(i), static_cast<std::int32_t>(i % repetitions()));
     }
     if (file_.base.pictures) draw_sweep(table_, file_.base.name, folder_.string());
     progress_.end();
@@ -88,6 +97,34 @@ class Runner {
   }
 
  private:
+  [[nodiscard]] std::size_t repetitions() const { return static_cast<std::size_t>(file_.base.repetitions); }
+  [[nodiscard]] std::size_t runs() const { return file_.points.size() * repetitions(); }
+  [[nodiscard]] const config::SweepPoint& point_of(std::size_t run) const { return file_.points[run / repetitions()]; }
+  [[nodiscard]] std::string name_of(std::size_t run) const {
+    return fmt::format("run-{:0{}}", run + 1, std::to_string(runs()).size());
+  }
+
+  void register_files() const {
+    FileRegistry files;
+    files.reads(command_.file, "the experiment");
+    for (const config::SweepPoint& point : file_.points) job::register_reads(point.request, job::kExperiment, files);
+    const auto writes = [&](const std::string& file) { files.writes((folder_ / file).string(), "the results"); };
+    for (const char* file : {kExperimentFile, kTableFile, kSweepPicture}) writes(file);
+    for (std::size_t i = 0; i < runs(); ++i) {
+      const std::string name = name_of(i);
+      writes(name + kRecordEnding);
+      writes(name + kTraceEnding);
+      for (const std::string& picture : pictures_of_run(name)) writes(picture);
+      for (std::int32_t r = 0; r < ranks_of_statistics(point_of(i).request); ++r)
+        writes(name + kStatisticsEnding + "/" + statistics_file(r));
+    }
+  }
+
+  [[nodiscard]] std::int32_t ranks_of_statistics(const job::Request& request) const {
+    if (request.lb_phases == 0) return 0;
+    return request.cluster.kind == job::ClusterKind::kReal ? cluster_->ranks() : ranks_of(job::cluster_of(request));
+  }
+
   void do_run(const std::string& name, const config::SweepPoint& point, std::int32_t repetition) {
     ExperimentRun run;
     run.name = name;
@@ -98,14 +135,14 @@ class Runner {
     run.record.command = fmt::format("driftmesh run {}", command_.file);
     for (const std::string& setting : command_.settings) run.record.command += fmt::format(" --set '{}'", setting);
     make_run(run, cluster_, view_);
-    write_file(folder_ / (name + ".json"), experiment_record(run));
+    write_file(folder_ / (name + kRecordEnding), experiment_record(run));
     if (run.request.pictures) {
       draw_run(run, folder_.string());
-      write_file(folder_ / (name + ".trace.json"), chrome_trace(run));
+      write_file(folder_ / (name + kTraceEnding), chrome_trace(run));
     }
-    if (run.request.lb_phases > 0) write_lb_statistics(run, folder_ / (name + ".lb-stats"));
+    if (run.request.lb_phases > 0) write_lb_statistics(run, folder_ / (name + kStatisticsEnding));
     table_.add(run);
-    write_file(folder_ / "table.csv", table_.csv());
+    write_file(folder_ / kTableFile, table_.csv());
   }
 
   const RunCommand& command_;

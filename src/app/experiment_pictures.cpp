@@ -21,6 +21,9 @@ namespace {
 constexpr Rgb kComputing{0.25, 0.47, 0.70}, kSending{0.95, 0.61, 0.20}, kPolling{0.93, 0.82, 0.35},
     kBalancing{0.78, 0.28, 0.33}, kIdle{0.86, 0.87, 0.89};
 
+constexpr const char *kTimePicture = "-time.png", *kLoadPicture = "-load.png", *kBeforePicture = "-owners-before.png",
+                     *kAfterPicture = "-owners-after.png", *kMovesPicture = "-moves.png";
+
 std::string swept_words(const ExperimentRun& run) {
   std::string words;
   for (const auto& [key, value] : run.swept) words += fmt::format(", {} {}", key, job::text_of(value));
@@ -110,14 +113,21 @@ std::optional<double> number_of(const std::string& text) {
 
 void draw_run(const ExperimentRun& run, const std::string& folder) {
   const std::string stem = folder + "/" + run.name;
-  draw_times(run, stem + "-time.png");
-  draw_load(run, stem + "-load.png");
-  plot_owners(run.plan.decomposition, run.plan.owners, stem + "-owners-before.png",
+  draw_times(run, stem + kTimePicture);
+  draw_load(run, stem + kLoadPicture);
+  plot_owners(run.plan.decomposition, run.plan.owners, stem + kBeforePicture,
               run.request.name + ": subdomains by rank, at the start");
   if (run.outcome.owners != run.plan.owners)
-    plot_owners(run.plan.decomposition, run.outcome.owners, stem + "-owners-after.png",
+    plot_owners(run.plan.decomposition, run.outcome.owners, stem + kAfterPicture,
                 run.request.name + ": subdomains by rank, at the end");
-  if (!run.outcome.moves.empty()) draw_moves(run, stem + "-moves.png");
+  if (!run.outcome.moves.empty()) draw_moves(run, stem + kMovesPicture);
+}
+
+std::vector<std::string> pictures_of_run(const std::string& name) {
+  std::vector<std::string> files;
+  for (const char* picture : {kTimePicture, kLoadPicture, kBeforePicture, kAfterPicture, kMovesPicture})
+    files.push_back(name + picture);
+  return files;
 }
 
 void draw_sweep(const ExperimentTable& table, const std::string& title, const std::string& folder) {
@@ -139,7 +149,7 @@ void draw_sweep(const ExperimentTable& table, const std::string& title, const st
   chart.logarithmic_x =
       efficiency.points.front().x > 0 && efficiency.points.back().x >= 10 * efficiency.points.front().x;
   chart.curves = {std::move(efficiency), std::move(communication)};
-  plot_chart(chart, folder + "/sweep.png");
+  plot_chart(chart, folder + "/" + kSweepPicture);
 }
 
 }  // namespace driftmesh::app

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/experiment_run.hpp"
 #include "app/experiment_table.hpp"
@@ -11,6 +12,11 @@ namespace driftmesh::app {
 /// -owners-before.png and, if subdomains moved, -owners-after.png and -moves.png (which subdomain moved when, from
 /// which rank to which).
 void draw_run(const ExperimentRun& run, const std::string& folder);
+
+/// The files that draw_run may write for a run of this name, without their folder.
+[[nodiscard]] std::vector<std::string> pictures_of_run(const std::string& name);
+
+inline constexpr const char* kSweepPicture = "sweep.png";
 
 /// Plots FOLDER/sweep.png: time and efficiency over the swept key. Does nothing unless exactly one key with numeric
 /// values was swept.

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/output_files.hpp"
+#include "app/run_files.hpp"
 #include "app/run_notes.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/bytes.hpp"
@@ -15,6 +15,7 @@
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
+#include "job/files.hpp"
 #include "job/memory.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/one_piece.hpp"
@@ -36,8 +37,22 @@ bool writes(const Request::Output& wanted) {
   return !wanted.meshes.empty() || !wanted.picture.empty();
 }
 
-void check_outputs_of(const Request& request, std::int32_t ranks) {
-  check_outputs(request.output.meshes, request.output.picture, request.output.record, request.input.file, ranks);
+/// What `driftmesh mesh` was told.
+struct Told {
+  const Request& request;
+  const std::string& command;
+  const std::string& config;
+};
+
+void register_files(const Told& told, std::int32_t ranks) {
+  const auto called = [](const char* key) { return job::called(key, job::kMesh); };
+  FileRegistry files;
+  if (!told.config.empty()) files.reads(told.config, "--config");
+  job::register_reads(told.request, job::kMesh, files);
+  const Request::Output& wanted = told.request.output;
+  for (const std::string& mesh : wanted.meshes) register_mesh_output(files, mesh, called("output.meshes"), ranks);
+  register_picture(files, wanted.picture, called("output.picture"));
+  register_output(files, wanted.record, called("output.record"));
 }
 
 void draw(const Request& request, const Mesh& mesh) {
@@ -66,9 +81,10 @@ void write_piece(const Request& request, const Pslg& pslg, Triangulation&& mesh,
   notes.note_file(request.output.picture);
 }
 
-int mesh_in_one_piece(const Request& request, const std::string& command) {
-  check_outputs_of(request, 0);
-  RunNotes notes(request, command);
+int mesh_in_one_piece(const Told& told) {
+  const Request& request = told.request;
+  register_files(told, 0);
+  RunNotes notes(request, told.command);
   const job::Domain domain = job::read_domain(request, {}, notes);
   job::record_domain(notes.run, request, domain);
   job::OnePiece made = job::mesh_in_one_piece(request, domain, writes(request.output), notes);
@@ -90,9 +106,10 @@ int mesh_in_one_piece(const Request& request, const std::string& command) {
 // ---- In subdomains ---------------------------------------------------------------------------------------------
 
 /// The part of rank 0 before the others start.
-job::Order prepare_order(const Request& request, job::Place place, const job::Team& team, RunNotes& notes) {
+job::Order prepare_order(const Told& told, job::Place place, const job::Team& team, RunNotes& notes) {
+  const Request& request = told.request;
   job::check_ranks(request, place, team.ranks());
-  check_outputs_of(request, team.ranks());
+  register_files(told, team.ranks());
   job::Domain domain = job::read_domain(request, {}, notes);
   job::record_domain(notes.run, request, domain);
   const bool written = writes(request.output);
@@ -142,11 +159,12 @@ void assemble_and_write(const Request& request, job::Team& team, std::optional<j
   channel->close();
 }
 
-void mesh_in_subdomains(const Request& request, job::Place place, const std::string& command, job::Team& team) {
+void mesh_in_subdomains(const Told& told, job::Place place, job::Team& team) {
+  const Request& request = told.request;
   const std::string start = team.alone() ? "" : "mpirun -n " + std::to_string(team.ranks()) + " ";
-  RunNotes notes(request, start + command, !team.leads());
+  RunNotes notes(request, start + told.command, !team.leads());
   std::optional<job::Order> order = job::share(
-      team, [&] { return std::optional(prepare_order(request, place, team, notes)); }, balancer::make_policy);
+      team, [&] { return std::optional(prepare_order(told, place, team, notes)); }, balancer::make_policy);
   std::optional<job::RankRun> run(std::in_place, team, std::move(*order), nullptr, notes);
   timed(notes, "refine", [&] { run->refine(); });
   report(team, *run, notes);
@@ -154,11 +172,11 @@ void mesh_in_subdomains(const Request& request, job::Place place, const std::str
   if (team.leads()) notes.finish();
 }
 
-int mesh_on_ranks(const Request& request, const std::string& command) {
+int mesh_on_ranks(const Told& told) {
   const protocol::MpiSession session;
   job::MpiTeam team(protocol::MpiSession::world());
   try {
-    mesh_in_subdomains(request, job::kRanks, command, team);
+    mesh_in_subdomains(told, job::kRanks, team);
   } catch (const std::exception&) {
     if (team.leads()) throw;
     return 0;  // all ranks have the error, and rank 0 reports it
@@ -169,10 +187,11 @@ int mesh_on_ranks(const Request& request, const std::string& command) {
 
 }  // namespace
 
-int run_mesh(const Request& request, job::Place place, const std::string& command) {
-  if (place == job::kOnePiece) return mesh_in_one_piece(request, command);
-  if (place == job::kRanks) return mesh_on_ranks(request, command);
-  mesh_in_subdomains(request, place, command, *job::lone_team());
+int run_mesh(const Request& request, job::Place place, const std::string& command, const std::string& config) {
+  const Told told{request, command, config};
+  if (place == job::kOnePiece) return mesh_in_one_piece(told);
+  if (place == job::kRanks) return mesh_on_ranks(told);
+  mesh_in_subdomains(told, place, *job::lone_team());
   return 0;
 }
 

@@ -73,6 +73,11 @@ void scan_regions(RecordScanner& scanner, Pslg& pslg) {
   }
 }
 
+/// Where a .poly without vertices has them.
+std::string node_file_of(const std::string& file) {
+  return std::filesystem::path(file).replace_extension(".node").string();
+}
+
 }  // namespace
 
 Pslg parse_poly(const std::string& file, std::string_view text) {
@@ -82,7 +87,7 @@ Pslg parse_poly(const std::string& file, std::string_view text) {
     if (is_standard_stream(file))
       throw InputError({file, 0}, "leaves its vertices to a .node file, but standard input has none beside it",
                        "include the vertices, or give the path of the .poly file");
-    const std::string node_file = std::filesystem::path(file).replace_extension(".node").string();
+    const std::string node_file = node_file_of(file);
     nodes = read_node(node_file);
     require_points(node_file, nodes);
   }
@@ -99,6 +104,15 @@ Pslg read_poly(const std::string& path) {
   const std::string text = read_file(path);
   if (path.ends_with(".node")) return pslg_of_points(path, parse_node(path, text));
   return parse_poly(path, text);
+}
+
+std::vector<std::string> poly_files(const std::string& path) {
+  std::vector<std::string> files{path};
+  if (is_standard_stream(path)) return files;
+  std::error_code ignored;
+  if (const std::string nodes = node_file_of(path); nodes != path && std::filesystem::exists(nodes, ignored))
+    files.push_back(nodes);
+  return files;
 }
 
 }  // namespace driftmesh

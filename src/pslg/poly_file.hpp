@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "driftmesh/files.hpp"
 #include "driftmesh/pslg.hpp"
@@ -10,5 +11,8 @@ namespace driftmesh {
 
 /// read_poly of a text; `file` is for messages and for finding the .node file.
 [[nodiscard]] Pslg parse_poly(const std::string& file, std::string_view text);
+
+/// The files that read_poly reads, or may read: `path`, and the .node beside it if there is one.
+[[nodiscard]] std::vector<std::string> poly_files(const std::string& path);
 
 }  // namespace driftmesh

@@ -94,6 +94,14 @@ std::unique_ptr<SizeField> read_background_field(const std::string& path, std::o
   return graded_field(std::move(mesh), lengths_at_points(nodes, stem + ".node"), gradation);
 }
 
+std::vector<std::string> background_files(const std::string& path) {
+  if (is_standard_stream(path)) return {path};  // is refused when it is read
+  const std::string stem = stem_of(path);
+  std::vector<std::string> files{stem + ".node", stem + ".ele"};
+  if (has_ending(path, ".area")) files.push_back(path);
+  return files;
+}
+
 std::unique_ptr<SizeField> make_size_field(const SizingOptions& options) {
   require_sound(options);
   std::vector<std::unique_ptr<SizeField>> fields;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "driftmesh/size_field.hpp"
 
@@ -31,5 +32,8 @@ struct SizingOptions {
 ///   points (the shortest around each), limited and linear in between; without one they hold triangle by triangle.
 [[nodiscard]] std::unique_ptr<SizeField> read_background_field(const std::string& path,
                                                                std::optional<double> gradation);
+
+/// The files that read_background_field reads.
+[[nodiscard]] std::vector<std::string> background_files(const std::string& path);
 
 }  // namespace driftmesh

@@ -80,7 +80,7 @@ class Pipeline(Cli):
         self.refuse("decompose", "square.poly", "-o", "a", code=2, says=["--subdomains"])
         self.refuse("decompose", "none.poly", "-n", "2", "-o", "a", says=["none.poly"])
         self.refuse("decompose", "square.poly", "-n", "2", "-o", "no/folder/a", says=["no/folder/a"])
-        self.refuse("decompose", "square.poly", "-n", "2", "-o", "square.poly", says=["square.poly", "input"])
+        self.refuse("decompose", "square.poly", "-n", "2", "-o", "square.poly", says=["square.poly", "INPUT"])
         self.assertEqual((self.folder / "square.poly").read_text(), SQUARE)
         self.assertEqual(self.files(), ["square.poly"])
 
@@ -304,8 +304,8 @@ class Errors(Cli):
 
     def test_the_input_is_not_written_over(self):
         self.write("square.poly", SQUARE)
-        self.refuse("mesh", "square.poly", "-o", "square.ele", says=["square.poly", "input"])
-        self.refuse("mesh", "square.poly", "-o", "./square.node", says=["square.poly", "input"])
+        self.refuse("mesh", "square.poly", "-o", "square.ele", says=["square.poly", "INPUT"])
+        self.refuse("mesh", "square.poly", "-o", "./square.node", says=["square.poly", "INPUT"])
         self.refuse("mesh", "square.poly", "-o", "a.vtu", "-o", "./a.vtu", says=["a.vtu", "twice"])
         self.refuse("mesh", "square.poly", "-n", "2", "-o", "a.pvtu", "-o", "a_0.vtu", says=["a_0.vtu", "twice"])
         early = self.refuse("mesh", "square.poly", "-o", "a.pvtu", "-o", "no/a.vtu", says=["a.pvtu", "--subdomains"])
@@ -323,7 +323,7 @@ class Errors(Cli):
         self.write("square.poly", SQUARE)
         self.succeed("mesh", "square.poly", "-o", "mesh.ele")
         before = {name: (self.folder / name).read_bytes() for name in self.files()}
-        self.refuse("convert", "mesh.ele", "./mesh.node", says=["is the input itself"])
+        self.refuse("convert", "mesh.ele", "./mesh.node", says=["mesh.node", "OUTPUT would overwrite it, and INPUT"])
         self.assertEqual({name: (self.folder / name).read_bytes() for name in self.files()}, before)
 
     def test_a_signal_leaves_no_files_behind(self):

@@ -147,7 +147,7 @@ class Pieces(unittest.TestCase):
 
     def test_no_piece_is_written_over(self):
         before = self.right.read_bytes()
-        self.run_program("convert", "two.pvtu", "right.vtu", code=1, says=["is the input itself"])
+        self.run_program("convert", "two.pvtu", "right.vtu", code=1, says=["right.vtu", "INPUT reads it"])
         self.assertEqual(self.right.read_bytes(), before)
 
 

@@ -88,7 +88,7 @@ class Dashes(Streams):
 
     def test_what_a_stream_cannot_be(self):
         mesh = ["mesh", "square.poly", "--area", "1"]
-        for arguments, says in ((["-o", "-", "--json", "-"], ["twice"]), (["-o", "-", "-o", "-.msh"], ["twice"]),
+        for arguments, says in ((["-o", "-", "--json", "-"], ["--json and --output"]), (["-o", "-", "-o", "-.msh"], ["twice"]),
                                 (["-o", "-.ele"], ["-.ele", "several files"]),
                                 (["-n", "2", "-o", "-.pvtu"], ["-.pvtu", "several files"]),
                                 (["-o", "-.docx"], [".docx"]), (["--plot", "-.jpg"], ["-.jpg"]),

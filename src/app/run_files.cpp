@@ -1,0 +1,57 @@
+#include "app/run_files.hpp"
+
+#include <filesystem>
+
+#include "base/atomic_file.hpp"
+#include "base/standard_streams.hpp"
+#include "driftmesh/error.hpp"
+#include "io/mesh_file.hpp"
+#include "io/pvtu_format.hpp"
+#include "picture/plot.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Tests whether a file can be opened for writing. Skips anything but regular files: opening a pipe has side effects.
+void try_to_open(const std::string& file) {
+  std::error_code ignored;
+  if (is_standard_stream(file)) return;
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored) && !fs::is_directory(file, ignored)) return;
+  const AtomicFile attempt(file);
+}
+
+}  // namespace
+
+std::vector<std::string> files_of_output(const std::string& path, std::int32_t ranks) {
+  if (!is_in_pieces(path)) return mesh_files(path);
+  std::vector<std::string> files{path};
+  for (std::int32_t r = 0; r < ranks; ++r) files.push_back(pvtu_piece_path(path, r));
+  return files;
+}
+
+void register_mesh_input(FileRegistry& files, const std::string& path, const std::string& use) {
+  for (const std::string& file : files_to_read(path)) files.reads(file, use);
+}
+
+void register_output(FileRegistry& files, const std::string& path, const std::string& use) {
+  if (path.empty()) return;
+  files.writes(path, use);
+  try_to_open(path);
+}
+
+void register_mesh_output(FileRegistry& files, const std::string& path, const std::string& use, std::int32_t ranks) {
+  if (ranks == 0 && is_in_pieces(path))
+    throw InputError({path}, "is for a mesh in pieces", "cut the domain with --subdomains, or write a .vtu");
+  for (const std::string& file : files_of_output(path, ranks)) register_output(files, file, use);
+}
+
+void register_picture(FileRegistry& files, const std::string& path, const std::string& use) {
+  if (path.empty()) return;
+  if (!is_picture_name(path))
+    throw InputError({path}, "is not a picture format", "use a name that ends in .png, .svg or .pdf");
+  register_output(files, path, use);
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,43 @@
+#include "base/file_identity.hpp"
+
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <optional>
+
+namespace driftmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostLinks = 40;  // as Linux allows
+
+std::optional<FileIdentity> existing(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileIdentity{status.st_dev, status.st_ino, ""};
+}
+
+}  // namespace
+
+std::string link_target(const std::string& path) {
+  fs::path at = path;
+  for (int links = 0; links < kMostLinks; ++links) {
+    std::error_code failed;
+    if (!fs::is_symlink(at, failed)) return at.string();
+    const fs::path next = fs::read_symlink(at, failed);
+    if (failed) return at.string();
+    at = at.parent_path() / next;  // an absolute one replaces it
+  }
+  return path;
+}
+
+FileIdentity identity_of(const std::string& path) {
+  if (const auto found = existing(path)) return *found;
+  const fs::path target = link_target(path);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (const auto in = existing(folder.string())) return {in->device, in->inode, target.filename().string()};
+  return {0, 0, fs::absolute(target).lexically_normal().string()};
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,30 @@
+#include "job/files.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "job/keys.hpp"
+#include "pslg/poly_file.hpp"
+#include "sizing/make_size_field.hpp"
+
+namespace driftmesh::job {
+
+std::string called(const std::string& key, Door door) {
+  if (door == kExperiment) return key;
+  std::string option = find_key(key).key->option;
+  if (key != "input.file") return "--" + option;
+  std::transform(option.begin(), option.end(), option.begin(), [](unsigned char c) { return std::toupper(c); });
+  return option;
+}
+
+void register_reads(const Request& request, Door door, FileRegistry& files) {
+  const auto reads = [&](const std::vector<std::string>& paths, const char* key) {
+    for (const std::string& path : paths) files.reads(path, called(key, door));
+  };
+  if (!request.input.file.empty()) reads(poly_files(request.input.file), "input.file");
+  if (!request.sizing.background.empty()) reads(background_files(request.sizing.background), "sizing.background");
+  if (!request.decomposition.file.empty()) reads({request.decomposition.file}, "decomposition.file");
+}
+
+}  // namespace driftmesh::job
