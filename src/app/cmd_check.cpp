@@ -86,12 +86,12 @@ int run_check(CheckOptions& options) {
 }
 
 std::vector<cli::Option> bound_options(CheckOptions& options) {
-  constexpr const char* kGroup = "Bounds that the mesh must keep (as for driftmesh mesh)";
+  constexpr const char* kGroup = "Bounds that the mesh must meet (as for driftmesh mesh)";
   std::vector<cli::Option> all = key_options(job::kCheck, options.bounds, kGroup);
   all.push_back({.name = "angle",
                  .letter = 'q',
                  .value = "DEGREES",
-                 .help = "No angle is smaller than this, except for those that the input forces",
+                 .help = "Smallest angle, except where the input forces smaller ones",
                  .group = kGroup,
                  .take = cli::into(options.verify.min_angle, {0, 60})});
   return all;
@@ -109,18 +109,18 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
       {.kind = cli::Option::Kind::kPositional,
        .name = "input",
        .value = "INPUT",
-       .help = "The .poly that the mesh was made from; with it, the mesh must cover its domain and hold its segments, "
-               "markers, points and regions",
+       .help = "The .poly that the mesh was made from; if given, the mesh must cover its domain and contain its "
+               "segments, markers, points and regions",
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(options.input)},
       {.name = "list",
        .value = "N",
-       .help = "Findings to print of each kind",
+       .help = "Number of findings of each kind to print",
        .standard = std::to_string(options.verify.max_listed),
        .take = cli::into(options.verify.max_listed)},
       {.kind = cli::Option::Kind::kFlag,
        .name = "quiet",
-       .help = "Print the verdict alone",
+       .help = "Print only the verdict",
        .take = cli::into(options.quiet)}};
   std::ranges::move(bound_options(options), std::back_inserter(all));
   return all;
@@ -131,7 +131,7 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
 cli::Command check_command() {
   const auto options = std::make_shared<CheckOptions>();
   return {.name = "check",
-          .summary = "Verify a mesh from its file, independent of how it was made",
+          .summary = "Verify a mesh file, independently of how it was made",
           .options = check_options(*options),
           .notes =
               "Angles below the bound are allowed where the input has them, and in wedges between input segments "

@@ -26,7 +26,7 @@ cli::Command config_command(const cli::Command& program) {
   const auto shell = std::make_shared<std::string>();
   return {
       .name = "config",
-      .summary = "Print what the files of experiments can say, the manual page, or completion for a shell",
+      .summary = "Print the schema of experiment files, the manual page, or shell completion",
       .options = {printing("schema", "Print the JSON schema of experiments, for editors that check YAML as it is typed",
                            config::json_schema),
                   printing("keys", "Print all keys of experiments as a table in Markdown", config::keys_table),
@@ -34,7 +34,7 @@ cli::Command config_command(const cli::Command& program) {
                            [&program] { return cli::manual_page(program, "driftmesh " DRIFTMESH_VERSION); }),
                   {.name = "completion",
                    .value = "SHELL",
-                   .help = "Print the script by which a shell completes commands, options and their values",
+                   .help = "Print the script that makes a shell complete commands, options and their values",
                    .choices = cli::completion_shells(),
                    .take = cli::into(*shell)}},
       .examples = {"driftmesh config --schema > experiment.schema.json", "driftmesh config --man | man -l -",

@@ -37,7 +37,7 @@ cli::Command convert_command() {
                       {.kind = cli::Option::Kind::kPositional,
                        .name = "output",
                        .value = "OUTPUT",
-                       .help = "The new file; its extension chooses the format",
+                       .help = "The new file; its extension selects the format",
                        .required = true,
                        .completes = cli::Option::Completes::kFile,
                        .take = cli::into(options->output)}},

@@ -105,17 +105,17 @@ std::vector<cli::Option> decompose_options(DecomposeCommand& command) {
   std::ranges::move(std::vector<cli::Option>{{.name = "output",
                                               .letter = 'o',
                                               .value = "FILE",
-                                              .help = "Write the decomposition (text; docs/file-formats.md)",
+                                              .help = "File for the decomposition (text; see docs/file-formats.md)",
                                               .completes = cli::Option::Completes::kFile,
                                               .take = cli::into(command.output)},
                                              {.name = "plot",
                                               .value = "FILE",
-                                              .help = "Picture in colors: .png, .svg or .pdf",
+                                              .help = "Picture of the subdomains: .png, .svg or .pdf",
                                               .completes = cli::Option::Completes::kFile,
                                               .take = cli::into(command.picture)},
                                              {.kind = cli::Option::Kind::kFlag,
                                               .name = "quiet",
-                                              .help = "Print nothing but errors",
+                                              .help = "Print only errors",
                                               .take = cli::into(command.quiet)}},
                     std::back_inserter(all));
   return all;
@@ -125,17 +125,17 @@ std::vector<cli::Option> decompose_options(DecomposeCommand& command) {
 
 cli::Command decompose_command() {
   const auto command = std::make_shared<DecomposeCommand>();
-  return {.name = "decompose",
-          .summary = "Cut a domain into subdomains of equal work",
-          .options = decompose_options(*command),
-          .notes =
-              "Subdomains get equal shares of the triangles that the bounds ask for, or of the area if there are none.",
-          .examples = {"driftmesh decompose bay.poly -n 400 -o bay.decomposition --plot bay.png"},
-          .exit_codes = "0 done, 1 error, 2 wrong usage",
-          .run = [command](cli::Call&) {
-            run_decompose(*command);
-            return 0;
-          }};
+  return {
+      .name = "decompose",
+      .summary = "Cut a domain into subdomains of equal work",
+      .options = decompose_options(*command),
+      .notes = "Subdomains get equal shares of the triangles that the bounds require, or of the area without bounds.",
+      .examples = {"driftmesh decompose bay.poly -n 400 -o bay.decomposition --plot bay.png"},
+      .exit_codes = "0 done, 1 error, 2 wrong usage",
+      .run = [command](cli::Call&) {
+        run_decompose(*command);
+        return 0;
+      }};
 }
 
 }  // namespace driftmesh::app

@@ -36,7 +36,7 @@ void report(const Pslg& pslg, const std::string& file) {
                     pslg.holes.size()));
 }
 
-/// The command for one kind.
+/// The command for one kind of input.
 template <class Options>
 cli::Command kind(const std::string& name, const std::string& what, Pslg (*make)(const Options&)) {
   const auto request = std::make_shared<Asked<Options>>();
@@ -64,14 +64,14 @@ cli::Command kind(const std::string& name, const std::string& what, Pslg (*make)
 
 cli::Command generate_command() {
   return {.name = "generate",
-          .summary = "Make an input: a model with parameters, or a stress test",
+          .summary = "Generate an input: a model with parameters, or a stress test",
           .commands =
               {kind("pipe", "Cross-section of a cooled pipe: a ring with channels in its wall", generate_pipe),
                kind("cylinder-flow", "Half of the channel around a cylinder at the origin", generate_cylinder_flow),
                kind("bay", "A bay with inlets, an estuary and islands, in meters", generate_bay),
-               kind("fan", "A square with segments that leave one point at small angles", generate_fan),
+               kind("fan", "A square with segments that meet in one point at small angles", generate_fan),
                kind("comb", "A rectangle of height 1 with thin slits cut into it", generate_comb),
-               kind("holes", "A plate with columns x rows holes in unit cells", generate_holes),
+               kind("holes", "A plate with a grid of holes, one in each unit cell", generate_holes),
                kind("rectangle-hole", "A 2 x 1 rectangle with a regular polygon as a hole", generate_rectangle_hole),
                kind("random-polygon", "A random simple polygon: a labyrinth without loops", generate_random_polygon),
                kind("random-points", "Random points in a square, some joined by segments", generate_random_points)},

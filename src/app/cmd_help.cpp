@@ -41,7 +41,7 @@ cli::Command help_command(const cli::Command& program) {
           .options = {{.kind = cli::Option::Kind::kPositional,
                        .name = "command",
                        .value = "COMMAND",
-                       .help = "Its name, as in: driftmesh help generate bay",
+                       .help = "Name of the command, as in: driftmesh help generate bay",
                        .repeats = true,
                        .choices = names_of_all(program),
                        .take = cli::into(*words)}},

@@ -19,11 +19,11 @@ struct MeshCommand {
   std::string config;
 };
 
-/// The request of the command line, and its settings file.
+/// Runs the request of the command line and its settings file.
 int run(const MeshCommand& command) {
   const bool launched = protocol::MpiSession::launched_as().has_value();
   if (launched && is_standard_stream(command.config))
-    throw cli::UsageError("--config is standard input, which only one of the processes has; name a file");
+    throw cli::UsageError("--config is standard input, which only one of the processes can read; name a file");
   config::Settings settings;
   if (!command.config.empty()) settings = config::read_settings(command.config);
   int code = 0;
@@ -47,15 +47,15 @@ cli::Command mesh_command() {
   std::vector<cli::Option> options = key_options(job::kMesh, command->given);
   options.push_back({.name = "config",
                      .value = "FILE.yaml",
-                     .help = "Take options from a YAML file, by their long names (input: bay.poly, area: 5000, output: "
-                             "[a.vtu]) or by those of experiments; what the command line gives wins",
+                     .help = "Read options from a YAML file, by their long names (input: bay.poly, area: 5000, output: "
+                             "[a.vtu]) or as in experiments; the command line takes precedence",
                      .completes = cli::Option::Completes::kFile,
                      .take = cli::into(command->config)});
   return {.name = "mesh",
-          .summary = "Make a quality mesh of a domain",
+          .summary = "Generate a quality mesh of a domain",
           .options = std::move(options),
           .notes =
-              "Started by mpirun, the processes make the mesh together, in subdomains. Check a mesh with: driftmesh "
+              "Processes started by mpirun generate the mesh together, in subdomains. To check a mesh: driftmesh "
               "check bay.vtu bay.poly --angle 20 --area 5000",
           .examples = {"driftmesh mesh bay.poly --area 5000 -o bay.vtu --plot bay.png",
                        "driftmesh mesh bay.poly --angle 30 -o bay.msh -o bay.ele",

@@ -37,7 +37,7 @@ std::vector<std::string> words_of(const Names<Value>& names) {
   return words;
 }
 
-/// Stores the value that a name stands for.
+/// Stores the value with the given name.
 template <class Value>
 cli::Take into(Value& to, const Names<Value>& names) {
   return [&](const std::string& text) {
@@ -56,7 +56,7 @@ struct PlotCommand {
 void read_size(const std::string& text, PlotOptions& plot) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%dx%d%c", &plot.width, &plot.height, &rest) != 2)
-    throw cli::UsageError("is '" + text + "'; write WIDTHxHEIGHT, as in 1600x900");
+    throw cli::UsageError("is '" + text + "'; write WIDTHxHEIGHT, such as 1600x900");
 }
 
 void read_box(const std::string& text, PlotOptions& plot) {
@@ -75,14 +75,14 @@ bool holds_input(const std::filesystem::path& path) {
 
 void check_color(const PlotCommand& command, const Mesh& mesh) {
   const auto refuse = [&](const char* what) {
-    throw InputError({command.input, 0}, std::string("does not tell the ") + what + " of its triangles",
+    throw InputError({command.input, 0}, std::string("does not list the ") + what + " of its triangles",
                      "only .pvtu, .vtu and .msh files of distributed meshes do; choose another --color");
   };
   if (command.plot.color == PlotColor::subdomain && mesh.subdomains.empty()) refuse("subdomain");
   if (command.plot.color == PlotColor::rank && mesh.ranks.empty()) refuse("rank");
 }
 
-/// Throws InputError for a box that would make an empty picture: `shows` says that something is in it.
+/// Throws InputError if the box would make an empty picture. `shows`: whether there is anything in it.
 void check_box(const PlotCommand& command, const std::vector<Point>& points, bool shows) {
   if (shows || points.empty()) return;
   const Box extent = Box::of(points);
@@ -135,51 +135,52 @@ void run_plot(const cli::Call& call, PlotCommand& command) {
 }
 
 std::vector<cli::Option> plot_options(PlotCommand& command) {
-  return {{.kind = cli::Option::Kind::kPositional,
-           .name = "input",
-           .value = "INPUT",
-           .help = "A mesh (.vtu, .pvtu, .msh, .ele, .node) or an input (.poly, or a .node without .ele). - is a .vtu "
-                   "from standard input; -.msh and -.poly are the others",
-           .required = true,
-           .completes = cli::Option::Completes::kFile,
-           .take = cli::into(command.input)},
-          {.name = "output",
-           .letter = 'o',
-           .value = "FILE",
-           .help = "The picture: .png, .svg or .pdf. - is a PNG to standard output, -.svg and -.pdf are the others",
-           .standard = "the input's name with .png, in this folder",
-           .completes = cli::Option::Completes::kFile,
-           .take = cli::into(command.output)},
-          {.name = "color",
-           .value = "WHAT",
-           .help = "What the colors of triangles show",
-           .standard = kColors.front().first,
-           .choices = words_of(kColors),
-           .take = into(command.plot.color, kColors)},
-          {.name = "edges",
-           .value = "WHEN",
-           .help = "Draw the edges of triangles: on, off or auto (where they are visible)",
-           .standard = kEdges.front().first,
-           .choices = words_of(kEdges),
-           .take = into(command.plot.edges, kEdges)},
-          {.name = "width",
-           .value = "PIXELS",
-           .help = "Width in pixels; the height follows",
-           .standard = std::to_string(command.plot.width),
-           .take = cli::into(command.plot.width, {100, 20'000})},
-          {.name = "size",
-           .value = "WxH",
-           .help = "Width and height in pixels, as 1600x900",
-           .take = [&plot = command.plot](const std::string& text) { read_size(text, plot); }},
-          {.name = "box",
-           .value = "X0,Y0,X1,Y1",
-           .help = "Show only this part of the plane",
-           .take = [&plot = command.plot](const std::string& text) { read_box(text, plot); }},
-          {.name = "title",
-           .value = "TEXT",
-           .help = "The title",
-           .standard = "the input's name",
-           .take = cli::into(command.plot.title)}};
+  return {
+      {.kind = cli::Option::Kind::kPositional,
+       .name = "input",
+       .value = "INPUT",
+       .help = "A mesh (.vtu, .pvtu, .msh, .ele, .node) or an input (.poly, or a .node without .ele). - reads a "
+               ".vtu from standard input, -.msh and -.poly the other formats",
+       .required = true,
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(command.input)},
+      {.name = "output",
+       .letter = 'o',
+       .value = "FILE",
+       .help = "The picture: .png, .svg or .pdf. - writes PNG to standard output, -.svg and -.pdf the other formats",
+       .standard = "the input's name with .png, in the current folder",
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(command.output)},
+      {.name = "color",
+       .value = "WHAT",
+       .help = "Quantity that the colors of triangles show",
+       .standard = kColors.front().first,
+       .choices = words_of(kColors),
+       .take = into(command.plot.color, kColors)},
+      {.name = "edges",
+       .value = "WHEN",
+       .help = "Draw the edges of triangles: on, off or auto (if they are long enough to be seen)",
+       .standard = kEdges.front().first,
+       .choices = words_of(kEdges),
+       .take = into(command.plot.edges, kEdges)},
+      {.name = "width",
+       .value = "PIXELS",
+       .help = "Width in pixels; the height follows",
+       .standard = std::to_string(command.plot.width),
+       .take = cli::into(command.plot.width, {100, 20'000})},
+      {.name = "size",
+       .value = "WxH",
+       .help = "Width and height in pixels, such as 1600x900",
+       .take = [&plot = command.plot](const std::string& text) { read_size(text, plot); }},
+      {.name = "box",
+       .value = "X0,Y0,X1,Y1",
+       .help = "Show only this part of the plane",
+       .take = [&plot = command.plot](const std::string& text) { read_box(text, plot); }},
+      {.name = "title",
+       .value = "TEXT",
+       .help = "Title of the picture",
+       .standard = "the input's name",
+       .take = cli::into(command.plot.title)}};
 }
 
 }  // namespace

@@ -39,15 +39,15 @@ cli::Command commands_of_program() {
           .summary = "Quality Delaunay meshes of planar domains, on one core or on many ranks",
           .options = {{.kind = cli::Option::Kind::kFlag,
                        .name = "version",
-                       .help = "Print the version of the program, and of what it was built with",
+                       .help = "Print the versions of the program, its compiler and its libraries",
                        .prints = version_text}},
           .commands = {mesh_command(), check_command(), convert_command(), decompose_command(), generate_command(),
                        plot_command(), run_command()},
           .notes =
-              "driftmesh COMMAND --help says what each can do.\n\n"
-              "Wherever a file is read or written, - stands for standard input or output, and an extension behind "
-              "it for the format: -.msh, -.svg. Without one, meshes are .vtu, pictures are .png, and domains are "
-              ".poly. What is printed goes to standard error while a file goes to standard output."};
+              "For the options of a command, see: driftmesh COMMAND --help\n\n"
+              "In place of any file name, - stands for standard input or output; an extension after it selects the "
+              "format: -.msh, -.svg. Without one, meshes are .vtu, pictures .png, and domains .poly. While a file goes "
+              "to standard output, messages go to standard error."};
 }
 
 /// Flushes all buffers.

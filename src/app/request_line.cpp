@@ -74,7 +74,7 @@ cli::Option::Completes completes(const Key& key) {
   return file ? cli::Option::Completes::kFile : cli::Option::Completes::kNothing;
 }
 
-/// Zero and empty defaults are explained in the help of their keys, if they mean anything.
+/// Zero and empty defaults are explained in the help of their keys, if at all.
 std::string shown_default(const Key& key) {
   const std::string text = job::text_of(key.standard);
   const bool tells = key.kind != Kind::kFlag && text != "0" && text != "\"\"" && text != "[]" && text != "{}" &&
@@ -82,7 +82,7 @@ std::string shown_default(const Key& key) {
   return tells ? text : "";
 }
 
-/// The text with full names of keys replaced by their options.
+/// Replaces full names of keys in a text by their options.
 std::string in_words_of_options(std::string text) {
   constexpr const char* kOfNames = "abcdefghijklmnopqrstuvwxyz.-";
   for (const Key& key : job::keys()) {
@@ -112,10 +112,10 @@ void throw_with_option(const KeyError& error, const GivenKeys& given, const conf
   throw cli::UsageError(in_words_of_options(error.what()));
 }
 
-std::vector<cli::Option> key_options(job::Door door, GivenKeys& given, const std::string& group) {
+std::vector<cli::Option> key_options(job::EntryPoint entry_point, GivenKeys& given, const std::string& group) {
   std::vector<cli::Option> options;
   for (const Key& key : job::keys()) {
-    if ((key.doors & door) == 0 || key.option.empty()) continue;
+    if ((key.entry_points & entry_point) == 0 || key.option.empty()) continue;
     cli::Option option;
     option.kind = kind_of_option(key);
     option.name = key.option;
@@ -140,11 +140,13 @@ std::vector<cli::Option> key_options(job::Door door, GivenKeys& given, const std
   return options;
 }
 
-std::string command_line_of(const std::string& name, const job::Request& request, job::Door door) {
+std::string command_line_of(const std::string& name, const job::Request& request, job::EntryPoint entry_point) {
   std::string line = name;
   for (const Key& key : job::keys()) {
     const Value value = key.load(request);
-    if ((key.doors & door) == 0 || key.option.empty() || value == key.standard || key.name == "output.quiet") continue;
+    if ((key.entry_points & entry_point) == 0 || key.option.empty() || value == key.standard ||
+        key.name == "output.quiet")
+      continue;
     if (key.kind == Kind::kFlag)
       line += " --" + key.option;
     else

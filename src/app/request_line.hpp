@@ -24,9 +24,10 @@ struct GivenKeys {
   void apply(job::Request& request) const;
 };
 
-/// The options of the keys that a door of the command line knows, which note in `given` what they are given; it must
-/// outlive them. `group` names the heading for all of them, in place of their own.
-[[nodiscard]] std::vector<cli::Option> key_options(job::Door door, GivenKeys& given, const std::string& group = "");
+/// The options of the keys that an entry point of the command line knows. They record their values in `given`, which
+/// must outlive them. `group` is the heading for all of them, instead of their own.
+[[nodiscard]] std::vector<cli::Option> key_options(job::EntryPoint entry_point, GivenKeys& given,
+                                                   const std::string& group = "");
 
 /// Rethrows the error of a key in terms of its option, as a UsageError, or, if the key came from a YAML file, with its
 /// place there.
@@ -44,9 +45,10 @@ void in_words_of_options(const GivenKeys& given, const config::SourcePlaces& pla
   }
 }
 
-/// The command line for the same request at a door: every key with an option and a value other than the default, quoted
-/// for a shell. It starts with `name`: "driftmesh mesh".
-[[nodiscard]] std::string command_line_of(const std::string& name, const job::Request& request, job::Door door);
+/// The command line for the same request at an entry point: every key with an option and a value other than the
+/// default, quoted for a shell. It starts with `name`: "driftmesh mesh".
+[[nodiscard]] std::string command_line_of(const std::string& name, const job::Request& request,
+                                          job::EntryPoint entry_point);
 
 /// A word quoted for a POSIX shell.
 [[nodiscard]] std::string shell_quoted(const std::string& word);

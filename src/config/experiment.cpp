@@ -192,8 +192,9 @@ class KeyReader {
   using TakeOther = std::function<bool(const std::string& name, const YAML::Node& key, const YAML::Node& value)>;
 
   /// `other` handles names that are not keys, if it can.
-  KeyReader(const Origin& origin, job::Door door, Request& request, SourcePlaces& places, TakeOther other = {})
-      : origin_(origin), door_(door), request_(request), places_(places), other_(std::move(other)) {}
+  KeyReader(const Origin& origin, job::EntryPoint entry_point, Request& request, SourcePlaces& places,
+            TakeOther other = {})
+      : origin_(origin), entry_point_(entry_point), request_(request), places_(places), other_(std::move(other)) {}
 
   void read_all(const YAML::Node& root) {
     if (root.IsMap())
@@ -216,8 +217,9 @@ class KeyReader {
   [[nodiscard]] KeyPath known_key(const Origin& origin, const std::string& name, const YAML::Mark& mark) const {
     KeyPath path = job::find_key(name);
     if (path.key == nullptr) path = job::find_option(name);
-    if (path.key == nullptr || (path.key->doors & door_) == 0)
-      origin.fail(mark, "unknown key '" + name + "'", "the nearest one is '" + job::nearest_key(name, door_) + "'");
+    if (path.key == nullptr || (path.key->entry_points & entry_point_) == 0)
+      origin.fail(mark, "unknown key '" + name + "'",
+                  "the nearest one is '" + job::nearest_key(name, entry_point_) + "'");
     return path;
   }
 
@@ -250,7 +252,7 @@ class KeyReader {
   }
 
   const Origin& origin_;
-  job::Door door_;
+  job::EntryPoint entry_point_;
   Request& request_;
   SourcePlaces& places_;
   TakeOther other_;

@@ -21,10 +21,10 @@ Json json_of(const job::Value& value) {
       static_cast<const job::Value::variant&>(value));
 }
 
-Json json_of(const job::Request& request, unsigned doors) {
+Json json_of(const job::Request& request, unsigned entry_points) {
   Json all = Json::object();
   for (const job::Key& key : job::keys())
-    if ((key.doors & doors) != 0) all[key.name] = json_of(key.load(request));
+    if ((key.entry_points & entry_points) != 0) all[key.name] = json_of(key.load(request));
   return all;
 }
 

@@ -11,7 +11,7 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json json_of(const job::Value& value);
 
-/// All keys of a request that `doors` know, by their full names, with their values.
-[[nodiscard]] Json json_of(const job::Request& request, unsigned doors);
+/// All keys of a request that `entry_points` know, by their full names, with their values.
+[[nodiscard]] Json json_of(const job::Request& request, unsigned entry_points);
 
 }  // namespace driftmesh::config

@@ -111,7 +111,7 @@ Value from_anywhere(const KeyInfo& key, const Value& value) {
 }
 
 bool in_experiments(const KeyInfo& key) {
-  return (key.doors & job::kExperiment) != 0;
+  return (key.entry_points & job::kExperiment) != 0;
 }
 
 }  // namespace

@@ -31,17 +31,16 @@ void check_value(const Key& key, const Value& value) {
 
 [[noreturn]] void refuse_at(const Key& key, Place place) {
   if (key.places == kOnePiece)
-    throw KeyError(key.name,
-                   "is for a mesh in one piece: what subdomains hold when one of them stops does not fit together",
+    throw KeyError(key.name, "applies only to a mesh in one piece: incomplete subdomains would not fit together",
                    "remove it");
   if (key.places == kSimulated)
-    throw KeyError(key.name, "is for simulated clusters; real ranks are as they are", "remove it, or simulate");
+    throw KeyError(key.name, "applies only to simulated clusters", "remove it, or simulate the cluster");
   if ((key.places & kSubdomains) == 0)
-    throw KeyError(key.name, "is for many ranks, and this process is alone", "start it with mpirun, or remove it");
-  throw KeyError(
-      key.name,
-      place == kOnePiece ? "is for a mesh in subdomains, and this one is made in one piece" : "has no meaning here",
-      "cut the domain with --subdomains, or remove it");
+    throw KeyError(key.name, "needs several ranks, but this process is alone", "start it with mpirun, or remove it");
+  throw KeyError(key.name,
+                 place == kOnePiece ? "applies only to a mesh in subdomains, but this one is made in one piece"
+                                    : "does not apply here",
+                 "cut the domain with --subdomains, or remove it");
 }
 
 void check_places(const Request& request, Place place) {
@@ -49,7 +48,7 @@ void check_places(const Request& request, Place place) {
     if ((key.places & place) == 0 && key.load(request) != key.standard) refuse_at(key, place);
 }
 
-// ---- Values together -------------------------------------------------------------------------------------------
+// ---- Combinations of values ------------------------------------------------------------------------------------
 
 void check_input(const Request::Input& input) {
   require(input.file.empty() || input.generator.empty(), "input.generate", "names a second domain",
@@ -60,24 +59,25 @@ void check_input(const Request::Input& input) {
   try {
     static_cast<void>(generate(input.generator, input.parameters));
   } catch (const Error& error) {
-    throw KeyError("input.generate", std::string("is refused: ") + error.what(),
-                   "driftmesh generate --help shows what there is");
+    throw KeyError("input.generate", std::string("is invalid: ") + error.what(),
+                   "driftmesh generate --help lists the models and their parameters");
   }
 }
 
 void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
-  require(bounds.area == 0 || bounds.triangles == 0, "bounds.triangles", "asks for the size of triangles a second time",
-          "keep one of it and bounds.area");
+  require(bounds.area == 0 || bounds.triangles == 0, "bounds.triangles", "cannot be combined with bounds.area",
+          "remove one of them");
   require(bounds.triangles_per_rank == 0 || (bounds.area == 0 && bounds.triangles == 0), "bounds.triangles-per-rank",
-          "asks for the size of triangles a second time", "keep one of it, bounds.area and bounds.triangles");
+          "cannot be combined with bounds.area or bounds.triangles", "remove all but one");
   require(sizing.expression.empty() || (bounds.triangles == 0 && bounds.triangles_per_rank == 0), "sizing.size",
-          "does not go with a number of triangles", "remove one, or give bounds.area");
+          "cannot be combined with a number of triangles", "remove one, or give bounds.area");
   require(sizing.gradation == 0 || !sizing.background.empty(), "sizing.gradation",
-          "limits the growth of a background mesh's lengths, and there is none", "name one with sizing.background");
+          "limits the growth of a background mesh's lengths, but there is no such mesh",
+          "name one with sizing.background");
   require(sizing.longest == 0 || sizing.shortest <= sizing.longest, "sizing.min", "is greater than sizing.max",
-          "exchange the two");
+          "swap the two");
   require(sizing.shortest == 0 || !sizing.expression.empty() || !sizing.background.empty() || sizing.longest > 0,
-          "sizing.min", "bounds the lengths of sizing.size, sizing.background or sizing.max, and none is given",
+          "sizing.min", "limits the lengths of sizing.size, sizing.background or sizing.max, but none of them is given",
           "give one of them");
 }
 
@@ -87,33 +87,33 @@ void check_policy(const Request& request, const balancer::PolicyMaker& policies)
   try {
     static_cast<void>(policies(request.balance.policy, parameters));
   } catch (const Error& error) {
-    throw KeyError("balance.parameters", std::string("is refused: ") + error.what(), "docs/balancing.md lists them");
+    throw KeyError("balance.parameters", std::string("is invalid: ") + error.what(), "see docs/balancing.md");
   }
 }
 
 void check_parts(const Request& request) {
   const Request::Decomposition& d = request.decomposition;
   require(d.subdomains == 0 || d.subdomains_per_rank == 0, "decomposition.subdomains-per-rank",
-          "gives the number of subdomains a second time", "remove one");
+          "cannot be combined with decomposition.subdomains", "remove one of them");
   require(d.file.empty() || (d.subdomains == 0 && d.subdomains_per_rank == 0), "decomposition.file",
-          "is cut already, and a number of subdomains is given, too", "remove one");
+          "has a number of subdomains, but another one is given", "remove one of them");
   require(request.mapping.speeds.empty() || !request.mapping.by_speed, "mapping.by-speed",
-          "does not go with mapping.speeds", "remove one");
+          "cannot be combined with mapping.speeds", "remove one of them");
 }
 
 void check_cluster(const Request& request) {
   const Request::Cluster& c = request.cluster;
   require(c.groups.empty() || c.speed == 0, "cluster.speed",
-          "does not go with cluster.groups, each of which has its own", "remove one");
+          "cannot be combined with cluster.groups, which have their own speeds", "remove one of them");
   require(c.groups.empty() || c.ranks == 0 || c.ranks == ranks_of(cluster_of(request)), "cluster.ranks",
-          "is not the number of ranks in cluster.groups", "remove one");
-  require(!c.groups.empty() || c.ranks > 0, "cluster.ranks", "is 0", "give their number, or cluster.groups");
+          "differs from the number of ranks in cluster.groups", "remove one of them");
+  require(!c.groups.empty() || c.ranks > 0, "cluster.ranks", "is 0", "give the number of ranks, or cluster.groups");
 }
 
 }  // namespace
 
-Place place_of(const Request& request, Door door, bool launched) {
-  if (door == kExperiment) return request.cluster.kind == ClusterKind::kSimulated ? kSimulated : kRanks;
+Place place_of(const Request& request, EntryPoint entry_point, bool launched) {
+  if (entry_point == kExperiment) return request.cluster.kind == ClusterKind::kSimulated ? kSimulated : kRanks;
   if (launched) return kRanks;
   return request.decomposition.subdomains > 0 || !request.decomposition.file.empty() ? kSubdomains : kOnePiece;
 }
@@ -136,8 +136,8 @@ void check_ranks(const Request& request, Place place, std::int32_t ranks) {
   if (place != kSimulated && wanted > 0 && wanted != ranks)
     throw KeyError("cluster.ranks",
                    "is " + std::to_string(wanted) +
-                       (ranks == 1 ? ", and this process is alone"
-                                   : ", and mpirun has started " + std::to_string(ranks) + " processes"),
+                       (ranks == 1 ? ", but this process is alone"
+                                   : ", but mpirun has started " + std::to_string(ranks) + " processes"),
                    "start it with mpirun -n " + std::to_string(wanted) + ", or remove the key");
   const auto for_each_rank = [&](const std::vector<double>& values, const char* key) {
     if (!values.empty() && values.size() != static_cast<std::size_t>(ranks))
@@ -149,7 +149,7 @@ void check_ranks(const Request& request, Place place, std::int32_t ranks) {
   for_each_rank(request.mapping.speeds, "mapping.speeds");
   for_each_rank(request.cluster.drag, "cluster.drag");
   require(request.lb_phases == 0 || static_cast<std::size_t>(ranks) <= kMaxVtNodes, "lb-statistics",
-          "is for at most 32768 ranks: vt's files have no numbers for more", "remove it, or take fewer ranks");
+          "supports at most 32768 ranks, the limit of vt's files", "remove it, or use fewer ranks");
 }
 
 std::map<std::string, std::string> parameters_of_policy(const Request& request) {

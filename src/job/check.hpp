@@ -11,24 +11,24 @@
 
 namespace driftmesh::job {
 
-/// Where the mesh of a request is made. `launched`: as one of the processes of mpirun or its like. Experiments name
-/// their place (cluster.kind); other meshes are made on ranks if there are some, in subdomains if some are asked for,
-/// and in one piece otherwise.
-[[nodiscard]] Place place_of(const Request& request, Door door, bool launched);
+/// Where the mesh of a request is made. `launched`: whether this is one of the processes started by mpirun or the like.
+/// Experiments name their place (cluster.kind); other meshes are made on ranks if launched, in subdomains if the
+/// request has any, and in one piece otherwise.
+[[nodiscard]] Place place_of(const Request& request, EntryPoint entry_point, bool launched);
 
-/// Throws KeyError for values that are missing, out of range, do not go together, or mean nothing at `place`: a key
-/// that would have to be ignored there is refused unless its value is the default. Files are not looked at; parameters
-/// of the policy are, if `policies` can make it.
+/// Throws KeyError for values that are missing, out of range, contradictory, or do not apply at `place`: a key that
+/// would be ignored there is rejected unless it has its default value. Files are not examined; parameters of the policy
+/// are, if `policies` is given.
 void check(const Request& request, Place place, const balancer::PolicyMaker& policies = nullptr);
 
-/// Throws KeyError for values that `ranks` ranks, which exist, do not allow.
+/// Throws KeyError for values that do not fit the actual number of ranks.
 void check_ranks(const Request& request, Place place, std::int32_t ranks);
 
-/// The parameters of the policy: of those that name one, as zoltan.method does, only the ones that name this. Throws
-/// KeyError for a policy that does not exist.
+/// The parameters for the request's policy: of those that name a policy, as zoltan.method does, only those that name
+/// this one. Throws KeyError for an unknown policy.
 [[nodiscard]] std::map<std::string, std::string> parameters_of_policy(const Request& request);
 
-/// The share of its time that each of `ranks` real ranks works: 1, but where the request drags some.
+/// The fraction of its time that each of `ranks` real ranks works: 1 unless the request slows it down (cluster.drag).
 [[nodiscard]] IdVector<Rank, double> shares_of_time(const Request& request, std::int32_t ranks);
 
 /// The cluster to simulate.

@@ -13,29 +13,29 @@
 
 namespace driftmesh::job {
 
-/// What a caller has in memory, in place of what a request names. Null: nothing. What pointers point at is not owned.
+/// Data that a caller has in memory, which replaces what a request names. Null: none. Pointers are not owning.
 struct Given {
-  const Pslg* input = nullptr;                   ///< as users feed it: it is repaired first
+  const Pslg* input = nullptr;                   ///< as the user provides it; it is repaired first
   const SizeField* size = nullptr;               ///< the same function on every rank
   const Decomposition* decomposition = nullptr;  ///< made from the same input, after repair
-  balancer::PolicyMaker policies{};              ///< for ranks that balance; equal ones on every rank
+  balancer::PolicyMaker policies{};              ///< for load balancing; equal on every rank
 };
 
-/// What is meshed.
+/// The domain to be meshed.
 struct Domain {
   Pslg pslg;  ///< repaired
   RepairReport repairs;
   std::unique_ptr<const SizeField> own_size;  ///< made for the request, or null
-  const SizeField* size = nullptr;            ///< the one to use: that one, a given one, or null
+  const SizeField* size = nullptr;            ///< the one to use: own_size, a given one, or null
 };
 
 /// Reads or generates the domain and repairs it, and makes the size field. Throws InputError, FileError.
 [[nodiscard]] Domain read_domain(const Request& request, const Given& given, Watch& watch);
 
-/// What the request asks for of the sizes of triangles.
+/// The request's settings for the sizes of triangles.
 [[nodiscard]] SizingOptions sizing_of(const Request::Sizing& sizing);
 
-/// The name of the domain: a file, what is generated, or "input" where a caller has it in memory.
+/// The name of the domain: its file, the generated model, or "input" if a caller has it in memory.
 [[nodiscard]] std::string input_name(const Request& request);
 
 }  // namespace driftmesh::job

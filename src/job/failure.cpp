@@ -18,7 +18,7 @@ Failure failure_in(const Bytes& bytes) {
   return Failure::read(reader);
 }
 
-/// Of all ranks' failures the one that is thrown.
+/// The one of all ranks' failures that is thrown: that of the lowest rank.
 Failure first_of(const std::vector<Bytes>& failures) {
   for (const Rank rank : first_ids<Rank>(failures.size())) {
     Failure failure = met_by(rank, failure_in(failures[to_index(rank)]));

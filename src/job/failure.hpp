@@ -6,8 +6,8 @@
 
 namespace driftmesh::job {
 
-/// Throws on all ranks alike if one of them has failed: what the first of these met, with its number. A rank that is
-/// alone throws its own exception. All ranks together; `own` is null where nothing has failed.
+/// If some rank has failed, throws the failure of the first such rank, with its number, on all ranks. A team of one
+/// rank throws its own exception. Collective; `own` is null on ranks without a failure.
 void agree_on_failure(Team& team, const std::exception_ptr& own);
 
 }  // namespace driftmesh::job

@@ -10,17 +10,17 @@
 
 namespace driftmesh::job {
 
-std::string called(const std::string& key, Door door) {
-  if (door == kExperiment) return key;
+std::string called(const std::string& key, EntryPoint entry_point) {
+  if (entry_point == kExperiment) return key;
   std::string option = find_key(key).key->option;
   if (key != "input.file") return "--" + option;
   std::transform(option.begin(), option.end(), option.begin(), [](unsigned char c) { return std::toupper(c); });
   return option;
 }
 
-void register_reads(const Request& request, Door door, FileRegistry& files) {
+void register_reads(const Request& request, EntryPoint entry_point, FileRegistry& files) {
   const auto reads = [&](const std::vector<std::string>& paths, const char* key) {
-    for (const std::string& path : paths) files.reads(path, called(key, door));
+    for (const std::string& path : paths) files.reads(path, called(key, entry_point));
   };
   if (!request.input.file.empty()) reads(poly_files(request.input.file), "input.file");
   if (!request.sizing.background.empty()) reads(background_files(request.sizing.background), "sizing.background");

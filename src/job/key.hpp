@@ -22,19 +22,19 @@ inline constexpr Places kMany = kRanks | kSimulated;
 inline constexpr Places kCut = kSubdomains | kMany;
 inline constexpr Places kAnywhere = kOnePiece | kCut;
 
-/// Who asks; sets of doors are sums.
-enum Door : unsigned {
-  kMesh = 1,        ///< driftmesh mesh, and its YAML file
+/// The entry points of the product; sets of them are sums.
+enum EntryPoint : unsigned {
+  kMesh = 1,        ///< driftmesh mesh and its YAML file
   kDecompose = 2,   ///< driftmesh decompose
-  kCheck = 4,       ///< driftmesh check, which has bounds to check against
-  kExperiment = 8,  ///< driftmesh run: a YAML file and its --set
-  kLibrary = 16,    ///< a program, by the options of the library
+  kCheck = 4,       ///< driftmesh check, for the bounds
+  kExperiment = 8,  ///< driftmesh run: a YAML file and --set
+  kLibrary = 16,    ///< a program that uses the library
 };
-using Doors = unsigned;
-inline constexpr Doors kMeshers = kMesh | kExperiment | kLibrary;
+using EntryPoints = unsigned;
+inline constexpr EntryPoints kMeshers = kMesh | kExperiment | kLibrary;
 
-/// What a key means and what its value may be. The command line and its help, YAML files and their schema, the manual
-/// page, completion and the table in docs/experiments.md all come from this.
+/// The declaration of a key: its meaning and valid values. The command line and its help, YAML files and their schema,
+/// the manual page, completion and the table in docs/experiments.md derive from it.
 struct KeyInfo {
   enum class Kind {
     kText,
@@ -42,10 +42,10 @@ struct KeyInfo {
     kOutput,   ///< a file that is written
     kOutputs,  ///< several
     kNumber,   ///< with a unit k, M, G or T, or none
-    kInteger,  ///< the same, whole
+    kInteger,  ///< likewise, a whole number
     kFlag,
     kChoice,
-    kTable,    ///< names and values, known to what reads them
+    kTable,    ///< names and values, known to their reader
     kList,     ///< of records with the keys of `fields`
     kNumbers,  ///< a list, each from `least` to `most`
   };
@@ -53,35 +53,34 @@ struct KeyInfo {
   std::string help;  ///< one line
   Kind kind = Kind::kText;
   std::string unit;  ///< "degrees", "seconds", "bytes" (then a unit k, M, ... stands for powers of 1024), or empty
-  Value standard;    ///< its value where none is given
+  Value standard;    ///< its default
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  bool above = false;                ///< more than `least`, not equal to it
-  std::string why_not_more;          ///< why the value ends at `most`, or empty
+  bool above = false;                ///< must be greater than `least`, not equal
+  std::string why_not_more;          ///< the reason for the limit `most`, or empty
   std::vector<std::string> choices;  ///< kChoice
   std::vector<KeyInfo> fields;       ///< kList
 
-  Places places = kAnywhere;  ///< where it has a meaning; given elsewhere it is refused
-  Doors doors = kMeshers;     ///< who can say it
+  Places places = kAnywhere;            ///< where it applies; elsewhere it is rejected
+  EntryPoints entry_points = kMeshers;  ///< where it can be given
 
-  // On the command line of the doors mesh, decompose and check.
-  std::string option;       ///< its long name without dashes; empty: it has none. "no-..." sets a flag to false
+  // On the command lines of mesh, decompose and check:
+  std::string option;       ///< its long name without dashes; empty: none. "no-..." sets a flag to false
   char letter = 0;          ///< its short name
-  std::string value_name;   ///< what help calls its value: "AREA"
-  std::string option_help;  ///< what help says in place of `help`: of an option that sets a flag to false
-  std::string group;        ///< the heading of help that it stands under
+  std::string value_name;   ///< the name of its value in the help: "AREA"
+  std::string option_help;  ///< replaces `help`, for an option that sets a flag to false
+  std::string group;        ///< its heading in the help
 };
 
-/// A key, and where a request keeps its value.
+/// A key, and access to its value in a request.
 struct Key : KeyInfo {
   std::function<void(Request&, const Value&)> store;  ///< a value of the right kind and range
   std::function<Value(const Request&)> load;
 };
 
-/// A value that cannot be, or cannot be together with others, or where it was given: the key to look at, what it does
-/// wrong
-/// ("is -5"), and what to do. The message names keys by their full names; whoever has better words, a place in a file
-/// or an option, puts them in.
+/// A value that is invalid, or invalid in combination with others or at the place where it was given: the key
+/// concerned, the problem ("is -5"), and what to do. The message names keys by their full names; callers that know
+/// better words, such as a place in a file or an option, replace them.
 class KeyError : public Error {
  public:
   KeyError(std::string key, const std::string& what, const std::string& next)

@@ -19,7 +19,7 @@ using Kind = KeyInfo::Kind;
 using R = Request;
 
 constexpr double kMaxRanks = 100'000;
-constexpr Places kAsSection = 0;  // of a key that applies where its section does; likewise for doors
+constexpr Places kAsSection = 0;  // for a key that applies where its section does; likewise for entry points
 
 // ---- The value of a member -------------------------------------------------------------------------------------
 
@@ -57,7 +57,7 @@ Member member_of(const Value& value) {
     return value.as<Member>();
 }
 
-// ---- What else a declaration says ------------------------------------------------------------------------------
+// ---- Further attributes of a key --------------------------------------------------------------------------------
 
 auto in(double least, double most) {
   return [=](KeyInfo& key) { key.least = least, key.most = most; };
@@ -98,8 +98,8 @@ auto option_help(const char* text) {
 auto places(Places where) {
   return [=](KeyInfo& key) { key.places = where; };
 }
-auto doors(Doors which) {
-  return [=](KeyInfo& key) { key.doors = which; };
+auto entry_points(EntryPoints which) {
+  return [=](KeyInfo& key) { key.entry_points = which; };
 }
 
 template <class Owner, class Member, class... Rest>
@@ -109,7 +109,7 @@ void describe(KeyInfo& info, const char* name, Member Owner::*member, const char
   info.kind = kind_of<Member>();
   info.standard = value_of(Owner{}.*member);
   info.places = kAsSection;
-  info.doors = kAsSection;
+  info.entry_points = kAsSection;
   (rest(info), ...);
 }
 
@@ -136,7 +136,7 @@ Key key(const char* name, Member R::*member, const char* help, const Rest&... re
 template <class Enum>
 using Names = std::vector<std::pair<Enum, const char*>>;
 
-/// A key whose value is one of an enumeration, by these names.
+/// A key whose value is an enumerator, given by these names.
 template <class Section, class Enum, class... Rest>
 Key choice(const char* name, Section R::*section, Enum Section::*member, const Names<Enum>& names, const char* help,
            const Rest&... rest) {
@@ -150,7 +150,7 @@ Key choice(const char* name, Section R::*section, Enum Section::*member, const N
   made.kind = Kind::kChoice;
   made.standard = name_of(Section{}.*member);
   made.places = kAsSection;
-  made.doors = kAsSection;
+  made.entry_points = kAsSection;
   for (const auto& [value, word] : names) made.choices.emplace_back(word);
   (rest(made), ...);
   made.store = [=](R& r, const Value& value) {
@@ -165,15 +165,15 @@ Key choice(const char* name, Section R::*section, Enum Section::*member, const N
 Key groups_key() {
   Key made;
   made.name = "cluster.groups";
-  made.help = "Ranks of different kinds, numbered in this order, in place of cluster.ranks and cluster.speed";
+  made.help = "Ranks of different kinds, numbered in this order, instead of cluster.ranks and cluster.speed";
   made.kind = Kind::kList;
   made.standard = std::vector<Record>();
   made.places = kSimulated;
-  made.doors = kAsSection;
+  made.entry_points = kAsSection;
   made.fields.resize(3);
-  describe(made.fields[0], "name", &RankGroup::name, "What to call them");
-  describe(made.fields[1], "ranks", &RankGroup::ranks, "How many", in(1, kMaxRanks));
-  describe(made.fields[2], "speed", &RankGroup::speed, "Triangles per second that each refines; 0: 7.9 million",
+  describe(made.fields[0], "name", &RankGroup::name, "Name of the group");
+  describe(made.fields[1], "ranks", &RankGroup::ranks, "Number of ranks", in(1, kMaxRanks));
+  describe(made.fields[2], "speed", &RankGroup::speed, "Triangles per second that each rank refines; 0: 7.9 million",
            unit("triangles/s"), from(0));
   made.store = [](R& r, const Value& value) {
     r.cluster.groups.clear();
@@ -192,11 +192,11 @@ Key groups_key() {
 
 // ---- The declarations ------------------------------------------------------------------------------------------
 
-/// Keys that stand under one heading of help, and where and by whom they are said unless they say otherwise.
+/// Keys under one heading of the help, with the places and entry points that apply unless a key names its own.
 struct Section {
   const char* group;
   Places places;
-  Doors doors;
+  EntryPoints entry_points;
   std::vector<Key> keys;
 };
 
@@ -204,52 +204,52 @@ Section input_section() {
   return {"Input",
           kAnywhere,
           kMesh | kExperiment,
-          {key("input.file", &R::input, &R::Input::file, "The domain: Triangle's .poly (its .node beside it), or .node",
-               file(), option("input"), doors(kMesh | kDecompose | kExperiment)),
+          {key("input.file", &R::input, &R::Input::file,
+               "The domain: Triangle's .poly (with its .node next to it), or .node", file(), option("input"),
+               entry_points(kMesh | kDecompose | kExperiment)),
            key("input.generate", &R::input, &R::Input::generator,
-               "In place of a file: the domain is generated (see driftmesh generate --help)",
+               "Generate the domain instead of reading a file (see driftmesh generate --help)",
                option("generate", "KIND"), one_of(generator_names())),
            key("input.parameters", &R::input, &R::Input::parameters,
-               "A parameter of what is generated, as in resolution=300", option("generate-with", "NAME=VALUE"))}};
+               "A parameter of the generated domain, such as resolution=300", option("generate-with", "NAME=VALUE"))}};
 }
 
 Section triangle_section() {
-  constexpr Doors kAll = kMeshers | kDecompose | kCheck;
+  constexpr EntryPoints kAll = kMeshers | kDecompose | kCheck;
   return {
       "Triangles (lengths and areas in the units of the input)",
       kAnywhere,
       kAll,
       {key("bounds.angle", &R::bounds, &R::Bounds::angle,
            "Smallest angle, except where small angles of the input force smaller ones. Refinement is proven to "
-           "terminate up to 25.6; in practice it does up to about 33",
-           unit("degrees"), in(0, kMaxAngle), because("above that refinement need not terminate"),
-           option('q', "angle", "DEGREES"), doors(kMeshers)),
+           "terminate up to 25.6 degrees; in practice it does up to about 33",
+           unit("degrees"), in(0, kMaxAngle), because("above that, refinement may not terminate"),
+           option('q', "angle", "DEGREES"), entry_points(kMeshers)),
        key("bounds.area", &R::bounds, &R::Bounds::area, "Largest area of a triangle; 0: no bound", from(0),
            option('a', "area", "AREA")),
        key("bounds.triangles", &R::bounds, &R::Bounds::triangles,
-           "In place of an area: the one that gives about this many triangles", in(0, 1e12), option("triangles", "N"),
-           doors(kMeshers | kDecompose)),
-       key("bounds.triangles-per-rank", &R::bounds, &R::Bounds::triangles_per_rank,
-           "The same, times the number of ranks", in(0, 1e10), option("triangles-per-rank", "N"), places(kMany),
-           doors(kMesh | kExperiment)),
+           "Instead of an area: choose the one that gives about this many triangles", in(0, 1e12),
+           option("triangles", "N"), entry_points(kMeshers | kDecompose)),
+       key("bounds.triangles-per-rank", &R::bounds, &R::Bounds::triangles_per_rank, "Likewise, per rank", in(0, 1e10),
+           option("triangles-per-rank", "N"), places(kMany), entry_points(kMesh | kExperiment)),
        key("bounds.region-areas", &R::bounds, &R::Bounds::region_areas,
-           "Whether the area bounds of the input's regions hold", option("no-region-areas"),
+           "Whether the area bounds of the input's regions apply", option("no-region-areas"),
            option_help("Ignore the area bounds of the input's regions")),
        key("sizing.size", &R::sizing, &R::Sizing::expression,
-           "Target edge length in x and y: \"0.1 + 0.02*sqrt(x^2 + y^2)\"", option("size", "EXPR"),
-           doors(kAll & ~kLibrary)),
+           "Target edge length as a function of x and y: \"0.1 + 0.02*sqrt(x^2 + y^2)\"", option("size", "EXPR"),
+           entry_points(kAll & ~kLibrary)),
        key("sizing.background", &R::sizing, &R::Sizing::background,
-           "Target edge lengths from a background mesh: FILE.node with FILE.ele, the length as the first attribute "
+           "Target edge lengths from a background mesh: FILE.node and FILE.ele, with the length as the first attribute "
            "of each point, or FILE.area with an area bound for each triangle",
-           file(), option("size-mesh", "FILE"), doors(kAll & ~kLibrary)),
+           file(), option("size-mesh", "FILE"), entry_points(kAll & ~kLibrary)),
        key("sizing.gradation", &R::sizing, &R::Sizing::gradation,
-           "Largest growth of the background mesh's lengths per unit of distance; 0.2 to 0.3 grade well; 0: as they "
-           "are",
-           from(0), option("gradation", "G"), doors(kAll & ~kLibrary)),
-       key("sizing.min", &R::sizing, &R::Sizing::shortest, "Target edge lengths are at least this", from(0),
-           option("size-min", "LENGTH"), doors(kAll & ~kLibrary)),
-       key("sizing.max", &R::sizing, &R::Sizing::longest, "Target edge lengths are at most this; 0: no limit", from(0),
-           option("size-max", "LENGTH"), doors(kAll & ~kLibrary))}};
+           "Limit on the growth of the background mesh's lengths per unit of distance; 0.2 to 0.3 works well; 0: no "
+           "limit",
+           from(0), option("gradation", "G"), entry_points(kAll & ~kLibrary)),
+       key("sizing.min", &R::sizing, &R::Sizing::shortest, "Lower limit on target edge lengths", from(0),
+           option("size-min", "LENGTH"), entry_points(kAll & ~kLibrary)),
+       key("sizing.max", &R::sizing, &R::Sizing::longest, "Upper limit on target edge lengths; 0: no limit", from(0),
+           option("size-max", "LENGTH"), entry_points(kAll & ~kLibrary))}};
 }
 
 Section limit_section() {
@@ -257,14 +257,14 @@ Section limit_section() {
           kAnywhere,
           kMeshers,
           {key("limits.max-triangles", &R::limits, &R::Limits::max_triangles,
-               "Stop at this many triangles, or at once if more are to be expected",
+               "Stop at this many triangles, or at once if far more are expected",
                in(1, static_cast<double>(MeshRequest{}.max_triangles)), option("max-triangles", "N")),
            key("limits.max-memory", &R::limits, &R::Limits::max_memory,
-               "The same for the memory of each process: 6G is 6 GiB; 0: 90 % of what the machine has free",
+               "Likewise for the memory of each process: 6G is 6 GiB; 0: 90 % of the machine's free memory",
                unit("bytes"), in(0, 1e18), option("max-memory", "SIZE")),
            key("limits.keep-incomplete", &R::limits, &R::Limits::keep_incomplete,
-               "Write what there is when a limit stops the work", option("keep-incomplete"), places(kOnePiece),
-               doors(kMesh | kExperiment))}};
+               "Write the incomplete mesh when a limit stops the work", option("keep-incomplete"), places(kOnePiece),
+               entry_points(kMesh | kExperiment))}};
 }
 
 Section parts_section() {
@@ -278,51 +278,50 @@ Section parts_section() {
       kCut,
       kMeshers,
       {key("decomposition.subdomains", &R::decomposition, &R::Decomposition::subdomains,
-           "Number of subdomains, far more than ranks; works without mpirun too; 0: 20 a rank, or what keeps a "
-           "subdomain in cache",
-           in(0, kMaxSubdomains), option('n', "subdomains", "N"), doors(kMeshers | kDecompose)),
+           "Number of subdomains, far more than ranks; also without mpirun; 0: 20 per rank, or more so that each fits "
+           "in cache",
+           in(0, kMaxSubdomains), option('n', "subdomains", "N"), entry_points(kMeshers | kDecompose)),
        key("decomposition.subdomains-per-rank", &R::decomposition, &R::Decomposition::subdomains_per_rank,
-           "The same, times the number of ranks", in(0, 1e5), option("subdomains-per-rank", "N"), places(kMany),
-           doors(kMesh | kExperiment)),
+           "Likewise, per rank", in(0, 1e5), option("subdomains-per-rank", "N"), places(kMany),
+           entry_points(kMesh | kExperiment)),
        key("decomposition.file", &R::decomposition, &R::Decomposition::file,
-           "A decomposition made by driftmesh decompose, in place of cutting", file(), option("decomposition", "FILE"),
-           doors(kMesh | kExperiment)),
+           "Use a decomposition made by driftmesh decompose", file(), option("decomposition", "FILE"),
+           entry_points(kMesh | kExperiment)),
        key("decomposition.separator-angle", &R::decomposition, &R::Decomposition::separator_angle,
-           "Smallest angle between separators and everything they meet, where the domain allows it", unit("degrees"),
-           in(0, kMaxSeparatorAngle), option("separator-angle", "DEGREES"), doors(kMeshers | kDecompose)),
+           "Smallest angle between separators and whatever they meet, where the domain allows it", unit("degrees"),
+           in(0, kMaxSeparatorAngle), option("separator-angle", "DEGREES"), entry_points(kMeshers | kDecompose)),
        key("decomposition.skew", &R::decomposition, &R::Decomposition::skew,
            "0: equal work. Above: deliberately uneven subdomains, for experiments; each cut gives one side up to "
-           "1 + S times its due",
-           in(0, kMaxSkew), option("split-skew", "S"), doors(kMeshers | kDecompose)),
-       key("seed", &R::seed, "Seed of the unevenness; each repetition of an experiment adds one", from(0),
-           option("seed", "N"), doors(kMeshers | kDecompose)),
-       choice(
-           "mapping.method", &R::mapping, &R::Mapping::method, mappings,
-           "How subdomains are dealt to ranks at the start: graph (equal work, short interfaces), block or round-robin",
-           option("mapping", "HOW"), places(kMany)),
+           "1 + S times its fair share",
+           in(0, kMaxSkew), option("split-skew", "S"), entry_points(kMeshers | kDecompose)),
+       key("seed", &R::seed, "Random seed for uneven subdomains; each repetition of an experiment adds one", from(0),
+           option("seed", "N"), entry_points(kMeshers | kDecompose)),
+       choice("mapping.method", &R::mapping, &R::Mapping::method, mappings,
+              "Initial mapping of subdomains to ranks: graph (equal work, short interfaces), block or round-robin",
+              option("mapping", "HOW"), places(kMany)),
        key("mapping.speeds", &R::mapping, &R::Mapping::speeds,
-           "Relative speed of each rank, where known: work is dealt in proportion", above(0),
-           option("speeds", "S,S,..."), places(kMany)),
-       key("mapping.by-speed", &R::mapping, &R::Mapping::by_speed,
-           "Deal work in proportion to the speeds of the cluster", option("map-by-speed"), places(kMany),
-           doors(kMesh | kExperiment)),
-       key("mapping.by-area", &R::mapping, &R::Mapping::by_area,
-           "Deal area in place of expected work: an uneven start, for experiments", option("map-by-area"),
+           "Relative speed of each rank, if known: work is mapped in proportion", above(0), option("speeds", "S,S,..."),
            places(kMany)),
-       choice("run.presplit", &R::run, &R::Run::presplit, presplits,
-              "Cut interfaces to size before refinement: on, off (the protocol in full), or auto, which is wherever a "
-              "bound on "
-              "area or size says what size",
-              option("presplit", "MODE")),
-       key("run.aggregation", &R::run, &R::Run::aggregation, "Most split points that travel in one message", in(1, 1e6),
+       key("mapping.by-speed", &R::mapping, &R::Mapping::by_speed,
+           "Map work in proportion to the speeds of the cluster", option("map-by-speed"), places(kMany),
+           entry_points(kMesh | kExperiment)),
+       key("mapping.by-area", &R::mapping, &R::Mapping::by_area,
+           "Map by area instead of expected work: an uneven start, for experiments", option("map-by-area"),
+           places(kMany)),
+       choice(
+           "run.presplit", &R::run, &R::Run::presplit, presplits,
+           "Split interfaces to size before refinement: on, off (the full protocol), or auto (on if there is a bound "
+           "on area or size)",
+           option("presplit", "MODE")),
+       key("run.aggregation", &R::run, &R::Run::aggregation, "Most split points in one message", in(1, 1e6),
            option("aggregation", "K"), places(kMany)),
        choice("run.order", &R::run, &R::Run::order, orders,
               "Which subdomain a rank refines next: given (neighbors together), largest or backlog",
               option("order", "ORDER")),
-       key("run.slice", &R::run, &R::Run::slice, "Points inserted between two looks at the network", in(1, 1e9),
+       key("run.slice", &R::run, &R::Run::slice, "Points inserted between polls of the network", in(1, 1e9),
            option("slice", "N")),
        key("run.sleep", &R::run, &R::Run::sleep,
-           "Keep finished subdomains in about 10 bytes a triangle in place of 40 until a neighbor needs them again",
+           "Compress finished subdomains to about 10 bytes per triangle, from 40, until a neighbor needs them",
            option("sleep"))}};
 }
 
@@ -331,20 +330,20 @@ Section balance_section() {
       "Balancing: subdomains move between ranks while they are refined",
       kMany,
       kMeshers,
-      {key("balance.policy", &R::balance, &R::Balance::policy, "Who decides what moves (docs/balancing.md)",
+      {key("balance.policy", &R::balance, &R::Balance::policy, "The policy that plans moves (docs/balancing.md)",
            one_of(balancer::policy_names()), option("balance", "POLICY")),
        key("balance.parameters", &R::balance, &R::Balance::parameters,
-           "A parameter of the policy, as in method=graph; in a sweep over policies, that of one: zoltan.method=graph",
+           "A parameter of the policy, such as method=graph; in a sweep over policies, of one of them: "
+           "zoltan.method=graph",
            option("balance-with", "NAME=VALUE")),
-       key("balance.look", &R::balance, &R::Balance::look, "Time between two looks of a rank at its own load",
+       key("balance.look", &R::balance, &R::Balance::look, "Time between a rank's checks of its own load",
            unit("seconds"), above(0), option("balance-look", "SECONDS")),
-       key("balance.gap", &R::balance, &R::Balance::gap,
-           "Shortest time between two reports of a rank, and between two plans", unit("seconds"), from(0),
-           option("balance-gap", "SECONDS")),
+       key("balance.gap", &R::balance, &R::Balance::gap, "Shortest time between reports of a rank, and between plans",
+           unit("seconds"), from(0), option("balance-gap", "SECONDS")),
        key("balance.interval", &R::balance, &R::Balance::interval,
-           "Longest time between two reports of a rank that has work", unit("seconds"), above(0),
+           "Longest time between reports of a rank that has work", unit("seconds"), above(0),
            option("balance-interval", "SECONDS")),
-       key("balance.gain", &R::balance, &R::Balance::gain, "Share of the finishing time that moving must save",
+       key("balance.gain", &R::balance, &R::Balance::gain, "Fraction of the finishing time that moving must save",
            in(0, 1), option("balance-gain", "SHARE"))}};
 }
 
@@ -355,40 +354,41 @@ Section cluster_section() {
       kSimulated,
       kExperiment,
       {choice("cluster.kind", &R::cluster, &R::Cluster::kind, kinds,
-              "Ranks in virtual time, or those that mpirun starts", places(kMany)),
-       key("cluster.ranks", &R::cluster, &R::Cluster::ranks,
-           "Number of ranks; 0: those of cluster.groups, or of mpirun", in(0, kMaxRanks), places(kMany)),
+              "Simulated ranks in virtual time, or real ones started by mpirun", places(kMany)),
+       key("cluster.ranks", &R::cluster, &R::Cluster::ranks, "Number of ranks; 0: given by cluster.groups or mpirun",
+           in(0, kMaxRanks), places(kMany)),
        key("cluster.speed", &R::cluster, &R::Cluster::speed,
-           "Triangles per second that each refines; 0: 7.9 million, as the machine in docs/benchmarks.md",
+           "Triangles per second that each rank refines; 0: 7.9 million, like the machine in docs/benchmarks.md",
            unit("triangles/s"), from(0)),
        groups_key(),
        key("cluster.drag", &R::cluster, &R::Cluster::drag,
-           "Share of its speed that is left to each rank, real or simulated, as in 1,0.5; empty: all of it",
-           in(0.01, 1), option("drag", "F,F,..."), places(kMany), doors(kMesh | kExperiment)),
+           "Fraction of its speed that each rank keeps, real or simulated, such as 1,0.5; empty: all of it",
+           in(0.01, 1), option("drag", "F,F,..."), places(kMany), entry_points(kMesh | kExperiment)),
        key("cluster.latency", &R::cluster, &R::Cluster::latency,
            "Time from the end of sending to arrival, on simulated clusters", unit("seconds"), from(0), places(kMany)),
        key("cluster.bandwidth", &R::cluster, &R::Cluster::bandwidth,
-           "Bytes per second that leave a rank, on simulated clusters", above(0), places(kMany)),
+           "Bytes per second that a rank can send, on simulated clusters", above(0), places(kMany)),
        key("cluster.message-overhead", &R::cluster, &R::Cluster::message_overhead,
-           "Time of a rank for each message it sends or receives, on simulated clusters", unit("seconds"), from(0),
+           "Time a rank spends on each message it sends or receives, on simulated clusters", unit("seconds"), from(0),
            places(kMany))}};
 }
 
 Section output_section() {
-  return {
-      "Output",
-      kAnywhere,
-      kMesh,
-      {key("output.meshes", &R::output, &R::Output::meshes,
-           "Mesh file, by extension: .vtu (ParaView), .pvtu (the same in pieces, one per rank), .msh (Gmsh 4.1), or "
-           ".node, .ele, .poly, .edge, .neigh (each writes Triangle's whole set); - is standard output",
-           option('o', "output", "FILE")),
-       key("output.picture", &R::output, &R::Output::picture,
-           "Picture of the mesh: .png, .svg or .pdf (more: driftmesh plot --help)", output_file(),
-           option("plot", "FILE")),
-       key("output.record", &R::output, &R::Output::record, "Write everything in the summary as JSON too",
-           output_file(), option("json", "FILE")),
-       key("output.quiet", &R::output, &R::Output::quiet, "Print nothing but errors", option("quiet"))}};
+  return {"Output",
+          kAnywhere,
+          kMesh,
+          {key("output.meshes", &R::output, &R::Output::meshes,
+               "Mesh file; its extension selects the format: .vtu (ParaView), .pvtu (the same in pieces, one per "
+               "rank), .msh "
+               "(Gmsh 4.1), or .node, .ele, .poly, .edge, .neigh (each writes all of Triangle's files); - is standard "
+               "output",
+               option('o', "output", "FILE")),
+           key("output.picture", &R::output, &R::Output::picture,
+               "Picture of the mesh: .png, .svg or .pdf (see also driftmesh plot --help)", output_file(),
+               option("plot", "FILE")),
+           key("output.record", &R::output, &R::Output::record, "Also write the summary as JSON", output_file(),
+               option("json", "FILE")),
+           key("output.quiet", &R::output, &R::Output::quiet, "Print only errors", option("quiet"))}};
 }
 
 Section experiment_section() {
@@ -396,9 +396,9 @@ Section experiment_section() {
       "Experiments",
       kMany,
       kExperiment,
-      {key("name", &R::name, "What the results are called; by default the name of the file"),
-       key("repetitions", &R::repetitions, "How often each run is made", in(1, 1000)),
-       key("pictures", &R::pictures, "Draw each run"),
+      {key("name", &R::name, "Name of the results; by default that of the file"),
+       key("repetitions", &R::repetitions, "Number of times each run is made", in(1, 1000)),
+       key("pictures", &R::pictures, "Draw pictures of each run"),
        key("lb-statistics", &R::lb_phases,
            "Number of phases in the load balancing statistics written for DARMA vt's tools; 0: none", in(0, 10'000))}};
 }
@@ -410,7 +410,7 @@ std::vector<Key> all_keys() {
     for (Key& k : section.keys) {
       k.group = section.group;
       if (k.places == kAsSection) k.places = section.places;
-      if (k.doors == kAsSection) k.doors = section.doors;
+      if (k.entry_points == kAsSection) k.entry_points = section.entry_points;
       keys.push_back(std::move(k));
     }
   return keys;
@@ -460,10 +460,10 @@ KeyPath find_option(const std::string& option) {
   return {};
 }
 
-std::string nearest_key(const std::string& name, Doors door) {
+std::string nearest_key(const std::string& name, EntryPoints entry_point) {
   std::vector<std::string> names;
   for (const Key& k : keys()) {
-    if ((k.doors & door) == 0) continue;
+    if ((k.entry_points & entry_point) == 0) continue;
     names.push_back(k.name);
     if (const std::size_t dot = k.name.find('.'); dot != std::string::npos) names.push_back(k.name.substr(0, dot));
     if (!k.option.empty()) names.push_back(k.option);
@@ -478,7 +478,7 @@ void check_range(const KeyInfo& key, double value) {
          (key.above ? "it must be above " : "it must be at least ") + shortest_text(key.least));
   if (value > key.most)
     fail(key, "is " + shortest_text(value),
-         "it can be at most " + shortest_text(key.most) + (key.why_not_more.empty() ? "" : ": " + key.why_not_more));
+         "it must be at most " + shortest_text(key.most) + (key.why_not_more.empty() ? "" : ": " + key.why_not_more));
 }
 
 Value read_value(const KeyInfo& key, const std::string& text) {
@@ -497,7 +497,7 @@ Value read_value(const KeyInfo& key, const std::string& text) {
       return number(key, text);
     case Kind::kChoice:
       if (key.standard != Value(text) && std::find(key.choices.begin(), key.choices.end(), text) == key.choices.end())
-        fail(key, "is '" + text + "'", "the nearest that it can be is '" + nearest_name(text, key.choices) + "'");
+        fail(key, "is '" + text + "'", "the nearest valid value is '" + nearest_name(text, key.choices) + "'");
       return text;
     case Kind::kOutputs:
     case Kind::kTable:

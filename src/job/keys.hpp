@@ -12,9 +12,9 @@ namespace driftmesh::job {
 
 /// A key, or one name in a table of names: "input.parameters.seed".
 struct KeyPath {
-  const Key* key = nullptr;  ///< null: there is none
+  const Key* key = nullptr;  ///< null: not found
   std::string entry;         ///< of a kTable; empty: the table as a whole
-  bool negated = false;      ///< named by an option that begins with "no-"
+  bool negated = false;      ///< given by an option that begins with "no-"
 };
 
 /// By its full name.
@@ -22,11 +22,11 @@ struct KeyPath {
 /// By the long name of its option: "area", "no-region-areas".
 [[nodiscard]] KeyPath find_option(const std::string& option);
 
-/// The name of a key, of a section, or of an option at the door `door` that was probably meant.
-[[nodiscard]] std::string nearest_key(const std::string& name, Doors door);
+/// The name of a key, section or option of these entry points that was probably meant.
+[[nodiscard]] std::string nearest_key(const std::string& name, EntryPoints entry_point);
 
-/// What a text says for a key of one value: kText, kFile, kOutput, kNumber, kInteger, kFlag or kChoice; and for a
-/// kNumbers key a single one of its numbers, as double. Throws KeyError for what the key may not be.
+/// Reads the text of a value, for keys with a single value: kText, kFile, kOutput, kNumber, kInteger, kFlag or kChoice;
+/// for a kNumbers key, reads one of its numbers, as double. Throws KeyError for an invalid value.
 [[nodiscard]] Value read_value(const KeyInfo& key, const std::string& text);
 
 /// Throws KeyError for a value out of the range of its key.

@@ -11,12 +11,12 @@
 namespace driftmesh::job {
 namespace {
 
-// Measured on meshes of 4 to 10 million triangles, rounded up: the triangulation with its work lists, and with the flat
-// arrays beside it from which files are written.
+// Measured on meshes of 4 to 10 million triangles, rounded up: the triangulation with its work lists, and additionally
+// with the flat arrays from which files are written.
 constexpr std::uint64_t kBytesRefining = 44;
 constexpr std::uint64_t kBytesWriting = 64;
 constexpr std::uint64_t kBytesRegion = 10;
-constexpr std::uint64_t kBytesAttribute = 4;  // 8 bytes a vertex, of which there are half as many
+constexpr std::uint64_t kBytesAttribute = 4;  // 8 bytes per vertex, of which there are half as many
 constexpr double kForecastError = 1.1;
 constexpr double kGoodPart = 0.1;  // of the triangles at which a mesh was stopped
 

@@ -14,7 +14,7 @@ namespace driftmesh::job {
 /// Limits on the mesh of one process.
 struct Limits {
   std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop at this number
-  bool by_memory = false;                                ///< because of memory: max_triangles allows more
+  bool by_memory = false;                                ///< set by memory: max_triangles would allow more
   std::uint64_t memory = 0;                              ///< bytes that the process may use; 0: unknown
   std::uint64_t bytes_per_triangle = 0;                  ///< expected peak per triangle
 
@@ -22,13 +22,13 @@ struct Limits {
   [[nodiscard]] std::string option() const { return by_memory ? "--max-memory" : "--max-triangles"; }
 };
 
-/// The limits that a request and the machine set for meshing `pslg`, at this moment: memory that the process has now
+/// The limits that a request and the machine set for meshing `pslg` at this moment: memory that the process has now
 /// counts as used. Free memory is shared with the other processes of the job on this machine; max_memory is that of
-/// each. `writes`: the mesh is written or drawn, too, which takes memory.
+/// each. `writes`: the mesh is also written or drawn, which takes memory.
 [[nodiscard]] Limits find_limits(const Request::Limits& asked, const Pslg& pslg, bool writes,
                                  int processes_on_machine = 1);
 
-/// The same for all of `ranks` processes together: memory is that of each, max_triangles the limit of all.
+/// The limits of all `ranks` processes together: the memory limit is per process, max_triangles is for all.
 [[nodiscard]] Limits limits_of_all(const Request::Limits& asked, Limits of_one, int ranks);
 
 /// Exit code of a program stopped by a limit.

@@ -12,7 +12,7 @@ namespace {
 
 using Group = MeshFacts::ExceptionGroup;
 
-/// In the order in which they are shown; words for the causes follow.
+/// The causes in the order in which they are shown, with their descriptions.
 constexpr std::array kCauses{ExceptionCause::kInputAngle, ExceptionCause::kShell, ExceptionCause::kPrecision,
                              ExceptionCause::kUnexplained};
 
@@ -97,7 +97,7 @@ void add_shape(AngleSummary& sum, const AngleSummary& part, bool first) {
   sum.total_area += part.total_area;
 }
 
-/// The plain values of MeshFacts in one order for both directions.
+/// The plain values of MeshFacts, in the same order for writing and reading.
 template <class Stream, class Facts>
 void transfer_plain(Stream& stream, Facts& facts) {
   stream.value(facts.triangles);

@@ -13,7 +13,7 @@ namespace {
 
 enum class Letter : std::uint8_t { kOrder, kNothing, kError };
 
-// The fields other than plan and input, in one order for both directions.
+// The fields other than plan and input, in the same order for writing and reading.
 template <class Stream, class Fields>
 void transfer_rest(Stream& stream, Fields& order) {
   stream.value(order.sizing.gradation);
@@ -61,8 +61,8 @@ Bytes error(const Failure& failure) {
   return writer.take();
 }
 
-/// The part of rank 0. If making the order fails, it tells the other ranks before it throws.
-Bytes words_of_leader(Team& team, const std::function<std::optional<Order>()>& make) {
+/// What rank 0 broadcasts. If making the order fails, it broadcasts the error before it throws.
+Bytes leader_bytes(Team& team, const std::function<std::optional<Order>()>& make) {
   try {
     const std::optional<Order> order = make();
     return order ? pack(*order) : nothing();
@@ -76,7 +76,7 @@ Bytes words_of_leader(Team& team, const std::function<std::optional<Order>()>& m
 
 std::optional<Order> share(Team& team, const std::function<std::optional<Order>()>& make,
                            const balancer::PolicyMaker& policies) {
-  const Bytes bytes = team.broadcast(team.leads() ? words_of_leader(team, make) : Bytes());
+  const Bytes bytes = team.broadcast(team.leads() ? leader_bytes(team, make) : Bytes());
   ByteReader reader(bytes);
   switch (reader.value<Letter>()) {
     case Letter::kOrder:

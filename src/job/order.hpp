@@ -17,17 +17,17 @@ namespace driftmesh::job {
 
 /// What rank 0 sends to all ranks before they refine.
 struct Order {
-  RunPlan plan;  ///< without its size field: each rank makes its own, or was given one
+  RunPlan plan;  ///< without its size field: each rank makes or is given its own
   Pslg pslg;     ///< repaired
   Request::Sizing sizing;
   Request::Limits limits;
-  IdVector<Rank, double> shares;  ///< of its time that each rank works, for experiments; empty: all of it
+  IdVector<Rank, double> shares;  ///< fraction of its time that each rank works, for experiments; empty: all of it
   bool writes = false;            ///< the mesh is written or drawn afterward
 };
 
-/// The order that rank 0 makes, on all ranks; empty if it makes none because there is no more to do. Collective; only
-/// rank 0 calls `make`. An exception from it is thrown there, and an error of the same type and with the same message
-/// on the others. `policies` makes the plan's policy separately on each rank.
+/// Shares the order that rank 0 makes with all ranks; empty if it makes none because there is no more work. Collective;
+/// only rank 0 calls `make`. An exception from it is thrown there, and an error of the same type and with the same
+/// message on the others. `policies` makes the plan's policy separately on each rank.
 [[nodiscard]] std::optional<Order> share(Team& team, const std::function<std::optional<Order>()>& make,
                                          const balancer::PolicyMaker& policies = nullptr);
 

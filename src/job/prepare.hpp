@@ -22,13 +22,13 @@ struct Prepared {
   double forecast = 0;  ///< of triangles
 };
 
-/// Triangulates the domain and prepares its corners, cuts it up, and deals the subdomains to ranks with these speeds,
-/// of which only the ratios count. Throws Error for what the domain and the bounds do not allow, LimitError if far more
-/// triangles than `limits` are to be expected, InputError and FileError for a decomposition that is read.
+/// Triangulates the domain, prepares its corners, decomposes it, and maps the subdomains to ranks with these speeds, of
+/// which only the ratios matter. Throws Error if domain and bounds do not allow that, LimitError if far more triangles
+/// than `limits` allow are expected, InputError and FileError if a decomposition cannot be read.
 [[nodiscard]] Prepared prepare(const Request& request, const Domain& domain, const Given& given, Place place,
                                const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch);
 
-/// The domain cut as requested, on this number of ranks.
+/// Decomposes the domain as requested, for this number of ranks.
 [[nodiscard]] Decomposition cut(const Request& request, const Triangulated& triangulated, std::int32_t ranks);
 
 }  // namespace driftmesh::job

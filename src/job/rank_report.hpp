@@ -8,7 +8,7 @@
 
 namespace driftmesh::job {
 
-/// The report of one rank of a parallel run to rank 0 at the end.
+/// What one rank of a parallel run reports to rank 0 at the end.
 struct RankReport {
   RunRecord::Rank rank;
   MeshFacts facts;  ///< vertices and subsegments on roots count for the rank that numbers them
@@ -23,7 +23,7 @@ struct RankReport {
 /// Adds the report of a rank to the record of its run.
 void add_report(RunRecord& run, const RankReport& report);
 
-/// Adds what all ranks have in common and none reports.
+/// Adds the facts that all ranks share and none reports.
 void add_plan(RunRecord& run, const RunPlan& plan);
 
 /// Adds the results of preparing the run.

@@ -17,9 +17,10 @@
 
 namespace driftmesh::job {
 
-/// What tests put between a rank and its work. Each may be empty.
+/// Hooks for tests. Each may be empty.
 struct RankHooks {
-  /// The transport that the loop uses in place of this one, which it may wrap. Called right before the loop is made.
+  /// Returns the transport for the loop to use instead of the given one, which it may wrap. Called right before the
+  /// loop is created.
   std::function<protocol::Transport&(protocol::Transport&)> through;
   std::function<void(RankLoop&)> before_step;
   std::function<void(const RankLoop::Slice&)> after_slice;
@@ -29,16 +30,16 @@ struct RankHooks {
 /// subdomains ends the job (see by_itself).
 class RankRun {
  public:
-  /// `size`: in place of the size field that the order describes, or null; not owned. `team` and `watch` outlive the
+  /// `size`: replaces the size field that the order describes, unless null; not owned. `team` and `watch` outlive the
   /// object.
   RankRun(Team& team, Order order, const SizeField* size, Watch& watch);
 
-  /// Until all ranks are done. All ranks together. With a log, what each slice of work did is kept. What the work on a
-  /// subdomain throws on one rank, or the watch while it goes on, ends it on all in good order, and is thrown on all
-  /// alike (see agree_on_failure).
+  /// Refines until all ranks are done. Collective. With a log, records what each slice of work did. An exception thrown
+  /// by the work on a subdomain, or by the watch meanwhile, ends refinement on all ranks cleanly and is thrown on all
+  /// of them (see agree_on_failure).
   void refine(bool logs = false, const RankHooks& hooks = {});
 
-  // After that:
+  // After refine():
 
   [[nodiscard]] const RankLoop& loop() const { return *loop_; }
   [[nodiscard]] RankReport report() const;
@@ -67,8 +68,8 @@ class RankRun {
   std::exception_ptr failure_;  // of the work on this rank
 };
 
-/// One run of a team for rank 0's record: every rank refines what `order` says. On rank 0, adds what all report to
-/// `record` and returns what happened when; elsewhere returns nothing of use. All ranks together.
+/// A run of the team with a log: every rank refines as `order` says. On rank 0, adds all reports to `record` and
+/// returns the history of the run; the result is meaningless on other ranks. Collective.
 [[nodiscard]] ClusterRun run_with_log(Team& team, Order order, RunRecord& record, Watch& watch);
 
 }  // namespace driftmesh::job

@@ -13,8 +13,8 @@
 
 namespace driftmesh::job {
 
-/// All facts about the making of one mesh, for its summary and its JSON file. Times are in seconds, memory in bytes,
-/// angles in degrees.
+/// All facts about the generation of one mesh, for its summary and its JSON file. Times are in seconds, memory in
+/// bytes, angles in degrees.
 struct RunRecord : MeshFacts {
   Request request;
   std::string command;  ///< a command line that makes the same mesh

@@ -24,8 +24,8 @@ class Channel {
   [[nodiscard]] virtual protocol::Transport& transport() = 0;
   /// Null if the plan's policy needs none. The channel outlives it.
   [[nodiscard]] virtual std::unique_ptr<balancer::Council> council(const RunPlan& plan) = 0;
-  /// Ends it in good order: all that was sent has been received. All ranks together. Without it, the channel gives up,
-  /// and what is under way may be lost.
+  /// Closes the channel cleanly: everything sent has been received. Collective. Without it, messages under way may be
+  /// lost.
   virtual void close() = 0;
 
  protected:
@@ -49,14 +49,14 @@ class Team {
 
   /// The `bytes` of rank 0, on every rank. Collective.
   [[nodiscard]] virtual Bytes broadcast(Bytes bytes) = 0;
-  /// On rank 0 the bytes of every rank; empty elsewhere. Collective. For reports, not for meshes.
+  /// The bytes of every rank on rank 0; empty elsewhere. Collective. For reports, not for meshes.
   [[nodiscard]] virtual std::vector<Bytes> gather(const Bytes& bytes) = 0;
   /// A barrier.
   void meet() {
     static_cast<void>(gather({}));
     static_cast<void>(broadcast({}));
   }
-  /// All ranks together.
+  /// Opens a channel. Collective.
   [[nodiscard]] virtual std::unique_ptr<Channel> open() = 0;
 
   /// Prints `message` and ends the whole job: the others would wait forever for a rank that failed on its own.
@@ -73,7 +73,7 @@ class Team {
 /// ends the job with its message.
 [[noreturn]] void fail_alone(Team& team);
 
-/// Does what a rank does by itself, and lets it fail_alone.
+/// Does work that can fail on one rank only, with fail_alone.
 template <class Work>
 auto by_itself(Team& team, const Work& work) {
   try {

@@ -10,15 +10,15 @@
 
 namespace driftmesh::job {
 
-/// A domain from which refinement or decomposition starts.
+/// A domain ready for refinement or decomposition.
 struct Triangulated {
   Triangulation mesh;  ///< constrained Delaunay, acute corners prepared
   std::int32_t acute_corners = 0;
   QualityBounds bounds;  ///< refers to the domain's size field
 };
 
-/// Triangulates the domain, prepares its corners, and states the bounds that the request sets on its mesh on so many
-/// ranks: where it names a number of triangles, the area bound is the one that gives about as many. Throws what
+/// Triangulates the domain, prepares its corners, and determines the bounds that the request sets on its mesh on this
+/// number of ranks: if it names a number of triangles, the area bound is the one that gives about as many. Throws what
 /// triangulate throws.
 [[nodiscard]] Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks,
                                               Watch& watch);

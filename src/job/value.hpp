@@ -32,11 +32,11 @@ struct Value : std::variant<bool, std::int64_t, double, std::string, std::vector
 /// The shortest decimal form of a number that reads back as the same.
 [[nodiscard]] std::string shortest_text(double number);
 
-/// A text as YAML reads it back: in quotes where it needs them.
+/// A text in YAML, in quotes if it needs them.
 [[nodiscard]] std::string yaml_text(const std::string& text);
 
-/// The number that `text` says, with a unit k, M, G or T behind it, or none: thousands to the power of 1 to 4, of 1024
-/// each if `binary` (then a B or iB may follow). Returns false for anything else, and for what is not finite.
+/// Reads a number that may be followed by a unit k, M, G or T: the powers of 1000, or of 1024 if `binary` (then B or iB
+/// may follow). Returns false for anything else, and if the number is not finite.
 [[nodiscard]] bool read_number(const std::string& text, bool binary, double& number);
 
 }  // namespace driftmesh::job

@@ -29,7 +29,7 @@ class Watch {
   virtual void stalled(const std::string& /*why*/) {}
 };
 
-/// Does `work` as a stage of this name.
+/// Does `work` as a stage with this name.
 template <class Work>
 std::invoke_result_t<Work> timed(Watch& watch, const char* stage, Work&& work) {
   watch.begins(stage);

@@ -694,9 +694,9 @@ class Experiments(Cli):
         real = ["--set", "cluster.kind=real"]
         for settings, place, message in (
                 ([], "both.yaml:4:9:", "is simulated, which takes one process, but mpirun has started 2"),
-                (real, "both.yaml:5:10:", "is 3, and mpirun has started 2 processes"),
+                (real, "both.yaml:5:10:", "is 3, but mpirun has started 2 processes"),
                 ([*real, "--set", "cluster.ranks=0"], "both.yaml:6:9:", "has 3 values for 2 ranks"),
-                ([*real, "--set", "cluster.speed=1e6"], "--set cluster.speed=1e6", "real ranks are as they are"),
+                ([*real, "--set", "cluster.speed=1e6"], "--set cluster.speed=1e6", "applies only to simulated clusters"),
                 (["--set", "sizing.background=missing"], "missing", "")):
             if settings[-1:] == ["sizing.background=missing"]:
                 settings = [*real, "--set", "cluster.ranks=2", "--set", "cluster.drag=[]", *settings]

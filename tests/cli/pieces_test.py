@@ -143,7 +143,7 @@ class Pieces(unittest.TestCase):
         self.run_program("plot", "two.pvtu", "-o", "ranks.svg", "--color", "rank")
         self.run_program("plot", "whole.msh", "-o", "subdomains.svg", "--color", "subdomain")
         self.run_program("convert", "two.pvtu", "whole.ele")
-        self.run_program("plot", "whole.ele", "--color", "rank", code=1, says=["does not tell the rank"])
+        self.run_program("plot", "whole.ele", "--color", "rank", code=1, says=["does not list the rank"])
 
     def test_no_piece_is_written_over(self):
         before = self.right.read_bytes()

@@ -111,11 +111,11 @@ TEST_CASE("what is wrong is told with its place and what was probably meant") {
   CHECK(message_for("bounds: {angle: steep}\n") ==
         "test.yaml:1:17: 'bounds.angle' is 'steep'; give a number, as in 20, 1.5e3 or 5k");
   CHECK(message_for("bounds: {angle: 35}\n") ==
-        "test.yaml:1:17: 'bounds.angle' is 35; it can be at most 34: above that refinement need not terminate");
+        "test.yaml:1:17: 'bounds.angle' is 35; it must be at most 34: above that, refinement may not terminate");
   CHECK(message_for("cluster:\n  bandwidth: 0\n") == "test.yaml:2:14: 'cluster.bandwidth' is 0; it must be above 0");
   CHECK(message_for("cluster: {ranks: 2.5}\n") == "test.yaml:1:18: 'cluster.ranks' is 2.5; give a whole number");
   CHECK(message_for("run: {order: largets}\n") ==
-        "test.yaml:1:14: 'run.order' is 'largets'; the nearest that it can be is 'largest'");
+        "test.yaml:1:14: 'run.order' is 'largets'; the nearest valid value is 'largest'");
   CHECK(message_for("pictures: yes\n") == "test.yaml:1:11: 'pictures' is 'yes'; it is either true or false");
   CHECK(message_for("cluster:\n  groups:\n    - {rank: 2}\n") ==
         "test.yaml:3:8: 'cluster.groups' has no field 'rank'; the nearest one is 'ranks'");
@@ -147,7 +147,7 @@ TEST_CASE("what cannot be together is told where one of them is given") {
             .find("the nearest one is 'channels'") != std::string::npos);
   CHECK(message_for(std::string(kLeast) + "bounds:\n  area: 1\n  triangles: 5\n").find("test.yaml:5:14: ") == 0);
   CHECK(message_for(std::string(kLeast) + "bounds: {area: 1}\nsweep: {bounds.triangles: [0, 100]}\n")
-            .find("'bounds.triangles' asks for the size of triangles a second time") != std::string::npos);
+            .find("'bounds.triangles' cannot be combined with bounds.area") != std::string::npos);
 }
 
 TEST_CASE("a list of numbers is one value, and lists of lists are swept over") {
@@ -237,7 +237,8 @@ TEST_CASE("every key of an experiment takes its default from a file") {
   const Files files;
   for (const Key& key : keys()) {
     CAPTURE(key.name);
-    if ((key.doors & kExperiment) == 0 || key.name.starts_with("input.") || key.name == "cluster.ranks") continue;
+    if ((key.entry_points & kExperiment) == 0 || key.name.starts_with("input.") || key.name == "cluster.ranks")
+      continue;
     const config::Experiment file = files.read(kLeast, {key.name + "=" + text_of(key.standard)});
     CHECK(key.load(file.base) == key.standard);
   }
@@ -246,7 +247,7 @@ TEST_CASE("every key of an experiment takes its default from a file") {
 TEST_CASE("the schema knows every key, and the documents show them as they are") {
   const Json schema = Json::parse(json_schema());
   for (const Key& key : keys()) {
-    if ((key.doors & kExperiment) == 0) continue;
+    if ((key.entry_points & kExperiment) == 0) continue;
     CAPTURE(key.name);
     Json at = schema;
     std::istringstream words(key.name);

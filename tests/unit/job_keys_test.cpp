@@ -41,7 +41,7 @@ TEST_CASE("every key has a default within its range, and is stored where it is l
     CAPTURE(k.name);
     CHECK(!k.help.empty());
     CHECK(k.places != 0);
-    CHECK(k.doors != 0);
+    CHECK(k.entry_points != 0);
     CHECK(find_key(k.name).key == &k);
     CHECK(k.load(Request{}) == k.standard);
     if (!k.option.empty()) CHECK(find_option(k.option).key == &k);
@@ -92,15 +92,15 @@ TEST_CASE("numbers take units wherever they stand") {
 
 TEST_CASE("what a key may not be is refused in words") {
   CHECK(refusal("bounds.angle", "50") ==
-        "bounds.angle is 50; it can be at most 34: above that refinement need not terminate");
+        "bounds.angle is 50; it must be at most 34: above that, refinement may not terminate");
   CHECK(refusal("bounds.angle", "-1") == "bounds.angle is -1; it must be at least 0");
   CHECK(refusal("cluster.bandwidth", "0") == "cluster.bandwidth is 0; it must be above 0");
   CHECK(refusal("decomposition.subdomains", "2.5") == "decomposition.subdomains is 2.5; give a whole number");
-  CHECK(refusal("run.order", "largets") == "run.order is 'largets'; the nearest that it can be is 'largest'");
+  CHECK(refusal("run.order", "largets") == "run.order is 'largets'; the nearest valid value is 'largest'");
   CHECK(refusal("run.sleep", "yes") == "run.sleep is 'yes'; it is either true or false");
 }
 
-TEST_CASE("the nearest name is one that the door knows") {
+TEST_CASE("the nearest name is one that the entry point knows") {
   CHECK(nearest_key("anlge", kMesh) == "angle");
   CHECK(nearest_key("cluster.latncy", kExperiment) == "cluster.latency");
   CHECK(nearest_key("output.meshs", kExperiment) != "output.meshes");

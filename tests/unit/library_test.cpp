@@ -146,7 +146,7 @@ TEST_CASE("limits end the work") {
 
 TEST_CASE("options are checked against the table of keys, and named as the caller knows them") {
   CHECK(error_of_options({.min_angle = 50}) ==
-        "MeshOptions::min_angle is 50; it can be at most 34: above that refinement need not terminate");
+        "MeshOptions::min_angle is 50; it must be at most 34: above that, refinement may not terminate");
   CHECK(error_of_options({.max_area = -1}).starts_with("MeshOptions::max_area "));
   CHECK(error_of_options({.subdomains = {.count = 4, .skew = 1.5}}).starts_with("MeshOptions::subdomains.skew "));
   constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
@@ -157,8 +157,7 @@ TEST_CASE("options are checked against the table of keys, and named as the calle
         "MeshOptions::subdomains.skew is not a number; give one");
   // Nothing is advised that the library does not have.
   CHECK(error_of_options({.max_area = 1, .triangles = 100}) ==
-        "MeshOptions::triangles asks for the size of triangles a second time; keep one of it and "
-        "MeshOptions::max_area");
+        "MeshOptions::triangles cannot be combined with MeshOptions::max_area; remove one of them");
   const std::string too_many = error_of_options({.max_area = 1e-5, .max_triangles = 100});
   CHECK(too_many.find("MeshOptions::max_triangles") != std::string::npos);
   CHECK(too_many.find("--") == std::string::npos);
@@ -180,7 +179,7 @@ TEST_CASE("every key that the library has is an option, with the same default") 
   visit_options({}, request, [&](const char* key, const char*, const auto&, const auto&) { options.insert(key); });
   const job::Request defaults = request_of({});
   for (const job::Key& key : job::keys()) {
-    const bool offered = (key.doors & job::kLibrary) != 0;
+    const bool offered = (key.entry_points & job::kLibrary) != 0;
     CHECK_MESSAGE(options.count(key.name) == (offered ? 1 : 0), key.name);
     CHECK_MESSAGE(key.load(defaults) == key.standard, key.name);
   }

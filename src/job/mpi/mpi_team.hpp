@@ -9,8 +9,8 @@
 
 namespace driftmesh::job {
 
-/// The ranks of an MPI communicator, named by its Fortran handle; MPI has been initialized. All of them make one and
-/// close it together.
+/// The ranks of an MPI communicator, named by its Fortran handle; MPI has been initialized. Construction and close()
+/// are collective.
 class MpiTeam : public Team {
  public:
   explicit MpiTeam(int communicator);

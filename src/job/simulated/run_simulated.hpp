@@ -8,7 +8,7 @@
 namespace driftmesh::job {
 
 /// Makes the mesh on the simulated cluster of the request, in virtual time. Adds what the ranks report to `record`.
-/// Throws LimitError when all ranks together have more triangles than `limits` allow, and what simulate throws.
+/// Throws LimitError if all ranks together have more triangles than `limits` allow, and whatever simulate throws.
 [[nodiscard]] ClusterRun run_simulated(const Request& request, const Prepared& prepared, const Limits& limits,
                                        RunRecord& record, Watch& watch);
 
