@@ -11,6 +11,7 @@
 #include "app/decomposition_picture.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
+#include "base/staged_files.hpp"
 #include "base/standard_streams.hpp"
 #include "base/stopwatch.hpp"
 #include "cli/values.hpp"
@@ -91,11 +92,13 @@ void run_decompose(const DecomposeCommand& command) {
   const double seconds = watch.seconds();
   const DecompositionReport report = check_decomposition(d);
   if (!report.valid()) throw Error("the decomposition is broken (please report this): " + report.problems[0]);
+  StagedFiles files;
   if (!command.output.empty()) write_decomposition(d, domain.pslg, command.output);
   if (!command.picture.empty())
     plot_decomposition(
         d, command.picture,
         fmt::format("{}: {} subdomains", std::filesystem::path(request.input.file).filename().string(), d.size()));
+  files.commit();
   if (!command.quiet) print(summary(d, report, bounds_size(triangulated.bounds), seconds));
 }
 

@@ -16,6 +16,7 @@
 #include "app/real_cluster.hpp"
 #include "base/atomic_file.hpp"
 #include "base/file_registry.hpp"
+#include "base/staged_files.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "config/words.hpp"
@@ -135,6 +136,7 @@ class Runner {
     run.record.command = fmt::format("driftmesh run {}", command_.file);
     for (const std::string& setting : command_.settings) run.record.command += fmt::format(" --set '{}'", setting);
     make_run(run, cluster_, view_);
+    StagedFiles files;
     write_file(folder_ / (name + kRecordEnding), experiment_record(run));
     if (run.request.pictures) {
       draw_run(run, folder_.string());
@@ -143,6 +145,7 @@ class Runner {
     if (run.request.lb_phases > 0) write_lb_statistics(run, folder_ / (name + kStatisticsEnding));
     table_.add(run);
     write_file(folder_ / kTableFile, table_.csv());
+    files.commit();
   }
 
   const RunCommand& command_;

@@ -11,15 +11,18 @@
 #include "app/run_notes.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/bytes.hpp"
+#include "base/staged_files.hpp"
 #include "distributed/write_distributed.hpp"
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
+#include "job/failure.hpp"
 #include "job/files.hpp"
 #include "job/memory.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/one_piece.hpp"
 #include "job/order.hpp"
+#include "job/outputs.hpp"
 #include "job/prepare.hpp"
 #include "job/rank_run.hpp"
 #include "mesh/cdt.hpp"
@@ -55,6 +58,15 @@ void register_files(const Told& told, std::int32_t ranks) {
   register_output(files, wanted.record, called("output.record"));
 }
 
+/// Of the mesh and its picture, but not the record.
+std::vector<std::string> files_written(const Request& request, std::int32_t ranks) {
+  std::vector<std::string> files;
+  for (const std::string& mesh : request.output.meshes)
+    for (const std::string& file : files_of_output(mesh, ranks)) files.push_back(file);
+  if (!request.output.picture.empty()) files.push_back(request.output.picture);
+  return files;
+}
+
 void draw(const Request& request, const Mesh& mesh) {
   const std::string title = std::filesystem::path(job::input_name(request)).filename().string();
   plot_mesh(mesh, request.output.picture, {.title = title});
@@ -74,11 +86,7 @@ void write_piece(const Request& request, const Pslg& pslg, Triangulation&& mesh,
   timed(notes, "write", [&] {
     for (const std::string& output : request.output.meshes) write_mesh(piece, output, {pslg.holes});
   });
-  for (const std::string& output : request.output.meshes)
-    for (const std::string& file : mesh_files(output)) notes.note_file(file);
-  if (request.output.picture.empty()) return;
-  timed(notes, "plot", [&] { draw(request, piece); });
-  notes.note_file(request.output.picture);
+  if (!request.output.picture.empty()) timed(notes, "plot", [&] { draw(request, piece); });
 }
 
 int mesh_in_one_piece(const Told& told) {
@@ -94,9 +102,14 @@ int mesh_in_one_piece(const Told& told) {
   notes.run.stopped_by = made.limits.option();
   timed(notes, "inspect", [&] { job::record_mesh(notes.run, made.result); });
   const bool keep = request.limits.keep_incomplete;
-  if (writes(request.output) && (made.result.complete || keep))
+  StagedFiles files;
+  if (writes(request.output) && (made.result.complete || keep)) {
     write_piece(request, domain.pslg, std::move(made.result.mesh), notes);
+    notes.note_files(files_written(request, 0), files.files());
+  }
   notes.finish();
+  files.commit();
+  notes.show();
   if (notes.run.complete) return 0;
   const auto narrow = find_narrow_place(triangulate(domain.pslg));
   std::cerr << "driftmesh: " << job::stopped_message(made.limits, notes.run.triangles, keep, narrow) << '\n';
@@ -141,10 +154,6 @@ void write_pieces(const Request& request, job::Team& team, const DistributedPiec
       ranks.run(gathering);
       if (team.leads()) draw(request, gathering.whole());
     });
-  if (!team.leads()) return;
-  for (const std::string& output : request.output.meshes)
-    for (const std::string& file : files_of_output(output, team.ranks())) notes.note_file(file);
-  if (!request.output.picture.empty()) notes.note_file(request.output.picture);
 }
 
 void assemble_and_write(const Request& request, job::Team& team, std::optional<job::RankRun>& run, RunNotes& notes) {
@@ -168,8 +177,16 @@ void mesh_in_subdomains(const Told& told, job::Place place, job::Team& team) {
   std::optional<job::RankRun> run(std::in_place, team, std::move(*order), nullptr, notes);
   timed(notes, "refine", [&] { run->refine(); });
   report(team, *run, notes);
-  if (writes(request.output)) assemble_and_write(request, team, run, notes);
-  if (team.leads()) notes.finish();
+  StagedFiles files;
+  if (writes(request.output)) {
+    assemble_and_write(request, team, run, notes);
+    notes.note_files(files_written(request, team.ranks()), job::staged_by_all(team, files));
+  }
+  job::agree(team, [&] {
+    if (team.leads()) notes.finish();
+  });
+  job::commit(team, files);
+  if (team.leads()) notes.show();
 }
 
 int mesh_on_ranks(const Told& told) {

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cstdint>
+#include <map>
 #include <utility>
 
 #include "app/summary.hpp"
@@ -30,22 +31,24 @@ void RunNotes::stalled(const std::string& why) {
   fmt::print(stderr, "driftmesh: {}\n", why);
 }
 
-void RunNotes::note_file(const std::string& file) {
-  if (is_standard_stream(file)) return;
-  std::error_code unknown;  // for a pipe, or a piece that the network file system does not show yet
-  const std::uintmax_t size = std::filesystem::file_size(file, unknown);
-  run.files.push_back({file, unknown ? 0 : size});
+void RunNotes::note_files(const std::vector<std::string>& files, const std::vector<StagedFiles::Listed>& staged) {
+  std::map<std::string, std::uint64_t> sizes;
+  for (const StagedFiles::Listed& file : staged) sizes[file.path] = file.bytes;
+  for (const std::string& file : files)
+    if (!is_standard_stream(file)) run.files.push_back({file, sizes[file]});
 }
 
 void RunNotes::finish() {
   run.seconds = since_start_.seconds();
   run.peak = std::max(run.peak, job::peak_memory());
   progress_.end();
-  if (!wanted_.record.empty()) {
-    AtomicFile file(wanted_.record);
-    file.write(summary_json(run));
-    file.commit();
-  }
+  if (wanted_.record.empty()) return;
+  AtomicFile file(wanted_.record);
+  file.write(summary_json(run));
+  file.commit();
+}
+
+void RunNotes::show() const {
   if (!silent_) print(summary_text(run));
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/progress_line.hpp"
+#include "base/staged_files.hpp"
 #include "base/stopwatch.hpp"
 #include "job/record.hpp"
 #include "job/watch.hpp"
@@ -24,9 +26,12 @@ class RunNotes final : public job::Watch {
   void refining(std::int64_t triangles, double forecast) override;
   void stalled(const std::string& why) override;
 
-  void note_file(const std::string& file);
-  /// Prints the summary, and writes the record if requested.
+  /// The files of the mesh and its picture; those of `staged` have their size, pipes and devices none.
+  void note_files(const std::vector<std::string>& files, const std::vector<StagedFiles::Listed>& staged);
+  /// The work is done. Writes the record, if requested; it belongs to the files that are staged.
   void finish();
+  /// Prints the summary.
+  void show() const;
 
  private:
   job::Request::Output wanted_;

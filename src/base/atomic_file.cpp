@@ -1,11 +1,15 @@
 #include "base/atomic_file.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <filesystem>
+#include <tuple>
+#include <utility>
 
+#include "base/file_identity.hpp"
+#include "base/staged_files.hpp"
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
 
@@ -13,13 +17,6 @@ namespace driftmesh {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
-
-std::string follow_links(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_symlink(path, ignored)) return path;
-  const auto resolved = std::filesystem::weakly_canonical(path, ignored);
-  return ignored ? path : resolved.string();
-}
 
 // Renaming over a device or a pipe would replace it by a plain file.
 bool must_write_directly(const std::string& target) {
@@ -29,11 +26,12 @@ bool must_write_directly(const std::string& target) {
          !std::filesystem::is_directory(status);
 }
 
-// Unique in this process by the counter and among processes of this machine by the process id; opened
-// exclusively, so a clash with another machine on a shared folder is an error and not a mixed file.
-std::string temporary_name(const std::string& target) {
-  static std::atomic<unsigned> counter{0};
-  return target + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+// As far as this process may.
+void hand_on_permissions(std::FILE* to, const std::string& target) {
+  struct stat old {};
+  if (::stat(target.c_str(), &old) != 0) return;
+  std::ignore = ::fchown(::fileno(to), old.st_uid, old.st_gid);
+  std::ignore = ::fchmod(::fileno(to), old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
 }
 
 std::FILE* open_standard_output() {
@@ -47,7 +45,7 @@ std::FILE* open_standard_output() {
 }  // namespace
 
 AtomicFile::AtomicFile(const std::string& path)
-    : path_(is_standard_stream(path) ? "standard output" : path), target_(follow_links(path)) {
+    : path_(is_standard_stream(path) ? "standard output" : path), target_(link_target(path)) {
   errno = 0;
   if (is_standard_stream(path))
     stream_ = open_standard_output();
@@ -59,20 +57,26 @@ AtomicFile::AtomicFile(const std::string& path)
 }
 
 void AtomicFile::open() {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(target_, ignored)) {
+  struct stat found {};
+  if (::stat(target_.c_str(), &found) != 0 && errno == ENAMETOOLONG) fail("cannot write");
+  if (S_ISDIR(found.st_mode)) {
     errno = EISDIR;
     fail("cannot write");
   }
+  errno = 0;
   if (must_write_directly(target_)) {
     stream_ = std::fopen(target_.c_str(), "wb");
   } else {
+    remove_remains_beside(target_);
     temporary_ = temporary_name(target_);
-    noted_.emplace(temporary_);
+    noted_ = std::make_unique<NotedTemporary>(temporary_);
+    // Opened exclusively: a clash with another machine on a shared folder is an error and not a mixed file.
     stream_ = std::fopen(temporary_.c_str(), "wbx");
     if (stream_ == nullptr) {  // it may be somebody else's
       noted_.reset();
       temporary_.clear();
+    } else {
+      hand_on_permissions(stream_, target_);
     }
   }
 }
@@ -93,9 +97,11 @@ void AtomicFile::commit() {
   std::FILE* const stream = stream_;
   stream_ = nullptr;
   if (std::fclose(stream) != 0) fail("cannot write");
-  if (!temporary_.empty() && std::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot rename to");
-  temporary_.clear();
-  noted_.reset();
+  if (temporary_.empty()) return;
+  StagedFiles alone;
+  StagedFiles::File staged{{path_, size_}, target_, std::exchange(temporary_, {}), std::move(noted_), {}};
+  alone.take(std::move(staged));
+  alone.commit();
 }
 
 void AtomicFile::fail(const char* what) {

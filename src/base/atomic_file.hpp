@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,7 +12,9 @@
 namespace driftmesh {
 
 /// A file that appears under its name only when it is complete. Bytes go to a temporary file in the same
-/// folder; commit() renames it over `path`. Destroyed without commit, it removes the temporary and leaves
+/// folder; commit() renames it over `path`, or leaves that to the StagedFiles of this thread, if there are any. A file
+/// that is replaced hands on its permissions, and its owner if this process may do that. Destroyed without commit, it
+/// removes the temporary and leaves
 /// `path` as it was; so does a signal that ends the process (see temporary_files.hpp). A link is followed; what is not
 /// a regular file (a pipe, /dev/null) is written to directly, and so is standard output (see is_standard_stream), which
 /// can be asked for once: InputError. Every operation throws FileError that names
@@ -30,7 +31,7 @@ class AtomicFile {
   void write(std::string_view text) { write(text.data(), text.size()); }
   /// Bytes written so far.
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// Flushes, closes and renames. Nothing may be written afterward.
+  /// Flushes, closes and renames, or stages. Nothing may be written afterward.
   void commit();
 
  private:
@@ -41,7 +42,7 @@ class AtomicFile {
   std::string path_;       // as the user named it, for messages
   std::string target_;     // after following links
   std::string temporary_;  // empty when writing directly
-  std::optional<NotedTemporary> noted_;
+  std::unique_ptr<NotedTemporary> noted_;
   std::unique_ptr<char[]> buffer_;
   std::FILE* stream_ = nullptr;
   std::uint64_t size_ = 0;

@@ -7,8 +7,8 @@
 
 namespace driftmesh {
 
-/// Writes STEM.node, .ele, .poly, .edge and .neigh as Triangle defines them, numbered from 1. No older file
-/// is replaced before all are written.
+/// Writes STEM.node, .ele, .poly, .edge and .neigh as Triangle defines them, numbered from 1. They
+/// appear together, or not at all.
 void write_triangle_format(const Mesh& mesh, const std::string& stem, const std::vector<Point>& holes);
 
 /// Reads STEM.node and STEM.ele. The constrained edges are the segments of STEM.poly if that file exists and takes

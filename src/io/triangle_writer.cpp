@@ -1,3 +1,4 @@
+#include "base/staged_files.hpp"
 #include "io/file_sink.hpp"
 #include "io/triangle_format.hpp"
 #include "mesh/mesh_edges.hpp"
@@ -87,6 +88,7 @@ void write_neighbors(FileSink& sink, const TriangleNeighbors& neighbors) {
 }  // namespace
 
 void write_triangle_format(const Mesh& mesh, const std::string& stem, const std::vector<Point>& holes) {
+  StagedFiles together;
   FileSink nodes(stem + ".node");
   FileSink triangles(stem + ".ele");
   FileSink segments(stem + ".poly");
@@ -99,6 +101,7 @@ void write_triangle_format(const Mesh& mesh, const std::string& stem, const std:
   write_edges(edges, mesh, neighbors);
   write_neighbors(neighbor_file, neighbors);
   for (FileSink* sink : {&nodes, &triangles, &segments, &edges, &neighbor_file}) sink->commit();
+  together.commit();
 }
 
 }  // namespace driftmesh

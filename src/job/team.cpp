@@ -4,6 +4,7 @@
 #include <new>
 
 #include "base/failure.hpp"
+#include "base/temporary_files.hpp"
 #include "driftmesh/error.hpp"
 #include "job/limits.hpp"
 #include "protocol/lone_transport.hpp"
@@ -40,6 +41,7 @@ std::unique_ptr<Team> lone_team() {
 
 void fail_alone(Team& team) {
   if (team.alone()) throw;
+  remove_noted_temporaries();  // nothing is destroyed
   const std::string who = "driftmesh: rank " + to_string(team.rank()) + ": ";
   try {
     throw;

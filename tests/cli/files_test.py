@@ -4,10 +4,13 @@
 usage: files_test.py DRIFTMESH [unittest options]
 """
 
+import json
 import os
+import subprocess
+import time
 
 import program
-from program import SQUARE, Cli, main
+from program import MESHER_SECONDS, RANKS_ENVIRONMENT, SQUARE, Cli, main
 
 # A background mesh of the square: two triangles, with a length at each point.
 BACKGROUND_NODES = "4 2 1 0\n1 0 0 1\n2 4 0 1\n3 4 4 1\n4 0 4 1\n"
@@ -118,6 +121,124 @@ class NothingReadIsOverwritten(Files):
         self.succeed("mesh", "square.poly", "--json", "/dev/null", "--area", "0.5", "-o", "a.vtu")
         (self.folder / "b.vtu").symlink_to("/dev/null")
         self.succeed("mesh", "square.poly", "--json", "/dev/null", "-o", "b.vtu")
+
+
+class TogetherOrNotAtAll(Files):
+    """Old files are there before; whatever goes wrong later, they stay as they are and no new one joins them."""
+
+    OUTPUTS = ["-o", "a.vtu", "-o", "a.ele", "--plot", "a.svg", "--json", "a.json"]
+    WRITTEN = ["a.edge", "a.ele", "a.json", "a.neigh", "a.node", "a.poly", "a.svg", "a.vtu"]
+
+    def setUp(self):
+        super().setUp()
+        for full in ("full.vtu", "full.png", "full.json"):
+            (self.folder / full).symlink_to("/dev/full")
+
+    def old_outputs(self):
+        for name in self.WRITTEN:
+            self.write(name, "old")
+
+    def test_a_full_disk(self):
+        self.old_outputs()
+        for full in (["-o", "full.vtu"], ["--plot", "full.png"], ["--json", "full.json"]):
+            for parts in ([], ["-n", "4", "-o", "pieces.pvtu"]):
+                self.refuse_and_touch_nothing("mesh", "square.poly", "--area", "0.1", *parts, "-o", "a.vtu", "-o", "a.ele",
+                                              *full, says=["full", "No space left"])
+        self.refuse_and_touch_nothing("decompose", "square.poly", "-n", "2", "-o", "a.vtu", "--plot", "full.png",
+                                      says=["full.png", "No space left"])
+
+    def test_a_full_disk_on_ranks(self):
+        before = self.contents()
+        for full in (["-o", "full.vtu"], ["--plot", "full.png"], ["--json", "full.json"]):
+            result = self.on_ranks(2, "mesh", "square.poly", "--area", "0.1", "-n", "4", "-o", "ok.pvtu", *full)
+            self.assertNotEqual(result.returncode, 0)
+            self.assertIn("No space left", result.stderr)
+            self.assertEqual(self.contents(), before)
+
+    def blocked(self, *arguments, before=()):
+        """A run that waits at out.neigh, the last file to be opened, until that is read."""
+        os.mkfifo(self.folder / "out.neigh")
+        run = subprocess.Popen([*before, program.PATH, "mesh", "square.poly", *arguments, "-o", "out.ele"],
+                               cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                               env=RANKS_ENVIRONMENT)
+        self.addCleanup(run.stderr.close)
+        self.addCleanup(lambda: run.poll() is None and run.kill())
+        deadline = time.monotonic() + MESHER_SECONDS
+        while not list(self.folder.glob("out.edge.tmp-*")):
+            self.assertLess(time.monotonic(), deadline)
+            self.assertIsNone(run.poll())
+            time.sleep(0.01)
+        return run
+
+    def test_a_rank_that_cannot_rename(self):
+        self.write("m_0.vtu", "old")
+        run = self.blocked("--area", "0.1", "-n", "4", "-o", "m.pvtu", "--json", "m.json", before=["mpiexec", "-n", "2"])
+        before = self.files()
+        (self.folder / "m_1.vtu").mkdir()
+        (self.folder / "out.neigh").read_bytes()
+        self.assertNotEqual(run.wait(MESHER_SECONDS), 0)
+        self.assertIn("rank 1: m_1.vtu", run.stderr.read())
+        self.assertEqual((self.folder / "m_0.vtu").read_text(), "old")
+        self.assertEqual(self.files(), sorted([name for name in before if ".tmp-" not in name] + ["m_1.vtu"]))
+
+    def test_interrupted_runs(self):
+        self.old_outputs()
+        call = [program.PATH, "mesh", "square.poly", "--area", "0.001", *self.OUTPUTS]
+        begin = time.monotonic()
+        subprocess.run(call, cwd=self.folder, stdout=subprocess.DEVNULL, check=True, timeout=MESHER_SECONDS)
+        seconds = time.monotonic() - begin
+        ends = {"old": 0, "new": 0}
+        for i in range(25):
+            self.old_outputs()
+            run = subprocess.Popen(call, cwd=self.folder, stdout=subprocess.DEVNULL)
+            time.sleep(seconds * i / 20)
+            run.terminate()
+            run.wait(MESHER_SECONDS)
+            states = {"old" if (self.folder / name).read_bytes() == b"old" else "new" for name in self.WRITTEN}
+            self.assertEqual(len(states), 1, f"after {i}/20 of the time, some files are new and others old")
+            self.assertFalse([name for name in self.files() if ".tmp-" in name])
+            ends[states.pop()] += 1
+        self.assertGreater(min(ends.values()), 0, f"{ends}: not all of the run was interrupted")
+
+    def test_what_a_killed_run_leaves_is_removed_by_the_next(self):
+        run = self.blocked("-o", "m.vtu")
+        run.kill()
+        run.wait()
+        os.unlink(self.folder / "out.neigh")
+        left = [name for name in self.files() if ".tmp-" in name]
+        self.assertIn("m.vtu", {name.split(".tmp-")[0] for name in left})
+        other_host, alive = left[0].replace(".tmp-", ".tmp-other"), left[0].replace(f"-{run.pid}-", f"-{os.getpid()}-")
+        self.write(other_host, "of another host")
+        self.write(alive, "of a process that is alive")
+        self.write("m.vtu.tmp-mine", "of somebody else")
+        self.succeed("mesh", "square.poly", "-o", "another.vtu")
+        self.assertEqual([name for name in self.files() if ".tmp-" in name], sorted([other_host, alive, "m.vtu.tmp-mine"]))
+
+    def test_a_rewritten_file_keeps_its_mode(self):
+        os.umask(0o022)
+        for mode in (0o600, 0o664, 0o755):
+            self.write("a.vtu", "old")
+            os.chmod(self.folder / "a.vtu", mode)
+            self.succeed("mesh", "square.poly", "-o", "a.vtu", "-o", "new.vtu")
+            self.assertEqual(os.stat(self.folder / "a.vtu").st_mode & 0o777, mode)
+            self.assertEqual(os.stat(self.folder / "new.vtu").st_mode & 0o777, 0o644)
+            os.unlink(self.folder / "new.vtu")
+
+    def test_long_names(self):
+        name = "n" * 251 + ".vtu"
+        self.succeed("mesh", "square.poly", "-o", name)
+        self.assertIn(name, self.files())
+        self.refuse_and_touch_nothing("mesh", "square.poly", "-o", "n" + name, says=["too long"])
+
+    def test_sizes_in_the_record(self):
+        self.succeed("mesh", "square.poly", "--area", "0.1", *self.OUTPUTS)
+        result = self.on_ranks(2, "mesh", "square.poly", "--area", "0.1", "-n", "4", "-o", "m.pvtu", "--json", "m.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for record in ("a.json", "m.json"):
+            files = json.loads((self.folder / record).read_text())["files"]
+            self.assertGreater(len(files), 2)
+            for file in files:
+                self.assertEqual(file["bytes"], os.path.getsize(self.folder / file["name"]), file)
 
 
 if __name__ == "__main__":
