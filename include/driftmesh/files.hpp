@@ -31,10 +31,15 @@ struct WriteOptions {
 /// InputError for an unknown extension, FileError.
 void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
+/// What reading a mesh may do.
+struct ReadOptions {
+  bool allow_outside = false;  ///< a .pvtu may name pieces outside of its own folder, and through links that leave it
+};
+
 /// Reads a mesh back, from any of these formats, from standard input by the same names, or from the pieces that a .pvtu
 /// names. Everything is checked before it is used: indices are in range and counts fit the file. Triangles stay as the
 /// file lists them, so that a check sees the actual contents; only if the total area is negative are all of them
 /// reversed. Errors: InputError naming file and place, FileError.
-[[nodiscard]] Mesh read_mesh(const std::string& path);
+[[nodiscard]] Mesh read_mesh(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace driftmesh

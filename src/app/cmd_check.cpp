@@ -9,6 +9,7 @@
 
 #include "app/commands.hpp"
 #include "app/request_line.hpp"
+#include "app/run_files.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
@@ -33,15 +34,16 @@ struct CheckOptions {
   VerifyOptions verify;
   GivenKeys bounds;
   bool quiet = false;
+  ReadOptions reading;
 };
 
 /// Piece by piece: the digest of the whole mesh is the sum.
 std::vector<Mesh> read_and_digest(const CheckOptions& options) {
   std::vector<Mesh> pieces;
   if (is_in_pieces(options.mesh))
-    pieces = read_pieces(options.mesh);
+    pieces = read_pieces(options.mesh, options.reading);
   else
-    pieces.push_back(read_mesh(options.mesh));
+    pieces.push_back(read_mesh(options.mesh, options.reading));
   std::uint64_t digest = 0;
   for (const Mesh& piece : pieces) digest += mesh_digest(piece);
   if (!options.quiet) print(fmt::format("digest         {:016x}\n", digest));
@@ -121,7 +123,8 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
       {.kind = cli::Option::Kind::kFlag,
        .name = "quiet",
        .help = "Print only the verdict",
-       .take = cli::into(options.quiet)}};
+       .take = cli::into(options.quiet)},
+      allow_outside_option(options.reading)};
   std::ranges::move(bound_options(options), std::back_inserter(all));
   return all;
 }

@@ -12,13 +12,14 @@ namespace {
 struct ConvertOptions {
   std::string input;
   std::string output;
+  ReadOptions reading;
 };
 
 void run_convert(const ConvertOptions& options) {
   FileRegistry files;
-  register_mesh_input(files, options.input, "INPUT");
+  register_mesh_input(files, options.input, "INPUT", options.reading);
   register_mesh_output(files, options.output, "OUTPUT");
-  write_mesh(read_mesh(options.input), options.output);
+  write_mesh(read_mesh(options.input, options.reading), options.output);
 }
 
 }  // namespace
@@ -40,7 +41,8 @@ cli::Command convert_command() {
                        .help = "The new file; its extension selects the format",
                        .required = true,
                        .completes = cli::Option::Completes::kFile,
-                       .take = cli::into(options->output)}},
+                       .take = cli::into(options->output)},
+                      allow_outside_option(options->reading)},
           .examples = {"driftmesh convert bay.vtu bay.msh"},
           .exit_codes = "0 done, 1 error, 2 wrong usage",
           .run = [options](cli::Call&) {

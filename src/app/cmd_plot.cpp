@@ -50,6 +50,7 @@ struct PlotCommand {
   std::string input;
   std::string output;
   PlotOptions plot;
+  ReadOptions reading;
 };
 
 // "1600x900"
@@ -113,7 +114,7 @@ void register_files(const PlotCommand& command) {
   if (holds_input(command.input))
     for (const std::string& file : poly_files(command.input)) files.reads(file, "INPUT");
   else
-    register_mesh_input(files, command.input, "INPUT");
+    register_mesh_input(files, command.input, "INPUT", command.reading);
   register_picture(files, command.output, "--output");
 }
 
@@ -128,7 +129,7 @@ void run_plot(const cli::Call& call, PlotCommand& command) {
     check_box(command, pslg);
     return plot_pslg(pslg, command.output, command.plot);
   }
-  const Mesh mesh = read_mesh(command.input);
+  const Mesh mesh = read_mesh(command.input, command.reading);
   check_box(command, mesh);
   check_color(command, mesh);
   plot_mesh(mesh, command.output, command.plot);
@@ -180,7 +181,8 @@ std::vector<cli::Option> plot_options(PlotCommand& command) {
        .value = "TEXT",
        .help = "Title of the picture",
        .standard = "the input's name",
-       .take = cli::into(command.plot.title)}};
+       .take = cli::into(command.plot.title)},
+      allow_outside_option(command.reading)};
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "app/progress_line.hpp"
 #include "app/real_cluster.hpp"
 #include "base/atomic_file.hpp"
+#include "base/file_identity.hpp"
 #include "base/file_registry.hpp"
 #include "base/staged_files.hpp"
 #include "base/standard_streams.hpp"
@@ -32,6 +33,7 @@ struct RunCommand {
   std::string file;
   std::vector<std::string> settings;
   std::string folder;
+  bool allow_outside = false;
   bool dry = false;
   bool quiet = false;
 };
@@ -109,7 +111,12 @@ class Runner {
     FileRegistry files;
     files.reads(command_.file, "the experiment");
     for (const config::SweepPoint& point : file_.points) job::register_reads(point.request, job::kExperiment, files);
-    const auto writes = [&](const std::string& file) { files.writes((folder_ / file).string(), "the results"); };
+    if (command_.folder.empty()) require_inside(folder_.string(), ".");
+    const auto writes = [&](const std::string& file) {
+      const std::string path = (folder_ / file).string();
+      require_inside(path, folder_.string());
+      files.writes(path, "the results");
+    };
     for (const char* file : {kExperimentFile, kTableFile, kSweepPicture}) writes(file);
     for (std::size_t i = 0; i < runs(); ++i) {
       const std::string name = name_of(i);
@@ -119,6 +126,13 @@ class Runner {
       for (std::int32_t r = 0; r < ranks_of_statistics(point_of(i).request); ++r)
         writes(name + kStatisticsEnding + "/" + statistics_file(r));
     }
+  }
+
+  /// What an experiment writes stays where the user expects it: names come from its file, and links from anybody.
+  void require_inside(const std::string& path, const std::string& folder) const {
+    if (command_.allow_outside || lies_within(path, folder)) return;
+    throw InputError({path}, "the results would be written outside of " + (folder == "." ? "this folder" : folder),
+                     "give another name, name a folder with --output, or allow it with --allow-outside");
   }
 
   [[nodiscard]] std::int32_t ranks_of_statistics(const job::Request& request) const {
@@ -182,44 +196,49 @@ void run_experiment(const RunCommand& command) {
 
 cli::Command run_command() {
   const auto command = std::make_shared<RunCommand>();
-  return {.name = "run",
-          .summary = "Run an experiment",
-          .options = {{.kind = cli::Option::Kind::kPositional,
-                       .name = "experiment",
-                       .value = "FILE.yaml",
-                       .help = "The file that describes the experiment",
-                       .required = true,
-                       .completes = cli::Option::Completes::kFile,
-                       .take = cli::into(command->file)},
-                      {.name = "set",
-                       .value = "KEY=VALUE",
-                       .help = "Override the value of a key in the file; with a list of values, sweep over them",
-                       .repeats = true,
-                       .take = cli::into(command->settings)},
-                      {.name = "output",
-                       .letter = 'o',
-                       .value = "FOLDER",
-                       .help = "Folder for the results",
-                       .standard = "NAME.runs",
-                       .completes = cli::Option::Completes::kFolder,
-                       .take = cli::into(command->folder)},
-                      {.kind = cli::Option::Kind::kFlag,
-                       .name = "dry-run",
-                       .help = "Print the experiment with all its values without running it",
-                       .take = cli::into(command->dry)},
-                      {.kind = cli::Option::Kind::kFlag,
-                       .name = "quiet",
-                       .help = "Print only errors",
-                       .take = cli::into(command->quiet)}},
-          .notes = "For the keys of a file, see: driftmesh config --keys",
-          .examples = {"driftmesh run configs/first-run.yaml",
-                       "driftmesh run configs/scaled-speedup.yaml --set 'cluster.ranks=[1,4,16]' -o few",
-                       "mpirun -n 2 driftmesh run configs/two-ranks.yaml --set cluster.kind=real"},
-          .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",
-          .run = [command](cli::Call&) {
-            run_experiment(*command);
-            return 0;
-          }};
+  return {
+      .name = "run",
+      .summary = "Run an experiment",
+      .options = {{.kind = cli::Option::Kind::kPositional,
+                   .name = "experiment",
+                   .value = "FILE.yaml",
+                   .help = "The file that describes the experiment",
+                   .required = true,
+                   .completes = cli::Option::Completes::kFile,
+                   .take = cli::into(command->file)},
+                  {.name = "set",
+                   .value = "KEY=VALUE",
+                   .help = "Override the value of a key in the file; with a list of values, sweep over them",
+                   .repeats = true,
+                   .take = cli::into(command->settings)},
+                  {.name = "output",
+                   .letter = 'o',
+                   .value = "FOLDER",
+                   .help = "Folder for the results",
+                   .standard = "NAME.runs",
+                   .completes = cli::Option::Completes::kFolder,
+                   .take = cli::into(command->folder)},
+                  {.kind = cli::Option::Kind::kFlag,
+                   .name = "allow-outside",
+                   .help = "Let the experiment's name, and links in the folder of the results, lead to other folders",
+                   .take = cli::into(command->allow_outside)},
+                  {.kind = cli::Option::Kind::kFlag,
+                   .name = "dry-run",
+                   .help = "Print the experiment with all its values without running it",
+                   .take = cli::into(command->dry)},
+                  {.kind = cli::Option::Kind::kFlag,
+                   .name = "quiet",
+                   .help = "Print only errors",
+                   .take = cli::into(command->quiet)}},
+      .notes = "For the keys of a file, see: driftmesh config --keys",
+      .examples = {"driftmesh run configs/first-run.yaml",
+                   "driftmesh run configs/scaled-speedup.yaml --set 'cluster.ranks=[1,4,16]' -o few",
+                   "mpirun -n 2 driftmesh run configs/two-ranks.yaml --set cluster.kind=real"},
+      .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",
+      .run = [command](cli::Call&) {
+        run_experiment(*command);
+        return 0;
+      }};
 }
 
 }  // namespace driftmesh::app

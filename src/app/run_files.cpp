@@ -4,6 +4,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/standard_streams.hpp"
+#include "cli/values.hpp"
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "io/pvtu_format.hpp"
@@ -31,8 +32,16 @@ std::vector<std::string> files_of_output(const std::string& path, std::int32_t r
   return files;
 }
 
-void register_mesh_input(FileRegistry& files, const std::string& path, const std::string& use) {
-  for (const std::string& file : files_to_read(path)) files.reads(file, use);
+cli::Option allow_outside_option(ReadOptions& options) {
+  return {.kind = cli::Option::Kind::kFlag,
+          .name = "allow-outside",
+          .help = "Let a .pvtu name pieces outside of its own folder",
+          .take = cli::into(options.allow_outside)};
+}
+
+void register_mesh_input(FileRegistry& files, const std::string& path, const std::string& use,
+                         const ReadOptions& options) {
+  for (const std::string& file : files_to_read(path, options)) files.reads(file, use);
 }
 
 void register_output(FileRegistry& files, const std::string& path, const std::string& use) {

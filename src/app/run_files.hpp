@@ -5,8 +5,13 @@
 #include <vector>
 
 #include "base/file_registry.hpp"
+#include "cli/command.hpp"
+#include "driftmesh/files.hpp"
 
 namespace driftmesh::app {
+
+/// --allow-outside of the commands that read meshes.
+[[nodiscard]] cli::Option allow_outside_option(ReadOptions& options);
 
 /// The files written for a mesh at `path` by this number of ranks: a .pvtu has one piece per rank.
 [[nodiscard]] std::vector<std::string> files_of_output(const std::string& path, std::int32_t ranks);
@@ -16,7 +21,8 @@ namespace driftmesh::app {
 // because a folder is missing or not writable, say.
 
 /// A mesh, with all files that read_mesh would read.
-void register_mesh_input(FileRegistry& files, const std::string& path, const std::string& use);
+void register_mesh_input(FileRegistry& files, const std::string& path, const std::string& use,
+                         const ReadOptions& options);
 
 /// An empty path is no file.
 void register_output(FileRegistry& files, const std::string& path, const std::string& use);

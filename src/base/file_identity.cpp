@@ -2,7 +2,9 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 namespace driftmesh {
@@ -30,6 +32,16 @@ std::string link_target(const std::string& path) {
     at = at.parent_path() / next;  // an absolute one replaces it
   }
   return path;
+}
+
+bool lies_within(const std::string& path, const std::string& folder) {
+  std::error_code failed;
+  const fs::path outer = fs::weakly_canonical(fs::absolute(folder), failed);
+  if (failed) return false;
+  const fs::path inner = fs::weakly_canonical(fs::absolute(link_target(path)), failed);
+  if (failed) return false;
+  const auto [end, differs] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
+  return end == outer.end() || (end->empty() && std::next(end) == outer.end());  // "folder/" ends in an empty name
 }
 
 FileIdentity identity_of(const std::string& path) {

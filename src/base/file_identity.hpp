@@ -23,6 +23,9 @@ struct FileIdentity {
 /// yet. Links in a circle are not followed.
 [[nodiscard]] std::string link_target(const std::string& path);
 
+/// Whether a path, which need not exist, lies in a folder or below it when all links are followed.
+[[nodiscard]] bool lies_within(const std::string& path, const std::string& folder);
+
 [[nodiscard]] FileIdentity identity_of(const std::string& path);
 
 }  // namespace driftmesh

@@ -53,12 +53,12 @@ void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& o
   }
 }
 
-Mesh read_mesh(const std::string& path) {
+Mesh read_mesh(const std::string& path, const ReadOptions& options) {
   switch (format_of(path)) {
     case Format::kVtu:
       return read_vtu(path);
     case Format::kPvtu:
-      return read_pvtu(path);
+      return read_pvtu(path, options);
     case Format::kMsh:
       return read_msh(path);
     case Format::kTriangle:
@@ -77,10 +77,10 @@ std::vector<std::string> mesh_files(const std::string& path) {
   return {stem + ".node", stem + ".ele", stem + ".poly", stem + ".edge", stem + ".neigh"};
 }
 
-std::vector<std::string> files_to_read(const std::string& path) {
+std::vector<std::string> files_to_read(const std::string& path, const ReadOptions& options) {
   std::vector<std::string> files = mesh_files(path);
   if (is_in_pieces(path))
-    for (const std::string& piece : pvtu_pieces(path)) files.push_back(piece);
+    for (const std::string& piece : pvtu_pieces(path, options)) files.push_back(piece);
   return files;
 }
 

@@ -11,11 +11,11 @@ namespace driftmesh {
 /// Whether the extension is that of a mesh in pieces: .pvtu. Error: InputError for an unknown extension.
 [[nodiscard]] bool is_in_pieces(const std::string& path);
 /// The pieces of a mesh, not merged, with the numbers of their points, for a check. Errors: as read_mesh.
-[[nodiscard]] std::vector<Mesh> read_pieces(const std::string& path);
+[[nodiscard]] std::vector<Mesh> read_pieces(const std::string& path, const ReadOptions& options = {});
 
 /// The files that write_mesh would replace. Error: InputError for an unknown extension.
 [[nodiscard]] std::vector<std::string> mesh_files(const std::string& path);
 /// The files that read_mesh would read. Errors: as read_mesh.
-[[nodiscard]] std::vector<std::string> files_to_read(const std::string& path);
+[[nodiscard]] std::vector<std::string> files_to_read(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace driftmesh

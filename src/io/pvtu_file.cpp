@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "base/file_identity.hpp"
 #include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
@@ -80,7 +81,7 @@ void write_pvtu(const std::string& path, std::int32_t pieces, const VtuArrays& a
   PvtuFile(path).write(path, pieces, arrays);
 }
 
-std::vector<std::string> parse_pvtu(const std::string& file, std::string_view bytes) {
+std::vector<std::string> parse_pvtu(const std::string& file, std::string_view bytes, const ReadOptions& options) {
   XmlScanner scanner(file, bytes);
   XmlTag tag;
   std::vector<std::string> pieces;
@@ -91,7 +92,12 @@ std::vector<std::string> parse_pvtu(const std::string& file, std::string_view by
     if (tag.name != "Piece") continue;
     const std::string_view source = tag.attribute("Source");
     if (source.empty()) throw InputError({file, tag.line}, "has a Piece without Source", "the file is damaged");
-    pieces.push_back((fs::path(file).parent_path() / unescaped(std::string(source))).string());
+    const fs::path folder = fs::path(file).parent_path();
+    pieces.push_back((folder / unescaped(std::string(source))).string());
+    if (!options.allow_outside && !lies_within(pieces.back(), folder.empty() ? "." : folder.string()))
+      throw InputError({file, tag.line},
+                       "names the piece " + unescaped(std::string(source)) + ", outside of its own folder",
+                       "move it there, or allow it with --allow-outside");
   }
   if (!is_pvtu) throw InputError({file, 0}, "is not of type PUnstructuredGrid", "name a .pvtu of triangle meshes");
   if (!is_complete) throw InputError({file, 0}, "ends before </VTKFile>", "it was not written completely");
@@ -99,21 +105,21 @@ std::vector<std::string> parse_pvtu(const std::string& file, std::string_view by
   return pieces;
 }
 
-std::vector<std::string> pvtu_pieces(const std::string& path) {
-  return parse_pvtu(path, read_file(path));
+std::vector<std::string> pvtu_pieces(const std::string& path, const ReadOptions& options) {
+  return parse_pvtu(path, read_file(path), options);
 }
 
-std::vector<Mesh> read_pieces(const std::string& path) {
+std::vector<Mesh> read_pieces(const std::string& path, const ReadOptions& options) {
   std::vector<Mesh> pieces;
-  for (const std::string& piece : pvtu_pieces(path)) pieces.push_back(read_vtu(piece));
+  for (const std::string& piece : pvtu_pieces(path, options)) pieces.push_back(read_vtu(piece));
   return pieces;
 }
 
-Mesh read_pvtu(const std::string& path) {
+Mesh read_pvtu(const std::string& path, const ReadOptions& options) {
   MergeFaults faults;
   Mesh mesh;
   try {
-    mesh = merge_pieces(read_pieces(path), faults);
+    mesh = merge_pieces(read_pieces(path, options), faults);
   } catch (const InputError&) {
     throw;
   } catch (const Error& error) {

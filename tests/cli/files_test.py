@@ -6,6 +6,7 @@ usage: files_test.py DRIFTMESH [unittest options]
 
 import json
 import os
+import shutil
 import subprocess
 import time
 
@@ -239,6 +240,78 @@ class TogetherOrNotAtAll(Files):
             self.assertGreater(len(files), 2)
             for file in files:
                 self.assertEqual(file["bytes"], os.path.getsize(self.folder / file["name"]), file)
+
+
+class NoWayOut(Files):
+    """Names in files lead out of their folder only when the command line says so."""
+
+    EXPERIMENT = "input: {file: square.poly}\nbounds: {triangles: 2e3}\ncluster: {ranks: 2}\npictures: false\n"
+
+    def setUp(self):
+        super().setUp()
+        for folder in ("work", "other"):
+            (self.folder / folder).mkdir()
+        self.write("work/square.poly", SQUARE)
+        self.outer, self.folder = self.folder, self.folder / "work"
+
+    def everything(self):
+        return sorted(str(path.relative_to(self.outer)) for path in self.outer.rglob("*"))
+
+    def test_the_name_of_an_experiment(self):
+        for name in ("../other/x", str(self.outer / "other/x"), "link/x"):
+            (self.folder / "link").unlink(missing_ok=True)
+            (self.folder / "link").symlink_to("../other")
+            self.write("e.yaml", f"name: {name}\n" + self.EXPERIMENT)
+            before = self.everything()
+            self.refuse("run", "e.yaml", says=["other/x.runs" if "other" in name else "link/x.runs", "outside",
+                                               "--allow-outside"])
+            self.assertEqual(self.everything(), before)
+            self.succeed("run", "e.yaml", "--quiet", "-o", "mine")
+            self.assertTrue((self.folder / "mine/table.csv").exists())
+            self.succeed("run", "e.yaml", "--quiet", "--allow-outside")
+            self.assertTrue((self.outer / "other/x.runs/table.csv").exists())
+            for path in (self.outer / "other/x.runs", self.folder / "mine"):
+                shutil.rmtree(path)
+        self.write("e.yaml", "name: sub/x\n" + self.EXPERIMENT)
+        self.succeed("run", "e.yaml", "--quiet")
+        self.assertTrue((self.folder / "sub/x.runs/table.csv").exists())
+
+    def test_links_among_the_results(self):
+        self.write("e.yaml", self.EXPERIMENT)
+        (self.folder / "e.runs").symlink_to("../other")
+        self.refuse("run", "e.yaml", says=["e.runs", "outside"])
+        os.unlink(self.folder / "e.runs")
+        (self.folder / "e.runs").mkdir()
+        for name in ("table.csv", "run-1.json"):
+            (self.folder / "e.runs" / name).symlink_to("../../other/file")
+            self.refuse("run", "e.yaml", says=[name, "outside"])
+            self.refuse("run", "e.yaml", "-o", "e.runs", says=[name, "outside"])
+            os.unlink(self.folder / "e.runs" / name)
+        self.assertEqual(list((self.outer / "other").iterdir()), [])
+        (self.folder / "e.runs" / "table.csv").symlink_to("real.csv")
+        self.succeed("run", "e.yaml", "--quiet")
+        self.assertTrue((self.folder / "e.runs/real.csv").read_text().startswith("run"))
+
+    def test_pieces(self):
+        self.succeed("mesh", "square.poly", "-n", "2", "--area", "0.1", "-o", "m.pvtu")
+        piece, elsewhere = self.folder / "m_0.vtu", self.outer / "other/m_0.vtu"
+        pvtu = (self.folder / "m.pvtu").read_text()
+        os.rename(piece, elsewhere)
+        reads = [("check", "m.pvtu"), ("convert", "m.pvtu", "copy.vtu"), ("plot", "m.pvtu")]
+        for source in ("../other/m_0.vtu", str(elsewhere), "x/../../other/m_0.vtu", "m_0.vtu"):
+            piece.unlink(missing_ok=True)
+            (self.folder / "x").mkdir(exist_ok=True)
+            if source == "m_0.vtu":
+                piece.symlink_to(elsewhere)
+            self.write("m.pvtu", pvtu.replace('Source="m_0.vtu"', f'Source="{source}"'))
+            for read in reads:
+                self.refuse(*read, code=2 if read[0] == "check" else 1, says=["m.pvtu:", source, "--allow-outside"])
+                self.succeed(*read, "--allow-outside")
+        piece.unlink()
+        (self.folder / "sub").mkdir()
+        os.rename(elsewhere, self.folder / "sub/m_0.vtu")
+        self.write("m.pvtu", pvtu.replace('Source="m_0.vtu"', 'Source="sub/m_0.vtu"'))
+        self.succeed("check", "m.pvtu")
 
 
 if __name__ == "__main__":
