@@ -33,7 +33,7 @@ class Parser {
     read_roots();
     read_subdomains();
     read_inner_points();
-    if (in_.next_record()) in_.fail("there are more records than the counts at the top say", "correct them");
+    in_.require_end();
     in_.throw_problems();
     list_roots(d_);
     check();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -10,14 +11,22 @@
 
 namespace driftmesh {
 
-/// The bytes of a file in memory, read from front to back. A length found in the file is trusted only after checking
-/// that the file has that many bytes, so a damaged file causes an InputError and not a huge allocation.
+/// The bytes of a file in memory, as text and as binary data, read from front to back. A length found in the file is
+/// trusted only after checking that the file has that many bytes, so a damaged file causes an InputError and not a huge
+/// allocation.
 class ByteCursor {
  public:
-  ByteCursor(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
+  ByteCursor(const std::string& path, std::string_view bytes) : path_(path), all_(bytes), bytes_(bytes) {}
 
   [[nodiscard]] std::size_t remaining() const { return bytes_.size(); }
   [[nodiscard]] std::string_view rest() const { return bytes_; }
+
+  /// Where the cursor stands: the line, if the file is all text up to there.
+  [[nodiscard]] SourcePlace place() const {
+    const std::string_view before = all_.substr(0, all_.size() - bytes_.size());
+    const bool is_text = before.find('\0') == std::string_view::npos;
+    return {path_, is_text ? 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) : 0};
+  }
 
   template <class T>
   requires std::is_trivially_copyable_v<T> T take(const char* what) {
@@ -29,7 +38,7 @@ class ByteCursor {
   /// The bytes of `count` items of `size` bytes each.
   std::string_view take_bytes(std::uint64_t count, std::size_t size, const char* what) {
     if (count > bytes_.size() / size)
-      throw InputError({path_, 0}, std::string("ends within ") + what, "it was not written completely, or is damaged");
+      throw InputError(place(), std::string("ends within ") + what, "it was not written completely, or is damaged");
     const std::string_view taken = bytes_.substr(0, count * size);
     bytes_.remove_prefix(taken.size());
     return taken;
@@ -54,7 +63,8 @@ class ByteCursor {
 
  private:
   const std::string& path_;
-  std::string_view bytes_;
+  std::string_view all_;
+  std::string_view bytes_;  // what is left
 };
 
 }  // namespace driftmesh

@@ -29,7 +29,7 @@ class BinaryMshInput {
 /// Numbers as text separated by blanks.
 class TextMshInput {
  public:
-  TextMshInput(const std::string& path, ByteCursor& cursor) : path_(path), cursor_(cursor) {}
+  explicit TextMshInput(ByteCursor& cursor) : cursor_(cursor) {}
   std::int32_t integer() { return number<std::int32_t>(); }
   std::uint64_t size() { return number<std::uint64_t>(); }
   double real() { return number<double>(); }
@@ -43,7 +43,7 @@ class TextMshInput {
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
     const auto length = static_cast<std::size_t>(end - rest.data());
     if (error != std::errc() || (length < rest.size() && !ByteCursor::is_blank(*end)))
-      throw InputError({path_, 0},
+      throw InputError(cursor_.place(),
                        "holds '" + std::string(rest.substr(0, rest.find_first_of(" \r\n\t")).substr(0, 30)) +
                            "' where a number is expected",
                        "the file is damaged or was not written completely");
@@ -51,7 +51,6 @@ class TextMshInput {
     return value;
   }
 
-  const std::string& path_;
   ByteCursor& cursor_;
 };
 

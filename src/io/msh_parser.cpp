@@ -1,5 +1,6 @@
 #include "io/msh_parser.hpp"
 
+#include <set>
 #include <utility>
 
 #include "driftmesh/error.hpp"
@@ -15,7 +16,7 @@ constexpr std::size_t kMaxAttributes = 1000;
 
 class MshParser {
  public:
-  MshParser(const std::string& path, std::string_view bytes) : path_(path), cursor_(path, bytes) {}
+  MshParser(const std::string& path, std::string_view bytes) : cursor_(path, bytes) {}
 
   RawMsh parse() {
     while (cursor_.remaining() > 0) {
@@ -24,35 +25,55 @@ class MshParser {
       parse_section(std::string(line.substr(1, line.find_last_not_of(" \t"))));
     }
     for (const char* name : {"MeshFormat", "Nodes", "Elements"})
-      if (!seen_[name]) fail("has no $" + std::string(name), "is this a .msh file, and complete?");
+      if (!seen_.contains(name)) fail("has no $" + std::string(name), "is this a .msh file, and complete?");
     return std::move(raw_);
   }
 
  private:
   void parse_section(const std::string& name) {
+    bool is_known = true;
     if (name == "MeshFormat") {
       parse_format();
     } else {
-      if (!seen_["MeshFormat"]) fail("does not begin with $MeshFormat", "is this a .msh file?");
-      if (is_binary_)
-        parse_body(name, BinaryMshInput(cursor_));
-      else
-        parse_body(name, TextMshInput(path_, cursor_));
+      if (!seen_.contains("MeshFormat")) fail("does not begin with $MeshFormat", "is this a .msh file?");
+      is_known = is_binary_ ? parse_body(name, BinaryMshInput(cursor_)) : parse_body(name, TextMshInput(cursor_));
     }
-    seen_[name] = true;
-    skip_to_end_of(name);
+    seen_.insert(name);
+    if (is_known)
+      require_end_of(name);
+    else
+      skip_to_end_of(name);
   }
 
+  /// Whether all of the section was read.
   template <class Input>
-  void parse_body(const std::string& name, Input input) {
-    if ((name == "Nodes" || name == "Elements") && seen_[name]) fail("has two sections $" + name, kDamaged);
-    if (name == "PhysicalNames") parse_physical_names();
-    if (name == "Entities") parse_entities(input);
-    if (name == "Nodes") parse_nodes(input);
-    if (name == "Elements") parse_elements(input);
-    if (name == "NodeData") parse_node_data(input);
-    if (name == "ElementData") parse_element_data(input);
-    if (name == "DriftmeshPointMarkers") parse_point_markers();
+  bool parse_body(const std::string& name, Input input) {
+    if ((name == "Nodes" || name == "Elements" || name == "Entities" || name == "PhysicalNames") &&
+        seen_.contains(name))
+      fail("has two sections $" + name, kDamaged);
+    if (name == "NodeData") return parse_node_data(input);
+    if (name == "ElementData") return parse_element_data(input);
+    if (name == "PhysicalNames")
+      parse_physical_names();
+    else if (name == "Entities")
+      parse_entities(input);
+    else if (name == "Nodes")
+      parse_nodes(input);
+    else if (name == "Elements")
+      parse_elements(input);
+    else if (name == "DriftmeshPointMarkers")
+      parse_point_markers();
+    else
+      return false;
+    return true;
+  }
+
+  /// Of a section that has been read by its counts.
+  void require_end_of(const std::string& name) {
+    cursor_.skip_blanks();
+    const SourcePlace place = cursor_.place();
+    if (!cursor_.take_line().starts_with("$End" + name))
+      throw InputError(place, "there is more in $" + name + " than its counts announce", kDamaged);
   }
 
   void skip_to_end_of(const std::string& name) {
@@ -64,7 +85,7 @@ class MshParser {
   }
 
   void parse_format() {
-    TextMshInput input(path_, cursor_);
+    TextMshInput input(cursor_);
     const double version = input.real();
     is_binary_ = input.integer() == 1;
     const std::uint64_t size_bytes = input.size();
@@ -78,7 +99,7 @@ class MshParser {
   }
 
   void parse_physical_names() {
-    TextMshInput input(path_, cursor_);
+    TextMshInput input(cursor_);
     for (std::uint64_t left = input.size(); left > 0; --left) {
       const std::int32_t dimension = input.integer();
       const std::int32_t tag = input.integer();
@@ -102,6 +123,7 @@ class MshParser {
   template <class Input>
   void parse_entity(Input& input, std::int32_t dimension) {
     const std::int32_t tag = input.integer();
+    entities_.insert({dimension, tag});
     for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) (void)input.real();
     const std::uint64_t groups = input.size();
     for (std::uint64_t i = 0; i < groups; ++i) {
@@ -115,7 +137,8 @@ class MshParser {
   template <class Input>
   void parse_nodes(Input& input) {
     const std::uint64_t blocks = input.size();
-    for (int i = 0; i < 3; ++i) (void)input.size();  // number of nodes, smallest and largest tag
+    const std::uint64_t announced = input.size();
+    for (int i = 0; i < 2; ++i) (void)input.size();  // smallest and largest tag
     for (std::uint64_t b = 0; b < blocks; ++b) {
       const std::int32_t dimension = input.integer();
       (void)input.integer();
@@ -126,6 +149,13 @@ class MshParser {
       for (std::uint64_t i = 0; i < count; ++i) raw_.node_tags.push_back(input.size());
       for (std::uint64_t i = 0; i < count; ++i) parse_node(input, is_parametric ? dimension : 0);
     }
+    require_count("nodes", raw_.nodes.size(), announced);
+  }
+
+  void require_count(const char* what, std::uint64_t actual, std::uint64_t announced) const {
+    if (actual != announced)
+      fail("announces " + std::to_string(announced) + " " + what + ", but its blocks have " + std::to_string(actual),
+           kDamaged);
   }
 
   template <class Input>
@@ -142,12 +172,15 @@ class MshParser {
   template <class Input>
   void parse_elements(Input& input) {
     const std::uint64_t blocks = input.size();
-    for (int i = 0; i < 3; ++i) (void)input.size();  // number of elements, smallest and largest tag
+    const std::uint64_t announced = input.size();
+    for (int i = 0; i < 2; ++i) (void)input.size();  // smallest and largest tag
+    std::uint64_t points = 0;
     for (std::uint64_t b = 0; b < blocks; ++b) {
-      (void)input.integer();
+      const std::int32_t dimension = input.integer();
       const std::int32_t entity = input.integer();
       const std::int32_t type = input.integer();
       const std::uint64_t count = input.size();
+      require_entity(dimension, entity, type);
       switch (type) {
         case 1:
           parse_element_block(input, raw_.lines, entity, count);
@@ -157,11 +190,26 @@ class MshParser {
           break;
         case 15:
           skip_point_elements(input, count);
+          points += count;
           break;
         default:
           fail_element_type(type);
       }
     }
+    require_count("elements", raw_.lines.tags.size() + raw_.triangles.tags.size() + points, announced);
+  }
+
+  /// The marker or region of elements is that of their entity.
+  void require_entity(std::int32_t dimension, std::int32_t entity, std::int32_t type) const {
+    const std::int32_t expected = type == 15 ? 0 : type == 1 ? 1 : 2;
+    if (dimension != expected && (type == 1 || type == 2 || type == 15))
+      fail("has elements of Gmsh's type " + std::to_string(type) + " on an entity of dimension " +
+               std::to_string(dimension),
+           kDamaged);
+    if (seen_.contains("Entities") && !entities_.contains({dimension, entity}))
+      fail("has elements on entity " + std::to_string(entity) + " of dimension " + std::to_string(dimension) +
+               ", which $Entities does not list",
+           "the file is damaged; a mesh in partitions can be read after gmsh has joined them");
   }
 
   template <class Input, std::size_t kCorners>
@@ -194,7 +242,7 @@ class MshParser {
     std::int32_t values = 0;  // 0 for views of more than one component
   };
   View parse_view_header(const char* section) {
-    TextMshInput text(path_, cursor_);
+    TextMshInput text(cursor_);
     View view;
     for (std::uint64_t left = text.size(); left > 0; --left) {
       cursor_.skip_blanks();
@@ -210,38 +258,41 @@ class MshParser {
     return view;
   }
 
-  // Skips views that are not attributes written by write_msh.
+  // Whether it is an attribute written by write_msh; other views are not read.
   template <class Input>
-  void parse_node_data(Input& input) {
+  bool parse_node_data(Input& input) {
     const View view = parse_view_header("$NodeData");
     const std::string expected = "\"attribute " + std::to_string(raw_.attributes.size() + 1) + "\"";
-    if (view.name != expected) return;
+    if (view.name != expected) return false;
     if (raw_.attributes.size() == kMaxAttributes) fail("has more than 1000 attributes", kDamaged);
     RawMsh::Attribute& attribute = raw_.attributes.emplace_back();
     for (std::int32_t left = view.values; left > 0; --left) {
       attribute.nodes.push_back(input.integer());
       attribute.values.push_back(input.real());
     }
+    return true;
   }
 
+  // The same for subdomains and ranks.
   template <class Input>
-  void parse_element_data(Input& input) {
+  bool parse_element_data(Input& input) {
     const View view = parse_view_header("$ElementData");
     std::vector<RawMsh::ElementValue>* const values = view.name == quoted(kSubdomainView) ? &raw_.subdomains
                                                       : view.name == quoted(kRankView)    ? &raw_.ranks
                                                                                           : nullptr;
-    if (values == nullptr) return;
+    if (values == nullptr) return false;
     for (std::int32_t left = view.values; left > 0; --left) {
       const std::int32_t element = input.integer();
       const double value = input.real();
       if (!(value >= 0 && value <= INT32_MAX)) fail("has a " + std::string(view.name) + " out of range", kDamaged);
       values->push_back({element, static_cast<std::int32_t>(value)});
     }
+    return true;
   }
   static std::string quoted(std::string_view name) { return '"' + std::string(name) + '"'; }
 
   void parse_point_markers() {
-    TextMshInput input(path_, cursor_);
+    TextMshInput input(cursor_);
     raw_.point_markers.emplace();
     for (std::uint64_t left = input.size(); left > 0; --left) {
       const std::uint64_t node = input.size();
@@ -250,14 +301,14 @@ class MshParser {
   }
 
   [[noreturn]] void fail(const std::string& what, const std::string& next) const {
-    throw InputError({path_, 0}, what, next);
+    throw InputError(cursor_.place(), what, next);
   }
 
-  const std::string& path_;
   ByteCursor cursor_;
   bool is_binary_ = false;
   double z_ = 0;
-  std::map<std::string, bool> seen_;
+  std::set<std::string> seen_;
+  std::set<RawMsh::EntityKey> entities_;
   RawMsh raw_;
 };
 

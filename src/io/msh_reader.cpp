@@ -127,12 +127,19 @@ class MshAssembler {
     const std::size_t per_point = raw_.attributes.size();
     mesh_.attributes_per_point = narrow<std::int32_t>(per_point, "attributes");
     mesh_.attributes.assign(per_point * mesh_.points.size(), 0);
-    for (std::size_t k = 0; k < per_point; ++k)
+    for (std::size_t k = 0; k < per_point; ++k) {
+      if (raw_.attributes[k].nodes.size() != mesh_.points.size())
+        throw InputError({path_, 0},
+                         "has attribute " + std::to_string(k + 1) + " at " +
+                             std::to_string(raw_.attributes[k].nodes.size()) + " of " +
+                             std::to_string(mesh_.points.size()) + " nodes",
+                         kDamaged);
       for (std::size_t i = 0; i < raw_.attributes[k].nodes.size(); ++i) {
         const auto tag = static_cast<std::uint64_t>(raw_.attributes[k].nodes[i]);
         const auto v = node(tag, "$NodeData");
         mesh_.attributes[v * per_point + k] = raw_.attributes[k].values[i];
       }
+    }
   }
 
   void place_point_markers() {

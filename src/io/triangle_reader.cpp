@@ -4,6 +4,7 @@
 #include "base/read_file.hpp"
 #include "io/read_checks.hpp"
 #include "io/triangle_format.hpp"
+#include "pslg/poly_file.hpp"
 #include "pslg/record_scanner.hpp"
 #include "pslg/triangle_files.hpp"
 
@@ -13,20 +14,19 @@ namespace {
 using Edges = std::vector<Mesh::Edge>;
 
 // The section "count has_markers" and its records "number a b marker", which .poly and .edge files share.
-Edges scan_edges(RecordScanner& scanner, const NodeTable& nodes, bool& has_markers) {
+Edges scan_edges(RecordScanner& scanner, const NodeTable& nodes) {
   scanner.require_record("the number of edges", "the file may be truncated");
   const std::int32_t count = scanner.header("the number of edges");
-  has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
+  const bool has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
   scanner.require_room(count, "edges", has_markers ? 4 : 3);
   Edges edges(count);
   for (Mesh::Edge& edge : edges) {
-    scanner.require_record("an edge", "the header announces " + std::to_string(count) + "; the file may be truncated");
+    scanner.require_element(static_cast<std::int32_t>(&edge - edges.data()), count, "edges");
     (void)scanner.integer("the edge number");
     edge.a = scan_vertex(scanner, nodes.points.size(), nodes.first_number);
     edge.b = scan_vertex(scanner, nodes.points.size(), nodes.first_number);
     if (has_markers) edge.marker = scanner.integer("the boundary marker");
   }
-  scanner.throw_problems();
   return edges;
 }
 
@@ -36,16 +36,20 @@ std::optional<Edges> read_segments(const std::string& path, const NodeTable& nod
   const std::string text = read_file(path);
   RecordScanner scanner(path, text);
   if (!scan_nodes(scanner).points.empty()) return std::nullopt;
-  bool has_markers = false;
-  return scan_edges(scanner, nodes, has_markers);
+  Edges edges = scan_edges(scanner, nodes);
+  Pslg seeds;  // belong to the input
+  scan_seeds(scanner, seeds);
+  scanner.throw_problems();
+  return edges;
 }
 
 Edges read_marked_edges(const std::string& path, const NodeTable& nodes) {
   if (!std::filesystem::exists(path)) return {};
   const std::string text = read_file(path);
   RecordScanner scanner(path, text);
-  bool has_markers = false;
-  Edges edges = scan_edges(scanner, nodes, has_markers);
+  Edges edges = scan_edges(scanner, nodes);
+  scanner.require_end();
+  scanner.throw_problems();
   std::erase_if(edges, [](const Mesh::Edge& edge) { return edge.marker == 0; });
   return edges;
 }

@@ -80,6 +80,12 @@ std::string node_file_of(const std::string& file) {
 
 }  // namespace
 
+void scan_seeds(RecordScanner& scanner, Pslg& pslg) {
+  scan_holes(scanner, pslg);
+  scan_regions(scanner, pslg);
+  scanner.require_end();
+}
+
 Pslg parse_poly(const std::string& file, std::string_view text) {
   RecordScanner scanner(file, text);
   NodeTable nodes = scan_nodes(scanner);
@@ -94,8 +100,7 @@ Pslg parse_poly(const std::string& file, std::string_view text) {
   Pslg pslg;
   move_nodes(std::move(nodes), pslg);
   scan_segments(scanner, pslg);
-  scan_holes(scanner, pslg);
-  scan_regions(scanner, pslg);
+  scan_seeds(scanner, pslg);
   scanner.throw_problems();
   return pslg;
 }

@@ -12,6 +12,11 @@ namespace driftmesh {
 /// read_poly of a text; `file` is for messages and for finding the .node file.
 [[nodiscard]] Pslg parse_poly(const std::string& file, std::string_view text);
 
+class RecordScanner;
+
+/// The holes and regions at the end of a .poly, and that end.
+void scan_seeds(RecordScanner& scanner, Pslg& pslg);
+
 /// The files that read_poly reads, or may read: `path`, and the .node beside it if there is one.
 [[nodiscard]] std::vector<std::string> poly_files(const std::string& path);
 

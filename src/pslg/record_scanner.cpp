@@ -55,7 +55,16 @@ bool RecordScanner::next_line() {
   return true;
 }
 
+// Zeros are what missing markers and attributes count as: nothing is lost with them, and published models have them.
+void RecordScanner::note_surplus_fields() {
+  while (started_ && !broken() && has_field())
+    if (const std::string_view field = take_field(); field != "0")
+      problem("the line has more fields than announced, from " + quoted(field) + " on",
+              "remove them, or correct the number of columns in the header");
+}
+
 bool RecordScanner::next_record() {
+  note_surplus_fields();
   bool more = !std::exchange(started_, true) || next_line();
   while (more && !has_field()) more = next_line();
   if (!more) at_ = end_;
@@ -64,6 +73,10 @@ bool RecordScanner::next_record() {
 
 void RecordScanner::require_record(const std::string& what, const std::string& next) {
   if (!next_record()) fail("the file ends where " + what + " is expected", next);
+}
+
+void RecordScanner::require_end() {
+  if (next_record()) fail("there are more records than announced", "correct the number in the header, or remove them");
 }
 
 std::string_view RecordScanner::take_field() {

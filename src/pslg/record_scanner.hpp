@@ -17,12 +17,15 @@ class RecordScanner {
   /// `text` must outlive the scanner. A byte order mark at its start is skipped.
   RecordScanner(std::string file, std::string_view text);
 
-  /// Advances to the next line that has a field; false at the end of the file.
+  /// Advances to the next line that has a field; false at the end of the file. A line with fields that nobody asked
+  /// for, other than 0, is a problem.
   bool next_record();
   /// Advances to the next record, or throws: "the file ends where <what> is expected; <next>".
   void require_record(const std::string& what, const std::string& next);
   /// Advances to the record of element `index` of the `count` that a header announced, or throws.
   void require_element(std::int32_t index, std::int32_t count, const char* what);
+  /// Throws unless the file ends after the records that its headers announce.
+  void require_end();
   /// Whether the current record has another field.
   [[nodiscard]] bool has_field();
   /// Whether the current line has a problem. Its remaining fields then read as 0 without further problems.
@@ -51,6 +54,7 @@ class RecordScanner {
 
  private:
   bool next_line();
+  void note_surplus_fields();
   [[nodiscard]] bool at_end_of_record() const;
   [[nodiscard]] bool at_end_of_field() const;
   std::string_view take_field();

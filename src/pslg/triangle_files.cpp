@@ -82,6 +82,7 @@ std::int32_t scan_vertex(RecordScanner& scanner, std::size_t point_count, std::i
 NodeTable parse_node(const std::string& file, std::string_view text) {
   RecordScanner scanner(file, text);
   NodeTable nodes = scan_nodes(scanner);
+  scanner.require_end();
   scanner.throw_problems();
   return nodes;
 }
@@ -104,6 +105,7 @@ EleTable parse_ele(const std::string& file, std::string_view text, const NodeTab
     for (std::int32_t k = 3; k < corners; ++k) (void)scanner.integer("a midpoint number");
     scan_attributes(scanner, table.attributes_per_triangle, table.attributes);
   }
+  scanner.require_end();
   scanner.throw_problems();
   return table;
 }
@@ -123,6 +125,7 @@ std::vector<double> parse_area(const std::string& file, std::string_view text, s
     (void)scanner.integer("the triangle number");
     areas.push_back(scanner.number("the area bound"));
   }
+  scanner.require_end();
   scanner.throw_problems();
   return areas;
 }

@@ -29,9 +29,9 @@ struct EleTable {
   std::int32_t attributes_per_triangle = 0;
 };
 
-// All readers accept '#' comments, any blanks and CRLF, and ignore fields beyond those announced. They throw FileError
-// if a file cannot be read, and InputError with up to ten messages "file:line: what; next step" for what is wrong in
-// it.
+// All readers accept '#' comments, any blanks and CRLF. They throw FileError if a file cannot be read, and InputError
+// with up to ten messages "file:line: what; next step" for what is wrong in it; fields or records fewer or more than
+// announced are wrong, but for fields that are 0.
 
 /// The first point has number 0 or 1; the others must follow consecutively.
 [[nodiscard]] NodeTable read_node(const std::string& path);

@@ -59,7 +59,7 @@ TEST_CASE("everything a .poly may hold: comments, tabs, CRLF, from zero, attribu
                                "4\t2 2 1   # header\r\n"
                                "0 0 0 1.5 -2 7\r\n"
                                "  1 +1e1 .5\t3 4 -8#glued comment\r\n"
-                               "2 10 10 0 0 9 and what follows is ignored\r\n"
+                               "2 10 10 0 0 9 0 # a zero more\r\n"
                                "3 0 1E1 1e-3 1 0\r\n"
                                "2 1\r\n"
                                "0 0 1 5\r\n"
@@ -95,6 +95,27 @@ TEST_CASE("a .poly without vertices takes them from the .node file; a .node file
 
 TEST_CASE("files that cannot be opened are named") {
   CHECK(message_of("/no/such.poly") == "/no/such.poly: cannot open: No such file or directory");
+}
+
+TEST_CASE("fields and records beyond those announced are refused with their line") {
+  const std::string points = "3 2\n1 0 0\n2 1 0\n3 0 1\n";
+  const auto refused = [](const std::string& text) {
+    try {
+      (void)parse_poly("t.poly", text);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK(refused(points + "1 0\n1 1 2 0\n0\n") == "accepted");
+  CHECK(refused(points + "1 0\n1 1 2 5\n0\n") ==
+        "t.poly:6: the line has more fields than announced, from '5' on; remove them, or correct the number of columns "
+        "in the header");
+  CHECK(refused(points + "1 1\n1 1 2 5\n0\n1\n1 .1 .1 2\n2 .2 .2 3\n") ==
+        "t.poly:10: there are more records than announced; correct the number in the header, or remove them");
+  CHECK_THROWS_WITH_AS(
+      (void)parse_area("m.area", "1\n1 0.25\n2 -1\n", 1),
+      "m.area:3: there are more records than announced; correct the number in the header, or remove them", InputError);
 }
 
 TEST_CASE(".ele with 3 or 6 nodes and attributes, and .area") {
