@@ -76,6 +76,10 @@ bool Controller::waiting() const {
                     conduct_);
 }
 
+void Controller::give_up() {
+  if (!std::holds_alternative<CollectiveConduct>(conduct_)) conduct_ = std::monostate();
+}
+
 void Controller::took(double seconds) {
   std::visit(Each{[&](PlanningConduct& planning) { planning.took(seconds); }, [](RequestConduct&) {},
                   [&](CollectiveConduct& collective) { collective.took(seconds); }, [](std::monostate) {}},

@@ -49,6 +49,10 @@ class Controller {
   /// Whether a request of this rank is unanswered, received advice is unhandled, or a joint plan is in progress.
   [[nodiscard]] bool waiting() const;
 
+  /// The run has been abandoned: from now on nothing is planned, answered or waited for. Only a joint plan goes on to
+  /// its end, since other ranks take part in it.
+  void give_up();
+
   /// The duration of the last think(). Plans that take long are made less often.
   void took(double seconds);
 

@@ -52,7 +52,7 @@ protocol::StepResult RankRun::step_or_abandon() {
   try {
     return loop_->step();
   } catch (const std::exception&) {
-    if (!loop_->failed_at_work()) throw;
+    if (!loop_->can_abandon()) throw;
     failure_ = std::current_exception();
     if (loop_->triangles() > limits_.triangles)
       failure_ = std::make_exception_ptr(

@@ -35,8 +35,8 @@ class RankRun {
   RankRun(Team& team, Order order, const SizeField* size, Watch& watch);
 
   /// Refines until all ranks are done. Collective. With a log, records what each slice of work did. An exception thrown
-  /// by the work on a subdomain, or by the watch meanwhile, ends refinement on all ranks cleanly and is thrown on all
-  /// of them (see agree_on_failure).
+  /// by the work on a subdomain, by the policy, or by the watch meanwhile, ends refinement on all ranks cleanly and is
+  /// thrown on all of them (see agree_on_failure).
   void refine(bool logs = false, const RankHooks& hooks = {});
 
   // After refine():

@@ -50,8 +50,9 @@ void RankLoop::abandon() {
 
 void RankLoop::drop_work() {
   abandoned_ = true;
-  at_slice_ = false;
+  own_failure_ = false;
   agenda_.clear();
+  if (controller_) controller_->give_up();
 }
 
 protocol::StepResult RankLoop::step() {
@@ -127,7 +128,7 @@ bool RankLoop::work() {
   if (!id) return false;
   Subdomain& subdomain = subdomains_.at(*id);
   said_.clear();
-  at_slice_ = true;
+  own_failure_ = true;
   const std::int64_t before = subdomain.triangles();
   const double start = transport_.now();
   const SliceWork done = subdomain.work(plan_.slice, said_);
@@ -147,7 +148,7 @@ bool RankLoop::work() {
   for (const SplitPoint<GlobalRootId>& split : said_) tell_across(*id, split);
   if (observers_.after_slice) observers_.after_slice(*this, {*id, transport_.now() - start, said_});
   speed_.add({static_cast<double>(done.triangles), transport_.now() - start, done.prepared > 0, !subdomain.active()});
-  at_slice_ = false;
+  own_failure_ = false;
   return true;
 }
 
@@ -160,7 +161,9 @@ bool RankLoop::balance(bool worked) {
   const double start = transport_.now();
   const std::vector<balancer::ReportedLoad> own = loads();
   transport_.spend(static_cast<double>(own.size()) * costs_.listed);
+  own_failure_ = plan_.policy->placement() != balancer::Placement::kCollective;
   balancer::Decision decision = controller_->think(clock_, own, speed_.value());
+  own_failure_ = false;
   for (const balancer::Move& move : decision.moves) hand_over(move.subdomain, move.destination);
   for (const balancer::Outgoing& o : decision.messages) protocol_.advise(o.destination, balancer::encode(o.message));
   if (decision.planned) controller_->took(transport_.now() - start);

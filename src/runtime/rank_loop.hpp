@@ -63,15 +63,15 @@ class RankLoop {
   bool hand_over(SubdomainId id, Rank to);
 
   /// Gives up the run: refinement stops here, and on other ranks once they learn of it. The loop must be stepped until
-  /// it is finished; its subdomains are then incomplete. May be called after step() has rethrown an error of a slice of
-  /// work.
+  /// it is finished; its subdomains are then incomplete. May be called after step() has thrown, if can_abandon().
   void abandon();
   /// Whether this rank or another one has given up the run.
   [[nodiscard]] bool abandoned() const { return abandoned_; }
-  /// Whether step() has rethrown an error of a slice of work, so that abandon() can end the run cleanly.
-  [[nodiscard]] bool failed_at_work() const { return at_slice_; }
+  /// Whether step() has thrown what a slice of work or the policy threw, so that abandon() can end the run cleanly.
+  /// Not so for a collective policy: the other ranks wait for this one in the middle of a joint plan.
+  [[nodiscard]] bool can_abandon() const { return own_failure_; }
 
-  /// One round. An exception ends the run on all ranks, unless failed_at_work().
+  /// One round. An exception ends the run on all ranks, unless can_abandon().
   protocol::StepResult step();
 
   [[nodiscard]] const protocol::RankProtocol& protocol() const { return protocol_; }
@@ -114,8 +114,8 @@ class RankLoop {
   Agenda agenda_;
   std::optional<balancer::Controller> controller_;
   balancer::SpeedEstimate speed_;
-  bool worked_ = false;    // in the last step
-  bool at_slice_ = false;  // of work, or thrown out of it
+  bool worked_ = false;       // in the last step
+  bool own_failure_ = false;  // what is thrown now concerns this rank alone, or has been thrown
   bool abandoned_ = false;
   std::vector<SplitPoint<GlobalRootId>> said_;
   std::int64_t triangles_ = 0;

@@ -168,6 +168,16 @@ TEST_CASE("what one rank meets while it works ends the work of all, which can go
     CHECK(common_error(make).ends_with("MeshOptions::max_memory"));
   }
   options.size = {};
+  if (ranks > 1) {
+    options.max_area = 2e-6;
+    options.balance = {.look = 1e-4, .gap = 0, .gain = 0};
+    options.balance.own = balancer::leader_policy(
+        [](const balancer::LoadSnapshot&) -> std::vector<balancer::Move> { throw InputError("no plan today"); });
+    CHECK(common_error(make) == "rank 0: no plan today");
+    CHECK_THROWS_AS(make(), InputError);
+    options.balance = {};
+    options.max_area = 1e-5;
+  }
   options.max_triangles = 1000;
   CHECK(common_error(make).find("MeshOptions::max_triangles") != std::string::npos);
   CHECK_THROWS_AS(make(), LimitError);

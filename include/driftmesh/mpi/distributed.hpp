@@ -20,7 +20,8 @@ namespace driftmesh {
 ///
 /// Errors are those of mesh(), thrown on all ranks: an error on a single rank, even in a callable, ends the work of all
 /// ranks in an orderly way, with an error of the same type that names the rank. Only if memory runs out between
-/// refinement and the finished pieces, MPI fails, or the caller's own policy throws, does the job end with a message.
+/// refinement and the finished pieces, MPI fails, or the caller's own policy throws in the middle of a joint plan
+/// (Placement::kCollective), does the job end with a message.
 [[nodiscard]] DistributedPiece mesh_distributed(MPI_Comm communicator, const Pslg& input,
                                                 const MeshOptions& options = {});
 
