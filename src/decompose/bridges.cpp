@@ -253,10 +253,10 @@ class MapBuilder {
       for (std::size_t k = i; k < j; ++k) {
         const auto& half = mesh_.subsegments[leaves_[k]].half;
         if (half[0] != kNone) side_of_[half[0]] = s;
-        if (half[1] != kNone) side_of_[half[1]] = s + 1;
+        if (half[1] != kNone) side_of_[half[1]] = PlanarMap::twin(s);
       }
       set_tail(s, last.half[0]);
-      set_tail(s + 1, first.half[1]);
+      set_tail(PlanarMap::twin(s), first.half[1]);
     }
   }
 
@@ -275,9 +275,9 @@ class MapBuilder {
     const SideId s =
         map_.add_wall(map_id_[mesh_.edge_start(h)], map_id_[mesh_.edge_end(h)], {0, kNone, PlanarMap::Kind::kBridge});
     side_of_[h] = s;
-    side_of_[mesh_.twin(h)] = s + 1;
+    side_of_[mesh_.twin(h)] = PlanarMap::twin(s);
     set_tail(s, h);
-    set_tail(s + 1, mesh_.twin(h));
+    set_tail(PlanarMap::twin(s), mesh_.twin(h));
   }
 
   void set_tail(SideId s, HalfEdge h) {

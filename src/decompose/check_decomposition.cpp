@@ -164,13 +164,19 @@ class Checker {
     const IdVector<SubdomainId, int> outer = count_outer(subdomain_of, enclosed, border_of);
     for (const double a : area) report_.area += a;
     for (const SubdomainId i : ids_of(d_.subdomains)) {
-      if (outer[i] != 1)
+      if (outer[i] == 0 || (outer[i] > 1 && has_interface(i)))
         problem("subdomain " + to_string(i) + " has " + std::to_string(outer[i]) +
                 " outer borders: it is not connected");
       if (!(std::fabs(area[i] - d_.subdomains[i].area) <= 1e-9 * report_.area))
         problem("subdomain " + to_string(i) + " claims area " + std::to_string(d_.subdomains[i].area) +
                 ", its border encloses " + std::to_string(area[i]));
     }
+  }
+
+  /// Only subdomains without interfaces may have several parts, which are then parts of the domain.
+  [[nodiscard]] bool has_interface(SubdomainId i) const {
+    return std::ranges::any_of(
+        d_.roots, [&](const Decomposition::Root& r) { return r.is_interface() && (r.left == i || r.right == i); });
   }
 
   /// The outer borders of each subdomain. Borders on both sides of a root inside the subdomain count as one; those that

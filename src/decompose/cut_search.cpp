@@ -105,7 +105,7 @@ bool CutSearch::stays_inside(std::size_t i, std::size_t j) const {
   const Point low{std::min(a.x, b.x) - keep, std::min(a.y, b.y) - keep};
   const Point high{std::max(a.x, b.x) + keep, std::max(a.y, b.y) + keep};
   const auto touches_end = [&](const Outline::Station& end, const Point& u, const Point& v, SideId side) {
-    return u == end.at || v == end.at || (!end.corner && side / 2 == end.side / 2);
+    return u == end.at || v == end.at || (!end.corner && PlanarMap::wall_of(side) == PlanarMap::wall_of(end.side));
   };
   SideId h = stations[0].side;
   do {

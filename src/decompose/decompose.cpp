@@ -56,12 +56,12 @@ double work_of(const WorkSamples& samples) {
 }
 
 /// Samples of the work in each piece, which set the piece's work; none without a size field.
-std::vector<WorkSamples> sample_pieces(const PlanarMap& map, std::vector<Piece>& pieces, const Triangulation& mesh,
-                                       const DecomposeOptions& options) {
-  std::vector<WorkSamples> samples(pieces.size());
+IdVector<PieceId, WorkSamples> sample_pieces(const PlanarMap& map, IdVector<PieceId, Piece>& pieces,
+                                             const Triangulation& mesh, const DecomposeOptions& options) {
+  IdVector<PieceId, WorkSamples> samples(pieces.size());
   if (options.bounds.size == nullptr) return samples;
   WorkSamples all = sample_work(mesh, options.bounds, kSamplesPerSubdomain * options.subdomains);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
+  for (const PieceId i : ids_of(pieces)) {
     samples[i] = take_inside(all, border_of(map, pieces[i].side));
     pieces[i].work = std::max(1.0, work_of(samples[i]));
   }
@@ -71,8 +71,8 @@ std::vector<WorkSamples> sample_pieces(const PlanarMap& map, std::vector<Piece>&
 /// Cuts pieces until each is one subdomain.
 class Cutter {
  public:
-  Cutter(PlanarMap& map, std::vector<Piece>& pieces, std::vector<WorkSamples>& samples, const DecomposeOptions& options,
-         std::int32_t parts)
+  Cutter(PlanarMap& map, IdVector<PieceId, Piece>& pieces, IdVector<PieceId, WorkSamples>& samples,
+         const DecomposeOptions& options, std::int32_t parts)
       : map_(map),
         pieces_(pieces),
         samples_(samples),
@@ -80,15 +80,16 @@ class Cutter {
         skew_(options.skew),
         random_(options.seed) {
     double work = 0;
-    for (const Piece& p : pieces) work += p.work;
+    for (const Piece& p : pieces)
+      if (p.bundle == kNone) work += p.work;
     mean_ = work / parts;
   }
 
   /// Returns the number of parts that could not be made.
   std::int32_t run() {
-    for (std::size_t i = 0; i < pieces_.size(); ++i) enqueue(i);
+    for (const PieceId i : ids_of(pieces_)) enqueue(i);
     while (!queue_.empty()) {
-      const std::size_t piece = queue_.top().second;
+      const PieceId piece = queue_.top().second;
       queue_.pop();
       if (!cut(piece)) give_up(piece);
     }
@@ -97,11 +98,11 @@ class Cutter {
   }
 
  private:
-  void enqueue(std::size_t piece) {
+  void enqueue(PieceId piece) {
     if (pieces_[piece].parts >= 2) queue_.emplace(pieces_[piece].parts, piece);
   }
 
-  void give_up(std::size_t piece) {
+  void give_up(PieceId piece) {
     spare_ += pieces_[piece].parts - 1;
     pieces_[piece].parts = 1;
     solid_.resize(pieces_.size(), false);
@@ -112,12 +113,11 @@ class Cutter {
   void spend_spare_parts() {
     while (spare_ > 0) {
       solid_.resize(pieces_.size(), false);
-      std::size_t heaviest = pieces_.size();
-      for (std::size_t i = 0; i < pieces_.size(); ++i)
-        if (pieces_[i].parts == 1 && !solid_[i] &&
-            (heaviest == pieces_.size() || pieces_[i].work > pieces_[heaviest].work))
+      PieceId heaviest = kNone;
+      for (const PieceId i : ids_of(pieces_))
+        if (pieces_[i].parts == 1 && !solid_[i] && (heaviest == kNone || pieces_[i].work > pieces_[heaviest].work))
           heaviest = i;
-      if (heaviest == pieces_.size()) return;
+      if (heaviest == kNone) return;
       pieces_[heaviest].parts = 2;
       --spare_;
       if (!cut(heaviest)) give_up(heaviest);
@@ -170,7 +170,7 @@ class Cutter {
     return load;
   }
 
-  bool cut(std::size_t index) {
+  bool cut(PieceId index) {
     const Piece piece = pieces_[index];
     const Cut found = search(piece, samples_[index]);
     if (!found) return false;
@@ -187,16 +187,17 @@ class Cutter {
     between.parts = found.parts_between;
     rest.parts = piece.parts - found.parts_between;
     pieces_[index] = rest;
+    const PieceId added = pieces_.next_id();
     pieces_.push_back(between);
     samples_.emplace_back();
-    if (!samples_[index].empty()) share_samples(index, pieces_.size() - 1);
+    if (!samples_[index].empty()) share_samples(index, added);
     enqueue(index);
-    enqueue(pieces_.size() - 1);
+    enqueue(added);
     return true;
   }
 
   /// The search uses some of the samples; the work of each side, and its number of parts, follow from all of them.
-  void share_samples(std::size_t rest, std::size_t between) {
+  void share_samples(PieceId rest, PieceId between) {
     samples_[between] = take_inside(samples_[rest], border_of(map_, pieces_[between].side));
     const double work = pieces_[rest].work + pieces_[between].work;
     if (samples_[between].empty() || samples_[rest].empty()) return;
@@ -210,14 +211,14 @@ class Cutter {
   }
 
   PlanarMap& map_;
-  std::vector<Piece>& pieces_;
-  std::vector<WorkSamples>& samples_;  // of each piece, all empty where work is in proportion to area
+  IdVector<PieceId, Piece>& pieces_;
+  IdVector<PieceId, WorkSamples>& samples_;  // of each piece, all empty where work is in proportion to area
   double angle_;
   double mean_ = 0;
   double skew_;
   std::mt19937_64 random_;
-  std::priority_queue<std::pair<std::int32_t, std::size_t>> queue_;
-  std::vector<bool> solid_;  // pieces for which no cut was found
+  std::priority_queue<std::pair<std::int32_t, PieceId>> queue_;
+  IdVector<PieceId, bool> solid_;  // pieces for which no cut was found
   std::int32_t spare_ = 0;
   Outline outline_;
   Outline::Station chosen_[2];
@@ -250,8 +251,8 @@ double area_of(const Triangulation& mesh) {
 /// The domain before the first cut.
 struct Domain {
   PlanarMap map;
-  std::vector<Piece> pieces;
-  std::vector<WorkSamples> samples;
+  IdVector<PieceId, Piece> pieces;
+  IdVector<PieceId, WorkSamples> samples;
 };
 
 Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options) {
@@ -266,11 +267,12 @@ Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options
 /// Cuts into `finer` times as many pieces as subdomains are wanted, and groups them. Bridges leave few ways to cut a
 /// domain with many holes into a few subdomains; groups of smaller pieces have more.
 Decomposition cut_domain(Domain domain, const DecomposeOptions& options, std::int32_t finer) {
-  const std::int32_t parts = finer * options.subdomains;
+  const std::int32_t bundles = bundle_small_parts(domain.map, domain.pieces, options.subdomains);
+  const std::int32_t parts = finer * (options.subdomains - bundles);
   allot_parts(domain.map, domain.pieces, parts);
   const std::int32_t missing = Cutter(domain.map, domain.pieces, domain.samples, options, parts).run();
-  if (missing > 0 && parts - missing < options.subdomains)
-    throw Error("the domain could be cut into " + std::to_string(parts - missing) + " of " +
+  if (missing > 0 && parts - missing + bundles < options.subdomains)
+    throw Error("the domain could be cut into " + std::to_string(parts - missing + bundles) + " of " +
                 std::to_string(options.subdomains) + " subdomains; ask for fewer, or allow smaller angles");
   return to_decomposition(domain.map, domain.pieces, group_pieces(domain.map, domain.pieces, options.subdomains),
                           options.subdomains);

@@ -26,17 +26,17 @@ inline constexpr std::int32_t kMaxSubdomains = 10'000'000;
 inline constexpr int kMaxSeparatorAngle = 80;  // degrees
 inline constexpr int kMaxSkew = 1;
 
-/// Cuts a triangulated domain (see triangulate and prepare_corners; not refined yet) into connected subdomains of about
-/// equal work, with short straight separators that make large angles with everything they meet. Deterministic: the same
-/// triangulation and options give the same decomposition.
+/// Cuts a triangulated domain (see triangulate and prepare_corners; not refined yet) into subdomains of about equal
+/// work, connected ones unless the domain has more disconnected parts than there are to be subdomains (then small parts
+/// that lie near each other share one), with short straight separators that make large angles with everything they
+/// meet. Deterministic: the same triangulation and options give the same decomposition.
 ///
 /// After Linardakis and Chrisochoides, "Algorithm 870: A Static Geometric Medial Axis Domain Decomposition in 2D
 /// Euclidean Space" (2008), recursive bisection by separators between points of the border; the search for the best
 /// separator is our own (see docs/decomposition.md). Segments inside the domain become borders of subdomains where that
 /// suits the balance; otherwise they stay inside one. Shell pieces of acute corners stay shell pieces.
 ///
-/// Throws Error for options out of range, if the domain has more disconnected parts than subdomains are requested, and
-/// if it cannot be cut into that many.
+/// Throws Error for options out of range, and if the domain cannot be cut into that many.
 [[nodiscard]] Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& options);
 
 }  // namespace driftmesh

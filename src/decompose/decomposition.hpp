@@ -23,9 +23,10 @@ inline constexpr GlobalPointId kNoPoint{-1};
 
 /// A domain cut into subdomains. Plain data in flat arrays, which can be mapped to ranks, saved and loaded.
 ///
-/// Invariants (check_decomposition tests them): subdomains are connected and cover the domain without overlap; their
-/// borders consist of roots only; a root has one or two sides in the domain; roots meet only at their ends. An input
-/// segment is a root, or a chain of roots where separators end on it.
+/// Invariants (check_decomposition tests them): subdomains cover the domain without overlap; each is connected, or
+/// consists of whole parts of the domain, so that it has no interface; their borders consist of roots only; a root has
+/// one or two sides in the domain; roots meet only at their ends. An input segment is a root, or a chain of roots where
+/// separators end on it.
 struct Decomposition {
   /// A segment that refinement cuts only at dyadic points, which are the same on both sides.
   struct Root {

@@ -67,10 +67,9 @@ std::int32_t fresh_shell_name(const PlanarMap& map) {
 /// Halves every wall of a shell: the halves are two new shells, and their common ends lie on a new circle.
 void halve_shell(PlanarMap& map, std::int32_t shell) {
   const std::int32_t name = fresh_shell_name(map);
-  const std::size_t walls = map.walls.size();
-  for (std::size_t w = 0; w < walls; ++w) {
+  for (const WallId w : ids_of(map.walls)) {  // without those that are added
     if (map.walls[w].shell != shell) continue;
-    const auto h = static_cast<SideId>(2 * w);
+    const SideId h = PlanarMap::first_side(w);
     const bool ascending = map.start(h) < map.end(h);
     const SideId rest = split_at(map, h, midpoint(map.at(map.start(h)), map.at(map.end(h))), kShellEnd + name);
     map.wall(h).shell = ascending ? name : name + 1;

@@ -5,14 +5,14 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <string>
+#include <span>
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
 #include "decompose/graph_partition.hpp"
 #include "decompose/outline.hpp"
 #include "decompose/work.hpp"
-#include "driftmesh/error.hpp"
+#include "geometry/hilbert.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {
@@ -21,10 +21,58 @@ namespace {
 /// Sets of pieces that touch along walls: the connected parts of the domain.
 DisjointSets<PieceId> connected_parts(const PlanarMap& map, const IdVector<SideId, PieceId>& piece_of,
                                       std::size_t pieces) {
-  DisjointSets sets(pieces);
-  for (SideId h = 0; map.sides.has(h); h += 2)
-    if (piece_of[h] != kNone && piece_of[h + 1] != kNone) sets.join(piece_of[h], piece_of[h + 1]);
+  DisjointSets<PieceId> sets(pieces);
+  for (const WallId w : ids_of(map.walls)) {
+    const SideId h = PlanarMap::first_side(w);
+    const PieceId left = piece_of[h], right = piece_of[PlanarMap::twin(h)];
+    if (left != kNone && right != kNone) sets.join(left, right);
+  }
   return sets;
+}
+
+/// A connected part of the domain.
+struct DomainPart {
+  std::vector<PieceId> pieces;
+  double work = 0;
+};
+
+std::vector<DomainPart> parts_of_domain(const PlanarMap& map, const IdVector<PieceId, Piece>& pieces) {
+  DisjointSets<PieceId> sets = connected_parts(map, label_sides(map, pieces), pieces.size());
+  IdVector<PieceId, DomainPart> part_of(pieces.size());
+  for (const PieceId i : ids_of(pieces)) {
+    DomainPart& part = part_of[sets.find(i)];
+    part.pieces.push_back(i);
+    part.work += pieces[i].work;
+  }
+  std::erase_if(part_of, [](const DomainPart& part) { return part.pieces.empty(); });
+  return {part_of.begin(), part_of.end()};
+}
+
+/// Sorts parts along a Hilbert curve, each by some point of its border.
+void sort_along_curve(const PlanarMap& map, const IdVector<PieceId, Piece>& pieces, std::span<DomainPart> parts) {
+  const auto place = [&](const DomainPart& part) { return map.at(map.start(pieces[part.pieces.front()].side)); };
+  Point low = place(parts.front()), high = low;
+  for (const DomainPart& part : parts) {
+    const Point p = place(part);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const HilbertOrder curve(low, high);
+  std::ranges::stable_sort(parts, {}, [&](const DomainPart& part) { return curve.index(place(part)); });
+}
+
+/// Cuts a sequence of at least `bundles` parts into that many runs of about equal work, none of which is empty.
+void deal_in_order(std::span<const DomainPart> parts, double work, std::int32_t bundles,
+                   IdVector<PieceId, Piece>& pieces) {
+  double before = 0;
+  std::int32_t bundle = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto due = static_cast<std::int32_t>((before + parts[k].work / 2) / work * bundles);
+    const bool must = parts.size() - k == to_index(bundles - bundle - 1);  // one is left for each bundle that follows
+    if (k > 0 && (must || due > bundle)) bundle = std::min(bundle + 1, bundles - 1);
+    for (const PieceId i : parts[k].pieces) pieces[i].bundle = bundle;
+    before += parts[k].work;
+  }
 }
 
 /// Divides `total` by weight into integers, each at least `least`, by the method of largest remainders.
@@ -51,7 +99,7 @@ std::vector<std::int32_t> round_shares(const std::vector<double>& weights, std::
 }
 
 /// Pieces as vertices, weighted by work; edges weighted by the length of the walls between two pieces.
-WeightedGraph graph_of(const PlanarMap& map, const std::vector<Piece>& pieces) {
+WeightedGraph graph_of(const PlanarMap& map, const IdVector<PieceId, Piece>& pieces) {
   const IdVector<SideId, PieceId> piece_of = label_sides(map, pieces);
   std::map<std::pair<PieceId, PieceId>, double> shared;
   for (const SideId h : ids_of(map.sides)) {
@@ -62,8 +110,8 @@ WeightedGraph graph_of(const PlanarMap& map, const std::vector<Piece>& pieces) {
   WeightedGraph graph;
   graph.begin.assign(pieces.size() + 1, 0);
   for (const auto& [pair, length] : shared) {
-    ++graph.begin[pair.first + 1];
-    graph.neighbor.push_back(pair.second);
+    ++graph.begin[to_int(pair.first) + 1];
+    graph.neighbor.push_back(to_int(pair.second));
     graph.edge_weight.push_back(length);
   }
   std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
@@ -74,16 +122,18 @@ WeightedGraph graph_of(const PlanarMap& map, const std::vector<Piece>& pieces) {
 template <class Visit>
 void for_each_edge(const WeightedGraph& graph, Visit&& visit) {
   for (const std::int32_t v : ids_of(graph.vertex_weight))
-    for (std::int32_t k = graph.begin[v]; k < graph.begin[v + 1]; ++k) visit(v, graph.neighbor[k]);
+    for (std::int32_t k = graph.begin[v]; k < graph.begin[v + 1]; ++k) visit(PieceId{v}, PieceId{graph.neighbor[k]});
 }
 
 /// Groups of pieces, lightest first, with their adjacent groups.
 class Groups {
  public:
+  using GroupId = PieceId;  ///< one of its pieces
+
   explicit Groups(const WeightedGraph& graph)
-      : sets_(graph.size()), work_(graph.vertex_weight), touching_(graph.size()) {
-    for (const std::int32_t i : ids_of(work_)) by_work_.emplace(work_[i], i);
-    for_each_edge(graph, [&](std::int32_t v, std::int32_t w) { touching_[v].insert(w); });
+      : sets_(graph.size()), work_(graph.vertex_weight.begin(), graph.vertex_weight.end()), touching_(graph.size()) {
+    for (const GroupId i : ids_of(work_)) by_work_.emplace(work_[i], i);
+    for_each_edge(graph, [&](PieceId v, PieceId w) { touching_[v].insert(w); });
   }
 
   [[nodiscard]] std::size_t count() const { return by_work_.size() + finished_; }
@@ -91,9 +141,9 @@ class Groups {
   /// Joins the lightest group that has a neighbor with its lightest one. False if no two groups touch.
   bool join_lightest() {
     while (!by_work_.empty()) {
-      const std::int32_t group = by_work_.begin()->second;
+      const GroupId group = by_work_.begin()->second;
       by_work_.erase(by_work_.begin());
-      const std::int32_t other = lightest_neighbor(group);
+      const GroupId other = lightest_neighbor(group);
       if (other != kNone) {
         join(group, other);
         return true;
@@ -103,30 +153,30 @@ class Groups {
     return false;
   }
 
-  /// Joins the groups of two adjacent pieces, if they are different.
-  void join_pieces(std::int32_t piece, std::int32_t other) {
-    const std::int32_t group = sets_.find(piece), second = sets_.find(other);
+  /// Joins the groups of two pieces, if they are different.
+  void join_pieces(PieceId piece, PieceId other) {
+    const GroupId group = sets_.find(piece), second = sets_.find(other);
     if (group == second) return;
     by_work_.erase({work_[group], group});
     join(group, second);
   }
 
-  std::int32_t group_of(std::int32_t piece) { return sets_.find(piece); }
+  GroupId group_of(PieceId piece) { return sets_.find(piece); }
 
  private:
-  std::int32_t lightest_neighbor(std::int32_t group) {
-    std::int32_t best = kNone;
-    for (const std::int32_t n : touching_[group])
+  GroupId lightest_neighbor(GroupId group) {
+    GroupId best = kNone;
+    for (const GroupId n : touching_[group])
       if (best == kNone || work_[n] < work_[best]) best = n;
     return best;
   }
 
-  void join(std::int32_t group, std::int32_t other) {
+  void join(GroupId group, GroupId other) {
     by_work_.erase({work_[other], other});
     sets_.join(group, other);
-    const std::int32_t kept = sets_.find(group), gone = kept == group ? other : group;
+    const GroupId kept = sets_.find(group), gone = kept == group ? other : group;
     work_[kept] += work_[gone];
-    for (const std::int32_t n : touching_[gone]) {
+    for (const GroupId n : touching_[gone]) {
       touching_[n].erase(gone);
       if (n == kept) continue;
       touching_[n].insert(kept);
@@ -136,44 +186,51 @@ class Groups {
     by_work_.emplace(work_[kept], kept);
   }
 
-  DisjointSets<std::int32_t> sets_;
-  IdVector<std::int32_t, double> work_;
-  IdVector<std::int32_t, std::set<std::int32_t>> touching_;
-  std::set<std::pair<double, std::int32_t>> by_work_;
+  DisjointSets<PieceId> sets_;
+  IdVector<GroupId, double> work_;
+  IdVector<GroupId, std::set<GroupId>> touching_;
+  std::set<std::pair<double, GroupId>> by_work_;
   std::size_t finished_ = 0;
 };
 
 /// If there are many more pieces than groups, METIS partitions them. Its parts need not be connected, so their
-/// connected components become the groups. Nothing is joined if METIS leaves parts empty.
+/// connected components become the groups. Nothing is joined if too few groups would be left.
 void join_by_partition(const WeightedGraph& graph, std::int32_t count, Groups& groups) {
-  const IdVector<PieceId, std::int32_t> part =
+  const IdVector<PieceId, std::int32_t> part(
       partition_graph(graph, std::vector<double>(to_index(count), 1.0),
-                      count <= 8 ? PartitionMethod::kRecursive : PartitionMethod::kDirect);
-  DisjointSets sets(graph.size());
-  std::size_t left = graph.size();
-  for_each_edge(graph, [&](std::int32_t v, std::int32_t w) { left -= part[v] == part[w] && sets.join(v, w); });
-  if (left < to_index(count)) return;
-  for_each_edge(graph, [&](std::int32_t v, std::int32_t w) {
-    if (part[v] == part[w]) groups.join_pieces(v, w);
+                      count <= 8 ? PartitionMethod::kRecursive : PartitionMethod::kDirect));
+  Groups joined = groups;
+  for_each_edge(graph, [&](PieceId v, PieceId w) {
+    if (part[v] == part[w]) joined.join_pieces(v, w);
   });
+  if (joined.count() >= to_index(count)) groups = std::move(joined);
+}
+
+void join_bundles(const IdVector<PieceId, Piece>& pieces, Groups& groups) {
+  std::map<std::int32_t, PieceId> first;
+  for (const PieceId i : ids_of(pieces)) {
+    if (pieces[i].bundle == kNone) continue;
+    const auto [entry, is_new] = first.try_emplace(pieces[i].bundle, i);
+    if (!is_new) groups.join_pieces(entry->second, i);
+  }
 }
 
 }  // namespace
 
-IdVector<SideId, PieceId> label_sides(const PlanarMap& map, const std::vector<Piece>& pieces) {
+IdVector<SideId, PieceId> label_sides(const PlanarMap& map, const IdVector<PieceId, Piece>& pieces) {
   IdVector<SideId, PieceId> piece_of(map.sides.size(), kNone);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
+  for (const PieceId i : ids_of(pieces)) {
     SideId h = pieces[i].side;
     do {
-      piece_of[h] = static_cast<PieceId>(i);
+      piece_of[h] = i;
       h = map.side(h).next;
     } while (h != pieces[i].side);
   }
   return piece_of;
 }
 
-std::vector<Piece> find_pieces(const PlanarMap& map, const QualityBounds& bounds) {
-  std::vector<Piece> pieces;
+IdVector<PieceId, Piece> find_pieces(const PlanarMap& map, const QualityBounds& bounds) {
+  IdVector<PieceId, Piece> pieces;
   IdVector<SideId, bool> seen(map.sides.size(), false);
   for (const SideId first : ids_of(map.sides)) {
     if (seen[first] || !map.side(first).in_domain()) continue;
@@ -187,44 +244,61 @@ std::vector<Piece> find_pieces(const PlanarMap& map, const QualityBounds& bounds
   return pieces;
 }
 
-void allot_parts(const PlanarMap& map, std::vector<Piece>& pieces, std::int32_t parts) {
-  DisjointSets sets = connected_parts(map, label_sides(map, pieces), pieces.size());
-  IdVector<PieceId, std::vector<std::size_t>> members(pieces.size());
-  for (const PieceId i : ids_of(members)) members[sets.find(i)].push_back(to_index(i));
-  std::erase_if(members, [](const auto& m) { return m.empty(); });
-  if (members.size() > to_index(parts))
-    throw Error("the domain consists of " + std::to_string(members.size()) +
-                " disconnected parts: it cannot be cut into " + std::to_string(parts) +
-                " connected subdomains; ask for at least " + std::to_string(members.size()));
+std::int32_t bundle_small_parts(const PlanarMap& map, IdVector<PieceId, Piece>& pieces, std::int32_t subdomains) {
+  std::vector<DomainPart> parts = parts_of_domain(map, pieces);
+  if (parts.size() <= to_index(subdomains)) return 0;
+  double work = 0;
+  for (const DomainPart& part : parts) work += part.work;
+  // Those that deserve a subdomain of their own come first, fewer than there are subdomains.
+  const double mean = work / subdomains;
+  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.work > b.work; });
+  std::size_t large = 0;
+  for (double rest = work; large + 1 < to_index(subdomains) && parts[large].work >= mean && rest > mean; ++large)
+    rest -= parts[large].work;
+  const std::span<DomainPart> small = std::span(parts).subspan(large);
+  double small_work = 0;
+  for (const DomainPart& part : small) small_work += part.work;
+  const std::int32_t most = subdomains - static_cast<std::int32_t>(large);
+  const std::int32_t bundles =
+      large == 0 ? most : std::clamp(static_cast<std::int32_t>(std::lround(small_work / mean)), 1, most);
+  sort_along_curve(map, pieces, small);
+  deal_in_order(small, small_work, bundles, pieces);
+  return bundles;
+}
+
+void allot_parts(const PlanarMap& map, IdVector<PieceId, Piece>& pieces, std::int32_t parts) {
+  std::vector<DomainPart> whole = parts_of_domain(map, pieces);
+  std::erase_if(whole, [&](const DomainPart& part) { return pieces[part.pieces.front()].bundle != kNone; });
+  if (whole.empty()) return;
   std::vector<double> work;
-  for (const auto& part : members) {
-    work.push_back(0);
-    for (const std::size_t i : part) work.back() += pieces[i].work;
-  }
+  for (const DomainPart& part : whole) work.push_back(part.work);
   const std::vector<std::int32_t> of_part = round_shares(work, parts, 1);
-  for (std::size_t p = 0; p < members.size(); ++p) {
+  for (std::size_t p = 0; p < whole.size(); ++p) {
     work.clear();
-    for (const std::size_t i : members[p]) work.push_back(pieces[i].work);
+    for (const PieceId i : whole[p].pieces) work.push_back(pieces[i].work);
     const std::vector<std::int32_t> shares = round_shares(work, of_part[p], 0);
-    for (std::size_t k = 0; k < shares.size(); ++k) pieces[members[p][k]].parts = shares[k];
+    for (std::size_t k = 0; k < shares.size(); ++k) pieces[whole[p].pieces[k]].parts = shares[k];
   }
 }
 
-std::vector<std::int32_t> group_pieces(const PlanarMap& map, const std::vector<Piece>& pieces, std::int32_t count) {
-  std::vector<std::int32_t> group_of(pieces.size());
-  std::iota(group_of.begin(), group_of.end(), 0);
-  if (pieces.size() <= to_index(count)) return group_of;
+IdVector<PieceId, SubdomainId> group_pieces(const PlanarMap& map, const IdVector<PieceId, Piece>& pieces,
+                                            std::int32_t count) {
+  if (pieces.size() <= to_index(count)) {
+    const IdRange<SubdomainId> each(pieces.size());
+    return {each.begin(), each.end()};
+  }
   const WeightedGraph graph = graph_of(map, pieces);
   Groups groups(graph);
+  join_bundles(pieces, groups);
   if (pieces.size() > 2 * to_index(count)) join_by_partition(graph, count, groups);
   while (groups.count() > to_index(count) && groups.join_lightest()) {
   }
-  IdVector<PieceId, std::int32_t> number(pieces.size(), kNone);
+  IdVector<PieceId, SubdomainId> number(pieces.size(), kNoSubdomain), group_of;
   std::int32_t numbers = 0;
   for (const PieceId i : ids_of(number)) {
-    std::int32_t& n = number[groups.group_of(i)];
-    if (n == kNone) n = numbers++;
-    group_of[to_index(i)] = n;
+    SubdomainId& n = number[groups.group_of(i)];
+    if (n == kNoSubdomain) n = SubdomainId{numbers++};
+    group_of.push_back(n);
   }
   return group_of;
 }

@@ -26,7 +26,7 @@ void PlanarMap::link(SideId first, SideId second) {
 SideId PlanarMap::split(SideId h, MapVertexId m) {
   const SideId back = twin(h);
   SideId rest = add_wall(m, end(h), wall(h));
-  if ((h & 1) != 0) {  // keep the wall's direction: a region of its own on each side
+  if (!is_first(h)) {  // keep the wall's direction: a region of its own on each side
     std::swap(side(rest).origin, side(twin(rest)).origin);
     rest = twin(rest);
   }

@@ -14,8 +14,8 @@ namespace driftmesh {
 /// A point of a planar map: the start of some of its walls.
 enum class MapVertexId : std::int32_t {};
 /// One side of a wall: the half-edge h and its twin h ^ 1 run along the same wall in opposite directions.
-using SideId = std::int32_t;
-using WallId = std::int32_t;
+enum class SideId : std::int32_t {};
+enum class WallId : std::int32_t {};
 
 /// The walls of a domain (its segments, and the separators made so far) as half-edges. Each side in the domain belongs
 /// to a loop with a piece of the domain on its left; a piece whose border is connected has one loop. A wall can have
@@ -41,11 +41,15 @@ class PlanarMap {
   IdVector<WallId, Wall> walls;
   IdVector<SideId, Side> sides;  ///< two for each wall
 
-  static constexpr SideId twin(SideId h) { return h ^ 1; }
+  static constexpr SideId twin(SideId h) { return SideId{to_int(h) ^ 1}; }
+  /// Whether `h` has the direction of its wall.
+  static constexpr bool is_first(SideId h) { return (to_int(h) & 1) == 0; }
+  static constexpr SideId first_side(WallId w) { return SideId{2 * to_int(w)}; }
+  static constexpr WallId wall_of(SideId h) { return WallId{to_int(h) / 2}; }
   [[nodiscard]] Side& side(SideId h) { return sides[h]; }
   [[nodiscard]] const Side& side(SideId h) const { return sides[h]; }
-  [[nodiscard]] Wall& wall(SideId h) { return walls[h / 2]; }
-  [[nodiscard]] const Wall& wall(SideId h) const { return walls[h / 2]; }
+  [[nodiscard]] Wall& wall(SideId h) { return walls[wall_of(h)]; }
+  [[nodiscard]] const Wall& wall(SideId h) const { return walls[wall_of(h)]; }
   [[nodiscard]] MapVertexId start(SideId h) const { return side(h).origin; }
   [[nodiscard]] MapVertexId end(SideId h) const { return side(twin(h)).origin; }
   [[nodiscard]] const Point& at(MapVertexId v) const { return points[v]; }

@@ -56,10 +56,10 @@ IdVector<SubdomainId, SubdomainId> along_hilbert_curve(
   return new_of_old;
 }
 
-void set_subdomains(Decomposition& d, const PlanarMap& map, const std::vector<Piece>& pieces,
-                    std::vector<SubdomainId>& group_of, std::int32_t count) {
+void set_subdomains(Decomposition& d, const PlanarMap& map, const IdVector<PieceId, Piece>& pieces,
+                    IdVector<PieceId, SubdomainId>& group_of, std::int32_t count) {
   IdVector<SubdomainId, Moments> moments(to_index(count));
-  for (std::size_t i = 0; i < pieces.size(); ++i) moments[group_of[i]].add(map, pieces[i]);
+  for (const PieceId i : ids_of(pieces)) moments[group_of[i]].add(map, pieces[i]);
   IdVector<SubdomainId, Decomposition::Subdomain> unordered;
   for (const Moments& m : moments) unordered.push_back(m.subdomain());
   const IdVector<SubdomainId, SubdomainId> new_of_old = along_hilbert_curve(unordered);
@@ -81,9 +81,10 @@ bool is_kept(const PlanarMap& map, SideId h, SubdomainId left, SubdomainId right
 }
 
 void set_roots(Decomposition& d, const PlanarMap& map, const IdVector<SideId, SubdomainId>& subdomain_of) {
-  for (SideId h = 0; map.sides.has(h); h += 2) {
-    const PlanarMap::Wall& wall = map.wall(h);
-    const SideId s = map.start(h) < map.end(h) ? h : h + 1;  // in ascending direction
+  for (const WallId w : ids_of(map.walls)) {
+    const PlanarMap::Wall& wall = map.walls[w];
+    const SideId h = PlanarMap::first_side(w);
+    const SideId s = map.start(h) < map.end(h) ? h : PlanarMap::twin(h);  // in ascending direction
     const SubdomainId left = subdomain_of[s], right = subdomain_of[PlanarMap::twin(s)];
     if (!is_kept(map, h, left, right)) continue;
     d.roots.push_back({to_global(map.start(s)), to_global(map.end(s)), wall.marker, wall.shell, left, right,
@@ -168,15 +169,13 @@ void set_points(Decomposition& d, const PlanarMap& map, const IdVector<GlobalPoi
 
 }  // namespace
 
-Decomposition to_decomposition(const PlanarMap& map, const std::vector<Piece>& pieces,
-                               const std::vector<std::int32_t>& group_of, std::int32_t count) {
+Decomposition to_decomposition(const PlanarMap& map, const IdVector<PieceId, Piece>& pieces,
+                               IdVector<PieceId, SubdomainId> group_of, std::int32_t count) {
   Decomposition d;
-  std::vector<SubdomainId> group;
-  for (const std::int32_t g : group_of) group.push_back(SubdomainId{g});
-  set_subdomains(d, map, pieces, group, count);
+  set_subdomains(d, map, pieces, group_of, count);
   IdVector<SideId, SubdomainId> subdomain_of;
-  for (const std::int32_t piece : label_sides(map, pieces))
-    subdomain_of.push_back(piece == kNone ? kNoSubdomain : group[to_index(piece)]);
+  for (const PieceId piece : label_sides(map, pieces))
+    subdomain_of.push_back(piece == kNone ? kNoSubdomain : group_of[piece]);
   set_roots(d, map, subdomain_of);
   Rejoiner(d, map).run();
   set_points(d, map, find_isolated(d, map, subdomain_of));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
 #include "decompose/decomposition.hpp"
 #include "decompose/pieces.hpp"
@@ -11,7 +11,7 @@ namespace driftmesh {
 /// The finished decomposition: piece i becomes part of subdomain group_of[i]. Separators and bridges inside a subdomain
 /// are dropped, along with the points that only they used. Subdomains are renumbered along a Hilbert curve of their
 /// centroids.
-[[nodiscard]] Decomposition to_decomposition(const PlanarMap& map, const std::vector<Piece>& pieces,
-                                             const std::vector<std::int32_t>& group_of, std::int32_t count);
+[[nodiscard]] Decomposition to_decomposition(const PlanarMap& map, const IdVector<PieceId, Piece>& pieces,
+                                             IdVector<PieceId, SubdomainId> group_of, std::int32_t count);
 
 }  // namespace driftmesh

@@ -74,7 +74,91 @@ Triangulation prepared(const Pslg& pslg) {
   return mesh;
 }
 
+void append(Pslg& whole, const Pslg& part) {
+  const auto first = static_cast<std::int32_t>(whole.points.size());
+  whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+  for (const Pslg::Segment& s : part.segments) whole.segments.push_back({s.a + first, s.b + first, s.marker});
+  whole.holes.insert(whole.holes.end(), part.holes.begin(), part.holes.end());
+  whole.regions.insert(whole.regions.end(), part.regions.begin(), part.regions.end());
+}
+
+/// Random domains beside each other, some a thousand times as large as others, and a chain of squares that touch at
+/// their corners.
+struct Archipelago {
+  Pslg input;
+  int islands = 0;
+};
+
+Archipelago make_archipelago(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  Archipelago result;
+  double offset = 0;
+  for (const int random_islands = static_cast<int>(random() % 6); result.islands < random_islands; ++result.islands) {
+    RandomPslgShape shape = make_random_shape(random());
+    shape.scale = std::pow(10, 1.5 * unit(random));
+    shape.offset = offset += 4 * shape.scale;
+    offset += 4 * shape.scale;
+    append(result.input, make_random_pslg(random(), shape).input);
+  }
+  const auto chain = static_cast<std::int32_t>(1 + random() % 12);
+  result.islands += chain;
+  const auto first = static_cast<std::int32_t>(result.input.points.size());
+  const double x = -10, width = 0.1 + unit(random);
+  for (std::int32_t i = 0; i <= chain; ++i) result.input.points.push_back({x - i * width, x - i * width});
+  for (std::int32_t i = 0; i < chain; ++i) {
+    const auto corner = static_cast<std::int32_t>(result.input.points.size());
+    result.input.points.push_back({x - i * width, x - (i + 1) * width});
+    result.input.points.push_back({x - (i + 1) * width, x - i * width});
+    const std::int32_t ring[] = {first + i, corner + 1, first + i + 1, corner};
+    for (int k = 0; k < 4; ++k) result.input.segments.push_back({ring[k], ring[(k + 1) % 4], 1});
+  }
+  return result;
+}
+
 }  // namespace
+
+TEST_CASE("domains of many parts are cut into any number of subdomains") {
+  std::size_t shared = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::case_count(100)); ++seed) {
+    CAPTURE(seed);
+    const Archipelago domain = make_archipelago(seed);
+    CAPTURE(poly_text(domain.input));
+    const Triangulation mesh = prepared(domain.input);
+    for (const int n : {1, 2, 3, domain.islands - 1, domain.islands, domain.islands + 7, 40}) {
+      if (n < 1) continue;
+      CAPTURE(n);
+      const Outcome outcome = decompose_and_check(domain.input, mesh, n);
+      CHECK(outcome.problem == "");
+      shared += n < domain.islands;
+    }
+  }
+  CHECK(shared > 0);
+}
+
+TEST_CASE("parts that share a subdomain share its work evenly") {
+  Pslg squares;
+  for (int i = 0; i < 400; ++i) {
+    const double x = 2 * (i % 20), y = 2 * (i / 20);
+    Pslg square;
+    square.points = {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}};
+    for (std::int32_t k = 0; k < 4; ++k) square.segments.push_back({k, (k + 1) % 4, 1});
+    append(squares, square);
+  }
+  const Triangulation mesh = prepared(squares);
+  for (const int n : {2, 7, 40}) CHECK(decompose_and_check(squares, mesh, n).report.largest_load < 1.11);
+  Pslg continent = squares;  // which deserves nine of ten subdomains
+  Pslg land;
+  land.points = {{100, 0}, {160, 0}, {160, 60}, {100, 60}};
+  for (std::int32_t k = 0; k < 4; ++k) land.segments.push_back({k, (k + 1) % 4, 1});
+  append(continent, land);
+  for (const int n : {2, 10, 40}) {
+    CAPTURE(n);
+    const Outcome outcome = decompose_and_check(continent, prepared(continent), n);
+    CHECK(outcome.problem == "");
+    CHECK(outcome.report.largest_load < (n == 2 ? 1.81 : 1.5));
+  }
+}
 
 TEST_CASE("random domains are cut into any number of subdomains") {
   std::size_t cut = 0, steep = 0, uneven = 0;
