@@ -30,8 +30,8 @@ struct Dealing {
 };
 
 /// Decides which rank should work on which subdomains. Its functions depend on their arguments alone: the same snapshot
-/// yields the same moves. Exceptions they throw end the run on all ranks (those of kCollective abort the job). They need
-/// not consider whether moves are worth their cost; the caller does.
+/// yields the same moves. Exceptions they throw end the run on all ranks (those of kCollective abort the job). They
+/// need not consider whether moves are worth their cost; the caller does.
 class Policy {
  public:
   virtual ~Policy() = default;
