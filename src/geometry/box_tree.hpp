@@ -11,12 +11,12 @@
 
 namespace driftmesh {
 
-/// Boxes packed along a Hilbert curve into a tree of eight children a node (Kamel and Faloutsos, "On packing R-trees",
-/// CIKM 1993). Queries change nothing and may run in several threads at once.
+/// Boxes packed along a Hilbert curve into a tree with eight children per node (Kamel and Faloutsos, "On packing
+/// R-trees", CIKM 1993). Queries are const and may run in several threads at once.
 class BoxTree {
  public:
   BoxTree() = default;
-  /// At most 2^31 - 1 boxes; they are copied, and named by their index in answers.
+  /// At most 2^31 - 1 boxes, which are copied. Answers refer to them by index.
   explicit BoxTree(const std::vector<Box>& boxes);
 
   /// Calls visit(index) for every box that passes enter(box), in an order that depends on the tree alone. `enter`

@@ -8,7 +8,7 @@ namespace driftmesh::exact {
 // ordered by magnitude, smallest first. All results are exact while nothing over- or underflows; see
 // predicates.hpp for the range.
 
-/// value + error is exactly the sum, difference or product that was asked for; value is its rounding.
+/// value + error is exactly the sum, difference or product requested; value is its rounding.
 struct Rounded {
   double value;
   double error;

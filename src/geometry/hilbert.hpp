@@ -57,7 +57,7 @@ inline constexpr StepTable kStepTable = make_step_table();
   return index;
 }
 
-/// Places points of a box on a Hilbert curve, for sorting by locality.
+/// Maps points of a box to positions on a Hilbert curve, for sorting by locality.
 class HilbertOrder {
  public:
   /// The box from `low` to `high`, low <= high and finite; it may have no width or no height.

@@ -8,8 +8,8 @@ namespace {
 using exact::determinant;
 using exact::Expansion;
 
-/// p - origin, and whether rounding changed nothing. It rarely does: points of one neighborhood are close to
-/// each other compared with their distance from zero, and then the difference of two doubles is a double.
+/// p - origin, and whether this is exact. It usually is: neighboring points are close to each other compared with their
+/// distance from zero, and then the difference of two doubles is a double.
 struct Difference {
   double x;
   double y;

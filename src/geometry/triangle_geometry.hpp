@@ -31,9 +31,10 @@ namespace driftmesh {
   return {snap_to_zero(a.x + (cy * bb - by * cc) * scale), snap_to_zero(a.y + (bx * cc - cx * bb) * scale)};
 }
 
-/// How far off-centers lie from the midpoint of the shortest edge, as a multiple of the edge: 0.475 cot(theta / 2) for
-/// an angle bound theta in degrees. With 0.5 the new triangle would just meet the bound; 0.475 leaves room for rounding
-/// and lowers the number of points (Shewchuk's choice in Triangle; the idea is Ungor's, "Off-centers", LATIN 2004).
+/// The distance of off-centers from the midpoint of the shortest edge, as a multiple of the edge: 0.475 cot(theta / 2)
+/// for an angle bound theta in degrees. With 0.5 the new triangle would just meet the bound; 0.475 leaves room for
+/// rounding and lowers the number of points (Shewchuk's choice in Triangle; the idea is Ungor's, "Off-centers", LATIN
+/// 2004).
 [[nodiscard]] inline double off_center_factor(double min_angle_degrees) {
   return 0.475 / std::tan(min_angle_degrees * (std::numbers::pi / 360));
 }

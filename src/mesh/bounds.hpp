@@ -9,9 +9,10 @@
 
 namespace driftmesh {
 
-/// What every triangle of a finished mesh must meet. Lengths and areas are in the units of the input's coordinates.
+/// The bounds that every triangle of a finished mesh must meet. Lengths and areas are in the units of the input's
+/// coordinates.
 struct QualityBounds {
-  double min_angle = 20;  ///< degrees; 0 asks for nothing
+  double min_angle = 20;  ///< degrees; 0: no bound
   double max_area = 0;    ///< <= 0: no bound
   /// Bound of each region label (see triangulate), <= 0 for none; empty if regions set no bounds.
   std::vector<double> region_max_area;

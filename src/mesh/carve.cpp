@@ -17,7 +17,7 @@ bool holds(const Triangulation& mesh, TriangleId t, const Point& p) {
   return true;
 }
 
-/// The last resort of locate(): constrained edges can send a walk in circles.
+/// The last resort of locate(): constrained edges can make a walk go in circles.
 TriangleId search_all(const Triangulation& mesh, const Point& p) {
   for (const TriangleId t : ids_of(mesh.triangles))
     if (mesh.triangles[t].alive() && holds(mesh, t, p)) return t;
@@ -103,7 +103,7 @@ void label_regions(Triangulation& mesh, const std::vector<TriangleId>& seeds) {
   throw Error("the hole points remove the whole domain: each of them must lie inside a closed ring of segments");
 }
 
-/// Keeps the triangles that can be reached from an inner side, labeled as that side says; all others lie outside.
+/// Keeps the triangles that can be reached from an inner side, with that side's label; all others lie outside.
 void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& sides, std::size_t first_root) {
   Flood inside(mesh);
   IdVector<TriangleId, std::uint16_t> label(mesh.triangles.size(), 0);

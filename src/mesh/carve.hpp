@@ -18,14 +18,13 @@ namespace driftmesh {
 /// labels the regions. Throws Error if nothing is left.
 void carve(Triangulation& mesh, const Pslg& pslg);
 
-/// What lies left and right of a segment, seen from its first point to its second: a region label, or kNone outside the
-/// domain.
+/// The region labels left and right of a segment, seen from its first point to its second; kNone outside the domain.
 struct SegmentSides {
   std::int32_t left = kNone;
   std::int32_t right = kNone;
 };
 
-/// The same for a domain given by the sides of its segments, which are the roots from `first_root` on.
+/// The same for a domain that is given by the sides of its segments, the roots from `first_root` on.
 void carve(Triangulation& mesh, const std::vector<SegmentSides>& sides, std::size_t first_root);
 
 }  // namespace driftmesh

@@ -9,8 +9,8 @@
 namespace driftmesh {
 namespace {
 
-// Static bounds from Shewchuk's stage A (1997, sections 4.2 and 4.5), with the permanents replaced by upper bounds
-// that the loop has at hand. Let a, b, c be the distances of three vertices from the point.
+// Static bounds from Shewchuk's stage A (1997, sections 4.2 and 4.5), with the permanents replaced by upper bounds that
+// are available in the loop. Let a, b, c be the distances of three vertices from the point.
 //   orientation: |ax by| + |ay bx| <= |a||b| <= (a^2 + b^2)/2, times (3 + 16 eps) eps = 3.3306690738754716e-16;
 //   in-circle:   the sum of a^2 (|bx cy| + |by cx|) <= abc(a + b + c) <= (a^2 + b^2 + c^2)^2 / 3 (equality for equal
 //                distances), times (10 + 96 eps) eps = 1.1102230246251577e-15.
@@ -203,8 +203,8 @@ Cavity::Found Cavity::expand(double cos_squared) {
   return Found::kClear;
 }
 
-/// Whether every border edge has the point strictly on its left. In a constrained Delaunay triangulation it has; only
-/// the midpoints of segments, which rounding puts beside them, can spoil that.
+/// Whether every border edge has the point strictly on its left. This holds in a constrained Delaunay triangulation,
+/// except near midpoints that rounding has moved off their segments.
 inline Cavity::Found Cavity::check_star() const {
   if (least_cross_ > kOrientationBound * largest_lifts_ + kUnderflow) [[likely]]
     return Found::kClear;
@@ -228,8 +228,8 @@ Cavity::Found Cavity::gather_from_afar(const Point& p, TriangleId t) {
 }
 
 /// One side of a split: the border from corner `from` to corner `to`, behind half-edge `h` of the subsegment. The
-/// triangle there is asked like any other whether it stays: it does where rounding has put the point beyond the
-/// subsegment and outside its circumcircle, and a sliver between the straight and the bent subsegment is then Delaunay.
+/// triangle there is tested like any other. It stays if rounding has put the point beyond the subsegment and outside
+/// its circumcircle; the sliver between the straight and the bent subsegment is then Delaunay.
 void Cavity::gather_side(HalfEdge h, int from, int to) {
   push(h, from, to, cross(corners_[from], corners_[to]));
   expand<false>(0);
@@ -252,7 +252,7 @@ Cavity::Found Cavity::gather_on(SubsegmentId s, const Point& m) {
   return check_star();
 }
 
-/// Gives every border edge a slot for its triangle: those of the cavity's triangles, then added ones.
+/// Assigns a slot for its triangle to every border edge: those of the cavity's triangles, then new ones.
 inline void Cavity::take_slots() {
   const int added = border_count_ - killed_count_;
   mesh_.add_triangles(&slots_[killed_count_], added);

@@ -31,26 +31,27 @@ class Cavity {
   enum class Found {
     kClear,       ///< the cavity is ready to be filled
     kEncroached,  ///< the point lies in the lens of a constrained segment or beyond it, see encroached()
-    kOccupied,    ///< a vertex stands at the point
+    kOccupied,    ///< there is a vertex at the point
     kDegenerate,  ///< rounding left no room for the point: some triangle would not be counterclockwise
   };
 
   /// The cavity of a free point, found from `start`, a triangle whose circumdisk holds the point.
   Found gather(const Point& p, TriangleId start, const Lens& lens);
-  /// The same without constrained segments to mind, walking from any triangle (for the initial triangulation).
+  /// The same, ignoring constrained segments and walking from any triangle (for the initial triangulation).
   Found gather_from_afar(const Point& p, TriangleId start);
-  /// The cavity of point `m` on the leaf subsegment `s`, on both sides of it (or on one, where the domain ends).
+  /// The cavity of point `m` on the leaf subsegment `s`, on both sides of it (or on one side at the boundary of the
+  /// domain).
   Found gather_on(SubsegmentId s, const Point& m);
 
   [[nodiscard]] SubsegmentId encroached() const { return encroached_; }
 
-  /// Fills the cavity of a free point with triangles around `v`, which stands at that point.
+  /// Fills the cavity of a free point with triangles around `v`, the vertex at that point.
   void fill(VertexId v);
   /// Fills the cavity found by gather_on and links the two pieces of the subsegment: `at_start` from its start to `v`,
   /// and `at_end` from `v` to its end.
   void fill_on(VertexId v, SubsegmentId at_start, SubsegmentId at_end);
 
-  /// One of the triangles that the last fill made, with the figures that its quality follows from.
+  /// One of the triangles that the last fill made, with the values that determine its quality.
   struct Fresh {
     TriangleId triangle;
     double twice_area;
@@ -114,7 +115,7 @@ class Cavity {
   int killed_count_ = 0;
   int first_left_ = 0;  // of a split: where the border passes from the right side of the segment to the left
   std::array<std::uint16_t, 2> regions_{};  // left and right of a split; of a free point, left
-  TriangleId next_ = kNone;                 // where the walk goes on
+  TriangleId next_ = kNone;                 // where the walk continues
   double least_cross_ = 0;                  // of the border's edges
   double largest_lifts_ = 0;                // sum of the squared distances of an edge's ends, of the border's edges
 };

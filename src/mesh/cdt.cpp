@@ -21,8 +21,8 @@
 namespace driftmesh {
 namespace {
 
-/// Adds a box around all points. Constrained segments will hide its corners from the inside of the domain, so however
-/// far away they are, the final triangulation is Delaunay.
+/// Adds a box around all points. Constrained segments will hide its corners from the inside of the domain, so the final
+/// triangulation is Delaunay however far away they are.
 void add_box(Triangulation& mesh, const Pslg& pslg) {
   const auto [low, high] = Box::of(pslg.points);
   const double margin = 4 * std::max({high.x - low.x, high.y - low.y, std::ldexp(std::abs(low.x), -40),
@@ -75,7 +75,7 @@ void insert_points(Triangulation& mesh, const Pslg& pslg) {
 }
 
 /// Forces the segments of a PSLG into the triangulation of its points, by flips (Sloan 1993), and restores the
-/// constrained Delaunay property by more of them.
+/// constrained Delaunay property by more flips.
 class SegmentRecovery {
  public:
   explicit SegmentRecovery(Triangulation& mesh) : mesh_(mesh), incident_(mesh.points.size(), kNone) {

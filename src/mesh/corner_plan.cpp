@@ -17,12 +17,12 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kOpen = 2 * std::numbers::pi;  // stands for all sectors of 180 degrees or more
 constexpr double kAcute = 60 * kDegree * (1 - 1e-12);
 constexpr double kSharp = 20 * kDegree;
-/// In radians. Between neighbors that diverge more slowly, pieces that do not line up cost more triangles (about
-/// 2.1 / angle) than another cut does.
+/// In radians. Between neighbors that diverge more slowly, pieces that do not line up cost more triangles (about 2.1 /
+/// angle) than an additional cut.
 constexpr double kBundled = 0.01;
 
-/// Ends of segments share a circle if their distances from the apex differ by at most this share of the width between
-/// them.
+/// Ends of segments share a circle if their distances from the apex differ by at most this fraction of the width
+/// between them.
 constexpr double kSameCircle = 0.25;
 
 /// The segment ends of a triangulation with the sectors between them.
@@ -130,8 +130,8 @@ class Planner {
 
   [[nodiscard]] bool clustered(SegmentEnd e) const { return apex_[e] != kNone; }
 
-  /// Powers of two: the largest that is at most a third of the shortest segment and, in a sharp cluster, all above, as
-  /// far as each segment reaches.
+  /// Powers of two: the largest one that is at most a third of the shortest segment and, in a sharp cluster, all larger
+  /// ones, as far as each segment reaches.
   void add_powers(const Group& cluster) {
     double shortest = std::numeric_limits<double>::infinity();
     for (const SegmentEnd e : cluster.ends) shortest = std::min(shortest, sectors_.length(e));
@@ -148,7 +148,7 @@ class Planner {
     }
   }
 
-  /// In a bundle of segments that hardly diverge, the longer ones are cut where the shorter ones end.
+  /// In a bundle of nearly parallel segments, the longer ones are cut where the shorter ones end.
   void add_tips(const Group& bundle) {
     std::vector<SegmentEnd> by_length = bundle.ends;
     std::sort(by_length.begin(), by_length.end(), [&](SegmentEnd e, SegmentEnd f) {

@@ -35,7 +35,7 @@ struct CornerPlan {
   };
   std::vector<Cut> cuts;  ///< those of one end nearest to the apex first
 
-  /// The outermost piece of a segment whose far end lies on a circle that other segments are cut at, too.
+  /// The outermost piece of a segment whose far end lies on a circle at which other segments are cut, too.
   struct TipPiece {
     SegmentEnd end;
     std::int32_t shell;

@@ -26,7 +26,7 @@ VertexId cut_shell_piece(Triangulation& mesh, Cavity& cavity, VertexId from, con
   return v;
 }
 
-/// Makes what is left of a root segment a shell piece that is directed away from the apex, as all of them are.
+/// Turns the rest of a root segment into a shell piece, directed away from the apex like all of them.
 void make_shell_piece(Triangulation& mesh, VertexId from, const CornerPlan::TipPiece& tip) {
   RootSegment& root = mesh.roots[root_of(tip.end)];
   Subsegment& s = mesh.subsegments[root.tree];

@@ -22,7 +22,7 @@ std::uint64_t of_point(const Point& p) {
   return mix(mix(bits(p.x) + kMixStep) + bits(p.y));
 }
 
-/// Of a directed edge between points with these digests.
+/// The digest of a directed edge between points with these digests.
 std::uint64_t of_edge(std::uint64_t from, std::uint64_t to) {
   return mix(from + 2 * to);
 }

@@ -68,7 +68,7 @@ class CosineBins {
   CosineBins() {
     for (std::size_t i = 0; i < 17; ++i)
       limits_[i] = signed_square(std::cos(static_cast<double>(i + 1) * 10 / kDegrees));
-    limits_[17] = -2;  // no angle is beyond the last bin
+    limits_[17] = -2;  // no angle is past the last bin
     for (std::size_t cell = 0; cell < kCells; ++cell) {
       const double top = static_cast<double>(cell + 1) / kCellsPerUnit - 1;  // the smallest angles of the cell
       const auto it = std::find_if(limits_.begin(), limits_.end(), [&](double limit) { return top > limit; });

@@ -11,13 +11,13 @@ namespace driftmesh {
 
 /// Why a triangle may stay below the angle bound.
 enum class ExceptionCause : std::uint8_t {
-  kUnexplained,  ///< nothing excuses it
+  kUnexplained,  ///< no accepted reason
   kInputAngle,   ///< its smallest angle lies between two constrained edges: it is an angle of the input
   kShell,        ///< its shortest edge joins two segments of one acute corner at the same distance from the apex
-  kPrecision,    ///< coordinates have no room for a point that would help
+  kPrecision,    ///< coordinates are too coarse for a point that would help
 };
 
-/// What excuses triangle t as far as its surroundings tell: never kPrecision.
+/// The reason of triangle t, judged by its neighborhood: never kPrecision.
 [[nodiscard]] ExceptionCause cause_of(const Triangulation& mesh, TriangleId t);
 
 /// The triangles of a refined mesh that miss the angle or the area bound, by cause. Examines every triangle anew and

@@ -41,7 +41,7 @@ Star star_around_apex(const Triangulation& mesh, HalfEdge h) {
 /// The polygon of a star while corners are cut off it.
 using Polygon = std::vector<VertexId>;
 
-/// How well the corner at position i can be cut off.
+/// Whether the corner at position i can be cut off, and how good the triangle is.
 enum class Ear { kNone, kTight, kGood };
 
 /// A corner is an ear if it makes a counterclockwise triangle and leaves the deleted vertex inside the rest (tight: on
@@ -67,10 +67,11 @@ bool holds_no_corner(const Triangulation& mesh, const Polygon& polygon, std::siz
   return true;
 }
 
-/// Up to this many corners it pays to look for an ear that is Delaunay as it stands; beyond, flips are cheaper.
+/// Up to this many corners it pays to look for an ear that is already Delaunay; beyond, flips are cheaper.
 constexpr std::size_t kSmallPolygon = 12;
 
-/// The ear whose circumdisk holds no other corner if there is one (it is Delaunay as it stands), else any; n if none.
+/// The ear whose circumdisk holds no other corner if there is one (it is already Delaunay), else any ear; n if there is
+/// none.
 std::size_t choose_ear(const Triangulation& mesh, const Polygon& polygon, VertexId center) {
   std::size_t good = polygon.size(), tight = polygon.size();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -82,7 +83,7 @@ std::size_t choose_ear(const Triangulation& mesh, const Polygon& polygon, Vertex
   return good != polygon.size() ? good : tight;
 }
 
-/// Which corner to cut off next, until three are left. False if rounding left a star without an ear.
+/// Cuts off one corner after another until three are left. False if rounding left a star without an ear.
 bool plan_ears(const Triangulation& mesh, const Star& star, VertexId center, std::vector<std::size_t>& ears) {
   Polygon polygon;
   for (const Star::Side& side : star.sides) polygon.push_back(side.from);

@@ -14,8 +14,8 @@ HalfEdge flip(Triangulation& mesh, HalfEdge h);
 /// Whether flipping `h` (not constrained) is possible: its quadrilateral is strictly convex, decided exactly.
 [[nodiscard]] bool is_flippable(const Triangulation& mesh, HalfEdge h);
 
-/// Lawson's algorithm: flips edges until each of `pending`, and every edge that a flip puts in doubt, is locally
-/// Delaunay or constrained. Consumes `pending`; appends the triangles that changed to `changed` (with repetitions).
+/// Lawson's algorithm: flips edges until each of `pending`, and every edge affected by a flip, is locally Delaunay or
+/// constrained. Consumes `pending`; appends the triangles that changed to `changed` (with repetitions).
 void legalize(Triangulation& mesh, std::vector<HalfEdge>& pending, std::vector<TriangleId>& changed);
 
 /// Deletes a free vertex, the apex of half-edge `h`, and fills its star with Delaunay triangles. Appends the triangles

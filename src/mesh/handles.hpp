@@ -4,8 +4,8 @@
 
 #include "driftmesh/id_vector.hpp"
 
-// How a triangulation names its parts: by their slots in its arrays. Each kind is a type of its own, so that a triangle
-// cannot be taken for one of its edges. kNone is none of any kind.
+// A triangulation identifies its parts by their slots in its arrays. Each kind of part has a type of its own, so a
+// triangle cannot be mistaken for one of its edges. kNone stands for none of any kind.
 namespace driftmesh {
 
 enum class VertexId : std::int32_t {};
@@ -51,16 +51,16 @@ enum class HalfEdge : std::int32_t {};
 /// A half-edge must fit 31 bits.
 inline constexpr std::int64_t kMaxTriangles = (std::int64_t{1} << 29) - 1;
 
-/// What a vertex is, in one integer: the index of a point of the input (small), ~s for the midpoint of subsegment s
+/// The kind of a vertex in one integer: the index of a point of the input (small), ~s for the midpoint of subsegment s
 /// (negative), or one of the large values below.
 using VertexOrigin = std::int32_t;
-/// Not on any segment: the refiner put it there and may delete it.
+/// Not on any segment: inserted by the refiner, which may delete it.
 inline constexpr VertexOrigin kFree = INT32_MAX;
 /// The slot of a deleted vertex, waiting for reuse.
 inline constexpr VertexOrigin kDeleted = INT32_MAX - 1;
 /// A corner of the box that the initial triangulation starts from.
 inline constexpr VertexOrigin kFrame = INT32_MAX - 2;
-/// kShellEnd + c: where a shell piece ends, on circle c of an acute corner (see corners.hpp).
+/// kShellEnd + c: the end of a shell piece on circle c of an acute corner (see corners.hpp).
 inline constexpr VertexOrigin kShellEnd = std::int32_t{1} << 30;
 
 [[nodiscard]] constexpr bool is_input(VertexOrigin o) {

@@ -18,7 +18,7 @@ class AttributeField {
   explicit AttributeField(const Pslg& pslg);
   /// Sets the attributes_per_point values at `p`. They depend on the input and `p` alone.
   void evaluate(const Point& p, std::span<double> values) const;
-  /// How many points of the input its triangulation uses.
+  /// The number of points of the input that its triangulation uses.
   [[nodiscard]] std::size_t used_points() const { return used_points_; }
 
  private:
@@ -30,8 +30,8 @@ class AttributeField {
 
 /// Gives every added point of `piece` attributes: linear interpolation in the constrained Delaunay triangulation of
 /// `pslg`, the repaired input that the piece was made from. Points on a segment of the input are thus interpolated
-/// between its ends; those that rounding put outside the domain get the values of the nearest point of its boundary.
-/// Points of the input (which come first, see to_piece) keep their values. Does nothing if the input has no attributes.
+/// between its ends; those that rounding put outside the domain get the values of the nearest boundary point. Points of
+/// the input (which come first, see to_piece) keep their values. Does nothing if the input has no attributes.
 void interpolate_attributes(const Pslg& pslg, Mesh& piece);
 
 }  // namespace driftmesh

@@ -13,7 +13,7 @@ namespace {
   throw Error("triangles do not fit together along their edges");
 }
 
-/// Half-edges by the lower of their ends. There are few at each.
+/// Half-edges by the lower of their ends. There are few at each end.
 class EdgeTable {
  public:
   explicit EdgeTable(const Triangulation& mesh) : mesh_(mesh), begin_(mesh.points.size() + 1, 0) {

@@ -12,7 +12,7 @@
 namespace driftmesh {
 namespace {
 
-/// To the last bit; also NaN, and -0 against 0.
+/// Compares to the last bit, including NaN, and -0 against 0.
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
@@ -54,7 +54,7 @@ class Merger {
     holder_.assign(count, {kNobody, 0});
   }
 
-  /// Leaves out the gaps when numbers exceed the count of points, as they do when a piece is missing, to save memory.
+  /// Closes the gaps if numbers exceed the count of points, as they do when a piece is missing, to save memory.
   void close_ranks(std::int64_t largest) {
     for (const Mesh& piece : pieces_) numbers_.insert(numbers_.end(), piece.numbers.begin(), piece.numbers.end());
     std::sort(numbers_.begin(), numbers_.end());

@@ -9,7 +9,7 @@
 
 namespace driftmesh {
 
-/// The ways in which pieces contradict each other: how many, and the first ones in words.
+/// The contradictions between pieces: their number, and messages for the first ones.
 struct MergeFaults {
   static constexpr std::size_t kMostListed = 20;
   std::size_t count = 0;

@@ -16,8 +16,8 @@ using TriangleNeighbors = std::vector<std::array<std::int32_t, 3>>;
 /// edge (a broken mesh), they are paired in the order in which they are listed.
 [[nodiscard]] TriangleNeighbors triangle_neighbors(const Mesh& mesh);
 
-/// Finds the constrained edge between two vertices in constant time. Most vertices are on no constrained edge, and one
-/// bit tells.
+/// Finds the constrained edge between two vertices in constant time. Most vertices are on no constrained edge, which
+/// one bit tells.
 class ConstrainedEdgeIndex {
  public:
   explicit ConstrainedEdgeIndex(const Mesh& mesh);

@@ -10,11 +10,11 @@
 
 namespace driftmesh {
 
-/// What the mesher is asked for. All bounds hold at once: the smallest area counts.
+/// A request to the mesher. All bounds apply: the smallest area counts.
 struct MeshRequest {
   double min_angle = 20;                            ///< bound on angles in degrees, 0 to kMaxAngle; 0: none
   double max_area = 0;                              ///< bound on areas in squared units of the input; <= 0: none
-  bool region_areas = true;                         ///< whether the regions' own area bounds hold
+  bool region_areas = true;                         ///< whether the regions' own area bounds apply
   const SizeField* size = nullptr;                  ///< target edge lengths, or null; must outlive the meshing
   std::int64_t max_triangles = kMaxTriangles - 64;  ///< refinement stops when the mesh has this many
 };
@@ -22,7 +22,7 @@ struct MeshRequest {
 /// A refined mesh and how it was made.
 struct MeshResult {
   Triangulation mesh;
-  QualityBounds bounds;            ///< as they were applied
+  QualityBounds bounds;            ///< as applied
   bool complete = true;            ///< false: stopped at max_triangles; the mesh is valid but misses bounds
   std::int32_t acute_corners = 0;  ///< clusters of segments that meet at less than 60 degrees (see prepare_corners)
   RefineCounters counters;
@@ -49,8 +49,8 @@ using MeshProgress = std::function<void(std::int64_t triangles, double forecast)
 /// than kMaxTriangles triangles, and whatever `request.size` or `progress` throws.
 [[nodiscard]] MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshProgress& progress = {});
 
-/// The second half of that: refines `result.mesh`, triangulated and with its corners prepared, to `result.bounds`, and
-/// fills in the rest. Stops at `max_triangles`.
+/// The second half of the above: refines `result.mesh`, triangulated and with its corners prepared, to `result.bounds`,
+/// and fills in the rest. Stops at `max_triangles`.
 void refine_domain(MeshResult& result, std::int64_t max_triangles, const MeshProgress& progress = {});
 
 }  // namespace driftmesh

@@ -6,12 +6,12 @@
 
 namespace driftmesh {
 
-/// Where two segments without a common end run side by side.
+/// A place where two segments without a common end run side by side.
 struct NarrowPlace {
   Point at;          ///< on one of them, where they are closest
   double width;      ///< their distance there
-  double length;     ///< of the piece of the one that the other runs along
-  double triangles;  ///< a forecast of how many a mesh with good angles needs between them
+  double length;     ///< of the part of one segment that the other runs along
+  double triangles;  ///< number that a mesh with good angles is expected to need between them
 };
 
 /// The place of the domain that needs the most triangles to resolve the distance between two segments: whatever the

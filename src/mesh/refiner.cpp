@@ -17,11 +17,11 @@
 namespace driftmesh {
 namespace {
 
-/// Triangles of the finished mesh that come from one triangle of the coarse stage, and of one block of them. A block
-/// with its vertices (32 bytes a triangle) stays in a second-level cache.
+/// The number of triangles of the finished mesh that come from one triangle of the coarse stage, and from one block. A
+/// block with its vertices (32 bytes per triangle) fits in a second-level cache.
 constexpr double kFinePerCoarse = 256;
 constexpr double kFinePerBlock = 65536;
-/// Measured for area-bounded refinement: the mean area of the triangles, relative to the bound.
+/// The mean area of triangles relative to the bound, measured for area-bounded refinement.
 constexpr double kMeanArea = 0.645;
 
 double radians(double degrees) {
@@ -29,15 +29,15 @@ double radians(double degrees) {
 }
 
 /// The lens of Chew and Shewchuk: points that see the segment at more than 120 degrees, or at more than 180 degrees
-/// less twice the angle bound where that is smaller, since a segment that is not in the way of the bound need not be
+/// less twice the angle bound where that is smaller, since a segment that does not obstruct the bound need not be
 /// split.
 double cos_squared_of_lens(double min_angle) {
   const double cosine = std::cos(radians(std::min(120.0, 180 - 2 * min_angle)));
   return cosine * cosine;
 }
 
-/// How many triangles a size field asks for in a triangle: the integral of one over the mean area, by subdivision until
-/// the field varies little or the pieces are about as small as the triangles asked for.
+/// The number of triangles that a size field requires in a triangle: the integral of one over the mean area, by
+/// subdivision until the field varies little or the pieces are about as small as the triangles asked for.
 double integrate_size(const SizeField& field, double twice_area_bound, const std::array<Point, 3>& corners,
                       int depth = 0) {
   const auto& [a, b, c] = corners;
@@ -73,7 +73,7 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds)
 Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state)
     : mesh_(mesh), bounds_(bounds), cavity_(mesh), state_(std::move(state)) {
   require_possible(bounds);
-  // The relative margin makes the bound hold for readers of the file, who round differently.
+  // The relative margin makes the bound hold for readers of the file, which may round differently.
   const double sine = std::sin(radians(bounds.min_angle));
   sin_squared_ = sine * sine * (1 + 1e-9);
   off_center_factor_ = bounds.min_angle > 0 ? off_center_factor(bounds.min_angle) : 0;
@@ -195,7 +195,7 @@ void Refiner::enter(Stage stage) {
         if (mesh_.triangles[t].alive()) note(t, shape_of(t));
       state_.deferred.clear();
       break;
-    case Stage::kDone:  // most refiners are done for most of a run: keep them small
+    case Stage::kDone:  // most refiners are done for most of a run; keep them small
       state_.skinny.clear();
       changed_ = {};
       break;
@@ -321,7 +321,7 @@ bool Refiner::split(SubsegmentId s) {
   const auto [a, b] = mesh_.subsegments[s].vertex;
   const Point m = midpoint(mesh_.points[a], mesh_.points[b]);
   if (cavity_.gather_on(s, m) != Cavity::Found::kClear) {
-    // Not tried again: the vertices deleted for it would come back and be deleted again, forever.
+    // Do not try again: the vertices deleted for it would come back and be deleted again, forever.
     state_.unsplittable.insert(s);
     return false;
   }

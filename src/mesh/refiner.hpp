@@ -37,7 +37,7 @@ class Refiner {
   Status refine(std::int64_t insertions);
   Status refine() { return refine(INT64_MAX); }
 
-  /// Stop at this many live triangles (kFull). Default: what the handles can name.
+  /// Stop at this many live triangles (kFull). Default: the capacity of the handles.
   void limit_triangles(std::int64_t most) { state_.max_triangles = std::min(most, kMaxTriangles - 64); }
 
   /// Inserts point `path` of `root`, after the points that must exist before it (its ancestors). Does nothing if it is
@@ -101,7 +101,7 @@ class Refiner {
   Lens lens_;
   double sin_squared_ = 0;  // of the angle bound, with a margin for rounding
   double off_center_factor_ = 0;
-  double coarsening_ = 1;                  // factor on all area bounds at present
+  double coarsening_ = 1;                  // current factor on all area bounds
   std::vector<double> twice_area_bounds_;  // by region label
   std::vector<TriangleId> changed_;
   RefinerState state_;

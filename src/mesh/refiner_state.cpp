@@ -7,7 +7,7 @@
 namespace driftmesh {
 namespace {
 
-/// Whether all handles are of elements of `array`.
+/// Whether all handles refer to elements of `array`.
 template <class Handles, class Array>
 bool exist(const Handles& handles, const Array& array) {
   return std::all_of(handles.begin(), handles.end(), [&](auto handle) { return array.has(handle); });
@@ -19,7 +19,7 @@ bool is_sound(const Sweep& sweep, const Triangulation& mesh) {
          std::cmp_less_equal(added, mesh.triangles.size()) && block >= 1 && exist(sweep.again(), mesh.triangles);
 }
 
-/// Further counting cannot overflow.
+/// Leaves room so that further counting cannot overflow.
 bool is_sound(const RefineCounters& c) {
   constexpr std::int64_t kMost = std::int64_t{1} << 60;
   const std::array<std::int64_t, 5> all{c.free_points, c.segment_points, c.deleted_points, c.encroaching, c.given_up};
@@ -46,7 +46,8 @@ RefinerState RefinerState::at_rest(const Triangulation& mesh, const QualityBound
 
 std::string RefinerState::fault(const Triangulation& mesh, const QualityBounds& bounds) const {
   if (stage > Stage::kDone) return "there is no such stage";
-  if (!mesh.subsegments.has(next_segment) && next_segment != mesh.subsegments.next_id()) return "no segment is next";
+  if (!mesh.subsegments.has(next_segment) && next_segment != mesh.subsegments.next_id())
+    return "the next segment does not exist";
   if (!is_sound(sweep, mesh)) return "the sweep leaves the mesh";
   if (!is_sound(skinny, mesh)) return "a skinny triangle does not exist";
   if (!exist(deferred, mesh.triangles)) return "a deferred triangle does not exist";

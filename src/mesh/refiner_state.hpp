@@ -14,7 +14,7 @@
 
 namespace driftmesh {
 
-/// All that a refiner knows besides its mesh and its bounds. A refiner made from copies of mesh and state and the same
+/// The state of a refiner besides its mesh and its bounds. A refiner made from copies of mesh and state and the same
 /// bounds continues exactly as the original would: the same points in the same order.
 struct RefinerState {
   enum class Stage : std::uint8_t { kSegments, kCoarse, kFine, kRest, kDone };
@@ -24,17 +24,17 @@ struct RefinerState {
   Sweep sweep;
   SkinnyBuckets skinny;
   std::vector<TriangleId> deferred;               ///< skinny ones, until kRest
-  std::unordered_set<SubsegmentId> unsplittable;  ///< coordinates have no room for their midpoints
+  std::unordered_set<SubsegmentId> unsplittable;  ///< coordinates are too coarse for their midpoints
   std::vector<SplitPoint<RootId>> made;           ///< split points not yet taken by take_split_points
   GrowingArray<double, VertexId> size;            ///< the size field at each vertex; empty without one
   std::int64_t max_triangles = kMaxTriangles - 64;
   RefineCounters counters;
 
-  /// The state of a refiner that has finished `mesh`, whatever the order of its slots: no work is queued.
+  /// The state of a refiner that has finished `mesh`, with no work queued; the order of slots does not matter.
   [[nodiscard]] static RefinerState at_rest(const Triangulation& mesh, const QualityBounds& bounds);
 
-  /// Why a refiner of this mesh and these bounds cannot be in this state without risk to memory: a handle that does not
-  /// exist, an array of the wrong length. Empty if all is well.
+  /// The reason why this state would make a refiner of this mesh and these bounds access invalid memory: a handle that
+  /// does not exist, or an array of the wrong length. Empty if the state is sound.
   [[nodiscard]] std::string fault(const Triangulation& mesh, const QualityBounds& bounds) const;
 };
 

@@ -7,12 +7,12 @@ namespace driftmesh {
 /// How the given vertices (input points and the ends of shell pieces) are numbered.
 enum class GivenVertices {
   kSorted,  ///< like all others
-  kFirst,   ///< first, in their present order: a caller's numbers of them stay valid if they were first before
+  kFirst,   ///< first, in their current order: a caller's numbers for them stay valid if they were first before
 };
 
 /// Drops free slots and unused vertices, and sorts triangles along a Hilbert curve and vertices by first use, so that
-/// what is near in the plane is near in memory. All handles of triangles and vertices change; origins, roots and paths
-/// keep their meaning.
+/// neighbors in the plane are neighbors in memory. All handles of triangles and vertices change; origins, roots and
+/// paths keep their meaning.
 void renumber(Triangulation& mesh, GivenVertices given);
 
 /// Drops free slots and unused vertices, keeping the order of the rest.

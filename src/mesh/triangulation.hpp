@@ -88,7 +88,7 @@ struct Triangulation {
     triangles.resize_uninitialized(size);
   }
   void remove_triangle(TriangleId t);
-  /// Links `inner` (an edge of a live triangle) and what lies across it, a half-edge or a constrained subsegment.
+  /// Links `inner` (an edge of a live triangle) to what lies across it, a half-edge or a constrained subsegment.
   void link(HalfEdge inner, HalfEdge outer);
   /// A new root segment from `a` to `b` with one leaf; its half-edges are still kNone.
   RootId add_root(VertexId a, VertexId b, std::int32_t marker, std::int32_t shell);

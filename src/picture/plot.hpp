@@ -9,14 +9,14 @@
 
 namespace driftmesh {
 
-/// What a triangle's color shows.
+/// The quantity that a triangle's color shows.
 enum class PlotColor {
   angle,      ///< its smallest angle, 0 to 60 degrees
   area,       ///< its area, on a logarithmic scale
   region,     ///< its region attribute
   subdomain,  ///< the subdomain that it was made in, if the mesh lists it
   rank,       ///< the rank that made it, if the mesh lists it
-  none        ///< nothing: all have one light color
+  none        ///< nothing: one light color for all
 };
 
 enum class PlotEdges {
@@ -45,7 +45,7 @@ struct PlotOptions {
 /// triangles in it. Errors: InputError for an unknown extension or an impossible size, FileError.
 void plot_mesh(const Mesh& mesh, const std::string& path, const PlotOptions& options);
 
-/// Draws segments by marker, points (if they are not too many), holes as crosses and regions with their labels.
+/// Draws segments by marker, points (if there are not too many), holes as crosses and regions with their labels.
 void plot_pslg(const Pslg& pslg, const std::string& path, const PlotOptions& options);
 
 }  // namespace driftmesh

@@ -11,12 +11,12 @@
 #include "picture/plot.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
-// Fontconfig keeps what it has loaded until the process ends; this is not a leak of ours.
+// Fontconfig keeps loaded fonts until the process ends; this is not our leak.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libfontconfig";
 }
-// Nothing is said of it either: tests would take that for an error.
+// Do not report the suppression: tests would take that for an error.
 extern "C" const char* __lsan_default_options();
 extern "C" const char* __lsan_default_options() {
   return "print_suppressions=0";

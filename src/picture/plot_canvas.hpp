@@ -29,14 +29,15 @@ struct TextStyle {
   bool halo = false;  ///< white around the letters, for text on top of lines
 };
 
-/// Receives cairo's output. Exceptions may not pass through cairo, which is C, so their messages wait in `failure`.
+/// Receives cairo's output. Exceptions must not pass through cairo, which is C, so their messages are kept in
+/// `failure`.
 struct PictureFile {
   explicit PictureFile(const std::string& path) : file(path) {}
   AtomicFile file;
   std::string failure;
 };
 
-/// The picture being drawn, with the operations that all parts need; for special ones there is cairo().
+/// The picture being drawn, with the operations that all parts need; cairo() gives access to all others.
 class Canvas {
  public:
   static constexpr int kSmallest = 100;  ///< pixels, in each direction

@@ -8,7 +8,7 @@
 
 namespace driftmesh {
 
-/// What all charts have.
+/// The texts of a chart.
 struct ChartText {
   std::string title;
   std::string subtitle;

@@ -15,7 +15,7 @@ struct Rgb {
 /// Smith and Stefan van der Walt, released under CC0; interpolated here from nine of its colors.
 [[nodiscard]] Rgb viridis(double t);
 
-/// Colors of equal lightness that differ as much as possible from their predecessors, for things without an order.
+/// Colors of equal lightness that differ as much as possible from their predecessors, for categories without an order.
 [[nodiscard]] Rgb category_color(std::size_t index);
 /// Darker colors of the same hues, for lines.
 [[nodiscard]] Rgb category_line_color(std::size_t index);

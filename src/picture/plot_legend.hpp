@@ -28,7 +28,7 @@ struct Swatch {
 /// Draws nothing, like draw_swatches, if the frame has no room for a legend.
 void draw_color_bar(Canvas& canvas, const PlotFrame& frame, const ColorBar& bar);
 
-/// Draws as many as there is room for, then says how many more there are.
+/// Draws as many swatches as fit, then the number of those left out.
 void draw_swatches(Canvas& canvas, const PlotFrame& frame, const std::string& title,
                    const std::vector<Swatch>& swatches);
 

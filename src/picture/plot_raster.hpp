@@ -12,7 +12,7 @@ namespace driftmesh {
 /// A grid of samples to which triangles are added by scan conversion, each with a value.
 class ValueRaster {
  public:
-  /// Which value a sample keeps of the triangles that reach it.
+  /// The value that a sample keeps if several triangles reach it.
   enum class Keep {
     last,     ///< the value of the one triangle that covers its center
     minimum,  ///< over all that cover it or have their centroid in it
@@ -25,7 +25,7 @@ class ValueRaster {
   /// Corners in pixels, y down, in either orientation. Parts outside the raster are clipped.
   void add_triangle(const Point& a, const Point& b, const Point& c, float value);
 
-  /// One pixel as the mean of its samples' colors, and the share of the samples that any triangle reached.
+  /// One pixel as the mean of its samples' colors, and the fraction of the samples that any triangle reached.
   struct Pixel {
     Rgb color;
     double coverage = 0;

@@ -20,8 +20,8 @@ struct Tick {
 /// 12345678 -> "12,345,678".
 [[nodiscard]] std::string grouped_digits(std::size_t number);
 
-/// A value in the form that people write, with up to `digits` significant digits: 0.025, 1250.5, 4,350,000; 2.5 x 10
-/// with a superscript exponent below 0.001 and from 10^9.
+/// A value in the usual notation, with up to `digits` significant digits: 0.025, 1250.5, 4,350,000; 2.5 x 10 with a
+/// superscript exponent below 0.001 and from 10^9.
 [[nodiscard]] std::string friendly_number(double value, int digits = 3);
 
 }  // namespace driftmesh

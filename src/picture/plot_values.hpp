@@ -12,7 +12,7 @@
 
 namespace driftmesh {
 
-/// The values behind the triangles' colors, and what the legend says about them.
+/// The values behind the triangles' colors, and their legend.
 struct PlotValues {
   std::vector<float> of_triangle;       ///< degrees, log10(area), or number of the class
   std::function<Rgb(double)> color_of;  ///< of a value

@@ -7,10 +7,10 @@
 
 namespace driftmesh {
 
-// What counts as one place. Coordinates that were computed in double precision (a point put on a segment, an end that
-// was transformed twice) are off by a few units in the last place. No mesh can be represented inside such a gap, and
-// nobody intends one. So distances below kCloseUlps units in the last place of the larger coordinate count as zero: in
-// each axis between points, and from a point to a line.
+// When points count as equal. Coordinates computed in double precision (a point put on a segment, an end that was
+// transformed twice) are off by a few units in the last place. No mesh can be represented inside such a gap, and none
+// is intended. So distances below kCloseUlps units in the last place of the larger coordinate count as zero: in each
+// axis between points, and from a point to a line.
 
 inline constexpr double kCloseUlps = 4;
 

@@ -80,8 +80,8 @@ void drown_small_islands(Grid& grid, std::size_t least) {
   }
 }
 
-/// Follows the curves. A curve's vertex lies on the side between two neighboring grid points and is named by the lower
-/// of them and the side's direction.
+/// Follows the curves. A curve's vertex lies on the side between two neighboring grid points and is identified by the
+/// lower of them and the side's direction.
 class Tracer {
  public:
   explicit Tracer(const Grid& grid) : grid_(grid), next_(2 * grid.values.size(), kNone) {}

@@ -36,9 +36,9 @@ struct ContourLoop {
   Point outside;  ///< a point of the grid to the right of the curve, next to it
 };
 
-/// Keeps of the sets of negative values that are connected (by sides) only the largest, and makes small islands
-/// negative: sets of other values, connected by sides or corners, that do not touch the frame and have fewer than
-/// `least` points. The frame itself becomes positive.
+/// Keeps only the largest connected set (by sides) of negative values, and makes small islands negative: sets of other
+/// values, connected by sides or corners, that do not touch the frame and have fewer than `least` points. The frame
+/// itself becomes positive.
 void keep_main_basin(Grid& grid, std::size_t least);
 
 /// All curves between negative and other values, by marching squares (W. Lorensen, H. Cline, SIGGRAPH 1987). They are

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLand = 1.5;            // value of a point far from water
 constexpr std::size_t kLeastIsland = 5;  // grid points
-constexpr std::size_t kFrameStride = 8;  // of the points of the straight frame, one in so many is kept
+constexpr std::size_t kFrameStride = 8;  // every kFrameStride-th point of the straight frame is kept
 
 /// A point of a river's center line.
 struct Reach {
@@ -117,7 +117,7 @@ class Terrain {
   }
 
  private:
-  /// What does not depend on the noise of the shore.
+  /// The part of the value that does not depend on the noise of the shore.
   struct Place {
     double base;  ///< the value without noise
     Point q;      ///< where noise is looked up
@@ -142,7 +142,7 @@ class Terrain {
     return at.base + 2 * o_.roughness * shore + 10 * o_.roughness * std::max(0.0, shoal - kShoal);
   }
 
-  /// Any value of the right sign, or the exact value if the sign is hard to tell.
+  /// A value of the right sign, exact if the sign is hard to tell.
   void settle(std::size_t i) {
     const Place at = place(i);
     const GradientNoise::Range shore = noise_.fractal_range(at.q, std::min(2, octaves_), octaves_, gain());

@@ -60,7 +60,7 @@ class CellTree {
       if (taken.count(key(step(c, d))) == 0) return false;
     return true;
   }
-  // One name for both directions: the lower cell and whether the link goes east or north.
+  // The same name for both directions: the lower cell, and whether the link goes east or north.
   static std::uint64_t link(const Cell& c, std::size_t direction) {
     const Cell low = direction < 2 ? c : step(c, direction);
     return key(low) ^ (direction % 2 == 0 ? 0 : std::uint64_t{1} << 63);

@@ -10,11 +10,12 @@
 
 namespace driftmesh {
 
-// The parameters of each generated input by their names in options and files: visit(name, value, description).
+// Visits the parameters of each generated input: visit(name, value, description), with their names in options and
+// files.
 
 template <class Visit>
 void visit_parameters(PipeOptions& o, Visit&& visit) {
-  visit("outer-radius", o.outer_radius, "Radius of the outside");
+  visit("outer-radius", o.outer_radius, "Outer radius");
   visit("bore-radius", o.bore_radius, "Radius of the bore");
   visit("channels", o.channels, "Number of channels");
   visit("channel-depth", o.channel_depth, "Depth of a channel, along the radius");
@@ -52,7 +53,7 @@ void visit_parameters(FanOptions& o, Visit&& visit) {
 template <class Visit>
 void visit_parameters(CombOptions& o, Visit&& visit) {
   visit("slits", o.slits, "Number of slits");
-  visit("pitch", o.pitch, "Distance of the slits");
+  visit("pitch", o.pitch, "Distance between the slits");
   visit("width", o.width, "Width of a slit");
   visit("depth", o.depth, "Depth of a slit, below 1");
 }

@@ -17,7 +17,7 @@
 namespace driftmesh {
 namespace {
 
-// The origin of a piece that comes from no segment of the input.
+// The origin of a piece that does not come from a segment of the input.
 constexpr std::int32_t kHullEdge = -1, kDropped = -2;
 
 template <class Describe>
@@ -26,7 +26,7 @@ void note(RepairItem& item, Describe describe) {
 }
 
 /// Accepts the boxes near a segment: those that meet its bounding box and do not lie entirely on one side of its line.
-/// Rounding errors can only accept more.
+/// Rounding errors can only make it accept more.
 class NearSegment {
  public:
   NearSegment(const Point& a, const Point& b)
@@ -72,7 +72,7 @@ class Planarizer {
   }
 
  private:
-  /// A segment in work: a piece of segment `origin` of the input.
+  /// A segment being processed: a piece of segment `origin` of the input.
   struct Piece {
     Pslg::Segment segment;
     std::int32_t origin = 0;  // kHullEdge: an edge of the hull
@@ -296,7 +296,7 @@ void Planarizer::test_point(std::int32_t vertex, std::int32_t piece) {
        [&] { return name(vertex) + " on " + name(p); });
 }
 
-// Where an end of one lies on the other, that vertex splits it and no new one is needed.
+// If an end of one lies on the other, that vertex splits it, and no new vertex is needed.
 void Planarizer::test_pair(std::int32_t piece, std::int32_t other) {
   const Pslg::Segment s = pieces_[piece].segment, t = pieces_[other].segment;
   if (s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b) return;

@@ -54,7 +54,7 @@ void PointWelder::search(const Cell& cell, const Point& p, std::int32_t& best) c
 }
 
 std::int32_t PointWelder::add(const Point& p) {
-  // The square of points that may be close to p is smaller than a cell, so its corners hit every cell that it meets.
+  // The square of points that may be close to p is smaller than a cell, so its corners lie in all cells that it meets.
   const double reach = closeness(p) * 1.0001;
   std::array<Cell, 4> cells;
   std::size_t count = 0;

@@ -41,15 +41,15 @@ class RecordScanner {
   std::int32_t header(const char* what, std::int32_t limit = std::numeric_limits<std::int32_t>::max());
   /// Like header(); 0 if the record has no more fields.
   std::int32_t optional_header(const char* what, std::int32_t limit);
-  /// Throws unless the rest of the file can hold `count` records of `fields` fields: no memory is
-  /// reserved on the word of a header.
+  /// Throws unless the rest of the file can hold `count` records of `fields` fields, so that a wrong header does not
+  /// cause a huge allocation.
   void require_room(std::int32_t count, const char* what, std::int32_t fields);
 
   /// Notes a problem on the current line; throws all problems when there are too many.
   void problem(const std::string& what, const std::string& next);
   /// Notes a problem and throws.
   [[noreturn]] void fail(const std::string& what, const std::string& next);
-  /// Throws InputError with all problems, one a line, if there are any.
+  /// Throws InputError with all problems, one per line, if there are any.
   void throw_problems() const;
 
  private:

@@ -17,7 +17,7 @@ bool usable(const Point& p) {
   return in_coordinate_range(p.x) && in_coordinate_range(p.y);
 }
 
-// What readers guarantee but a program that fills a Pslg may get wrong.
+// Checks what readers guarantee, but programs that fill a Pslg may get wrong.
 void check_values(const Pslg& pslg, const std::string& file) {
   const auto fail = [&](const std::string& what, const char* next) { throw InputError({file, 0}, what, next); };
   const std::size_t n = pslg.points.size();
@@ -47,7 +47,7 @@ void check_spans_plane(const Pslg& pslg, const std::string& file) {
   throw InputError({file, 0}, "all vertices lie on one line", "a mesh needs an area");
 }
 
-/// Tells where a seed lies among the segments of a planar graph.
+/// Locates seed points among the segments of a planar graph.
 class SeedCheck {
  public:
   explicit SeedCheck(const Pslg& pslg) : pslg_(pslg), tree_(boxes(pslg)) {

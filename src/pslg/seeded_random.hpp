@@ -5,7 +5,7 @@
 
 namespace driftmesh {
 
-/// Random numbers that are the same on every platform (those of the standard's distributions are not).
+/// Random numbers that are the same on every platform (unlike those of the standard library's distributions).
 class SeededRandom {
  public:
   explicit SeededRandom(std::uint64_t seed) : engine_(seed) {}

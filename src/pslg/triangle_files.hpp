@@ -18,7 +18,7 @@ struct NodeTable {
   std::vector<std::int32_t> markers;  ///< empty, or one for each point
   std::vector<double> attributes;     ///< attributes_per_point values for each point, point by point
   std::int32_t attributes_per_point = 0;
-  std::int32_t first_number = 1;  ///< what the file calls points[0]: 0 or 1
+  std::int32_t first_number = 1;  ///< the number of points[0] in the file: 0 or 1
 };
 
 /// An .ele file of Triangle.
@@ -30,8 +30,8 @@ struct EleTable {
 };
 
 // All readers accept '#' comments, any blanks and CRLF. They throw FileError if a file cannot be read, and InputError
-// with up to ten messages "file:line: what; next step" for what is wrong in it; fields or records fewer or more than
-// announced are wrong, but for fields that are 0.
+// with up to ten messages "file:line: what; next step" if its content is wrong, which includes fields or records that are
+// missing or surplus, except for surplus fields that are 0.
 
 /// The first point has number 0 or 1; the others must follow consecutively.
 [[nodiscard]] NodeTable read_node(const std::string& path);
@@ -48,8 +48,8 @@ struct EleTable {
 
 // Parts that the .poly reader shares.
 
-/// The node section that .node and .poly files begin with; `scanner` has not read anything yet. Problems are
-/// left in the scanner.
+/// Reads the node section at the beginning of .node and .poly files; `scanner` has not read anything yet. Problems stay
+/// in the scanner.
 [[nodiscard]] NodeTable scan_nodes(RecordScanner& scanner);
 /// A field that names a vertex, as an index from 0.
 [[nodiscard]] std::int32_t scan_vertex(RecordScanner& scanner, std::size_t point_count, std::int32_t first_number);
