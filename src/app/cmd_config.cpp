@@ -27,7 +27,7 @@ cli::Command config_command(const cli::Command& program) {
   return {
       .name = "config",
       .summary = "Print the schema of experiment files, the manual page, or shell completion",
-      .options = {printing("schema", "Print the JSON schema of experiments, for editors that check YAML as it is typed",
+      .options = {printing("schema", "Print the JSON schema of experiments, for editors that check YAML as you type",
                            config::json_schema),
                   printing("keys", "Print all keys of experiments as a table in Markdown", config::keys_table),
                   printing("man", "Print the manual page",

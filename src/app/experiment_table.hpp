@@ -8,10 +8,10 @@
 
 namespace driftmesh::app {
 
-/// The runs of an experiment as rows of figures.
+/// The results of an experiment's runs as a table.
 class ExperimentTable {
  public:
-  /// A row for a run that has ended.
+  /// Adds a row for a finished run.
   void add(const ExperimentRun& run);
 
   /// All figures, comma-separated; the first line names the columns (see docs/experiments.md).
@@ -28,7 +28,7 @@ class ExperimentTable {
     std::int64_t triangles = 0;
     double seconds = 0;
     double ideal_seconds = 0;  ///< if every rank computed from start to end
-    double rate = 0;           ///< triangles a second
+    double rate = 0;           ///< triangles per second
     double efficiency = 0;     ///< rate relative to the cluster's speed, normalized by the first run
     RankTimes times;           ///< of all ranks together, as fractions of ranks x seconds
     std::int64_t splits = 0, split_messages = 0, hand_offs = 0, hand_off_bytes = 0;

@@ -26,7 +26,7 @@ void RealCluster::serve() {
     job::RunRecord unused;
     try {
       static_cast<void>(job::run_with_log(team_, std::move(*order), unused, watch));
-    } catch (const std::exception&) {  // all ranks have it: rank 0 says what is next
+    } catch (const std::exception&) {  // all ranks have it, and rank 0 decides what is next
     }
   }
 }

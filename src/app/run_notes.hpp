@@ -15,7 +15,7 @@ namespace driftmesh::app {
 /// summary.
 class RunNotes final : public job::Watch {
  public:
-  /// `command`: a command line that makes the same mesh. `silent`: this rank shows nothing, whatever the request says.
+  /// `command`: a command line that makes the same mesh. `silent`: this rank shows nothing, regardless of the request.
   RunNotes(const job::Request& request, std::string command, bool silent = false);
 
   job::RunRecord run;

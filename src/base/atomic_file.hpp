@@ -11,14 +11,13 @@
 
 namespace driftmesh {
 
-/// A file that appears under its name only when it is complete. Bytes go to a temporary file in the same
-/// folder; commit() renames it over `path`, or leaves that to the StagedFiles of this thread, if there are any. A file
-/// that is replaced hands on its permissions, and its owner if this process may do that. Destroyed without commit, it
-/// removes the temporary and leaves
-/// `path` as it was; so does a signal that ends the process (see temporary_files.hpp). A link is followed; what is not
-/// a regular file (a pipe, /dev/null) is written to directly, and so is standard output (see is_standard_stream), which
-/// can be asked for once: InputError. Every operation throws FileError that names
-/// `path` and the system's reason (disk full, no permission, ...).
+/// A file that appears under its name only when it is complete. Bytes go to a temporary file in the same folder;
+/// commit() renames it over `path`, or leaves that to the StagedFiles of this thread, if there are any. A file that is
+/// replaced hands on its permissions, and its owner if this process may do that. Destroyed without commit, it removes
+/// the temporary and leaves `path` as it was; so does a signal that ends the process (see temporary_files.hpp). A link
+/// is followed; what is not a regular file (a pipe, /dev/null) is written to directly, and so is standard output (see
+/// is_standard_stream), which can be used only once: InputError. Every operation throws FileError that names `path` and
+/// the system's reason (disk full, no permission, ...).
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);

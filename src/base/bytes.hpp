@@ -28,11 +28,12 @@ using UnsignedOfSize = std::conditional_t<
 
 /// Appends to bytes what a ByteReader takes out again, in the same order.
 ///
-/// Numbers have a layout of their own, the same on every machine. Values and arrays are copied as they lie in memory:
-/// for processes of one program on machines of one kind. What lasts, or comes from strangers, has formats of its own.
+/// Numbers have a fixed layout, the same on every machine. Values and arrays are copied as they are in memory, for
+/// processes of the same program on machines of the same kind. Data that is stored, or comes from elsewhere, has
+/// formats of its own.
 class ByteWriter {
  public:
-  /// As many bytes as T has, the lowest first; a floating-point number as its IEEE 754 bits.
+  /// The bytes of a T, lowest first; a floating-point number as its IEEE 754 bits.
   template <Number T>
   void number(T value) {
     const auto bits = std::bit_cast<UnsignedOfSize<sizeof(T)>>(value);
@@ -40,17 +41,17 @@ class ByteWriter {
     for (std::size_t i = 0; i < sizeof(T); ++i) little_endian[i] = static_cast<std::byte>(bits >> (8 * i) & 0xff);
     append(little_endian.data(), sizeof(T));
   }
-  /// Few bytes for small numbers: seven bits a byte, low ones first, the high bit set but in the last byte (LEB128, as
-  /// in DWARF).
+  /// Few bytes for small numbers: seven bits per byte, lowest first, the high bit set except in the last byte (LEB128,
+  /// as in DWARF).
   void varint(std::uint64_t n) {
     for (; n >= 0x80; n >>= 7) bytes_.push_back(static_cast<std::byte>(n | 0x80));
     bytes_.push_back(static_cast<std::byte>(n));
   }
-  /// Small in magnitude: the sign goes into the lowest bit.
+  /// Few bytes for numbers of small magnitude: the sign is the lowest bit.
   void signed_varint(std::int64_t n) {
     varint((static_cast<std::uint64_t>(n) << 1) ^ static_cast<std::uint64_t>(n >> 63));
   }
-  /// Bytes without their number.
+  /// Bytes without their length.
   void raw(std::span<const std::byte> bytes) { append(bytes.data(), bytes.size()); }
 
   template <class T>
@@ -80,9 +81,9 @@ class ByteWriter {
   Bytes bytes_;
 };
 
-/// Reads what a ByteWriter wrote, from front to back. Throws Error for what cannot be, in words about the bytes ("it
-/// ends too early"): who knows where they are from puts that in front. No length is believed before the bytes for it
-/// are known to be there.
+/// Reads what a ByteWriter wrote, from front to back. Throws Error for invalid bytes, with a message about them ("it
+/// ends too early") that callers who know their source can complete. A length is trusted only after checking that there
+/// are enough bytes.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -21,7 +21,7 @@ class DisjointSets {
     return i;
   }
   /// The lower root becomes the root of both, which keeps trees flat enough when items are joined in index order. False
-  /// if they were in one set.
+  /// if they were in the same set already.
   bool join(Id a, Id b) {
     a = find(a);
     b = find(b);

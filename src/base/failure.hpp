@@ -14,7 +14,7 @@ namespace driftmesh {
 inline constexpr const char* kOutOfMemory =
     "out of memory; ask for larger triangles, or have the work stop in time with --max-memory";
 
-/// An error as it travels from the rank that met it to the others, which throw it too.
+/// An error in the form in which a rank sends it to the others, which throw it too.
 struct Failure {
   enum class Kind : std::uint8_t { kNothing, kInput, kFile, kLimit, kCancelled, kOther };
   Kind kind = Kind::kNothing;
@@ -24,10 +24,10 @@ struct Failure {
   [[nodiscard]] static Failure read(ByteReader& reader);
 };
 
-/// What an exception says; null says nothing.
+/// The failure that an exception represents; kNothing for null.
 [[nodiscard]] Failure failure_of(const std::exception_ptr& error);
 
-/// The same as other ranks are told it: with the rank that met it. Nothing stays nothing.
+/// The failure with the rank that met it in its message. Nothing stays nothing.
 [[nodiscard]] Failure met_by(Rank rank, Failure failure);
 
 /// Throws an exception of the failure's kind.

@@ -15,10 +15,9 @@ namespace driftmesh {
 
 /// A contiguous array of trivially copyable values that grows without copying once it is large: small arrays live on
 /// the heap, large ones in their own mapping, which mremap extends in place or by moving page tables. Only pages that
-/// were touched cost memory, so doubling the capacity of a large array is free. Large mappings ask for huge pages,
-/// because a mesh is read in no order that a TLB of small pages could hold.
-/// Elements above size() are uninitialized. Throws std::bad_alloc when the system has no more memory to map. Elements
-/// are found by numbers of type Id.
+/// were touched cost memory, so doubling the capacity of a large array is free. Large mappings request huge pages,
+/// because accesses to a mesh are too scattered for a TLB of small pages. Elements above size() are uninitialized.
+/// Throws std::bad_alloc when the system has no more memory to map. Elements are indexed by Id.
 template <class T, IsId Id = std::size_t>
 class GrowingArray {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -2,10 +2,10 @@
 
 namespace driftmesh {
 
-/// Asks the C library's allocator to keep what is freed for the next allocation instead of handing it back to the
-/// system, for programs that make and drop arrays of a megabyte all the time: a page that comes back from the system
-/// costs a fault and is cleared first, several times what copying to it costs. Call once, at the start. Without effect
-/// where the C library is not glibc.
+/// Makes the C library's allocator keep freed memory for the next allocation instead of returning it to the system, for
+/// programs that constantly allocate and free arrays of a megabyte: a fresh page from the system costs a page fault and
+/// is cleared first, which takes several times as long as copying to it. Call once, at the start. Has no effect if the
+/// C library is not glibc.
 void keep_freed_memory();
 
 }  // namespace driftmesh

@@ -7,7 +7,7 @@
 
 namespace driftmesh {
 
-/// Writes lines of fields between single blanks. Numbers are the shortest that read back to the same bits.
+/// Writes lines of fields separated by single blanks. Numbers are the shortest that read back to the same bits.
 class LineWriter {
  public:
   explicit LineWriter(AtomicFile& file) : file_(file) {}

@@ -13,7 +13,7 @@ bool same_letter(char a, char b) {
   return lower(a) == lower(b);
 }
 
-/// The number of letters to insert, remove, replace or exchange with the next one to get from one word to the other.
+/// The number of letters to insert, remove, replace or swap with the next one to turn one word into the other.
 std::size_t edit_distance(const std::string& from, const std::string& to) {
   std::vector<std::size_t> before, last, row(to.size() + 1);  // of the table of all beginnings of the two words
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -21,7 +21,7 @@ using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 
-// What the file system says; 0 for a pipe. A hint only: the file may change while it is read.
+// The size according to the file system; 0 for a pipe. Only a hint: the file may change while it is read.
 std::size_t expected_size(const std::string& path) {
   std::error_code failed;
   const auto size = std::filesystem::file_size(path, failed);

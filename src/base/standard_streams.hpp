@@ -6,19 +6,20 @@
 namespace driftmesh {
 
 /// Whether a file's name stands for standard input where it is read, and for standard output where it is written: "-",
-/// or "-" with an extension that names the format, as in "-.msh". A file of such a name is "./-".
+/// or "-" with an extension that names the format, as in "-.msh". A file with that name is "./-".
 [[nodiscard]] bool is_standard_stream(std::string_view path);
 
-/// Whether `path` is "-" alone, which leaves the format to whoever reads or writes.
+/// Whether `path` is just "-", which leaves the format to the reader or writer.
 [[nodiscard]] inline bool names_no_format(std::string_view path) {
   return path == "-";
 }
 
-/// Gives descriptors 0, 1 and 2 that the process was started without to something that refuses to be used. Otherwise
-/// the first files that are opened would get them, and what is printed would end up in these. Call it first in main.
+/// Occupies those of the descriptors 0, 1 and 2 that the process was started without, so that using them fails.
+/// Otherwise the first files that are opened would get them, and printed text would end up in these files. Call it
+/// first in main.
 void hold_closed_streams();
 
-/// From now on nothing that is printed is seen.
+/// From now on, printed text is discarded.
 void mute_standard_output();
 
 /// Whether nothing asked for standard output before: only one file can be written to it.

@@ -29,8 +29,8 @@ class NotedTemporary {
 void remove_noted_temporaries() noexcept;
 
 /// From now on SIGINT, SIGTERM, SIGHUP and SIGPIPE remove the noted files before they end the process, as they do by
-/// themselves. Those that are ignored stay ignored, but for SIGPIPE: a reader that has seen enough (head) ends the
-/// process quietly, whoever started it.
+/// themselves. Ignored signals stay ignored, except SIGPIPE: a reader that has seen enough (head) ends the process
+/// quietly, whoever started it.
 void remove_temporaries_on_signals();
 
 /// While one exists, the signals of remove_temporaries_on_signals() wait: for what must not be left half done. They

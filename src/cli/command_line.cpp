@@ -12,7 +12,7 @@
 namespace driftmesh::cli {
 namespace {
 
-// CLI11 takes a word that begins with a dash for options. Those that stand for a standard stream wear a mask.
+// CLI11 takes a word that begins with a dash for an option. Words that stand for a standard stream are masked.
 constexpr char kMask = '\x1f';
 
 std::string masked(const std::string& word) {
@@ -23,7 +23,7 @@ std::string unmasked(const std::string& word) {
   return word.starts_with(kMask) ? word.substr(1) : word;
 }
 
-/// The words as CLI11 wants them. It would not see the empty value of "--name=".
+/// The words in the order that CLI11 expects. It would not notice the empty value in "--name=".
 std::vector<std::string> backwards_for_cli11(const std::vector<std::string>& words) {
   std::vector<std::string> backwards;
   for (auto word = words.rbegin(); word != words.rend(); ++word) {
@@ -34,15 +34,15 @@ std::vector<std::string> backwards_for_cli11(const std::vector<std::string>& wor
   return backwards;
 }
 
-/// As CLI11 is told of it: "-a,--area", or "input".
+/// The option's name as declared to CLI11: "-a,--area", or "input".
 std::string declared(const Option& option) {
   if (option.kind == Option::Kind::kPositional) return option.name;
   const std::string letter = option.letter == 0 ? "" : std::string("-") + option.letter + ",";
   return letter + "--" + option.name;
 }
 
-/// One command of the tree as CLI11 sees it. CLI11 divides the words among commands and options; what they mean, and
-/// whether they are allowed, is decided here, in our own words.
+/// One command of the tree as CLI11 sees it. CLI11 only assigns the words to commands and options; their meaning and
+/// validity are decided here, with our own messages.
 class Level {
  public:
   Level(const Command& command, CLI::App& app) : command_(command), app_(app) {
@@ -62,7 +62,7 @@ class Level {
   }
   [[nodiscard]] const Command& command() const { return command_; }
 
-  /// Whether an option was given that prints something and ends it; `call` then says what.
+  /// Whether an option was given that prints something instead; `call` then says what.
   bool prints(Call& call) const {
     for (const auto& [known, option] : options_) {
       if (known->count() == 0 || !(option->prints || option == &help_option())) continue;
@@ -84,7 +84,7 @@ class Level {
     throw UsageError("unknown command '" + word + "'" + did_you_mean(word, command_names(command_)));
   }
 
-  /// Gives the options their values, in the order of the words.
+  /// Passes the values to the options, in the order of the words.
   void give(Call& call) const {
     std::map<const CLI::Option*, std::size_t> taken;
     for (const CLI::Option* known : app_.parse_order()) {
@@ -101,7 +101,7 @@ class Level {
     CLI::Option* const known = app_.add_option(declared(option))->take_all();
     if (option.kind == Option::Kind::kPositional)
       return known->expected(1, option.repeats ? kMany : 1)->allow_extra_args(option.repeats);
-    return known->expected(1, kMany)->allow_extra_args(false);  // one value each time that it is given
+    return known->expected(1, kMany)->allow_extra_args(false);  // one value each time it is given
   }
 
   [[noreturn]] void refuse_option(const std::string& word) const {
@@ -136,7 +136,8 @@ void require_all(const Call& call) {
     if (option.required && !call.has(option.name)) throw UsageError(spelled(option) + " is missing");
 }
 
-/// What CLI11 says is wrong. Left to it is a single thing: an option at the end of the line without its value.
+/// Handles an error that CLI11 reports. There is only one kind left to it: an option without its value at the end of
+/// the line.
 [[noreturn]] void refuse_last(const std::string& word, const Command& command, const CLI::ParseError& error) {
   for (const Option& option : command.options)
     if (word == "--" + option.name || (option.letter != 0 && word.ends_with(option.letter)))

@@ -7,11 +7,11 @@
 
 namespace driftmesh::cli {
 
-/// The shells that completion can be had for.
+/// The supported shells.
 [[nodiscard]] std::vector<std::string> completion_shells();
 
-/// The script by which a shell completes the command lines of a program: its commands, the options of each, the values
-/// that an option may have, files and folders. `shell` is one of completion_shells().
+/// The script that makes a shell complete the command lines of a program: its commands, their options, the values of
+/// options, files and folders. `shell` is one of completion_shells().
 [[nodiscard]] std::string completion_script(const Command& program, const std::string& shell);
 
 // Of these, each is one.

@@ -4,7 +4,7 @@
 namespace driftmesh::cli {
 namespace {
 
-// In the script, `path` is the command as far as it stands, `before` the word before the one to be completed.
+// In the script, `path` is the command so far, `before` the word before the one to be completed.
 constexpr const char* kBegin = R"(# Completion of the command lines of @ for bash. Source it, or put it into
 # share/bash-completion/completions/@.
 _@() {
@@ -36,7 +36,7 @@ constexpr const char* kEnd = R"(  esac
 complete -F _@ @
 )";
 
-/// What a word can be that is the value of an option, or an argument.
+/// The possible values of an option or argument.
 std::string values_of(const Option& option) {
   if (!option.choices.empty()) return " words='" + joined(option.choices, " ") + "'";
   if (option.completes == Option::Completes::kFile) return " files=-f";

@@ -7,18 +7,18 @@
 
 namespace driftmesh::cli {
 
-// What the completion of all shells is made of.
+// Building blocks of the completion scripts of all shells.
 
 /// The options of a command, `--help` among them, without its arguments.
 [[nodiscard]] std::vector<const Option*> named_options(const Command& command);
 
-/// The argument that the words of a command are completed as; null if it has none.
+/// The argument that is completed after a command; null if it has none.
 [[nodiscard]] const Option* argument_of(const Command& command);
 
 /// "--order", "-o": all spellings of an option.
 [[nodiscard]] std::vector<std::string> spellings(const Option& option);
 
-/// What an option is for, in as few words as its help begins with.
+/// The first few words of an option's help.
 [[nodiscard]] std::string brief(const std::string& help);
 
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, const std::string& separator);

@@ -4,7 +4,7 @@
 namespace driftmesh::cli {
 namespace {
 
-// In the script, `command` is the command as far as it stands, `before` the word before the one to be completed.
+// In the script, `command` is the command so far, `before` the word before the one to be completed.
 constexpr const char* kBegin = R"(#compdef @
 # Completion of the command lines of @ for zsh. Put it into a folder of $fpath, as _@.
 _@() {
@@ -35,7 +35,7 @@ std::string quoted(const std::string& text) {
   return "'" + replaced(text, '\'', "'\\''") + "'";
 }
 
-/// "name:what it is", as _describe takes it.
+/// "name:description", the format of _describe.
 std::string described(const std::string& name, const std::string& what) {
   return "      " + quoted(name + ":" + replaced(brief(what), ':', "\\:")) + "\n";
 }

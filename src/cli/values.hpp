@@ -16,15 +16,16 @@ namespace driftmesh::cli {
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  bool above = false;  ///< more than `least`, not equal to it
+  bool above = false;  ///< greater than `least`, not equal
 };
 constexpr Range kPositive{.least = 0, .above = true};
 
-/// The number that the whole text is. Throws UsageError if it is none, not finite, or out of range.
+/// Parses a text that consists of a number. Throws UsageError if it does not, or if the number is not finite or out of
+/// range.
 [[nodiscard]] double read_number(const std::string& text, const Range& range);
 [[nodiscard]] std::int64_t read_integer(const std::string& text, const Range& range);
 
-// What an option does with its value. Each stores it in a variable that must outlive the command.
+// Functions for Option::take. Each stores the value in a variable that must outlive the command.
 
 using Take = std::function<void(const std::string&)>;
 
@@ -40,11 +41,11 @@ template <std::integral Number>
 }
 /// A text that is not empty.
 [[nodiscard]] Take into(std::string& to);
-/// One more.
+/// Appends a value.
 [[nodiscard]] inline Take into(std::vector<std::string>& to) {
   return [&to](const std::string& text) { to.push_back(text); };
 }
-/// What may be left out.
+/// A value that may be missing.
 template <class Number>
 [[nodiscard]] Take into(std::optional<Number>& to, const Range& range = {}) {
   return [&to, range](const std::string& text) { into(to.emplace(), range)(text); };
@@ -52,7 +53,7 @@ template <class Number>
 [[nodiscard]] inline Take into(std::optional<std::string>& to) {
   return [&to](const std::string& text) { to = text; };
 }
-/// Numbers with commas between them.
+/// Numbers separated by commas.
 [[nodiscard]] Take into(std::vector<double>& to, const Range& range = {});
 /// A flag.
 [[nodiscard]] inline Take into(bool& to) {
