@@ -104,7 +104,7 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
       {.kind = cli::Option::Kind::kPositional,
        .name = "mesh",
        .value = "MESH",
-       .help = "The mesh: .vtu, .pvtu, .msh, or any file of Triangle's .node/.ele set",
+       .help = std::string("The mesh: ") + kMeshFiles,
        .required = true,
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(options.mesh)},

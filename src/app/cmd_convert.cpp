@@ -31,7 +31,7 @@ cli::Command convert_command() {
           .options = {{.kind = cli::Option::Kind::kPositional,
                        .name = "input",
                        .value = "INPUT",
-                       .help = "The mesh: .vtu, .pvtu, .msh, or any file of Triangle's .node/.ele set",
+                       .help = std::string("The mesh: ") + kMeshFiles,
                        .required = true,
                        .completes = cli::Option::Completes::kFile,
                        .take = cli::into(options->input)},

@@ -140,8 +140,9 @@ std::vector<cli::Option> plot_options(PlotCommand& command) {
       {.kind = cli::Option::Kind::kPositional,
        .name = "input",
        .value = "INPUT",
-       .help = "A mesh (.vtu, .pvtu, .msh, .ele, .node) or an input (.poly, or a .node without .ele). - reads a "
-               ".vtu from standard input, -.msh and -.poly the other formats",
+       .help = std::string("A mesh (") + kMeshFiles +
+               ") or an input (.poly, or a .node without .ele). - reads a .vtu from standard input, -.msh and -.poly "
+               "the other formats",
        .required = true,
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(command.input)},

@@ -23,14 +23,14 @@ Format named_format(const std::string& path) {
   for (const char* of_triangle : {".node", ".ele", ".poly", ".edge", ".neigh"})
     if (extension == of_triangle) return Format::kTriangle;
   throw InputError({path, 0}, extension.empty() ? "has no extension" : "has an unknown extension '" + extension + "'",
-                   "mesh files end in .vtu, .pvtu, .msh, or in .node, .ele, .poly, .edge, .neigh");
+                   std::string("a mesh file is ") + kMeshFiles);
 }
 
 Format format_of(const std::string& path) {
   const Format format = named_format(path);
   if (is_standard_stream(path) && (format == Format::kTriangle || format == Format::kPvtu))
     throw InputError({path, 0}, "means several files, but a standard stream is only one",
-                     "use - or -.vtu, or -.msh, or name a file");
+                     "use - with the extension of a single file, as in -.vtu, or name a file");
   return format;
 }
 

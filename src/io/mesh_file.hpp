@@ -8,6 +8,9 @@
 
 namespace driftmesh {
 
+/// The files that hold a mesh, for messages and help: "the mesh: " + kMeshFiles.
+inline constexpr const char* kMeshFiles = ".vtu, .pvtu, .msh, or any file of Triangle's .node/.ele set";
+
 /// Whether the extension is that of a mesh in pieces: .pvtu. Error: InputError for an unknown extension.
 [[nodiscard]] bool is_in_pieces(const std::string& path);
 /// The pieces of a mesh, not merged, with the numbers of their points, for a check. Errors: as read_mesh.

@@ -379,9 +379,8 @@ Section output_section() {
           kMesh,
           {key("output.meshes", &R::output, &R::Output::meshes,
                "Mesh file; its extension selects the format: .vtu (ParaView), .pvtu (the same in pieces, one per "
-               "rank), .msh "
-               "(Gmsh 4.1), or .node, .ele, .poly, .edge, .neigh (each writes all of Triangle's files); - is standard "
-               "output",
+               "rank), .msh (Gmsh 4.1), or .node, .ele, .poly, .edge, .neigh (each writes all of Triangle's files); - "
+               "is standard output",
                option('o', "output", "FILE")),
            key("output.picture", &R::output, &R::Output::picture,
                "Picture of the mesh: .png, .svg or .pdf (see also driftmesh plot --help)", output_file(),

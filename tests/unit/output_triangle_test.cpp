@@ -160,7 +160,7 @@ TEST_CASE("truncated or damaged files of Triangle are errors or meshes, never a 
 
 TEST_CASE("an unknown extension is refused with those that are known") {
   const Mesh mesh;
-  CHECK_THROWS_WITH_AS(write_mesh(mesh, "a.stl"), doctest::Contains("unknown extension '.stl'; mesh files end in"),
+  CHECK_THROWS_WITH_AS(write_mesh(mesh, "a.stl"), doctest::Contains("unknown extension '.stl'; a mesh file is"),
                        InputError);
   CHECK_THROWS_AS((void)read_mesh("mesh"), InputError);
   CHECK_THROWS_AS((void)mesh_files("mesh.txt"), InputError);
