@@ -9,7 +9,7 @@ packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev \
       libmuparser-dev libyaml-cpp-dev libcairo2-dev libmetis-dev libtrilinos-zoltan-dev \
-      libboost-serialization-dev libopenmpi-dev openmpi-bin ;;
+      libboost-serialization-dev libopenmpi-dev openmpi-bin zlib1g-dev ;;
     test) echo doctest-dev libboost-dev libcgal-dev clang-format clang-tidy dpkg-dev file fish gmsh man-db python3 python3-yaml spin zsh ;;
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;

@@ -61,8 +61,8 @@ void write_vtu(const Mesh& mesh, const std::string& path);
 /// The same with the given arrays. The file is complete, but appears under its name only on commit().
 [[nodiscard]] std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path);
 
-/// Reads what write_vtu writes, and other files of that format that hold triangles and lines as raw appended data
-/// without compression.
+/// Reads what write_vtu writes, and what other programs write of triangles and lines: appended or inline, as bytes, in
+/// base64 or as text, compressed by zlib or not. Points may come as any numbers; arrays of other names are ignored.
 [[nodiscard]] Mesh read_vtu(const std::string& path);
 /// The same from memory; `file` is for messages.
 [[nodiscard]] Mesh parse_vtu(const std::string& file, std::string_view bytes);

@@ -1,142 +1,39 @@
+#include <algorithm>
 #include <charconv>
-#include <map>
-#include <optional>
+#include <cstring>
 #include <utility>
 
 #include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/read_checks.hpp"
+#include "io/vtu_data.hpp"
 #include "io/vtu_format.hpp"
-#include "io/xml_scanner.hpp"
+#include "io/vtu_header.hpp"
 
 namespace driftmesh {
 namespace {
 
-const char* const kSaveAs = "save it as an uncompressed .vtu with appended data, encoding raw";
-
-struct DataArray {
-  std::string type;
-  std::uint64_t offset = 0;
-  std::uint64_t components = 1;
-  std::size_t line = 0;
-};
-
-using ArrayName = std::pair<std::string, std::string>;  // section (PointData, ...) and Name
-
-// What the XML before the binary data says.
-struct Header {
-  std::uint64_t points = 0;
-  std::uint64_t cells = 0;
-  bool wide_lengths = true;  // the arrays' byte counts are UInt64, not UInt32
-  std::map<ArrayName, DataArray> arrays;
-  std::size_t data_begin = 0;
-};
-
-class HeaderParser {
- public:
-  HeaderParser(const std::string& path, std::string_view text) : path_(path), text_(text), scanner_(path, text) {}
-
-  Header parse() {
-    XmlTag tag;
-    while (scanner_.next(tag)) {
-      if (tag.name == "AppendedData") return finish(tag);
-      if (tag.opens) enter(tag);
-    }
-    throw InputError({path_, 0}, "has no AppendedData section", kSaveAs);
-  }
-
- private:
-  void enter(const XmlTag& tag) {
-    if (tag.name == "VTKFile") read_file_tag(tag);
-    if (tag.name == "Piece") read_piece_tag(tag);
-    if (tag.name == "PointData" || tag.name == "CellData" || tag.name == "Points" || tag.name == "Cells")
-      section_ = tag.name;
-    if (tag.name == "DataArray") read_array_tag(tag);
-  }
-
-  void read_file_tag(const XmlTag& tag) {
-    if (tag.attribute("type") != "UnstructuredGrid") fail(tag, "is not of type UnstructuredGrid", kSaveAs);
-    if (tag.attribute("byte_order", "LittleEndian") != "LittleEndian") fail(tag, "is big-endian", kSaveAs);
-    if (!tag.attribute("compressor").empty()) fail(tag, "is compressed", kSaveAs);
-    const std::string_view lengths = tag.attribute("header_type", "UInt32");
-    if (lengths != "UInt32" && lengths != "UInt64") fail(tag, "has an unknown header_type", kSaveAs);
-    header_.wide_lengths = lengths == "UInt64";
-    seen_file_ = true;
-  }
-
-  void read_piece_tag(const XmlTag& tag) {
-    if (!seen_file_) fail(tag, "is not a VTK file", kSaveAs);
-    if (seen_piece_) fail(tag, "has more than one Piece", "merge the pieces first");
-    seen_piece_ = true;
-    header_.points = count(tag, "NumberOfPoints");
-    header_.cells = count(tag, "NumberOfCells");
-  }
-
-  void read_array_tag(const XmlTag& tag) {
-    if (section_.empty()) return;  // field data
-    if (tag.attribute("format") != "appended")
-      fail(tag, "has a DataArray of format '" + std::string(tag.attribute("format")) + "'", kSaveAs);
-    DataArray array;
-    array.type = tag.attribute("type");
-    array.offset = count(tag, "offset");
-    array.components = tag.attribute("NumberOfComponents").empty() ? 1 : count(tag, "NumberOfComponents");
-    array.line = tag.line;
-    const std::string name = section_ == "Points" ? "Points" : std::string(tag.attribute("Name"));
-    header_.arrays[{section_, name}] = array;
-  }
-
-  Header finish(const XmlTag& tag) {
-    if (!seen_piece_) fail(tag, "has no Piece", kSaveAs);
-    if (tag.attribute("encoding") != "raw")
-      fail(tag, "has appended data of encoding '" + std::string(tag.attribute("encoding")) + "'", kSaveAs);
-    const std::size_t underscore = text_.find('_', scanner_.position());
-    if (underscore == std::string_view::npos) fail(tag, "ends before its data", kDamaged);
-    header_.data_begin = underscore + 1;
-    return std::move(header_);
-  }
-
-  std::uint64_t count(const XmlTag& tag, std::string_view key) const {
-    const std::string_view digits = tag.attribute(key);
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (digits.empty() || error != std::errc() || end != digits.data() + digits.size())
-      fail(tag, "needs " + std::string(key) + "=\"a number\" in <" + std::string(tag.name) + ">", kDamaged);
-    return value;
-  }
-
-  [[noreturn]] void fail(const XmlTag& tag, const std::string& what, const char* next) const {
-    throw InputError({path_, tag.line}, what, next);
-  }
-
-  const std::string& path_;
-  std::string_view text_;
-  XmlScanner scanner_;
-  Header header_;
-  std::string section_;
-  bool seen_file_ = false;
-  bool seen_piece_ = false;
-};
+constexpr std::uint64_t kMostTuples = std::uint64_t{1} << 48;  // of any array that a machine can hold
 
 // The arrays by name, converted to the types that a Mesh has.
 class ArrayReader {
  public:
-  ArrayReader(const std::string& path, const Header& header, std::string_view data)
-      : path_(path), header_(header), data_(data) {}
+  ArrayReader(const std::string& path, const VtuHeader& header) : path_(path), header_(header), data_(path, header) {}
 
-  [[nodiscard]] const DataArray* find(const char* section, const char* name) const {
+  [[nodiscard]] const VtuHeader::Array* find(const char* section, const char* name) const {
     const auto found = header_.arrays.find({section, name});
     return found == header_.arrays.end() ? nullptr : &found->second;
   }
 
-  [[nodiscard]] const DataArray& get(const char* section, const char* name) const {
-    if (const DataArray* const array = find(section, name)) return *array;
+  [[nodiscard]] const VtuHeader::Array& get(const char* section, const char* name) const {
+    if (const VtuHeader::Array* const array = find(section, name)) return *array;
     throw InputError({path_, 0}, std::string("has no array '") + name + "' in <" + section + ">", kDamaged);
   }
 
   /// `tuples` x components values.
   template <class To>
-  [[nodiscard]] std::vector<To> load(const DataArray& array, std::uint64_t tuples) const {
+  [[nodiscard]] std::vector<To> load(const VtuHeader::Array& array, std::uint64_t tuples) const {
     if (array.type == "Float64") return convert<To, double>(array, tuples);
     if (array.type == "Float32") return convert<To, float>(array, tuples);
     if (array.type == "Int8") return convert<To, std::int8_t>(array, tuples);
@@ -147,22 +44,21 @@ class ArrayReader {
     if (array.type == "UInt32") return convert<To, std::uint32_t>(array, tuples);
     if (array.type == "Int64") return convert<To, std::int64_t>(array, tuples);
     if (array.type == "UInt64") return convert<To, std::uint64_t>(array, tuples);
-    throw InputError({path_, array.line}, "DataArray of unknown type '" + array.type + "'", kSaveAs);
+    throw InputError({path_, array.line}, "DataArray of unknown type '" + array.type + "'", kSaveVtuAs);
   }
 
  private:
   template <class To, class From>
-  [[nodiscard]] std::vector<To> convert(const DataArray& array, std::uint64_t tuples) const {
-    const std::string_view bytes = stored_bytes(array);
-    const std::uint64_t values = bytes.size() / sizeof(From);
-    const bool fits = array.components > 0 && values % array.components == 0 && values / array.components == tuples &&
-                      bytes.size() % sizeof(From) == 0;
-    if (!fits)
-      throw InputError({path_, array.line},
-                       "DataArray holds " + std::to_string(bytes.size()) + " bytes, not " + std::to_string(tuples) +
-                           " x " + std::to_string(array.components) + " " + array.type,
-                       kDamaged);
-    std::vector<To> result(values);
+  [[nodiscard]] std::vector<To> convert(const VtuHeader::Array& array, std::uint64_t tuples) const {
+    if (array.components == 0 || array.components > kMostTuples || tuples > kMostTuples / array.components)
+      throw InputError(
+          {path_, array.line},
+          "a DataArray of " + std::to_string(tuples) + " x " + std::to_string(array.components) + " values", kDamaged);
+    const std::uint64_t count = tuples * array.components;
+    if (array.format == VtuHeader::Format::kAscii) return parse_text<To, From>(array, count);
+    std::string storage;
+    const std::string_view bytes = data_.bytes(array, count * sizeof(From), storage);
+    std::vector<To> result(count);
     if constexpr (std::is_same_v<To, From>) {
       if (!bytes.empty()) std::memcpy(result.data(), bytes.data(), bytes.size());
     } else {
@@ -175,16 +71,30 @@ class ArrayReader {
     return result;
   }
 
-  [[nodiscard]] std::string_view stored_bytes(const DataArray& array) const {
-    ByteCursor cursor(path_, data_);
-    (void)cursor.take_bytes(array.offset, 1, "its data");
-    const std::uint64_t length = header_.wide_lengths ? cursor.take<std::uint64_t>("its data")
-                                                      : std::uint64_t{cursor.take<std::uint32_t>("its data")};
-    return cursor.take_bytes(length, 1, "its data");
+  template <class To, class From>
+  [[nodiscard]] std::vector<To> parse_text(const VtuHeader::Array& array, std::uint64_t count) const {
+    std::vector<To> result;
+    result.reserve(std::min<std::uint64_t>(count, array.text.size() / 2 + 1));
+    const char *at = array.text.data(), *const end = at + array.text.size();
+    while (true) {
+      while (at != end && ByteCursor::is_blank(*at)) ++at;
+      if (at == end) break;
+      From value{};
+      const auto [stop, error] = std::from_chars(at, end, value);
+      if (error != std::errc() || (stop != end && !ByteCursor::is_blank(*stop)))
+        throw InputError({path_, array.line}, "a DataArray holds text that is not " + array.type, kDamaged);
+      result.push_back(checked<To>(value, array));
+      at = stop;
+    }
+    if (result.size() != count)
+      throw InputError({path_, array.line},
+                       "a DataArray holds " + std::to_string(result.size()) + " values, not " + std::to_string(count),
+                       kDamaged);
+    return result;
   }
 
   template <class To, class From>
-  [[nodiscard]] To checked(From value, const DataArray& array) const {
+  [[nodiscard]] To checked(From value, const VtuHeader::Array& array) const {
     if constexpr (std::is_floating_point_v<To>) {
       return static_cast<To>(value);
     } else if constexpr (std::is_integral_v<From>) {
@@ -194,8 +104,8 @@ class ArrayReader {
   }
 
   const std::string& path_;
-  const Header& header_;
-  std::string_view data_;
+  const VtuHeader& header_;
+  VtuData data_;
 };
 
 // Splits the cells into triangles and lines, each with its position among all cells.
@@ -246,7 +156,7 @@ class CellSplitter {
 };
 
 void read_points(Mesh& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
-  const DataArray& array = arrays.get("Points", "Points");
+  const VtuHeader::Array& array = arrays.get("Points", "Points");
   if (array.components != 3) throw InputError({path, array.line}, "the points need NumberOfComponents=\"3\"", kDamaged);
   const std::vector<double> xyz = arrays.load<double>(array, count);
   mesh.points.reserve(xyz.size() / 3);
@@ -258,25 +168,25 @@ void read_points(Mesh& mesh, const std::string& path, const ArrayReader& arrays,
 }
 
 void read_point_data(Mesh& mesh, const ArrayReader& arrays, std::uint64_t count) {
-  if (const DataArray* const marker = arrays.find("PointData", "marker"))
+  if (const VtuHeader::Array* const marker = arrays.find("PointData", "marker"))
     mesh.point_markers = arrays.load<std::int32_t>(*marker, count);
-  if (const DataArray* const attribute = arrays.find("PointData", "attribute")) {
+  if (const VtuHeader::Array* const attribute = arrays.find("PointData", "attribute")) {
     mesh.attributes = arrays.load<double>(*attribute, count);
     mesh.attributes_per_point = static_cast<std::int32_t>(std::min<std::uint64_t>(attribute->components, 1 << 20));
   }
-  if (const DataArray* const number = arrays.find("PointData", "global_number"))
+  if (const VtuHeader::Array* const number = arrays.find("PointData", "global_number"))
     mesh.numbers = arrays.load<std::int64_t>(*number, count);
 }
 
 void read_cells(Mesh& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
   CellSplitter cells(path, arrays, count);
   cells.split(mesh);
-  if (const DataArray* const marker = arrays.find("CellData", "marker")) {
+  if (const VtuHeader::Array* const marker = arrays.find("CellData", "marker")) {
     const std::vector<std::int32_t> markers = arrays.load<std::int32_t>(*marker, count);
     for (std::size_t e = 0; e < mesh.edges.size(); ++e) mesh.edges[e].marker = markers[cells.line_cells[e]];
   }
   const auto load_of_triangles = [&]<class T>(const char* name, std::vector<T>& values) {
-    const DataArray* const array = arrays.find("CellData", name);
+    const VtuHeader::Array* const array = arrays.find("CellData", name);
     if (array == nullptr) return;
     const std::vector<T> of_cells = arrays.load<T>(*array, count);
     values.reserve(cells.triangle_cells.size());
@@ -290,8 +200,8 @@ void read_cells(Mesh& mesh, const std::string& path, const ArrayReader& arrays, 
 }  // namespace
 
 Mesh parse_vtu(const std::string& file, std::string_view bytes) {
-  const Header header = HeaderParser(file, bytes).parse();
-  const ArrayReader arrays(file, header, bytes.substr(header.data_begin));
+  const VtuHeader header = parse_vtu_header(file, bytes);
+  const ArrayReader arrays(file, header);
   Mesh mesh;
   read_points(mesh, file, arrays, header.points);
   read_point_data(mesh, arrays, header.points);

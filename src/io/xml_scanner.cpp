@@ -23,12 +23,15 @@ std::string_view XmlTag::attribute(std::string_view key, std::string_view otherw
 }
 
 bool XmlScanner::next(XmlTag& tag) {
+  const std::size_t begin = position_;
   if (!skip_to_tag()) return false;
   tag = {};
+  tag.before = text_.substr(begin, position_ - begin);
   tag.line = line_;
   advance_to(position_ + 1);
   if (position_ < text_.size() && text_[position_] == '/') {
     tag.opens = false;
+    tag.closes = true;
     advance_to(position_ + 1);
   }
   tag.name = take_name();
@@ -88,6 +91,7 @@ void XmlScanner::take_attributes(XmlTag& tag) {
     skip_blanks();
     const std::string_view rest = text_.substr(position_);
     if (rest.starts_with(">") || rest.starts_with("/>")) {
+      if (rest.front() == '/') tag.closes = true;
       advance_to(position_ + (rest.front() == '/' ? 2 : 1));
       return;
     }

@@ -11,15 +11,17 @@ namespace driftmesh {
 struct XmlTag {
   std::string_view name;
   std::map<std::string_view, std::string_view> attributes;
-  bool opens = true;  ///< false for </name>
+  bool opens = true;        ///< false for </name>
+  bool closes = false;      ///< true for </name> and <name .../>
+  std::string_view before;  ///< the text between the tag before this one and this one
   std::size_t line = 0;
 
   /// The attribute's value, or `otherwise` if the tag has none of that name.
   [[nodiscard]] std::string_view attribute(std::string_view key, std::string_view otherwise = {}) const;
 };
 
-/// Reads the tags of an XML text one by one: the part of XML that mesh headers use (no entities, no CDATA). Character
-/// data, comments and processing instructions are skipped.
+/// Reads the tags of an XML text one by one: the part of XML that mesh headers use (no entities, no CDATA).
+/// Comments and processing instructions are skipped.
 class XmlScanner {
  public:
   XmlScanner(const std::string& file, std::string_view text) : file_(file), text_(text) {}

@@ -31,6 +31,7 @@ LIBRARIES = {
     "muparser": (r"muParser.*\.h", ["sizing"]),
     "threads": (r"thread|future", None),
     "yaml": (r"yaml-cpp/.*", ["config"]),
+    "zlib": (r"zlib\.h", ["io"]),
     "zoltan": (r"zoltan.*\.h", ["partition_zoltan"]),
 }
 
