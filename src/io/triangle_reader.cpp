@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
 #include "base/read_file.hpp"
 #include "io/read_checks.hpp"
 #include "io/triangle_format.hpp"
+#include "mesh/mesh_edges.hpp"
 #include "pslg/poly_file.hpp"
 #include "pslg/record_scanner.hpp"
 #include "pslg/triangle_files.hpp"
@@ -64,6 +66,14 @@ std::vector<double> last_attributes(EleTable&& elements) {
   return last;
 }
 
+// A separator lies between parts, whose numbers take the place of the subdomains', which the files do not hold.
+void take_out_separators(Mesh& mesh) {
+  const auto is_separator = [](const Mesh::Edge& edge) { return edge.marker == kSeparatorMarker; };
+  if (std::none_of(mesh.edges.begin(), mesh.edges.end(), is_separator)) return;
+  mesh.subdomains = parts_between_edges(mesh);
+  std::erase_if(mesh.edges, is_separator);
+}
+
 }  // namespace
 
 Mesh read_triangle_format(const std::string& stem) {
@@ -79,6 +89,7 @@ Mesh read_triangle_format(const std::string& stem) {
   mesh.triangles = std::move(elements.triangles);
   mesh.regions = last_attributes(std::move(elements));
   check_read_mesh(mesh, stem + ".ele");
+  take_out_separators(mesh);
   return mesh;
 }
 

@@ -1,7 +1,9 @@
 #include "base/staged_files.hpp"
+#include "driftmesh/error.hpp"
 #include "io/file_sink.hpp"
 #include "io/triangle_format.hpp"
 #include "mesh/mesh_edges.hpp"
+#include "pslg/triangle_files.hpp"
 
 namespace driftmesh {
 namespace {
@@ -46,11 +48,14 @@ void write_triangles(FileSink& sink, const Mesh& mesh) {
   }
 }
 
-void write_segments(FileSink& sink, const Mesh& mesh, const std::vector<Point>& holes) {
+using Edges = std::vector<Mesh::Edge>;
+
+void write_segments(FileSink& sink, const Mesh& mesh, const Edges& separators, const std::vector<Point>& holes) {
   line(sink, 0, 2, mesh.attributes_per_point, mesh.point_markers.empty() ? 0 : 1);
-  line(sink, mesh.edges.size(), 1);
-  for (std::size_t i = 0; i < mesh.edges.size(); ++i)
-    line(sink, i + 1, mesh.edges[i].a + 1, mesh.edges[i].b + 1, mesh.edges[i].marker);
+  line(sink, mesh.edges.size() + separators.size(), 1);
+  std::size_t number = 0;
+  for (const Edges* edges : {&mesh.edges, &separators})
+    for (const Mesh::Edge& edge : *edges) line(sink, ++number, edge.a + 1, edge.b + 1, edge.marker);
   line(sink, holes.size());
   for (std::size_t i = 0; i < holes.size(); ++i) line(sink, i + 1, holes[i].x, holes[i].y);
 }
@@ -61,8 +66,13 @@ bool lists_edge(const TriangleNeighbors& neighbors, std::size_t t, std::size_t i
   return neighbors[t][i] < static_cast<std::int32_t>(t);
 }
 
-void write_edges(FileSink& sink, const Mesh& mesh, const TriangleNeighbors& neighbors) {
-  const ConstrainedEdgeIndex index(mesh);
+bool is_separator(const Mesh& mesh, const TriangleNeighbors& neighbors, std::size_t t, std::size_t i) {
+  const std::int32_t other = neighbors[t][i];
+  return other >= 0 && !mesh.subdomains.empty() && mesh.subdomains[other] != mesh.subdomains[t];
+}
+
+void write_edges(FileSink& sink, const Mesh& mesh, const TriangleNeighbors& neighbors,
+                 const ConstrainedEdgeIndex& index) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) count += lists_edge(neighbors, t, i) ? 1 : 0;
@@ -74,7 +84,8 @@ void write_edges(FileSink& sink, const Mesh& mesh, const TriangleNeighbors& neig
       const std::int32_t a = mesh.triangles[t][(i + 1) % 3];
       const std::int32_t b = mesh.triangles[t][(i + 2) % 3];
       const std::int32_t edge = index.find(a, b);
-      line(sink, ++number, a + 1, b + 1, edge < 0 ? 0 : mesh.edges[edge].marker);
+      const std::int32_t unlisted = is_separator(mesh, neighbors, t, i) ? kSeparatorMarker : 0;
+      line(sink, ++number, a + 1, b + 1, edge < 0 ? unlisted : mesh.edges[edge].marker);
     }
 }
 
@@ -88,6 +99,11 @@ void write_neighbors(FileSink& sink, const TriangleNeighbors& neighbors) {
 }  // namespace
 
 void write_triangle_format(const Mesh& mesh, const std::string& stem, const std::vector<Point>& holes) {
+  for (const Mesh::Edge& edge : mesh.edges)
+    if (edge.marker == kSeparatorMarker)
+      throw InputError({stem + ".poly"},
+                       "marker " + std::to_string(kSeparatorMarker) + " of a segment stands for separators there",
+                       "give the segment another marker, or write another format");
   StagedFiles together;
   FileSink nodes(stem + ".node");
   FileSink triangles(stem + ".ele");
@@ -96,9 +112,10 @@ void write_triangle_format(const Mesh& mesh, const std::string& stem, const std:
   FileSink neighbor_file(stem + ".neigh");
   write_nodes(nodes, mesh);
   write_triangles(triangles, mesh);
-  write_segments(segments, mesh, holes);
   const TriangleNeighbors neighbors = triangle_neighbors(mesh);
-  write_edges(edges, mesh, neighbors);
+  const ConstrainedEdgeIndex index(mesh);
+  write_segments(segments, mesh, separator_edges(mesh, neighbors, index, kSeparatorMarker), holes);
+  write_edges(edges, mesh, neighbors, index);
   write_neighbors(neighbor_file, neighbors);
   for (FileSink* sink : {&nodes, &triangles, &segments, &edges, &neighbor_file}) sink->commit();
   together.commit();

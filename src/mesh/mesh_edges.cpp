@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
+#include "base/disjoint_sets.hpp"
 #include "base/narrow.hpp"
+#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 namespace {
@@ -104,6 +107,39 @@ std::vector<std::array<std::int32_t, 2>> triangles_at_edges(const Mesh& mesh, co
     }
   }
   return at_edges;
+}
+
+std::vector<Mesh::Edge> separator_edges(const Mesh& mesh, const TriangleNeighbors& neighbors,
+                                        const ConstrainedEdgeIndex& index, std::int32_t marker) {
+  std::vector<Mesh::Edge> edges;
+  if (mesh.subdomains.empty()) return edges;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t other = neighbors[t][i];
+      if (other < 0 || std::cmp_greater(other, t) || mesh.subdomains[other] == mesh.subdomains[t]) continue;
+      const std::int32_t a = mesh.triangles[t][(i + 1) % 3], b = mesh.triangles[t][(i + 2) % 3];
+      if (index.find(a, b) < 0) edges.push_back({a, b, marker});
+    }
+  return edges;
+}
+
+std::vector<std::int32_t> parts_between_edges(const Mesh& mesh) {
+  const TriangleNeighbors neighbors = triangle_neighbors(mesh);
+  const ConstrainedEdgeIndex index(mesh);
+  DisjointSets<std::int32_t> sets(mesh.triangles.size());
+  for (const std::int32_t t : first_ids<std::int32_t>(mesh.triangles.size()))
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& corners = mesh.triangles[t];
+      if (neighbors[t][i] >= 0 && index.find(corners[(i + 1) % 3], corners[(i + 2) % 3]) < 0)
+        sets.join(t, neighbors[t][i]);
+    }
+  std::vector<std::int32_t> parts(mesh.triangles.size());
+  std::int32_t next = 0;
+  for (const std::int32_t t : first_ids<std::int32_t>(mesh.triangles.size())) {
+    const std::int32_t first = sets.find(t);  // the lowest of its set
+    parts[t] = first == t ? next++ : parts[first];
+  }
+  return parts;
 }
 
 }  // namespace driftmesh

@@ -42,4 +42,11 @@ class ConstrainedEdgeIndex {
 [[nodiscard]] std::vector<std::array<std::int32_t, 2>> triangles_at_edges(const Mesh& mesh,
                                                                           const ConstrainedEdgeIndex& index);
 
+/// The edges on separators: between triangles of different subdomains, and not in mesh.edges. They have this marker.
+[[nodiscard]] std::vector<Mesh::Edge> separator_edges(const Mesh& mesh, const TriangleNeighbors& neighbors,
+                                                      const ConstrainedEdgeIndex& index, std::int32_t marker);
+
+/// The part of each triangle when mesh.edges cut the mesh apart. Parts are numbered by their first triangles.
+[[nodiscard]] std::vector<std::int32_t> parts_between_edges(const Mesh& mesh);
+
 }  // namespace driftmesh

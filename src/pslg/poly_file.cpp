@@ -31,6 +31,26 @@ Pslg pslg_of_points(const std::string& file, NodeTable&& nodes) {
   return pslg;
 }
 
+/// What a file is that a user may take for a domain, by its content or its name; empty if it may be one.
+std::string other_kind_of_file(const std::string& path, std::string_view text) {
+  const auto starts_with = [&](std::string_view start) { return text.substr(0, start.size()) == start; };
+  if (starts_with("<?xml") || starts_with("<VTKFile")) return "a mesh file of VTK";
+  if (starts_with("$MeshFormat")) return "a mesh file of Gmsh";
+  if (starts_with("# driftmesh decomposition")) return "a decomposition";
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".vtu" || extension == ".pvtu" || extension == ".msh") return "the name of a mesh file";
+  if (extension == ".ele" || extension == ".edge" || extension == ".neigh" || extension == ".area")
+    return "a part of a mesh in Triangle's files";
+  return "";
+}
+
+void refuse_other_files(const std::string& path, std::string_view text) {
+  const std::string kind = other_kind_of_file(path, text);
+  if (!kind.empty())
+    throw InputError({path, 0}, "is " + kind + ", and not a domain",
+                     "name a .poly, or a .node of points; Triangle's files of a mesh include its .poly");
+}
+
 void scan_segments(RecordScanner& scanner, Pslg& pslg) {
   scanner.require_record("the number of segments", "add a line '0 0' if there are none");
   const std::int32_t count = scanner.header("the number of segments");
@@ -89,7 +109,8 @@ void scan_seeds(RecordScanner& scanner, Pslg& pslg) {
 Pslg parse_poly(const std::string& file, std::string_view text) {
   RecordScanner scanner(file, text);
   NodeTable nodes = scan_nodes(scanner);
-  if (nodes.points.empty()) {
+  const bool is_of_mesh = nodes.points.empty();
+  if (is_of_mesh) {
     if (is_standard_stream(file))
       throw InputError({file, 0}, "leaves its vertices to a .node file, but standard input has none beside it",
                        "include the vertices, or give the path of the .poly file");
@@ -100,6 +121,8 @@ Pslg parse_poly(const std::string& file, std::string_view text) {
   Pslg pslg;
   move_nodes(std::move(nodes), pslg);
   scan_segments(scanner, pslg);
+  if (is_of_mesh)
+    std::erase_if(pslg.segments, [](const Pslg::Segment& segment) { return segment.marker == kSeparatorMarker; });
   scan_seeds(scanner, pslg);
   scanner.throw_problems();
   return pslg;
@@ -107,6 +130,7 @@ Pslg parse_poly(const std::string& file, std::string_view text) {
 
 Pslg read_poly(const std::string& path) {
   const std::string text = read_file(path);
+  refuse_other_files(path, text);
   if (path.ends_with(".node")) return pslg_of_points(path, parse_node(path, text));
   return parse_poly(path, text);
 }

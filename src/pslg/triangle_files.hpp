@@ -30,8 +30,8 @@ struct EleTable {
 };
 
 // All readers accept '#' comments, any blanks and CRLF. They throw FileError if a file cannot be read, and InputError
-// with up to ten messages "file:line: what; next step" if its content is wrong, which includes fields or records that are
-// missing or surplus, except for surplus fields that are 0.
+// with up to ten messages "file:line: what; next step" if its content is wrong, which includes fields or records that
+// are missing or surplus, except for surplus fields that are 0.
 
 /// The first point has number 0 or 1; the others must follow consecutively.
 [[nodiscard]] NodeTable read_node(const std::string& path);
@@ -45,6 +45,10 @@ struct EleTable {
 [[nodiscard]] std::vector<double> read_area(const std::string& path, std::size_t triangle_count);
 [[nodiscard]] std::vector<double> parse_area(const std::string& file, std::string_view text,
                                              std::size_t triangle_count);
+
+/// The marker of separators, on which subdomains meet, in the .poly and .edge of a mesh. They are constraints of the
+/// mesh, but not of the domain.
+inline constexpr std::int32_t kSeparatorMarker = -1'000'000;
 
 // Parts that the .poly reader shares.
 

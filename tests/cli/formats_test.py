@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""Every format of meshes, of every kind of mesh: what the program writes, it reads and accepts.
+
+usage: formats_test.py DRIFTMESH [unittest options]
+"""
+
+import itertools
+import os
+import re
+import shutil
+
+import program
+from program import SQUARE, Cli, main
+
+# Domains, with the bounds of their meshes.
+DOMAINS = {
+    "pipe": ["--area", "0.05"],
+    "bay": ["--area", "400000", "--angle", "25"],
+    "comb": ["--area", "0.01"],
+    "holes": ["--area", "0.02"],
+}
+OPTIONS = {"bay": ["--resolution", "1000"], "comb": ["--slits", "9"], "holes": ["--columns", "4", "--rows", "3"]}
+PARTS = ([], ["-n", "1"], ["-n", "5"], ["-n", "24"])
+OUTPUTS = ("m.vtu", "m.msh", "t.ele")
+
+# Two regions beside a third part without one, a hole, an inner segment with marker 0, attributes and markers of points.
+REGIONS = """14 2 2 1
+1 0 0 1 -1 1
+2 3 0 4 -4 2
+3 6 0 7 -7 3
+4 9 0 0 0 4
+5 9 4 1 1 5
+6 6 4 2 2 0
+7 3 4 3 3 7
+8 0 4 4 4 -8
+9 1 1 5 5 9
+10 2 1 6 6 9
+11 2 2 7 7 9
+12 1 2 8 8 9
+13 4 2 9 9 0
+14 5 3 1 2 0
+15 1
+1 1 2 1
+2 2 3 2
+3 3 4 3
+4 4 5 4
+5 5 6 0
+6 6 7 -6
+7 7 8 7
+8 8 1 8
+9 2 7 0
+10 3 6 20
+11 9 10 30
+12 10 11 30
+13 11 12 30
+14 12 9 31
+15 13 14 0
+1
+1 1.5 1.5
+2
+1 0.5 0.5 2.5 0.05
+2 8 2 -7 0.2
+"""
+
+
+def digest_of(said):
+    return re.search(r"^digest +([0-9a-f]{16})$", said, re.MULTILINE).group(1)
+
+
+class Formats(Cli):
+    def domains(self):
+        for kind, bounds in DOMAINS.items():
+            self.succeed("generate", kind, *OPTIONS.get(kind, []), "-o", "in.poly")
+            yield kind, bounds
+        self.write("in.poly", REGIONS)
+        yield "regions", ["--area", "0.1"]
+
+    def test_check_accepts_every_format(self):
+        separators = 0
+        for (kind, bounds), parts in itertools.product(self.domains(), PARTS):
+            with self.subTest(domain=kind, parts=parts):
+                outputs = [*OUTPUTS, *(["p.pvtu"] if parts else [])]
+                said = self.succeed("mesh", "in.poly", *bounds, *parts, *itertools.chain(*(["-o", o] for o in outputs)))
+                for output in outputs:
+                    checked = self.succeed("check", output, "in.poly", *bounds)
+                    self.assertIn("accepted", checked)
+                    self.assertEqual(digest_of(checked), digest_of(said))
+                separators += (self.folder / "t.poly").read_text().count(" -1000000\n")
+                if not parts:
+                    self.assertNotIn(" -1000000\n", (self.folder / "t.poly").read_text())
+        self.assertGreater(separators, 500)
+
+    def test_check_accepts_what_was_converted(self):
+        self.write("in.poly", REGIONS)
+        for parts in PARTS:
+            self.succeed("mesh", "in.poly", "--area", "0.1", *parts, "-o", "m0.vtu")
+            for i, extension in enumerate((".ele", ".msh", ".ele", ".vtu", ".ele", ".vtu")):
+                name = f"m{i + 1}{extension}"
+                self.succeed("convert", next(self.folder.glob(f"m{i}.[vme][tsl]?")).name, name)
+                self.succeed("check", name, "in.poly", "--area", "0.1")
+            for path in self.folder.glob("m*"):
+                path.unlink()
+
+    def test_separators_are_constraints_in_triangles_files_and_nothing_else(self):
+        self.write("in.poly", REGIONS)
+        self.succeed("mesh", "in.poly", "--area", "0.1", "-n", "9", "-o", "t.ele", "-o", "m.vtu")
+        self.assertIn(" -1000000\n", (self.folder / "t.edge").read_text())
+        segments = re.search(r"^subsegments +(\d+)", self.succeed("check", "m.vtu"), re.MULTILINE).group(1)
+        self.assertIn(f"subsegments    {segments}", re.sub(r"subsegments +", "subsegments    ", self.succeed("check", "t.ele")))
+        self.write("marked.poly", SQUARE)
+        self.succeed("mesh", "marked.poly", "--area", "0.01", "-n", "9", "-o", "e.ele")
+        os.unlink(self.folder / "e.poly")  # the separators are in e.edge, too
+        self.assertIn("accepted", self.succeed("check", "e.ele", "marked.poly"))
+        # The .poly of the mesh is a domain again, without them.
+        self.succeed("mesh", "t.poly", "-o", "again.ele", "-o", "again.vtu")
+        self.assertNotIn(" -1000000\n", (self.folder / "again.poly").read_text())
+        self.succeed("check", "again.vtu", "t.poly")
+
+    def test_a_marker_that_stands_for_separators_is_refused(self):
+        self.write("in.poly", SQUARE.replace("1 1 2 1", "1 1 2 -1000000"))
+        self.succeed("mesh", "in.poly", "-o", "m.vtu")
+        self.refuse("mesh", "in.poly", "-o", "t.ele", says=["t.poly", "-1000000", "separators"])
+        self.assertEqual(self.files(), ["in.poly", "m.vtu"])
+
+
+class NoDomains(Cli):
+    def test_what_is_given_as_a_domain_by_mistake_is_named(self):
+        self.write("in.poly", SQUARE)
+        self.succeed("mesh", "in.poly", "-n", "2", "-o", "m.vtu", "-o", "m.msh", "-o", "p.pvtu", "-o", "t.ele")
+        self.succeed("decompose", "in.poly", "-n", "2", "-o", "d.parts")
+        shutil.copy(self.folder / "m.vtu", self.folder / "vtu.poly")
+        for name, kind in (("m.vtu", "VTK"), ("p.pvtu", "VTK"), ("vtu.poly", "VTK"), ("m.msh", "Gmsh"),
+                           ("d.parts", "decomposition"), ("t.ele", "Triangle"), ("t.edge", "Triangle"),
+                           ("t.neigh", "Triangle")):
+            for command in (["mesh", name, "-o", "x.vtu"], ["decompose", name, "-n", "2", "-o", "x"]):
+                result = self.refuse(*command, says=[f"{name}: is", kind, "not a domain", ".poly"])
+                self.assertNotIn("number of vertices", result.stderr)
+            self.refuse("check", "m.vtu", name, code=2, says=[f"{name}: is", kind, "not a domain"])
+
+
+if __name__ == "__main__":
+    main()
