@@ -1,12 +1,14 @@
 #include "job/prepare.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
 #include "decompose/presplit.hpp"
 #include "decompose/same_input.hpp"
+#include "decompose/same_segments.hpp"
 #include "job/key.hpp"
 #include "runtime/plan_run.hpp"
 
@@ -18,16 +20,25 @@ std::int32_t wanted_subdomains(const Request::Decomposition& asked, std::int32_t
   return static_cast<std::int32_t>(std::min<std::int64_t>(std::int64_t{asked.subdomains_per_rank} * ranks, INT32_MAX));
 }
 
-Decomposition given_decomposition(const Decomposition& decomposition, const Pslg& input) {
-  require_same_input(decomposition, input, "the decomposition");
+Decomposition given_decomposition(const Decomposition& decomposition, const Pslg& input, const Triangulation& domain) {
+  const std::string name = "the decomposition";
+  require_same_input(decomposition, input, name);
+  require_same_segments(decomposition, domain, name);
+  return decomposition;
+}
+
+Decomposition read_decomposition_of(const std::string& file, const Pslg& input, const Triangulation& domain) {
+  Decomposition decomposition = read_decomposition(file, input);
+  require_same_segments(decomposition, domain, file);
   return decomposition;
 }
 
 Decomposition decomposition_of(const Request& request, const Domain& domain, const Given& given,
                                const Triangulated& triangulated, std::int32_t ranks, Watch& watch) {
-  if (given.decomposition != nullptr) return given_decomposition(*given.decomposition, domain.pslg);
+  if (given.decomposition != nullptr) return given_decomposition(*given.decomposition, domain.pslg, triangulated.mesh);
   const std::string& file = request.decomposition.file;
-  if (!file.empty()) return timed(watch, "load", [&] { return read_decomposition(file, domain.pslg); });
+  if (!file.empty())
+    return timed(watch, "load", [&] { return read_decomposition_of(file, domain.pslg, triangulated.mesh); });
   return timed(watch, "decompose", [&] { return cut(request, triangulated, ranks); });
 }
 

@@ -58,6 +58,10 @@ const char* flaw_name(Flaw flaw) {
       return "wrong Euler number";
     case Flaw::wrong_region:
       return "wrong region";
+    case Flaw::wrong_point_marker:
+      return "wrong point marker";
+    case Flaw::wrong_attribute:
+      return "wrong attribute";
     case Flaw::small_angle:
       return "small angle";
     case Flaw::large_area:

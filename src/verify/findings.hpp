@@ -41,6 +41,8 @@ enum class Flaw : std::uint8_t {
   wrong_area,          ///< the triangles' areas do not sum to the area of the domain
   wrong_euler,         ///< counts of triangles, vertices and boundary edges do not fit the domain's topology
   wrong_region,        ///< a triangle does not carry the attribute of the region it lies in
+  wrong_point_marker,  ///< a point of the input does not carry its marker
+  wrong_attribute,     ///< a point of the input does not carry its attributes
   // Quality.
   small_angle,  ///< an angle below the bound that nothing in the input explains
   large_area,   ///< an area above the bound

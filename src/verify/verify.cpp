@@ -14,6 +14,7 @@
 #include "verify/domain.hpp"
 #include "verify/domain_check.hpp"
 #include "verify/local_check.hpp"
+#include "verify/point_data_check.hpp"
 #include "verify/point_index.hpp"
 #include "verify/subsegments.hpp"
 
@@ -92,6 +93,7 @@ class Verification {
     if (!domain_) return take_quality(chains, {});
     DomainCheck against(mesh_, *domain_, points_, chains, findings_);
     against.check_points();
+    check_point_data(mesh_, *input_, points_, findings_);
     against.check_chains();
     against.check_euler(static_cast<std::int64_t>(used_points_), static_cast<std::int64_t>(report_.boundary_edges));
     if (parts_) check_regions(against);

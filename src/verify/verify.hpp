@@ -64,8 +64,9 @@ struct VerifyReport {
 ///   any triangulation; so every point of the domain is covered once, and nothing else is;
 /// - every input segment in the domain is one chain of subsegments with its marker, in order along it and on it up to
 ///   the rounding of repeated midpoints; there are no other subsegments;
-/// - every input point in the domain is a vertex; area, Euler number and region attributes (if listed) agree.
-/// An input without segments describes the convex hull of its points, with marker 1 all around.
+/// - every input point in the domain is a vertex with its marker and attributes (if listed; see point_data_check.hpp);
+/// area, Euler number and region attributes (if listed) agree. An input without segments describes the convex hull of
+/// its points, with marker 1 all around.
 [[nodiscard]] VerifyReport verify(const Mesh& mesh, const Pslg& input, const VerifyOptions& options);
 
 /// The same for a mesh in pieces, and checks that the pieces fit: points with the same number have the same

@@ -7,6 +7,7 @@
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/same_input.hpp"
+#include "decompose/same_segments.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"
 #include "driftmesh/repair.hpp"
@@ -56,6 +57,7 @@ Outcome decompose_and_check(const Pslg& input, const Triangulation& mesh, int n)
     const Decomposition d = decompose(mesh, options);
     outcome.report = check_decomposition(d);
     require_same_input(d, input, "the decomposition");
+    require_same_segments(d, mesh, "the decomposition");
     if (d.size() != static_cast<std::size_t>(n)) outcome.problem = std::to_string(d.size()) + " subdomains";
     if (!outcome.report.valid()) outcome.problem = outcome.report.problems[0];
     if (outcome.problem.empty() && !(std::fabs(outcome.report.area / total_area(mesh) - 1) < 1e-9))

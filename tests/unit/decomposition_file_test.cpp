@@ -2,12 +2,18 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
 #include <random>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "base/read_file.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/same_input.hpp"
+#include "decompose/same_segments.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
@@ -29,12 +35,16 @@ Pslg sample_input() {
   return pslg;
 }
 
-Decomposition sample() {
-  Triangulation mesh = triangulate(sample_input());
+Triangulation prepared(const Pslg& input) {
+  Triangulation mesh = triangulate(input);
   prepare_corners(mesh);
+  return mesh;
+}
+
+Decomposition sample() {
   DecomposeOptions options;
   options.subdomains = 5;
-  return decompose(mesh, options);
+  return decompose(prepared(sample_input()), options);
 }
 
 std::string sample_text() {
@@ -162,4 +172,89 @@ TEST_CASE("a decomposition in memory of another input is recognized, but for wha
   other = sample_input();
   other.regions.clear();
   refused(other, "with more than 0 regions");
+}
+
+namespace {
+
+std::string text_of(double value) {
+  std::ostringstream text;
+  text << std::setprecision(17) << value;
+  return text.str();
+}
+
+/// Other values for a field of a decomposition's file.
+std::vector<std::string> edits_of(const std::string& field) {
+  std::vector<std::string> edits;
+  if (field.find_first_of(".e") == std::string::npos) {
+    const long value = std::stol(field);
+    for (const long other : {value - 1, value + 1, value + 3, -value, 0L, 1L})
+      if (other != value) edits.push_back(std::to_string(other));
+  } else {
+    const double value = std::stod(field);
+    for (const double other : {value * (1 + 1e-7), value + 0.01, -value, 0.0})
+      if (other != value) edits.push_back(text_of(other));
+  }
+  return edits;
+}
+
+/// A fan of segments that meet at sharp angles: shells on many circles, and segments that end inside the domain.
+Pslg fan_input() {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {5, 5}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}};
+  for (int i = 0; i < 7; ++i) {
+    pslg.points.push_back({5 + 3 * std::cos(0.15 * i), 5 + 3 * std::sin(0.15 * i)});
+    pslg.segments.push_back({4, 5 + i, 10 + i});
+  }
+  return pslg;
+}
+
+}  // namespace
+
+TEST_CASE("every edit of a point, a root or an inner point is noticed") {
+  const TemporaryFolder folder;
+  for (const Pslg& input : {sample_input(), fan_input()}) {
+    const Triangulation domain = prepared(input);
+    DecomposeOptions options;
+    options.subdomains = 6;
+    const std::string path = (folder.path() / "whole").string();
+    write_decomposition(decompose(domain, options), input, path);
+    const auto accepts = [&](const std::string& text) {
+      try {
+        require_same_segments(parse_decomposition("f", text, input), domain, "f");
+        return true;
+      } catch (const InputError&) {
+        return false;
+      }
+    };
+    std::istringstream file(read_file(path));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(file, line);) lines.push_back(line);
+    REQUIRE(accepts(read_file(path)));
+    std::string section;
+    std::size_t edited = 0, roots = 0;
+    for (std::string& line : lines) {
+      if (line.starts_with('#')) section = line;
+      if (line.starts_with('#') || section.starts_with("# subdomains")) continue;  // of which only the area binds
+      roots += section.starts_with("# roots") ? 1 : 0;
+      const std::string whole = line;
+      for (std::size_t begin = 0; begin < whole.size();
+           begin = std::min(whole.find(' ', begin), whole.size() - 1) + 1) {
+        const std::size_t length = std::min(whole.find(' ', begin), whole.size()) - begin;
+        for (const std::string& other : edits_of(whole.substr(begin, length))) {
+          line = std::string(whole).replace(begin, length, other);
+          std::string text;
+          for (const std::string& l : lines) text += l + "\n";
+          CAPTURE(section);
+          CAPTURE(whole);
+          CAPTURE(line);
+          CHECK_FALSE(accepts(text));
+          ++edited;
+        }
+      }
+      line = whole;
+    }
+    CHECK(roots > 10);
+    CHECK(edited > 1000);
+  }
 }

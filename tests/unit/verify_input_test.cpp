@@ -65,6 +65,51 @@ TEST_CASE("a wrong region attribute") {
   CHECK(!check(grid).regions_listed);
 }
 
+TEST_CASE("a wrong marker or attribute of a point") {
+  GridCase grid;
+  grid.input.point_markers.assign(grid.input.points.size(), 7);
+  grid.input.attributes_per_point = 2;
+  for (const Point& p : grid.input.points) grid.input.attributes.insert(grid.input.attributes.end(), {p.x, p.y + 0.5});
+  grid.mesh.point_markers.assign(grid.mesh.points.size(), 7);
+  grid.mesh.attributes_per_point = 2;
+  for (const Point& p : grid.mesh.points) grid.mesh.attributes.insert(grid.mesh.attributes.end(), {p.x, p.y + 0.5});
+  CHECK(check(grid).accepted());
+  const GridCase right = grid;
+  const std::size_t corner = to_index(grid.at(0, 0));
+  grid.mesh.point_markers[corner] = 8;
+  CHECK_ONLY(check(grid), Flaw::wrong_point_marker);
+  CHECK(check(grid).findings.messages(Flaw::wrong_point_marker).front().find("has marker 8, expected 7") !=
+        std::string::npos);
+  grid = right;
+  grid.mesh.attributes[2 * corner + 1] = std::nextafter(0.5, 1);
+  CHECK_ONLY(check(grid), Flaw::wrong_attribute);
+  grid = right;
+  grid.mesh.attributes_per_point = 1;
+  grid.mesh.attributes.resize(grid.mesh.points.size());
+  CHECK_ONLY(check(grid), Flaw::wrong_attribute);
+  grid = right;  // a mesh that lists neither
+  grid.mesh.point_markers.clear();
+  grid.mesh.attributes.clear();
+  grid.mesh.attributes_per_point = 0;
+  CHECK(check(grid).accepted());
+}
+
+TEST_CASE("a point without a marker may have that of a subsegment there, or 1") {
+  GridCase grid;
+  grid.input.point_markers.assign(grid.input.points.size(), 0);
+  grid.mesh.point_markers.assign(grid.mesh.points.size(), 0);
+  const std::size_t corner = to_index(grid.at(0, 0));
+  for (const Mesh::Edge& edge : grid.mesh.edges)
+    if (to_index(edge.a) == corner || to_index(edge.b) == corner) {
+      grid.mesh.point_markers[corner] = edge.marker;
+      CHECK(check(grid).accepted());
+    }
+  grid.mesh.point_markers[corner] = 1;
+  CHECK(check(grid).accepted());
+  grid.mesh.point_markers[corner] = 77;
+  CHECK_ONLY(check(grid), Flaw::wrong_point_marker);
+}
+
 TEST_CASE("a filled hole") {
   GridCase grid;
   const auto point = [&](int x, int y) { return (x > 4 && x < 8 && y > 3 && y < 7) ? -1 : grid.at(x, y); };
