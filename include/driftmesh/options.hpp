@@ -29,6 +29,12 @@ enum class Presplit {
   kOff,   ///< never: the protocol of the paper in full
 };
 
+/// What is a hole of the domain.
+enum class HoleRule {
+  kPoints,  ///< an area with a hole point of the input
+  kNested,  ///< also every second ring of segments from the outside in, unless it has a region point
+};
+
 /// Which of a rank's subdomains works next.
 enum class WorkOrder {
   kGiven,    ///< in the order of their numbers, which is one of neighborhood: neighbors finish together
@@ -49,6 +55,14 @@ enum class MappingMethod {
 ///
 /// Lengths and areas are in the units of the input, angles in degrees, times in seconds, memory in bytes.
 struct MeshOptions {
+  // ---- The domain ----
+  HoleRule holes = HoleRule::kPoints;
+  bool strict = false;  ///< whether warnings are errors: an InputError is thrown
+  /// Called for each thing that the author of the input may not have meant, with its place: segments outside the
+  /// domain, regions that are not separated, rings of segments that are neither holes nor regions. On many ranks, on
+  /// rank 0.
+  std::function<void(const std::string&)> warning{};
+
   // ---- Triangles ----
   double min_angle = 20;     ///< 0 to 34; smaller ones remain where the input has small angles
   double max_area = 0;       ///< 0: no bound

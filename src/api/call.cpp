@@ -18,12 +18,17 @@ double FunctionField::edge_length(const Point& p) const {
               std::to_string(p.y) + "); a length must be positive everywhere in the domain, or infinity for no bound");
 }
 
+void CallerWatch::warned(const std::string& warning) {
+  if (options_.warning) options_.warning(warning);
+}
+
 void CallerWatch::refining(std::int64_t triangles, double forecast) {
-  if (progress_ && !progress_({triangles, forecast})) throw Cancelled("cancelled by MeshOptions::progress");
+  if (options_.progress && !options_.progress({triangles, forecast}))
+    throw Cancelled("cancelled by MeshOptions::progress");
 }
 
 Call::Call(const Pslg& input, const MeshOptions& options, const balancer::PolicyMaker& policies)
-    : options_(options), request_(request_of(options)), size_(options.size), watch_(options.progress) {
+    : options_(options), request_(request_of(options)), size_(options.size), watch_(options) {
   given_.input = &input;
   if (options.size) given_.size = &size_;
   given_.decomposition = options.subdomains.given.get();

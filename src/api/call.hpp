@@ -26,15 +26,17 @@ class FunctionField final : public SizeField {
   const std::function<double(const Point&)>& function_;
 };
 
-/// Reports progress to the caller, and lets it cancel.
+/// Reports warnings and progress to the caller, and lets it cancel.
 class CallerWatch final : public job::Watch {
  public:
-  explicit CallerWatch(const std::function<bool(const Progress&)>& progress) : progress_(progress) {}
+  /// Calls MeshOptions::warning and MeshOptions::progress where they are set.
+  explicit CallerWatch(const MeshOptions& options) : options_(options) {}
+  void warned(const std::string& warning) override;
   /// Throws Cancelled if the caller cancels.
   void refining(std::int64_t triangles, double forecast) override;
 
  private:
-  const std::function<bool(const Progress&)>& progress_;
+  const MeshOptions& options_;
 };
 
 /// A call of the library: the caller's options in the form of the job. Input and options must outlive it.

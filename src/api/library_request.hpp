@@ -13,6 +13,8 @@ namespace driftmesh {
 /// a member of MeshOptions, its value, and its place in a request.
 template <class Visit>
 void visit_options(const MeshOptions& o, job::Request& r, const Visit& visit) {
+  visit("input.holes", "holes", o.holes, r.input.holes);
+  visit("input.strict", "strict", o.strict, r.input.strict);
   visit("bounds.angle", "min_angle", o.min_angle, r.bounds.angle);
   visit("bounds.area", "max_area", o.max_area, r.bounds.area);
   visit("bounds.triangles", "triangles", o.triangles, r.bounds.triangles);

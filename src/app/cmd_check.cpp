@@ -50,17 +50,18 @@ std::vector<Mesh> read_and_digest(const CheckOptions& options) {
   return pieces;
 }
 
-std::optional<Pslg> read_and_repair(const CheckOptions& options) {
+std::optional<Pslg> read_and_repair(const CheckOptions& options, HoleRule holes) {
   if (options.input.empty()) return std::nullopt;
   Pslg input = read_poly(options.input);
   const RepairReport repairs = repair(input, options.input);
   if (!options.quiet) print(repairs.summary());
+  job::add_nested_holes(holes, input);
   return input;
 }
 
-VerifyReport read_and_verify(const CheckOptions& options) {
+VerifyReport read_and_verify(const CheckOptions& options, HoleRule holes) {
   const std::vector<Mesh> pieces = read_and_digest(options);
-  const std::optional<Pslg> input = read_and_repair(options);
+  const std::optional<Pslg> input = read_and_repair(options, holes);
   if (is_in_pieces(options.mesh)) return verify_pieces(pieces, input ? &*input : nullptr, options.verify);
   return input ? verify(pieces[0], *input, options.verify) : verify(pieces[0], options.verify);
 }
@@ -76,7 +77,7 @@ int run_check(CheckOptions& options) {
   try {
     const std::unique_ptr<SizeField> size = make_size_field(job::sizing_of(request.sizing));
     options.verify.size = size.get();
-    const VerifyReport report = read_and_verify(options);
+    const VerifyReport report = read_and_verify(options, request.input.holes);
     if (!options.quiet) print(report_text(report, options.verify));
     print(verdict_text(report, options.verify) + "\n");
     flush_standard_output();

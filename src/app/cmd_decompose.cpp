@@ -35,12 +35,15 @@ struct DecomposeCommand {
   bool quiet = false;
 };
 
-/// Prints repairs unless quiet.
+/// Prints repairs and warnings unless quiet.
 class RepairView final : public job::Watch {
  public:
   explicit RepairView(bool quiet) : quiet_(quiet) {}
   void repaired(const RepairReport& repairs) override {
     if (!quiet_) std::cerr << repairs.summary();
+  }
+  void warned(const std::string& warning) override {
+    if (!quiet_) std::cerr << "warning: " << warning << '\n';
   }
 
  private:

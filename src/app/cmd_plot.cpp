@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -100,9 +99,10 @@ void check_box(const PlotCommand& command, const Pslg& pslg) {
 
 void check_box(const PlotCommand& command, const Mesh& mesh) {
   if (!command.plot.box) return;
-  const auto triangles = std::views::iota(std::size_t{0}, mesh.triangles.size());
-  check_box(command, mesh.points,
-            std::ranges::any_of(triangles, [&](std::size_t t) { return is_shown(mesh, t, *command.plot.box); }));
+  bool shows_any = false;
+  for (std::size_t t = 0; t < mesh.triangles.size() && !shows_any; ++t)
+    shows_any = is_shown(mesh, t, *command.plot.box);
+  check_box(command, mesh.points, shows_any);
 }
 
 std::string title_of(const std::string& input) {

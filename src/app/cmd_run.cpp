@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -68,11 +69,15 @@ void write_lb_statistics(const ExperimentRun& run, const std::filesystem::path& 
 class RunView final : public job::Watch {
  public:
   explicit RunView(ProgressLine& line) : line_(line) {}
+  void warned(const std::string& warning) override {
+    if (said_.insert(warning).second) line_.write("warning: " + warning + "\n");
+  }
   void refining(std::int64_t triangles, double forecast) override { line_.refining(triangles, forecast); }
   void stalled(const std::string& why) override { fmt::print(stderr, "driftmesh: {}\n", why); }
 
  private:
   ProgressLine& line_;
+  std::set<std::string> said_;  // runs of one experiment mostly share their domain
 };
 
 /// All runs of one experiment, one after the other.

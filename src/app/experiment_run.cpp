@@ -86,6 +86,7 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   job::Prepared prepared = job::prepare(request, domain, {.policies = balancer::make_policy},
                                         real ? job::kRanks : job::kSimulated, run.speeds, limits, watch);
   job::add_prepared(run.record, prepared);
+  run.record.warnings = watch.take_warnings();
   run.record.stages.push_back({"prepare", preparing.seconds()});
   const Stopwatch running;
   if (real) {

@@ -23,6 +23,10 @@ void RunNotes::repaired(const RepairReport& repairs) {
   if (!silent_) progress_.write(repairs.summary());
 }
 
+void RunNotes::warned(const std::string& warning) {
+  if (!silent_) progress_.write("warning: " + warning + "\n");
+}
+
 void RunNotes::refining(std::int64_t triangles, double forecast) {
   progress_.refining(triangles, forecast);
 }
@@ -40,6 +44,7 @@ void RunNotes::note_files(const std::vector<std::string>& files, const std::vect
 
 void RunNotes::finish() {
   run.seconds = since_start_.seconds();
+  run.warnings = take_warnings();
   run.peak = std::max(run.peak, job::peak_memory());
   progress_.end();
   if (wanted_.record.empty()) return;

@@ -23,6 +23,7 @@ class RunNotes final : public job::Watch {
   void begins(const std::string& stage) override { progress_.begin(stage); }
   void ends(const std::string& stage, double seconds) override { run.stages.push_back({stage, seconds}); }
   void repaired(const RepairReport& repairs) override;
+  void warned(const std::string& warning) override;
   void refining(std::int64_t triangles, double forecast) override;
   void stalled(const std::string& why) override;
 

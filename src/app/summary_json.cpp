@@ -30,7 +30,7 @@ Json input_json(const RunRecord& run) {
             {"crossings", r.crossings.count},
             {"overlaps", r.overlaps.count},
             {"marker_conflicts", r.marker_conflicts.count}}},
-          {"warnings", r.warnings}};
+          {"warnings", run.warnings}};
 }
 
 Json mesh_json(const RunRecord& run) {

@@ -32,6 +32,11 @@ void add_input(const RunRecord& run, Text out) {
                  counted(run.input_regions, "region"));
   if (const std::int64_t n = repair_count(run.repairs); n > 0)
     fmt::format_to(out, "             after {}\n", counted(n, "repair"));
+  const char* label = "warnings";
+  for (const std::string& warning : run.warnings) {
+    fmt::format_to(out, "{:<12} {}\n", label, warning);
+    label = "";
+  }
 }
 
 void add_mesh(const RunRecord& run, Text out) {

@@ -1,6 +1,11 @@
 #include "job/domain.hpp"
 
+#include <utility>
+#include <vector>
+
 #include "driftmesh/repair.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/nested_rings.hpp"
 #include "pslg/generators.hpp"
 #include "pslg/poly_file.hpp"
 
@@ -18,10 +23,33 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   Domain domain;
   domain.pslg = timed(watch, "read", [&] { return raw_input(request.input, given); });
   domain.repairs = timed(watch, "repair", [&] { return repair(domain.pslg, input_name(request)); });
+  const std::vector<std::string> warnings = std::exchange(domain.repairs.warnings, {});
   watch.repaired(domain.repairs);
+  warn(request, warnings, watch);
+  add_nested_holes(request.input.holes, domain.pslg);
   domain.own_size = timed(watch, "size", [&] { return make_size_field(sizing_of(request.sizing)); });
   domain.size = given.size != nullptr ? given.size : domain.own_size.get();
   return domain;
+}
+
+void add_nested_holes(HoleRule rule, Pslg& pslg) {
+  if (rule != HoleRule::kNested) return;
+  const std::vector<Point> holes = find_nested_rings(triangulate(pslg)).alternating_holes;
+  pslg.holes.insert(pslg.holes.end(), holes.begin(), holes.end());
+}
+
+void warn(const Request& request, std::span<const std::string> warnings, Watch& watch) {
+  constexpr std::size_t kMost = 10;
+  if (warnings.empty()) return;
+  const auto more = [&](std::size_t listed) {
+    return std::to_string(warnings.size() - listed) + " more such warnings";
+  };
+  if (request.input.strict)
+    throw InputError({input_name(request), 0}, warnings[0] + (warnings.size() > 1 ? ", and " + more(1) : ""),
+                     "correct the input, or accept its warnings (not strict)");
+  const std::size_t listed = warnings.size() <= kMost + 1 ? warnings.size() : kMost;
+  for (const std::string& warning : warnings.first(listed)) watch.warn(warning);
+  if (listed < warnings.size()) watch.warn(more(listed));
 }
 
 SizingOptions sizing_of(const Request::Sizing& asked) {

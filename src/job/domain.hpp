@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "balancer/policy_list.hpp"
@@ -29,8 +30,16 @@ struct Domain {
   const SizeField* size = nullptr;            ///< the one to use: own_size, a given one, or null
 };
 
-/// Reads or generates the domain and repairs it, and makes the size field. Throws InputError, FileError.
+/// Reads or generates the domain, repairs it, applies the rule for holes, and makes the size field. Throws InputError,
+/// FileError.
 [[nodiscard]] Domain read_domain(const Request& request, const Given& given, Watch& watch);
+
+/// Adds hole points to a repaired input where the rule makes holes of its rings.
+void add_nested_holes(HoleRule rule, Pslg& pslg);
+
+/// Passes on warnings about the input, only the first of them if there are very many. Throws InputError instead if the
+/// request is strict.
+void warn(const Request& request, std::span<const std::string> warnings, Watch& watch);
 
 /// The request's settings for the sizes of triangles.
 [[nodiscard]] SizingOptions sizing_of(const Request::Sizing& sizing);

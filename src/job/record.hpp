@@ -20,7 +20,8 @@ struct RunRecord : MeshFacts {
   std::string command;  ///< a command line that makes the same mesh
   std::string input_file;
   std::int64_t input_points = 0, input_segments = 0, input_holes = 0, input_regions = 0;  ///< after repair
-  RepairReport repairs;
+  RepairReport repairs;                                                                   ///< without its warnings
+  std::vector<std::string> warnings;                                                      ///< about the input
 
   double min_angle = 0;
   double max_area = 0;  ///< <= 0: no bound

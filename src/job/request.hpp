@@ -30,6 +30,8 @@ struct Request {
     std::string file;
     std::string generator;
     std::map<std::string, std::string> parameters;  ///< of the generator
+    HoleRule holes = HoleRule::kPoints;
+    bool strict = false;  ///< warnings about the input are errors
   } input;
 
   struct Bounds {

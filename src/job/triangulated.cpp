@@ -4,6 +4,7 @@
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
+#include "mesh/domain_warnings.hpp"
 #include "mesh/mesher.hpp"
 
 namespace driftmesh::job {
@@ -33,7 +34,9 @@ QualityBounds bounds_of(const Request& request, const Domain& domain, const Tria
 Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks, Watch& watch) {
   Triangulated result;
   timed(watch, "triangulate", [&] {
-    result.mesh = triangulate(domain.pslg);
+    CarveReport carved;
+    result.mesh = triangulate(domain.pslg, &carved);
+    warn(request, domain_warnings(domain.pslg, domain.repairs, carved, result.mesh), watch);
     result.acute_corners = prepare_corners(result.mesh);
   });
   result.bounds = bounds_of(request, domain, result.mesh, ranks);

@@ -17,9 +17,9 @@ struct Triangulated {
   QualityBounds bounds;  ///< refers to the domain's size field
 };
 
-/// Triangulates the domain, prepares its corners, and determines the bounds that the request sets on its mesh on this
-/// number of ranks: if it names a number of triangles, the area bound is the one that gives about as many. Throws what
-/// triangulate throws.
+/// Triangulates the domain, warns of what its author may not have meant, prepares its corners, and determines the
+/// bounds that the request sets on its mesh on this number of ranks: if it names a number of triangles, the area bound
+/// is the one that gives about as many. Throws what triangulate throws.
 [[nodiscard]] Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks,
                                               Watch& watch);
 

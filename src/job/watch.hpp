@@ -4,6 +4,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "base/stopwatch.hpp"
 #include "driftmesh/repair.hpp"
@@ -22,11 +23,25 @@ class Watch {
   virtual void begins(const std::string& /*stage*/) {}
   /// Also called when the stage fails.
   virtual void ends(const std::string& /*stage*/, double /*seconds*/) {}
+  /// Without its warnings, which follow by warned().
   virtual void repaired(const RepairReport& /*repairs*/) {}
+  /// Something that the author of the input may not have meant.
+  virtual void warned(const std::string& /*warning*/) {}
   /// Called from time to time during refinement. With many ranks, `triangles` and `forecast` are those of this rank.
   virtual void refining(std::int64_t /*triangles*/, double /*forecast*/) {}
   /// Nothing has moved on this rank for a minute.
   virtual void stalled(const std::string& /*why*/) {}
+
+  /// Calls warned(), and keeps the warning.
+  void warn(const std::string& warning) {
+    warnings_.push_back(warning);
+    warned(warning);
+  }
+  /// The warnings since the last call.
+  [[nodiscard]] std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
+
+ private:
+  std::vector<std::string> warnings_;
 };
 
 /// Does `work` as a stage with this name.

@@ -66,13 +66,18 @@ void remove_outside(Triangulation& mesh, const Flood& outside) {
   }
 }
 
-/// Keeps the roots (whole segments at this stage) that still bound a triangle.
-void drop_unused_segments(Triangulation& mesh) {
+/// Keeps the roots (whole segments at this stage) that still bound a triangle. Returns the others.
+std::vector<RootId> drop_unused_segments(Triangulation& mesh) {
   IdVector<SubsegmentId, Subsegment> subsegments;
   IdVector<RootId, RootSegment> roots;
-  for (RootSegment root : mesh.roots) {
+  std::vector<RootId> dropped;
+  for (const RootId r : ids_of(mesh.roots)) {
+    RootSegment root = mesh.roots[r];
     Subsegment s = mesh.subsegments[root.tree];
-    if (s.half[0] == kNone && s.half[1] == kNone) continue;
+    if (s.half[0] == kNone && s.half[1] == kNone) {
+      dropped.push_back(r);
+      continue;
+    }
     const SubsegmentId kept = subsegments.next_id();
     for (const HalfEdge h : s.half)
       if (h != kNone) mesh.triangles[triangle_of(h)].neighbor[index_of(h)] = constrained(kept);
@@ -83,17 +88,22 @@ void drop_unused_segments(Triangulation& mesh) {
   }
   mesh.subsegments.swap(subsegments);
   mesh.roots.swap(roots);
+  return dropped;
 }
 
-void label_regions(Triangulation& mesh, const std::vector<TriangleId>& seeds) {
-  if (seeds.empty()) return;
+std::vector<CarveReport::Meeting> label_regions(Triangulation& mesh, const std::vector<TriangleId>& seeds) {
+  std::vector<CarveReport::Meeting> meetings;
+  if (seeds.empty()) return meetings;
   mesh.region.resize(mesh.triangles.size(), 0);
   for (std::size_t r = 0; r < seeds.size(); ++r) {
     if (seeds[r] == kNone || !mesh.triangles[seeds[r]].alive()) continue;
+    if (const std::uint16_t before = mesh.region[seeds[r]]; before != 0)
+      meetings.push_back({before - 1, static_cast<std::int32_t>(r)});
     Flood flood(mesh);
     flood.add(seeds[r]);
     for (const TriangleId t : flood.triangles()) mesh.region[t] = narrow<std::uint16_t>(r + 1, "number of regions");
   }
+  return meetings;
 }
 
 [[noreturn]] void nothing_left(const Pslg& pslg, bool before_holes) {
@@ -152,7 +162,7 @@ TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start) {
   return search_all(mesh, p);
 }
 
-void carve(Triangulation& mesh, const Pslg& pslg) {
+CarveReport carve(Triangulation& mesh, const Pslg& pslg, std::size_t first_root) {
   const auto seed = [&](const Point& p) { return locate(mesh, p, TriangleId{0}); };
   std::vector<TriangleId> region_seeds;
   for (const Pslg::Region& r : pslg.regions) region_seeds.push_back(seed(r.at));
@@ -168,13 +178,16 @@ void carve(Triangulation& mesh, const Pslg& pslg) {
     if (t != kNone) outside.add(t);
   if (outside.triangles().size() == mesh.triangles.size()) nothing_left(pslg, open);
   remove_outside(mesh, outside);
-  drop_unused_segments(mesh);
-  label_regions(mesh, region_seeds);
+  CarveReport report;
+  for (const RootId r : drop_unused_segments(mesh))
+    if (to_index(r) >= first_root) report.dropped.push_back(static_cast<std::int32_t>(to_index(r) - first_root));
+  report.meetings = label_regions(mesh, region_seeds);
+  return report;
 }
 
 void carve(Triangulation& mesh, const std::vector<SegmentSides>& sides, std::size_t first_root) {
   keep_inner_sides(mesh, sides, first_root);
-  drop_unused_segments(mesh);
+  static_cast<void>(drop_unused_segments(mesh));
 }
 
 }  // namespace driftmesh

@@ -13,10 +13,20 @@ namespace driftmesh {
 /// edges; kNone if the walk leaves the triangulation.
 [[nodiscard]] TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start);
 
+/// What carving found that the author of the input may not have meant. Indices are those of the PSLG.
+struct CarveReport {
+  std::vector<std::int32_t> dropped;  ///< segments that bound no part of the domain
+  struct Meeting {
+    std::int32_t first, second;
+  };
+  std::vector<Meeting> meetings;  ///< regions whose points lie in one area; the second one's label holds there
+};
+
 /// Carves a domain out of the triangulation of a box around it: removes its outside (all that can be reached from the
 /// box's border without crossing a segment) and its holes, drops the segments that no longer bound a triangle, and
-/// labels the regions. Throws Error if nothing is left.
-void carve(Triangulation& mesh, const Pslg& pslg);
+/// labels the regions. The segments of the PSLG are the roots from `first_root` on; none are dropped if it has none.
+/// Throws Error if nothing is left.
+CarveReport carve(Triangulation& mesh, const Pslg& pslg, std::size_t first_root);
 
 /// The region labels left and right of a segment, seen from its first point to its second; kNone outside the domain.
 struct SegmentSides {

@@ -241,9 +241,10 @@ Triangulation triangulate_box(const Pslg& pslg) {
 
 }  // namespace
 
-Triangulation triangulate(const Pslg& pslg) {
+Triangulation triangulate(const Pslg& pslg, CarveReport* report) {
   Triangulation mesh = triangulate_box(pslg);
-  carve(mesh, pslg);
+  CarveReport carved = carve(mesh, pslg, mesh.roots.size() - pslg.segments.size());
+  if (report != nullptr) *report = std::move(carved);
   renumber(mesh, GivenVertices::kSorted);
   return mesh;
 }

@@ -15,8 +15,8 @@ namespace driftmesh {
 /// The PSLG must be as repair() leaves it: distinct points in coordinate range, segments that meet only at shared ends.
 /// Without segments, the convex hull of the points is the domain. Throws Error if the PSLG is not repaired, if its
 /// points are collinear, or if it encloses nothing (the message names the cause: an open boundary, or hole points that
-/// empty the domain).
-[[nodiscard]] Triangulation triangulate(const Pslg& pslg);
+/// empty the domain). `report`, if not null, receives what carving found.
+[[nodiscard]] Triangulation triangulate(const Pslg& pslg, CarveReport* report = nullptr);
 
 /// The same for a domain that is defined by the sides of its segments, one entry for each of pslg.segments, instead of
 /// by hole and region points: the domain is what can be reached from an inner side without crossing a segment. Every

@@ -157,6 +157,58 @@ class Pipeline(Cli):
         self.succeed("check", "out.vtu", "square.poly", "--area", "0.5")
 
 
+class DomainWarnings(Cli):
+    # A chain beside a square, and a ring in it.
+    TEXT = """10 2 0 0
+1 0 0
+2 4 0
+3 4 4
+4 0 4
+5 5 0
+6 6 1
+7 6 2
+8 1 1
+9 2 1
+10 2 2
+9 0
+1 1 2
+2 2 3
+3 3 4
+4 4 1
+5 5 6
+6 6 7
+7 8 9
+8 9 10
+9 10 8
+0
+"""
+
+    def test_warnings_are_in_the_summary_and_the_record(self):
+        self.write("odd.poly", self.TEXT)
+        for arguments in (), ("-n", "3"):
+            summary = self.succeed("mesh", "odd.poly", *arguments, "--json", "run.json", "-o", "odd.vtu")
+            warnings = json.loads((self.folder / "run.json").read_text())["input"]["warnings"]
+            self.assertEqual(len(warnings), 2)
+            self.assertIn("open at vertex 5 (5, 0)", warnings[0])
+            self.assertIn("at vertex 8 (1, 1)", warnings[1])
+            for warning in warnings:
+                self.assertIn(warning, summary)
+            (self.folder / "run.json").unlink()
+
+    def test_strict_makes_them_errors(self):
+        self.write("odd.poly", self.TEXT)
+        for arguments in ("mesh",), ("mesh", "-n", "3"), ("decompose", "-n", "3"):
+            self.refuse(arguments[0], "odd.poly", *arguments[1:], "--strict", "-o", "odd.vtu",
+                        says=["odd.poly", "2 segments", "vertex 5 (5, 0)"])
+        self.assertEqual(self.files(), ["odd.poly"])
+
+    def test_nested_rings_are_holes_where_asked_for(self):
+        self.write("odd.poly", self.TEXT)
+        self.assertIn("15.5 in total", self.succeed("mesh", "odd.poly", "--holes", "nested", "-o", "odd.vtu"))
+        self.succeed("check", "odd.vtu", "odd.poly", "--holes", "nested")
+        self.assertEqual(self.run_program("check", "odd.vtu", "odd.poly").returncode, 1)
+
+
 class Errors(Cli):
     def test_help(self):
         for command in ([], ["mesh"], ["check"], ["generate"], ["generate", "bay"], ["plot"], ["convert"]):

@@ -189,7 +189,9 @@ class TogetherOrNotAtAll(Files):
         subprocess.run(call, cwd=self.folder, stdout=subprocess.DEVNULL, check=True, timeout=MESHER_SECONDS)
         seconds = time.monotonic() - begin
         ends = {"old": 0, "new": 0}
-        for i in range(25):
+        for i in range(200):  # later and later, until some are complete
+            if i >= 25 and min(ends.values()) > 0:
+                break
             self.old_outputs()
             run = subprocess.Popen(call, cwd=self.folder, stdout=subprocess.DEVNULL)
             time.sleep(seconds * i / 20)

@@ -1,0 +1,99 @@
+#include "mesh/domain_warnings.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "geometry/triangle_geometry.hpp"
+#include "pslg/describe.hpp"
+#include "pslg/open_boundary.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr std::size_t kMostMeetings = 3;
+
+class Warnings {
+ public:
+  Warnings(const Pslg& pslg, const RepairReport& repairs)
+      : pslg_(pslg), repairs_(repairs), open_ends_(find_open_boundary(pslg).open_ends) {}
+
+  void add_dropped(const std::vector<std::int32_t>& dropped) {
+    if (dropped.empty()) return;
+    const std::string count =
+        dropped.size() == 1 ? "1 segment bounds" : std::to_string(dropped.size()) + " segments bound";
+    std::string text = count + " no part of the domain and " + (dropped.size() == 1 ? "is" : "are") + " left out";
+    if (const auto end = open_end_of(dropped))
+      text += ": the chain is open at " + name(*end);
+    else
+      text += ", the first at " + name(pslg_.segments[dropped[0]].a);
+    all.push_back(text);
+  }
+
+  void add_meetings(const std::vector<CarveReport::Meeting>& meetings) {
+    for (std::size_t i = 0; i < std::min(meetings.size(), kMostMeetings); ++i) add_meeting(meetings[i]);
+    if (meetings.size() > kMostMeetings)
+      all.push_back(std::to_string(meetings.size() - kMostMeetings) + " more regions are not separated from others");
+  }
+
+  void add_unexplained(const Triangulation& mesh, const std::vector<VertexId>& rings) {
+    if (rings.empty()) return;
+    const std::string count =
+        rings.size() == 1 ? "1 closed ring" : std::to_string(rings.size()) + " groups of closed rings";
+    all.push_back(
+        count + " inside the domain, " + (rings.size() == 1 ? "" : "the first ") + "at " + name(mesh.origin[rings[0]]) +
+        ", without a hole or region point inside: meshed through. For holes, add hole points or choose nested "
+        "holes");
+  }
+
+  std::vector<std::string> all;
+
+ private:
+  [[nodiscard]] std::string name(std::int32_t point) const {
+    return vertex_name(pslg_, repairs_.original_point[point], pslg_.points[point]);
+  }
+
+  [[nodiscard]] std::optional<std::int32_t> open_end_of(const std::vector<std::int32_t>& segments) const {
+    for (const std::int32_t s : segments)
+      for (const std::int32_t v : {pslg_.segments[s].a, pslg_.segments[s].b})
+        if (std::binary_search(open_ends_.begin(), open_ends_.end(), v)) return v;
+    return std::nullopt;
+  }
+
+  /// The gap between two regions is where a chain of segments ends, most likely one near both.
+  void add_meeting(const CarveReport::Meeting& meeting) {
+    const Pslg::Region &first = pslg_.regions[meeting.first], &second = pslg_.regions[meeting.second];
+    std::string text = "regions " + std::to_string(meeting.first + 1) + " at " + coordinates(first.at) + " and " +
+                       std::to_string(meeting.second + 1) + " at " + coordinates(second.at) +
+                       " lie in one area, which gets the label and the bound of the latter";
+    double least = std::numeric_limits<double>::infinity();
+    std::int32_t nearest = kNone;
+    for (const std::int32_t v : open_ends_) {
+      const double distance =
+          squared_distance(pslg_.points[v], first.at) + squared_distance(pslg_.points[v], second.at);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = v;
+    }
+    if (nearest != kNone) text += "; a chain of segments is open at " + name(nearest);
+    all.push_back(text);
+  }
+
+  const Pslg& pslg_;
+  const RepairReport& repairs_;
+  std::vector<std::int32_t> open_ends_;  // ascending
+};
+
+}  // namespace
+
+std::vector<std::string> domain_warnings(const Pslg& pslg, const RepairReport& repairs, const CarveReport& report,
+                                         const Triangulation& carved) {
+  Warnings warnings(pslg, repairs);
+  warnings.add_dropped(report.dropped);
+  warnings.add_meetings(report.meetings);
+  warnings.add_unexplained(carved, find_nested_rings(carved).unexplained);
+  return std::move(warnings.all);
+}
+
+}  // namespace driftmesh
