@@ -1,7 +1,9 @@
 #include "io/msh_groups.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <unordered_set>
 
@@ -52,17 +54,24 @@ std::optional<double> region_of_group_name(std::string_view name) {
 }
 
 std::vector<std::int32_t> group_tags(const std::vector<double>& values) {
+  const auto is_zero = [](double value) { return value == 0 && !std::signbit(value); };
+  const bool has_zero = std::any_of(values.begin(), values.end(), is_zero);
+  std::vector<std::int32_t> tags(values.size(), 0);
   std::unordered_set<std::int32_t> used;
-  for (double value : values) used.insert(own_tag(value));
-  std::vector<std::int32_t> tags;
-  std::int32_t next_free = 1;
-  for (double value : values) {
-    std::int32_t tag = own_tag(value);
-    if (tag == 0) {
-      while (used.contains(next_free)) ++next_free;
-      tag = next_free++;
-    }
-    tags.push_back(tag);
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    tags[i] = is_zero(values[i]) ? kTagOfZero : own_tag(values[i]);
+    if (tags[i] == 0 || (tags[i] == kTagOfZero && has_zero && !is_zero(values[i])))
+      others.push_back(i);
+    else
+      used.insert(tags[i]);
+  }
+  std::sort(others.begin(), others.end(),
+            [&](std::size_t i, std::size_t j) { return std::strong_order(values[i], values[j]) < 0; });
+  std::int32_t next = kTagOfZero + 1;
+  for (const std::size_t i : others) {
+    while (used.contains(next)) ++next;
+    tags[i] = next++;
   }
   return tags;
 }

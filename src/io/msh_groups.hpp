@@ -20,8 +20,13 @@ inline constexpr std::string_view kRankView = "rank";
 [[nodiscard]] std::optional<std::int32_t> marker_of_group_name(std::string_view name);
 [[nodiscard]] std::optional<double> region_of_group_name(std::string_view name);
 
-/// Tags for groups of the given distinct values: the value itself where that is an integer from 1 to the largest
-/// int32, otherwise the smallest unused tags.
+/// The tag of the group of value 0, the same in every file: few markers are that large, and still a solver may have an
+/// array by tag.
+inline constexpr std::int32_t kTagOfZero = 1'000'000;
+
+/// Tags for groups of the given distinct values, whatever their order: the value itself where that is an integer from 1
+/// to the largest int32, and kTagOfZero for 0. Negative and fractional values, and kTagOfZero itself beside a 0, get
+/// the unused tags above kTagOfZero, in ascending order.
 [[nodiscard]] std::vector<std::int32_t> group_tags(const std::vector<double>& values);
 
 }  // namespace driftmesh

@@ -6,6 +6,7 @@
 
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
+#include "io/msh_groups.hpp"
 #include "support/damage.hpp"
 #include "support/mesh_equality.hpp"
 #include "support/random_mesh.hpp"
@@ -115,6 +116,35 @@ TEST_CASE("regions that are no positive integers keep their exact value in .msh"
   const Mesh read = read_mesh(path);
   check_same_mesh(read, mesh);
   CHECK(std::signbit(read.regions[1]));
+}
+
+TEST_CASE("the tag of a group does not depend on the other groups, nor on their order") {
+  CHECK(group_tags({1, 0, 7}) == std::vector<std::int32_t>{1, kTagOfZero, 7});
+  CHECK(group_tags({0}) == std::vector<std::int32_t>{kTagOfZero});
+  CHECK(group_tags({3, 0}) == std::vector<std::int32_t>{3, kTagOfZero});
+  CHECK(group_tags({0.5, -1, 0, 2, -0.0}) ==
+        std::vector<std::int32_t>{kTagOfZero + 3, kTagOfZero + 1, kTagOfZero, 2, kTagOfZero + 2});
+  CHECK(group_tags({-1, 2, -0.0, 0.5, 0}) ==
+        std::vector<std::int32_t>{kTagOfZero + 1, 2, kTagOfZero + 2, kTagOfZero + 3, kTagOfZero});
+  // A marker that is the tag of 0 keeps it where there is no 0.
+  CHECK(group_tags({kTagOfZero, 5}) == std::vector<std::int32_t>{kTagOfZero, 5});
+  CHECK(group_tags({kTagOfZero, 0, kTagOfZero + 1}) ==
+        std::vector<std::int32_t>{kTagOfZero + 2, kTagOfZero, kTagOfZero + 1});
+  CHECK(group_tags({INT32_MAX, 1e300, -5}) == std::vector<std::int32_t>{INT32_MAX, kTagOfZero + 2, kTagOfZero + 1});
+}
+
+TEST_CASE("marker 0 has the same tag in every .msh") {
+  const TemporaryFolder folder;
+  for (const std::int32_t other : {1, 2, 3, 7}) {
+    Mesh mesh;
+    mesh.points = {{0, 0}, {1, 0}, {0, 1}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.edges = {{0, 1, other}, {1, 2, 0}, {2, 0, other}};
+    const std::string path = folder.path() / "mesh.msh";
+    write_mesh(mesh, path);
+    CHECK(file_bytes(path).find("1 1000000 \"marker 0\"\n") != std::string::npos);
+    check_same_mesh(read_mesh(path), mesh);
+  }
 }
 
 TEST_CASE("an ASCII .msh of Gmsh gives markers and regions by the tags of its groups") {
