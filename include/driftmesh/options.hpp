@@ -69,10 +69,16 @@ struct MeshOptions {
   double triangles = 0;      ///< instead of an area: choose the one that gives about this many triangles; 0: not given
   bool region_areas = true;  ///< whether the area bounds of the input's regions apply
   /// Target edge length at a point, > 0, or infinity for no bound: a triangle is too large if its area exceeds that of
-  /// the equilateral triangle whose side is the smallest value at its corners and centroid. Must depend on the point
-  /// alone; pass a SizeField by std::ref. Called often, from the calling thread; on many ranks it must be the same
-  /// function on all of them. Exceptions it throws end the work and propagate.
+  /// the equilateral triangle whose side is the smallest value at its corners and centroid, or 1.11 times a value
+  /// between them that size_resolution finds. Must depend on the point alone; pass a SizeField by std::ref. Called
+  /// often, from the calling thread, at points of the domain only; on many ranks it must be the same function on all of
+  /// them. Exceptions it throws end the work and propagate.
   std::function<double(const Point&)> size{};
+  /// `size` is also looked up on a grid of this many squares along the longer side of the domain, and around its lowest
+  /// points where it is steep: no feature that fills a square is missed. Triangles too small for the grid are judged by
+  /// corners and centroid alone. The function is called about once for each point of the grid, up to 4 million times by
+  /// default; choose less for one that is costly and known to be smooth.
+  std::int64_t size_resolution = 2000;
 
   // ---- Limits of this process ----
   std::int64_t max_triangles = 0;  ///< beyond it, LimitError; 0: the capacity of the data structure, about 500 million

@@ -32,6 +32,7 @@ struct CheckOptions {
   std::string mesh;
   std::string input;
   VerifyOptions verify;
+  std::unique_ptr<SizeField> size;
   GivenKeys bounds;
   bool quiet = false;
   ReadOptions reading;
@@ -59,9 +60,19 @@ std::optional<Pslg> read_and_repair(const CheckOptions& options, HoleRule holes)
   return input;
 }
 
-VerifyReport read_and_verify(const CheckOptions& options, HoleRule holes) {
+Box box_of(const std::vector<Mesh>& pieces) {
+  Box box;
+  for (const Mesh& piece : pieces) box.extend(Box::of(piece.points));
+  return box;
+}
+
+VerifyReport read_and_verify(CheckOptions& options, const job::Request& request) {
   const std::vector<Mesh> pieces = read_and_digest(options);
-  const std::optional<Pslg> input = read_and_repair(options, holes);
+  const std::optional<Pslg> input = read_and_repair(options, request.input.holes);
+  const SizingOptions sizes = job::sizing_of(request.sizing, input ? job::box_of(*input) : box_of(pieces));
+  options.size = make_size_field(sizes);
+  options.verify.size = options.size.get();
+  if (!request.sizing.expression.empty()) options.verify.size_spacing = sizes.spacing;
   if (is_in_pieces(options.mesh)) return verify_pieces(pieces, input ? &*input : nullptr, options.verify);
   return input ? verify(pieces[0], *input, options.verify) : verify(pieces[0], options.verify);
 }
@@ -75,9 +86,7 @@ int run_check(CheckOptions& options) {
   options.verify.max_area = request.bounds.area;
   options.verify.region_areas = request.bounds.region_areas;
   try {
-    const std::unique_ptr<SizeField> size = make_size_field(job::sizing_of(request.sizing));
-    options.verify.size = size.get();
-    const VerifyReport report = read_and_verify(options, request.input.holes);
+    const VerifyReport report = read_and_verify(options, request);
     if (!options.quiet) print(report_text(report, options.verify));
     print(verdict_text(report, options.verify) + "\n");
     flush_standard_output();
@@ -139,7 +148,10 @@ cli::Command check_command() {
           .options = check_options(*options),
           .notes =
               "Angles below the bound are allowed where the input has them, and in wedges between input segments "
-              "that meet at less than 60 degrees; the report lists them.",
+              "that meet at less than 60 degrees; the report lists them. Sizes are looked up in each triangle at its "
+              "corners "
+              "and centroid, and where they are asked for by an expression four times in each square of the domain's "
+              "longer side over --size-resolution; there an edge may be 1.25 times what is asked for.",
           .examples = {"driftmesh check bay.vtu bay.poly --angle 20 --area 5000"},
           .exit_codes = "0 accepted, 1 rejected, 2 a file could not be read or written, or wrong usage",
           .run = [options](cli::Call&) { return run_check(*options); }};

@@ -16,6 +16,10 @@ class ScaledField final : public SizeField {
  public:
   ScaledField(const SizeField& field, double factor) : field_(field), factor_(factor) {}
   [[nodiscard]] double edge_length(const Point& p) const override { return factor_ * field_.edge_length(p); }
+  [[nodiscard]] double least() const override { return factor_ * field_.least(); }
+  [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override {
+    return field_.falls_below(triangle, length / factor_);
+  }
 
  private:
   const SizeField& field_;

@@ -59,4 +59,17 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) {
   levels_.push_back(std::move(level));
 }
 
+BoxTree::Least BoxTree::least(const std::vector<double>& values) const {
+  Least all;
+  for (std::size_t level = 0; level < levels_.size(); ++level) {
+    std::vector<double>& here = all.emplace_back(levels_[level].size(), std::numeric_limits<double>::infinity());
+    if (level == 0)
+      std::transform(items_.begin(), items_.end(), here.begin(), [&](std::int32_t item) { return values[item]; });
+    else
+      for (std::size_t i = 0; i < all[level - 1].size(); ++i)
+        here[i / kChildren] = std::min(here[i / kChildren], all[level - 1][i]);
+  }
+  return all;
+}
+
 }  // namespace driftmesh

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -21,6 +22,23 @@ namespace driftmesh {
 /// Positive for counterclockwise corners, but rounded: only orient2d gives the exact sign.
 [[nodiscard]] inline double signed_area(const Point& a, const Point& b, const Point& c) {
   return 0.5 * ((a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x));
+}
+
+/// The corners of a triangle.
+using CornerPoints = std::array<Point, 3>;
+
+[[nodiscard]] inline Point centroid(const CornerPoints& t) {
+  return {(t[0].x + t[1].x + t[2].x) / 3, (t[0].y + t[1].y + t[2].y) / 3};
+}
+
+/// Positive if p is to the left of the line from a to b, but rounded: only orient2d gives the exact sign.
+[[nodiscard]] inline double rounded_cross(const Point& a, const Point& b, const Point& p) {
+  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+/// Whether p is in the closed counterclockwise triangle, up to rounding.
+[[nodiscard]] inline bool contains(const CornerPoints& t, const Point& p) {
+  return rounded_cross(t[0], t[1], p) >= 0 && rounded_cross(t[1], t[2], p) >= 0 && rounded_cross(t[2], t[0], p) >= 0;
 }
 
 /// Center of the circle through three points that are not collinear (otherwise the result is not finite, or arbitrary).

@@ -1,5 +1,6 @@
 #include "job/domain.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "mesh/nested_rings.hpp"
 #include "pslg/generators.hpp"
 #include "pslg/poly_file.hpp"
+#include "sizing/sampled_field.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -27,8 +29,9 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   watch.repaired(domain.repairs);
   warn(request, warnings, watch);
   add_nested_holes(request.input.holes, domain.pslg);
-  domain.own_size = timed(watch, "size", [&] { return make_size_field(sizing_of(request.sizing)); });
-  domain.size = given.size != nullptr ? given.size : domain.own_size.get();
+  SizeSource source = timed(watch, "size", [&] { return size_of(request.sizing, given.size, domain.pslg); });
+  domain.size = std::move(source.field);
+  domain.background = source.background;
   return domain;
 }
 
@@ -52,8 +55,24 @@ void warn(const Request& request, std::span<const std::string> warnings, Watch& 
   if (listed < warnings.size()) watch.warn(more(listed));
 }
 
-SizingOptions sizing_of(const Request::Sizing& asked) {
+SizeSource size_of(const Request::Sizing& sizing, const SizeField* given, const Pslg& pslg) {
+  const SizingOptions options = sizing_of(sizing, box_of(pslg));
+  if (given == nullptr) return make_size(options);
+  return {std::make_unique<SampledField>(*given, options.spacing)};
+}
+
+Box box_of(const Pslg& pslg) {
+  if (pslg.segments.empty()) return Box::of(pslg.points);
+  Box box;
+  for (const Pslg::Segment& s : pslg.segments)
+    for (const std::int32_t end : {s.a, s.b}) box.extend(pslg.points[end]);
+  return box;
+}
+
+SizingOptions sizing_of(const Request::Sizing& asked, const Box& box) {
   SizingOptions sizing;
+  sizing.domain = box;
+  sizing.spacing = std::max(box.high.x - box.low.x, box.high.y - box.low.y) / static_cast<double>(asked.resolution);
   sizing.expression = asked.expression;
   sizing.background = asked.background;
   if (asked.gradation > 0) sizing.gradation = asked.gradation;

@@ -26,8 +26,8 @@ struct Given {
 struct Domain {
   Pslg pslg;  ///< repaired
   RepairReport repairs;
-  std::unique_ptr<const SizeField> own_size;  ///< made for the request, or null
-  const SizeField* size = nullptr;            ///< the one to use: own_size, a given one, or null
+  std::unique_ptr<const SizeField> size;       ///< null: none is asked for
+  const BackgroundMesh* background = nullptr;  ///< of the size field
 };
 
 /// Reads or generates the domain, repairs it, applies the rule for holes, and makes the size field. Throws InputError,
@@ -41,8 +41,15 @@ void add_nested_holes(HoleRule rule, Pslg& pslg);
 /// request is strict.
 void warn(const Request& request, std::span<const std::string> warnings, Watch& watch);
 
-/// The request's settings for the sizes of triangles.
-[[nodiscard]] SizingOptions sizing_of(const Request::Sizing& sizing);
+/// The size field that the request asks for, or the given one if not null, for a domain with these points: the same on
+/// every rank. Null if there is none. Throws InputError, FileError.
+[[nodiscard]] SizeSource size_of(const Request::Sizing& sizing, const SizeField* given, const Pslg& pslg);
+
+/// What the request asks for of the sizes of triangles in a domain inside `box`.
+[[nodiscard]] SizingOptions sizing_of(const Request::Sizing& sizing, const Box& box);
+
+/// Around the segments, or around the points if there are none.
+[[nodiscard]] Box box_of(const Pslg& pslg);
 
 /// The name of the domain: its file, the generated model, or "input" if a caller has it in memory.
 [[nodiscard]] std::string input_name(const Request& request);

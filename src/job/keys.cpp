@@ -258,7 +258,11 @@ Section triangle_section() {
        key("sizing.min", &R::sizing, &R::Sizing::shortest, "Lower limit on target edge lengths", from(0),
            option("size-min", "LENGTH"), entry_points(kAll & ~kLibrary)),
        key("sizing.max", &R::sizing, &R::Sizing::longest, "Upper limit on target edge lengths; 0: no limit", from(0),
-           option("size-max", "LENGTH"), entry_points(kAll & ~kLibrary))}};
+           option("size-max", "LENGTH"), entry_points(kAll & ~kLibrary)),
+       key("sizing.resolution", &R::sizing, &R::Sizing::resolution,
+           "Where only values at points tell the size, they are taken on a grid of this many squares along the longer "
+           "side of the domain: no feature that fills a square is missed",
+           in(1, 100'000), option("size-resolution", "N"))}};
 }
 
 Section limit_section() {

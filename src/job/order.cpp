@@ -19,6 +19,7 @@ void transfer_rest(Stream& stream, Fields& order) {
   stream.value(order.sizing.gradation);
   stream.value(order.sizing.shortest);
   stream.value(order.sizing.longest);
+  stream.value(order.sizing.resolution);
   stream.value(order.limits);
   stream.array(order.shares);
   stream.value(order.writes);

@@ -17,8 +17,8 @@ namespace driftmesh::job {
 RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
     : team_(team), order_(std::move(order)), watch_(watch) {
   by_itself(team_, [&] {
-    if (size == nullptr) size_ = make_size_field(sizing_of(order_.sizing));
-    order_.plan.bounds.size = size != nullptr ? size : size_.get();
+    size_ = size_of(order_.sizing, size, order_.pslg).field;
+    order_.plan.bounds.size = size_.get();
     limits_ = find_limits(order_.limits, order_.pslg, order_.writes, team_.ranks_on_machine());
     order_.plan.max_triangles = limits_.triangles;
   });

@@ -48,6 +48,7 @@ struct Request {
     double gradation = 0;  ///< 0: lengths are taken as they are
     double shortest = 0;
     double longest = 0;  ///< 0: no limit
+    std::int64_t resolution = 2000;
   } sizing;
 
   struct Limits {

@@ -26,7 +26,7 @@ QualityBounds bounds_of(const Request& request, const Domain& domain, const Tria
   return driftmesh::bounds_of(domain.pslg, {.min_angle = request.bounds.angle,
                                             .max_area = area_bound_of(request.bounds, mesh, ranks),
                                             .region_areas = request.bounds.region_areas,
-                                            .size = domain.size});
+                                            .size = domain.size.get()});
 }
 
 }  // namespace

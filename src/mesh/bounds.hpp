@@ -32,6 +32,11 @@ void require_possible(const QualityBounds& bounds);
   return h * h * (std::numbers::sqrt3 / 2);
 }
 
+/// The edge of the equilateral triangle of which this is twice the area.
+[[nodiscard]] inline double edge_of_twice_area(double twice_area) {
+  return std::sqrt(twice_area * (2 / std::numbers::sqrt3));
+}
+
 inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 }  // namespace driftmesh

@@ -19,22 +19,41 @@ int apex_of_shortest_edge(const Triangulation& mesh, TriangleId t) {
   return static_cast<int>(std::min_element(squared.begin(), squared.end()) - squared.begin());
 }
 
-double area_bound(const Triangulation& mesh, const QualityBounds& bounds, TriangleId t) {
-  double bound = bounds.max_area > 0 ? bounds.max_area : kNoBound;
-  if (!bounds.region_max_area.empty() && !mesh.region.empty()) {
-    const double own = bounds.region_max_area[mesh.region[t]];
-    if (own > 0) bound = std::min(bound, own);
+/// Decides which triangles are above their area bound.
+class AreaBounds {
+ public:
+  AreaBounds(const Triangulation& mesh, const QualityBounds& bounds) : mesh_(mesh), bounds_(bounds) {
+    if (bounds.size == nullptr) return;
+    twice_area_of_least_ = twice_area_of_edge(bounds.size->least());
+    size_.reserve(mesh.points.size());
+    for (const Point& p : mesh.points) size_.push_back(bounds.size->edge_length(p));
   }
-  if (bounds.size == nullptr) return bound;
-  Point centroid{0, 0};
-  double h = kNoBound;
-  for (int i = 0; i < 3; ++i) {
-    const Point& p = mesh.corner(t, i);
-    centroid = {centroid.x + p.x / 3, centroid.y + p.y / 3};
-    h = std::min(h, bounds.size->edge_length(p));
+
+  [[nodiscard]] bool exceeded(TriangleId t, double twice_area) const {
+    return twice_area > 2 * constant_bound(t) ||
+           (bounds_.size != nullptr && twice_area > twice_area_of_least_ && too_large_for_size(t, twice_area));
   }
-  return std::min(bound, twice_area_of_edge(std::min(h, bounds.size->edge_length(centroid))) / 2);
-}
+
+ private:
+  [[nodiscard]] double constant_bound(TriangleId t) const {
+    const double bound = bounds_.max_area > 0 ? bounds_.max_area : kNoBound;
+    if (bounds_.region_max_area.empty() || mesh_.region.empty()) return bound;
+    const double own = bounds_.region_max_area[mesh_.region[t]];
+    return own > 0 ? std::min(bound, own) : bound;
+  }
+
+  [[nodiscard]] bool too_large_for_size(TriangleId t, double twice_area) const {
+    const CornerPoints corners{mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
+    double h = bounds_.size->edge_length(centroid(corners));
+    for (const VertexId v : mesh_.triangles[t].vertex) h = std::min(h, size_[v]);
+    return twice_area > twice_area_of_edge(h) || bounds_.size->falls_below(corners, edge_of_twice_area(twice_area));
+  }
+
+  const Triangulation& mesh_;
+  const QualityBounds& bounds_;
+  double twice_area_of_least_ = 0;
+  IdVector<VertexId, double> size_;  // of the field at each vertex
+};
 
 /// Calls visit(triangle, corner points) for every live triangle, in their order. Corners are prefetched some triangles
 /// ahead: otherwise most of the time would be spent waiting for memory.
@@ -103,6 +122,7 @@ ExceptionCause cause_of(const Triangulation& mesh, TriangleId t) {
 Exceptions find_exceptions(const Triangulation& mesh, const QualityBounds& bounds) {
   Exceptions found;
   const double sine = std::sin(bounds.min_angle / kDegrees);
+  const AreaBounds areas(mesh, bounds);
   visit_triangles(mesh, [&](TriangleId t, const std::array<const Point*, 3>& corner) {
     const Point &a = *corner[0], &b = *corner[1], &c = *corner[2];
     const double ab = squared_distance(a, b), bc = squared_distance(b, c), ca = squared_distance(c, a);
@@ -113,7 +133,7 @@ Exceptions find_exceptions(const Triangulation& mesh, const QualityBounds& bound
       found.skinny.push_back({t, cause == ExceptionCause::kUnexplained ? ExceptionCause::kPrecision : cause,
                               angle_range(a, b, c).smallest * kDegrees});
     }
-    if (twice_area > 2 * area_bound(mesh, bounds, t)) found.large.push_back(t);
+    if (areas.exceeded(t, twice_area)) found.large.push_back(t);
   });
   return found;
 }

@@ -1,7 +1,6 @@
 #include "mesh/refiner.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -36,25 +35,29 @@ double cos_squared_of_lens(double min_angle) {
   return cosine * cosine;
 }
 
-/// The number of triangles that a size field requires in a triangle: the integral of one over the mean area, by
-/// subdivision until the field varies little or the pieces are about as small as the triangles asked for.
-double integrate_size(const SizeField& field, double twice_area_bound, const std::array<Point, 3>& corners,
-                      int depth = 0) {
+/// How many triangles a size field asks for in a triangle: the integral of one over the mean area, by subdivision until
+/// the field varies little or the pieces are about as small as the triangles asked for. Where the field falls between
+/// the points that were looked at, so steeply that the mesh cannot follow, each piece counts at least like a triangle.
+double integrate_size(const SizeField& field, double twice_area_bound, const CornerPoints& corners, int depth = 0,
+                      bool steep = false) {
   const auto& [a, b, c] = corners;
-  const Point centroid{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
-  const double h[4] = {field.edge_length(a), field.edge_length(b), field.edge_length(c), field.edge_length(centroid)};
+  const Point middle = centroid(corners);
+  const double h[4] = {field.edge_length(a), field.edge_length(b), field.edge_length(c), field.edge_length(middle)};
   const auto [least, most] = std::minmax({h[0], h[1], h[2], h[3]});
   const double twice = 2 * signed_area(a, b, c);
-  constexpr int kDeepest = 8;
+  constexpr int kDeepest = 8, kDeepestSteep = 14;
   constexpr double kSmooth = 1.2;
-  if (depth == kDeepest || most <= kSmooth * least || twice < 4 * twice_area_of_edge(least)) {
+  if (depth >= kDeepest || most <= kSmooth * least || twice < 4 * twice_area_of_edge(least)) {
+    const bool falls = depth < kDeepestSteep && field.falls_below(corners, std::min(least, edge_of_twice_area(twice)));
     const double mean = (h[0] + h[1] + h[2] + 3 * h[3]) / 6;
-    return twice / (kMeanArea * std::min(twice_area_of_edge(mean), twice_area_bound));
+    const double count = twice / (kMeanArea * std::min(twice_area_of_edge(mean), twice_area_bound));
+    if (!falls) return steep ? std::max(count, 1 / kMeanArea) : count;
+    steep = true;
   }
   const Point ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
   double sum = 0;
-  for (const std::array<Point, 3>& part : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}})
-    sum += integrate_size(field, twice_area_bound, part, depth + 1);
+  for (const CornerPoints& part : {CornerPoints{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}})
+    sum += integrate_size(field, twice_area_bound, part, depth + 1, steep);
   return sum;
 }
 
@@ -79,6 +82,7 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState 
   off_center_factor_ = bounds.min_angle > 0 ? off_center_factor(bounds.min_angle) : 0;
   lens_.cos_squared = cos_squared_of_lens(bounds.min_angle);
 
+  if (bounds.size != nullptr) twice_area_of_least_ = twice_area_of_edge(bounds.size->least());
   const auto twice = [](double area) { return area > 0 ? 2 * area * (1 - 1e-12) : kNoBound; };
   twice_area_bounds_.push_back(twice(bounds.max_area));
   for (std::size_t r = 1; r < bounds.region_max_area.size(); ++r)
@@ -99,9 +103,9 @@ inline double Refiner::twice_area(TriangleId t) const {
   return 2 * signed_area(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
 }
 
-inline Refiner::Shape Refiner::shape_of(TriangleId t) const {
+inline Refiner::Shape Refiner::shape_of(TriangleId t, double twice_area) const {
   const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-  return shape(twice_area(t), squared_distance(a, b), squared_distance(b, c), squared_distance(c, a));
+  return shape(twice_area, squared_distance(a, b), squared_distance(b, c), squared_distance(c, a));
 }
 
 /// The bound of the request and of the region, without the size field.
@@ -110,18 +114,43 @@ inline double Refiner::constant_bound(TriangleId t) const {
                                                                 : twice_area_bounds_[0];
 }
 
-inline double Refiner::twice_area_bound(TriangleId t) const {
-  double bound = constant_bound(t);
-  if (bounds_.size != nullptr) bound = std::min(bound, sized_bound(t));
-  return bound * coarsening_;
+/// The bound on a triangle with twice this area: less if the triangle is too large.
+inline double Refiner::twice_area_bound(TriangleId t, double twice_area) const {
+  const double bound = constant_bound(t) * coarsening_;
+  return bounds_.size == nullptr || twice_area > bound ? bound : sized_bound(t, twice_area, bound);
 }
 
-double Refiner::sized_bound(TriangleId t) const {
+/// The same with the size field, asked what is cheapest first.
+double Refiner::sized_bound(TriangleId t, double twice_area, double bound) const {
   const auto& v = mesh_.triangles[t].vertex;
+  const auto limited = [&](double h) { return std::min(bound, twice_area_of_edge(h) * coarsening_); };
+  const double h = std::min({state_.size[v[0]], state_.size[v[1]], state_.size[v[2]]});
+  if (twice_area > limited(h)) return limited(h);
   const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-  const double h = std::min({state_.size[v[0]], state_.size[v[1]], state_.size[v[2]],
-                             bounds_.size->edge_length({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3})});
-  return twice_area_of_edge(h);
+  bound = limited(std::min(h, bounds_.size->edge_length({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3})));
+  const bool between = twice_area <= bound && looks_between() && asks_between(t, twice_area);
+  return between ? twice_area / 2 : bound;
+}
+
+/// Whether the size field asks for a smaller triangle somewhere between corners and centroid.
+bool Refiner::asks_between(TriangleId t, double twice_area) const {
+  const double fine_area = twice_area / coarsening_;
+  if (fine_area <= twice_area_of_least_) return false;
+  return bounds_.size->falls_below({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)},
+                                   edge_of_twice_area(fine_area));
+}
+
+/// Most triangles of the fine stage are to disappear again. What would be missed by far is found in the coarse stage,
+/// and the rest by look_between.
+bool Refiner::looks_between() const {
+  return state_.stage != Stage::kSegments && state_.stage != Stage::kFine;
+}
+
+/// Makes up for what the fine stage has not looked at.
+void Refiner::look_between() {
+  if (bounds_.size == nullptr) return;
+  for (const TriangleId t : ids_of(mesh_.triangles))
+    if (mesh_.triangles[t].alive() && asks_between(t, twice_area(t))) state_.sweep.visit_again(t);
 }
 
 double Refiner::predict_triangles() const {
@@ -161,7 +190,10 @@ bool Refiner::step() {
       if (!step_large() && !state_.sweep.next_block()) enter(Stage::kFine);
       return true;
     case Stage::kFine:
-      if (!step_large() && !step_skinny() && !state_.sweep.next_block()) enter(Stage::kRest);
+      if (!step_large() && !step_skinny() && !state_.sweep.next_block()) {
+        enter(Stage::kRest);
+        look_between();
+      }
       return true;
     case Stage::kRest:
       if (!step_large() && !step_skinny()) enter(Stage::kDone);
@@ -234,13 +266,13 @@ bool Refiner::step_large() {
     const TriangleId t = state_.sweep.current(to_int(mesh_.triangles.next_id()));
     if (t == kNone) return false;
     if (mesh_.triangles[t].alive()) [[likely]] {
-      const double bound = twice_area_bound(t);
-      if (twice_area(t) > bound) {
+      const double twice = twice_area(t), bound = twice_area_bound(t, twice);
+      if (twice > bound) {
         if (improve(t, circumcenter(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2))) == Progress::kChanged)
           return true;
         ++state_.counters.given_up;
       } else if (state_.stage != Stage::kCoarse) {
-        const Shape s = shape_of(t);
+        const Shape s = shape_of(t, twice);
         if (is_skinny(s)) note_skinny(t, s, bound);
       }
     }
@@ -349,7 +381,7 @@ bool Refiner::add_split_point(RootId root, dyadic::Path path) {
   }
 }
 
-inline void Refiner::note_fresh() {
+void Refiner::note_fresh() {
   const int n = cavity_.fresh_count();
   for (int i = 0; i < n; ++i) {
     if (state_.sweep.will_visit(cavity_.fresh_triangle(i))) continue;
@@ -361,7 +393,7 @@ inline void Refiner::note_fresh() {
 /// Queues a triangle that needs work, unless the sweep will come to it anyway.
 inline void Refiner::note(TriangleId t, const Shape& s) {
   if (state_.sweep.will_visit(t)) return;
-  const double bound = twice_area_bound(t);
+  const double bound = twice_area_bound(t, s.twice_area);
   if (s.twice_area > bound)
     state_.sweep.visit_again(t);
   else if (state_.stage != Stage::kCoarse && is_skinny(s))

@@ -68,11 +68,15 @@ class Refiner {
   };
 
   static Shape shape(double twice_area, double ab, double bc, double ca);
-  [[nodiscard]] Shape shape_of(TriangleId t) const;
+  [[nodiscard]] Shape shape_of(TriangleId t, double twice_area) const;
+  [[nodiscard]] Shape shape_of(TriangleId t) const { return shape_of(t, twice_area(t)); }
   [[nodiscard]] double twice_area(TriangleId t) const;
   [[nodiscard]] double constant_bound(TriangleId t) const;
-  [[nodiscard]] double twice_area_bound(TriangleId t) const;
-  [[nodiscard]] double sized_bound(TriangleId t) const;
+  [[nodiscard]] double twice_area_bound(TriangleId t, double twice_area) const;
+  [[nodiscard]] double sized_bound(TriangleId t, double twice_area, double bound) const;
+  [[nodiscard]] bool asks_between(TriangleId t, double twice_area) const;
+  [[nodiscard]] bool looks_between() const;
+  void look_between();
   /// Whether the smallest angle is below the bound: its sine is twice the area over the product of the two longer
   /// edges. Fourth powers of lengths cannot overflow for any coordinate that is allowed; sixth powers could.
   [[nodiscard]] bool is_skinny(const Shape& s) const {
@@ -103,6 +107,7 @@ class Refiner {
   double off_center_factor_ = 0;
   double coarsening_ = 1;                  // current factor on all area bounds
   std::vector<double> twice_area_bounds_;  // by region label
+  double twice_area_of_least_ = 0;         // of the size field
   std::vector<TriangleId> changed_;
   RefinerState state_;
 };

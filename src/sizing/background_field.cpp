@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "driftmesh/error.hpp"
+#include "driftmesh/id_vector.hpp"
+#include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {
 namespace {
@@ -23,6 +25,42 @@ std::vector<double> lengths_of_areas(const std::vector<double>& area_bounds) {
   return lengths;
 }
 
+/// For rounding.
+constexpr double kBelow = 1 - 1e-9;
+
+double least_of(const std::vector<double>& lengths) {
+  return *std::min_element(lengths.begin(), lengths.end());
+}
+
+/// How far along pq, 0 to 1, it crosses ab; less than 0 if it does not.
+double crossing(const Point& p, const Point& q, const Point& a, const Point& b) {
+  const double at_p = rounded_cross(a, b, p), at_q = rounded_cross(a, b, q);
+  if ((at_p > 0) == (at_q > 0)) return -1;
+  if ((rounded_cross(p, q, a) > 0) == (rounded_cross(p, q, b) > 0)) return -1;
+  return at_p / (at_p - at_q);
+}
+
+double longest_edge(const CornerPoints& t) {
+  return std::sqrt(
+      std::max({squared_distance(t[0], t[1]), squared_distance(t[1], t[2]), squared_distance(t[2], t[0])}));
+}
+
+/// Whether all of t is to the right of one of s's edges, or no farther to the left of it than `margin`.
+bool separate(const CornerPoints& s, const CornerPoints& t, double margin) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point &a = s[i], &b = s[(i + 1) % 3];
+    const double most = margin * std::sqrt(squared_distance(a, b));
+    if (std::all_of(t.begin(), t.end(), [&](const Point& p) { return rounded_cross(a, b, p) <= most; })) return true;
+  }
+  return false;
+}
+
+/// Whether they share more than a boundary.
+bool overlap(const CornerPoints& s, const CornerPoints& t) {
+  const double margin = 1e-9 * std::min(longest_edge(s), longest_edge(t));
+  return !separate(s, t, margin) && !separate(t, s, margin);
+}
+
 }  // namespace
 
 double edge_length_of_area(double area) {
@@ -37,6 +75,37 @@ VertexSizeField::VertexSizeField(BackgroundMesh mesh, std::vector<double> length
     if (!(lengths_[i] > 0))
       throw Error("background mesh: the edge length at point " + std::to_string(i) + " (counted from 0) is " +
                   std::to_string(lengths_[i]) + ", not positive");
+  least_ = least_of(lengths_);
+  edges_ = mesh_.edges();
+  std::vector<Box> boxes;
+  std::vector<double> shorter;
+  for (const auto& [a, b] : edges_) {
+    boxes.push_back(Box::around(mesh_.points()[a], mesh_.points()[b]));
+    shorter.push_back(std::min(lengths_[a], lengths_[b]));
+  }
+  edge_tree_ = BoxTree(boxes);
+  shorter_ends_ = edge_tree_.least(shorter);
+}
+
+/// A function that is linear on the triangles of a mesh has its least value in a triangle at a corner of the triangle,
+/// at a point of the mesh, or where edges cross.
+bool VertexSizeField::falls_below(const std::array<Point, 3>& triangle, double length) const {
+  const double limit = length * kBelow;
+  bool found = false;
+  edge_tree_.search_below(shorter_ends_, limit, Box::of(triangle), [&](std::int32_t e) {
+    const auto [a, b] = edges_[e];
+    const Point &p = mesh_.points()[a], &q = mesh_.points()[b];
+    found = found || (lengths_[a] < limit && contains(triangle, p)) || (lengths_[b] < limit && contains(triangle, q));
+    for (std::size_t i = 0; i < 3 && !found; ++i) {
+      const double t = crossing(p, q, triangle[i], triangle[(i + 1) % 3]);
+      found = t >= 0 && (1 - t) * lengths_[a] + t * lengths_[b] < limit;
+    }
+  });
+  return found;
+}
+
+void VertexSizeField::visit_marks(const std::function<void(const Point&)>& visit) const {
+  for (const Point& p : mesh_.points()) visit(p);
 }
 
 double VertexSizeField::edge_length(const Point& p) const {
@@ -60,6 +129,21 @@ TriangleAreaField::TriangleAreaField(BackgroundMesh mesh, const std::vector<doub
     if (std::isnan(lengths_[t]))
       throw Error("background mesh: the area bound of triangle " + std::to_string(t) +
                   " (counted from 0) is not a number");
+  for (std::size_t t = 0; t < lengths_.size(); ++t)
+    if (!mesh_.has_area(static_cast<std::int32_t>(t))) lengths_[t] = std::numeric_limits<double>::infinity();
+  least_ = least_of(lengths_);
+  shortest_ = mesh_.triangle_tree().least(lengths_);
+}
+
+bool TriangleAreaField::falls_below(const std::array<Point, 3>& triangle, double length) const {
+  bool found = false;
+  mesh_.triangle_tree().search_below(shortest_, length * kBelow, Box::of(triangle),
+                                     [&](std::int32_t t) { found = found || overlap(triangle, mesh_.corners(t)); });
+  return found;
+}
+
+void TriangleAreaField::visit_marks(const std::function<void(const Point&)>& visit) const {
+  for (std::int32_t t = 0; to_index(t) < mesh_.triangles().size(); ++t) visit(centroid(mesh_.corners(t)));
 }
 
 double TriangleAreaField::edge_length(const Point& p) const {

@@ -1,6 +1,7 @@
 #include "sizing/background_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -31,6 +32,21 @@ double nearest_on_segment(const Point& p, const Point& a, const Point& b) {
 double squared_distance_to_segment(const Point& p, const Point& a, const Point& b) {
   const double t = nearest_on_segment(p, a, b);
   return squared_distance(p, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
+}
+
+/// The middle of the part of ab that is in the triangle; nothing if there is no such part.
+std::optional<Point> middle_inside(const CornerPoints& triangle, const Point& a, const Point& b) {
+  double from = 0, to = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double at_a = rounded_cross(triangle[i], triangle[(i + 1) % 3], a);
+    const double at_b = rounded_cross(triangle[i], triangle[(i + 1) % 3], b);
+    if (at_a < 0 && at_b < 0) return std::nullopt;
+    if (at_a < 0) from = std::max(from, at_a / (at_a - at_b));
+    if (at_b < 0) to = std::min(to, at_a / (at_a - at_b));
+  }
+  if (from >= to) return std::nullopt;
+  const double t = (from + to) / 2;
+  return Point{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
 
 }  // namespace
@@ -93,6 +109,19 @@ void BackgroundMesh::connect(const std::vector<Edge>& edges) {
   walk_ = TriangleWalk(points_, triangles_, neighbors);
 }
 
+std::vector<BackgroundMesh::Ends> BackgroundMesh::edges() const {
+  std::vector<bool> with_area(triangles_.size());
+  for (std::size_t t = 0; t < triangles_.size(); ++t) with_area[t] = has_area(static_cast<std::int32_t>(t));
+  std::vector<Ends> ends;
+  for (const Edge& edge : edges_of(triangles_, with_area))
+    if (const Ends own{edge.low, edge.high}; ends.empty() || ends.back() != own) ends.push_back(own);
+  return ends;
+}
+
+bool BackgroundMesh::has_area(std::int32_t triangle) const {
+  return orient2d(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)) != 0;
+}
+
 template <class Visit>
 void BackgroundMesh::visit_triangles_with(const Point& p, Visit&& visit) const {
   triangle_tree_.visit_containing(p, [&](std::int32_t t) {
@@ -124,6 +153,52 @@ std::vector<std::int32_t> BackgroundMesh::triangles_at(const Point& p) const {
   if (found.empty()) found.push_back(nearest_on_boundary(p).triangle);
   std::sort(found.begin(), found.end());
   return found;
+}
+
+bool BackgroundMesh::covers(const std::array<Point, 3>& triangle) const {
+  return !uncovered(triangle);
+}
+
+bool BackgroundMesh::covers(const Box& box) const {
+  if (!(box.low.x < box.high.x && box.low.y < box.high.y)) return true;
+  const Point right{box.high.x, box.low.y}, left{box.low.x, box.high.y};
+  return covers({box.low, right, box.high}) && covers({box.low, box.high, left});
+}
+
+/// Of a triangle that is not covered, a corner is outside, or an edge of the boundary passes through it.
+std::optional<Point> BackgroundMesh::uncovered(const std::array<Point, 3>& triangle) const {
+  const Box box = Box::of(triangle);
+  const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  const double beside = 1e-7 * size, rounding = 1e-9 * size;
+  for (const Point& p : triangle)
+    if (is_outside(p, rounding)) return p;
+  std::optional<Point> found;
+  boundary_tree_.search([&](const Box& around) { return !found && around.overlaps(box); },
+                        [&](std::int32_t e) {
+                          const Edge& edge = boundary_[e];
+                          const Point &a = corner(edge.triangle, edge.corner),
+                                      &b = corner(edge.triangle, (edge.corner + 1U) % 3);
+                          const std::optional<Point> m = middle_inside(triangle, a, b);
+                          if (!m) return;
+                          const double scale = beside / std::sqrt(squared_distance(a, b));
+                          const Point p{m->x + scale * (b.y - a.y), m->y - scale * (b.x - a.x)};
+                          if (contains(triangle, p) && is_outside(p, rounding)) found = p;
+                        });
+  return found;
+}
+
+bool BackgroundMesh::is_outside(const Point& p, double by_more_than) const {
+  if (walk_.find(p).triangle >= 0) return false;
+  bool inside = false;
+  visit_triangles_with(p, [&](std::int32_t, const auto&) { inside = true; });
+  if (inside) return false;
+  const Place place = nearest_on_boundary(p);
+  Point nearest{0, 0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    nearest.x += place.weight[i] * corner(place.triangle, i).x;
+    nearest.y += place.weight[i] * corner(place.triangle, i).y;
+  }
+  return squared_distance(p, nearest) > by_more_than * by_more_than;
 }
 
 BackgroundMesh::Place BackgroundMesh::nearest_on_boundary(const Point& p) const {

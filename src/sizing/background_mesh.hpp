@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "driftmesh/point.hpp"
@@ -27,7 +28,25 @@ class BackgroundMesh {
   BackgroundMesh(std::vector<Point> points, std::vector<Triangle> triangles);
 
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
-  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }  ///< counterclockwise
+  [[nodiscard]] const BoxTree& triangle_tree() const { return triangle_tree_; }
+  [[nodiscard]] std::array<Point, 3> corners(std::int32_t triangle) const {
+    return {corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)};
+  }
+  [[nodiscard]] bool has_area(std::int32_t triangle) const;
+
+  /// Whether all of a triangle lies in the mesh, as far as its corners and the edges on the boundary of the mesh tell:
+  /// no such edge passes through the triangle. Up to rounding.
+  [[nodiscard]] bool covers(const std::array<Point, 3>& triangle) const;
+  /// The same for a box; true for an empty one.
+  [[nodiscard]] bool covers(const Box& box) const;
+  /// A point of the triangle that is not in the mesh, by more than rounding, if there is one.
+  [[nodiscard]] std::optional<Point> uncovered(const std::array<Point, 3>& triangle) const;
+
+  /// Two points that a triangle with an area has an edge between.
+  using Ends = std::array<std::int32_t, 2>;
+  /// All edges, each once.
+  [[nodiscard]] std::vector<Ends> edges() const;
 
   /// The place of `p` in the triangle that contains it, the one with the lowest index on a shared edge or corner. For a
   /// point outside the mesh, the place of the nearest point of its boundary. Depends on `p` alone.
@@ -53,6 +72,7 @@ class BackgroundMesh {
   void visit_triangles_with(const Point& p, Visit&& visit) const;
   static std::vector<Edge> edges_of(const std::vector<Triangle>& triangles, const std::vector<bool>& has_area);
   void connect(const std::vector<Edge>& edges);
+  [[nodiscard]] bool is_outside(const Point& p, double by_more_than) const;
   [[nodiscard]] Place nearest_on_boundary(const Point& p) const;
 
   std::vector<Point> points_;

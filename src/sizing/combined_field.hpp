@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -16,6 +18,7 @@ class UniformField final : public SizeField {
   /// > 0 or +infinity.
   explicit UniformField(double length) : length_(length) {}
   [[nodiscard]] double edge_length(const Point&) const override { return length_; }
+  [[nodiscard]] double least() const override { return length_; }
 
  private:
   double length_;
@@ -30,6 +33,18 @@ class SmallestField final : public SizeField {
     double length = std::numeric_limits<double>::infinity();
     for (const auto& field : fields_) length = std::min(length, field->edge_length(p));
     return std::max(length, shortest_);
+  }
+  [[nodiscard]] double least() const override {
+    double length = std::numeric_limits<double>::infinity();
+    for (const auto& field : fields_) length = std::min(length, field->least());
+    return std::max(length, shortest_);
+  }
+  [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override {
+    return shortest_ < length && std::any_of(fields_.begin(), fields_.end(),
+                                             [&](const auto& field) { return field->falls_below(triangle, length); });
+  }
+  void visit_marks(const std::function<void(const Point&)>& visit) const override {
+    for (const auto& field : fields_) field->visit_marks(visit);
   }
 
  private:

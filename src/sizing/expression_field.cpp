@@ -4,10 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <numbers>
+#include <optional>
 
+#include "base/mix.hpp"
 #include "driftmesh/error.hpp"
+#include "sizing/expression_range.hpp"
+#include "sizing/least_search.hpp"
 
 namespace driftmesh {
 
@@ -70,9 +76,28 @@ void refuse_assignment(const std::string& expression) {
   }
 }
 
+/// Whether values at some points are in the range at each. They are, if both understand the same by the expression.
+template <class Value>
+bool agree(const ExpressionRange& range, const Value& value) {
+  std::uint64_t state = 0;
+  const auto random = [&state] { return static_cast<double>(mix(state += kMixStep) >> 11) * 0x1p-53; };
+  for (int i = 0; i < 64; ++i) {
+    const double scale = std::ldexp(1, i % 16 - 6);
+    const Point p{(2 * random() - 1) * scale, (2 * random() - 1) * scale};
+    const double found = value(p);
+    if (!std::isnan(found) && !range.over({p, p}).holds(found)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
-ExpressionField::ExpressionField(const std::string& expression, double shortest)
+struct ExpressionField::Bounds {
+  std::function<double(const Box&)> lower;
+  LeastSearch search;
+};
+
+ExpressionField::ExpressionField(const std::string& expression, double shortest, double spacing)
     : parser_(std::make_unique<Parser>()), shortest_(shortest) {
   refuse_assignment(expression);
   parser_->text = expression;
@@ -90,17 +115,40 @@ ExpressionField::ExpressionField(const std::string& expression, double shortest)
   } catch (const mu::ParserError& error) {
     fail(error, expression);
   }
+  const std::optional<ExpressionRange> range = ExpressionRange::of(expression);
+  if (!range || !agree(*range, [this](const Point& p) { return value_at(p); })) return;
+  const auto bound = [=](const Box& box) { return std::max(range->over(box).low, shortest); };
+  bounds_ = std::make_unique<Bounds>(Bounds{bound, LeastSearch(bound, spacing)});
 }
 
 ExpressionField::~ExpressionField() = default;
 
-double ExpressionField::edge_length(const Point& p) const {
-  double value = 0;
+bool ExpressionField::has_bounds() const {
+  return bounds_ != nullptr;
+}
+
+double ExpressionField::lower_bound(const Box& box) const {
+  return bounds_ ? bounds_->lower(box) : shortest_;
+}
+
+double ExpressionField::least() const {
+  return bounds_ ? std::max(bounds_->search.least(), 0.0) : shortest_;
+}
+
+bool ExpressionField::falls_below(const std::array<Point, 3>& triangle, double length) const {
+  return bounds_ && bounds_->search.is_below(*this, triangle, length);
+}
+
+double ExpressionField::value_at(const Point& p) const {
   try {
-    value = parser_->value_at(p);
+    return parser_->value_at(p);
   } catch (const mu::ParserError& error) {
     fail(error, parser_->text);
   }
+}
+
+double ExpressionField::edge_length(const Point& p) const {
+  const double value = value_at(p);
   const double length = std::max(value, shortest_);  // NaN stays NaN
   if (length > 0) return length;
   fail(parser_->text, "is " + printed(value) + " at x = " + printed(p.x) + ", y = " + printed(p.y),

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 
 #include "driftmesh/size_field.hpp"
+#include "geometry/box.hpp"
 
 namespace driftmesh {
 
@@ -12,17 +14,29 @@ namespace driftmesh {
 class ExpressionField final : public SizeField {
  public:
   /// Values below `shortest` count as `shortest`. Throws InputError naming the column and the token where the
-  /// expression is wrong.
-  explicit ExpressionField(const std::string& expression, double shortest = 0);
+  /// expression is wrong. `spacing`: see LeastSearch.
+  explicit ExpressionField(const std::string& expression, double shortest = 0,
+                           double spacing = std::numeric_limits<double>::infinity());
   ~ExpressionField() override;
 
   /// Throws InputError naming `p` if the value there is NaN or not positive.
   [[nodiscard]] double edge_length(const Point& p) const override;
 
+  /// Whether the least values of the expression over boxes are known. If not, falls_below knows nothing either.
+  [[nodiscard]] bool has_bounds() const;
+  /// At most the least length over a box, whose ends may be infinite; 0 or less if nothing is known.
+  [[nodiscard]] double lower_bound(const Box& box) const;
+  [[nodiscard]] double least() const override;
+  [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override;
+
  private:
   struct Parser;
+  struct Bounds;
+  [[nodiscard]] double value_at(const Point& p) const;
+
   std::unique_ptr<Parser> parser_;
   double shortest_;
+  std::unique_ptr<Bounds> bounds_;  // null: unknown
 };
 
 }  // namespace driftmesh

@@ -13,6 +13,7 @@
 #include "sizing/combined_field.hpp"
 #include "sizing/expression_field.hpp"
 #include "sizing/gradation.hpp"
+#include "sizing/sampled_field.hpp"
 
 namespace driftmesh {
 namespace {
@@ -53,19 +54,37 @@ std::vector<double> lengths_at_points(const NodeTable& nodes, const std::string&
   return lengths;
 }
 
-std::unique_ptr<SizeField> graded_field(BackgroundMesh mesh, std::vector<double> lengths,
-                                        std::optional<double> gradation) {
-  if (gradation) limit_gradation(mesh.points(), mesh.triangles(), *gradation, lengths);
-  return std::make_unique<VertexSizeField>(std::move(mesh), std::move(lengths));
+template <class Field>
+SizeSource source_of(std::unique_ptr<Field> field) {
+  const BackgroundMesh& mesh = field->mesh();
+  return {std::move(field), &mesh};
 }
 
-std::unique_ptr<SizeField> area_field(BackgroundMesh mesh, const std::vector<double>& areas,
-                                      std::optional<double> gradation) {
-  if (!gradation) return std::make_unique<TriangleAreaField>(std::move(mesh), areas);
+SizeSource graded_field(BackgroundMesh mesh, std::vector<double> lengths, std::optional<double> gradation) {
+  if (gradation) limit_gradation(mesh.points(), mesh.triangles(), *gradation, lengths);
+  return source_of(std::make_unique<VertexSizeField>(std::move(mesh), std::move(lengths)));
+}
+
+SizeSource area_field(BackgroundMesh mesh, const std::vector<double>& areas, std::optional<double> gradation) {
+  if (!gradation) return source_of(std::make_unique<TriangleAreaField>(std::move(mesh), areas));
   std::vector<double> lengths(areas.size());
   std::transform(areas.begin(), areas.end(), lengths.begin(), edge_length_of_area);
   std::vector<double> at_points = shortest_at_points(mesh, lengths);
   return graded_field(std::move(mesh), std::move(at_points), gradation);
+}
+
+std::unique_ptr<SizeField> expression_field(const SizingOptions& options) {
+  auto field = std::make_unique<ExpressionField>(options.expression, options.shortest, options.spacing);
+  if (field->has_bounds() || !std::isfinite(options.spacing)) return field;
+  return std::make_unique<SampledField>(std::move(field), options.spacing);
+}
+
+/// A background mesh tells all about what lies in it, but not what the nearest points of its boundary say outside.
+std::unique_ptr<SizeField> sampled_outside(SizeSource source, const SizingOptions& options) {
+  const BackgroundMesh& mesh = *source.background;
+  if (mesh.covers(options.domain) || !std::isfinite(options.spacing)) return std::move(source.field);
+  const auto inside = [&mesh](const std::array<Point, 3>& triangle) { return mesh.covers(triangle); };
+  return std::make_unique<SampledField>(std::move(source.field), options.spacing, inside);
 }
 
 void require_sound(const SizingOptions& options) {
@@ -78,7 +97,7 @@ void require_sound(const SizingOptions& options) {
 
 }  // namespace
 
-std::unique_ptr<SizeField> read_background_field(const std::string& path, std::optional<double> gradation) {
+SizeSource read_background_field(const std::string& path, std::optional<double> gradation) {
   if (gradation && !(*gradation > 0 && std::isfinite(*gradation)))
     throw InputError({"gradation"}, std::to_string(*gradation), "it must be positive; 0.2 to 0.3 grade well");
   if (is_standard_stream(path))
@@ -102,16 +121,26 @@ std::vector<std::string> background_files(const std::string& path) {
   return files;
 }
 
-std::unique_ptr<SizeField> make_size_field(const SizingOptions& options) {
+SizeSource make_size(const SizingOptions& options) {
   require_sound(options);
+  SizeSource made;
   std::vector<std::unique_ptr<SizeField>> fields;
-  if (!options.expression.empty())
-    fields.push_back(std::make_unique<ExpressionField>(options.expression, options.shortest));
-  if (!options.background.empty()) fields.push_back(read_background_field(options.background, options.gradation));
+  if (!options.expression.empty()) fields.push_back(expression_field(options));
+  if (!options.background.empty()) {
+    SizeSource source = read_background_field(options.background, options.gradation);
+    made.background = source.background;
+    fields.push_back(sampled_outside(std::move(source), options));
+  }
   if (std::isfinite(options.longest)) fields.push_back(std::make_unique<UniformField>(options.longest));
-  if (fields.empty()) return nullptr;
-  if (fields.size() == 1 && options.shortest == 0) return std::move(fields.front());
-  return std::make_unique<SmallestField>(std::move(fields), options.shortest);
+  if (fields.size() == 1 && options.shortest == 0)
+    made.field = std::move(fields.front());
+  else if (!fields.empty())
+    made.field = std::make_unique<SmallestField>(std::move(fields), options.shortest);
+  return made;
+}
+
+std::unique_ptr<SizeField> make_size_field(const SizingOptions& options) {
+  return make_size(options).field;
 }
 
 }  // namespace driftmesh

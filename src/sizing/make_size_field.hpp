@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "driftmesh/size_field.hpp"
+#include "geometry/box.hpp"
+#include "sizing/background_mesh.hpp"
 
 namespace driftmesh {
 
@@ -21,17 +23,27 @@ struct SizingOptions {
   std::optional<double> gradation{};
   double longest = std::numeric_limits<double>::infinity();  ///< target edge lengths are at most this, > 0
   double shortest = 0;                                       ///< and at least this: smaller values are raised to it
+  /// Fields that do not tell their least values are looked at on a grid of this spacing, > 0: see SampledField.
+  double spacing = std::numeric_limits<double>::infinity();
+  /// The domain.
+  Box domain{};
+};
+
+/// A size field, and the background mesh in it if there is one.
+struct SizeSource {
+  std::unique_ptr<SizeField> field;
+  const BackgroundMesh* background = nullptr;  ///< lives as long as the field
 };
 
 /// The field that the options ask for; null when they ask for nothing. Throws InputError and FileError.
+[[nodiscard]] SizeSource make_size(const SizingOptions& options);
 [[nodiscard]] std::unique_ptr<SizeField> make_size_field(const SizingOptions& options);
 
 /// A size field from files in Triangle's format. `path` is their common stem, or one of them:
 /// - mesh, mesh.node, mesh.ele: the first attribute of each point is the target edge length there, linear in between;
 /// - mesh.area: the area bound of each triangle, <= 0 for none. With a gradation the bounds first become lengths at the
 ///   points (the shortest around each), limited and linear in between; without one they hold triangle by triangle.
-[[nodiscard]] std::unique_ptr<SizeField> read_background_field(const std::string& path,
-                                                               std::optional<double> gradation);
+[[nodiscard]] SizeSource read_background_field(const std::string& path, std::optional<double> gradation);
 
 /// The files that read_background_field reads.
 [[nodiscard]] std::vector<std::string> background_files(const std::string& path);

@@ -12,6 +12,7 @@
 #include "driftmesh/id_vector.hpp"
 #include "verify/extended.hpp"
 #include "verify/room.hpp"
+#include "verify/size_check.hpp"
 #include "verify/words.hpp"
 
 namespace driftmesh {
@@ -67,6 +68,7 @@ class QualityCheck {
  public:
   QualityCheck(const Mesh& mesh, const Chains& chains, const CheckedBounds& bounds, Findings& findings)
       : mesh_(mesh), chains_(chains), bounds_(bounds), findings_(findings) {
+    if (bounds.size != nullptr) size_.emplace(mesh, *bounds.size, bounds.size_spacing);
     const long double theta = static_cast<long double>(bounds.min_angle) / kDegrees;
     max_ratio_ = bounds.min_angle > 0 ? (1 + kSlack) / (2 * std::sin(theta)) : 0;
     sure_cotangent_ =
@@ -125,37 +127,47 @@ class QualityCheck {
       quality_.largest_area_triangle = static_cast<std::int32_t>(t);
     }
     const double bound = area_bound(t);
-    if (twice_area > 2 * bound) check_large_area(t, bound);
+    if (twice_area > 2 * bound)
+      check_large_area(t, bound);
+    else if (size_)
+      check_size(t, twice_area / 2);
   }
 
   [[nodiscard]] double area_bound(std::size_t t) const {
     double bound = bounds_.max_area > 0 ? bounds_.max_area : std::numeric_limits<double>::infinity();
     if (bounds_.region_area)
       if (const double own = bounds_.region_area(t); own > 0) bound = std::min(bound, own);
-    if (bounds_.size != nullptr) bound = std::min(bound, area_by_size(t));
+    if (size_) bound = std::min(bound, area_of_edge(size_->at_corners(t)));
     return bound;
   }
 
-  // The area of the equilateral triangle whose side is the shortest target at the corners and the centroid.
-  [[nodiscard]] double area_by_size(std::size_t t) const {
-    const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
-    const Point centroid{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
-    double h = bounds_.size->edge_length(centroid);
-    for (const Point* p : {&a, &b, &c}) h = std::min(h, bounds_.size->edge_length(*p));
-    return std::numbers::sqrt3 / 4 * h * h;
+  // Of the equilateral triangle.
+  [[nodiscard]] static double area_of_edge(double h) { return std::numbers::sqrt3 / 4 * h * h; }
+
+  void check_size(std::size_t t, double area) {
+    const std::optional<SizeCheck::Miss> miss = size_->find_miss(t, area);
+    if (!miss) return;
+    miss_bound(t, [&, this] {
+      return triangle_words(mesh_, t) + fmt::format(" has area {:.9g}, but an edge of {:.9g} is asked for at {}", area,
+                                                    miss->length, place_words(miss->at));
+    });
+  }
+
+  template <class Describe>
+  void miss_bound(std::size_t t, const Describe& describe) {
+    if (room().none_for_area(t))
+      except(ExceptionReason::no_room, describe);
+    else
+      findings_.add(Flaw::large_area, describe);
   }
 
   void check_large_area(std::size_t t, double bound) {
     const long double area = cross_extended(corner(t, 0), corner(t, 1), corner(t, 2)) / 2;
     if (area <= bound * (1 + static_cast<long double>(kSlack))) return;
-    const auto describe = [&] {
+    miss_bound(t, [&, this] {
       return triangle_words(mesh_, t) +
              fmt::format(" has area {:.9g}, at most {:.9g} is allowed", static_cast<double>(area), bound);
-    };
-    if (room().none_for_area(t))
-      except(ExceptionReason::no_room, describe);
-    else
-      findings_.add(Flaw::large_area, describe);
+    });
   }
 
   // Circumradius / shortest edge = 1 / (2 sin of the smallest angle); R = abc / (4 area).
@@ -227,6 +239,7 @@ class QualityCheck {
   const Chains& chains_;
   const CheckedBounds& bounds_;
   Findings& findings_;
+  std::optional<SizeCheck> size_;
   std::optional<Room> room_;
   const DegreeBins bins_;
   Quality quality_;

@@ -53,6 +53,7 @@ struct CheckedBounds {
   double max_area = 0;                                      ///< 0: no bound
   std::function<double(std::size_t triangle)> region_area;  ///< empty, or each triangle's own bound (<= 0: none)
   const SizeField* size = nullptr;                          ///< or target edge lengths, see SizeField
+  double size_spacing = 0;                                  ///< see SizeCheck
   std::size_t max_listed = 5;                               ///< messages kept of each cause of an exception
 };
 

@@ -118,7 +118,8 @@ class Verification {
 
   using RegionArea = std::function<double(std::size_t)>;
   void take_quality(const Chains& chains, const RegionArea& region_area) {
-    const CheckedBounds bounds{options_.min_angle, options_.max_area, region_area, options_.size, options_.max_listed};
+    const CheckedBounds bounds{options_.min_angle, options_.max_area,     region_area,
+                               options_.size,      options_.size_spacing, options_.max_listed};
     report_.quality = check_quality(mesh_, chains, bounds, findings_);
     report_.area = report_.quality.total_area;
   }

@@ -18,8 +18,10 @@ struct VerifyOptions {
   double max_area = 0;              ///< in squared units of the coordinates; 0: no bound besides those of the regions
   bool region_areas = true;         ///< whether the input's regions bound the areas of their triangles
   const SizeField* size = nullptr;  ///< target edge lengths that bound areas, or null; must outlive the call
-  bool check_delaunay = true;       ///< false for meshes that only need to be conforming
-  std::size_t max_listed = 5;       ///< messages kept of each kind of flaw and of each cause of an exception
+  /// Inside large triangles the size is looked up four times in each square of this side; 0: at 16 points only.
+  double size_spacing = 0;
+  bool check_delaunay = true;  ///< false for meshes that only need to be conforming
+  std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
 };
 
 /// Everything that was checked and measured.
@@ -54,7 +56,8 @@ struct VerifyReport {
 /// - it is constrained Delaunay: no point opposite an unconstrained edge lies inside the circumcircle. If this holds at
 ///   every such edge, it holds everywhere (Chew 1989). Edges between triangles of different subdomains
 ///   (Mesh::subdomains) count as constrained here;
-/// - areas and angles meet the bounds of `options`; see ExceptionReason for accepted exceptions.
+/// - areas and angles meet the bounds of `options`; see ExceptionReason for accepted exceptions, and SizeCheck for what
+///   a size field asks for.
 /// Flaws of the mesh are reported, never thrown, whatever its arrays contain. Linear time except for the boundary,
 /// which takes O(n log n); about 55 bytes per triangle besides the mesh. Throws LimitError above 1.4 billion triangles.
 [[nodiscard]] VerifyReport verify(const Mesh& mesh, const VerifyOptions& options);

@@ -32,6 +32,9 @@ KINDS = {
 }
 
 
+UNIT_SQUARE = "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n"
+
+
 class Pipeline(Cli):
     def test_every_kind_of_input_gives_a_mesh_that_check_accepts(self):
         for kind, options in KINDS.items():
@@ -57,6 +60,41 @@ class Pipeline(Cli):
             self.assertTrue((self.folder / picture).read_bytes().startswith(magic))
         self.succeed("plot", "bay.poly", "-o", "input.png")
         self.assertFalse([name for name in self.files() if "tmp" in name])
+
+    def test_narrow_features_of_sizes_are_met_and_checked(self):
+        self.write("unit.poly", UNIT_SQUARE)
+        self.write_background(60, {(17, 23), (40, 41), (55, 3)}, 0.005, 0.3)
+        for options, elsewhere, least in ((["--size", "0.3-0.29*exp(-((x-.6)^2+(y-.3)^2)*1000)"], 0.28, 80),
+                                          (["--size", "1e-3+10*abs(y-0.5)"], 2, 4000),
+                                          (["--size", "0.2-0.199*exp(-((x-.6123)^2+(y-.3377)^2)*1e6)"], 0.19, 120),
+                                          (["--size-mesh", "background.node"], 0.28, 150)):
+            with self.subTest(options=options):
+                for parts in [], ["-n", "8"]:
+                    self.succeed("mesh", "unit.poly", *options, *parts, "-o", "out.vtu", "--json", "run.json")
+                    self.assertGreater(json.loads((self.folder / "run.json").read_text())["mesh"]["triangles"], least)
+                    self.assertIn("accepted", self.succeed("check", "out.vtu", "unit.poly", *options, "--angle", "20",
+                                                             "--size-resolution", "1000"))
+                # What is right at the corners is not enough.
+                self.succeed("mesh", "unit.poly", "--size-max", elsewhere, "-o", "coarse.vtu")
+                rejected = self.run_program("check", "coarse.vtu", "unit.poly", *options)
+                self.assertEqual(rejected.returncode, 1, rejected.stdout)
+                self.assertIn("is asked for at (", rejected.stdout)
+
+    def test_a_line_of_tiny_sizes_is_met_or_stopped_by_a_limit(self):
+        self.write("unit.poly", UNIT_SQUARE)
+        self.refuse("mesh", "unit.poly", "--size", "1e-6+10*abs(y-0.5)", "--max-triangles", "100k", "-o", "out.vtu", code=3,
+                    says=["--max-triangles"])
+        self.assertEqual(self.files(), ["unit.poly"])
+
+    def write_background(self, n, fine, length, others):
+        """A grid of n x n squares over the unit square, with `length` at the points `fine`."""
+        points = [(i, j) for j in range(n + 1) for i in range(n + 1)]
+        self.write("background.node", f"{len(points)} 2 1 0\n" + "".join(
+            f"{k} {i / n} {j / n} {length if (i, j) in fine else others}\n" for k, (i, j) in enumerate(points)))
+        corners = [j * (n + 1) + i for j in range(n) for i in range(n)]
+        triangles = [t for a in corners for t in ((a, a + 1, a + n + 2), (a, a + n + 2, a + n + 1))]
+        self.write("background.ele", f"{len(triangles)} 3 0\n" + "".join(
+            f"{k} {a} {b} {c}\n" for k, (a, b, c) in enumerate(triangles)))
 
     def test_decompositions(self):
         for kind, options in KINDS.items():

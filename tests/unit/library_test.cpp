@@ -97,6 +97,14 @@ TEST_CASE("a size function bounds the triangles, whatever kind of callable it is
   CHECK(verify(by_object, plate(), asked).accepted());
 }
 
+TEST_CASE("a size function is looked up between corners, as densely as asked") {
+  const auto spot = [](const Point& p) { return std::hypot(p.x - 0.61, p.y - 0.37) < 0.002 ? 0.001 : 0.4; };
+  const std::size_t found = mesh(plate(), {.size = spot}).triangles.size();
+  CHECK(found > 50 + mesh(plate(), {.size = spot, .size_resolution = 1}).triangles.size());
+  CHECK(found < 2000);
+  CHECK(mesh(plate(), {.size = spot, .subdomains = {.count = 5}}).triangles.size() > found / 2);
+}
+
 TEST_CASE("what a size function must not say") {
   for (const double length : {0.0, -1.0, std::nan("")})
     CHECK(error_of_options({.size = [=](const Point&) { return length; }}).find("must be positive") !=

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -201,6 +202,43 @@ TEST_CASE("areas by a size field: its shortest length at the corners and the cen
   VerifyOptions options;
   options.size = &field;
   CHECK(verify(mesh, options).accepted());
+}
+
+TEST_CASE(
+    "sizes between the corners: at the field's marks, at samples of every triangle, and dense ones of a large one") {
+  struct Field final : SizeField {
+    Point center{};
+    double radius = 0, inside = 0;
+    std::vector<Point> marks;
+    double edge_length(const Point& p) const override {
+      return std::hypot(p.x - center.x, p.y - center.y) < radius ? inside : 3;
+    }
+    void visit_marks(const std::function<void(const Point&)>& visit) const override {
+      for (const Point& p : marks) visit(p);
+    }
+  };
+  const Mesh mesh = one_triangle({0, 0}, {3, 0}, {0, 2});  // the edge of an equilateral triangle is 2.632
+  Field field;
+  field.center = {0.5, 0.5};
+  VerifyOptions options;
+  options.size = &field;
+  const auto flaws = [&](double radius, double inside) {
+    field.radius = radius;
+    field.inside = inside;
+    return verify(mesh, options).findings.count(Flaw::large_area);
+  };
+  CHECK(flaws(0.2, 3) == 0);
+  CHECK(flaws(0.4, 1) == 1);
+  CHECK(flaws(0.4, 2.1) == 1);  // 0.8 is tolerated
+  CHECK(flaws(0.4, 2.11) == 0);
+  CHECK(flaws(0.02, 1) == 0);
+  options.size_spacing = 0.03;
+  CHECK(flaws(0.02, 1) == 1);
+  options.size_spacing = 0;
+  field.marks = {{9, 9}, field.center};
+  CHECK(flaws(0.02, 1) == 1);
+  CHECK(flaws(1e-9, 2.63) == 1);  // nothing is tolerated at marks
+  CHECK(flaws(1e-9, 2.64) == 0);
 }
 
 TEST_CASE("a small angle is excused where the input has it, and nowhere else") {

@@ -1,0 +1,300 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "decompose/decompose.hpp"
+#include "driftmesh/error.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "mesh/mesher.hpp"
+#include "property/cases.hpp"
+#include "sizing/background_field.hpp"
+#include "sizing/expression_field.hpp"
+#include "sizing/sampled_field.hpp"
+#include "support/refine_together.hpp"
+#include "unit/sizing_mesh_fixture.hpp"
+
+// Size fields with random narrow features. What they ask for is looked up again by dense sampling of the finished mesh,
+// which knows where the features are.
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+
+namespace {
+
+using Random = std::mt19937_64;
+using Corner = std::array<Point, 3>;
+
+double uniform(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+std::string text_of(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "(%.17g)", value);
+  return text;
+}
+
+Point random_point(Random& random) {
+  return {uniform(random, 0.02, 0.98), uniform(random, 0.02, 0.98)};
+}
+
+Pslg unit_square() {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
+  return pslg;
+}
+
+std::vector<Corner> triangles_of(const Triangulation& mesh) {
+  std::vector<Corner> all;
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) all.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+  return all;
+}
+
+std::vector<Corner> in_one_piece(const SizeField& size) {
+  MeshRequest request;
+  request.size = &size;
+  request.max_triangles = 2'000'000;
+  const MeshResult result = mesh_domain(unit_square(), request);
+  REQUIRE(result.complete);
+  return triangles_of(result.mesh);
+}
+
+std::vector<Corner> in_subdomains(const SizeField& size, int subdomains) {
+  Triangulation mesh = triangulate(unit_square());
+  prepare_corners(mesh);
+  DecomposeOptions options;
+  options.subdomains = subdomains;
+  options.bounds.size = &size;
+  const RefinedTogether refined = refine_together(decompose(mesh, options), options.bounds);
+  CHECK(refined.not_conforming.empty());
+  std::vector<Corner> all;
+  for (const SubdomainMesh& part : refined.parts)
+    for (const Corner& t : triangles_of(part.mesh)) all.push_back(t);
+  return all;
+}
+
+double cross(const Point& a, const Point& b, const Point& p) {
+  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+bool holds(const Corner& t, const Point& p) {
+  return cross(t[0], t[1], p) >= 0 && cross(t[1], t[2], p) >= 0 && cross(t[2], t[0], p) >= 0;
+}
+
+/// The edge of the equilateral triangle of the same area.
+double edge_of(const Corner& t) {
+  return std::sqrt(cross(t[0], t[1], t[2]) * 2 / std::sqrt(3.0));
+}
+
+/// By how much an edge is longer than it should be, at worst, at these points and at some of every triangle.
+double worst_excess(const std::vector<Corner>& mesh, const std::function<double(const Point&)>& size,
+                    const std::vector<Point>& features, Random& random) {
+  double worst = 0;
+  for (const Corner& t : mesh) {
+    const double edge = edge_of(t);
+    for (int k = 0; k < 30; ++k) {
+      const double u = uniform(random, 0, 1), v = uniform(random, 0, 1 - u), w = 1 - u - v;
+      const Point p{u * t[0].x + v * t[1].x + w * t[2].x, u * t[0].y + v * t[1].y + w * t[2].y};
+      worst = std::max(worst, edge / size(p));
+    }
+  }
+  for (const Point& p : features) {
+    const double asked = size(p);
+    for (const Corner& t : mesh)
+      if (holds(t, p)) worst = std::max(worst, edge_of(t) / asked);
+  }
+  return worst;
+}
+
+struct Feature {
+  std::string expression;
+  std::vector<Point> points;
+};
+
+/// A bump, a crease or a spot, much narrower than the triangles around it.
+Feature random_feature(Random& random) {
+  const Point c = random_point(random);
+  const std::string far = text_of(uniform(random, 0.1, 0.4));
+  const double least = std::exp(uniform(random, std::log(0.003), std::log(0.03)));
+  const double width = std::exp(uniform(random, std::log(1e-5), std::log(0.02)));
+  const std::string x = "(x-" + text_of(c.x) + ")", y = "(y-" + text_of(c.y) + ")";
+  Feature feature;
+  feature.points.push_back(c);
+  switch (random() % 3) {
+    case 0:
+      feature.expression =
+          far + "-(" + far + "-" + text_of(least) + ")*exp(-(" + x + "^2+" + y + "^2)/" + text_of(width * width) + ")";
+      for (int k = 0; k < 20; ++k)
+        feature.points.push_back({c.x + uniform(random, -width, width), c.y + uniform(random, -width, width)});
+      break;
+    case 1: {
+      const double a = uniform(random, 0, 3.14159), dx = std::cos(a), dy = std::sin(a);
+      feature.expression = "min(" + far + "," + text_of(least) + "+" + text_of(uniform(random, 1, 12)) + "*abs(" +
+                           text_of(dy) + "*" + x + "-" + text_of(dx) + "*" + y + "))";
+      for (int k = 0; k < 200; ++k) {
+        const double along = uniform(random, -1.4, 1.4);
+        const Point p{c.x + along * dx, c.y + along * dy};
+        if (p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1) feature.points.push_back(p);
+      }
+      break;
+    }
+    default:
+      feature.expression = "hypot(" + x + "," + y + ")<" + text_of(width) + " ? " + text_of(least) + " : " + far;
+  }
+  return feature;
+}
+
+constexpr double kTolerance = 1.25 * (1 + 1e-9);
+
+}  // namespace
+
+TEST_CASE("no feature of an expression is missed, however narrow") {
+  Random random = seeded_generator("features of expressions");
+  for (int i = 0; i < case_count(150); ++i) {
+    const Feature feature = random_feature(random);
+    CAPTURE(feature.expression);
+    const ExpressionField field(feature.expression, 0, 1.0 / 2000);
+    REQUIRE(field.has_bounds());
+    const auto size = [&](const Point& p) { return field.edge_length(p); };
+    CHECK(worst_excess(in_one_piece(field), size, feature.points, random) <= kTolerance);
+    if (i % 5 == 0) CHECK(worst_excess(in_subdomains(field, 6), size, feature.points, random) <= kTolerance);
+  }
+}
+
+TEST_CASE("no feature of a function is missed that is wider than the spacing of its samples") {
+  struct Spot final : SizeField {
+    Point center{};
+    double radius = 0, inside = 0, outside = 0;
+    [[nodiscard]] double edge_length(const Point& p) const override {
+      CHECK((p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1));
+      return std::hypot(p.x - center.x, p.y - center.y) <= radius ? inside : outside;
+    }
+  };
+  Random random = seeded_generator("features of functions");
+  for (int i = 0; i < case_count(60); ++i) {
+    const double spacing = 1 / uniform(random, 20, 400);
+    Spot spot;
+    spot.center = random_point(random);
+    spot.radius = spacing * uniform(random, 0.71, 1.5);  // a square of the spacing fits in
+    spot.inside = spot.radius * uniform(random, 0.2, 1);
+    spot.outside = uniform(random, 0.1, 0.5);
+    CAPTURE(spacing);
+    CAPTURE(spot.center.x);
+    CAPTURE(spot.center.y);
+    CAPTURE(spot.radius);
+    const SampledField field(spot, spacing);
+    const bool whole = i % 4 != 0;
+    const std::vector<Corner> mesh = whole ? in_one_piece(field) : in_subdomains(field, 5);
+    double smallest = 1;
+    for (const Corner& t : mesh)
+      if (std::hypot(t[0].x - spot.center.x, t[0].y - spot.center.y) < 3 * spot.radius)
+        smallest = std::min(smallest, edge_of(t));
+    CHECK(smallest <= spot.inside / 0.9);
+  }
+}
+
+TEST_CASE("a background mesh is kept exactly") {
+  Random random = seeded_generator("features of background meshes");
+  for (int i = 0; i < case_count(60); ++i) {
+    const int n = static_cast<int>(5 + random() % 60);
+    CAPTURE(n);
+    FlatMesh flat = square_mesh(n, 0, true, random());
+    for (Point& p : flat.points) p = {1.2 * p.x / n - 0.1, 1.2 * p.y / n - 0.1};
+    const double far = uniform(random, 0.1, 0.4);
+    std::vector<double> lengths(flat.points.size(), far);
+    for (int k = 0; k < 4; ++k) lengths[random() % lengths.size()] = far * std::exp(uniform(random, -4, -1));
+    const VertexSizeField field({flat.points, flat.triangles}, lengths);
+    const auto size = [&](const Point& p) { return field.edge_length(p); };
+    const auto mesh = i % 4 != 0 ? in_one_piece(field) : in_subdomains(field, 5);
+    CHECK(worst_excess(mesh, size, flat.points, random) <= 1 + 1e-6);
+  }
+}
+
+TEST_CASE("area bounds of a background mesh are kept wherever their triangles are") {
+  Random random = seeded_generator("area bounds of background meshes");
+  for (int i = 0; i < case_count(40); ++i) {
+    const int n = static_cast<int>(5 + random() % 30);
+    CAPTURE(n);
+    FlatMesh flat = square_mesh(n, 0, true, random());
+    for (Point& p : flat.points) p = {1.2 * p.x / n - 0.1, 1.2 * p.y / n - 0.1};
+    std::vector<double> areas(flat.triangles.size(), -1);
+    std::vector<Point> inside;
+    for (int k = 0; k < 4; ++k) {
+      const std::size_t t = random() % areas.size();
+      areas[t] = std::exp(uniform(random, -11, -5));
+      const auto& [a, b, c] = flat.triangles[t];
+      const Point &p = flat.points[a], &q = flat.points[b], &r = flat.points[c];
+      inside.push_back({(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3});
+      inside.push_back({0.98 * p.x + 0.01 * (q.x + r.x), 0.98 * p.y + 0.01 * (q.y + r.y)});
+    }
+    const TriangleAreaField field({flat.points, flat.triangles}, areas);
+    const auto size = [&](const Point& p) { return field.edge_length(p); };
+    CHECK(worst_excess(in_one_piece(field), size, inside, random) <= 1 + 1e-6);
+  }
+}
+
+namespace {
+
+/// An expression in x and y of random shape.
+std::string random_expression(Random& random, int depth) {
+  const auto part = [&] { return random_expression(random, depth - 1); };
+  if (depth == 0 || random() % 6 == 0) {
+    const char* const leaves[] = {"x", "y", "pi", "0.5", "3", "1e-3"};
+    return leaves[random() % 6];
+  }
+  if (random() % 5 == 0)
+    return "(" + part() + (random() % 2 == 0 ? "<" : ">=") + part() + " ? " + part() + " : " + part() + ")";
+  if (random() % 2 == 0) {
+    const char* const operators[] = {"+", "-", "*", "/", "^", "!=", "=="};
+    const std::string op = operators[random() % 7];
+    return random() % 2 == 0 ? part() + op + part() : "(" + part() + op + part() + ")";
+  }
+  if (random() % 8 == 0) {
+    const std::string op = random() % 2 == 0 ? "&&" : "||";
+    return "((" + part() + "<" + part() + ")" + op + "(" + part() + ">" + part() + "))";
+  }
+  const char* const functions[] = {"sin",  "cos",   "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
+                                   "log2", "log10", "ln",  "exp",  "sqrt", "sign", "rint", "abs",  "-"};
+  const char* const of_two[] = {"min", "max", "atan2", "hypot", "avg", "sum"};
+  if (random() % 4 == 0) return std::string(of_two[random() % 6]) + "(" + part() + "," + part() + ")";
+  return std::string(functions[random() % 18]) + "(" + part() + ")";
+}
+
+}  // namespace
+
+TEST_CASE("the bounds of an expression over a box are bounds") {
+  Random random = seeded_generator("bounds of expressions");
+  int with_bounds = 0, bounded = 0;
+  for (int i = 0; i < case_count(4000); ++i) {
+    const std::string text = random_expression(random, 4);
+    CAPTURE(text);
+    const ExpressionField field(text);
+    with_bounds += field.has_bounds();
+    const double size = std::exp(uniform(random, -8, 2));
+    const Point low{uniform(random, -3, 3), uniform(random, -3, 3)};
+    const double bound = field.lower_bound({low, {low.x + size, low.y + size}});
+    bounded += bound > 0;
+    for (int k = 0; k < 20; ++k) {
+      const Point p{low.x + size * uniform(random, 0, 1), low.y + size * uniform(random, 0, 1)};
+      double value = bound;
+      try {
+        value = field.edge_length(p);
+      } catch (const InputError& error) {  // not positive, or not a number
+        CHECK((bound <= 0 || std::string(error.what()).find("nan at") != std::string::npos));
+      }
+      CHECK(value >= bound);
+    }
+  }
+  CHECK(with_bounds > case_count(4000) * 99 / 100);
+  CHECK(bounded > case_count(4000) / 10);
+}

@@ -1,0 +1,170 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sizing/background_field.hpp"
+#include "sizing/combined_field.hpp"
+#include "sizing/expression_field.hpp"
+#include "sizing/expression_range.hpp"
+#include "sizing/sampled_field.hpp"
+#include "unit/sizing_mesh_fixture.hpp"
+
+// What size fields know of a triangle between its corners.
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::array<Point, 3> kHalfSquare{{{0, 0}, {1, 0}, {1, 1}}};
+
+Interval range_of(const std::string& expression, const Box& box) {
+  const std::optional<ExpressionRange> range = ExpressionRange::of(expression);
+  REQUIRE(range);
+  return range->over(box);
+}
+
+void check_range(const std::string& expression, double low, double high) {
+  CAPTURE(expression);
+  const Interval range = range_of(expression, {{-1, 2}, {3, 4}});
+  CHECK((range.low == low || range.low == doctest::Approx(low)));
+  CHECK((range.high == high || range.high == doctest::Approx(high)));
+}
+
+/// A field that counts how often it is asked.
+struct Counted final : SizeField {
+  mutable int calls = 0;
+  [[nodiscard]] double edge_length(const Point&) const override {
+    ++calls;
+    return 1;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the range of an expression over a box") {
+  check_range("x", -1, 3);
+  check_range("2 - 3*x", -7, 5);
+  check_range("x^2", 0, 9);
+  check_range("-x^2", -9, 0);
+  check_range("2^-x", 0.125, 2);
+  check_range("y^x^1", 0.25, 64);
+  check_range("x*y", -4, 12);
+  check_range("1/y", 0.25, 0.5);
+  check_range("1/x", -kInfinity, kInfinity);
+  check_range("abs(x) + hypot(x, y)", 2, 8);
+  check_range("sqrt(y)", std::sqrt(2.0), 2);
+  check_range("sqrt(x)", -kInfinity, kInfinity);
+  check_range("exp(-x^2)", std::exp(-9), 1);
+  check_range("sin(x)", std::sin(-1.0), 1);
+  check_range("cos(x)", std::cos(3.0), 1);
+  check_range("min(x, y, 1)", -1, 1);
+  check_range("avg(x, y)", 0.5, 3.5);
+  check_range("x < -2 ? 7 : y", 2, 4);
+  check_range("x < 0 && y > 1 ? 7 : y", 2, 7);
+  check_range("y >= 2 || x > 9 ? 7 : y", 7, 7);
+  CHECK(range_of("0.1 + exp(x)", {{-kInfinity, 0}, {kInfinity, 0}}).low == doctest::Approx(0.1));
+}
+
+TEST_CASE("an expression that is not understood has no range") {
+  CHECK(!ExpressionRange::of("asinh(x)"));
+  CHECK(!ExpressionRange::of("x +"));
+  CHECK(!ExpressionRange::of("(x"));
+  CHECK(!ExpressionRange::of("min()"));
+  CHECK(!ExpressionField("asinh(x) + 2").has_bounds());
+  CHECK(!ExpressionField("2 && 0.5").has_bounds());  // muParser takes 0.5 for 0 here
+}
+
+TEST_CASE("an expression falls below a length where it does, however narrow the place") {
+  const ExpressionField bump("0.3 - 0.29*exp(-((x-0.6)^2 + (y-0.3)^2)*1e12)");
+  CHECK(bump.falls_below(kHalfSquare, 0.2));
+  CHECK(bump.falls_below(kHalfSquare, 0.02));
+  CHECK(!bump.falls_below(kHalfSquare, 0.0111));  // a tenth more than its least
+  CHECK(!bump.falls_below({{{0, 0}, {1, 1}, {0, 1}}}, 0.2));
+  const ExpressionField crease("1e-6 + 10*abs(y - 0.3)");
+  CHECK(crease.falls_below(kHalfSquare, 1e-4));
+  CHECK(!crease.falls_below(kHalfSquare, 1e-6));
+  CHECK(!crease.falls_below({{{0, 0}, {0.2, 0}, {0.2, 0.2}}}, 0.9));
+}
+
+TEST_CASE("a constant is known not to fall anywhere") {
+  CHECK(ExpressionField("0.25 + 0*x").least() == doctest::Approx(0.25));
+  CHECK(ExpressionField("max(x, 0.125)").least() == 0.125);
+  CHECK(ExpressionField("x").least() == 0);
+  CHECK(UniformField(3).least() == 3);
+}
+
+TEST_CASE("the smallest of fields falls where one of them does, but not below the shortest length") {
+  const auto field = [](double shortest) {
+    std::vector<std::unique_ptr<SizeField>> fields;
+    fields.push_back(std::make_unique<UniformField>(0.5));
+    fields.push_back(std::make_unique<ExpressionField>("0.001 + abs(y - 0.3)"));
+    return SmallestField(std::move(fields), shortest);
+  };
+  CHECK(field(0).falls_below(kHalfSquare, 0.01));
+  CHECK(!field(0.02).falls_below(kHalfSquare, 0.01));
+  CHECK(field(0.02).least() == 0.02);
+}
+
+TEST_CASE("a sampled field asks once for each point of its grid, and for none outside the triangle") {
+  const Counted counted;
+  const SampledField field(counted, 1.0 / 128);
+  CHECK(!field.falls_below(kHalfSquare, 0.5));
+  CHECK(counted.calls == 129 * 130 / 2);
+  CHECK(!field.falls_below(kHalfSquare, 0.5));
+  CHECK(counted.calls == 129 * 130 / 2);
+  CHECK(field.falls_below(kHalfSquare, 1.2));
+}
+
+TEST_CASE("a sampled field is searched between the points of its grid where it is steep") {
+  const auto crease = [](double slope) {
+    return std::make_unique<ExpressionField>("0.001 + " + std::to_string(slope) + "*abs(y - 0.5031)");
+  };
+  const SampledField steep(crease(20), 1.0 / 64);
+  CHECK(steep.falls_below(kHalfSquare, 0.01));
+  CHECK(!steep.falls_below(kHalfSquare, 0.0005));
+}
+
+TEST_CASE("a background mesh knows the lengths at its points and along its edges") {
+  // A square with a short length in the middle, and one at a corner.
+  const std::vector<Point> points{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 2}};
+  const VertexSizeField field({points, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}}, {1, 5, 5, 5, 2});
+  CHECK(field.least() == 1);
+  CHECK(field.falls_below({{{1, 1.5}, {3, 1.5}, {2, 3}}}, 2.001));
+  CHECK(!field.falls_below({{{1, 1.5}, {3, 1.5}, {2, 3}}}, 1.7));
+  // Crosses the edge from the corner to the middle, where it holds 1.25 to 1.75: neither is a point inside.
+  const std::array<Point, 3> across{{{1.5, 0.5}, {1.6, 0.6}, {0.5, 1.6}}};
+  CHECK(field.falls_below(across, 1.54));
+  CHECK(!field.falls_below(across, 1.4));
+}
+
+TEST_CASE("area bounds hold in triangles that overlap theirs, but not in those that touch it") {
+  const std::vector<Point> points{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  const TriangleAreaField field({points, {{0, 1, 2}, {0, 2, 3}}}, {std::sqrt(3.0) / 4, -1});
+  CHECK(field.falls_below({{{0, 3}, {3.8, 3.9}, {1, 3.9}}}, 1.1) == false);
+  CHECK(field.falls_below({{{0, 0}, {4, 4}, {0, 4}}}, 1.1) == false);
+  CHECK(field.falls_below({{{1.9, 1.8}, {3, 3.5}, {0, 3.9}}}, 1.1));
+  CHECK(field.falls_below({{{1.9, 1.8}, {3, 3.5}, {0, 3.9}}}, 0.9) == false);
+}
+
+TEST_CASE("what a background mesh does not cover") {
+  const FlatMesh whole = square_mesh(8), with_hole = square_mesh(8, 2);
+  const std::array<Point, 3> across{{{0, 0}, {8, 0}, {4, 8}}};
+  const BackgroundMesh solid(whole.points, whole.triangles), ring(with_hole.points, with_hole.triangles);
+  CHECK(solid.covers(across));
+  CHECK(solid.covers(Box{{0, 0}, {8, 8}}));
+  CHECK(!solid.covers(Box{{0, 0}, {8, 9}}));
+  CHECK(!solid.covers(std::array<Point, 3>{{{0, 0}, {9, 1}, {0, 1}}}));
+  CHECK(!ring.covers(across));
+  const std::optional<Point> place = ring.uncovered(across);
+  REQUIRE(place);
+  CHECK(Box{{3, 3}, {5, 5}}.contains(*place));
+  CHECK(ring.covers(std::array<Point, 3>{{{0, 0}, {8, 0}, {0, 3}}}));
+}
