@@ -1,7 +1,11 @@
 #include "job/triangulated.hpp"
 
+#include <string>
+#include <vector>
+
 #include "decompose/work.hpp"
 #include "geometry/triangle_geometry.hpp"
+#include "job/value.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/domain_warnings.hpp"
@@ -29,6 +33,18 @@ QualityBounds bounds_of(const Request& request, const Domain& domain, const Tria
                                             .size = domain.size.get()});
 }
 
+/// One place where the background mesh does not say what size is asked for, if there is one.
+std::vector<std::string> background_warnings(const Domain& domain, const Triangulation& mesh) {
+  if (domain.background == nullptr) return {};
+  for (const TriangleId t : ids_of(mesh.triangles)) {
+    if (!mesh.triangles[t].alive()) continue;
+    if (const auto place = domain.background->uncovered({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}))
+      return {"the background mesh does not cover the domain, for example not at (" + shortest_text(place->x) + ", " +
+              shortest_text(place->y) + "); outside it the sizes at the nearest point of its boundary apply"};
+  }
+  return {};
+}
+
 }  // namespace
 
 Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks, Watch& watch) {
@@ -37,6 +53,7 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     CarveReport carved;
     result.mesh = triangulate(domain.pslg, &carved);
     warn(request, domain_warnings(domain.pslg, domain.repairs, carved, result.mesh), watch);
+    warn(request, background_warnings(domain, result.mesh), watch);
     result.acute_corners = prepare_corners(result.mesh);
   });
   result.bounds = bounds_of(request, domain, result.mesh, ranks);

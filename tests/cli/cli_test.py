@@ -86,6 +86,21 @@ class Pipeline(Cli):
                     says=["--max-triangles"])
         self.assertEqual(self.files(), ["unit.poly"])
 
+    def test_a_background_mesh_that_does_not_cover_the_domain_is_a_warning(self):
+        self.write("square.poly", SQUARE)  # 4 by 4
+        self.write("unit.poly", UNIT_SQUARE)
+        self.write_background(4, set(), 0.2, 0.2)
+        for parts in [], ["-n", "4"]:
+            result = self.run_program("mesh", "square.poly", "--size-mesh", "background.node", *parts, "--json", "run.json")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            warnings = json.loads((self.folder / "run.json").read_text())["input"]["warnings"]
+            self.assertEqual(len(warnings), 1)
+            self.assertIn(warnings[0], result.stdout)
+            x, y = map(float, re.search(r"not cover the domain, for example not at \((.*), (.*)\);", warnings[0]).groups())
+            self.assertTrue(0 <= x <= 4 and 0 <= y <= 4 and (x > 1 or y > 1))
+        self.refuse("mesh", "square.poly", "--size-mesh", "background.node", "--strict", says=["does not cover the domain"])
+        self.succeed("mesh", "unit.poly", "--size-mesh", "background.node", "--strict")
+
     def write_background(self, n, fine, length, others):
         """A grid of n x n squares over the unit square, with `length` at the points `fine`."""
         points = [(i, j) for j in range(n + 1) for i in range(n + 1)]
