@@ -71,9 +71,9 @@ void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
           "cannot be combined with bounds.area or bounds.triangles", "remove all but one");
   require(sizing.expression.empty() || (bounds.triangles == 0 && bounds.triangles_per_rank == 0), "sizing.size",
           "cannot be combined with a number of triangles", "remove one, or give bounds.area");
-  require(sizing.gradation == 0 || !sizing.background.empty(), "sizing.gradation",
-          "limits the growth of a background mesh's lengths, but there is no such mesh",
-          "name one with sizing.background");
+  require(sizing.gradation == 0 || !sizing.background.empty() || !sizing.expression.empty(), "sizing.gradation",
+          "limits the growth of the lengths of sizing.size and sizing.background, but neither is given",
+          "give one of them");
   require(sizing.longest == 0 || sizing.shortest <= sizing.longest, "sizing.min", "is greater than sizing.max",
           "swap the two");
   require(sizing.shortest == 0 || !sizing.expression.empty() || !sizing.background.empty() || sizing.longest > 0,

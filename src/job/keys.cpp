@@ -252,8 +252,7 @@ Section triangle_section() {
            "of each point, or FILE.area with an area bound for each triangle",
            file(), option("size-mesh", "FILE"), entry_points(kAll & ~kLibrary)),
        key("sizing.gradation", &R::sizing, &R::Sizing::gradation,
-           "Limit on the growth of the background mesh's lengths per unit of distance; 0.2 to 0.3 works well; 0: no "
-           "limit",
+           "Limit on the growth of target edge lengths per unit of distance; 0.2 to 0.3 works well; 0: no limit",
            from(0), option("gradation", "G"), entry_points(kAll & ~kLibrary)),
        key("sizing.min", &R::sizing, &R::Sizing::shortest, "Lower limit on target edge lengths", from(0),
            option("size-min", "LENGTH"), entry_points(kAll & ~kLibrary)),

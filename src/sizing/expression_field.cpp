@@ -93,7 +93,7 @@ bool agree(const ExpressionRange& range, const Value& value) {
 }  // namespace
 
 struct ExpressionField::Bounds {
-  std::function<double(const Box&)> lower;
+  ExpressionRange range;
   LeastSearch search;
 };
 
@@ -116,9 +116,9 @@ ExpressionField::ExpressionField(const std::string& expression, double shortest,
     fail(error, expression);
   }
   const std::optional<ExpressionRange> range = ExpressionRange::of(expression);
-  if (!range || !agree(*range, [this](const Point& p) { return value_at(p); })) return;
+  if (!range || !agree(*range, [this](const Point& p) { return parser_->value_at(p); })) return;
   const auto bound = [=](const Box& box) { return std::max(range->over(box).low, shortest); };
-  bounds_ = std::make_unique<Bounds>(Bounds{bound, LeastSearch(bound, spacing)});
+  bounds_ = std::make_unique<Bounds>(Bounds{*range, LeastSearch(bound, spacing)});
 }
 
 ExpressionField::~ExpressionField() = default;
@@ -127,8 +127,9 @@ bool ExpressionField::has_bounds() const {
   return bounds_ != nullptr;
 }
 
-double ExpressionField::lower_bound(const Box& box) const {
-  return bounds_ ? bounds_->lower(box) : shortest_;
+Interval ExpressionField::range(const Box& box) const {
+  const Interval range = bounds_ ? bounds_->range.over(box) : intervals::kAll;
+  return {std::max(range.low, shortest_), std::max(range.high, shortest_)};
 }
 
 double ExpressionField::least() const {
@@ -139,19 +140,18 @@ bool ExpressionField::falls_below(const std::array<Point, 3>& triangle, double l
   return bounds_ && bounds_->search.is_below(*this, triangle, length);
 }
 
-double ExpressionField::value_at(const Point& p) const {
+double ExpressionField::value(const Point& p) const {
   try {
-    return parser_->value_at(p);
+    return std::max(parser_->value_at(p), shortest_);  // NaN stays NaN
   } catch (const mu::ParserError& error) {
     fail(error, parser_->text);
   }
 }
 
 double ExpressionField::edge_length(const Point& p) const {
-  const double value = value_at(p);
-  const double length = std::max(value, shortest_);  // NaN stays NaN
+  const double length = value(p);
   if (length > 0) return length;
-  fail(parser_->text, "is " + printed(value) + " at x = " + printed(p.x) + ", y = " + printed(p.y),
+  fail(parser_->text, "is " + printed(parser_->value_at(p)) + " at x = " + printed(p.x) + ", y = " + printed(p.y),
        "it must be positive everywhere in the domain: use max(..., smallest length), or set a shortest edge");
 }
 

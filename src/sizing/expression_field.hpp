@@ -6,6 +6,7 @@
 
 #include "driftmesh/size_field.hpp"
 #include "geometry/box.hpp"
+#include "sizing/interval.hpp"
 
 namespace driftmesh {
 
@@ -24,16 +25,16 @@ class ExpressionField final : public SizeField {
 
   /// Whether the least values of the expression over boxes are known. If not, falls_below knows nothing either.
   [[nodiscard]] bool has_bounds() const;
-  /// At most the least length over a box, whose ends may be infinite; 0 or less if nothing is known.
-  [[nodiscard]] double lower_bound(const Box& box) const;
+  /// Holds all values over a box, whose ends may be infinite, if they are known.
+  [[nodiscard]] Interval range(const Box& box) const;
+  /// The value at a point, not below the shortest length: not a length if it is not positive or NaN.
+  [[nodiscard]] double value(const Point& p) const;
   [[nodiscard]] double least() const override;
   [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override;
 
  private:
   struct Parser;
   struct Bounds;
-  [[nodiscard]] double value_at(const Point& p) const;
-
   std::unique_ptr<Parser> parser_;
   double shortest_;
   std::unique_ptr<Bounds> bounds_;  // null: unknown

@@ -74,6 +74,12 @@ std::array<LeastSearch::Cell, 4> LeastSearch::Cell::quarters() const {
   return all;
 }
 
+LeastSearch::Cell LeastSearch::Cell::first_of_cover(const Box& box) {
+  const int exponent = exponent_above(std::max(box.high.x - box.low.x, box.high.y - box.low.y));
+  const double scale = power_of_two(-exponent);
+  return {index_at(box.low.x, scale), index_at(box.low.y, scale), exponent};
+}
+
 // ---- The search ----
 
 struct LeastSearch::Question {

@@ -46,6 +46,8 @@ class LeastSearch {
     [[nodiscard]] double width() const;
     [[nodiscard]] Box box() const;
     [[nodiscard]] std::array<Cell, 4> quarters() const;
+    /// The lowest and leftmost of the cells, at most two in each direction, that cover a box and are larger than it.
+    [[nodiscard]] static Cell first_of_cover(const Box& box);
     bool operator==(const Cell&) const = default;
   };
   [[nodiscard]] double lower_bound(const Cell& cell);

@@ -18,8 +18,8 @@ struct SizingOptions {
   std::string expression{};
   /// A background mesh; see read_background_field. Empty: none.
   std::string background{};
-  /// By how much the lengths of the background mesh may grow per unit of distance, > 0; absent: no limit. 0.2 to 0.3
-  /// grade well. Does not apply to the expression, which defines its own growth.
+  /// By how much lengths may grow per unit of distance, > 0; absent: no limit. 0.2 to 0.3 grade well. Those of the
+  /// background mesh along its edges, those of the expression along straight lines in the box of the domain.
   std::optional<double> gradation{};
   double longest = std::numeric_limits<double>::infinity();  ///< target edge lengths are at most this, > 0
   double shortest = 0;                                       ///< and at least this: smaller values are raised to it

@@ -17,6 +17,7 @@
 #include "property/cases.hpp"
 #include "sizing/background_field.hpp"
 #include "sizing/expression_field.hpp"
+#include "sizing/graded_field.hpp"
 #include "sizing/sampled_field.hpp"
 #include "support/refine_together.hpp"
 #include "unit/sizing_mesh_fixture.hpp"
@@ -171,6 +172,30 @@ TEST_CASE("no feature of an expression is missed, however narrow") {
   }
 }
 
+TEST_CASE("the growth of an expression is limited around every feature, however narrow") {
+  Random random = seeded_generator("graded expressions");
+  for (int i = 0; i < case_count(40); ++i) {
+    const Feature feature = random_feature(random);
+    CAPTURE(feature.expression);
+    const double gradation = uniform(random, 0.1, 0.5);
+    CAPTURE(gradation);
+    const ExpressionField plain(feature.expression);
+    const GradedField field(std::make_unique<ExpressionField>(feature.expression), gradation, {{0, 0}, {1, 1}});
+    for (int k = 0; k < 200; ++k) {
+      const Point p = random_point(random);
+      double most = plain.edge_length(p);
+      for (const Point& q : feature.points)
+        most = std::min(most, plain.edge_length(q) + gradation * std::hypot(p.x - q.x, p.y - q.y));
+      CHECK(field.edge_length(p) <= most / 0.94);
+      const Point q = random_point(random);
+      const double from_q = 0.94 * field.edge_length(q) - gradation * std::hypot(p.x - q.x, p.y - q.y);
+      CHECK(field.edge_length(p) >= std::min(0.94 * plain.edge_length(p), from_q));
+    }
+    const auto size = [&](const Point& p) { return field.edge_length(p); };
+    CHECK(worst_excess(in_one_piece(field), size, feature.points, random) <= kTolerance / 0.94);
+  }
+}
+
 TEST_CASE("no feature of a function is missed that is wider than the spacing of its samples") {
   struct Spot final : SizeField {
     Point center{};
@@ -282,7 +307,7 @@ TEST_CASE("the bounds of an expression over a box are bounds") {
     with_bounds += field.has_bounds();
     const double size = std::exp(uniform(random, -8, 2));
     const Point low{uniform(random, -3, 3), uniform(random, -3, 3)};
-    const double bound = field.lower_bound({low, {low.x + size, low.y + size}});
+    const double bound = field.range({low, {low.x + size, low.y + size}}).low;
     bounded += bound > 0;
     for (int k = 0; k < 20; ++k) {
       const Point p{low.x + size * uniform(random, 0, 1), low.y + size * uniform(random, 0, 1)};
