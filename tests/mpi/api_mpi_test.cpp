@@ -64,7 +64,7 @@ int own_rank() {
 
 }  // namespace
 
-TEST_CASE("pieces of all ranks are one mesh, whichever way they are made") {
+TEST_CASE("the pieces of all ranks make one mesh, whatever the options") {
   const TemporaryFolder folder;
   const Pslg input = generate_rectangle_hole({});
   const Halving halving;
@@ -101,7 +101,7 @@ TEST_CASE("only the input of rank 0 counts") {
   CHECK(piece.total_triangles > 200);
 }
 
-TEST_CASE("some of the ranks can make a mesh for themselves") {
+TEST_CASE("a subset of the ranks can make a mesh of its own") {
   int rank = 0, ranks = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
@@ -116,7 +116,7 @@ TEST_CASE("some of the ranks can make a mesh for themselves") {
   MPI_Comm_free(&half);
 }
 
-TEST_CASE("what allows no mesh is thrown on all ranks alike") {
+TEST_CASE("errors in the input are thrown on all ranks") {
   const Pslg input = generate_rectangle_hole({});
   const auto error_with = [&](const MeshOptions& options) {
     return common_error([&] { (void)mesh_distributed(MPI_COMM_WORLD, input, options); });
@@ -133,7 +133,7 @@ TEST_CASE("what allows no mesh is thrown on all ranks alike") {
   CHECK(error_with(of_other).find("decomposition") != std::string::npos);
 }
 
-TEST_CASE("what one rank meets while it works ends the work of all, which can go on with something else") {
+TEST_CASE("a failure on one rank ends the work of all, which can then continue with something else") {
   const Pslg input = generate_rectangle_hole({});
   int ranks = 0;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
@@ -202,7 +202,7 @@ TEST_CASE("a callable that only some ranks have is an error on all") {
   }
 }
 
-TEST_CASE("progress is told on every rank") {
+TEST_CASE("progress is reported on every rank") {
   std::int64_t most = 0;
   MeshOptions options{.max_area = 1e-5, .subdomains = {.count = 20}};
   options.progress = [&](const Progress& progress) {

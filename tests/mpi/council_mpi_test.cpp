@@ -51,7 +51,7 @@ Parameters::Values collective(const std::string& method, const std::string& appr
 
 }  // namespace
 
-TEST_CASE("on all ranks at once: even in the end, and what everybody believes is so") {
+TEST_CASE("joint plans on real ranks end balanced, and all ranks agree on the result") {
   protocol::MpiTransport transport(protocol::MpiSession::world());
   const auto ranks = to_index(transport.ranks());
   IdVector<Rank, double> speeds{1e5, 2e5, 3e5, 1e5};
@@ -106,7 +106,7 @@ TEST_CASE("random loads, finished neighbors, ranks without any") {
   transport.close();
 }
 
-TEST_CASE("only policies by which all plan together ask for a council") {
+TEST_CASE("only collective policies need a council") {
   protocol::MpiTransport transport(protocol::MpiSession::world());
   const auto layout = std::make_shared<const Layout>(grid_layout(2, 2, transport.ranks()));
   CHECK(make_mpi_council(transport, layout, nullptr, {}) == nullptr);

@@ -154,7 +154,7 @@ TEST_CASE("a rank that joins late with one subdomain is given more") {
     run_with({policy, last_rank(), Start::kOneSubdomain});
 }
 
-TEST_CASE("a rank that joins late with its share is told what its subdomains were told meanwhile") {
+TEST_CASE("a rank that joins late with subdomains receives the messages to them") {
   for (const char* policy : {"none", "zoltan", "collective", "diffusion", "stealing", "greedy"})
     run_with({policy, last_rank(), Start::kShare});
 }

@@ -42,7 +42,7 @@ TEST_CASE("two transports of the same ranks do not see each other's messages") {
   other.close();
 }
 
-TEST_CASE("a message of several megabytes arrives in pieces, and others in between") {
+TEST_CASE("a message of several megabytes arrives in pieces, with others in between") {
   MpiTransport transport(MpiSession::world());
   contract::exchange([&](const contract::Program& program) { run_rank(transport, program(transport)); },
                      {3'000'000, 8, 2'000'000, 8, 8}, true);

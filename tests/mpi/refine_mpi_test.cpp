@@ -24,7 +24,7 @@ Pslg of_file(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("ranks refine the given models, with messages late and out of order") {
+TEST_CASE("ranks refine the published models, with messages late and out of order") {
   for (const std::string name : {"pipe", "cylinder_flow", "chesapeake", "key", "A"}) {
     CAPTURE(name);
     Job job;

@@ -18,7 +18,7 @@ TEST_CASE("the factory makes the policy of the page") {
                        "policy pairs: share: '2' cannot be used; it must be a number from 0 to 1", InputError);
 }
 
-TEST_CASE("it evens out pairs of ranks") {
+TEST_CASE("it balances pairs of ranks") {
   const LoadSnapshot s = testing::initial_snapshot(testing::grid_layout(40, 1, 4), {100, 100, 300, 300});
   const auto moves = make_policy("pairs")->plan(s, Rank{0});
   CHECK(!moves.empty());

@@ -74,7 +74,7 @@ std::vector<Named> planners() {
 
 }  // namespace
 
-TEST_CASE("plans are valid, repeatable, and what is worth making of them finishes no later") {
+TEST_CASE("plans are valid and repeatable, and their worthwhile part finishes no later") {
   auto random = testing::seeded_generator("plans");
   const auto policies = planners();
   int moved = 0, gained = 0;
@@ -103,7 +103,7 @@ TEST_CASE("plans are valid, repeatable, and what is worth making of them finishe
   CHECK(gained > 0);
 }
 
-TEST_CASE("greedy plans take at most three times as long as dealing everything anew, largest first") {
+TEST_CASE("greedy plans take at most three times as long as mapping everything again, largest first") {
   // A rank keeps at most its share of the ideal time, and what is dealt can be bounded as for list scheduling: with o
   // the best possible time, the last subdomain dealt and all before it run within o on ranks fast enough for them, so
   // these ranks are busy until the end less o, with at most ideal + o of work. The end is thus at most ideal + 2 o <= 3
@@ -119,7 +119,7 @@ TEST_CASE("greedy plans take at most three times as long as dealing everything a
   }
 }
 
-TEST_CASE("gifts make the pair finish earlier, and thieves get work from others") {
+TEST_CASE("gifts make the pair finish earlier, and thieves choose other ranks") {
   auto random = testing::seeded_generator("gifts");
   const auto policy = make_policy("stealing");
   int given = 0, asked = 0;

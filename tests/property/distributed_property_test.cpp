@@ -96,7 +96,7 @@ void check_whole(const DistributedCase& c, const std::vector<DistributedPiece>& 
 
 }  // namespace
 
-TEST_CASE("random domains, dealt to random ranks, are one mesh") {
+TEST_CASE("random domains on random ranks make one mesh") {
   std::size_t shared = 0, empty = 0, not_delaunay = 0;
   const auto cases = static_cast<std::uint64_t>(case_count(60));
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
@@ -129,7 +129,7 @@ TEST_CASE("random domains, dealt to random ranks, are one mesh") {
   CHECK(not_delaunay > 0);
 }
 
-TEST_CASE("subdomains that sleep are shown as if they did not") {
+TEST_CASE("sleeping subdomains look the same as others") {
   const auto cases = static_cast<std::uint64_t>(case_count(20));
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     CAPTURE(seed);

@@ -29,7 +29,7 @@ std::vector<Council::Decision> hold_round(const std::shared_ptr<const Policy>& p
 
 }  // namespace
 
-TEST_CASE("what all ranks decide is valid, repeatable, believed by all, and finishes earlier") {
+TEST_CASE("a joint plan is valid, repeatable, known to all ranks, and finishes earlier") {
   auto random = seeded_generator("joint plans");
   int moved = 0, single = 0, many = 0;
   for (std::int64_t i = 0; more_cases(i, 300, single > 0 && many > 0); ++i) {
@@ -58,7 +58,7 @@ TEST_CASE("what all ranks decide is valid, repeatable, believed by all, and fini
   CHECK(many > 0);
 }
 
-TEST_CASE("many subdomains on ranks of three speeds come out even, however they lay before") {
+TEST_CASE("many subdomains on ranks of three speeds end up balanced, whatever the start") {
   const IdVector<Rank, double> speeds{1e5, 1e5, 2e5, 2e5, 2e5, 3e5, 3e5, 1e5};
   for (const bool lopsided : {false, true})
     for (const std::string method : {"rcb", "hsfc", "graph", "hypergraph"})
@@ -78,7 +78,7 @@ TEST_CASE("many subdomains on ranks of three speeds come out even, however they 
       }
 }
 
-TEST_CASE("work that is on its way counts, and nothing is moved that is not worth it") {
+TEST_CASE("work under way counts, and nothing moves that is not worth it") {
   LoadSnapshot snapshot = initial_snapshot(grid_layout(20, 20, 2), {1e5, 1e5});
   auto contributions = contributions_of(snapshot);
   CHECK(all_moves(hold_round(zoltan({}), snapshot, contributions)).empty());  // it is even
@@ -91,7 +91,7 @@ TEST_CASE("work that is on its way counts, and nothing is moved that is not wort
   CHECK(all_moves(hold_round(zoltan({}), snapshot, contributions)).empty());
 }
 
-TEST_CASE("a subdomain that two ranks list, because it has moved between their answers, is planned once") {
+TEST_CASE("a subdomain listed by two ranks, because it moved between their answers, is planned once") {
   const LoadSnapshot snapshot = initial_snapshot(grid_layout(10, 10, 2), {3e5, 1e5});
   auto contributions = contributions_of(snapshot);
   for (std::size_t i = 30; i < 50; ++i) {

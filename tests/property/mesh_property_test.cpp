@@ -50,7 +50,7 @@ MeshRequest random_request(std::uint64_t seed, const RandomPslgShape& shape) {
 
 }  // namespace
 
-TEST_CASE("triangulations of random inputs stand up to brute force") {
+TEST_CASE("triangulations of random inputs pass the brute-force oracles") {
   for (std::uint64_t seed = 1; seed <= 25 / kFewer; ++seed) {
     CAPTURE(seed);
     const RandomPslgShape shape = make_random_shape(seed);
@@ -72,7 +72,7 @@ TEST_CASE("triangulations of random inputs stand up to brute force") {
   }
 }
 
-TEST_CASE("refined meshes of random inputs keep every promise") {
+TEST_CASE("refined meshes of random inputs keep every guarantee") {
   std::size_t triangles = 0, exceptions = 0, meshes_with_holes = 0;
   for (std::uint64_t seed = 1; seed <= 150 / kFewer; ++seed) {
     CAPTURE(seed);
@@ -113,7 +113,7 @@ TEST_CASE("refined meshes of small random inputs cover their segments, by ration
   }
 }
 
-TEST_CASE("arbitrary bytes become inputs that are refused or meshed well") {
+TEST_CASE("arbitrary bytes become inputs that are rejected or meshed correctly") {
   std::size_t meshed = 0, refused = 0;
   for (std::uint64_t seed = 1; seed <= 400 / kFewer; ++seed) {
     CAPTURE(seed);

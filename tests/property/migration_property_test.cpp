@@ -112,7 +112,7 @@ Outcome live_and_move(RandomSubdomains& world, SubdomainId id, const Move& move)
 
 }  // namespace
 
-TEST_CASE("a subdomain that moves at any moment, any number of times, comes out as one that stays") {
+TEST_CASE("a subdomain that moves at any moment, any number of times, ends like one that stays") {
   auto seeds = seeded_generator("moving subdomains");
   Outcome all;
   for (std::int64_t i = 0; more_cases(i, 150, all.saw_all()); ++i) {
@@ -133,7 +133,7 @@ TEST_CASE("a subdomain that moves at any moment, any number of times, comes out 
   CHECK(all.saw_all());
 }
 
-TEST_CASE("a pack that forgets the points to be taken in is found out") {
+TEST_CASE("a packed form without the pending points is detected") {
   int found = 0, lives = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed, ++lives) {
     RandomSubdomains world(seed, 3, 300);
@@ -142,7 +142,7 @@ TEST_CASE("a pack that forgets the points to be taken in is found out") {
   CHECK(found > lives / 2);
 }
 
-TEST_CASE("a subdomain that sleeps whenever it can is finished as well, and holds what it was told") {
+TEST_CASE("a subdomain that sleeps whenever it can finishes, and has all points that were sent to it") {
   auto seeds = seeded_generator("sleeping subdomains");
   int slept = 0, woken = 0, slept_through = 0, moved = 0;
   for (std::int64_t i = case_count(60); i > 0; --i) {
@@ -197,7 +197,7 @@ TEST_CASE("a subdomain that sleeps whenever it can is finished as well, and hold
   CHECK(moved > slept / 10);
 }
 
-TEST_CASE("large subdomains, in the stage of blocks, come out the same") {
+TEST_CASE("large subdomains that move while refined in blocks end the same") {
   static_assert(1.25 * protocol::kMostPackedBytes + 100'000 < 0x1p31);
   Triangulation mesh = triangulate(generate_pipe({}));
   prepare_corners(mesh);

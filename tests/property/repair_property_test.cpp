@@ -211,7 +211,7 @@ void decorate(Pslg& pslg, Random& random) {
 
 }  // namespace
 
-TEST_CASE("repair makes any soup of segments planar, keeps its shape, and changes nothing the second time") {
+TEST_CASE("repair makes any set of segments planar, keeps its shape, and is idempotent") {
   std::int64_t crossings = 0, overlaps = 0, on_segments = 0, close_segments = 0, close_points = 0, duplicates = 0;
   for (const Kind& kind : kKinds) {
     for (std::uint64_t seed = 1; seed <= 120; ++seed) {

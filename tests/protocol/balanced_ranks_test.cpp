@@ -114,7 +114,7 @@ TEST_CASE("all work on one rank of many") {
   }
 }
 
-TEST_CASE("runs end in good order whatever there is to do") {
+TEST_CASE("runs end cleanly whatever the work") {
   for (const std::string& policy : kPolicies)
     for (const std::int32_t ranks : {1, 2, 7}) {
       CAPTURE(policy);
@@ -131,7 +131,7 @@ TEST_CASE("runs end in good order whatever there is to do") {
     }
 }
 
-TEST_CASE("a balanced run is left alone: nothing goes back and forth") {
+TEST_CASE("nothing moves back and forth in a balanced run") {
   // Forecasts that are wrong by a third make it look unbalanced now and then.
   Cluster cluster;
   cluster.speeds.assign(8, 1e6);
@@ -180,7 +180,7 @@ TEST_CASE("random clusters and loads: every run is complete, and none takes much
   }
 }
 
-TEST_CASE("among adversarial ranks every request is answered, nothing is lost, and the end is the end") {
+TEST_CASE("on an adversarial network every request is answered, nothing is lost, and the end is final") {
   // Time is the number of steps here, and speed a job in so many of them.
   ControllerOptions options;
   options.look = 3;

@@ -36,7 +36,7 @@ bool refused_or_canonical(const Bytes& bytes) {
 
 }  // namespace
 
-TEST_CASE("messages of every type come back as they were sent") {
+TEST_CASE("messages of every type survive a round trip") {
   std::set<std::size_t> types;
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     CAPTURE(seed);
@@ -66,7 +66,7 @@ TEST_CASE("every truncation is refused") {
   }
 }
 
-TEST_CASE("damaged bytes are refused, or are another message that is understood whole") {
+TEST_CASE("damaged bytes are rejected, or decode to another complete message") {
   std::mt19937_64 random(7);
   int refused = 0, understood = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
@@ -97,7 +97,7 @@ TEST_CASE("the layout is little-endian and fixed") {
   for (std::size_t i = 0; i < bytes.size(); ++i) CHECK(std::to_integer<int>(bytes[i]) == expected[i]);
 }
 
-TEST_CASE("refusals say what is wrong") {
+TEST_CASE("errors say what is wrong") {
   const auto with = [](Message message, std::size_t at, int value) {
     Bytes bytes = encode(message);
     bytes.at(at) = std::byte(value);
@@ -113,13 +113,13 @@ TEST_CASE("refusals say what is wrong") {
   CHECK(error_of({}) == "message from rank 5: it ends too early");
 }
 
-TEST_CASE("an announced length costs no memory before its bytes are there") {
+TEST_CASE("a length allocates no memory before its bytes are known to exist") {
   Bytes bytes = encode(SplitBatch{});
   for (std::size_t i = 2; i < 6; ++i) bytes[i] = std::byte{0xff};
   CHECK(error_of(bytes) == "message from rank 5: it announces 4294967295 items, but 0 bytes follow");
 }
 
-TEST_CASE("advice is carried as it is, and its topic takes no room") {
+TEST_CASE("advice is carried unchanged, and its topic takes no extra bytes") {
   const Advice advice{9, Bytes{std::byte{0xab}, std::byte{0xcd}}};
   const Bytes bytes = encode(advice);
   CHECK(bytes.size() == 4);

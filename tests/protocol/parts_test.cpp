@@ -14,7 +14,7 @@
 using namespace driftmesh;
 using namespace driftmesh::protocol;
 
-TEST_CASE("an aggregator sends a batch at its threshold and keeps what is below it") {
+TEST_CASE("an aggregator sends a batch at its threshold and keeps smaller ones") {
   Aggregator aggregator(0_rank, 3);
   CHECK(!aggregator.add(1_rank, 10_sub, 0, {1_root, 1}));
   CHECK(!aggregator.add(2_rank, 20_sub, 0, {2_root, 1}));
@@ -153,7 +153,7 @@ TEST_CASE("forwarding reaches the owner, epochs rise along the way, and hops are
   CHECK(forwards > 500);
 }
 
-TEST_CASE("a message that is ahead of its subdomain is held") {
+TEST_CASE("a message that arrives before its subdomain is held") {
   const IdVector<SubdomainId, Rank> owners{0_rank, 2_rank};
   Directory directory(2_rank, owners);
   CHECK(directory.route(0_sub, 0) == Directory::Route::kForward);  // a stray

@@ -33,7 +33,7 @@ struct Ranks {
 
 }  // namespace
 
-TEST_CASE("SPLITs go out when a batch is full, or when the rank rests") {
+TEST_CASE("SPLITs are sent when a batch is full or the rank is idle") {
   Ranks ranks;
   for (const GlobalRootId root : first_ids<GlobalRootId>(4)) ranks[0_rank].send_split(1_sub, {root, 1});
   ranks[0_rank].send_split(1_sub, {9_root, 3});
@@ -50,7 +50,7 @@ TEST_CASE("SPLITs go out when a batch is full, or when the rank rests") {
   CHECK_THROWS_AS(ranks[0_rank].send_split(0_sub, {1_root, 1}), Error);
 }
 
-TEST_CASE("a SPLIT follows its subdomain, the sender learns, and counts come out even") {
+TEST_CASE("a SPLIT follows its subdomain, the sender learns its owner, and counts match") {
   Ranks ranks;
   ranks[0_rank].send_split(1_sub, {5_root, 1});
   ranks[0_rank].rest(false);
@@ -95,7 +95,7 @@ TEST_CASE("a SPLIT follows its subdomain, the sender learns, and counts come out
   CHECK_THROWS_AS(ranks[2_rank].hand_off(1_sub, 2_rank, {}), Error);
 }
 
-TEST_CASE("advice is delivered while there is work, and refused afterward") {
+TEST_CASE("advice is delivered while there is work, and rejected afterward") {
   Ranks ranks;
   CHECK(ranks[0_rank].advise(1_rank, Advice{3, Bytes(5)}));
   const Delivery delivery = ranks.carry(0_rank, ranks.only(0_rank));

@@ -99,7 +99,7 @@ TEST_CASE("a delaying transport keeps the contract, and reorders") {
   CHECK(reordered);
 }
 
-TEST_CASE("the adversary does what it says, and the same again from the same seed") {
+TEST_CASE("the adversary does what it claims, reproducibly for a seed") {
   AdversarialNetwork::Counters sum;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     CAPTURE(seed);
@@ -121,7 +121,7 @@ TEST_CASE("the adversary does what it says, and the same again from the same see
   CHECK(sum.held > 100);
 }
 
-TEST_CASE("the adversary copies only what it may") {
+TEST_CASE("the adversary duplicates only messages that allow it") {
   Adversary adversary{.seed = 5, .copy = 0.5, .may_copy = [](Rank, auto bytes) { return bytes[0] == std::byte{1}; }};
   AdversarialNetwork network(1, adversary);
   Transport& transport = network.transport(0_rank);
@@ -135,7 +135,7 @@ TEST_CASE("the adversary copies only what it may") {
   CHECK(network.in_flight() == 0);
 }
 
-TEST_CASE("what is urgent comes first, and what must wait waits") {
+TEST_CASE("urgent messages come first, and held ones wait") {
   Adversary adversary{.seed = 6, .may_copy = {}};
   bool closed = true;
   adversary.urgency = [&](const Parcel& parcel, std::uint64_t) {
@@ -160,7 +160,7 @@ TEST_CASE("what is urgent comes first, and what must wait waits") {
   CHECK(order == expected);
 }
 
-TEST_CASE("ranks that wait for each other stall, and are told") {
+TEST_CASE("ranks that wait for each other stall and get a report") {
   const IdVector<Rank, RankStep> waiting(3, [] { return StepResult::kIdle; });
   CHECK(AdversarialNetwork(3, {.seed = 3, .may_copy = {}}).run(waiting).end == RunEnd::kStalled);
   CHECK(VirtualNetwork({.speeds = {1, 1, 1}, .link = {}}).run(waiting).end == RunEnd::kStalled);
@@ -169,7 +169,7 @@ TEST_CASE("ranks that wait for each other stall, and are told") {
   CHECK(VirtualNetwork({.speeds = {1}, .link = {}, .step_limit = 100}).run(busy).end == RunEnd::kStepLimit);
 }
 
-TEST_CASE("virtual time is what the cluster's figures say") {
+TEST_CASE("virtual time follows from the cluster's parameters") {
   // Rank 0 works 3 s on the reference machine, at half speed; then sends 1 MB to rank 1, which waits for it.
   VirtualCluster cluster{.speeds = {0.5, 2}, .link = [](Rank, Rank) { return Link{0.25, 1e6}; }};
   cluster.message_overhead = 0.125;
@@ -196,7 +196,7 @@ TEST_CASE("virtual time is what the cluster's figures say") {
   CHECK_THROWS_AS(VirtualNetwork({.speeds = {1, 0}, .link = {}}), Error);
 }
 
-TEST_CASE("equal ranks with equal work end together, whatever their number") {
+TEST_CASE("equal ranks with equal work finish together, whatever their number") {
   for (const std::size_t ranks : {1u, 10u, 1000u}) {
     VirtualNetwork network({.speeds = IdVector<Rank, double>(ranks, 1.0), .link = {}});
     const auto program = [](Transport& transport) -> RankStep {

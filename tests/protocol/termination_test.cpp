@@ -38,7 +38,7 @@ IdVector<Rank, Termination> make(std::int32_t ranks) {
 
 }  // namespace
 
-TEST_CASE("ranks without any work finish: one probe, one pass, one farewell") {
+TEST_CASE("ranks without any work finish after one probe, one pass and one farewell") {
   for (std::int32_t ranks = 1; ranks <= 9; ++ranks) {
     CAPTURE(ranks);
     auto all = make(ranks);
@@ -47,7 +47,7 @@ TEST_CASE("ranks without any work finish: one probe, one pass, one farewell") {
   }
 }
 
-TEST_CASE("handled work is noticed within two more probes") {
+TEST_CASE("the end of work is detected within two more probes") {
   auto all = make(4);
   all[1_rank].work_sent(5);
   all[3_rank].work_handled(5);
@@ -56,7 +56,7 @@ TEST_CASE("handled work is noticed within two more probes") {
   CHECK(all[0_rank].rounds() == 2);
 }
 
-TEST_CASE("no end while work is under way, and none while a rank is busy") {
+TEST_CASE("no termination while a message is under way or a rank is busy") {
   auto all = make(3);
   all[2_rank].work_sent(1);
   CHECK(!all[0_rank].advance(false));
@@ -77,7 +77,7 @@ TEST_CASE("no end while work is under way, and none while a rank is busy") {
   CHECK(all[0_rank].phase() == Phase::kFinished);
 }
 
-TEST_CASE("one rank alone waits for what it sent to itself") {
+TEST_CASE("a single rank waits for messages to itself") {
   Termination rank(0_rank, 1);
   rank.work_sent(2);
   rank.control_sent();
@@ -127,7 +127,7 @@ TEST_CASE("copies of detection messages change nothing, impossible ones are erro
   CHECK_THROWS_AS(all[0_rank].receive(2_rank, Terminate{1, 0, 0}), ProtocolError);
 }
 
-TEST_CASE("the audit finds an end that was declared too early") {
+TEST_CASE("the audit detects premature termination") {
   auto all = make(2);
   Token token = std::get<Token>(all[0_rank].advance(true)->message);
   all[1_rank].receive(0_rank, token);

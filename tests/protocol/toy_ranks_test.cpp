@@ -153,7 +153,7 @@ std::uint64_t seeds_to_run(std::uint64_t usual) {
 
 }  // namespace
 
-TEST_CASE("random work among adversarial ranks: nothing lost, and the end is found in time") {
+TEST_CASE("random work on an adversarial network: nothing is lost, and termination is detected in time") {
   Tally tally;
   for (std::uint64_t seed = 1, last = seeds_to_run(2000); seed <= last; ++seed) {
     CAPTURE(seed);
@@ -177,7 +177,7 @@ TEST_CASE("mutation: an aggregator that is not flushed counts as passive") {
   must_be_caught(testing::PassiveWithSplitsToSend(), 50, "terminated too early");
 }
 
-TEST_CASE("mutation: an idle rank keeps what it has collected") {
+TEST_CASE("mutation: an idle rank does not flush its aggregator") {
   must_be_caught(testing::NoFlushWhenIdle(), 50, "stalled");
 }
 
@@ -192,7 +192,7 @@ TEST_CASE("mutation: forwarding counts as sending") {
   must_be_caught(testing::ForwardingCountsAsSending(), 200, "sends work although it was passive");
 }
 
-TEST_CASE("mutation: what is held back counts as handled, and again when it is") {
+TEST_CASE("mutation: held messages count as handled twice") {
   must_be_caught(testing::HoldingCountsAsHandling(), 50, "terminated too late");
 }
 
@@ -208,7 +208,7 @@ TEST_CASE("mutation: missing ancestors are not replayed") {
   must_be_caught(sound_rules(), 50, "a point without its parent", {.replays_ancestors = false});
 }
 
-TEST_CASE("mutation: a point that is there is inserted again") {
+TEST_CASE("mutation: an existing point is inserted again") {
   must_be_caught(sound_rules(), 50, "the two sides of an edge differ", {.inserts_again = true});
 }
 

@@ -50,7 +50,7 @@ AdversarialRun::Wrap tampering(Tampering tamper) {
 
 }  // namespace
 
-TEST_CASE("the schedules are hard ones, on every domain and number of ranks") {
+TEST_CASE("the schedules are hard, on every domain and number of ranks") {
   Domains domains;
   protocol::ProtocolCounters sum;
   Deeds deeds;
@@ -137,7 +137,7 @@ TEST_CASE("mutation: an aggregator that is not flushed counts as passive") {
   must_be_caught(testing::PassiveWithSplitsToSend(), 50, "termination in time: too early");
 }
 
-TEST_CASE("mutation: an idle rank keeps what it has collected") {
+TEST_CASE("mutation: an idle rank does not flush its aggregator") {
   must_be_caught(testing::NoFlushWhenIdle(), 50, "stalled");
 }
 
@@ -152,11 +152,11 @@ TEST_CASE("mutation: forwarding counts as sending") {
   must_be_caught(testing::ForwardingCountsAsSending(), 100, "");
 }
 
-TEST_CASE("mutation: what is held back counts as handled, and again when it is") {
+TEST_CASE("mutation: held messages count as handled twice") {
   must_be_caught(testing::HoldingCountsAsHandling(), 100, "termination in time: too late");
 }
 
-TEST_CASE("mutation: what is held back counts as handled, and nobody looks at it") {
+TEST_CASE("mutation: held messages count as handled and are never delivered") {
   struct HeldIsHandled final : protocol::Rules {
     [[nodiscard]] bool counts_as_handled(Station station) const override {
       return station == Station::kHeld || (station != Station::kReleased && Rules::counts_as_handled(station));
@@ -180,7 +180,7 @@ TEST_CASE("mutation: missing ancestors are not replayed") {
   must_be_caught(protocol::sound_rules(), 100, "both sides of each edge", tampering(drop_orphans));
 }
 
-TEST_CASE("mutation: a point that is there is inserted again") {
+TEST_CASE("mutation: an existing point is inserted again") {
   must_be_caught(protocol::sound_rules(), 50, "both sides of each edge", tampering(insert_again));
 }
 
@@ -190,14 +190,14 @@ TEST_CASE("mutation: a message is lost") {
       [](protocol::Transport& transport, const FindLoop&) { return std::make_unique<LosingTransport>(transport); });
 }
 
-TEST_CASE("mutation: a subdomain that comes back to a rank is dropped there") {
+TEST_CASE("mutation: a subdomain that returns to a rank is dropped") {
   must_be_caught(protocol::sound_rules(), 50, "termination in time: too late",
                  [](protocol::Transport& transport, const FindLoop&) {
                    return std::make_unique<UnwelcomingTransport>(transport, limits_of(transport));
                  });
 }
 
-TEST_CASE("mutation: the packed form forgets the points that wait") {
+TEST_CASE("mutation: the packed form omits pending points") {
   must_be_caught(protocol::sound_rules(), 50, "both sides of each edge",
                  [](protocol::Transport& transport, const FindLoop&) {
                    return std::make_unique<ForgetfulTransport>(transport, limits_of(transport));

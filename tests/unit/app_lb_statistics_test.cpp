@@ -131,7 +131,7 @@ void check_phase(const std::vector<Json>& files, std::size_t phase) {
 
 }  // namespace
 
-TEST_CASE("files have what vt's validator and LBAF's reader ask for, whether or not there is anything to say") {
+TEST_CASE("files have what vt's validator and LBAF's reader require, even without any work") {
   for (const std::int32_t phases : {1, 4, 7}) {
     INFO(phases);
     std::vector<Json> files;
@@ -146,7 +146,8 @@ TEST_CASE("files have what vt's validator and LBAF's reader ask for, whether or 
   }
 }
 
-TEST_CASE("in one phase a subdomain counts where it worked longest, and the rest of its time stays where it was") {
+TEST_CASE(
+    "in each phase a subdomain counts where it worked longest, and the rest of its time stays with the other ranks") {
   const std::vector<std::string> files = lb_statistics(two_ranks(1));
   REQUIRE(files.size() == 2);
   const std::vector<Task> first = tasks(files, 0, 0), second = tasks(files, 1, 0);
@@ -161,7 +162,7 @@ TEST_CASE("in one phase a subdomain counts where it worked longest, and the rest
   CHECK(second[1].time == 0);
 }
 
-TEST_CASE("a slice that lies in several phases is divided between them") {
+TEST_CASE("a slice that spans several phases is divided between them") {
   const std::vector<std::string> files = lb_statistics(two_ranks(4));  // of 2 s each
   const auto time_on_1 = [&](std::size_t phase) {
     double sum = 0;
@@ -179,7 +180,7 @@ TEST_CASE("a slice that lies in several phases is divided between them") {
   CHECK(tasks(files, 1, 3)[0].index == 1);
 }
 
-TEST_CASE("numbers, speeds and what subdomains told each other are as vt knows them") {
+TEST_CASE("numbers, speeds and communications of subdomains are in vt's form") {
   const std::vector<std::string> files = lb_statistics(two_ranks(1));
   const Json file = Json::parse(files[1]);
   CHECK(file.at("metadata").at("rank") == 1);

@@ -36,7 +36,7 @@ std::string refusal(const GivenKeys& keys, const config::SourcePlaces& places = 
 
 }  // namespace
 
-TEST_CASE("a command line wins over a file, and lists of it take the place of others") {
+TEST_CASE("a command line overrides a file, and its lists replace others") {
   Request request;
   request.bounds.area = 3;
   request.bounds.angle = 30;
@@ -59,7 +59,7 @@ TEST_CASE("a command line wins over a file, and lists of it take the place of ot
   CHECK(request.run.sleep);
 }
 
-TEST_CASE("errors are in the words of the option, or have the place in the file") {
+TEST_CASE("errors name the option, or the place in the file") {
   CHECK(refusal(given({{"area", "many"}})) == "--area is 'many'; give a number, as in 20, 1.5e3 or 5k");
   CHECK(refusal(given({{"speeds", "1,-2"}})) == "--speeds is -2; it must be above 0");
   CHECK(refusal(given({{"balance-with", "method"}})) == "--balance-with is 'method'; write NAME=VALUE");
@@ -67,7 +67,7 @@ TEST_CASE("errors are in the words of the option, or have the place in the file"
   CHECK(refusal(given({{"angle", "20"}}), {{"bounds.angle", "run.yaml:3:8"}}) == "--angle is too steep; lower it");
 }
 
-TEST_CASE("the command line that repeats a run says everything that is not the default") {
+TEST_CASE("the command line that repeats a run has everything that is not a default") {
   Request request;
   request.input.file = "my bay.poly";
   request.bounds.angle = 30;
@@ -83,7 +83,7 @@ TEST_CASE("the command line that repeats a run says everything that is not the d
         "method=graph --output a.vtu --output b.msh");
 }
 
-TEST_CASE("an empty value is refused, as of a variable of the shell that is not set") {
+TEST_CASE("an empty value, such as that of an unset shell variable, is rejected") {
   for (const char* option : {"size", "size-mesh", "decomposition", "plot", "json"}) {
     CAPTURE(option);
     CHECK(refusal(given({{option, ""}})) == "--" + std::string(option) + " is empty; give it a value, or leave it out");

@@ -34,7 +34,7 @@ TEST_CASE("Numbers in words") {
   CHECK(estimate_words(1e20) == "1e+20");
 }
 
-TEST_CASE("The histogram is aligned, adds up and shows every angle that is there") {
+TEST_CASE("The histogram is aligned, adds up and shows every angle that occurs") {
   AngleSummary shape;
   shape.bins[2] = 1;
   shape.bins[5] = 1'000'000;
@@ -70,7 +70,7 @@ TEST_CASE("The summary names exceptions, places and an incomplete mesh") {
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
 }
 
-TEST_CASE("The summary of a run on ranks has a row a rank, or the extremes of many") {
+TEST_CASE("The summary of a run on ranks has a row for each rank, or the extremes of many") {
   RunRecord run;
   run.subdomains = 40;
   run.ranks.resize(2);
@@ -101,7 +101,7 @@ TEST_CASE("The summary of a run on ranks has a row a rank, or the extremes of ma
   CHECK(std::count(text.begin(), text.end(), '\n') < 50);
 }
 
-TEST_CASE("The facts of parts add up to those of the whole, also through bytes") {
+TEST_CASE("The facts of parts add up to those of the whole, even after a trip through bytes") {
   MeshFacts a, b;
   a.triangles = 10;
   a.digest = 7;

@@ -80,7 +80,7 @@ bool refused_or_canonical(const Advice& advice) {
 
 }  // namespace
 
-TEST_CASE("the balancer's messages of every type come back as they were sent") {
+TEST_CASE("the balancer's messages of every type survive a round trip") {
   std::set<std::size_t> types;
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     CAPTURE(seed);
@@ -91,7 +91,7 @@ TEST_CASE("the balancer's messages of every type come back as they were sent") {
   CHECK(types.size() == std::variant_size_v<Message>);
 }
 
-TEST_CASE("every truncation of the balancer's messages is refused") {
+TEST_CASE("every truncation of the balancer's messages is rejected") {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     CAPTURE(seed);
     Advice advice = encode(RandomMessage(seed).any());
@@ -106,7 +106,7 @@ TEST_CASE("every truncation of the balancer's messages is refused") {
   }
 }
 
-TEST_CASE("damaged advice is refused, or is another message that is understood whole") {
+TEST_CASE("damaged advice is rejected, or decodes to another complete message") {
   std::mt19937_64 random(7);
   int refused = 0, understood = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
@@ -130,7 +130,7 @@ TEST_CASE("the layout of a plan is little-endian and fixed") {
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::to_integer<int>(advice.content[i]) == expected[i]);
 }
 
-TEST_CASE("refusals of advice say what is wrong") {
+TEST_CASE("errors about advice say what is wrong") {
   const auto with = [](const Message& message, std::size_t at, int value) {
     Advice advice = encode(message);
     advice.content.at(at) = std::byte(value);
@@ -145,7 +145,7 @@ TEST_CASE("refusals of advice say what is wrong") {
   CHECK(error_of({0, {}}) == "message from rank 5: it ends too early");
 }
 
-TEST_CASE("an announced length of advice costs no memory before its bytes are there") {
+TEST_CASE("a length in advice allocates no memory before its bytes are known to exist") {
   Advice advice = encode(Plan{1, {}});
   for (std::size_t i = 4; i < 8; ++i) advice.content[i] = std::byte{0xff};
   CHECK(error_of(advice) == "message from rank 5: it announces 4294967295 items, but 0 bytes follow");

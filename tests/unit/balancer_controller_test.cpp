@@ -36,7 +36,7 @@ std::vector<std::pair<Rank, M>> sent(const Decision& decision) {
 
 }  // namespace
 
-TEST_CASE("a rank that works as it said has nothing to report") {
+TEST_CASE("a rank that works as reported has nothing to report") {
   ReportRule rule(0.02, 5, 0.1);
   CHECK(!rule.due(0, 1000, 0, false));  // does not know its speed
   CHECK(rule.due(0, 0, 0, false));      // has nothing to do
@@ -55,7 +55,7 @@ TEST_CASE("a rank that works as it said has nothing to report") {
   CHECK(rule.due(100, 1, 100, false));
 }
 
-TEST_CASE("what is known of a rank goes on as it said, in the order it said") {
+TEST_CASE("the known load of a rank is extrapolated in the order it reported") {
   Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
   CHECK(knowledge.snapshot(0, true).ranks[0_rank].remaining == 2000);  // as the layout predicts
   knowledge.hear(0_rank, {1, 0, 100, {{1_sub, 0, 500, 40}, {0_sub, 0, 300, 40}}}, 1);
@@ -83,7 +83,7 @@ TEST_CASE("late reports cannot move a subdomain back") {
   CHECK(find(knowledge.snapshot(2, true), 0_sub)->owner == 1_rank);
 }
 
-TEST_CASE("planned moves count as made until it is known whether they were") {
+TEST_CASE("planned moves count as done until their outcome is known") {
   Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
   knowledge.hear(0_rank, {1, 0, 100, loads_of(0, 1, 1000)}, 0);
   knowledge.hear(1_rank, {1, 0, 100, loads_of(2, 3, 1000)}, 0);
@@ -103,7 +103,7 @@ TEST_CASE("planned moves count as made until it is known whether they were") {
   CHECK(find(knowledge.snapshot(0, true), 0_sub)->remaining == 800);
 }
 
-TEST_CASE("a planned move of which nothing is heard is forgotten") {
+TEST_CASE("a planned move without news is forgotten") {
   Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
   knowledge.hear(0_rank, {1, 0, 0, loads_of(0, 1, 1000)}, 0);
   knowledge.expect(std::vector<Move>{{0_sub, 1_rank}}, knowledge.snapshot(0, true), 1, 0);
@@ -150,7 +150,7 @@ TEST_CASE("the leader plans when all have reported, and a rank follows") {
   CHECK(answer[0].second.loads.size() == 3);
 }
 
-TEST_CASE("a rank without work sends none, whatever it is told") {
+TEST_CASE("a rank without work sends none, whatever the plan") {
   const Layout layout = grid_layout(12, 1, 3);
   for (const std::string& policy : policy_names()) {
     CAPTURE(policy);
@@ -166,7 +166,7 @@ TEST_CASE("a rank without work sends none, whatever it is told") {
   }
 }
 
-TEST_CASE("a rank that runs low asks, and waits for the answer") {
+TEST_CASE("a rank that runs low sends a request and waits for the answer") {
   const Layout layout = grid_layout(12, 1, 3);
   Controller broker = controller_of(0_rank, layout, "stealing"), thief = controller_of(1_rank, layout, "stealing"),
              victim = controller_of(2_rank, layout, "stealing");
@@ -198,7 +198,7 @@ TEST_CASE("a rank that runs low asks, and waits for the answer") {
   CHECK(sent<balancer::WorkRequest>(thief.think(1.5, loads_of(4, 4, 5), 300)).empty());  // there is some on its way
 }
 
-TEST_CASE("a rank asks again when all that was promised has come, though it was finished at once") {
+TEST_CASE("a rank asks again when all promised subdomains have arrived, even if they were finished at once") {
   const Layout layout = grid_layout(12, 1, 3);
   for (const bool answer_first : {true, false}) {
     CAPTURE(answer_first);
@@ -215,7 +215,7 @@ TEST_CASE("a rank asks again when all that was promised has come, though it was 
   }
 }
 
-TEST_CASE("who planned a move hears that it was made, though the subdomain was finished at once") {
+TEST_CASE("the planner of a move learns that it was made, even if the subdomain was finished at once") {
   const Layout layout = grid_layout(12, 1, 2);
   Controller rank = controller_of(1_rank, layout, "greedy");
   CHECK(sent<LoadReport>(rank.think(1, loads_of(6, 11, 1000), 300)).size() == 1);
@@ -236,7 +236,7 @@ TEST_CASE("who planned a move hears that it was made, though the subdomain was f
   CHECK(knowledge.snapshot(2, true).ranks[1_rank].remaining == doctest::Approx(6 * 950));
 }
 
-TEST_CASE("a refused rank does not ask without end, and is thought of later") {
+TEST_CASE("a refused rank stops asking and is served later") {
   const Layout layout = grid_layout(12, 1, 2);
   Controller broker = controller_of(0_rank, layout, "stealing"), thief = controller_of(1_rank, layout, "stealing");
   const auto request = sent<balancer::WorkRequest>(thief.think(1, {}, 300));

@@ -34,7 +34,7 @@ double cut_length(const LoadSnapshot& snapshot) {
 
 }  // namespace
 
-TEST_CASE("wrong names, parameters and values are errors that say what was meant") {
+TEST_CASE("wrong names, parameters and values are errors that suggest what was meant") {
   CHECK(error_of("soltan") == "unknown policy 'soltan'; the nearest one is 'zoltan'");
   CHECK(error_of("none", {{"method", "rcb"}}) == "policy none: unknown parameter 'method'; it has none");
   CHECK(error_of("greedy", {{"tolerence", "1"}}) ==
@@ -58,7 +58,7 @@ TEST_CASE("wrong names, parameters and values are errors that say what was meant
   for (const std::string& name : policy_names()) CHECK(error_of(name) == "");
 }
 
-TEST_CASE("none leaves everything where it is") {
+TEST_CASE("the policy none moves nothing") {
   const auto policy = make_policy("none");
   CHECK(policy->placement() == Placement::kNobody);
   const LoadSnapshot s = initial_snapshot(grid_layout(6, 6, 2), {1, 100});
@@ -105,7 +105,7 @@ TEST_CASE("zoltan's graphs keep borders between ranks short, and repartition mov
   CHECK(moves_of("repartition").size() < moves.size());
 }
 
-TEST_CASE("zoltan takes its own parameters") {
+TEST_CASE("zoltan accepts its own parameters") {
   const LoadSnapshot s = initial_snapshot(grid_layout(20, 20, 4), {1, 1, 1, 3});
   const auto strict = make_policy("zoltan", {{"polish", "false"}, {"IMBALANCE_TOL", "1.01"}})->plan(s, 0_rank);
   const auto loose = make_policy("zoltan", {{"polish", "false"}, {"IMBALANCE_TOL", "1.5"}})->plan(s, 0_rank);
@@ -178,7 +178,7 @@ TEST_CASE("a rank that runs low gets work from the one that will finish last") {
   CHECK(!policy->victim(s, 1_rank, all));  // they will not finish later
 }
 
-TEST_CASE("a rank gives as long as the other one finishes that earlier") {
+TEST_CASE("a rank gives as long as the other one finishes earlier with it") {
   const auto policy = make_policy("stealing");
   LoadSnapshot s = initial_snapshot(grid_layout(20, 1, 2), {100, 300});
   s.ranks[1_rank].remaining = 0;

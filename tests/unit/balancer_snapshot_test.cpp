@@ -57,7 +57,7 @@ TEST_CASE("subdomains are found by number, if they are listed") {
   CHECK(find(s, 9_sub) == nullptr);
 }
 
-TEST_CASE("a speed is known after a while, and follows what happens") {
+TEST_CASE("a speed is known after a while, and adapts") {
   SpeedEstimate speed(2);
   CHECK(speed.value() == 0);
   speed.add({10, 0.001});
@@ -70,7 +70,7 @@ TEST_CASE("a speed is known after a while, and follows what happens") {
   CHECK(speed.value() < 10'000);
 }
 
-TEST_CASE("the beginning of a subdomain alone does not tell a speed") {
+TEST_CASE("the start of a subdomain alone does not determine a speed") {
   // Beginning takes 30 ms of a rank of 1,000 triangles a second, 60 ms of one half as fast; then a point makes two.
   const auto after = [](double speed, double seconds, bool finished) {
     SpeedEstimate estimate;
@@ -87,7 +87,7 @@ TEST_CASE("the beginning of a subdomain alone does not tell a speed") {
   CHECK(after(1000, 0.2, true) / after(500, 0.4, true) == doctest::Approx(2).epsilon(0.02));
 }
 
-TEST_CASE("surplus goes to who finishes it first") {
+TEST_CASE("surplus goes to the rank that finishes it first") {
   // The second rank is four times as fast: 8 of 10 subdomains are its share.
   const LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {100, 400});
   const LoadSnapshot dealt = deal_surplus(s, 0.02);
@@ -102,27 +102,27 @@ TEST_CASE("parts go to the ranks that hold most of their work") {
   CHECK(remap_parts(s, parts, 0.02) == ranks_of({0, 0, 0, 1, 1, 1, 2, 2, 2}));
 }
 
-TEST_CASE("a part that is too large for a slow rank does not go there") {
+TEST_CASE("a part that is too large for a slow rank does not go to it") {
   const LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {100, 400});
   // Part 1, of 8 subdomains, holds all that rank 0 has; rank 0 is too slow for it.
   CHECK(remap_parts(s, parts_of({1, 1, 1, 1, 1, 1, 1, 1, 0, 0}), 0.02) == ranks_of({1, 1, 1, 1, 1, 1, 1, 1, 0, 0}));
 }
 
-TEST_CASE("moves that gain nothing are not worth making") {
+TEST_CASE("moves without gain are not worth making") {
   const LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {100, 100});
   CHECK(worth_moving(s, std::vector<Move>{{0_sub, 1_rank}}, {}).empty());                   // makes it worse
   CHECK(worth_moving(s, std::vector<Move>{{0_sub, 1_rank}, {9_sub, 0_rank}}, {}).empty());  // an exchange
   CHECK(worth_moving(s, std::vector<Move>{}, {}).empty());
 }
 
-TEST_CASE("moves that are not valid are left out") {
+TEST_CASE("invalid moves are left out") {
   const LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {100, 400});
   const std::vector<Move> plan{{0_sub, 1_rank}, {0_sub, 1_rank},   {1_sub, 0_rank}, {99_sub, 1_rank},
                                {2_sub, 7_rank}, {3_sub, Rank{-1}}, {4_sub, 1_rank}, {5_sub, 1_rank}};
   CHECK(worth_moving(s, plan, {}) == std::vector<Move>{{0_sub, 1_rank}, {4_sub, 1_rank}});
 }
 
-TEST_CASE("what costs more to move than to finish stays") {
+TEST_CASE("subdomains that cost more to move than to finish stay") {
   LoadSnapshot s = initial_snapshot(grid_layout(4, 1, 2), {1000, 1000});
   s.subdomains[2].remaining = s.subdomains[3].remaining = 0;
   sum_up(s);
@@ -135,7 +135,7 @@ TEST_CASE("what costs more to move than to finish stays") {
   CHECK(worth_moving(s, plan, {}).empty());
 }
 
-TEST_CASE("what one message cannot carry stays, however much there is to gain") {
+TEST_CASE("subdomains too large for a message stay, whatever the gain") {
   LoadSnapshot s = initial_snapshot(grid_layout(10, 1, 2), {1e6, 1e6});
   for (SubdomainLoad& subdomain : s.subdomains) subdomain.remaining = subdomain.owner == 0_rank ? 1e12 : 0;
   sum_up(s);
@@ -145,7 +145,7 @@ TEST_CASE("what one message cannot carry stays, however much there is to gain") 
   CHECK(worth_moving(s, plan, {}) == std::vector<Move>{{1_sub, 1_rank}});
 }
 
-TEST_CASE("a rank keeps what it can in its spare time, and first what is dear to move") {
+TEST_CASE("a rank keeps what it can finish in its spare time, starting with what is costly to move") {
   LoadSnapshot s = initial_snapshot(grid_layout(6, 1, 2), {1000, 1000});
   s.subdomains[1].bytes = 5'000;
   const std::vector<Move> plan{{0_sub, 1_rank}, {1_sub, 1_rank}, {2_sub, 1_rank}};
@@ -154,7 +154,7 @@ TEST_CASE("a rank keeps what it can in its spare time, and first what is dear to
   CHECK(needed_moves(s, plan, {}, 0_rank, 5).empty());
 }
 
-TEST_CASE("what a fast rank packs in no time is dear on a slow one") {
+TEST_CASE("packing that is cheap on a fast rank is costly on a slow one") {
   const auto moves = [](double speed) {
     LoadSnapshot s = initial_snapshot(grid_layout(4, 1, 2), {speed, speed});
     for (SubdomainLoad& subdomain : s.subdomains) subdomain.remaining *= speed / 1000, subdomain.bytes = 1'000'000;
@@ -166,7 +166,7 @@ TEST_CASE("what a fast rank packs in no time is dear on a slow one") {
   CHECK(moves(1e3) == 0);
 }
 
-TEST_CASE("of moves that are not needed the dear ones are dropped") {
+TEST_CASE("of moves that are not needed, the costly ones are dropped") {
   LoadSnapshot s = initial_snapshot(grid_layout(6, 1, 3), {1000, 1000, 1000});
   s.subdomains[1].remaining = 100;
   s.subdomains[1].bytes = 5'000;

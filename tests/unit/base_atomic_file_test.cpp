@@ -41,7 +41,7 @@ TEST_CASE("a file appears only when committed, and whole") {
   CHECK(files_in(folder.path()) == 1);
 }
 
-TEST_CASE("without commit the old file stays and nothing else is left") {
+TEST_CASE("without commit the old file stays and nothing else is left behind") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "out.txt";
   std::ofstream(path) << "old";

@@ -67,7 +67,7 @@ TEST_CASE("staged files appear on commit, or not at all") {
   CHECK(at.names() == std::set<std::string>{"a", "b"});
 }
 
-TEST_CASE("what has appeared is taken back when a later file cannot") {
+TEST_CASE("files that have appeared are removed if a later one fails") {
   const Folder at;
   at.put("a", "old");
   StagedFiles files;
@@ -79,7 +79,7 @@ TEST_CASE("what has appeared is taken back when a later file cannot") {
   CHECK(at.names() == std::set<std::string>{"a", "c"});
 }
 
-TEST_CASE("what has appeared is taken back unless it is finished") {
+TEST_CASE("files that have appeared are removed unless all are finished") {
   const Folder at;
   at.put("a", "old");
   {
@@ -94,7 +94,7 @@ TEST_CASE("what has appeared is taken back unless it is finished") {
   CHECK(at.names() == std::set<std::string>{"a"});
 }
 
-TEST_CASE("what an inner stage commits waits for the outer one") {
+TEST_CASE("commits of an inner stage wait for the outer one") {
   const Folder at;
   StagedFiles outer;
   {
@@ -111,7 +111,7 @@ TEST_CASE("what an inner stage commits waits for the outer one") {
   CHECK(at.names() == std::set<std::string>{"kept"});
 }
 
-TEST_CASE("a name that is staged twice gets the later file, or keeps its first") {
+TEST_CASE("a name that is staged twice gets the later file, or keeps the first one") {
   const Folder at;
   at.put("a", "old");
   for (const bool finishes : {false, true}) {

@@ -22,13 +22,13 @@ TEST_CASE("a file error carries the system's reason") {
   CHECK(std::string(FileError("x.node", "is empty").what()) == "x.node: is empty");
 }
 
-TEST_CASE("narrow refuses what does not fit") {
+TEST_CASE("narrow rejects values that do not fit") {
   CHECK(narrow<std::int32_t>(std::size_t{2147483647}, "count") == 2147483647);
   CHECK_THROWS_AS((void)narrow<std::int32_t>(std::size_t{2147483648}, "count"), LimitError);
   CHECK_THROWS_AS((void)narrow<std::uint32_t>(-1, "count"), LimitError);
 }
 
-TEST_CASE("the nearest name is the one that takes the fewest changes") {
+TEST_CASE("the nearest name is the one with the fewest changes") {
   const std::vector<std::string> known{"none", "zoltan", "diffusion", "IMBALANCE_TOL"};
   CHECK(nearest_name("soltan", known) == "zoltan");
   CHECK(nearest_name("diffuse", known) == "diffusion");
@@ -43,7 +43,7 @@ TEST_CASE("two letters in the wrong order are one change") {
   CHECK(nearest_name("abcd", {"acbde", "bacd"}) == "bacd");
 }
 
-TEST_CASE("a name is probably meant if most of its letters are right, or if it goes on") {
+TEST_CASE("a name is probably meant if most of its letters match, or if it begins with the given one") {
   const std::vector<std::string> known{"mesh", "subdomains", "run", "bay", "bash"};
   CHECK(probable_name("mseh", known) == "mesh");
   CHECK(probable_name("bya", known) == "bay");

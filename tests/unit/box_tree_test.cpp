@@ -54,7 +54,7 @@ TEST_CASE("a box tree finds the boxes that contain a point and the nearest one")
   }
 }
 
-TEST_CASE("a far outlier does not slow the search") {
+TEST_CASE("a distant outlier does not slow the search") {
   std::mt19937_64 random(4);
   std::vector<Box> boxes = random_boxes(random, 20000);
   boxes.push_back(Box::around({1e30, 1e30}, {1e30, 1e30}));

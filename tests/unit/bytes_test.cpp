@@ -50,7 +50,7 @@ TEST_CASE("numbers are little-endian on every machine") {
   CHECK(reader.at_end());
 }
 
-TEST_CASE("small numbers take few bytes, and all come back") {
+TEST_CASE("small numbers take few bytes, and all survive a round trip") {
   ByteWriter writer;
   writer.varint(127);
   writer.varint(300);
@@ -74,7 +74,7 @@ TEST_CASE("small numbers take few bytes, and all come back") {
   CHECK(reader.at_end());
 }
 
-TEST_CASE("values, arrays and texts come back as they were") {
+TEST_CASE("values, arrays and texts survive a round trip") {
   ByteWriter writer;
   writer.value(true);
   writer.array(std::vector<double>{1, 2});
@@ -93,7 +93,7 @@ TEST_CASE("values, arrays and texts come back as they were") {
   CHECK_NOTHROW(reader.end());
 }
 
-TEST_CASE("bytes that end too early, go on, or announce too much are errors, and cost no memory") {
+TEST_CASE("bytes that are too short, too long or announce too much are errors, and cost no memory") {
   const auto read_number = [](ByteReader& in) { static_cast<void>(in.number<std::uint32_t>()); };
   CHECK(error_of(Bytes(4), read_number) == "");
   CHECK(error_of(Bytes(3), read_number) == "it ends too early");

@@ -50,7 +50,7 @@ TEST_CASE("speeds and groups follow the numbers of the ranks") {
   CHECK_THROWS_AS(static_cast<void>(speeds_of(cluster, costs)), Error);
 }
 
-TEST_CASE("a simulated run is the same each time, and its figures belong together") {
+TEST_CASE("a simulated run is reproducible, and its results are consistent") {
   const RunPlan plan = pipe_plan(60e3, 6, 60, Presplit::kOff);
   std::int64_t triangles = 0, last_progress = 0;
   std::size_t finished = 0;
@@ -82,7 +82,7 @@ TEST_CASE("a simulated run is the same each time, and its figures belong togethe
   CHECK(again.message_bytes() == run.message_bytes());
 }
 
-TEST_CASE("samples show the load of each rank go from its forecast to nothing") {
+TEST_CASE("samples show the load of each rank decrease from its forecast to zero") {
   const RunPlan plan = pipe_plan(40e3, 4, 40, Presplit::kOn);
   const ClusterRun run = simulate(plan, equal_ranks(4));
   std::map<Rank, LoadSample> first, last;
@@ -118,7 +118,7 @@ TEST_CASE("a rank of half the speed computes twice as long") {
   CHECK(ideal_seconds(unequal, {2, 1}) == doctest::Approx(4.0 / 3 * equal.makespan).epsilon(0.1));
 }
 
-TEST_CASE("a slower network and dearer messages make the run longer") {
+TEST_CASE("a slower network and costlier messages make the run longer") {
   const RunPlan plan = pipe_plan(40e3, 4, 40, Presplit::kOff);
   ClusterSpec cluster = equal_ranks(4);
   const double fast = simulate(plan, cluster).makespan;
@@ -129,7 +129,7 @@ TEST_CASE("a slower network and dearer messages make the run longer") {
   CHECK(simulate(plan, cluster).makespan > fast + 0.1);
 }
 
-TEST_CASE("a plan for more ranks than the cluster has is refused") {
+TEST_CASE("a plan for more ranks than the cluster has is rejected") {
   const RunPlan plan = pipe_plan(5e3, 4, 12, Presplit::kOn);
   CHECK_THROWS_AS(static_cast<void>(simulate(plan, equal_ranks(3))), Error);
 }

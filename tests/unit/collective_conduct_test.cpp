@@ -69,7 +69,7 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("rank 0 calls when there is something to gain, and lets all start when all have heard it") {
+TEST_CASE("rank 0 calls when there is something to gain, and starts the plan when all have acknowledged") {
   Bench bench;
   CollectiveConduct leader = bench.leader_that_knows();
   const auto call = sent<JointRound>(leader.think({0.05, loads_of(0, 0, 100), 300}));
@@ -99,7 +99,7 @@ TEST_CASE("rank 0 calls when there is something to gain, and lets all start when
   CHECK(sent<JointRound>(decided).empty());  // what was decided is even
 }
 
-TEST_CASE("rank 0 calls nobody while all is even, and not before all have said how fast they are") {
+TEST_CASE("rank 0 does not call while loads are even, nor before all speeds are known") {
   Bench bench;
   CollectiveConduct even = bench.rank(0_rank);
   for (const Rank r : {1_rank, 2_rank}) even.receive(r, LoadNews{1, 4000, 3000, 300}, 0.02);
@@ -112,7 +112,7 @@ TEST_CASE("rank 0 calls nobody while all is even, and not before all have said h
   CHECK(sent<JointRound>(early.think({1.5, loads_of(0, 0, 100), 300})).size() == 2);
 }
 
-TEST_CASE("a rank answers a call once, goes on, and hands over what was decided of what it still has") {
+TEST_CASE("a rank answers a call once, continues, and hands over what was decided and it still has") {
   Bench bench;
   CollectiveConduct rank = bench.rank(2_rank);
   rank.receive(0_rank, JointRound{1, Stage::kCall}, 1);
@@ -139,7 +139,7 @@ TEST_CASE("a rank answers a call once, goes on, and hands over what was decided 
   CHECK(!rank.pressing());
 }
 
-TEST_CASE("what has just come stays, and what is coming is brought as work") {
+TEST_CASE("a subdomain that has just arrived stays, and one under way counts as work") {
   Bench bench;
   CollectiveConduct rank = bench.rank(1_rank);
   const auto round = [&](std::uint32_t number, double now) {
@@ -160,7 +160,7 @@ TEST_CASE("what has just come stays, and what is coming is brought as work") {
   CHECK(bench.council.brought[3].settled.empty());
 }
 
-TEST_CASE("what comes before the decision that promises it is not waited for") {
+TEST_CASE("a subdomain that arrives before the decision that promises it is not waited for") {
   Bench bench;
   CollectiveConduct rank = bench.rank(1_rank);
   Bench::begin_round(rank, 1, 1, {});
@@ -173,7 +173,7 @@ TEST_CASE("what comes before the decision that promises it is not waited for") {
   CHECK(news[0].second.remaining == 2000);
 }
 
-TEST_CASE("work that was promised and never came is not waited for without end") {
+TEST_CASE("promised work that never arrives is not waited for forever") {
   Bench bench;
   CollectiveConduct rank = bench.rank(1_rank);
   Bench::begin_round(rank, 1, 1, {});
@@ -183,7 +183,7 @@ TEST_CASE("work that was promised and never came is not waited for without end")
   CHECK(sent<LoadNews>(rank.think({4.5, {}, 300})).size() == 1);
 }
 
-TEST_CASE("a controller of such a policy wants a council; one rank alone needs none") {
+TEST_CASE("a controller of a collective policy needs a council, but not on a single rank") {
   Bench bench;
   CHECK_THROWS_AS(Controller(0_rank, bench.layout, bench.policy, ControllerOptions{}, 0), Error);
   Controller alone(0_rank, std::make_shared<const Layout>(grid_layout(3, 1, 1)), bench.policy, ControllerOptions{}, 0);

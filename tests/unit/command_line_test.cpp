@@ -107,13 +107,13 @@ TEST_CASE("Standard streams are arguments") {
   }
 }
 
-TEST_CASE("Commands lie in commands") {
+TEST_CASE("Commands can have subcommands") {
   Program p;
   p.read({"generate", "comb"});
   CHECK(p.call.name == "prog generate comb");
 }
 
-TEST_CASE("What cannot be meant is told, with what was probably meant") {
+TEST_CASE("Errors suggest what was probably meant") {
   CHECK(problem({}) == "a command is missing: mesh or generate");
   CHECK(problem({"mseh"}) == "unknown command 'mseh' (did you mean mesh?)");
   CHECK(problem({"merge"}) == "unknown command 'merge'");
@@ -133,7 +133,7 @@ TEST_CASE("What cannot be meant is told, with what was probably meant") {
         "--order is 'bakclog'; it must be given, largest or backlog (did you mean backlog?)");
 }
 
-TEST_CASE("Numbers are numbers as a whole, and in range") {
+TEST_CASE("Numbers are complete and in range") {
   CHECK(problem({"mesh", "i", "--area", "5x"}) == "--area is '5x', which is not a number");
   CHECK(problem({"mesh", "i", "--area", ""}) == "--area is '', which is not a number");
   CHECK(problem({"mesh", "i", "--area", "nan"}) == "--area is 'nan', which is not a number");
@@ -146,7 +146,7 @@ TEST_CASE("Numbers are numbers as a whole, and in range") {
   CHECK(problem({"mesh", "i", "--speeds", "1,,2"}) == "--speeds is '', which is not a number");
 }
 
-TEST_CASE("An option that prints ends the command line") {
+TEST_CASE("An option that prints something ends parsing") {
   Program p;
   p.read({"mesh", "--help", "--nonsense"});
   CHECK(p.call.prints() == help_text("prog mesh", p.root.commands[0]));
@@ -165,7 +165,7 @@ TEST_CASE("A call says what was given, in order") {
   CHECK(!p.call.has("count"));
 }
 
-TEST_CASE("Help says what there is, in lines that fit") {
+TEST_CASE("Help lists everything, in lines that fit") {
   Program p;
   Command& mesh = p.root.commands[0];
   const std::string text = help_text("prog mesh", mesh);

@@ -47,7 +47,7 @@ std::string message_for(const std::string& yaml, const std::vector<std::string>&
 
 }  // namespace
 
-TEST_CASE("a file sets what it names, and the rest has its defaults") {
+TEST_CASE("a file sets the keys it names, and the others keep their defaults") {
   const Files files;
   const config::Experiment file = files.read(
       "input:\n  generate: bay\n  parameters: {resolution: 500, seed: 7}\n"
@@ -90,7 +90,7 @@ TEST_CASE("sweeps are all combinations, the last key fastest") {
                                                    {"input.parameters.channels", std::string("6")}});
 }
 
-TEST_CASE("settings win over the file and its sweeps") {
+TEST_CASE("settings override the file and its sweeps") {
   const Files files;
   const std::string yaml =
       "input: {generate: pipe}\ncluster: {ranks: 3}\nsweep: {cluster.ranks: [2, 4], run.aggregation: [1, 8]}\n";
@@ -104,7 +104,7 @@ TEST_CASE("settings win over the file and its sweeps") {
   CHECK(files.read(kLeast, {"sizing.size=x < 1 ? 0.1 : 0.2"}).base.sizing.expression == "x < 1 ? 0.1 : 0.2");
 }
 
-TEST_CASE("what is wrong is told with its place and what was probably meant") {
+TEST_CASE("errors name the place and what was probably meant") {
   CHECK(message_for("input:\n  fil: a.poly\n") ==
         "test.yaml:2:3: unknown key 'input.fil'; the nearest one is 'input.file'");
   CHECK(message_for("clutser: {ranks: 2}\n") == "test.yaml:1:1: unknown key 'clutser'; the nearest one is 'cluster'");
@@ -136,7 +136,7 @@ TEST_CASE("what is wrong is told with its place and what was probably meant") {
   CHECK(message_for(kLeast, {"seed"}) == "--set seed: no value; write --set key=value");
 }
 
-TEST_CASE("what cannot be together is told where one of them is given") {
+TEST_CASE("contradictory values are reported at the place of one of them") {
   CHECK(message_for("cluster: {ranks: 2}\n") ==
         "test.yaml: 'input.file' is missing; name a file with input.file, or what to generate with "
         "input.generate");
@@ -150,7 +150,7 @@ TEST_CASE("what cannot be together is told where one of them is given") {
             .find("'bounds.triangles' cannot be combined with bounds.area") != std::string::npos);
 }
 
-TEST_CASE("a list of numbers is one value, and lists of lists are swept over") {
+TEST_CASE("a list of numbers is one value, and a list of lists is a sweep") {
   const Files files;
   CHECK(files.read(std::string(kLeast), {"cluster.drag=[1, 0.5]"}).base.cluster.drag == std::vector<double>{1, 0.5});
   CHECK(files.read(std::string(kLeast), {"cluster.drag=[]"}).base.cluster.drag.empty());
@@ -166,7 +166,7 @@ TEST_CASE("a list of numbers is one value, and lists of lists are swept over") {
   CHECK(message_for("input: {generate: pipe}\ncluster: {ranks: 3, drag: [1, 1]}\n").find("test.yaml:2:27: ") == 0);
 }
 
-TEST_CASE("a parameter that names a policy is that policy's alone") {
+TEST_CASE("a parameter that names a policy applies only to it") {
   const Files files;
   const config::Experiment file = files.read(kLeast, {"balance.parameters={zoltan.method: rcb, greedy.tolerance: 0.1}",
                                                       "balance.policy=[none, zoltan, greedy]"});
@@ -181,7 +181,7 @@ TEST_CASE("a parameter that names a policy is that policy's alone") {
         std::string::npos);
 }
 
-TEST_CASE("processes that do not fit an experiment are refused where it says what it needs") {
+TEST_CASE("a wrong number of processes is reported at the place that sets it") {
   const Files files;
   const auto message = [&](const std::string& yaml, std::int32_t processes) {
     try {
@@ -203,7 +203,7 @@ TEST_CASE("processes that do not fit an experiment are refused where it says wha
   CHECK(message(input + "cluster: {ranks: 1}\nsweep: {cluster.kind: [real, simulated]}\n", 1) == "none");
 }
 
-TEST_CASE("an experiment in full reads back as itself") {
+TEST_CASE("a complete experiment reads back as itself") {
   const Files files;
   const config::Experiment file = files.read(
       "name: \"odd: name, #1\"\ninput: {generate: holes, parameters: {columns: 3}}\n"
@@ -220,7 +220,7 @@ TEST_CASE("an experiment in full reads back as itself") {
   }
 }
 
-TEST_CASE("an experiment in full finds its files from any folder") {
+TEST_CASE("a complete experiment finds its files from any folder") {
   const Files files, elsewhere;
   const config::Experiment file = files.read("input: {file: in/a.poly}\ncluster: {ranks: 1}\n",
                                              {"decomposition.file=d.txt", "sizing.background=[b.vtu, c.vtu]"});
@@ -244,7 +244,7 @@ TEST_CASE("every key of an experiment takes its default from a file") {
   }
 }
 
-TEST_CASE("the schema knows every key, and the documents show them as they are") {
+TEST_CASE("the schema has every key, and the documentation shows the current keys") {
   const Json schema = Json::parse(json_schema());
   for (const Key& key : keys()) {
     if ((key.entry_points & kExperiment) == 0) continue;

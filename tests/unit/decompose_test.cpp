@@ -120,7 +120,7 @@ TEST_CASE("a square is cut into squares or nearly so") {
   }
 }
 
-TEST_CASE("holes: every number of subdomains works and keeps the angle") {
+TEST_CASE("holes: any number of subdomains works and keeps the angle") {
   const Triangulation mesh = prepared(with_holes());
   for (int n = 1; n <= 60; ++n) {
     CAPTURE(n);
@@ -135,7 +135,7 @@ TEST_CASE("the same input gives the same decomposition") {
   CHECK(decompose_into(mesh, 77) == decompose_into(mesh, 77));
 }
 
-TEST_CASE("parts that do not touch get subdomains of their own, or share one where there are fewer") {
+TEST_CASE("disconnected parts get subdomains of their own, or share one if there are fewer") {
   Pslg pslg = rectangle(1, 1);
   add_ring(pslg, {{2, 0}, {4, 0}, {4, 2}, {2, 2}});
   add_ring(pslg, {{2.5, 0.5}, {3.5, 0.5}, {3.5, 1.5}, {2.5, 1.5}});
@@ -145,7 +145,7 @@ TEST_CASE("parts that do not touch get subdomains of their own, or share one whe
   for (const int n : {1, 2, 3, 4, 10, 50}) check_whole(decompose_into(mesh, n), mesh, static_cast<std::size_t>(n));
 }
 
-TEST_CASE("segments inside are borders or stay inside, and keep marker and regions") {
+TEST_CASE("inner segments become borders or stay inside, and keep markers and regions") {
   Pslg pslg = rectangle(4, 2);
   add_ring(pslg, circle({1, 1}, 0.6, 20), 5);
   add_ring(pslg, circle({3, 1}, 0.1, 8), 6);
@@ -292,7 +292,7 @@ TEST_CASE("subdomains refined apart conform after exchanging split points") {
   }
 }
 
-TEST_CASE("real inputs reach the figures") {
+TEST_CASE("decompositions of real inputs have the documented quality") {
   const std::filesystem::path data = std::filesystem::path(DRIFTMESH_SOURCE_DIR) / ".." / "shared" / "data";
   for (const char* name : {"pipe", "cylinder_flow", "key", "A", "chesapeake"}) {
     const auto file = data / (std::string(name) + ".poly");
@@ -329,7 +329,7 @@ TEST_CASE("a skewed decomposition is uneven, valid and follows its seed") {
   CHECK(!(d == decompose(mesh, options)));
 }
 
-TEST_CASE("options out of range are refused") {
+TEST_CASE("options out of range are rejected") {
   const Triangulation mesh = prepared(rectangle(1, 1));
   DecomposeOptions options;
   options.subdomains = 0;

@@ -74,7 +74,7 @@ TEST_CASE("a decomposition is read back as it was written") {
   require_same_input(back, sample_input(), "f");
 }
 
-TEST_CASE("what is not a decomposition is refused with file and line") {
+TEST_CASE("files that are not decompositions are rejected with file and line") {
   const std::string text = sample_text();
   CHECK_THROWS_WITH_AS(parse(""), doctest::Contains("f:1: this is not a decomposition"), InputError);
   CHECK_THROWS_WITH_AS(parse(replaced(text, "decomposition 2", "decomposition 1")), doctest::Contains("f:1:"),
@@ -87,7 +87,7 @@ TEST_CASE("what is not a decomposition is refused with file and line") {
                        doctest::Contains("is 999999; expected 0 to"), InputError);
 }
 
-TEST_CASE("a broken decomposition is refused with what is broken") {
+TEST_CASE("a broken decomposition is rejected with the reason") {
   Decomposition d = sample();
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "broken").string();
@@ -111,7 +111,7 @@ TEST_CASE("a broken decomposition is refused with what is broken") {
   refused(broken, "disagree on the subdomain");
 }
 
-TEST_CASE("damaged files are refused or read, never worse") {
+TEST_CASE("damaged files are rejected or read, but never crash the reader") {
   const std::string text = sample_text();
   std::mt19937 random(7);
   std::size_t refused = 0;
@@ -156,7 +156,7 @@ TEST_CASE("a decomposition of another input is recognized") {
   CHECK(parse_decomposition("f", sample_text(), other) == sample());
 }
 
-TEST_CASE("a decomposition in memory of another input is recognized, but for what it lacks") {
+TEST_CASE("a decomposition in memory of another input is recognized, except for segments that it lacks") {
   const auto refused = [](const Pslg& other, const char* why) {
     CHECK_THROWS_WITH_AS(require_same_input(sample(), other, "f"), doctest::Contains(why), InputError);
   };

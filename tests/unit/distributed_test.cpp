@@ -140,7 +140,7 @@ struct ThreeWriters {
 
 }  // namespace
 
-TEST_CASE("two squares on two ranks: numbers, owners, what is shared") {
+TEST_CASE("two squares on two ranks: numbers, owners and shared points") {
   TwoSquares squares;
   for (SubdomainMesh& part : squares.parts) split(part, kSeparator, {1, 2});
   PieceAssembly one(0_rank, 2, squares.d, squares.held({1_sub})), other(1_rank, 2, squares.d, squares.held({0_sub}));
@@ -193,7 +193,7 @@ TEST_CASE("sides of a root with different points are an error that names it and 
   CHECK(mentions(same_count, {"root 6", "2 points on it, not the same"}));
 }
 
-TEST_CASE("a subdomain that nobody or that two ranks hold is an error that says so") {
+TEST_CASE("a subdomain held by no rank or by two is an error that says so") {
   TwoSquares squares;
   const auto on_two_ranks = [&](std::initializer_list<SubdomainId> one, std::initializer_list<SubdomainId> other) {
     return message_of([&] {
@@ -218,7 +218,7 @@ TEST_CASE("a coordinate that differs in its last bit between subdomains of a ran
   CHECK(mentions(message_of([&] { (void)one.piece(two_squares_input()); }), {"point 6", "subdomain 1"}));
 }
 
-TEST_CASE("messages that do not belong into an exchange are errors that name the sender") {
+TEST_CASE("messages that are not part of an exchange are errors that name the sender") {
   const auto send_to_rank_0 = [](const Bytes& bytes) {
     protocol::AdversarialNetwork network(2, protocol::Adversary::from_seed(1));
     TwoSquares squares;
@@ -252,7 +252,7 @@ TEST_CASE("messages that do not belong into an exchange are errors that name the
   CHECK(send_to_rank_0(message(kMark, 5, {0})) == "no error");        // of a rank that is ahead: it waits
 }
 
-TEST_CASE("pieces are written, read, and are the mesh again") {
+TEST_CASE("pieces that are written and read back make the same mesh") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "plate.pvtu";
   ThreeWriters three(path);
@@ -265,7 +265,7 @@ TEST_CASE("pieces are written, read, and are the mesh again") {
   check_same_mesh(read_mesh(path), merge_pieces(meshes_of(three.pieces), faults));
 }
 
-TEST_CASE("a .pvtu names what its pieces hold, in their order") {
+TEST_CASE("a .pvtu lists the arrays of its pieces, in their order") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "a & b.pvtu";
   ThreeWriters three(path);
@@ -319,7 +319,7 @@ TEST_CASE("if one rank cannot write, no file appears and every rank says why") {
   CHECK(files_in(folder.path()) == std::vector<std::string>{"plate_1.vtu"});
 }
 
-TEST_CASE("rank 0 writes the whole, and what goes wrong is known to all") {
+TEST_CASE("rank 0 writes the whole mesh, and all ranks learn of a failure") {
   const TemporaryFolder folder;
   const DistributedCase c = plate(9);
   const auto pieces = c.pieces(3, random_owners(c.parts.size(), 3, 5));

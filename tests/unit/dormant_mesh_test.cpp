@@ -151,7 +151,7 @@ TEST_CASE("a mesh that slept is the same mesh") {
   CHECK(several_sides > 0);  // segments inside a subdomain
 }
 
-TEST_CASE("16 bytes a triangle hold a sleeping mesh, with all that belongs to it") {
+TEST_CASE("a sleeping mesh takes at most 16 bytes per triangle, with everything that belongs to it") {
   std::vector<std::pair<std::string, Pslg>> models{{"pipe", generate_pipe({})},
                                                    {"flow", generate_cylinder_flow({})},
                                                    {"holes", generate_holes({})},

@@ -33,7 +33,7 @@ std::vector<std::int32_t> in_eight_parts(const WeightedGraph& graph) {
 
 }  // namespace
 
-TEST_CASE("two threads that partition graphs at once get what each would get alone") {
+TEST_CASE("two threads that partition graphs concurrently get the same results as alone") {
   const WeightedGraph graph = grid(40);
   const std::vector<std::int32_t> alone = in_eight_parts(graph);
   constexpr int kTimes = 50;

@@ -55,7 +55,7 @@ TEST_CASE("the finest cells of a square are distinct, and neighbors on the curve
   CHECK(jumps <= 3);
 }
 
-TEST_CASE("points of a box are placed on the curve, those outside at its rim") {
+TEST_CASE("points of a box are mapped to the curve, those outside to its edge") {
   const HilbertOrder order({-2, 10}, {6, 12});
   CHECK(order.index({-2, 10}) == 0);
   CHECK(order.index({-2, 10}) == order.index({-3, -1e70}));
@@ -64,7 +64,7 @@ TEST_CASE("points of a box are placed on the curve, those outside at its rim") {
   CHECK(order.index({5.9999, 10.0001}) != order.index({6, 10}));
 }
 
-TEST_CASE("a box without width or height is no trouble") {
+TEST_CASE("a box may have no width or height") {
   const HilbertOrder point({3, 3}, {3, 3}), line({0, 3}, {10, 3});
   CHECK(point.index({3, 3}) == 0);
   CHECK(line.index({4, 3}) != line.index({7, 3}));

@@ -45,7 +45,7 @@ TEST_CASE("a vector is indexed by numbers of its own kind alone") {
   CHECK(&view[third] == &weights[third]);
 }
 
-TEST_CASE("plain integers and small enumerations index too") {
+TEST_CASE("plain integers and small enumerations can be indices too") {
   IdVector<std::int32_t, bool> taken(3);
   taken[2] = true;
   CHECK_FALSE(taken[0]);
@@ -56,7 +56,7 @@ TEST_CASE("plain integers and small enumerations index too") {
   CHECK(letters[kRight] == 'r');
 }
 
-TEST_CASE("the numbers of all elements come in order") {
+TEST_CASE("the numbers of all elements are visited in order") {
   const IdVector<Apple, char> letters{'a', 'b', 'c'};
   std::string seen;
   for (const Apple a : ids_of(letters)) seen += letters[a];

@@ -27,11 +27,11 @@ std::string refused(Place place, const std::function<void(Request&)>& change) {
 
 }  // namespace
 
-TEST_CASE("the defaults are right everywhere") {
+TEST_CASE("the defaults are valid everywhere") {
   for (const Place place : {kOnePiece, kSubdomains, kRanks, kSimulated}) CHECK(refused(place, [](Request&) {}).empty());
 }
 
-TEST_CASE("what cannot apply is refused and never ignored") {
+TEST_CASE("keys that do not apply are rejected, never ignored") {
   const auto policy = [](Request& r) { r.balance.policy = "stealing"; };
   CHECK(refused(kOnePiece, policy) == "balance.policy");
   CHECK(refused(kSubdomains, policy) == "balance.policy");
@@ -47,7 +47,7 @@ TEST_CASE("what cannot apply is refused and never ignored") {
   CHECK(refused(kRanks, [](Request& r) { r.cluster.groups = {{"a", 2, 1e6}}; }) == "cluster.groups");
 }
 
-TEST_CASE("every key that has no meaning at a place is refused there") {
+TEST_CASE("every key that does not apply at a place is rejected there") {
   for (const Key& key : keys())
     for (const Place place : {kOnePiece, kSubdomains, kRanks, kSimulated}) {
       const auto* const number = std::get_if<double>(&key.standard);
@@ -58,13 +58,13 @@ TEST_CASE("every key that has no meaning at a place is refused there") {
     }
 }
 
-TEST_CASE("values that a program sets are held to the ranges of the command line") {
+TEST_CASE("values set by a program have the ranges of the command line") {
   CHECK(refused(kOnePiece, [](Request& r) { r.bounds.angle = 35; }) == "bounds.angle");
   CHECK(refused(kSubdomains, [](Request& r) { r.decomposition.skew = 5; }) == "decomposition.skew");
   CHECK(refused(kRanks, [](Request& r) { r.cluster.drag = {1, 0}; }) == "cluster.drag");
 }
 
-TEST_CASE("values that do not go together are refused") {
+TEST_CASE("contradictory values are rejected") {
   CHECK(refused(kOnePiece, [](Request& r) { r.bounds.area = r.bounds.triangles = 5; }) == "bounds.triangles");
   CHECK(refused(kOnePiece, [](Request& r) { r.sizing.gradation = 0.2; }) == "sizing.gradation");
   CHECK(refused(kOnePiece, [](Request& r) { r.sizing.shortest = 2, r.sizing.longest = 1; }) == "sizing.min");
@@ -79,7 +79,7 @@ TEST_CASE("values that do not go together are refused") {
   CHECK(refused(kSimulated, [](Request& r) { r.cluster.drag = {1, 1}; }) == "cluster.drag");
 }
 
-TEST_CASE("the place of a mesh follows from who asks, and for what") {
+TEST_CASE("the place of a mesh follows from the entry point and the request") {
   Request request;
   CHECK(place_of(request, kMesh, false) == kOnePiece);
   CHECK(place_of(request, kMesh, true) == kRanks);

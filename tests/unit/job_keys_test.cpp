@@ -75,7 +75,7 @@ TEST_CASE("no two keys share a name, an option, a letter or a place in the reque
   }
 }
 
-TEST_CASE("numbers take units wherever they stand") {
+TEST_CASE("numbers accept units everywhere") {
   CHECK(number("bounds.area", "5k") == 5000);
   CHECK(number("bounds.area", "2.5e-3") == 2.5e-3);
   CHECK(number("bounds.triangles", "50M") == 50e6);
@@ -90,7 +90,7 @@ TEST_CASE("numbers take units wherever they stand") {
   for (const std::string bad : {"5kB", "5KiB", "0x10", "5kk"}) CHECK_MESSAGE(number("bounds.area", bad) == -1, bad);
 }
 
-TEST_CASE("what a key may not be is refused in words") {
+TEST_CASE("invalid values of a key are rejected with a message") {
   CHECK(refusal("bounds.angle", "50") ==
         "bounds.angle is 50; it must be at most 34: above that, refinement may not terminate");
   CHECK(refusal("bounds.angle", "-1") == "bounds.angle is -1; it must be at least 0");

@@ -47,7 +47,7 @@ TEST_CASE("The tighter of two limits counts") {
   CHECK(by_count.triangles == 1000);
 }
 
-TEST_CASE("What is written with a mesh takes memory too") {
+TEST_CASE("Arrays that are written with a mesh take memory too") {
   Request::Limits options = with_memory(present_memory() + 1'000'000'000);
   Pslg pslg;
   const std::int64_t summary_alone = find_limits(options, pslg, false).triangles;
@@ -59,11 +59,11 @@ TEST_CASE("What is written with a mesh takes memory too") {
   CHECK(with_values < written);
 }
 
-TEST_CASE("No memory is no triangle, not a wrapped number") {
+TEST_CASE("No memory means no triangles, not a wrapped number") {
   CHECK(find_limits(with_memory(1), Pslg{}, false).triangles == 0);
 }
 
-TEST_CASE("A forecast beyond the limit is refused with both numbers and what to change") {
+TEST_CASE("A forecast above the limit is rejected with both numbers and what to change") {
   Limits limits;
   limits.triangles = 1'000'000;
   CHECK(refusal(limits, 900'000) == "accepted");

@@ -75,7 +75,7 @@ class Counting final : public Watch {
 
 }  // namespace
 
-TEST_CASE("a prepared run has about the triangles that were asked for") {
+TEST_CASE("a prepared run has about the requested number of triangles") {
   CHECK(prepared(pipe(), kSubdomains, 1).forecast == doctest::Approx(2e4).epsilon(0.1));
   Request request = pipe();
   request.bounds.triangles = 0;
@@ -90,7 +90,7 @@ TEST_CASE("a prepared run has about the triangles that were asked for") {
   for (const SubdomainId s : ids_of(plan.owners)) CHECK(to_int(plan.owners[s]) == to_int(s) % 4);
 }
 
-TEST_CASE("a mesh in one piece has about the triangles that were asked for") {
+TEST_CASE("a mesh in one piece has about the requested number of triangles") {
   Counting watch;
   const Request request = pipe();
   const Domain domain = read_domain(request, {}, watch);
@@ -111,7 +111,7 @@ TEST_CASE("the mesh in subdomains is the same here and on simulated ranks") {
   CHECK(digest_alone(request) != digest);
 }
 
-TEST_CASE("an order reaches the team whole, and so does an error") {
+TEST_CASE("an order reaches the whole team, and so does an error") {
   const auto team = lone_team();
   Request request = pipe();
   request.sizing.expression = "0.1 + x";
@@ -153,7 +153,7 @@ TEST_CASE("limits hold wherever a mesh is made") {
   CHECK_FALSE(mesh_in_one_piece(request, domain, false, watch).result.complete);
 }
 
-TEST_CASE("what a caller has in memory takes the place of files") {
+TEST_CASE("data in the caller's memory replaces files") {
   Request request;
   request.bounds.area = 0.5;
   const Pslg input = generate("holes", {{"columns", "2"}, {"rows", "2"}});

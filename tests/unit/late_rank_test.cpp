@@ -88,7 +88,7 @@ double seconds_without(std::int32_t ranks, LateCase late) {
 
 }  // namespace
 
-TEST_CASE("whoever comes late with nothing is given work, and two or three are through sooner for it") {
+TEST_CASE("a late rank without subdomains gets work, and two or three ranks finish sooner for it") {
   for (const std::int32_t ranks : {2, 3, 8})
     for (const Rank rank : {0_rank, Rank{ranks - 1}})
       for (const char* policy : kPolicies)
@@ -110,7 +110,7 @@ TEST_CASE("whoever comes late with nothing is given work, and two or three are t
         }
 }
 
-TEST_CASE("a run waits for whoever comes when all could be over, also if it was given work before it came") {
+TEST_CASE("a run waits for a late rank when all work could be done, even if it was given work before") {
   int given = 0;
   for (const Rank rank : {0_rank, 2_rank})
     for (const char* policy : kPolicies) {
@@ -129,7 +129,7 @@ TEST_CASE("a run waits for whoever comes when all could be over, also if it was 
   CHECK(given > 0);  // by a leader, which takes a rank that says nothing for one that has nothing to do
 }
 
-TEST_CASE("whoever comes late with a share finds it, and all that it was told meanwhile") {
+TEST_CASE("a late rank with subdomains finds them, and all messages to them") {
   for (const std::int32_t ranks : {2, 3, 8})
     for (const Start start : {Start::kOneSubdomain, Start::kShare})
       for (const char* policy : kPolicies)

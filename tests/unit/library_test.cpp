@@ -57,7 +57,7 @@ class Halving final : public SizeField {
 
 }  // namespace
 
-TEST_CASE("a mesh in one piece keeps its bounds, and is the same each time") {
+TEST_CASE("a mesh in one piece meets its bounds and is reproducible") {
   const MeshOptions options{.min_angle = 28, .max_area = 1e-3};
   const Mesh made = mesh(plate(), options);
   CHECK(made.triangles.size() > 1000);
@@ -66,7 +66,7 @@ TEST_CASE("a mesh in one piece keeps its bounds, and is the same each time") {
   CHECK(mesh_digest(mesh(plate(), options)) == mesh_digest(made));
 }
 
-TEST_CASE("a mesh in subdomains keeps its bounds, and says which triangle is whose") {
+TEST_CASE("a mesh in subdomains meets its bounds and lists the subdomain of each triangle") {
   for (const Presplit presplit : {Presplit::kOn, Presplit::kOff}) {
     MeshOptions options{.max_area = 1e-3, .subdomains = {.count = 7, .presplit = presplit}};
     const Mesh made = mesh(plate(), options);
@@ -105,7 +105,7 @@ TEST_CASE("a size function is looked up between corners, as densely as asked") {
   CHECK(mesh(plate(), {.size = spot, .subdomains = {.count = 5}}).triangles.size() > found / 2);
 }
 
-TEST_CASE("what a size function must not say") {
+TEST_CASE("invalid values of a size function") {
   for (const double length : {0.0, -1.0, std::nan("")})
     CHECK(error_of_options({.size = [=](const Point&) { return length; }}).find("must be positive") !=
           std::string::npos);
@@ -113,7 +113,7 @@ TEST_CASE("what a size function must not say") {
   CHECK(mesh_digest(mesh(plate(), {.size = [](const Point&) { return kNone; }})) == mesh_digest(mesh(plate())));
 }
 
-TEST_CASE("what callables throw passes through") {
+TEST_CASE("exceptions of callables pass through") {
   for (const std::int32_t subdomains : {0, 5}) {
     MeshOptions options{.max_area = 1e-3, .subdomains = {.count = subdomains}};
     options.size = [](const Point&) -> double { throw std::domain_error("size"); };
@@ -124,7 +124,7 @@ TEST_CASE("what callables throw passes through") {
   }
 }
 
-TEST_CASE("progress is told, and cancels") {
+TEST_CASE("progress is reported, and can cancel") {
   for (const std::int32_t subdomains : {0, 5}) {
     std::vector<Progress> told;
     MeshOptions options{.max_area = 1e-5, .subdomains = {.count = subdomains}};
@@ -152,7 +152,7 @@ TEST_CASE("limits end the work") {
   CHECK_THROWS_AS(static_cast<void>(mesh(plate(), in_parts)), LimitError);
 }
 
-TEST_CASE("options are checked against the table of keys, and named as the caller knows them") {
+TEST_CASE("options are checked against the table of keys, and errors name them as the caller knows them") {
   CHECK(error_of_options({.min_angle = 50}) ==
         "MeshOptions::min_angle is 50; it must be at most 34: above that, refinement may not terminate");
   CHECK(error_of_options({.max_area = -1}).starts_with("MeshOptions::max_area "));
@@ -209,7 +209,7 @@ TEST_CASE("a decomposition can be made once and used again") {
   }
 }
 
-TEST_CASE("threads that make meshes at once get what each would get alone") {
+TEST_CASE("threads that make meshes concurrently get the same meshes as alone") {
   std::vector<MeshOptions> kinds(3);
   kinds[0] = {.max_area = 1e-4};
   kinds[1] = {.max_area = 1e-4, .subdomains = {.count = 40}};  // METIS and packed forms take part

@@ -54,7 +54,7 @@ TEST_CASE("work follows the speeds of the ranks") {
   }
 }
 
-TEST_CASE("area can be dealt out instead of work") {
+TEST_CASE("area can be balanced instead of work") {
   Decomposition d = square_in(400);
   for (const SubdomainId i : first_ids<SubdomainId>(40))
     d.subdomains[i].predicted *= 50;  // as a size field does that is fine in a corner
@@ -87,7 +87,7 @@ TEST_CASE("more ranks than subdomains: one each") {
   CHECK(assignment == Assignment{0_rank, 1_rank, 2_rank, 3_rank, 4_rank});
 }
 
-TEST_CASE("mapping options out of range are refused") {
+TEST_CASE("mapping options out of range are rejected") {
   const Decomposition d = square_in(5);
   CHECK_THROWS_AS(static_cast<void>(map_subdomains(d, {0, {}, MappingMethod::kGraph})), Error);
   CHECK_THROWS_WITH_AS(static_cast<void>(map_subdomains(d, {3, {1, 2}, MappingMethod::kGraph})),

@@ -74,7 +74,7 @@ TEST_CASE("Attributes that are linear in the input are so in the mesh") {
   CHECK(error < 1e-13);
 }
 
-TEST_CASE("Attributes of points on a segment mix those of its ends, whatever lies beside it") {
+TEST_CASE("Attributes of points on a segment interpolate those of its ends, whatever lies beside it") {
   Pslg pslg = domain();
   pslg.attributes_per_point = 1;
   pslg.attributes.assign(pslg.points.size(), 0);
@@ -93,7 +93,7 @@ TEST_CASE("Attributes of points on a segment mix those of its ends, whatever lie
   CHECK(*std::min_element(piece.attributes.begin(), piece.attributes.end()) == 0);
 }
 
-TEST_CASE("The digest knows a mesh again by its triangles alone") {
+TEST_CASE("The digest identifies a mesh by its triangles alone") {
   const Pslg pslg = domain();
   MeshRequest request;
   request.max_area = 0.01;
@@ -131,7 +131,7 @@ TEST_CASE("The digest is the documented function") {
   CHECK(mesh_digest(piece) == 0xAB8CBA71EE1CDE48U);  // computed by another program from the definition
 }
 
-TEST_CASE("Angles fall into the bins that their degrees say, and the extremes are right") {
+TEST_CASE("Angles fall into the right bins, and the extremes are correct") {
   const Pslg pslg = domain();
   MeshRequest request;
   request.max_area = 0.01;

@@ -80,7 +80,7 @@ TEST_CASE("points without segments are meshed up to their convex hull") {
   CHECK(total_area(mesh) == 900);
 }
 
-TEST_CASE("inputs that enclose nothing are refused with the cause") {
+TEST_CASE("inputs that enclose nothing are rejected with the cause") {
   Pslg open = rectangle(1, 1);
   open.segments.pop_back();
   CHECK_THROWS_WITH_AS(triangulate(open), doctest::Contains("outer boundary is open"), Error);
@@ -140,7 +140,7 @@ TEST_CASE("refinement meets the bounds on area and angle") {
   }
 }
 
-TEST_CASE("the narrowest place between two segments is found, with about the triangles that it takes") {
+TEST_CASE("the narrowest place between two segments is found, with a forecast of its triangles") {
   const auto slit = [](double x0, double x1, double width, double rise) {
     Pslg pslg;
     pslg.points = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-0.5, 0}, {0.5, 0}, {x0, width}, {x1, width + rise}};
@@ -169,7 +169,7 @@ TEST_CASE("the narrowest place between two segments is found, with about the tri
   CHECK(find_narrow_place(triangulate(wedge))->triangles < 100);
 }
 
-TEST_CASE("small angles of the input end, and are the only exceptions") {
+TEST_CASE("refinement terminates at small angles of the input, which are the only exceptions") {
   for (unsigned seed = 1; seed <= 6; ++seed)
     for (const int wedges : {3, 7, 20, 40})
       for (const double angle : {20.0, 33.0}) {
@@ -204,7 +204,7 @@ TEST_CASE("a narrow wedge costs the logarithm of its angle, not its inverse") {
   }
 }
 
-TEST_CASE("region bounds hold, also where regions touch") {
+TEST_CASE("region bounds hold, even where regions touch") {
   Pslg pslg = rectangle(2, 1);
   pslg.points.push_back({1, 0});
   pslg.points.push_back({1, 1});
@@ -249,7 +249,7 @@ TEST_CASE("a piece has the input's points first and every subsegment once") {
   CHECK(by_marker[4] == doctest::Approx(1));
 }
 
-TEST_CASE("requests out of range are refused") {
+TEST_CASE("requests out of range are rejected") {
   MeshRequest request;
   request.min_angle = 35;
   CHECK_THROWS_AS(mesh_domain(rectangle(1, 1), request), Error);

@@ -56,7 +56,7 @@ TEST_CASE("the Delaunay oracle looks through gaps between subsegments") {
                       [](const std::string& s) { return s.find("point 3 ") != std::string::npos; }) == 0);
 }
 
-TEST_CASE("area, coverage and covering oracles on a right mesh and on damaged ones") {
+TEST_CASE("area, coverage and covering oracles on a correct mesh and on damaged ones") {
   const GridCase right;
   const std::vector<bool> none(right.input.segments.size(), false);
   CHECK(find_boundary(right.mesh).size() == 64);

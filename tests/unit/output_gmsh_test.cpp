@@ -127,7 +127,7 @@ TEST_CASE("Gmsh finds every element in its physical group") {
   }
 }
 
-TEST_CASE("Gmsh shows who made the triangles") {
+TEST_CASE("Gmsh shows the subdomain and the rank of the triangles") {
   if (!gmsh_is_installed()) return;
   const TemporaryFolder folder;
   Mesh mesh = RandomMesh(23, 6, 5).mesh();

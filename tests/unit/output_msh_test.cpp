@@ -101,7 +101,7 @@ TEST_CASE("an empty mesh and points alone survive in .msh") {
   check_meshes_without_triangles_read_back(".msh");
 }
 
-TEST_CASE("regions that are no positive integers keep their exact value in .msh") {
+TEST_CASE("regions that are not positive integers keep their exact value in .msh") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.msh";
   Mesh mesh;
@@ -159,7 +159,7 @@ TEST_CASE("an ASCII .msh of Gmsh gives markers and regions by the tags of its gr
   check_same_mesh(read_mesh(path), mesh_of_gmsh_text());
 }
 
-TEST_CASE("a clockwise mesh is turned over as a whole; one inverted triangle stays for a check to find") {
+TEST_CASE("a clockwise mesh is reversed as a whole; a single inverted triangle stays for a check to find") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.msh";
   const std::string one = replaced(kGmshText, "20 1 10 12", "20 1 12 10");
@@ -169,7 +169,7 @@ TEST_CASE("a clockwise mesh is turned over as a whole; one inverted triangle sta
   CHECK(read_mesh(path).triangles == std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
 }
 
-TEST_CASE("a .msh that cannot be read is refused with what to do") {
+TEST_CASE("a .msh that cannot be read is rejected with a next step") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.msh";
   const auto refused = [&](const char* from, const char* to) {
@@ -188,7 +188,7 @@ TEST_CASE("a .msh that cannot be read is refused with what to do") {
   CHECK(message_of(path, "").find("has no $MeshFormat") != std::string::npos);
 }
 
-TEST_CASE("a truncated .msh is an error wherever it ends before the mesh does") {
+TEST_CASE("a truncated .msh is an error wherever it is cut") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.msh";
   const auto read = [&] { (void)read_mesh(path); };

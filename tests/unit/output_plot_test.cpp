@@ -91,7 +91,7 @@ TEST_CASE("scan conversion gives every sample to exactly one triangle of a mesh"
   }
 }
 
-TEST_CASE("a pixel of many triangles shows the worst or the mean of them, also of those without a sample") {
+TEST_CASE("a pixel of many triangles shows the worst or the mean of them, including those without a sample") {
   const auto red = [](double value) { return Rgb{value, 0, 0}; };
   for (const auto& [keep, expected] : {std::pair{ValueRaster::Keep::minimum, 0.25}, {ValueRaster::Keep::mean, 0.5}}) {
     ValueRaster raster(3, 3, 1, keep);
@@ -152,7 +152,7 @@ TEST_CASE("numbers are written as people write them") {
   CHECK(friendly_number(1e12) == "10\u00b9\u00b2");
 }
 
-TEST_CASE("viridis ends in the published colors and grows lighter all the way") {
+TEST_CASE("viridis ends in the published colors and gets lighter all the way") {
   CHECK(viridis(0).red == doctest::Approx(0x44 / 255.0));
   CHECK(viridis(-3).blue == doctest::Approx(0x54 / 255.0));
   CHECK(viridis(1).green == doctest::Approx(0xe7 / 255.0));
@@ -232,7 +232,7 @@ TEST_CASE("text stays inside a narrow picture, and a legend leaves room for the 
   }
 }
 
-TEST_CASE("meshes without anything to see, and parts beyond the mesh, are drawn without a complaint") {
+TEST_CASE("empty meshes and boxes beside the mesh can be drawn") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.png";
   Mesh one_point;
@@ -301,7 +301,7 @@ TEST_CASE("stacked bars have the heights and the order of their parts") {
   CHECK(count(0x0000ff, middle, picture.width()) == 0);
 }
 
-TEST_CASE("curves, bands and timelines are drawn, also empty ones") {
+TEST_CASE("curves, bands and timelines are drawn, even empty ones") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "chart.png").string();
   LineChart lines;

@@ -137,14 +137,14 @@ TEST_CASE("a .poly with vertices of its own is an input and not part of the mesh
   for (const auto& edge : read_mesh(folder.path() / "mesh.ele").edges) CHECK(edge.marker != 44);
 }
 
-TEST_CASE("holes given are written into the .poly") {
+TEST_CASE("given holes are written to the .poly") {
   const TemporaryFolder folder;
   write_mesh(RandomMesh(15, 3, 3).mesh(), folder.path() / "mesh.poly", {.holes = {{0.5, 0.25}}});
   const std::string text = file_bytes(folder.path() / "mesh.poly");
   CHECK(text.ends_with("\n1\n1 0.5 0.25\n"));
 }
 
-TEST_CASE("truncated or damaged files of Triangle are errors or meshes, never a crash") {
+TEST_CASE("truncated or damaged files of Triangle are rejected or read, but never crash the reader") {
   const TemporaryFolder folder;
   write_mesh(RandomMesh(16, 2, 2).mesh(), folder.path() / "mesh.node");
   for (const char* extension : {".node", ".ele", ".poly"}) {
@@ -158,7 +158,7 @@ TEST_CASE("truncated or damaged files of Triangle are errors or meshes, never a 
   }
 }
 
-TEST_CASE("an unknown extension is refused with those that are known") {
+TEST_CASE("an unknown extension is rejected with the known ones") {
   const Mesh mesh;
   CHECK_THROWS_WITH_AS(write_mesh(mesh, "a.stl"), doctest::Contains("unknown extension '.stl'; a mesh file is"),
                        InputError);

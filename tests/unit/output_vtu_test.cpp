@@ -97,7 +97,7 @@ TEST_CASE("an empty mesh and points alone survive in .vtu") {
   check_meshes_without_triangles_read_back(".vtu");
 }
 
-TEST_CASE("a .vtu holds the arrays that VTK expects, where its header says") {
+TEST_CASE("a .vtu has the arrays that VTK expects at the offsets in its header") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.vtu";
   const RandomMesh random(17, 6, 5);
@@ -150,7 +150,7 @@ TEST_CASE("a .vtu holds the arrays that VTK expects, where its header says") {
   }
 }
 
-TEST_CASE("a truncated .vtu is an error wherever it ends before its data do") {
+TEST_CASE("a truncated .vtu is an error wherever it is cut") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.vtu";
   write_mesh(RandomMesh(3, 2, 2).mesh(), path);

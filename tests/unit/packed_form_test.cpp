@@ -100,7 +100,7 @@ void check_refusals(const Bytes& whole, const SubdomainContext& context) {
 
 }  // namespace
 
-TEST_CASE("a subdomain that has not worked packs to its number and what it was told") {
+TEST_CASE("a subdomain that has not started packs to its number and its pending points") {
   RandomSubdomains world(3, 4, 500);
   Subdomain subdomain(2_sub, world.context());
   CHECK(subdomain.pack().size() < 80);
@@ -113,7 +113,7 @@ TEST_CASE("a subdomain that has not worked packs to its number and what it was t
   CHECK(again.active());
 }
 
-TEST_CASE("a dormant subdomain packs to little more than it takes asleep") {
+TEST_CASE("a dormant subdomain packs to little more than its size asleep") {
   RandomSubdomains world(5, 1, 3000);
   const Subdomain subdomain = asleep(world, 0_sub);
   const auto triangles = static_cast<std::size_t>(subdomain.triangles());
@@ -122,20 +122,20 @@ TEST_CASE("a dormant subdomain packs to little more than it takes asleep") {
   CHECK(subdomain.pack().size() < subdomain.dormant_mesh().bytes() + 250);
 }
 
-TEST_CASE("bytes that are cut off, prolonged, changed or foreign are refused in words") {
+TEST_CASE("bytes that are truncated, extended, changed or foreign are rejected with a message") {
   RandomSubdomains world(11, 3, 300);
   for (const Bytes& whole : {half_refined(world, 1_sub).pack(), asleep(world, 1_sub).pack()})
     check_refusals(whole, world.context());
 }
 
-TEST_CASE("the packed form of another decomposition is refused") {
+TEST_CASE("the packed form of another decomposition is rejected") {
   RandomSubdomains one(11, 5, 300), other(12, 3, 300);
   CHECK(refusal_of(half_refined(one, 1_sub).pack(), other.context()).find("not belong to this decomposition") !=
         std::string::npos);
   CHECK(refusal_of(Subdomain(4_sub, one.context()).pack(), other.context()).find("only 3") != std::string::npos);
 }
 
-TEST_CASE("damage under a right checksum is refused, or leaves a mesh that keeps to its arrays") {
+TEST_CASE("damage with a correct checksum is rejected, or leaves a mesh whose indices are valid") {
   auto random = seeded_generator("damaged packed forms");
   int accepted = 0, refused = 0;
   for (std::int64_t i = case_count(20); i > 0; --i) {
@@ -164,7 +164,7 @@ TEST_CASE("damage under a right checksum is refused, or leaves a mesh that keeps
   CHECK(accepted > 0);  // low bits of coordinates, forecasts, counters: nobody can tell
 }
 
-TEST_CASE("each invariant of a triangulation is looked at") {
+TEST_CASE("every invariant of a triangulation is checked") {
   RandomSubdomains world(21, 2, 400);
   const Triangulation sound = half_refined(world, 0_sub).mesh().mesh;
   REQUIRE(triangulation_fault(sound) == "");

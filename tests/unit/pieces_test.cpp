@@ -112,7 +112,7 @@ TEST_CASE("other markers and attributes of the same point are found") {
         "point 6 has other attributes in piece 0 than in piece 1");
 }
 
-TEST_CASE("points of different numbers at one place of an interface are found") {
+TEST_CASE("points with different numbers at the same place of an interface are found") {
   Mesh right = right_square();
   right.numbers[4] = 7;
   const VerifyReport report = check({left_square(), right});
@@ -140,7 +140,7 @@ TEST_CASE("a missing piece is found") {
   CHECK_THROWS_WITH_AS(check({far, right_square()}), doctest::Contains("piece 0 does not say"), Error);
 }
 
-TEST_CASE("a piece that is there twice is found") {
+TEST_CASE("a duplicate piece is found") {
   const VerifyReport report = check({left_square(), right_square(), right_square()});
   CHECK(report.findings.count(Flaw::duplicate_triangle) == 3);
 }
@@ -165,7 +165,7 @@ TEST_CASE("a subsegment between two pieces is one; with another marker it is two
   CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).findings.count(Flaw::duplicate_subsegment) == 2);
 }
 
-TEST_CASE("an edge that is not Delaunay is a flaw inside a subdomain, and counted between two") {
+TEST_CASE("an edge that is not Delaunay is a flaw inside a subdomain, and only counted between two") {
   Mesh mesh;
   mesh.points = {{0, 0}, {2, 0}, {1, 0.5}, {1, -0.5}};
   mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
@@ -179,7 +179,7 @@ TEST_CASE("an edge that is not Delaunay is a flaw inside a subdomain, and counte
   CHECK(report.interface_edges_not_delaunay == 1);
 }
 
-TEST_CASE("files of pieces: what is missing, cut off or damaged is refused by name") {
+TEST_CASE("files of pieces: missing, truncated and damaged ones are named") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "two.pvtu", piece = folder.path() / "two_1.vtu";
   write_two(path);
@@ -198,7 +198,7 @@ TEST_CASE("files of pieces: what is missing, cut off or damaged is refused by na
   CHECK_THROWS_WITH_AS(write_mesh(left_square(), path), doctest::Contains("mesh in pieces"), InputError);
 }
 
-TEST_CASE("pieces that do not fit together are read for a check, and else refused") {
+TEST_CASE("pieces that do not fit together are read for a check, and otherwise rejected") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "two.pvtu";
   write_two(path);

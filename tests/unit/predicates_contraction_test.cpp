@@ -66,7 +66,7 @@ TEST_CASE("exact predicates are exact where contraction would have been possible
 }
 
 #ifdef DRIFTMESH_CONTRACTED_VARIANT
-TEST_CASE("these tests see contraction when it is on") {
+TEST_CASE("these tests detect contraction") {
   if (!processor_fuses()) return;
   const double a = 1 + 0x1p-30, b = 1 - 0x1p-30;
   CHECK(contracted::product_difference(a, b, b, a) != 0);

@@ -22,7 +22,7 @@ TEST_CASE("incircle tells inside, outside and on the circle") {
   CHECK(incircle({0, 1}, {1, 0}, {-1, 0}, {0, 0}) < 0);  // clockwise: the sign turns over
 }
 
-TEST_CASE("one ulp off a line is seen") {
+TEST_CASE("one ulp off a line is detected") {
   const double x = 1.0 / 3, up = std::nextafter(x, 1), down = std::nextafter(x, 0);
   CHECK(orient2d({0, 0}, {1, 1}, {x, x}) == 0);
   CHECK(orient2d({0, 0}, {1, 1}, {x, up}) > 0);
@@ -32,7 +32,7 @@ TEST_CASE("one ulp off a line is seen") {
   CHECK(orient2d({0, 0}, {1e-9, 1e-9}, far_up) > 0);
 }
 
-TEST_CASE("one ulp off a circle is seen") {
+TEST_CASE("one ulp off a circle is detected") {
   // The circle of diameter (0, 0) (8, 0): its points of integer coordinates, moved by an ulp.
   const Point a{0, 0}, b{8, 0}, c{4, 4};
   CHECK(incircle(a, b, c, {4, -4}) == 0);

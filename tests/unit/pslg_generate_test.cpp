@@ -137,7 +137,7 @@ TEST_CASE("fan: the wedges have the angle, from the center and from a corner") {
   }
 }
 
-TEST_CASE("random-polygon: one simple loop with just so many vertices, whatever the jitter") {
+TEST_CASE("random-polygon: one simple loop with the requested number of vertices, whatever the jitter") {
   for (const std::int32_t vertices : {4, 5, 6, 7, 8, 50, 51, 1002, 20003})
     for (const double jitter : {0.0, 0.3, 0.499}) {
       CAPTURE(vertices);
@@ -149,7 +149,7 @@ TEST_CASE("random-polygon: one simple loop with just so many vertices, whatever 
     }
 }
 
-TEST_CASE("random-points: as many points and segments as asked for, none crossing") {
+TEST_CASE("random-points: as many points and segments as requested, none crossing") {
   for (const auto& [points, segments] :
        {std::pair{3, 0}, {4, 1}, {100, 25}, {1000, 250}, {20000, 1000}, {20000, 5000}}) {
     const RandomPointsOptions o{points, segments, 3};
@@ -200,7 +200,7 @@ TEST_CASE("options out of range are named") {
   CHECK(error_of([] { (void)generate_bay({.resolution = 0}); }).starts_with("generate bay: the resolution"));
 }
 
-TEST_CASE("what is said of a sum of noise by a part of its octaves is true of all of it") {
+TEST_CASE("bounds on a sum of noise from some of its octaves hold for all of it") {
   SeededRandom random(7);
   const GradientNoise noise(random);
   double widest = 0;

@@ -53,7 +53,9 @@ TEST_CASE("a plain .poly") {
   CHECK(pslg.first_number == 1);
 }
 
-TEST_CASE("everything a .poly may hold: comments, tabs, CRLF, from zero, attributes, markers, holes, regions") {
+TEST_CASE(
+    "everything that a .poly may contain: comments, tabs, CRLF, numbers from zero, attributes, markers, holes, "
+    "regions") {
   const Pslg pslg = parse_poly("t.poly",
                                "\xef\xbb\xbf# a comment\r\n\r\n"
                                "4\t2 2 1   # header\r\n"
@@ -134,7 +136,7 @@ TEST_CASE(".ele with 3 or 6 nodes and attributes, and .area") {
   CHECK_THROWS_AS((void)parse_ele("m.ele", "1999999999 3 0\n1 1 2 3\n", nodes), InputError);
 }
 
-TEST_CASE("every malformed file gets its message") {
+TEST_CASE("every malformed file gets the right message") {
   const std::string folder = DRIFTMESH_SOURCE_DIR "/tests/regression/input/";
   struct Expected {
     const char* file;
@@ -208,7 +210,7 @@ TEST_CASE("every malformed file gets its message") {
   }
 }
 
-TEST_CASE("the first ten problems are shown at once") {
+TEST_CASE("the first ten problems are reported together") {
   const std::string message = message_of(DRIFTMESH_SOURCE_DIR "/tests/regression/input/ten_problems.poly");
   CHECK(lines(message) == 11);
   CHECK(message.find("ten_problems.poly:11: x is 'x', which is not a number; correct the field") != std::string::npos);

@@ -44,7 +44,7 @@ TEST_CASE("a planar graph is left as it is") {
   CHECK(report.original_point == std::vector<std::int32_t>{0, 1, 2, 3});
 }
 
-TEST_CASE("duplicate points are merged; the first keeps its attributes, a marker that it lacks is taken over") {
+TEST_CASE("duplicate points are merged; the first one keeps its attributes and takes over a missing marker") {
   Pslg pslg = square();
   pslg.points.insert(pslg.points.begin() + 1, {0, 0});
   pslg.segments = {{1, 2, 1}, {2, 3, 2}, {3, 4, 3}, {4, 0, 4}};
@@ -84,7 +84,7 @@ TEST_CASE("segments of length zero and duplicates are dropped, conflicting marke
   CHECK(report.summary().find("segment 5 begins and ends at vertex 3 (4, 4)") != std::string::npos);
 }
 
-TEST_CASE("a marker survives the merging with a segment that has none") {
+TEST_CASE("a marker survives merging with a segment that has none") {
   Pslg pslg = square();
   pslg.segments[0].marker = 0;
   pslg.segments.push_back({1, 0, 5});
@@ -112,7 +112,7 @@ TEST_CASE("a segment that misses a point by rounding is bent to pass through it"
   CHECK(pslg.segments == Segments{{0, 2, 0}, {2, 1, 0}, {2, 3, 0}});
 }
 
-TEST_CASE("points without segments get their hull, which is no change") {
+TEST_CASE("points without segments get their hull, which does not count as a change") {
   Pslg pslg = square();
   pslg.segments.clear();
   pslg.points.push_back({2, 0});
@@ -169,7 +169,7 @@ TEST_CASE("numbers in messages are those of the file") {
   CHECK(repair(pslg).summary().find("vertex 4 (0, 0) merged into vertex 0 (0, 0)") != std::string::npos);
 }
 
-TEST_CASE("seeds that are certainly outside are reported, others are not") {
+TEST_CASE("only seeds that are certainly outside are reported") {
   Pslg pslg = square();
   pslg.points.insert(pslg.points.end(), {{10, 10}, {12, 10}, {10, 12}});
   pslg.segments.insert(pslg.segments.end(), {{4, 5, 0}, {5, 6, 0}, {6, 4, 0}});
@@ -183,7 +183,7 @@ TEST_CASE("seeds that are certainly outside are reported, others are not") {
   CHECK_FALSE(report.changed());
 }
 
-TEST_CASE("what has no clear intent is an error") {
+TEST_CASE("input without a clear intent is an error") {
   Pslg pslg = square();
   pslg.holes = {{2, 0}};
   CHECK(error_of(pslg) == "in.poly: hole 1 at (2, 0) lies on a segment; move it to the intended side");
@@ -221,7 +221,7 @@ TEST_CASE("the published models need no repair") {
   }
 }
 
-TEST_CASE("an open boundary is found and described") {
+TEST_CASE("an open boundary is located and described") {
   Pslg pslg = square();
   pslg.segments.pop_back();
   const RepairReport report = repair(pslg);
@@ -236,7 +236,7 @@ TEST_CASE("an open boundary is found and described") {
   CHECK(describe_open_boundary(pslg, report) == "there are no segments that bound an area");
 }
 
-TEST_CASE("what would take forever is an error soon") {
+TEST_CASE("input that would take forever fails early") {
   Pslg pslg;
   const std::int32_t n = 7000;  // nested segments on one line: n^2 / 2 points on segments
   for (std::int32_t i = 0; i < n; ++i) {

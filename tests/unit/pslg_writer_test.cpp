@@ -40,7 +40,7 @@ Pslg random_pslg(std::mt19937_64& random) {
 
 }  // namespace
 
-TEST_CASE("what is written reads back to the same bits") {
+TEST_CASE("files read back to the same bits") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "x.poly").string();
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
@@ -52,7 +52,7 @@ TEST_CASE("what is written reads back to the same bits") {
   }
 }
 
-TEST_CASE("the published models read, and survive being written") {
+TEST_CASE("the published models can be read, and survive a round trip") {
   struct Expected {
     const char* file;
     std::size_t points, segments, holes;

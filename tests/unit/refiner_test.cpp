@@ -18,7 +18,7 @@
 using namespace driftmesh;
 using namespace driftmesh::testing;
 
-TEST_CASE("a mesh can be made in slices, and comes out the same") {
+TEST_CASE("a mesh made in slices is the same") {
   const Pslg pslg = fan(3, 9);
   QualityBounds bounds;
   bounds.max_area = 1e-4;
@@ -34,7 +34,7 @@ TEST_CASE("a mesh can be made in slices, and comes out the same") {
   for (const VertexId v : ids_of(whole.points)) REQUIRE(whole.points[v] == sliced.points[v]);
 }
 
-TEST_CASE("a refiner made from a copy of mesh and state goes on as the first one does") {
+TEST_CASE("a refiner made from a copy of mesh and state continues identically") {
   const Pslg pslg = fan(7, 9);
   QualityBounds bounds;
   bounds.max_area = 1e-3;
@@ -57,7 +57,7 @@ TEST_CASE("a refiner made from a copy of mesh and state goes on as the first one
   }
 }
 
-TEST_CASE("a state that leaves its mesh is refused") {
+TEST_CASE("a state that refers to parts outside its mesh is rejected") {
   Triangulation mesh = triangulate(fan(7, 9));
   const QualityBounds bounds;
   const auto refused = [&](RefinerState state, const std::string& why) {
@@ -88,7 +88,7 @@ TEST_CASE("a state that leaves its mesh is refused") {
   refused(state, "split point");
 }
 
-TEST_CASE("split points from outside are inserted with their ancestors at any time") {
+TEST_CASE("external split points are inserted with their ancestors at any time") {
   QualityBounds bounds;
   bounds.max_area = 1e-3;
   for (const std::int64_t before : {0, 1, 50, 300, 100000}) {
@@ -111,7 +111,7 @@ TEST_CASE("split points from outside are inserted with their ancestors at any ti
   }
 }
 
-TEST_CASE("the refiner tells which points it has put on segments, ancestors first, and not what it was told") {
+TEST_CASE("the refiner reports the points it has put on segments, ancestors first, but not external ones") {
   Triangulation mesh = triangulate(fan(11, 5));
   IdVector<RootId, std::vector<dyadic::Path>> known(mesh.roots.size());
   const RootId first{0};

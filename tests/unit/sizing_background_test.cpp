@@ -57,7 +57,7 @@ TEST_CASE("linear functions are interpolated exactly") {
   for (const Point& p : mesh.points) CHECK(field.edge_length(p) == linear(p));
 }
 
-TEST_CASE("outside the mesh the nearest point of its boundary counts") {
+TEST_CASE("outside the mesh, the value at the nearest point of its boundary applies") {
   const FlatMesh mesh = square_mesh(12);
   const VertexSizeField field = linear_field(mesh);
   int outside = 0;
@@ -80,7 +80,7 @@ TEST_CASE("a hole of the mesh is outside") {
   }
 }
 
-TEST_CASE("the answer depends on the point alone, not on the questions before") {
+TEST_CASE("the answer depends on the point alone, not on earlier queries") {
   const FlatMesh mesh = square_mesh(10, 2, false);  // exact degeneracies: queries on edges and corners
   std::vector<double> lengths;
   std::mt19937_64 random(5);
@@ -99,7 +99,7 @@ TEST_CASE("the answer depends on the point alone, not on the questions before") 
   }
 }
 
-TEST_CASE("the triangles at a point are those that a search of all of them finds") {
+TEST_CASE("the triangles at a point are those that an exhaustive search finds") {
   const FlatMesh flat = square_mesh(8, 2, false);
   const BackgroundMesh mesh(flat.points, flat.triangles);
   for (const Point& p : telling_points(flat, 8)) {
@@ -118,20 +118,20 @@ TEST_CASE("the triangles at a point are those that a search of all of them finds
   }
 }
 
-TEST_CASE("triangles without area are left out of answers") {
+TEST_CASE("triangles without area are ignored") {
   const std::vector<Point> points{{0, 0}, {1, 0}, {2, 0}, {0, 2}};
   const VertexSizeField field({points, {{0, 1, 2}, {0, 2, 3}}}, {1, 100, 3, 5});
   CHECK(field.edge_length({1, 0}) == 2);
   CHECK(field.edge_length({1, -7}) == 2);
 }
 
-TEST_CASE("an unbounded corner leaves the triangles at it without bound") {
+TEST_CASE("an unbounded corner makes the triangles around it unbounded") {
   const VertexSizeField field({{{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}}, {1, 3, kInfinity});
   CHECK(field.edge_length({0.5, 0}) == 2);
   CHECK(field.edge_length({0.25, 0.25}) == kInfinity);
 }
 
-TEST_CASE("gradation: no edge exceeds the limit, and no larger function keeps it") {
+TEST_CASE("gradation: no edge exceeds the limit, and no larger function respects it") {
   const FlatMesh mesh = square_mesh(7, 1);
   const std::size_t n = mesh.points.size();
   std::mt19937_64 random(9);
@@ -168,13 +168,13 @@ TEST_CASE("gradation: no edge exceeds the limit, and no larger function keeps it
   }
 }
 
-TEST_CASE("gradation reaches only what is connected") {
+TEST_CASE("gradation spreads only along edges") {
   std::vector<double> lengths{1, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
   limit_gradation({{0, 0}, {1, 0}, {0, 1}, {5, 5}, {6, 5}, {5, 6}}, {{0, 1, 2}, {3, 4, 5}}, 0.5, lengths);
   CHECK(lengths == std::vector<double>{1, 1.5, 1.5, kInfinity, kInfinity, kInfinity});
 }
 
-TEST_CASE("area bounds hold triangle by triangle, the largest where triangles meet") {
+TEST_CASE("area bounds apply triangle by triangle, the largest one where triangles meet") {
   const std::vector<Point> points{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   const TriangleAreaField field({points, {{0, 1, 2}, {0, 2, 3}}}, {0.01, 0.04});
   const auto area = [&](const Point& p) { return std::sqrt(3.0) / 4 * field.edge_length(p) * field.edge_length(p); };
@@ -188,7 +188,7 @@ TEST_CASE("area bounds hold triangle by triangle, the largest where triangles me
   CHECK(half_bounded.edge_length({0.7, 0.2}) == doctest::Approx(std::sqrt(0.04 / std::sqrt(3.0))));
 }
 
-TEST_CASE("unusable background meshes are refused") {
+TEST_CASE("unusable background meshes are rejected") {
   const std::vector<Point> points{{0, 0}, {1, 0}, {2, 0}, {0, 1}};
   CHECK_THROWS_AS(BackgroundMesh(points, {{0, 1, 4}}), Error);
   CHECK_THROWS_AS(BackgroundMesh(points, {{0, 1, -1}}), Error);

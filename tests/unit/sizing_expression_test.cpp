@@ -47,7 +47,7 @@ TEST_CASE("an expression in x and y gives the edge length") {
   CHECK(ExpressionField("max(min(x, y), 0.01)").edge_length({-4, 0}) == 0.01);
 }
 
-TEST_CASE("values do not depend on the questions before") {
+TEST_CASE("values do not depend on earlier queries") {
   const ExpressionField field("1 + x*x + y");
   const double first = field.edge_length({0.1, 0.2});
   (void)field.edge_length({7, 8});
@@ -65,7 +65,7 @@ TEST_CASE("errors in an expression name the column and the token") {
     CHECK_MESSAGE(!construction_error(wrong).empty(), wrong);
 }
 
-TEST_CASE("a value that is no length names the point") {
+TEST_CASE("an invalid length is reported with its point") {
   const ExpressionField field("1 - x");
   const std::string message = message_of([&] { (void)field.edge_length({1.5, 0.25}); });
   CHECK(mentions(message, "-0.5 at x = 1.5, y = 0.25"));
@@ -75,7 +75,7 @@ TEST_CASE("a value that is no length names the point") {
   CHECK(ExpressionField("1/x^2").edge_length({0, 0}) == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("a shortest length replaces values that are too small, but not what is no number") {
+TEST_CASE("a shortest length replaces values that are too small, but not NaN") {
   const ExpressionField field("x", 0.125);
   CHECK(field.edge_length({-3, 0}) == 0.125);
   CHECK(field.edge_length({0.5, 0}) == 0.5);

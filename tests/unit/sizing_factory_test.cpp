@@ -58,7 +58,7 @@ bool mentions(const std::string& message, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("no wishes give no field") {
+TEST_CASE("no options give no field") {
   CHECK(make_size_field({}) == nullptr);
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("a background mesh with area bounds") {
   CHECK(graded->edge_length({0, 1}) == doctest::Approx(fine + 0.25));
 }
 
-TEST_CASE("what is wrong with sizing options is named") {
+TEST_CASE("errors in sizing options are named") {
   const Folder folder;
   write_square(folder, "4 2 0 0", {"", "", "", ""});
   CHECK(mentions(message_of({.background = folder.path("square")}), "square.node: its points have no attribute"));

@@ -82,7 +82,7 @@ TEST_CASE("an off-center is the circumcenter where that is near") {
   }
 }
 
-TEST_CASE("the off-center of a skinny triangle lies on the bisector of the shortest edge at the wanted angle") {
+TEST_CASE("the off-center of a skinny triangle lies on the bisector of the shortest edge at the requested angle") {
   const double theta = 25;
   int skinny = 0;
   for (const auto& [a, b, c] : random_triangles(2000)) {

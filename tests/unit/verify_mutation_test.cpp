@@ -13,7 +13,7 @@ using namespace driftmesh;
 using namespace driftmesh::testing;
 using oracles::GridCase;
 
-TEST_CASE("a right mesh is accepted, with and without its input") {
+TEST_CASE("a correct mesh is accepted, with and without its input") {
   const GridCase grid;
   const VerifyReport report = check(grid);
   INFO(all_messages(report));
@@ -41,7 +41,7 @@ TEST_CASE("arrays of the wrong length") {
   CHECK_ONLY(check(grid), Flaw::bad_array);
 }
 
-TEST_CASE("indices that name no point, or one point twice") {
+TEST_CASE("indices that name a missing point, or the same point twice") {
   GridCase grid;
   grid.mesh.triangles[7][1] = static_cast<std::int32_t>(grid.mesh.points.size());
   CHECK_ONLY(check(grid), Flaw::bad_index);
@@ -56,7 +56,7 @@ TEST_CASE("indices that name no point, or one point twice") {
   CHECK_ONLY(check(grid), Flaw::bad_index);
 }
 
-TEST_CASE("coordinates that cannot be computed with") {
+TEST_CASE("coordinates outside the range of the predicates") {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300, 1e-300}) {
     GridCase grid;
     grid.mesh.points[5].x = bad;
@@ -124,7 +124,7 @@ TEST_CASE("a third triangle on an edge") {
   CHECK_HAS(check(grid), Flaw::edge_used_twice);
 }
 
-TEST_CASE("a point that is used by no triangle is counted and is no flaw") {
+TEST_CASE("a point that no triangle uses is counted, but is not a flaw") {
   GridCase grid;
   add_point(grid.mesh, {1.5, 1.25});
   CHECK(check(grid).accepted());
@@ -190,7 +190,7 @@ TEST_CASE("triangles that wind twice around a vertex") {
   CHECK((report.findings.count(Flaw::boundary_crosses) > 0 || report.findings.count(Flaw::overlap) > 0));
 }
 
-TEST_CASE("a closed ring and a further fan at one vertex") {
+TEST_CASE("a closed ring and another fan at one vertex") {
   GridCase grid;
   const std::int32_t hub = grid.at(2, 2);
   const std::int32_t p = add_point(grid.mesh, {2.25, 2.0625}), q = add_point(grid.mesh, {2.25, 2.125});

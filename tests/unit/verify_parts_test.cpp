@@ -87,7 +87,7 @@ TEST_CASE("an arrangement with verticals, a dangling link and squares that share
   CHECK(a.boundary_parts(Arrangement::kUnbounded) == 2);
 }
 
-TEST_CASE("links that meet wrongly are a conflict, whatever their order") {
+TEST_CASE("links that cross, overlap or touch are a conflict, whatever their order") {
   const auto conflict = [](std::vector<Point> points) {
     const bool one = Arrangement(points, {{0, 1}, {2, 3}}).conflict().has_value();
     const bool other = Arrangement(points, {{3, 2}, {1, 0}}).conflict().has_value();
@@ -183,7 +183,7 @@ TEST_CASE("the bins of the histogram hold every angle") {
   }
 }
 
-TEST_CASE("areas by a size field: its shortest length at the corners and the centroid") {
+TEST_CASE("the area bound of a size field is that of its shortest length at the corners and the centroid") {
   struct Field final : SizeField {
     Point small_at;
     explicit Field(Point p) : small_at(p) {}
@@ -241,7 +241,7 @@ TEST_CASE(
   CHECK(flaws(1e-9, 2.64) == 0);
 }
 
-TEST_CASE("a small angle is excused where the input has it, and nowhere else") {
+TEST_CASE("a small angle is accepted where the input has it, and nowhere else") {
   VerifyOptions options;
   options.min_angle = 20;
   Mesh wedge = one_triangle({0, 0}, {4, 0}, {4, 1});  // 14 degrees
@@ -258,7 +258,7 @@ TEST_CASE("a small angle is excused where the input has it, and nowhere else") {
   CHECK(report.findings.count(Flaw::small_angle) == 2);
 }
 
-TEST_CASE("a skinny triangle on a seditious edge is excused when its ends are equally far from the apex") {
+TEST_CASE("a skinny triangle on a seditious edge is accepted if its ends are equally far from the apex") {
   // Two segments from (0, 0) at 53 degrees with vertices p and q in their insides; the triangle p q r is skinny.
   const auto mesh = [](double distance_of_q) {
     Mesh m;
@@ -314,7 +314,7 @@ TEST_CASE("the report names counts, exceptions and flaws, and ends in a verdict 
         "accepted: constrained Delaunay, angles of at least 20 degrees except for 1 triangles that the input explains");
 }
 
-TEST_CASE("a skinny triangle is excused beside a segment that doubles have no room to split, and nowhere else") {
+TEST_CASE("a skinny triangle is accepted next to a segment that doubles cannot split, and nowhere else") {
   // From 2 on the spacing of doubles is e. The segment ab has c on one side, `gap` spacings off, and on the other the
   // triangle abq with an angle of 5.6 degrees at b, whose off-center lies in the diametral circle of ab.
   const double e = 0x1p-51;
