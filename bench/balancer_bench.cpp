@@ -1,5 +1,5 @@
-// How long planning takes: every policy that plans for all, on a square of subdomains dealt in rows to ranks of three
-// speeds. Counts how many subdomains move, before and after what is not worth it is left out.
+// Planning time of every policy that plans for all ranks, on a square of subdomains mapped in rows to ranks of three
+// speeds. Counts the planned moves, and those worth making.
 #include <benchmark/benchmark.h>
 
 #include "balancer/move_cost.hpp"

@@ -35,11 +35,11 @@ Shape face_shape(const Triangulation::Face_handle& face) {
                   to_point(face->vertex(2)->point()));
 }
 
-/// CGAL's meshing criteria with a bound on the area. The one that CGAL ships for it is not documented and reads the
-/// angle bound in other units than its sibling for edge lengths.
+/// CGAL's meshing criteria with a bound on the area. The one that CGAL provides is not documented and takes the angle
+/// bound in different units than its counterpart for edge lengths.
 class AreaAndAngle {
  public:
-  /// Orders the queue of bad triangles: the oversize ones first, largest first, then the sharpest.
+  /// Orders the queue of bad triangles: oversize ones first, largest first, then the sharpest.
   struct Quality {
     double oversize = 0;  // area over bound
     double squared_sine = 0;

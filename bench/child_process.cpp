@@ -40,7 +40,7 @@ class SharedBuffer {
     std::cerr << "driftmesh_bench: " << error.what() << std::endl;
     code = 1;
   }
-  _exit(code);  // the parent's buffers and handlers are not the child's to flush and run
+  _exit(code);  // the child must not flush the parent's buffers or run its handlers
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ class SharedBuffer {
 void run_in_child(const std::function<void(void*)>& fill, void* result, std::size_t size) {
   const SharedBuffer buffer(size);
   std::cout.flush();
-  malloc_trim(0);  // what the parent has freed shall not count as the child's memory
+  malloc_trim(0);  // memory freed by the parent must not count as the child's
   const pid_t child = fork();
   if (child < 0) throw Error("cannot fork a process for a run");
   if (child == 0) be_child(fill, buffer.data());

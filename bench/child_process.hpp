@@ -7,11 +7,11 @@
 
 namespace driftmesh::bench {
 
-/// Runs `fill(buffer)` in a forked child and copies the `size` bytes of its buffer back. A run of its own in a process
-/// of its own starts from a fresh heap, and the peak of its memory is its alone. Throws Error when the child fails.
+/// Runs `fill(buffer)` in a forked child and copies the `size` bytes of its buffer back. A run in a separate process
+/// starts with a fresh heap and has its own memory peak. Throws Error if the child fails.
 void run_in_child(const std::function<void(void*)>& fill, void* result, std::size_t size);
 
-/// The same for a function that returns plain data.
+/// The same, for a function that returns plain data.
 template <class Function>
 auto in_child(const Function& function) {
   using Result = std::invoke_result_t<Function>;
@@ -21,7 +21,7 @@ auto in_child(const Function& function) {
   return result;
 }
 
-/// The most memory that this process has held so far (VmHWM), in bytes; 0 where the system does not tell.
+/// The peak memory of this process so far (VmHWM), in bytes; 0 if unknown.
 [[nodiscard]] std::int64_t peak_memory();
 
 }  // namespace driftmesh::bench

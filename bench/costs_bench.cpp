@@ -1,8 +1,8 @@
-// The constants of CostModel, by which simulated time passes: what this machine needs for the work of a rank.
+// The constants of CostModel, which determine virtual time: what the work of a rank takes on this machine.
 //   driftmesh_bench_costs [REPETITIONS]      (default: 5)
 //
-// Each kind of work is timed over all subdomains of a domain by the processor's time of this thread, so that other
-// programs disturb little, and the least of the repetitions counts.
+// Each kind of work is timed over all subdomains of a domain in CPU time of this thread, so that other programs disturb
+// little, and the minimum of the repetitions counts.
 
 #include <malloc.h>
 
@@ -84,7 +84,7 @@ Costs best_of(const RunPlan& plan, int repetitions) {
   best.prepare_seconds = best.refine_seconds = best.pack_seconds = best.unpack_seconds =
       std::numeric_limits<double>::infinity();
   for (int i = 0; i < repetitions; ++i) {
-    malloc_trim(0);  // each starts with pages that are new to it, as a run does
+    malloc_trim(0);  // each starts with fresh pages, like a run
     Costs costs = measure(plan);
     costs.prepare_seconds = std::min(costs.prepare_seconds, best.prepare_seconds);
     costs.refine_seconds = std::min(costs.refine_seconds, best.refine_seconds);
@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
       double area;
       std::int32_t subdomains;
     };
-    // 2 million triangles each; subdomains of many and of few triangles tell `start` and `prepared` apart.
+    // 2 million triangles each; subdomains of many and of few triangles distinguish `start` from `prepared`.
     const Case cases[] = {{"pipe, 50 subdomains", generate_pipe({}), 0.15, 50},
                           {"pipe, 200", generate_pipe({}), 0.15, 200},
                           {"pipe, 2000", generate_pipe({}), 0.15, 2000},
@@ -130,7 +130,7 @@ int main(int argc, char** argv) {
       all.push_back(best_of(plan_of(c.pslg, c.area, c.subdomains), repetitions));
       print_row(c.name, all.back());
     }
-    // Two unknowns from the extremes of the pipe: seconds a subdomain = start + prepared * triangles.
+    // Two unknowns from the extremes of the pipe: seconds per subdomain = start + prepared * triangles.
     const Costs &few = all[0], &many = all[2];
     const double x0 = few.prepared / few.subdomains, y0 = few.prepare_seconds / few.subdomains;
     const double x1 = many.prepared / many.subdomains, y1 = many.prepare_seconds / many.subdomains;

@@ -1,4 +1,4 @@
-// The figures of decompositions: time, angles, balance, separators against the length that compact subdomains need.
+// Quality of decompositions: time, angles, balance, and length of separators relative to that of compact subdomains.
 //   driftmesh_bench_decompose [-n N]... [FILE.poly ...]      (default: -n 400 -n 4000, and generated inputs)
 
 #include <algorithm>

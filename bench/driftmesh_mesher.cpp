@@ -59,7 +59,7 @@ MeshRun refine(const Pslg& pslg, const Bounds& bounds) {
 const Mesher kDriftmesh{"driftmesh", triangulate_domain, refine};
 
 std::vector<Pslg> parts_of(const Pslg& pslg, double area, double degrees, std::size_t pieces) {
-  // Coarse enough to be cheap, fine enough that parts made of these triangles are of similar size.
+  // Coarse enough to be cheap, fine enough for parts of similar size.
   constexpr double kTrianglesInPart = 16;
   const Bounds coarse{area / (kTrianglesInPart * static_cast<double>(pieces)), degrees};
   return cut(to_piece(mesh_domain(pslg, request_of(coarse)).mesh, pslg), pslg.holes, pieces);

@@ -6,7 +6,7 @@
 
 namespace driftmesh::bench {
 
-/// What every triangle shall satisfy.
+/// The bounds on every triangle.
 struct Bounds {
   double area = 0;     ///< at most
   double degrees = 0;  ///< every angle at least
@@ -18,12 +18,12 @@ struct MeshRun {
   std::int64_t triangles = 0;   ///< inside the domain
   double smallest_angle = 0;    ///< degrees; measured by the benchmark, not by the mesher
   double largest_area = 0;      ///< likewise
-  double seconds_cdt = 0;       ///< points and segments inserted, holes carved where that is a stage of its own
+  double seconds_cdt = 0;       ///< inserting points and segments, and carving holes if that is a separate stage
   double seconds_refine = 0;    ///< refinement alone: the stage that is compared
-  std::int64_t peak_bytes = 0;  ///< the process's peak when refinement has ended
+  std::int64_t peak_bytes = 0;  ///< the process's peak at the end of refinement
 };
 
-/// A mesher under measurement.
+/// A mesher to be measured.
 struct Mesher {
   const char* name;
   /// The constrained Delaunay triangulation of the input, without refinement.

@@ -1,4 +1,4 @@
-// What moving a subdomain costs against refining it, and what its sleep saves.
+// The cost of moving a subdomain relative to refining it, and the memory saved by sleep.
 //   driftmesh_bench_migration [TRIANGLES ...]      (a subdomain; default: 2700 20000 100000)
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using namespace driftmesh;
 
 namespace {
 
-/// What one subdomain costs, on average: seconds, bytes, triangles.
+/// The average costs of a subdomain: seconds, bytes, triangles.
 struct Costs {
   double refine = 0, pack = 0, unpack = 0, sleep = 0, wake = 0;
   double triangles = 0, packed_bytes = 0, dormant_bytes = 0;
@@ -35,7 +35,7 @@ void add_time(double& seconds, Work&& work) {
   seconds += watch.seconds();
 }
 
-/// Packs and unpacks a subdomain while it lies in the cache, as it does when a rank has just worked on it.
+/// Packs and unpacks a subdomain while it is in the cache, as when a rank has just worked on it.
 void move(Subdomain& subdomain, const SubdomainContext& context, Source source, Costs& costs) {
   Bytes packed;
   std::optional<Subdomain> moved;
@@ -53,7 +53,7 @@ void sleep(Subdomain& subdomain, Costs& costs) {
   costs.same &= mesh_digest(subdomain.mesh().mesh) == digest;
 }
 
-/// Refines every subdomain and lets `then` do something with it; the round whose refinement took the median time.
+/// Refines every subdomain and calls `then` with it; returns the round whose refinement took the median time.
 template <class Then>
 Costs median_round(const SubdomainContext& context, Then&& then) {
   constexpr int kRounds = 11;

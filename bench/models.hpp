@@ -14,9 +14,8 @@ struct Model {
   double area = 0;  ///< of the domain
 };
 
-/// pipe, cylinder_flow and chesapeake from the .poly files in `folder`, or generated ones of their kind where it has
-/// none; and a rectangle with a 32-gon as a hole, whose few long edges let refinement start from a coarse
-/// triangulation.
+/// pipe, cylinder_flow and chesapeake from the .poly files in `folder`, or similar generated ones if it has none; and a
+/// rectangle with a 32-gon as a hole, whose few long edges make refinement start from a coarse triangulation.
 [[nodiscard]] std::vector<Model> load_models(const std::filesystem::path& folder);
 
 }  // namespace driftmesh::bench

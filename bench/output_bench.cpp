@@ -1,4 +1,4 @@
-// Triangles written, read and drawn a second. Files go to the folder that TMPDIR names, and stay in the page cache.
+// Triangles written, read and drawn per second. Files go to the folder TMPDIR and stay in the page cache.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

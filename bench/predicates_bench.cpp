@@ -1,4 +1,4 @@
-// Nanoseconds a call of the exact predicates, on random input and where the filter cannot decide.
+// Nanoseconds per call of the exact predicates, on random input and where the filter cannot decide.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace driftmesh;
 
-constexpr std::size_t kCases = 4096;  // 256 KiB: the figures are of arithmetic, not of memory
+constexpr std::size_t kCases = 4096;  // 256 KiB: arithmetic is measured, not memory
 using Quads = std::vector<std::array<Point, 4>>;
 
 std::mt19937_64 generator(1);
@@ -37,7 +37,7 @@ Quads random_quads() {
   });
 }
 
-/// Points of one line through the unit square, rounded.
+/// Points on a line through the unit square, rounded.
 Quads nearly_collinear_quads() {
   return quads([] {
     const Point a{uniform(0, 1), uniform(0, 1)}, b{uniform(0, 1), uniform(0, 1)};
@@ -50,8 +50,8 @@ Quads nearly_collinear_quads() {
   });
 }
 
-/// Points of one circle of the given radius around a center in the unit square, rounded. Differences of the
-/// coordinates are exact when the circle is small.
+/// Points on a circle of the given radius around a center in the unit square, rounded. Differences of the coordinates
+/// are exact when the circle is small.
 Quads nearly_cocircular_quads(double radius) {
   return quads([radius] {
     const Point center{uniform(0, 1), uniform(0, 1)};

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Measures driftmesh on real ranks, and prints tables in Markdown for docs/benchmarks.md.
 
-Each run is an mpirun of its own; what is printed are medians over repetitions, in which the compared cases take turns,
-so that a busy moment of the machine hits all of them.
+Each run is a separate mpirun. The figures are medians over repetitions in which the compared cases alternate, so that a
+busy moment of the machine affects all of them.
 """
 
 import argparse
@@ -59,8 +59,8 @@ class Bench:
         return json.loads((self.folder / "run.json").read_text())
 
     def apart(self, jobs, model, area):
-        """The records of so many jobs of one rank at the same time, each on a core of its own: the efficiency that the
-        machine leaves when no rank has to do with another."""
+        """The records of this many concurrent jobs of one rank, each on its own core: the efficiency that the machine
+        allows if ranks do not interact."""
         started = []
         for job in range(jobs):
             binding = ("--bind-to", "core", "--cpu-set", job)
@@ -83,7 +83,7 @@ class Bench:
         return json.loads((self.folder / "runs" / "run-1.json").read_text())
 
     def take_turns(self, cases):
-        """The records of each case, a list a case; cases are functions that make one run."""
+        """The records of each case, one list per case; cases are functions that make one run."""
         records = [[] for _ in cases]
         for _ in range(self.options.repetitions):
             for case, list_of_case in zip(cases, records):
@@ -104,7 +104,7 @@ def meshing(run):
 
 
 def share_of(kinds, run):
-    """Of the ranks' time, in per cent."""
+    """The share of the ranks' time, in percent."""
     spent = sum(rank["seconds"][kind] for rank in run["parts"]["ranks"] for kind in kinds)
     return 100 * spent / sum(sum(rank["seconds"].values()) for rank in run["parts"]["ranks"])
 
@@ -143,8 +143,8 @@ def models(bench):
                          f"{median(runs, lambda r: r['work']['seconds_by_stage']['assemble']):.3f}",
                          f"{median(runs, meshing):.2f}", total(runs[0], "splits_sent"),
                          digests.pop() if len(digests) == 1 else f"{len(digests)} different"])
-    print_table("Real ranks, interfaces cut to size beforehand (`models`); the times are rank 0's, in seconds:",
-                ["input", "ranks", "subdomains", "triangles", "million triangles/s", "efficiency", "at best", "of jobs apart",
+    print_table("Real ranks, presplit interfaces (`models`); times are those of rank 0, in seconds:",
+                ["input", "ranks", "subdomains", "triangles", "million triangles/s", "efficiency", "best run", "independent jobs",
                  "decompose", "assemble", "input to distributed mesh", "SPLITs", "digest"], rows)
 
 
@@ -157,9 +157,9 @@ def aggregation(bench):
     rows = [[k, total(runs[0], "splits_sent"), total(runs[0], "split_messages_sent"), f"{median(runs, rate):.1f}",
              f"{median(runs, lambda r: share_of(('sending', 'polling'), r)):.2f} %",
              f"{median(runs, lambda r: share_of(('idle',), r)):.2f} %"] for k, runs in zip(thresholds, records)]
-    print_table("Aggregation: pipe in 4,000 subdomains on 2 ranks, the protocol in full (`aggregation`; the paper's "
-                f"Figure 7), mapping {bench.options.mapping}:",
-                ["SPLITs a message at most", "SPLITs", "messages", "million triangles/s", "sending and polling", "idle"],
+    print_table("Aggregation: pipe in 4,000 subdomains on 2 ranks, no presplitting (`aggregation`; Figure 7 of the "
+                f"paper), mapping `{bench.options.mapping}`:",
+                ["most SPLITs per message", "SPLITs", "messages", "million triangles/s", "sending and polling", "idle"],
                 rows)
 
 
@@ -172,15 +172,15 @@ def breakdown(bench):
         for rank, figures in enumerate(run["parts"]["ranks"]):
             rows.append([model, rank, f"{figures['triangles']:,}", figures["splits_sent"],
                          *(f"{seconds:.3f}" for seconds in figures["seconds"].values())])
-    print_table("Where the time of each rank goes, in seconds: 4,000 subdomains, the protocol in full, the median run "
-                "(`breakdown`; the paper's Figure 11):",
+    print_table("Time of each rank, in seconds: 4,000 subdomains, no presplitting, the median run (`breakdown`; Figure 11 "
+                "of the paper):",
                 ["input", "rank", "triangles", "SPLITs sent", "computing", "sending", "polling", "balancing", "idle"],
                 rows)
 
 
 def ideal(run):
-    """Seconds of refinement if all ranks finished together: all work over all speeds, as the run has shown them. A rank
-    that is dragged computes and sleeps in turn, which its time until it is through tells."""
+    """Seconds of refinement if all ranks finished together: total work over total speed, as measured in the run. A rank
+    with drag alternates between computing and sleeping; its time until its work is done accounts for both."""
     speeds = [rank["triangles"] / (sum(rank["seconds"].values()) - rank["seconds"]["idle"])
               for rank in run["parts"]["ranks"] if rank["triangles"]]
     return run["mesh"]["triangles"] / sum(speeds)
@@ -192,18 +192,18 @@ def balance(bench):
     pipe = bench.area_of("pipe", bench.options.cells)
     cases = {
         "pipe, one rank at half speed": ("pipe", pipe, "--drag", "1,0.5"),
-        "corner, dealt by area": ("corner", None, "--size", CORNER, "--map-by-area"),
-        "corner, dealt by area, one rank at half speed": ("corner", None, "--size", CORNER, "--map-by-area", "--drag",
+        "corner, mapped by area": ("corner", None, "--size", CORNER, "--map-by-area"),
+        "corner, mapped by area, one rank at half speed": ("corner", None, "--size", CORNER, "--map-by-area", "--drag",
                                                           "1,0.5"),
         "pipe, nothing to balance": ("pipe", pipe),
     }
     rows = []
     for case, (model, area, *arguments) in cases.items():
-        # Speeds are those of ranks that are all at work: of the same run dealt by work.
-        dealt_by_work = [word for word in arguments if word != "--map-by-area"]
+        # Speeds are measured while all ranks work: in the same run, mapped by work.
+        mapped_by_work = [word for word in arguments if word != "--map-by-area"]
         *records, references = bench.take_turns(
             [lambda p=p: bench.mesh(2, model, area, *arguments, *p) for p in policies.values()] +
-            [lambda: bench.mesh(2, model, area, *dealt_by_work)])
+            [lambda: bench.mesh(2, model, area, *mapped_by_work)])
         best = median(references, ideal)
         for policy, runs in zip(policies, records):
             seconds = median(runs, seconds_of_refinement)
@@ -212,9 +212,9 @@ def balance(bench):
                          f"{median(runs, lambda r: share_of(('balancing',), r)):.2f} %",
                          f"{median(runs, lambda r: share_of(('idle',), r)):.1f} %",
                          f"{median(runs, lambda r: total(r, 'hand_offs')):.0f}"])
-    print_table("Policies on two ranks (`balance`); ideal is all work over all speeds, as seen "
-                "without balancing and dealt by work, or in the run itself:",
-                ["case", "policy", "triangles", "refinement s", "of the ideal", "of its own",
+    print_table("Policies on two ranks (`balance`); the ideal is total work over total speed, measured without balancing and "
+                "mapped by work (ideal), or in the run itself (own ideal):",
+                ["case", "policy", "triangles", "refinement s", "relative to ideal", "to own ideal",
                  "balancing", "idle", "subdomains moved"], rows)
 
 
@@ -241,11 +241,11 @@ def growth(bench):
              f"{median(runs, lambda r: r['work']['peak_bytes_refining'] / r['mesh']['triangles']):.1f}"]
             for runs in records]
     print_table("Growth: pipe on one rank, in subdomains of 20,000 triangles (`growth`):",
-                ["triangles", "subdomains", "million triangles/s", "time a triangle", "peak bytes/triangle"], rows)
+                ["triangles", "subdomains", "million triangles/s", "time per triangle", "peak bytes/triangle"], rows)
 
 
 def seconds(run):
-    """Of a run of an experiment, real or simulated."""
+    """The duration of a run of an experiment, real or simulated."""
     return run["cluster"]["seconds"]
 
 
@@ -255,16 +255,16 @@ def simulator(bench):
     measured = [median(runs, seconds) for runs in
                 bench.take_turns([lambda case=case: bench.experiment("real", *case) for case in cases])]
     given = [bench.experiment("simulated", *case) for case in cases]
-    # The first case sets the speed of a rank, as it is on this machine today; the others are predictions.
+    # The first case determines the speed of a rank on this machine today; the others are predictions.
     speed = given[0]["cluster"]["speeds"][0] * seconds(given[0]) / measured[0]
     predicted = [seconds(bench.experiment("simulated", *case, "--set", f"cluster.speed={speed}")) for case in cases]
     rows = [[ranks, ", ".join(map(str, drag)) or "none", policy, f"{real:.3f}", f"{seconds(model):.3f}",
              f"{100 * (seconds(model) / real - 1):+.1f} %", f"{simulated:.3f}", f"{100 * (simulated / real - 1):+.1f} %"]
             for (ranks, drag, policy), real, model, simulated in zip(cases, measured, given, predicted)]
     print_table(f"Simulated against real ranks: pipe, {given[0]['mesh']['triangles']:,} triangles, seconds of refinement "
-                "(`simulator`). By the constants of `CostModel`, and with a rank's speed from the first row, "
+                "(`simulator`). With the constants of `CostModel`, and with a rank's speed from the first row, "
                 f"{speed / 1e6:.2f} million triangles/s (constants: {given[0]['cluster']['speeds'][0] / 1e6:.2f}):",
-                ["ranks", "drag", "policy", "measured", "by constants", "off by", "calibrated", "off by"], rows)
+                ["ranks", "drag", "policy", "measured", "with constants", "error", "calibrated", "error"], rows)
 
 
 def machine():
@@ -277,19 +277,19 @@ def main():
     suites = {suite.__name__: suite
               for suite in (models, aggregation, breakdown, balance, size, growth, simulator)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("suite", nargs="*", help=f"of {', '.join(suites)}; all when absent")
+    parser.add_argument("suite", nargs="*", help=f"{', '.join(suites)}; default: all")
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh")
     parser.add_argument("--data", default=PROJECT.parent / "shared/data",
-                        help="folder of the models; generated inputs stand in for missing ones")
+                        help="folder of the models; missing ones are replaced by generated inputs")
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2], help="models: numbers of ranks")
-    parser.add_argument("--cells", type=float, default=CELLS, help="models: area bound = area of the domain over this")
+    parser.add_argument("--cells", type=float, default=CELLS, help="models: the area bound is the area of the domain divided by this")
     parser.add_argument("--mapping", default="graph", help="aggregation: round-robin makes every interface a border")
     parser.add_argument("--sizes", type=float, nargs="+", default=[43, 200], help="size: millions of triangles")
-    parser.add_argument("--triangles", type=float, default=10e6, help="simulator: about so many")
+    parser.add_argument("--triangles", type=float, default=10e6, help="simulator: approximate number of triangles")
     options = parser.parse_args()
     if unknown := set(options.suite) - set(suites):
-        parser.error(f"no suite {', '.join(sorted(unknown))}")
+        parser.error(f"unknown suite {', '.join(sorted(unknown))}")
     print(f"{machine()}\n", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options, folder)

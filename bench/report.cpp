@@ -44,7 +44,7 @@ std::vector<Column> refinement_columns() {
       {"smallest angle", [](const Measurement& m) { return fmt::format("{:.2f}", m.runs.front().smallest_angle); }}};
 }
 
-/// The column that says what the suite is for.
+/// The column that compares meshers or sizes, depending on the suite.
 std::vector<Column> comparison_columns(const std::string& suite, const std::vector<Measurement>& all) {
   if (suite == "cgal")
     return {{"times CGAL", [&all](const Measurement& m) {

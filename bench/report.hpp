@@ -20,18 +20,18 @@ struct Measurement {
 /// Medians over the runs.
 [[nodiscard]] double median_cdt(const Measurement& m);
 [[nodiscard]] double median_refine(const Measurement& m);
-/// Million triangles a second, refinement stage, median.
+/// Million triangles per second, refinement stage, median.
 [[nodiscard]] double rate(const Measurement& m);
-/// The largest peak of any run over its triangles.
+/// The largest memory peak of any run, divided by its triangles.
 [[nodiscard]] double bytes_per_triangle(const Measurement& m);
 
 /// One suite as a table in Markdown, with its heading.
 [[nodiscard]] std::string table_of(const std::string& suite, const std::vector<Measurement>& measurements);
 
-/// What the figures were measured on: processor, cores, load, compiler.
+/// The machine: processor, cores, load, compiler.
 [[nodiscard]] std::string machine();
 
-/// Everything, every single run included.
+/// All results, including every single run.
 [[nodiscard]] nlohmann::json to_json(const std::vector<Measurement>& measurements);
 
 }  // namespace driftmesh::bench

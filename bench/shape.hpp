@@ -9,8 +9,8 @@
 
 namespace driftmesh::bench {
 
-/// Area and squared sine of the smallest angle of a triangle: what the bounds are about, without a root or a division
-/// too many.
+/// Area and squared sine of the smallest angle of a triangle, the quantities that are bounded, computed without square
+/// roots.
 struct Shape {
   double area = 0;
   double squared_sine = 0;

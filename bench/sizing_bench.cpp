@@ -1,4 +1,4 @@
-// Nanoseconds a question to a size field. A refiner asks about once for each point that it inserts.
+// Nanoseconds per query of a size field. A refiner makes about one for each point that it inserts.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace driftmesh;
 
-/// The unit square as n x n cells of two triangles; lines bunched toward the origin by `power`.
+/// The unit square as n x n cells of two triangles; grid lines are concentrated near the origin by `power`.
 BackgroundMesh square(int n, double power) {
   std::vector<Point> points;
   std::vector<BackgroundMesh::Triangle> triangles;

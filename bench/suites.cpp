@@ -14,22 +14,22 @@
 namespace driftmesh::bench {
 namespace {
 
-/// The size at which the slow mesher is still bearable: about a million triangles.
+/// A size that is still bearable for the slow mesher: about a million triangles.
 constexpr double kComparedCells = 0.645e6;
 
 void announce(const std::string& what) {
   std::cerr << "measuring " << what << std::endl;
 }
 
-/// A benchmark of meshes that break their bounds would measure nothing. Angles may be smaller at acute corners of the
-/// input; areas may not be larger anywhere.
+/// Measuring meshes that violate their bounds would be pointless. Angles may be smaller at acute corners of the input;
+/// areas may not be larger anywhere.
 void require_bounds(const MeshRun& run, const Bounds& bounds, const std::string& what) {
   constexpr double kRounding = 1e-9;
   if (bounds.area > 0 && run.largest_area > bounds.area * (1 + kRounding))
-    throw Error(fmt::format("{}: a triangle of area {} breaks the bound {}", what, run.largest_area, bounds.area));
+    throw Error(fmt::format("{}: a triangle of area {} violates the bound {}", what, run.largest_area, bounds.area));
 }
 
-/// Runs `mesh` in a child process, again and again.
+/// Runs `mesh` repeatedly, each time in a child process.
 Measurement repeat(Measurement m, const Bounds& bounds, int repetitions, const std::function<MeshRun()>& mesh) {
   announce(m.suite + ": " + m.mesher + " on " + m.model);
   m.area_bound = bounds.area;

@@ -1,30 +1,30 @@
 #!/usr/bin/env bash
-# Several hosts on one machine: network namespaces, each with a name, an address and a link of its own to a switch, on
-# which a distributed mesh is made over TCP as on a cluster. The last host is slower than the others, and they share out
-# the work as they go. The mesh is checked against the input and compared with the one that a single host makes.
+# Several hosts on one machine: network namespaces, each with its own name, address and link to a switch, which make a
+# distributed mesh over TCP as on a cluster. The last host is slower than the others, and work is balanced during the
+# run. The mesh is checked against the input and compared with the one that a single host makes.
 #   scripts/hosts.sh [OPTIONS]
 # Options:
-#   --hosts N           so many hosts, from 2 to 99 (3)
-#   --slots N           ranks on each (1)
-#   --latency MS        from host to host, in milliseconds (0.2)
+#   --hosts N           number of hosts, from 2 to 99 (3)
+#   --slots N           ranks on each host (1)
+#   --latency MS        latency between hosts, in milliseconds (0.2)
 #   --rate MBIT         bandwidth of each link, in Mbit/s (1000)
-#   --loss PERCENT      share of the packets that get lost (0.1)
-#   --slow FRACTION     share of its time that the last host works (0.5)
-#   --balance POLICY    who decides what moves between ranks: none, zoltan, stealing, diffusion or greedy (stealing)
-#   --input FILE.poly   what to mesh (a bay, generated)
-#   --area AREA         no triangle is larger than this (1000; needed with --input)
-#   --subdomains N      the pieces that ranks work on and that move between them (20 a rank)
-#   --presplit MODE     on: shared edges are cut to size before refinement; off: while it goes on, and the ranks tell
-#                       each other, so that no two runs make the same mesh (on)
-#   -o, --output FOLDER where the results go (demo/hosts in the project)
-#   --program FILE      the driftmesh to run (build/release/driftmesh in the project)
+#   --loss PERCENT      percentage of packets that are lost (0.1)
+#   --slow FRACTION     fraction of the time that the last host works (0.5)
+#   --balance POLICY    load balancing policy: none, zoltan, stealing, diffusion or greedy (stealing)
+#   --input FILE.poly   the domain (a generated bay)
+#   --area AREA         largest area of a triangle (1000; required with --input)
+#   --subdomains N      number of subdomains, which can move between ranks (20 per rank)
+#   --presplit MODE     on: shared edges are split to size before refinement; off: during refinement, with messages
+#                       between the ranks, so that each run makes a different mesh (on)
+#   -o, --output FOLDER folder for the results (demo/hosts in the project)
+#   --program FILE      the program (build/release/driftmesh in the project)
 #   --dry-run           print the commands instead of running them
-# The hosts live in namespaces of their own, the switch too: the machine's network is not touched, and when the script
-# ends in whatever way, the kernel takes all of it down. Linux alone; as root, or where users may have namespaces.
+# Hosts and switch have their own namespaces: the machine's network is not touched, and the kernel removes everything when
+# the script ends, however it ends. Only on Linux; as root, or where users may create namespaces.
 # Exit code: 0 done, 1 something failed, 2 wrong usage, 77 not possible on this machine.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
-PATH=$PATH:/usr/sbin:/sbin # where ip, tc and nft are, but not for every user
+PATH=$PATH:/usr/sbin:/sbin # the location of ip, tc and nft, not in every user's PATH
 
 fail() { # fail CODE MESSAGE
   printf 'hosts.sh: %s\n' "$2" >&2
@@ -81,17 +81,17 @@ subdomains=${subdomains:-$((20 * ranks))}
 whole --subdomains "$subdomains" "$ranks" 1000000
 [[ $presplit == on || $presplit == off ]] || fail 2 "--presplit is on or off, not '$presplit'"
 
-# ---- Outside: a place of its own for everything that follows, and its end ----
+# ---- Outside: create the namespaces for everything that follows, and clean up ----
 
 need() { # need COMMAND...
   local command
   for command in "$@"; do
-    command -v "$command" >/dev/null || fail 77 "there is no '$command' here; run scripts/setup.sh build hosts"
+    command -v "$command" >/dev/null || fail 77 "'$command' is not installed; run scripts/setup.sh build hosts"
   done
 }
 
-# What keeps the hosts apart from the machine: network, mounts, host name and processes are their own. The first process
-# in there takes all others with it when it ends, and the namespaces end with the last process.
+# Separates the hosts from the machine: they have their own network, mounts, host name and processes. When the first
+# process inside ends, all others end with it, and the namespaces end with the last process.
 apart=(setpriv --pdeathsig KILL unshare --net --mount --uts --pid --fork --kill-child --mount-proc)
 ((EUID == 0)) || apart+=(--user --map-root-user)
 
@@ -99,8 +99,8 @@ if [[ $dry == no && -z ${DRIFTMESH_HOSTS_WORK:-} ]]; then
   need setpriv unshare ip tc mpirun
   [[ -x $program ]] || fail 1 "there is no $program; build it, as scripts/demo.sh does, or name it with --program"
   if ! "${apart[@]}" true 2>/dev/null; then
-    ((EUID == 0)) || fail 77 "this machine gives users no namespaces; run this as root"
-    fail 77 "namespaces cannot be made here; in a container they need more rights (docker run --privileged)"
+    ((EUID == 0)) || fail 77 "users may not create namespaces on this machine; run this as root"
+    fail 77 "namespaces cannot be created; in a container, they need more privileges (docker run --privileged)"
   fi
   work=$(mktemp -d)
   export DRIFTMESH_HOSTS_WORK=$work
@@ -109,7 +109,7 @@ if [[ $dry == no && -z ${DRIFTMESH_HOSTS_WORK:-} ]]; then
   take_down() {
     trap '' INT TERM
     if [[ -n $inside ]]; then
-      # First in peace, so that half-written files go away; who is still there after some seconds, by force.
+      # First politely, so that incomplete files are removed; what is left after some seconds is killed.
       kill -TERM -- "-$inside" 2>/dev/null || true
       for _ in {1..50}; do
         kill -0 "$inside" 2>/dev/null || break
@@ -138,7 +138,7 @@ fi
 work=${DRIFTMESH_HOSTS_WORK:-/tmp/hosts}
 trap 'exit 143' TERM
 
-print() { # print COMMAND...: as one would type it
+print() { # print COMMAND...: as a user would type it
   local word
   printf '$'
   for word in "$@"; do
@@ -146,23 +146,23 @@ print() { # print COMMAND...: as one would type it
   done
   echo
 }
-# show COMMAND...: what a user would run is printed, then run.
+# show COMMAND...: prints the command as a user would run it, then runs it.
 show() {
   printf '\n'
   [[ $dry == yes ]] || print "$@"
   "$@"
 }
-# fill FILE: writes what comes in.
+# fill FILE: writes its input to the file.
 fill() { cat >"$1"; }
 driftmesh() { "$program" "$@"; }
-# mpirun and what it starts: on the first host, or whichever it says.
+# mpirun and its processes run on the first host, or on the one they name.
 mpirun() { ip netns exec host1 unshare --uts sh -c 'hostname host1 && exec mpirun "$@"' sh "$@"; }
 
 if [[ $dry == yes ]]; then
   for command in cd chmod driftmesh ip mkdir modprobe mount mpirun tc; do
     eval "$command() { print $command \"\$@\"; }"
   done
-  fill() { printf '# %s holds:\n' "$1" && sed 's/^/#   /'; }
+  fill() { printf '# %s contains:\n' "$1" && sed 's/^/#   /'; }
   tee() { cat; }
 fi
 
@@ -171,7 +171,7 @@ address() { echo "10.0.0.${1#host}"; }
 
 make_hosts() {
   local host port
-  # The names of network namespaces are files in /run/netns. In here, /run is another one than the machine's.
+  # The names of network namespaces are files in /run/netns. Inside, /run is not that of the machine.
   mount -t tmpfs tmpfs /run
   mkdir /run/netns
   {
@@ -189,7 +189,7 @@ make_hosts() {
       fail 77 "this kernel has no virtual links (module veth)"
     ip link set "$port" master switch up
     ip -n "$host" link set lo up
-    # Packets as on a wire, not many joined into one: what gets lost is one packet.
+    # Packets as on a wire, not several merged into one: each loss is one packet.
     ip -n "$host" link set eth0 gso_max_segs 1 up
     ip -n "$host" address add "$(address "$host")/24" dev eth0
   done
@@ -207,35 +207,35 @@ lose_packets() {
     nft add chain bridge loss forward '{ type filter hook forward priority 0; }' &&
     nft add rule bridge loss forward numgen random mod 100000 '<' "$of_100000" drop
 }
-# Makes the links as slow, narrow and lossy as was asked for. Where the kernel has no netem others do what they can, and
-# what is left undone is said.
+# Sets latency, bandwidth and loss of the links as requested. If the kernel has no netem, other tools do what they can,
+# and the script says what they cannot do.
 shape_links() {
   modprobe -q sch_netem 2>/dev/null || true
   if queue netem delay "${latency}ms" rate "${rate}mbit" loss "$loss%" 2>/dev/null; then
-    echo "links: latency $latency ms, $rate Mbit/s, $loss % of the packets lost"
+    echo "links: latency $latency ms, $rate Mbit/s, $loss % packet loss"
     return
   fi
   echo "links: this kernel has no netem (module sch_netem), so"
   echo "  the latency is the machine's own, not $latency ms,"
   if queue tbf rate "${rate}mbit" burst "$((10000 + 500 * rate))" latency 50ms 2>/dev/null; then
-    echo "  $rate Mbit/s are kept by tbf,"
+    echo "  the bandwidth of $rate Mbit/s is set by tbf,"
   else
-    echo "  the bandwidth is the machine's own, not $rate Mbit/s, for there is no tbf either,"
+    echo "  the bandwidth is the machine's own, not $rate Mbit/s (there is no tbf either),"
   fi
   if lose_packets 2>/dev/null; then
-    echo "  $loss % of the packets are lost by nftables"
+    echo "  and $loss % packet loss is set by nftables"
   else
-    echo "  no packet is lost, for there are no nftables either (scripts/setup.sh hosts)"
+    echo "  and no packets are lost (there is no nftables either; scripts/setup.sh hosts)"
   fi
 }
 
-# What a cluster has: a list of its hosts, and a way to start a program on another one. That would be ssh.
+# What a cluster has: a list of its hosts, and a way to start a program on another host, usually ssh.
 make_cluster() {
   local host
   for host in $(names); do echo "$host slots=$slots"; done | fill "$folder/hostfile"
   fill "$work/agent" <<'AGENT'
 #!/bin/sh
-# agent HOST COMMAND...: like ssh, joins the words of the command, and a shell there takes them apart.
+# agent HOST COMMAND...: like ssh, joins the words of the command, which a shell on the host splits again.
 host=$1
 shift
 exec ip netns exec "$host" unshare --uts sh -c 'hostname "$1" && eval "exec $2"' sh "$host" "$*"
@@ -245,13 +245,13 @@ AGENT
 
 # ---- The runs ----
 
-# Ranks talk by TCP alone. The last line is for more ranks than cores, for Open MPI takes each host for a machine that has
-# all the cores.
+# Ranks communicate only by TCP. The last line is for more ranks than cores, since Open MPI takes each host for a machine
+# with all the cores.
 on_all_hosts=(mpirun --hostfile hostfile -n "$ranks" --bind-to none
   --mca plm_rsh_agent "$work/agent" --mca oob_tcp_if_include eth0
   --mca pml ob1 --mca btl tcp,self --mca btl_tcp_if_include eth0
   --mca mpi_yield_when_idle 1)
-# What each rank works of its time.
+# The fraction of its time that each rank works.
 drags() {
   local rank
   for ((rank = 0; rank < ranks - slots; ++rank)); do printf '1,'; done
@@ -260,7 +260,7 @@ drags() {
 }
 digest_of() { sed -n 's/.*"digest": "\([0-9a-f]*\)".*/\1/p' "$1"; }
 interface_splits() { awk '/"interface_splits":/ { sum += $2 } END { print sum + 0 }' "$@"; }
-# What each host has sent so far: its name, bytes, packets, and segments of TCP that it sent again.
+# What each host has sent so far: its name, bytes, packets, and retransmitted TCP segments.
 # shellcheck disable=SC2016
 sent() {
   local host
@@ -281,16 +281,16 @@ say "$hosts hosts and a switch"
 make_hosts
 shape_links
 make_cluster
-# What Open MPI leaves on a machine while it runs goes away with the rest.
+# Temporary files of Open MPI are removed with the rest.
 mkdir "$work/tmp"
 export TMPDIR=$work/tmp
 
-say "Who is there"
+say "The hosts"
 show "${on_all_hosts[@]}" --tag-output hostname | tee "$work/who"
 [[ $dry == yes || $(grep -o 'host[0-9]*$' "$work/who" | sort -u | wc -l) == "$hosts" ]] ||
   fail 1 "not every host has answered"
 
-say "A mesh by all hosts, where the last one works $slow of its time"
+say "A mesh made by all hosts, of which the last works $slow of its time"
 if [[ -z $input ]]; then
   input=bay.poly
   show driftmesh generate bay -o bay.poly
@@ -300,10 +300,10 @@ show "${on_all_hosts[@]}" "$program" mesh "$input" --area "$area" --subdomains "
   --balance "$balance" --drag "$(drags)" -o hosts.pvtu --json hosts.json
 [[ $dry == yes ]] || sent >>"$work/sent"
 
-say "Is it a mesh of the input?"
+say "Check the mesh against the input"
 show driftmesh check hosts.pvtu "$input" --area "$area" --angle 20 --quiet
 
-say "The same by one host"
+say "The same mesh made by one host"
 show driftmesh mesh "$input" --area "$area" --subdomains "$subdomains" --presplit "$presplit" --json one-host.json --quiet
 [[ $dry == no ]] || exit 0
 together=$(digest_of hosts.json)
@@ -312,14 +312,14 @@ splits=$(interface_splits hosts.json one-host.json)
 printf 'digest of the mesh: %s by %d hosts, %s by one\n' "$together" "$hosts" "$alone"
 if ((splits > 0)); then
   echo "The two meshes may differ: edges between subdomains were split while refining, $splits times in both runs"
-  echo "(docs/guarantees.md). Cut to size before (--presplit on), for small triangles (--area), they are not."
+  echo "(docs/guarantees.md). With --presplit on and small triangles (--area), they are split beforehand."
 elif [[ -z $alone || $together != "$alone" ]]; then
-  fail 1 "$hosts hosts and one have not made the same mesh"
+  fail 1 "$hosts hosts and one host did not make the same mesh"
 fi
 
-say "What the hosts sent"
+say "Network traffic"
 awk '!($1 in bytes) { bytes[$1] = $2; packets[$1] = $3; again[$1] = $4; next }
-  { printf "%s: %.2f MB in %d packets, %d sent again\n", $1, ($2 - bytes[$1]) / 1e6, $3 - packets[$1], $4 - again[$1] }
+  { printf "%s: %.2f MB in %d packets, %d retransmitted\n", $1, ($2 - bytes[$1]) / 1e6, $3 - packets[$1], $4 - again[$1] }
   $3 == packets[$1] { silent = 1 }
-  END { exit silent }' "$work/sent" || fail 1 "a host has sent nothing: the ranks did not talk over the links"
-printf '\nhosts.pvtu and what the ranks said (hosts.json) are in %s\n' "$folder"
+  END { exit silent }' "$work/sent" || fail 1 "a host has sent nothing: the ranks did not communicate over the links"
+printf '\nhosts.pvtu and the record of the run (hosts.json) are in %s\n' "$folder"

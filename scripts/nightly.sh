@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A million adversarial schedules of real meshing with driftmesh-sim, on all cores: prints the failing seeds, and totals of
-# what the schedules did. The exit code is 0 if none fails.
+# what the schedules achieved. The exit code is 0 if none fails.
 #   scripts/nightly.sh [--seeds FIRST..LAST] [--program PATH]      --program: no build first
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
@@ -12,7 +12,7 @@ program=
 while [[ $# -gt 0 ]]; do
   case "$1" in
     --seeds)
-      [[ ${2-} =~ ^([0-9]+)\.\.([0-9]+)$ ]] || { echo "nightly.sh: --seeds takes FIRST..LAST, as in 1..5000" >&2; exit 2; }
+      [[ ${2-} =~ ^([0-9]+)\.\.([0-9]+)$ ]] || { echo "nightly.sh: --seeds must be FIRST..LAST, such as 1..5000" >&2; exit 2; }
       first=${BASH_REMATCH[1]} last=${BASH_REMATCH[2]}
       shift
       ;;
@@ -39,7 +39,7 @@ fi
 logs=$(mktemp -d)
 trap 'rm -rf "$logs"' EXIT
 
-# Parts small enough that all cores finish together; each ends with its totals.
+# Parts small enough for all cores to finish together; each ends with its totals.
 part=2000
 say "Seeds $first to $last on $jobs cores"
 result=0

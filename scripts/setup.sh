@@ -4,7 +4,7 @@
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 
-# The one list of what the project needs from Debian 12.
+# The packages that the project needs from Debian 12.
 packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev \

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds and runs every test: optimized with warnings as errors, then under the address and undefined-behavior
-# sanitizers, then clang-tidy and the formatting. The last line is "N passed, N failed"; the exit code says it too.
-#   scripts/test.sh [--quick]        --quick leaves the sanitizers out
+# sanitizers, then clang-tidy and the formatting. The last line is "N passed, N failed"; the exit code is 0 if none failed.
+#   scripts/test.sh [--quick]        --quick skips the sanitizers
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 cd "$project_root"
@@ -24,7 +24,7 @@ done
 passed=0
 failed=0
 
-# one NAME COMMAND...: a check that counts as one test.
+# one NAME COMMAND...: runs a check that counts as one test.
 one() {
   local name=$1
   shift

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Looks for mistakes in the sources of the program and its library with clang-tidy, by the checks in .clang-tidy.
-#   scripts/tidy.sh [PRESET]        (default: ci)   the preset of a build folder that has been configured
+# Checks the sources of the program and its library with clang-tidy, as configured in .clang-tidy.
+#   scripts/tidy.sh [PRESET]        (default: ci)   the preset of a configured build folder
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 cd "$project_root"
@@ -22,7 +22,7 @@ if [[ ! -s $database ]]; then
   exit 2
 fi
 
-# What the boxes are compiled from: sources that are compiled together are read together, in a third of the time.
+# The sources of the boxes: those that are compiled together are checked together, in a third of the time.
 sources() {
   python3 -c '
 import json, re, sys

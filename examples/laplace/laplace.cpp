@@ -1,11 +1,11 @@
 // A solver that makes its own distributed mesh: the Laplace equation on a rectangle with a round hole, linear elements,
-// conjugate gradients. Every rank works on its piece of the mesh; sums over shared vertices join them.
+// conjugate gradients. Every rank works on its piece of the mesh; values at shared vertices are summed over the pieces.
 //
 //   mpiexec -n 4 laplace [largest triangle area]
 //
 // On the boundary the solution is exp(x) cos(y), which is harmonic, so it is known everywhere. The program meshes
-// twice, the second time with a quarter of the area, and succeeds if the error falls as theory says: with the square of
-// the edges, so to about a quarter.
+// twice, the second time with a quarter of the area, and succeeds if the error decreases as theory predicts: with the
+// square of the edge length, so to about a quarter.
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ double exact(const Point& p) {
   return std::exp(p.x) * std::cos(p.y);
 }
 
-/// What a rank needs of its neighbors: sums over all pieces that have a vertex, and over all vertices.
+/// Communication with neighbors: sums over all pieces that have a vertex, and over all vertices.
 class Shared {
  public:
   explicit Shared(const DistributedPiece& piece) : piece_(piece) {
@@ -95,7 +95,7 @@ class Laplacian {
  private:
   using Element = std::array<std::array<double, 3>, 3>;
 
-  /// Gradients of the hat functions are the opposite edges, turned by 90 degrees, over twice the area.
+  /// The gradients of the hat functions are the opposite edges, rotated by 90 degrees, divided by twice the area.
   [[nodiscard]] Element element(const std::array<std::int32_t, 3>& triangle) const {
     std::array<Point, 3> edge;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -116,7 +116,7 @@ class Laplacian {
   std::vector<Element> elements_;
 };
 
-/// Conjugate gradients from x, whose boundary values stay. Returns the number of steps.
+/// Conjugate gradients starting from x, whose boundary values do not change. Returns the number of steps.
 int solve(Laplacian& a, const Shared& shared, Values& x) {
   Values residual(x.size()), product(x.size());
   a.apply(x, residual);
@@ -169,6 +169,6 @@ int main(int argc, char** argv) {
   const bool converges = fine < 0.35 * coarse && fine > 0.15 * coarse;
   MPI_Finalize();
   if (!converges)
-    std::fprintf(stderr, "the error fell to %.2f of the first one: expected is a quarter\n", fine / coarse);
+    std::fprintf(stderr, "the error decreased to %.2f of the first one; a quarter is expected\n", fine / coarse);
   return converges ? EXIT_SUCCESS : EXIT_FAILURE;
 }

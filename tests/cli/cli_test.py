@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program end to end: generate, mesh, check, plot, convert; and what it says when something is wrong.
+"""The program end to end: generate, mesh, check, plot, convert; and its error messages.
 
 usage: cli_test.py DRIFTMESH [unittest options]
 """
@@ -357,7 +357,7 @@ class Errors(Cli):
         self.refuse("mesh", "comb.poly", *mesh[2:], code=3, says=["stopped at 1,", "the 1,000 of --max-triangles"])
         self.assertEqual(self.files(), ["comb.poly", "square.poly"])
 
-    def test_what_cannot_apply_is_refused_and_not_ignored(self):
+    def test_options_that_do_not_apply_are_rejected_and_not_ignored(self):
         self.write("square.poly", SQUARE)
         for options, place in ((["--balance", "zoltan"], "mpirun"), (["--speeds", "1,2,3"], "mpirun"),
                                (["--balance-with", "foo=1"], "mpirun"), (["--sleep"], "--subdomains"),
@@ -382,7 +382,7 @@ class Errors(Cli):
     def digest_of(self, *arguments):
         return re.search(r"^digest +([0-9a-f]{16})$", self.succeed(*arguments), re.MULTILINE).group(1)
 
-    def test_every_setting_of_ranks_can_be_said_to_mesh(self):
+    def test_mesh_has_options_for_all_settings_of_ranks(self):
         self.write("square.poly", SQUARE)
         result = self.on_ranks(2, "mesh", "square.poly", "--area", "0.005", "-n", "12", "--slice", "50", "--balance", "zoltan",
                                "--balance-look", "0.001", "--balance-gap", "0.002", "--balance-interval", "0.1",
@@ -468,7 +468,7 @@ class Errors(Cli):
 
 
 class Mesh(Cli):
-    """What `driftmesh mesh` says and records."""
+    """The summary and the record of `driftmesh mesh`."""
 
     def digest(self, text):
         return re.search(r"^digest +([0-9a-f]{16})$", text, re.MULTILINE).group(1)
@@ -540,7 +540,7 @@ class Mesh(Cli):
                           self.succeed("check", f"{ranks}.pvtu", "bay.poly", "--area", "20000", "--angle", "20"))
         self.assertEqual(len(digests), 1)
 
-    def test_dealing_area_leaves_a_corner_of_small_triangles_to_one_rank(self):
+    def test_mapping_by_area_leaves_a_corner_of_small_triangles_to_one_rank(self):
         (self.folder / "square.poly").write_text(SQUARE)
         largest = []
         for options in [], ["--map-by-area"]:
@@ -552,7 +552,7 @@ class Mesh(Cli):
         self.assertLess(largest[0], 0.6)
         self.assertGreater(largest[1], 0.85)
 
-    def test_the_protocol_in_full_makes_a_mesh_that_check_accepts(self):
+    def test_the_full_protocol_makes_a_mesh_that_check_accepts(self):
         self.succeed("generate", "holes", *KINDS["holes"], "-o", "holes.poly")
         self.succeed("decompose", "holes.poly", "-n", "12", "-o", "holes.decomposition")
         for options in ["--presplit", "off"], ["--presplit", "off", "--aggregation", "1", "--order", "backlog"]:
@@ -564,7 +564,7 @@ class Mesh(Cli):
             for mesh in "holes.pvtu", "holes.msh":
                 self.succeed("check", mesh, "holes.poly", "--area", "0.01", "--angle", "20")
 
-    def test_errors_on_many_ranks_are_said_once(self):
+    def test_errors_on_many_ranks_are_printed_once(self):
         for arguments, code, message in ((["mesh", "nothing.poly"], 1, "nothing.poly: cannot open"),
                                          (["mesh", "--such"], 2, "unknown option --such"),
                                          (["mesh", "square.poly", "--decomposition", "no.parts"], 1, "no.parts: cannot"),
@@ -577,7 +577,7 @@ class Mesh(Cli):
             self.assertEqual(result.stderr.count("driftmesh: "), 1, result.stderr)
             self.assertIn(message, result.stderr)
 
-    def test_an_error_of_one_rank_alone_is_said(self):
+    def test_an_error_of_one_rank_alone_is_printed(self):
         result = subprocess.run([program.PATH, "mesh", "square.poly", "--config", "no.yaml"], cwd=self.folder, text=True,
                                 capture_output=True, timeout=MESHER_SECONDS, check=False,
                                 env=dict(RANKS_ENVIRONMENT, OMPI_COMM_WORLD_RANK="1"))
@@ -629,10 +629,10 @@ class Mesh(Cli):
 
 
 class Experiments(Cli):
-    """driftmesh run, and every experiment that is shipped, shrunk."""
+    """driftmesh run, and every shipped experiment at a small size."""
 
     CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
-    # What makes each of them small.
+    # Settings that make each of them small.
     SHRUNK = {
         "first-run": ["bounds.triangles=2e4"],
         "aggregation": ["bounds.triangles-per-rank=2e3", "decomposition.subdomains-per-rank=10", "cluster.ranks=4",
@@ -686,12 +686,12 @@ class Experiments(Cli):
         self.assertGreaterEqual(int(some["split_messages"]), int(all_together["split_messages"]))
         self.assertGreater(float(one["sending"]), float(all_together["sending"]))
 
-    def test_the_experiment_in_full_does_the_same_again(self):
+    def test_the_complete_experiment_reproduces_itself(self):
         self.run_config("first-run", *self.SHRUNK["first-run"], folder="first")
         self.succeed("run", "first/experiment.yaml", "-o", "again", "--quiet")
         self.assertEqual(self.table("first"), self.table("again"))
 
-    def test_an_experiment_in_full_finds_its_input_from_its_folder(self):
+    def test_a_complete_experiment_finds_its_input_from_its_folder(self):
         self.succeed("generate", "pipe", "-o", "pipe.poly")
         self.write("small.yaml", "input: {file: pipe.poly}\nbounds: {triangles: 1e4}\ncluster: {ranks: 2}\n")
         self.succeed("run", "small.yaml", "-o", "first/try", "--quiet")
@@ -762,7 +762,7 @@ class Experiments(Cli):
                 self.assertLess(move["left"], move["arrived"])
                 owners[move["subdomain"]] = move["to"]
             self.assertEqual(owners, cluster["owners_after"])
-        # A rank that works a twentieth of its time makes no million triangles a second, whatever else goes on here.
+        # A rank that works a twentieth of its time makes less than a million triangles per second, whatever the load.
         record = json.loads((self.folder / "real" / "run-1.json").read_text())
         self.assertAlmostEqual(record["cluster"]["speeds"][0], 20 * record["cluster"]["speeds"][1], delta=1)
         dragged = record["parts"]["ranks"][1]
@@ -775,7 +775,7 @@ class Experiments(Cli):
         self.assertEqual(self.table()[0]["messages"], "0")
 
     def test_zoltan_may_have_started_mpi_before(self):
-        # Its parameters are tried out when the experiment is read.
+        # Its parameters are checked when the experiment is read.
         self.run_config("two-ranks", "cluster.kind=real", "cluster.ranks=0", "cluster.drag=[]", "bounds.triangles=2e4",
                         "balance.policy=zoltan", "balance.parameters={IMBALANCE_TOL: '1.1'}")
         self.assertEqual(self.table()[0]["ranks"], "1")
@@ -793,7 +793,7 @@ class Experiments(Cli):
                             "decomposition: {subdomains-per-rank: 50000}\n")
         self.refuse("run", config, says=["from 1 to 10000000, not 2147483647"])
 
-    def test_what_ranks_cannot_run_is_said_once_with_its_place(self):
+    def test_settings_that_do_not_fit_the_ranks_are_reported_once_with_their_place(self):
         config = self.write("both.yaml", "input: {generate: pipe}\nbounds: {triangles: 2e4}\ncluster:\n  kind: simulated\n"
                             "  ranks: 3\n  drag: [1, 1, 0.5]\n")
         real = ["--set", "cluster.kind=real"]
@@ -828,7 +828,7 @@ class Experiments(Cli):
         self.assertEqual(speeds[1], speeds[2])
         self.assertEqual(self.table("slow")[0]["seconds"], self.table("both")[0]["seconds"])
 
-    def test_the_table_says_what_each_policy_recovers(self):
+    def test_the_table_shows_what_each_policy_recovers(self):
         said = self.run_config("two-ranks", "bounds.triangles=2e5", "decomposition.subdomains=60",
                                "decomposition.skew=[0, 0.5]", "balance.policy=[stealing, none]")
         self.assertIn("recovered %", said)
@@ -871,7 +871,7 @@ class Experiments(Cli):
                                      record["cluster"]["seconds"] / phases * (1 + 1e-9))
                 said += sum(edge["messages"] for edge in phase["communications"])
             worked = sum(task["time"] for phase in file["phases"] for task in phase["tasks"])
-            # What takes no slice of work, such as taking note of points, is in computing alone.
+            # Work outside of slices, such as recording points, counts only as computing.
             self.assertAlmostEqual(worked, ranks[rank]["seconds"]["computing"], delta=1e-9 + 1e-3 * worked)
         self.assertEqual(said, sum(rank["interface_splits"] for rank in ranks))
         for number in range(phases):  # each subdomain is one task, wherever it is
@@ -893,7 +893,7 @@ class Experiments(Cli):
             self.assertIs(type(entity["collection_id"]), int)
 
     def check_lb_phase(self, phase, rank):
-        """The structure that vt's validator asks for: these fields, of these types."""
+        """The structure that vt's validator requires: these fields, of these types."""
         self.assertEqual(set(phase), {"id", "tasks", "communications"})
         for task in phase["tasks"]:
             self.assertLessEqual(set(task), {"attributes", "entity", "node", "resource", "subphases", "time"})
@@ -911,7 +911,7 @@ class Experiments(Cli):
         self.assertIn("# 11 runs", said)
         self.assertEqual(self.files(), [])
 
-    def test_what_is_wrong_is_told_before_anything_runs(self):
+    def test_errors_are_reported_before_anything_runs(self):
         self.write("wrong.yaml", "input: {generate: pipe}\nclutser: {ranks: 2}\n")
         self.refuse("run", "wrong.yaml", says=["wrong.yaml:2:1", "'cluster"])
         self.refuse("run", "missing.yaml", says=["missing.yaml"])
@@ -920,7 +920,7 @@ class Experiments(Cli):
         self.refuse("config", code=2)
         self.assertEqual(self.files(), ["wrong.yaml"])
 
-    def test_the_schema_is_one(self):
+    def test_the_schema_is_valid(self):
         schema = json.loads(self.succeed("config", "--schema"))
         self.assertEqual(schema["properties"]["run"]["properties"]["order"]["enum"], ["given", "largest", "backlog"])
         self.assertIn("| `bounds.angle` |", self.succeed("config", "--keys"))

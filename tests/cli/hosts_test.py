@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/hosts.sh: several hosts on one machine. What it says of its options, what it makes, and that nothing of it is
+"""scripts/hosts.sh: several hosts on one machine. Its options, its results, and that nothing of it is
 left behind, however it ends. Where hosts cannot be made, the runs exit with 77.
 
 usage: hosts_test.py HOSTS_SH DRIFTMESH Options|Runs
@@ -46,14 +46,14 @@ class Options(Case):
         for option in ("--hosts", "--latency", "--rate", "--loss", "--slow", "--dry-run"):
             self.assertIn(option, said)
 
-    def test_wrong_options_are_told(self):
+    def test_wrong_options_are_reported(self):
         self.assertIn("unknown option '--host'", self.run_script("--host", "3", code=2))
         self.assertIn("--hosts is a whole number from 2 to 99, not 'many'", self.run_script("--hosts", "many", code=2))
         self.assertIn("--loss is a number from 0 to 50, not '-1'", self.run_script("--loss", "-1", code=2))
         self.assertIn("--slow needs a value", self.run_script("--slow", code=2))
         self.assertIn("--input needs --area", self.run_script("--input", "a.poly", code=2))
 
-    def test_a_missing_program_is_told(self):
+    def test_a_missing_program_is_reported(self):
         self.assertIn("no /nowhere/driftmesh", self.run_script("--program", "/nowhere/driftmesh", code=1))
 
     def test_a_dry_run_prints_and_does_nothing(self):
@@ -83,7 +83,7 @@ class Runs(Case):
         return sorted(os.listdir("/sys/class/net")), sorted(os.listdir(names)) if names.exists() else None
 
     def processes(self):
-        """Those that the script has started, by their environment."""
+        """The processes that the script has started, identified by their environment."""
         found = []
         for process in pathlib.Path("/proc").glob("[0-9]*"):
             try:
@@ -94,14 +94,14 @@ class Runs(Case):
         return found
 
     def processes_soon(self):
-        """What is left once the kernel has had time to end what it was told to."""
+        """What is left after the kernel has had time to end everything."""
         for _ in range(100):
             if not self.processes():
                 break
             time.sleep(0.1)
         return self.processes()
 
-    def test_hosts_make_the_mesh_that_one_makes(self):
+    def test_several_hosts_make_the_same_mesh_as_one(self):
         subprocess.run([PROGRAM, "generate", "pipe", "-o", self.folder / "pipe.poly"], check=True)
         said = self.run_script("--input", self.folder / "pipe.poly", "--area", "2", "--loss", "1")
         for host in ("host1", "host2", "host3"):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Meshes in pieces, written here byte by byte: what the program says of them, and what it makes of them. And those that
+"""Meshes in pieces, written here byte by byte: how the program checks and converts them. And those that
 the program writes from several ranks, read here with an XML parser and taken apart.
 
 usage: pieces_test.py DRIFTMESH [unittest options]
@@ -185,7 +185,7 @@ class Piece:
 
 
 class Ranks(unittest.TestCase):
-    """What several ranks write, against what can be known without the program."""
+    """The files that several ranks write, checked independently of the program."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -235,7 +235,7 @@ class Ranks(unittest.TestCase):
                 sides.update([(a, b), (b, c), (c, a)])
             lines.update(frozenset(line) for line, _ in piece.lines)
         self.assertEqual(set(sides.values()), {1})
-        # What has no triangle on its other side is the boundary, all of it and nothing else.
+        # Exactly the edges with one triangle are the boundary.
         boundary = {frozenset(side) for side in sides if side[::-1] not in sides}
         self.assertEqual(boundary, lines)
         edges = len({frozenset(side) for side in sides})
@@ -243,7 +243,7 @@ class Ranks(unittest.TestCase):
         self.assertEqual(len(place) - edges + triangles, 1 - 12)  # Euler, for 12 holes
         hole = 12 / 2 * math.sin(2 * math.pi / 12) * 0.3 ** 2
         self.assertAlmostEqual(area, 12 * (1 - hole), places=9)
-        # Between ranks there is something to weld.
+        # Ranks share points.
         self.assertGreater(sum(len(piece.points) for piece in pieces), len(place) + 20)
 
     def test_subdomains_tell_the_pieces_apart(self):

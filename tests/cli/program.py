@@ -1,4 +1,4 @@
-"""The program as tests call it: in a folder of its own that is empty at first.
+"""Runs the program for tests, each in a folder of its own that is empty at first.
 
 A test ends with program.main(), and is started as: NAME_test.py DRIFTMESH [unittest options]
 """
@@ -27,7 +27,7 @@ SQUARE = """4 2 0 0
 0
 """
 
-# More ranks than cores, and root in a container, must be allowed by name. Open MPI also leaks on purpose.
+# More ranks than cores, and root in a container, must be allowed explicitly. Open MPI also leaks on purpose.
 RANKS_ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                          OMPI_MCA_rmaps_base_oversubscribe="1", ASAN_OPTIONS="detect_leaks=0")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Help, the manual page and completion, which come from one description of the commands: they name the same, man and
+"""Help, the manual page and completion, which derive from the same description of the commands: they agree, man and
 shells understand them, and shells complete what they should.
 
 usage: shells_test.py DRIFTMESH [unittest options]
@@ -19,7 +19,7 @@ COMMANDS = ["check", "config", "convert", "decompose", "generate", "help", "mesh
 
 class Help(Cli):
     def commands(self):
-        """Every command with what its help prints."""
+        """Every command with its help."""
         for words in [[], *([c] for c in COMMANDS), *(["generate", kind] for kind in KINDS)]:
             yield words, self.succeed(*words, "--help")
 
@@ -70,7 +70,7 @@ class Help(Cli):
 
 
 class Completion(Cli):
-    """Each shell completes the same."""
+    """All shells complete the same words."""
 
     CASES = {
         "driftmesh me": ["mesh"],
@@ -129,7 +129,7 @@ class Completion(Cli):
                 found = self.run_shell("fish", "--no-config", "-c", f"source {script}; complete -C '{line}'")
                 self.assertEqual([candidate.split("\t")[0] for candidate in found], expected)
 
-    # What zsh gives to completion functions. They offer candidates, and zsh takes those that fit what has been typed.
+    # The variables that zsh gives to completion functions. They offer candidates, and zsh keeps those that match.
     ZSH = """
 compdef() { : }
 compadd() { shift; print -l -- $* }

@@ -29,7 +29,7 @@ class Streams(Cli):
         return result.stdout, errors
 
     def shell(self, line, code=0):
-        """What a shell says on standard error of a line with `driftmesh` in it."""
+        """The standard error of a shell that runs a line with `driftmesh` in it."""
         result = subprocess.run(["bash", "-c", f"driftmesh() {{ '{program.PATH}' \"$@\"; }}\n{line}"], cwd=self.folder,
                                 capture_output=True, text=True, timeout=MESHER_SECONDS, check=False)
         self.assertEqual(result.returncode, code, f"{line}\n{result.stdout}{result.stderr}")
@@ -86,7 +86,7 @@ class Dashes(Streams):
         mesh, said = self.pipe("mesh", "-", "--quiet", "-o", "-", given=SQUARE.encode())
         self.assertEqual((mesh[:5], said), (b"<?xml", ""))
 
-    def test_what_a_stream_cannot_be(self):
+    def test_files_that_cannot_be_streams(self):
         mesh = ["mesh", "square.poly", "--area", "1"]
         for arguments, says in ((["-o", "-", "--json", "-"], ["--json and --output"]), (["-o", "-", "-o", "-.msh"], ["twice"]),
                                 (["-o", "-.ele"], ["-.ele", "several files"]),
@@ -107,19 +107,19 @@ class Dashes(Streams):
         _, said = self.pipe("check", "-", "-", given=mesh, code=2)
         self.assertIn("standard input can be read only once", said)
 
-    def test_wrong_input_is_told_with_its_line(self):
+    def test_wrong_input_is_reported_with_its_line(self):
         _, said = self.pipe("mesh", "-", given=SQUARE.replace("3 4 4", "3 nan 4").encode(), code=1)
         self.assertIn("driftmesh: -:4:", said)
         _, said = self.pipe("mesh", "-", given=b"0 2 0 0\n", code=1)
         self.assertIn("standard input", said)
 
-    def test_a_file_may_be_called_so(self):
+    def test_a_file_may_have_such_a_name(self):
         self.succeed("generate", "pipe", "-o", "./-")
         self.assertEqual(self.files(), ["-", "square.poly"])
 
 
 class Rim(Streams):
-    """Where what is printed leaves the program."""
+    """The program's own output."""
 
     PRINTING = ("--help", "--version", "config --schema", "config --man", "config --completion bash", "help mesh",
                 "mesh square.poly", "mesh square.poly -o - --quiet", "mesh square.poly --json -",
@@ -138,18 +138,18 @@ class Rim(Streams):
                               self.shell(f"driftmesh {arguments} >&-", code=1))
         self.assertEqual(self.files(), ["square.poly"])
 
-    def test_check_that_cannot_say_its_verdict_does_not_reject(self):
+    def test_check_that_cannot_print_its_verdict_does_not_reject(self):
         self.succeed("mesh", "square.poly", "-o", "square.vtu")
         self.shell("driftmesh check square.vtu > /dev/full", code=2)
 
-    def test_who_prints_nothing_needs_no_standard_output(self):
+    def test_a_program_that_prints_nothing_needs_no_standard_output(self):
         for streams in (">&-", "> /dev/full", "<&- >&- 2>&-"):
             with self.subTest(streams=streams):
                 self.shell(f"driftmesh mesh square.poly --area 1 --quiet -o out.vtu {streams}")
                 self.shell("driftmesh check out.vtu square.poly --area 1")
                 (self.folder / "out.vtu").unlink()
 
-    def test_what_goes_wrong_is_told_even_if_nobody_hears(self):
+    def test_errors_set_the_exit_code_even_without_standard_error(self):
         self.shell("driftmesh mesh none.poly 2>&-", code=1)
 
     def test_a_reader_that_goes_away_ends_the_program_quietly(self):
@@ -171,7 +171,7 @@ class Rim(Streams):
 
 
 class Progress(Streams):
-    """How a long run shows that it goes on. Here it waits for its input, which costs nothing."""
+    """Progress of a long run. Here it waits for its input, which costs nothing."""
 
     def wait_for_input(self, seconds, *arguments, **more):
         with subprocess.Popen([program.PATH, "mesh", "-", *arguments], cwd=self.folder, text=True,
@@ -188,7 +188,7 @@ class Progress(Streams):
     def test_no_lines_if_quiet(self):
         self.assertEqual(self.wait_for_input(6, "--quiet"), "")
 
-    def test_a_line_that_is_rewritten_on_a_terminal(self):
+    def test_a_terminal_shows_one_line_that_is_rewritten(self):
         try:
             control, terminal = os.openpty()
         except OSError as error:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The meshes of 30 runs are, to the last bit, those that were recorded: one piece, subdomains, 1 to 4 ranks, every policy,
+"""The meshes of 30 runs are the recorded ones to the last bit: one piece, subdomains, 1 to 4 ranks, every policy,
 simulated clusters. What is meant to change no mesh changes none; what is meant to is recorded anew, and says so.
 
 usage: digests_test.py DRIFTMESH [--record]

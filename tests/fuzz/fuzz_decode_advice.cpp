@@ -1,5 +1,5 @@
-// What another rank says to balance the load: refused with an error that names the sender, or understood whole, which
-// shows in that its message encodes to the same bytes. The first byte of the input is the topic.
+// Load balancing messages from another rank: rejected with an error that names the sender, or decoded completely, in
+// which case the message encodes to the same bytes. The first byte of the input is the topic.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>

@@ -1,4 +1,4 @@
-// Bytes from another rank: refused with an error that names the sender, or understood whole, which shows in that their
+// Bytes from another rank: rejected with an error that names the sender, or decoded completely, in which case the
 // message encodes to the same bytes.
 #include <cstdint>
 #include <cstdlib>

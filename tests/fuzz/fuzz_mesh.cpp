@@ -3,8 +3,8 @@
 
 #include "oracles/meshing.hpp"
 
-// Any bytes -> a small input -> repair -> mesh -> verify. Aborts when the mesh is wrong, or when refinement reaches the
-// cap without tiny features as a reason; an Error is a fine answer.
+// Any bytes -> a small input -> repair -> mesh -> verify. Aborts if the mesh is wrong, or if refinement reaches the cap
+// without tiny features as a reason; an Error is a valid outcome.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace driftmesh::oracles;
   const MeshingCase c = case_from_bytes({data, size});

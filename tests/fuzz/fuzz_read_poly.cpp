@@ -1,4 +1,4 @@
-// Text to every reader of Triangle's formats; what reads as a .poly is repaired, and repaired again.
+// Text for every reader of Triangle's formats; if it is a valid .poly, it is repaired, and repaired again.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Bytes as a small planar straight line graph whose coordinates are chosen to coincide, nearly coincide and overlap:
-// after repair, exact tests on all pairs must find it planar.
+// Bytes become a small planar straight line graph with coordinates that coincide, nearly coincide or overlap: after
+// repair, exact tests of all pairs must find it planar.
 
 #include <cmath>
 #include <cstddef>
@@ -88,7 +88,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     (void)repair(pslg);
   } catch (const InputError&) {
-    return 0;  // points on one line, or segments a few units in the last place apart that rounding never lets rest
+    return 0;  // collinear points, or segments a few units in the last place apart that rounding keeps moving
   }
   require_planar(pslg);
   require(!repair(pslg).changed());

@@ -1,5 +1,5 @@
-// What follows the header of a packed subdomain, under a header that fits: refused with an error that names the packed
-// form, or a subdomain that packs to the same bytes and whose arrays can be walked by its handles.
+// The content of a packed subdomain after a valid header: rejected with an error that names the packed form, or a
+// subdomain that packs to the same bytes and whose handles are valid.
 #include <cstdint>
 #include <cstdlib>
 #include <span>

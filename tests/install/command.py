@@ -8,7 +8,7 @@ ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_RO
 
 
 def run(*command, **how):
-    """What the command prints. Its whole output is in the failure if it fails."""
+    """The output of the command. If it fails, its whole output is in the failure."""
     done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           env=ENVIRONMENT, check=False, **how)
     if done.returncode != 0:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The Debian packages: what is in them, on what they depend, and that what they hold runs.
+"""The Debian packages: their contents and dependencies, and that their programs run.
 
 usage: package_test.py BUILD_FOLDER VERSION
 """

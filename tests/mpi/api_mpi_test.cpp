@@ -16,7 +16,7 @@
 #include "temporary_folder.hpp"
 #include "verify/verify.hpp"
 
-// What a solver calls, on real ranks.
+// The library's functions for solvers, on real ranks.
 
 using namespace driftmesh;
 
@@ -27,7 +27,7 @@ std::uint64_t sum_over_ranks(std::uint64_t value) {
   return value;
 }
 
-/// The folder that rank 0 has made, on all ranks.
+/// A folder created by rank 0, known to all ranks.
 std::string shared_path(const TemporaryFolder& folder, const std::string& name) {
   std::string path = (folder.path() / name).string();
   path.resize(200);
@@ -35,7 +35,7 @@ std::string shared_path(const TemporaryFolder& folder, const std::string& name) 
   return path.c_str();
 }
 
-/// What the call throws, if it is the same on all ranks.
+/// The message of the exception that the call throws, if it is the same on all ranks.
 template <class Call>
 std::string common_error(Call call) {
   std::string said = "nothing";
@@ -217,7 +217,7 @@ TEST_CASE("a policy of the caller's own moves subdomains") {
   int ranks = 0;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   if (ranks == 1) return;
-  // Everything to the last rank, whatever it costs.
+  // Moves everything to the last rank, whatever the cost.
   MeshOptions options{.max_area = 2e-6, .subdomains = {.count = 60}, .balance = {.look = 1e-4, .gap = 0, .gain = 0}};
   options.balance.own = balancer::leader_policy([](const balancer::LoadSnapshot& load) {
     std::vector<balancer::Move> moves;

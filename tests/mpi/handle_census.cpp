@@ -1,4 +1,4 @@
-// MPI's profiling interface: each function here stands before MPI's own of the same name, which is called with a P.
+// MPI's profiling interface: each function here replaces MPI's own, which it calls by its name with a P.
 #include "mpi/handle_census.hpp"
 
 #include <mpi.h>
@@ -27,7 +27,7 @@ int noted(int result, MPI_Request made) {
   return result;
 }
 
-/// Forgets those of `before` that have completed: the place of each is null then.
+/// Forgets those of `before` that have completed: they are null now.
 void forget_completed(const std::vector<MPI_Request>& before, const MPI_Request* now) {
   for (std::size_t i = 0; i < before.size(); ++i)
     if (now[i] == MPI_REQUEST_NULL) requests().erase(before[i]);

@@ -4,8 +4,8 @@
 
 namespace driftmesh::mpi_test {
 
-/// MPI handles that this process has made and not given back. A program that is linked with handle_census.cpp counts
-/// them, in its libraries too.
+/// MPI handles that this process has created and not freed. A program linked with handle_census.cpp counts them,
+/// including those of its libraries.
 struct HandleCensus {
   std::size_t communicators = 0;
   std::size_t requests = 0;  ///< of messages between ranks

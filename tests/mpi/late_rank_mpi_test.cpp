@@ -1,5 +1,6 @@
-// A rank that joins the work late: when it makes its loop, the others have been refining for a while, have told it of
-// points, asked it for work or handed some over. All that waits for it; the mesh comes out right, and it does its part.
+// A rank that joins the work late: when it creates its loop, the others have been refining for a while, have sent it
+// points, asked it for work or handed some over. All these messages wait for it; the mesh is correct, and the rank does
+// its part.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -25,10 +26,11 @@ using driftmesh::testing::Start;
 namespace {
 
 constexpr double kTriangles = 15'000;
-constexpr int kHeadStart = 30;  // slices that the others are ahead; without it, each would do 130 and more
-constexpr auto kRest = std::chrono::microseconds(1500);  // of the others after each, so that there is enough left to do
+constexpr int kHeadStart = 30;  // slices by which the others are ahead; without it, each would do 130 and more
+constexpr auto kRest =
+    std::chrono::microseconds(1500);  // pause of the others after each slice, so that enough work is left
 
-/// Waits on the late rank until another one has its head start. That one says so by calling `reached`.
+/// Makes the late rank wait until another one has its head start, which that one reports by calling `reached`.
 class StartingGun {
  public:
   explicit StartingGun(Rank late) : transport_(MpiSession::world()), late_(late) {}
@@ -48,7 +50,7 @@ class StartingGun {
 };
 
 /// What one rank did.
-struct Deeds {
+struct LoopReport {
   int slices = 0;
   ProtocolCounters counters;
 
@@ -58,12 +60,12 @@ struct Deeds {
     writer.value(counters);
     return writer.take();
   }
-  static Deeds unpack(const Bytes& bytes) {
+  static LoopReport unpack(const Bytes& bytes) {
     ByteReader reader(bytes);
-    Deeds deeds;
-    reader.value(deeds.slices);
-    reader.value(deeds.counters);
-    return deeds;
+    LoopReport report;
+    reader.value(report.slices);
+    reader.value(report.counters);
+    return report;
   }
 };
 
@@ -74,21 +76,21 @@ void check_mesh(const Mesh& mesh, const Pslg& input, const QualityBounds& bounds
   CHECK(mesh.triangles.size() > kTriangles / 2);
 }
 
-/// Whether a policy gives work to a rank that starts so. Diffusion knows those that touch, and who has nothing does
-/// not.
+/// Whether the policy gives work to a rank with this start. Diffusion considers only adjacent ranks, and a rank without
+/// subdomains has none.
 bool gives(const LateCase& late) {
   return late.policy != "none" && (late.policy != "diffusion" || late.start != Start::kNothing);
 }
 
-void check_deeds(const LateCase& late, const std::vector<Bytes>& reports) {
+void check_reports(const LateCase& late, const std::vector<Bytes>& reports) {
   std::int64_t sent = 0, handled = 0;
-  for (const Bytes& report : reports) {
-    const Deeds deeds = Deeds::unpack(report);
-    sent += deeds.counters.splits_sent;
-    handled += deeds.counters.splits_handled;
+  for (const Bytes& bytes : reports) {
+    const LoopReport report = LoopReport::unpack(bytes);
+    sent += report.counters.splits_sent;
+    handled += report.counters.splits_handled;
   }
   CHECK(sent == handled);
-  const Deeds latecomer = Deeds::unpack(reports[to_index(late.rank)]);
+  const LoopReport latecomer = LoopReport::unpack(reports[to_index(late.rank)]);
   CHECK((latecomer.slices > 0) == (late.start != Start::kNothing || gives(late)));
   if (late.start == Start::kShare) CHECK(latecomer.counters.splits_handled > 0);
   if (late.start != Start::kShare) CHECK((latecomer.counters.arrivals > 0) == gives(late));
@@ -105,7 +107,7 @@ void run_with(const LateCase& late) {
   const Pslg input = order.pslg;
   const bool is_late = team.rank() == late.rank;
 
-  Deeds deeds;
+  LoopReport report;
   job::Watch watch;
   job::RankRun run(team, std::move(order), nullptr, watch);
   run.refine(false, {.through = [&](Transport& inner) -> Transport& {
@@ -115,17 +117,17 @@ void run_with(const LateCase& late) {
                      .before_step = {},
                      .after_slice =
                          [&](const RankLoop::Slice&) {
-                           ++deeds.slices;
+                           ++report.slices;
                            if (is_late) return;
-                           gun.reached(deeds.slices);
+                           gun.reached(report.slices);
                            std::this_thread::sleep_for(kRest);
                          }});
-  deeds.counters = run.loop().protocol().counters();
-  const std::vector<Bytes> reports = team.gather(deeds.pack());
+  report.counters = run.loop().protocol().counters();
+  const std::vector<Bytes> reports = team.gather(report.pack());
   const Mesh mesh = mpi_test::gathered(team, run);
   gun.close();
   if (team.leads()) {
-    check_deeds(late, reports);
+    check_reports(late, reports);
     check_mesh(mesh, input, run.plan().bounds);
   }
   team.close();

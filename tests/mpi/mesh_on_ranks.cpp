@@ -26,7 +26,7 @@ namespace {
 
 using namespace driftmesh::protocol;
 
-/// Moves random subdomains of this rank that have work to random ranks, every second time that it is asked.
+/// Moves random subdomains of this rank that have work to random ranks, every second time it is called.
 class Mover {
  public:
   Mover(const Job& job, Rank self, std::int32_t ranks)
@@ -64,10 +64,10 @@ RunPlan plan_of(const Job& job, const QualityBounds& bounds, const Triangulation
   return plan_run(decompose_for(mesh, cutting, ranks), bounds, options, balancer::make_policy);
 }
 
-/// What a rank knows at the end of what must add up.
+/// A rank's share of the totals that are checked at the end.
 struct Account {
   ProtocolCounters counters;
-  std::int64_t balance = 0;  ///< Safra's: sent less handled
+  std::int64_t balance = 0;  ///< Safra's count: sent minus handled
   std::int64_t forced = 0;
   bool at_work = false;
   std::vector<SubdomainId> owned;
@@ -118,13 +118,13 @@ void add_up(const std::vector<Bytes>& reports, std::size_t subdomains, Outcome& 
     balance += rank.balance;
     outcome.forced += rank.forced;
     for (const SubdomainId s : rank.owned) ++owners.at(s);
-    if (rank.at_work) complain("a rank has left with work");
+    if (rank.at_work) complain("a rank has finished with work left");
   }
   for (const SubdomainId s : ids_of(owners))
     if (owners[s] != 1) complain(fmt::format("subdomain {} has {} owners", to_int(s), owners[s]));
-  if (sum.splits_sent != sum.splits_handled) complain("not all SPLITs that were sent have been handled, once");
-  if (sum.hand_offs != sum.arrivals) complain("not all subdomains that were given away have arrived");
-  if (balance != 0) complain(fmt::format("the counts of termination come to {}", balance));
+  if (sum.splits_sent != sum.splits_handled) complain("not every SPLIT that was sent has been handled once");
+  if (sum.hand_offs != sum.arrivals) complain("not all subdomains that were handed over have arrived");
+  if (balance != 0) complain(fmt::format("the counts of termination add up to {}", balance));
 }
 
 }  // namespace

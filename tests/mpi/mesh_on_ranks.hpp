@@ -14,7 +14,7 @@
 
 namespace driftmesh::mpi_test {
 
-/// A run on the ranks of MPI, equal on all of them.
+/// The parameters of a run on MPI ranks, equal on all of them.
 struct Job {
   Pslg input;
   double cells = 3000;  ///< area bound = area of the domain over this
@@ -22,14 +22,14 @@ struct Job {
   std::int64_t slice = 25;  ///< insertions
   Presplit presplit = Presplit::kOff;
   std::uint64_t seed = 1;    ///< of delays and moves
-  std::uint64_t delay = 30;  ///< polls that a message is kept back, at most
+  std::uint64_t delay = 30;  ///< largest number of polls by which a message is delayed
   bool moves = false;        ///< subdomains are handed over at random
-  bool drag = false;         ///< one rank rests after each slice, four times as long as that took
-  bool sleep = false;        ///< finished subdomains do
+  bool drag = false;         ///< one rank rests after each slice, four times as long as the slice took
+  bool sleep = false;        ///< finished subdomains sleep
   Balancing balancing;
 };
 
-/// What rank 0 has of it at the end; on other ranks nothing but `leads`.
+/// The outcome on rank 0; on other ranks, only `leads` is set.
 struct Outcome {
   bool leads = false;
   Mesh mesh;
@@ -39,14 +39,14 @@ struct Outcome {
   std::vector<std::string> problems;    ///< of owners, counts and termination
 };
 
-/// The whole mesh that a team has made, on its rank 0; nothing elsewhere. All ranks together.
+/// The whole mesh that a team has made, on its rank 0; empty elsewhere. Collective.
 [[nodiscard]] Mesh gathered(job::Team& team, const job::RankRun& run);
 
 /// Meshes on all ranks together, over a transport that delivers late and out of order.
 [[nodiscard]] Outcome run(const Job& job);
 
-/// Every oracle, by CHECKs on rank 0: the judge of meshes, one owner of each subdomain, counts of messages, nothing
-/// left.
+/// CHECKs all oracles on rank 0: the verifier accepts the mesh, each subdomain has one owner, message counts add up,
+/// nothing is left over.
 void check(const Job& job, const Outcome& outcome);
 
 }  // namespace driftmesh::mpi_test

@@ -1,5 +1,6 @@
-// Subdomains that move as often as can be while SPLITs fly (presplit off), between real ranks of unequal speed, with
-// messages late and out of order. DRIFTMESH_SEED=N repeats the choices of a seed, as far as real ranks repeat.
+// Subdomains that move as often as possible while SPLITs are under way (presplit off), between real ranks of unequal
+// speed, with messages late and out of order. DRIFTMESH_SEED=N repeats the choices of a seed, as far as real ranks are
+// reproducible.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -42,7 +43,7 @@ Job holes(std::uint64_t seed) {
   return job;
 }
 
-/// A policy that looks all the time, knows no price, and takes the smallest gain.
+/// A policy that checks constantly, ignores costs, and accepts the smallest gain.
 Balancing restless(const std::string& policy, const balancer::Parameters::Values& parameters) {
   Balancing balancing;
   balancing.policy = policy;
@@ -61,7 +62,7 @@ Balancing restless(const std::string& policy, const balancer::Parameters::Values
   return balancing;
 }
 
-/// The run, with everything looked at; rank 0 says what it was.
+/// Makes the run and checks everything; rank 0 prints a summary.
 Outcome stress(const Job& job) {
   const HandleCensus before = handle_census();
   Outcome outcome = run(job);

@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   doctest::Context context(argc, argv);
   const driftmesh::protocol::MpiSession session(argc, argv);
   const int result = context.run();
-  // The other ranks may wait for this one in vain.
+  // The other ranks may wait for this one forever.
   if (result != 0 && !context.shouldExit()) driftmesh::protocol::MpiSession::abort("a test failed on this rank");
   return result;
 }

@@ -15,8 +15,8 @@ std::vector<std::uint64_t> sum_over_ranks(std::vector<std::uint64_t> values) {
   return values;
 }
 
-// For each edge the digest of one side's points less that of the other side's: 0 over all ranks if both sides agree.
-// After them, the number of subdomains, of their points, and of hand-offs.
+// For each edge, the digest of one side's points minus that of the other's: the sum over all ranks is 0 if both sides
+// agree. Then the numbers of subdomains, of their points, and of hand-offs.
 std::vector<std::uint64_t> summary(const World& world, const ToyRank& rank) {
   std::vector<std::uint64_t> values(world.edges.size() + 3, 0);
   for (const auto& [id, subdomain] : rank.subdomains()) {

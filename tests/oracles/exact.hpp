@@ -4,7 +4,7 @@
 
 #include "driftmesh/point.hpp"
 
-// Plane geometry in exact rationals, the slow and plain way: what tests compare against.
+// Plane geometry in exact rationals, slow and simple: the reference for tests.
 
 namespace driftmesh::oracles {
 

@@ -10,9 +10,9 @@
 
 namespace driftmesh::oracles {
 
-/// An input and a mesh of it that is known to be right: a 12 x 12 square of unit cells, each cut into two triangles,
-/// with a 4 x 4 hole and a segment from side to side that separates two regions. Every quality mesh check has
-/// something to look at; the 45-degree angles are the smallest.
+/// An input and a mesh of it that is known to be correct: a 12 x 12 square of unit cells, each cut into two triangles,
+/// with a 4 x 4 hole and a segment from side to side that separates two regions. Every quality mesh check has something
+/// to look at; the 45-degree angles are the smallest.
 ///
 ///     (0,12)---3---(12,12)     markers: 1 bottom, 2 right, 3 top, 4 left, 5 hole, 6 the segment y = 9
 ///        4   region 20  2      regions: attribute 10 below y = 9 (area bound 0.6), 20 above (no bound)

@@ -34,8 +34,8 @@ Rational entry(const Corners& t, const ExactPoint& eye, const ExactPoint& way) {
   return first;
 }
 
-/// Whether any inner point of the triangle can be seen from `eye`, which is none of its corners and not inside it.
-/// What blocks the view changes only at directions toward a vertex; between two of them one ray speaks for all.
+/// Whether any inner point of the triangle can be seen from `eye`, which is none of its corners and not inside it. What
+/// blocks the view changes only at directions toward a vertex; between two of them, one ray represents all.
 class View {
  public:
   View(const std::vector<ExactPoint>& points, const std::vector<Mesh::Edge>& walls) : points_(points), walls_(walls) {}
@@ -176,7 +176,7 @@ std::vector<std::string> check_coverage(const Mesh& mesh, const Pslg& input, dou
       ++uses[e];
       pieces.push_back(piece);
       if (mesh.edges[e].marker != input.segments[s].marker)
-        wrong.push_back(words("subsegment ", e, " has another marker than segment ", s));
+        wrong.push_back(words("subsegment ", e, " has a different marker than segment ", s));
     }
     std::sort(pieces.begin(), pieces.end(), [](const Piece& p, const Piece& q) { return p.from < q.from; });
     if (outside[s] && !pieces.empty()) wrong.push_back(words("segment ", s, " is outside and has subsegments"));

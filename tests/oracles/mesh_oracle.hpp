@@ -6,8 +6,8 @@
 #include "driftmesh/mesh.hpp"
 #include "driftmesh/pslg.hpp"
 
-// Brute-force truths about small meshes, rebuilt from the raw arrays in exact rationals. Each returns what is wrong in
-// words, empty if nothing is.
+// Brute-force checks of small meshes, from the raw arrays in exact rationals. Each returns descriptions of the problems
+// found.
 
 namespace driftmesh::oracles {
 

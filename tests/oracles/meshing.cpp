@@ -12,7 +12,7 @@
 namespace driftmesh::oracles {
 namespace {
 
-/// Takes values off a string of bytes; zeros when it has ended.
+/// Takes values from a string of bytes; zeros after its end.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -33,7 +33,7 @@ struct Grid {
   double offset = 0;
 };
 
-/// Two nibbles choose the place on a 16 x 16 grid, a third byte now and then a step off it.
+/// Two nibbles choose a place on a 16 x 16 grid; a third byte occasionally moves it off the grid.
 Point take_point(ByteReader& bytes, const Grid& grid, bool nudged) {
   const std::uint8_t place = bytes.take();
   Point p{grid.offset + grid.step * (place & 15), grid.offset + grid.step * (place >> 4)};

@@ -10,16 +10,16 @@
 
 namespace driftmesh::oracles {
 
-/// What became of an input.
+/// The outcome for an input.
 struct MeshingOutcome {
-  std::string failure;   ///< what is wrong with the mesh, empty if nothing
-  std::string refusal;   ///< the message of the Error that the input was answered with, if it was
+  std::string failure;   ///< the problem of the mesh, or empty
+  std::string refusal;   ///< the message of the Error, if the input was rejected
   bool complete = true;  ///< false: the cap on triangles was reached
   std::size_t triangles = 0;
   std::size_t exceptions = 0;  ///< angles below the bound, allowed
 };
 
-/// Repairs the input, meshes it and verifies the mesh against it. An Error is an answer; a mesh that is wrong is a
+/// Repairs the input, meshes it and verifies the mesh against it. An Error is a valid outcome; a wrong mesh is a
 /// failure. Bounds are checked unless the cap was reached.
 [[nodiscard]] MeshingOutcome repair_mesh_and_verify(Pslg input, const MeshRequest& request);
 
@@ -27,14 +27,14 @@ struct MeshingOutcome {
 struct MeshingCase {
   Pslg input;
   MeshRequest request;
-  bool coarse = false;  ///< features are no smaller than whole grid points and crossings between them make them
+  bool coarse = false;  ///< no features are smaller than those of whole grid points and crossings between them
 };
 
-/// A small input from arbitrary bytes: few points on a coarse grid, so that they coincide, line up and are cocircular
-/// all the time, some moved by units in the last place; segments, holes, regions and bounds as the bytes say.
+/// A small input from arbitrary bytes: few points on a coarse grid, so that they often coincide, line up or are
+/// cocircular, some moved by units in the last place; segments, holes, regions and bounds follow from the bytes.
 [[nodiscard]] MeshingCase case_from_bytes(std::span<const std::uint8_t> bytes);
 
-/// The input as the text of a .poly, to be pasted into a file.
+/// The input as .poly text, to be pasted into a file.
 [[nodiscard]] std::string poly_text(const Pslg& input);
 
 }  // namespace driftmesh::oracles

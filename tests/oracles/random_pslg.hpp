@@ -17,7 +17,7 @@ struct RandomPslg {
 
 struct RandomPslgShape {
   int outer_points = 12;      ///< of the outer boundary, a star-shaped polygon
-  int holes = 2;              ///< star-shaped, at most; as many as find room
+  int holes = 2;              ///< star-shaped, at most; as many as fit
   int rings = 1;              ///< closed rings of segments that are regions, at most
   int inner_segments = 6;     ///< between points that exist, at most
   int dangling_segments = 2;  ///< from a point that exists to a new one in the domain, at most

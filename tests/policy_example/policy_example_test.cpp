@@ -1,4 +1,4 @@
-// The policy that docs/write-a-policy.md walks through does what the page says.
+// The policy developed in docs/write-a-policy.md works as described there.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Random loads, and every policy on each.
+// Every policy on random loads.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void check_valid(const LoadSnapshot& snapshot, const std::vector<Move>& moves) {
   }
 }
 
-// What all ranks together would do with a policy that plans at every rank.
+// The moves of all ranks together, for a policy that plans on every rank.
 std::vector<Move> plan_of_all(const Policy& policy, const LoadSnapshot& snapshot) {
   if (policy.placement() != Placement::kNeighbors) return policy.plan(snapshot, Rank{0});
   std::vector<Move> moves;
@@ -41,7 +41,7 @@ std::vector<Move> plan_of_all(const Policy& policy, const LoadSnapshot& snapshot
   return moves;
 }
 
-// Longest processing time first, from nothing.
+// Longest processing time first, from an empty assignment.
 double time_dealt_anew(const LoadSnapshot& snapshot) {
   const std::vector<double> speeds = assumed_speeds(snapshot.ranks);
   std::vector<double> work, load(speeds.size(), 0.0);
@@ -104,10 +104,10 @@ TEST_CASE("plans are valid and repeatable, and their worthwhile part finishes no
 }
 
 TEST_CASE("greedy plans take at most three times as long as mapping everything again, largest first") {
-  // A rank keeps at most its share of the ideal time, and what is dealt can be bounded as for list scheduling: with o
-  // the best possible time, the last subdomain dealt and all before it run within o on ranks fast enough for them, so
-  // these ranks are busy until the end less o, with at most ideal + o of work. The end is thus at most ideal + 2 o <= 3
-  // o.
+  // A rank keeps at most its share of the ideal time, and what is assigned can be bounded as for list scheduling: with
+  // o the best possible time, the last subdomain assigned and all before it run within o on ranks fast enough for them,
+  // so these ranks are busy until the end minus o, with at most ideal + o of work. The end is thus at most ideal + 2 o
+  // <= 3 o.
   auto random = testing::seeded_generator("greedy");
   const auto policy = make_policy("greedy", {{"tolerance", "0"}});
   for (std::int64_t i = testing::case_count(1000); i > 0; --i) {

@@ -7,8 +7,8 @@
 
 namespace driftmesh::testing {
 
-/// How many random cases a property test tries: `standard`, a tenth of it under a sanitizer, or what the
-/// environment variable DRIFTMESH_CASES says.
+/// The number of random cases of a property test: `standard`, a tenth of it under a sanitizer, or the value of the
+/// environment variable DRIFTMESH_CASES.
 [[nodiscard]] inline std::int64_t case_count(std::int64_t standard) {
   if (const char* wanted = std::getenv("DRIFTMESH_CASES")) return std::strtoll(wanted, nullptr, 10);
 #if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
@@ -18,7 +18,7 @@ namespace driftmesh::testing {
 #endif
 }
 
-/// A generator whose seed is printed, from DRIFTMESH_SEED where that is set: a failure can be run again.
+/// A generator that prints its seed, which DRIFTMESH_SEED can set to repeat a failure.
 [[nodiscard]] inline std::mt19937_64 seeded_generator(const char* test) {
   const char* wanted = std::getenv("DRIFTMESH_SEED");
   const std::uint64_t seed = wanted ? std::strtoull(wanted, nullptr, 10) : std::random_device{}();
@@ -26,8 +26,8 @@ namespace driftmesh::testing {
   return std::mt19937_64(seed);
 }
 
-/// Whether to try one more case after `tried`: as many as case_count says, and up to ten times as many while what the
-/// test must have seen has not come up.
+/// Whether to try one more case after `tried`: up to case_count, or ten times as many as long as what the test must
+/// have seen has not occurred.
 [[nodiscard]] inline bool more_cases(std::int64_t tried, std::int64_t standard, bool seen_all) {
   const std::int64_t count = case_count(standard);
   return tried < count || (!seen_all && tried < 10 * count);

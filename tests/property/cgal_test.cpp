@@ -51,7 +51,7 @@ Cdt cgal_triangulation(const Pslg& input) {
   return cdt;
 }
 
-/// Marks everything that a seed reaches without crossing a constraint as outside.
+/// Marks everything reachable from a seed without crossing a constraint as outside.
 void carve(Cdt& cdt, const Pslg& input) {
   for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->set_in_domain(true);
   std::deque<Cdt::Face_handle> queue{cdt.infinite_face()};
@@ -129,7 +129,7 @@ std::set<Places> edges_by_place(const Mesh& mesh) {
   return edges;
 }
 
-/// Whether some edge could as well be flipped: its two triangles lie on one circle.
+/// Whether some edge could be flipped equally well: the corners of its two triangles are cocircular.
 bool has_choice(const Mesh& mesh) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> opposite;
   for (const auto& t : mesh.triangles)
@@ -144,7 +144,7 @@ bool has_choice(const Mesh& mesh) {
   });
 }
 
-/// What each kind of damage does to a mesh; false if it found no place.
+/// Applies a kind of damage to a mesh; false if it found no place for it.
 bool flip_edge(Mesh& mesh, std::mt19937_64& random) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::size_t, std::size_t>> side;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -234,7 +234,7 @@ TEST_CASE("our constrained Delaunay triangulation has CGAL's edges") {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     CAPTURE(seed);
     oracles::RandomPslgShape shape = oracles::make_random_shape(seed);
-    if (seed % 3 == 0) {  // larger than the brute-force oracles could stand
+    if (seed % 3 == 0) {  // too large for the brute-force oracles
       shape.outer_points = 60;
       shape.inner_points = 300;
       shape.inner_segments = 40;

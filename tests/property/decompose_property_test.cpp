@@ -19,7 +19,7 @@
 #include "property/cases.hpp"
 #include "support/refine_together.hpp"
 
-// Random domains through decomposition: the invariants, and what refinement makes of the subdomains.
+// Decompositions of random domains: invariants, and refinement of the subdomains.
 
 using namespace driftmesh;
 using namespace driftmesh::oracles;
@@ -36,7 +36,7 @@ double total_area(const Triangulation& mesh) {
   return summarize_angles(mesh).total_area;
 }
 
-/// The first subdomain whose triangulation is not what the decomposition says, in words.
+/// A message about the first subdomain whose triangulation does not match the decomposition.
 std::string check_triangulations(const Decomposition& d) {
   double whole = 0;
   for (const auto& s : d.subdomains) whole += s.area;
@@ -149,7 +149,7 @@ TEST_CASE("parts that share a subdomain share its work evenly") {
   }
   const Triangulation mesh = prepared(squares);
   for (const int n : {2, 7, 40}) CHECK(decompose_and_check(squares, mesh, n).report.largest_load < 1.11);
-  Pslg continent = squares;  // which deserves nine of ten subdomains
+  Pslg continent = squares;  // which should get nine of ten subdomains
   Pslg land;
   land.points = {{100, 0}, {160, 0}, {160, 60}, {100, 60}};
   for (std::int32_t k = 0; k < 4; ++k) land.segments.push_back({k, (k + 1) % 4, 1});

@@ -14,7 +14,7 @@
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
-// Random domains, decomposed, refined, and dealt to ranks at random: what the ranks make of them is one mesh.
+// Random domains, decomposed, refined, and distributed to ranks at random: the ranks assemble one mesh.
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
@@ -29,7 +29,7 @@ std::set<Place> places_of(const Mesh& mesh) {
   return places;
 }
 
-/// Numbers are 0 .. V - 1 over all pieces, one for each place; ascending and owned in each.
+/// Numbers are 0 .. V - 1 over all pieces, one for each position; ascending in each piece, and with an owner.
 void check_numbers(const std::vector<DistributedPiece>& pieces) {
   std::map<std::int64_t, Place> place_of_number;
   std::map<Place, std::int64_t> number_of_place;
@@ -57,7 +57,7 @@ void check_numbers(const std::vector<DistributedPiece>& pieces) {
   }
 }
 
-/// The interface lists are what a search by coordinates finds, and the owner of a shared vertex has it.
+/// The interface lists match a search by coordinates, and the owner of a shared vertex has it.
 void check_interfaces(const IdVector<Rank, DistributedPiece>& pieces) {
   IdVector<Rank, std::set<Place>> places;
   for (const DistributedPiece& piece : pieces) places.push_back(places_of(piece.mesh));
@@ -114,7 +114,7 @@ TEST_CASE("random domains on random ranks make one mesh") {
       Mesh whole = merge_pieces(meshes_of(pieces), faults);
       check_whole(c, pieces, whole);
       whole.ranks = alone.ranks;
-      test::check_same_mesh(whole, alone);  // whoever held what
+      test::check_same_mesh(whole, alone);  // whatever the distribution
       for (const DistributedPiece& piece : pieces) {
         empty += piece.mesh.triangles.empty();
         for (const auto& neighbor : piece.neighbors) shared += neighbor.shared.size();

@@ -1,4 +1,4 @@
-// Plans that all ranks make together, on random loads.
+// Joint plans of all ranks, on random loads.
 #include <doctest/doctest.h>
 
 #include "balancer/policies/policy_factory.hpp"
@@ -81,7 +81,7 @@ TEST_CASE("many subdomains on ranks of three speeds end up balanced, whatever th
 TEST_CASE("work under way counts, and nothing moves that is not worth it") {
   LoadSnapshot snapshot = initial_snapshot(grid_layout(20, 20, 2), {1e5, 1e5});
   auto contributions = contributions_of(snapshot);
-  CHECK(all_moves(hold_round(zoltan({}), snapshot, contributions)).empty());  // it is even
+  CHECK(all_moves(hold_round(zoltan({}), snapshot, contributions)).empty());  // it is balanced
   contributions[1].state.remaining += 100e3;
   const auto decisions = hold_round(zoltan({}), snapshot, contributions);
   CHECK(decisions[0].moves.empty());

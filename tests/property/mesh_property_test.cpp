@@ -15,8 +15,8 @@
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
-// Random inputs through the mesher, looked at by the verification and, while they are small, by the brute-force
-// oracles. A failure prints its seed and the input as a .poly.
+// Meshes of random inputs, checked by the verifier and, if small, by the brute-force oracles. A failure prints its seed
+// and the input as a .poly.
 
 using namespace driftmesh;
 using namespace driftmesh::oracles;

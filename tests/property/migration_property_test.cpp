@@ -16,7 +16,7 @@
 #include "property/cases.hpp"
 #include "support/random_subdomains.hpp"
 
-// Subdomains that are packed and unpacked at random moments, against twins that stay where they are: both must come to
+// Subdomains that are packed and unpacked at random moments, compared with twins that stay in place: both must reach
 // the same mesh, by the same steps, with the same bytes at every moment.
 
 using namespace driftmesh;
@@ -30,7 +30,7 @@ Subdomain move_honestly(const Subdomain& subdomain, const SubdomainContext& cont
   return Subdomain::unpack(subdomain.pack(), context);
 }
 
-/// What a pack that forgets the points to be taken in would do.
+/// Simulates a packed form that omits pending points.
 Subdomain move_without_pending(const Subdomain& subdomain, const SubdomainContext& context) {
   SubdomainState state = unpack(subdomain.pack());
   state.pending.clear();
@@ -45,7 +45,7 @@ struct Outcome {
   std::multiset<RefinerState::Stage> stages;  ///< at the moves
   int before_start = 0, with_pending = 0, after_end = 0;
 
-  /// Whether moves were made at all kinds of moments.
+  /// Whether moves occurred in all stages.
   [[nodiscard]] bool saw_all() const {
     for (const auto stage : {RefinerState::Stage::kSegments, RefinerState::Stage::kFine, RefinerState::Stage::kRest,
                              RefinerState::Stage::kDone})
@@ -71,7 +71,7 @@ bool same_counters(const Subdomain& a, const Subdomain& b) {
          c.deleted_points == d.deleted_points && c.encroaching == d.encroaching && c.given_up == d.given_up;
 }
 
-/// One life of one subdomain, in slices, with split points from outside, and its twin's.
+/// The whole refinement of one subdomain and its twin, in slices, with external split points.
 Outcome live_and_move(RandomSubdomains& world, SubdomainId id, const Move& move) {
   Outcome outcome;
   Subdomain stays(id, world.context()), moves(id, world.context());
@@ -88,7 +88,8 @@ Outcome live_and_move(RandomSubdomains& world, SubdomainId id, const Move& move)
       moves = move(moves, world.context());
     }
     if (stays.active()) {
-      // Every step packs all there is: where narrow places take hundreds of times the triangles, the steps grow along.
+      // Every step packs the whole mesh: where narrow places take hundreds of times as many triangles, steps are
+      // larger.
       const auto slice = static_cast<std::int64_t>(1 + random() % (random() % 4 == 0 ? 200 : 8)) +
                          (stays.triangles() > 4000 ? stays.triangles() / 20 : 0);
       stays.work(slice, said_by_one);
@@ -218,7 +219,7 @@ TEST_CASE("large subdomains that move while refined in blocks end the same") {
       moves.work(slice, said);
       const Bytes packed = moves.pack();
       stages.insert(unpack(packed).body->refiner.stage);
-      // What balancing reckons with, so that what it takes to fit into one message does.
+      // The size that balancing assumes, which decides whether a subdomain fits into a message.
       const double most = 1.25 * static_cast<double>(moves.packed_bytes()) + 100'000;
       CHECK(static_cast<double>(packed.size()) < most);
       moves = Subdomain::unpack(packed, context);

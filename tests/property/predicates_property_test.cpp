@@ -135,8 +135,8 @@ Quad near_cocircular(Random& random) {
   return q;
 }
 
-/// Small integers: about a third of all triples and a tenth of all quadruples are degenerate. Half of them on
-/// a grid whose spacing is no power of two, far from the origin, so that coordinates and differences round.
+/// Small integers: about a third of all triples and a tenth of all quadruples are degenerate. Half of them on a grid
+/// whose spacing is not a power of two, far from the origin, so that coordinates and differences round.
 Quad grid(Random& random) {
   const bool rounded = integer(random, 0, 1);
   const double spacing = rounded ? 0.1 : std::scalbn(1.0, integer(random, -40, 40));
@@ -158,7 +158,7 @@ Quad wide_exponents(Random& random) {
   return q;
 }
 
-/// Zero and the ends of the range, with full and with short mantissas: where over- and underflow would show.
+/// Zero and the ends of the range, with full and with short mantissas, where overflow and underflow would occur.
 Quad ends_of_range(Random& random) {
   const auto coordinate = [&] {
     const double below_max = kMaxCoordinate * (1 - 0x1p-53);
@@ -194,7 +194,7 @@ std::string printed(const Quad& q) {
   return text;
 }
 
-/// Empty, or what is wrong about the signs for these points.
+/// The problem of the signs for these points, or empty.
 std::string wrong_sign(const Quad& q, int orientation, int circle) {
   const auto& [a, b, c, d] = q;
   if (sign(orient2d(a, b, c)) != orientation) return "orient2d";
@@ -209,8 +209,8 @@ std::string wrong_sign(const Quad& q, int orientation, int circle) {
   return {};
 }
 
-/// How often the truth is zero and how often plain doubles get it wrong: shows that a generator does its
-/// work.
+/// How often the true value is zero and how often plain doubles get the sign wrong: shows that a generator is
+/// effective.
 struct Tally {
   double zero_orient2d = 0, zero_incircle = 0, naive_wrong_orient2d = 0, naive_wrong_incircle = 0;
 };

@@ -38,7 +38,7 @@ bool on_closed_segment(const ExactPoint& p, const ExactPoint& a, const ExactPoin
   return turn(a, b, p) == 0 && within(p.x, a.x, b.x) && within(p.y, a.y, b.y);
 }
 
-// Empty when `pslg` is a planar straight line graph, otherwise what is wrong.
+// Empty if `pslg` is a planar straight line graph, otherwise the problem.
 std::string planarity_fault(const Pslg& pslg) {
   std::vector<ExactPoint> p;
   for (const Point& point : pslg.points) p.push_back(exact(point));
@@ -98,13 +98,13 @@ bool same(const Pslg& a, const Pslg& b) {
          a.attributes == b.attributes;
 }
 
-// By a power of two, which changes no decision.
+// Scales by a power of two, which changes no decision.
 Pslg scaled(Pslg pslg, double factor) {
   for (Point& p : pslg.points) p = {p.x * factor, p.y * factor};
   return pslg;
 }
 
-// Soups of segments, one kind of trouble each.
+// Sets of segments, each with one kind of difficulty.
 
 using Random = std::mt19937_64;
 
@@ -136,7 +136,7 @@ Pslg random_reals(Random& random) {
   return pslg;
 }
 
-// Points computed to lie on earlier segments, as a program that makes T-junctions does: most miss by rounding.
+// Points computed to lie on earlier segments, as programs do that make T-junctions: most miss by rounding.
 Pslg computed_junctions(Random& random) {
   Pslg pslg;
   const double shift = integer(random, 0, 1) * 4e6;
@@ -247,7 +247,7 @@ TEST_CASE("repair makes any set of segments planar, keeps its shape, and is idem
       duplicates += report.duplicate_points.count;
     }
   }
-  // The soups really had what they are for.
+  // The inputs really contained their difficulties.
   CHECK(crossings > 1000);
   CHECK(overlaps > 100);
   CHECK(on_segments > 100);

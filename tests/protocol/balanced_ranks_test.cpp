@@ -21,7 +21,7 @@ namespace {
 
 const std::vector<std::string> kPolicies{"none", "diffusion", "greedy", "zoltan", "collective", "stealing"};
 
-/// Jobs as a layout predicts them, the prediction wrong by up to `error`.
+/// Jobs as a layout predicts them, with an error of up to `error`.
 Jobs jobs_of(Layout& layout, double work, double error, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> factor(1 - error, 1 + error);
@@ -132,7 +132,7 @@ TEST_CASE("runs end cleanly whatever the work") {
 }
 
 TEST_CASE("nothing moves back and forth in a balanced run") {
-  // Forecasts that are wrong by a third make it look unbalanced now and then.
+  // Forecasts that are wrong by a third sometimes make it look unbalanced.
   Cluster cluster;
   cluster.speeds.assign(8, 1e6);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -173,7 +173,7 @@ TEST_CASE("random clusters and loads: every run is complete, and none takes much
       CAPTURE(policy);
       const Outcome o = run_jobs(cluster, layout, jobs, policy);
       REQUIRE(o.complete);
-      // A rank that begins with nothing to do, and so of unknown speed, may get a subdomain and turn out to be slow.
+      // A rank that starts without work, and hence with unknown speed, may get a subdomain and turn out to be slow.
       const double slowest = *std::min_element(cluster.speeds.begin(), cluster.speeds.end());
       REQUIRE(o.time <= 1.1 * none.time + 1.5 * jobs.front().forecast / slowest + 20 * cluster.latency + 0.05);
     }
@@ -181,7 +181,7 @@ TEST_CASE("random clusters and loads: every run is complete, and none takes much
 }
 
 TEST_CASE("on an adversarial network every request is answered, nothing is lost, and the end is final") {
-  // Time is the number of steps here, and speed a job in so many of them.
+  // Time is the number of steps here, and speed is in jobs per step.
   ControllerOptions options;
   options.look = 3;
   options.gap = 20;

@@ -25,7 +25,7 @@ std::string error_of(const Bytes& bytes, const WireLimits& limits = kLimits) {
   return {};
 }
 
-// Whatever the bytes, decode either refuses them or understands all of them.
+// Whatever the bytes, decode either rejects them or decodes all of them.
 bool refused_or_canonical(const Bytes& bytes) {
   try {
     return encode(decode(kSender, bytes, kLimits)) == bytes;
@@ -54,7 +54,7 @@ TEST_CASE("every truncation is refused") {
     CAPTURE(seed);
     const Message message = RandomMessage(seed).any();
     if (std::holds_alternative<HandOff>(message) || std::holds_alternative<Advice>(message))
-      continue;  // their ends are the end of the message; who knows what they hold checks it
+      continue;  // they extend to the end of the message; their reader checks them
     const Bytes bytes = encode(message);
     for (std::size_t length = 0; length < bytes.size(); ++length) {
       CAPTURE(length);

@@ -85,7 +85,7 @@ TEST_CASE("split sets agree whatever the order and the repetitions") {
     std::vector<dyadic::Path> splits(1 + random() % 40);
     for (auto& path : splits) path = random_path(random, seed % 5 == 0 ? dyadic::kMaxDepth : 6);
 
-    // The truth by definition: every prefix of every path.
+    // The reference by definition: every prefix of every path.
     std::set<dyadic::Path> truth;
     for (const auto path : splits)
       for (auto k = path; k != 0; k >>= 1) truth.insert(k);
@@ -111,8 +111,8 @@ TEST_CASE("split sets agree whatever the order and the repetitions") {
   }
 }
 
-// The truth about one subdomain that wanders: who owned it in each epoch. Every rank learns of some of it, in any
-// order; the rules must bring a message from anywhere to where the subdomain is.
+// The history of a moving subdomain: its owner in each epoch. Every rank learns part of it, in any order; the rules
+// must deliver a message from anywhere to the subdomain's current rank.
 TEST_CASE("forwarding reaches the owner, epochs rise along the way, and hops are bounded") {
   int forwards = 0;
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
@@ -157,7 +157,8 @@ TEST_CASE("a message that arrives before its subdomain is held") {
   const IdVector<SubdomainId, Rank> owners{0_rank, 2_rank};
   Directory directory(2_rank, owners);
   CHECK(directory.route(0_sub, 0) == Directory::Route::kForward);  // a stray
-  CHECK(directory.route(0_sub, 1) == Directory::Route::kHold);  // somebody knows of a move to here that has not arrived
+  CHECK(directory.route(0_sub, 1) ==
+        Directory::Route::kHold);  // some rank knows of a move to here that has not arrived
   directory.set(0_sub, {2_rank, 3});
   CHECK(directory.route(0_sub, 1) == Directory::Route::kHold);
   CHECK(!directory.arrive(0_sub, 2));  // epoch 3 is here already by the record

@@ -59,7 +59,7 @@ TEST_CASE("a SPLIT follows its subdomain, the sender learns its owner, and count
   const Outgoing hand_off = ranks.only(1_rank);
   CHECK(!ranks[1_rank].holds(1_sub));
 
-  // It arrives where the subdomain was: forwarded, and rank 0 is told.
+  // It arrives at the former owner, is forwarded, and rank 0 gets a location update.
   CHECK(ranks.carry(0_rank, split).splits.empty());
   const auto sent = ranks[1_rank].take_outgoing();
   REQUIRE(sent.size() == 2);

@@ -188,7 +188,7 @@ TEST_CASE("virtual time follows from the cluster's parameters") {
                                        }};
   CHECK(network.run(steps).end == RunEnd::kFinished);
   CHECK(network.clock(0_rank) == doctest::Approx(6 + 2 * 0.125));
-  // The second message leaves when the first has left, at 6.125 + 0.5; it is there at 7.375, and is taken in at 7.5.
+  // The second message leaves when the first has left, at 6.125 + 0.5; it arrives at 7.375, and is received at 7.5.
   CHECK(network.clock(1_rank) == doctest::Approx(6.125 + 0.5 + 0.5 + 0.25 + 0.125 + 0.5));
   CHECK(network.waited(1_rank) == doctest::Approx(7.375 - 0.125).epsilon(1e-4));
   CHECK(network.makespan() == network.clock(1_rank));

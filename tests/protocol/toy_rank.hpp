@@ -11,8 +11,8 @@
 
 namespace driftmesh::protocol::toy {
 
-/// A rank's loop with toy subdomains: the real protocol, codec and transport, at random also the things that a
-/// balancer does: moves, advice that is out of date or said twice, waiting for an answer while otherwise idle.
+/// A rank's loop with toy subdomains: the real protocol, codec and transport, and, at random, what a balancer does:
+/// moves, outdated or repeated advice, waiting for an answer while otherwise idle.
 class ToyRank {
  public:
   /// `rules` must outlive the rank.
@@ -71,7 +71,7 @@ class ToyRank {
     return heard;
   }
 
-  // A unit of work of one active subdomain. Returns whether there was any.
+  // Does a unit of work of one active subdomain. Returns whether there was any.
   bool work() {
     std::vector<Subdomain*> active;
     for (auto& [id, subdomain] : subdomains_)

@@ -18,7 +18,7 @@ using namespace driftmesh::protocol::toy;
 
 namespace {
 
-// What happened over many runs, so that a test can see that its runs were not idle ones.
+// Totals over many runs, so that a test can check that its runs were hard.
 struct Tally {
   std::int64_t splits = 0, batches = 0, hand_offs = 0, forwarded = 0, held = 0;
   std::uint64_t reordered = 0, copies = 0, starved = 0, held_back = 0, late_rounds = 0;
@@ -32,7 +32,7 @@ class Run {
       ranks_.push_back(std::make_unique<ToyRank>(network_.transport(r), world_, rules, mesh));
   }
 
-  // The first thing that went wrong, or nothing.
+  // The first problem, or "".
   std::string verdict(Tally& tally) {
     IdVector<Rank, RankStep> steps;
     for (auto& rank : ranks_) steps.push_back([this, &rank] { return watched(*rank); });
@@ -73,7 +73,7 @@ class Run {
     return result;
   }
 
-  // The truth, from the ranks' subdomains and the messages on the network, not from anybody's counts.
+  // The actual state, from the ranks' subdomains and the messages on the network, not from the ranks' own counts.
   bool work_anywhere() {
     for (const auto& rank : ranks_)
       if (rank->at_work()) return true;
@@ -132,7 +132,7 @@ std::string verdict(std::uint64_t seed, Tally& tally, const Rules& rules = sound
   return Run(seed, ranks_for(seed), rules, mesh).verdict(tally);
 }
 
-// A wrong rule must show within so many seeds, and for the reason it was made for.
+// A broken rule must be found within this number of seeds, and for the right reason.
 void must_be_caught(const Rules& rules, std::uint64_t seeds, std::string_view as, const MeshRules& mesh = {}) {
   Tally tally;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {

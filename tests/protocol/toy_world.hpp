@@ -12,8 +12,8 @@
 #include "protocol/codec.hpp"
 #include "protocol/split_set.hpp"
 
-/// A stand-in for the mesher: subdomains that share edges, split them at random a limited number of times, and answer
-/// some of their neighbors' splits by more of their own.
+/// A substitute for the mesher: subdomains that share edges, split them at random a limited number of times, and
+/// respond to some of their neighbors' splits with more of their own.
 namespace driftmesh::protocol::toy {
 
 /// Random numbers that travel with a subdomain: splitmix64.
@@ -61,7 +61,7 @@ struct World {
   std::uint64_t moves = 0;   // that a rank makes
 };
 
-/// How a subdomain treats a split point that it receives; tests replace each by a wrong way.
+/// How a subdomain treats a received split point; tests replace each function by a wrong one.
 struct MeshRules {
   bool replays_ancestors = true;
   bool inserts_again = false;
@@ -84,11 +84,11 @@ class Subdomain {
   [[nodiscard]] bool broken() const { return broken_; }
   void tell(const SplitPoint<GlobalRootId>& split) { pending_.push_back(split); }
 
-  /// The points on each of its edges in the order in which they came.
+  /// The points on each of its edges, in order of arrival.
   using Points = std::map<GlobalRootId, std::vector<dyadic::Path>>;
   [[nodiscard]] const Points& points() const { return points_; }
 
-  /// One unit of work; what its neighbors are to be told is appended to `said`.
+  /// One unit of work; the messages for its neighbors are appended to `said`.
   void work(const MeshRules& rules, std::vector<SplitPoint<GlobalRootId>>& said) {
     if (!pending_.empty()) {
       const SplitPoint<GlobalRootId> split = pending_.back();

@@ -13,14 +13,14 @@
 #include "protocol/transport.hpp"
 #include "support/id_literals.hpp"
 
-/// What every Transport keeps to, as tests. Whoever implements one calls check_transport_contract with a function that
-/// runs a program on all ranks (of this process), each on a fresh transport.
+/// The contract of Transport as tests. The tests of an implementation call check_transport_contract with a function
+/// that runs a program on all ranks (of this process), each with a fresh transport.
 namespace driftmesh::protocol::contract {
 
 using Program = std::function<RankStep(Transport&)>;
 using RunProgram = std::function<void(const Program&)>;
 
-/// Bytes that follow from who sends them to whom, and from their number between the two.
+/// Bytes that are determined by sender, receiver, and their number between the two.
 inline Bytes content(Rank source, Rank destination, std::uint64_t number, std::size_t size) {
   auto state = static_cast<std::uint32_t>(to_int(source) * 1000 + to_int(destination)) * 7919u +
                static_cast<std::uint32_t>(number);
@@ -29,8 +29,8 @@ inline Bytes content(Rank source, Rank destination, std::uint64_t number, std::s
   return bytes;
 }
 
-/// A rank that sends the messages of the given sizes to every rank, itself included, and waits for theirs. With
-/// `reluctant` it sends all before it polls for the first time; otherwise it polls after each.
+/// A rank that sends messages of the given sizes to every rank, itself included, and waits for theirs. With `reluctant`
+/// it sends all of them before it polls for the first time; otherwise it polls after each.
 class Exchange {
  public:
   Exchange(Transport& transport, std::vector<std::size_t> sizes, bool reluctant)
@@ -93,7 +93,7 @@ inline void many_small_messages(const RunProgram& run) {
   exchange(run, std::vector<std::size_t>(100, 12), false);
 }
 
-// A message that travels around the ring: each hop needs the one before, so idle ranks must wake.
+// A message that travels around the ring: each hop needs the one before, so idle ranks must wake up.
 inline void a_message_goes_around(const RunProgram& run) {
   run([](Transport& transport) {
     return [&transport, hops = 0, started = false]() mutable {

@@ -11,7 +11,7 @@
 
 using namespace driftmesh;
 
-// Each file in regression/mesh is an input that the mesher once failed on; its first line says how.
+// Each file in regression/mesh is an input on which the mesher once failed; its first line says how.
 TEST_CASE("inputs that once failed") {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(DRIFTMESH_SOURCE_DIR "/tests/regression/mesh")) {

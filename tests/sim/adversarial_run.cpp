@@ -18,7 +18,7 @@ AdversarialRun::AdversarialRun(const Scenario& scenario, Domain& domain, const W
       domain_(domain),
       mover_(scenario),
       network_(scenario.ranks, adversary()),
-      rumors_{std::mt19937_64(scenario.seed), {}},
+      stale_locations_{std::mt19937_64(scenario.seed), {}},
       witness_(scenario.ranks, to_index(scenario.subdomains), [this] { return is_quiet(); }) {
   make_plan();
   council_ = balancer::make_simulated_council(plan_.layout, plan_.policy, plan_.balancing.options);
@@ -32,15 +32,15 @@ Outcome AdversarialRun::run() {
   if (!go()) return std::move(outcome_);
   count();
   say("no message lost", lost_messages());
-  say("ranks tell the token the truth", witness_.token_problem());
+  say("tokens have the right count and color", witness_.token_problem());
   say("no SPLIT makes more hops than its subdomain", witness_.hops_problem());
   say("one live owner", owners_at_the_end());
-  say("no plan half made", council_ && council_->in_session() ? "the run has ended around a round of planning" : "");
+  say("no unfinished plan", council_ && council_->in_session() ? "the run has ended during a round of planning" : "");
   if (!outcome_.failure().empty()) return std::move(outcome_);
   const std::vector<const Subdomain*> all = subdomains_awake();
   const auto problems = testing::conformity_problems(plan_.decomposition, all);
   say("both sides of each edge hold the same points", problems.empty() ? "" : problems.front());
-  say("the mesh, to the judge", judge(domain_, plan_.decomposition, all));
+  say("the verifier accepts the mesh", verdict_on_mesh(domain_, plan_.decomposition, all));
   compare_digest(all);
   return std::move(outcome_);
 }
@@ -86,7 +86,7 @@ protocol::Adversary AdversarialRun::adversary() {
   };
   switch (scenario_.mischief) {
     case Mischief::kNone:
-    case Mischief::kRumors:
+    case Mischief::kStaleLocations:
       break;
     case Mischief::kRacingHandOffs:
       result.urgency = [late = after(30)](const protocol::Parcel& parcel, std::uint64_t step) {
@@ -119,7 +119,8 @@ protocol::Transport& AdversarialRun::transport_of(Rank r, const Wrap& wrap) {
     layers_.push_back(std::move(layer));
     transport = layers_.back().get();
   };
-  if (scenario_.mischief == Mischief::kRumors) put_on(std::make_unique<RumorTransport>(*transport, rumors_));
+  if (scenario_.mischief == Mischief::kStaleLocations)
+    put_on(std::make_unique<StaleLocationTransport>(*transport, stale_locations_));
   put_on(std::make_unique<WitnessedTransport>(
       *transport, witness_, [loop](SubdomainId s) { return loop().subdomains().contains(s); },
       [loop]() -> const protocol::ProtocolCounters& { return loop().protocol().counters(); }));
@@ -169,7 +170,7 @@ void AdversarialRun::watch_owners(Rank r) {
 void AdversarialRun::watch_termination() {
   const auto wrong = [](const char* what) { throw Wrong{{"termination in time", what}}; };
   if (work_anywhere()) {
-    if (quiet_since_) wrong("work out of nothing");
+    if (quiet_since_) wrong("new work after all was done");
     for (const auto& loop : loops_)
       if (loop->protocol().phase() != protocol::Termination::Phase::kWorking) wrong("too early");
     return;
@@ -202,15 +203,15 @@ void AdversarialRun::count() {
     outcome_.counters.most_hops = std::max(outcome_.counters.most_hops, c.most_hops);
     outcome_.counters.held += c.held;
   }
-  outcome_.deeds = mover_.deeds();
-  outcome_.deeds += witness_.deeds();
-  if (scenario_.balanced()) outcome_.deeds.by_policy = outcome_.counters.hand_offs - outcome_.deeds.by_chance;
-  outcome_.deeds.starved = static_cast<std::int64_t>(network_.counters().starved);
+  outcome_.effects = mover_.effects();
+  outcome_.effects += witness_.effects();
+  if (scenario_.balanced()) outcome_.effects.by_policy = outcome_.counters.hand_offs - outcome_.effects.by_chance;
+  outcome_.effects.starved = static_cast<std::int64_t>(network_.counters().starved);
 }
 
 std::string AdversarialRun::lost_messages() const {
   const protocol::ProtocolCounters& c = outcome_.counters;
-  if (network_.in_flight() != 0) return std::to_string(network_.in_flight()) + " messages are left behind";
+  if (network_.in_flight() != 0) return std::to_string(network_.in_flight()) + " messages are still in flight";
   if (c.splits_sent != c.splits_handled)
     return std::to_string(c.splits_sent) + " SPLITs were sent, " + std::to_string(c.splits_handled) + " handled";
   if (c.hand_offs != c.arrivals)

@@ -14,35 +14,35 @@
 #include "protocol/adversarial_network.hpp"
 #include "protocol/rules.hpp"
 #include "runtime/rank_loop.hpp"
-#include "sim/deeds.hpp"
+#include "sim/adversary_effects.hpp"
 #include "sim/domains.hpp"
 #include "sim/mover.hpp"
-#include "sim/rumors.hpp"
 #include "sim/scenario.hpp"
+#include "sim/stale_locations.hpp"
 #include "sim/witness.hpp"
 
 namespace driftmesh::sim {
 
-/// What an oracle says; nothing if all is well.
+/// The verdict of an oracle; empty if it found no problem.
 struct Verdict {
   const char* oracle;
   std::string problem;
 };
 
-/// What a run came to.
+/// The outcome of a run.
 struct Outcome {
-  std::vector<Verdict> verdicts;  ///< in the order in which they were found; not all of them, after a failure
+  std::vector<Verdict> verdicts;  ///< in order; incomplete after a failure
   std::int64_t triangles = 0;
   std::uint64_t digest = 0;
   std::uint64_t steps = 0;
   protocol::ProtocolCounters counters;  ///< of all ranks together
   protocol::AdversarialNetwork::Counters network;
-  Deeds deeds;
+  AdversaryEffects effects;
   std::int64_t asleep = 0;        ///< subdomains at the end
-  std::uint64_t late_rounds = 0;  ///< probes after the one that was out when all work was over
+  std::uint64_t late_rounds = 0;  ///< probes after the one under way when all work was done
   bool digest_compared = false;
 
-  /// The first problem with the name of its oracle, or nothing.
+  /// The first problem, with the name of its oracle; empty if there is none.
   [[nodiscard]] std::string failure() const {
     for (const Verdict& v : verdicts)
       if (!v.problem.empty()) return std::string(v.oracle) + ": " + v.problem;
@@ -50,16 +50,15 @@ struct Outcome {
   }
 };
 
-/// Real subdomains on ranks with the loop of a real run, on a network that does its worst. While it runs, and at its
-/// end, every oracle looks at the truth: at the subdomains and at what is on the network, not at anybody's counts.
+/// Real subdomains on ranks with the loop of a real run, on an adversarial network. During the run and at its end,
+/// every oracle examines the actual state: the subdomains and the messages on the network, not the ranks' own counts.
 class AdversarialRun {
  public:
-  /// Puts something between a rank and the network. It may ask for the rank's loop once the run is going.
+  /// Inserts a layer between a rank and the network. It may access the rank's loop once the run has started.
   using Wrap =
       std::function<std::unique_ptr<protocol::Transport>(protocol::Transport&, std::function<const RankLoop&()>)>;
 
-  /// `scenario`, `domain` and `rules` must outlive the run. A broken rule of the protocol shows whether the oracles
-  /// notice.
+  /// `scenario`, `domain` and `rules` must outlive the run. Broken rules test whether the oracles notice.
   AdversarialRun(const Scenario& scenario, Domain& domain, const Wrap& wrap = {},
                  const protocol::Rules& rules = protocol::sound_rules());
 
@@ -72,15 +71,15 @@ class AdversarialRun {
   void make_plan();
   /// Time for policies: a step takes one unit, an insertion a tenth, or up to a whole one on a slow rank.
   [[nodiscard]] CostModel costs_of(Rank r) const;
-  /// The scenario's, with its mischief.
+  /// The scenario's adversary, with its mischief.
   protocol::Adversary adversary();
   protocol::Transport& transport_of(Rank r, const Wrap& wrap);
   [[nodiscard]] bool is_quiet() const { return quiet_since_.has_value(); }
 
-  /// To the end of the run. False if it does not come to a good one.
+  /// Runs to the end. False if the run does not end properly.
   bool go();
   protocol::StepResult step(Rank r);
-  /// A subdomain that arrives lives nowhere else.
+  /// Checks that an arriving subdomain lives nowhere else.
   void watch_owners(Rank r);
   void watch_termination();
   [[nodiscard]] bool work_anywhere();
@@ -88,7 +87,7 @@ class AdversarialRun {
   [[nodiscard]] std::string lost_messages() const;
   [[nodiscard]] std::string owners_at_the_end() const;
   void compare_digest(const std::vector<const Subdomain*>& all);
-  /// All of them; of those that sleep, copies that are awake.
+  /// All subdomains; awake copies of those that sleep.
   [[nodiscard]] std::vector<const Subdomain*> subdomains_awake();
   [[nodiscard]] std::string describe() const;
   void say(const char* oracle, std::string problem) { outcome_.verdicts.push_back({oracle, std::move(problem)}); }
@@ -100,13 +99,13 @@ class AdversarialRun {
   SubdomainContext context_;
   std::deque<Subdomain> copies_;
   protocol::AdversarialNetwork network_;
-  Rumors rumors_;
+  StaleLocations stale_locations_;
   Witness witness_;
   std::vector<std::unique_ptr<protocol::Transport>> layers_;  // between ranks and network
   std::unique_ptr<balancer::SimulatedCouncil> council_;       // if the policy needs one
   IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
   IdVector<Rank, std::int64_t> arrivals_seen_;
-  std::optional<std::uint64_t> quiet_since_;  // probes that were out or over then
+  std::optional<std::uint64_t> quiet_since_;  // number of probes begun by then
   Outcome outcome_;
 };
 

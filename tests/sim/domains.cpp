@@ -16,7 +16,7 @@
 namespace driftmesh::sim {
 namespace {
 
-/// What a domain is made of before it is triangulated.
+/// The ingredients of a domain before it is triangulated.
 struct Recipe {
   Pslg input;
   QualityBounds bounds{20, 0, {}, nullptr};
@@ -56,7 +56,7 @@ Recipe wedge() {
   return r;
 }
 
-/// Two pieces apart, the one with a hole that an island stands in.
+/// Two disconnected pieces, one of them with an island in a hole.
 Recipe apart() {
   Recipe r;
   add_ring(r.input, {{0, 0}, {1, 0.1}, {1.2, 1}, {0.1, 1.1}}, 1);
@@ -68,7 +68,7 @@ Recipe apart() {
   return r;
 }
 
-/// Three regions with bounds of their own.
+/// Three regions with their own bounds.
 Recipe regions() {
   Recipe r;
   add_ring(r.input, {{0, 0}, {0.8, 0}, {2, 0}, {2, 0.6}, {2, 1}, {0.9, 1}, {0, 1}}, 1);
@@ -78,7 +78,7 @@ Recipe regions() {
   return r;
 }
 
-/// Edges of 0.04 at one place, growing away from it.
+/// Edges of length 0.04 at one point, growing with the distance.
 class Radial final : public SizeField {
  public:
   [[nodiscard]] double edge_length(const Point& p) const override {
@@ -105,7 +105,7 @@ Recipe recipe(const std::string& name) {
     if (known == name) return make();
   std::string known;
   for (const std::string& n : domain_names()) known += " " + n;
-  throw Error("unknown domain '" + name + "'; there are" + known);
+  throw Error("unknown domain '" + name + "'; known are" + known);
 }
 
 }  // namespace

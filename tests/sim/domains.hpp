@@ -15,7 +15,7 @@
 
 namespace driftmesh::sim {
 
-/// A small domain to be meshed in a few hundred triangles, with what it was cut into so far.
+/// A small domain to be meshed in a few hundred triangles, with its decompositions made so far.
 class Domain {
  public:
   /// Throws Error for a name that is not in domain_names().
@@ -26,8 +26,8 @@ class Domain {
   [[nodiscard]] const Pslg& input() const { return input_; }
   [[nodiscard]] const QualityBounds& bounds() const { return bounds_; }
   [[nodiscard]] const Decomposition& cut(std::int32_t subdomains);
-  /// The digest of the mesh that subdomains with presplit interfaces make each by itself, if none of them then puts a
-  /// point on an interface: no schedule can change it. Empty if some do.
+  /// The digest of the mesh that subdomains with presplit interfaces make independently, if none of them puts a point
+  /// on an interface: no schedule can change it. Empty if some do.
   [[nodiscard]] std::optional<std::uint64_t> digest_alone(std::int32_t subdomains);
 
  private:
@@ -41,7 +41,7 @@ class Domain {
 
 [[nodiscard]] const std::vector<std::string>& domain_names();
 
-/// Each made once and kept.
+/// Made once and cached.
 class Domains {
  public:
   [[nodiscard]] Domain& operator[](const std::string& name);

@@ -21,13 +21,13 @@ namespace {
 using namespace driftmesh;
 using namespace driftmesh::sim;
 
-/// "7..12"; one number stands for itself.
+/// "7..12", or a single number.
 std::pair<std::uint64_t, std::uint64_t> seed_range(const std::string& text) {
   const auto number = [&](std::string_view digits) {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc() || end != digits.data() + digits.size())
-      throw Error("'" + text + "' is no range of seeds; give two numbers, as in 1..1000");
+      throw Error("'" + text + "' is not a range of seeds; give two numbers, as in 1..1000");
     return value;
   };
   const std::size_t dots = text.find("..");
@@ -40,7 +40,7 @@ Outcome replay(std::uint64_t seed, const Choice& choice, Domains& domains) {
   return AdversarialRun(scenario, domains[scenario.domain]).run();
 }
 
-/// One seed, with everything that is known of it.
+/// Replays one seed and prints all results.
 bool show(std::uint64_t seed, const Choice& choice, Domains& domains) {
   fmt::print("{}\n", Scenario::from_seed(seed, choice).describe());
   const Outcome o = replay(seed, choice, domains);
@@ -49,18 +49,18 @@ bool show(std::uint64_t seed, const Choice& choice, Domains& domains) {
   fmt::print("  {} SPLITs in {} messages, {} subdomains moved, {} groups forwarded, {} times at most, {} held\n",
              o.counters.splits_sent, o.counters.batches_sent, o.counters.hand_offs, o.counters.forwarded,
              o.counters.most_hops, o.counters.held);
-  fmt::print("  {}\n", words_of(o.deeds));
+  fmt::print("  {}\n", words_of(o.effects));
   fmt::print("  {} messages delivered, {} of them reordered, {} copies; {} probes after the last work\n",
              o.network.delivered, o.network.reordered, o.network.copies, o.late_rounds);
   return o.failure().empty();
 }
 
-/// Many seeds: those that fail, and sums.
+/// Replays many seeds and prints failures and totals.
 bool sweep(std::uint64_t first, std::uint64_t last, const Choice& choice, Domains& domains) {
   const Stopwatch watch;
   std::uint64_t failed = 0, compared = 0;
   std::int64_t triangles = 0, splits = 0, moves = 0, forwarded = 0, held = 0;
-  Deeds deeds;
+  AdversaryEffects effects;
   for (std::uint64_t seed = first; seed <= last; ++seed) {
     const Outcome o = replay(seed, choice, domains);
     if (const std::string failure = o.failure(); !failure.empty()) {
@@ -72,14 +72,14 @@ bool sweep(std::uint64_t first, std::uint64_t last, const Choice& choice, Domain
     moves += o.counters.hand_offs;
     forwarded += o.counters.forwarded;
     held += o.counters.held;
-    deeds += o.deeds;
+    effects += o.effects;
     compared += o.digest_compared ? 1 : 0;
   }
   fmt::print("seeds {} to {}: {} failed\n", first, last, failed);
   fmt::print(
       "{} triangles, {} SPLITs, {} subdomains moved, {} groups forwarded, {} held; {} digests compared; {:.1f} s\n",
       triangles, splits, moves, forwarded, held, compared, watch.seconds());
-  fmt::print("{}\n", words_of(deeds));
+  fmt::print("{}\n", words_of(effects));
   return failed == 0;
 }
 
@@ -100,7 +100,7 @@ int replay_all(Request& request) {
 cli::Command program(Request& request) {
   Choice& choice = request.choice;
   return {.name = "driftmesh-sim",
-          .summary = "Meshes small domains on simulated ranks whose network does its worst, and checks everything",
+          .summary = "Mesh small domains on simulated ranks with an adversarial network, and check everything",
           .options = {{.name = "seed",
                        .value = "N",
                        .help = "Replay this run, in detail",
@@ -117,28 +117,28 @@ cli::Command program(Request& request) {
                        .take = cli::into(choice.ranks, {1, 1000})},
                       {.name = "domain",
                        .value = "NAME",
-                       .help = "What is meshed",
+                       .help = "Domain to mesh",
                        .standard = "from the seed",
                        .choices = domain_names(),
                        .take = cli::into(choice.domain)},
                       {.name = "mover",
                        .value = "NAME",
-                       .help = "Who moves subdomains: an adversary or a policy",
+                       .help = "What moves subdomains: an adversary or a policy",
                        .standard = "from the seed",
                        .choices = mover_names(),
                        .take = cli::into(choice.mover)},
                       {.name = "presplit",
                        .value = "MODE",
-                       .help = "Cut interfaces to size first: on, off, or auto, which is from the seed",
+                       .help = "Split interfaces to size first: on, off, or auto (from the seed)",
                        .standard = "auto",
                        .choices = {"on", "off", "auto"},
                        .take = cli::into(request.presplit)},
                       {.name = "aggregation",
                        .value = "K",
-                       .help = "SPLITs in one message at most",
+                       .help = "Most SPLITs in one message",
                        .standard = "from the seed",
                        .take = cli::into(choice.aggregation, cli::kPositive)}},
-          .exit_codes = "0 all oracles are content, 1 one is not, 2 wrong usage",
+          .exit_codes = "0 no problems found, 1 problems found, 2 wrong usage",
           .run = [&request](const cli::Call& call) {
             if (call.has("seed") && call.has("seeds")) throw cli::UsageError("--seed and --seeds exclude each other");
             return replay_all(request);

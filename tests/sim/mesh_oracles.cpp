@@ -66,8 +66,8 @@ Mesh merge(const Domain& domain, const Decomposition& decomposition, const std::
   return merging.take();
 }
 
-std::string judge(const Domain& domain, const Decomposition& decomposition,
-                  const std::vector<const Subdomain*>& subdomains) {
+std::string verdict_on_mesh(const Domain& domain, const Decomposition& decomposition,
+                            const std::vector<const Subdomain*>& subdomains) {
   VerifyOptions options;
   options.min_angle = domain.bounds().min_angle;
   options.max_area = domain.bounds().max_area;

@@ -10,15 +10,14 @@
 
 namespace driftmesh::sim {
 
-/// The subdomains as one mesh, put together from coordinates alone: points are the same where they are equal to the
-/// last bit.
+/// The subdomains as one mesh, joined by coordinates alone: points are the same if they are equal to the last bit.
 [[nodiscard]] Mesh merge(const Domain& domain, const Decomposition& decomposition,
                          const std::vector<const Subdomain*>& subdomains);
 
-/// What the independent judge says to the merged mesh against the domain's input and bounds: every piece constrained
-/// Delaunay by the exact predicate, bounds met but for the exceptions that the input explains, areas summed, input
-/// segments covered. Empty if it accepts.
-[[nodiscard]] std::string judge(const Domain& domain, const Decomposition& decomposition,
-                                const std::vector<const Subdomain*>& subdomains);
+/// Verifies the merged mesh against the domain's input and bounds: every piece is constrained Delaunay by the exact
+/// predicate, bounds are met except for accepted exceptions, areas add up, input segments are covered. Returns the
+/// problem, or "".
+[[nodiscard]] std::string verdict_on_mesh(const Domain& domain, const Decomposition& decomposition,
+                                          const std::vector<const Subdomain*>& subdomains);
 
 }  // namespace driftmesh::sim

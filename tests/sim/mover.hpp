@@ -7,12 +7,12 @@
 
 #include "driftmesh/ids.hpp"
 #include "runtime/rank_loop.hpp"
-#include "sim/deeds.hpp"
+#include "sim/adversary_effects.hpp"
 #include "sim/scenario.hpp"
 
 namespace driftmesh::sim {
 
-/// Hands subdomains over between two steps of a rank, in one of the ways that a protocol may not have thought of.
+/// Hands subdomains over between two steps of a rank, in ways that a protocol may not expect.
 class Mover {
  public:
   explicit Mover(const Scenario& scenario)
@@ -37,7 +37,7 @@ class Mover {
       move_any(loop);
   }
 
-  [[nodiscard]] const Deeds& deeds() const { return deeds_; }
+  [[nodiscard]] const AdversaryEffects& effects() const { return effects_; }
 
  private:
   bool hand_over(RankLoop& loop, SubdomainId s, Rank to) {
@@ -55,31 +55,31 @@ class Mover {
 
   void move_any(RankLoop& loop) {
     const auto all = active(loop);
-    if (!all.empty() && hand_over(loop, all[below(all.size())], any_rank())) ++deeds_.by_chance;
+    if (!all.empty() && hand_over(loop, all[below(all.size())], any_rank())) ++effects_.by_chance;
   }
 
-  // One subdomain goes back and forth as long as it has work.
+  // A subdomain goes back and forth as long as it has work.
   void play(RankLoop& loop, Rank rank) {
     const auto from = came_from_.find(rank);
     const Rank to = from == came_from_.end() ? next_in_ring(rank, scenario_.ranks) : from->second;
     if (!hand_over(loop, ball_, to)) return;
-    if (from != came_from_.end()) ++deeds_.returns;
+    if (from != came_from_.end()) ++effects_.returns;
     came_from_[to] = rank;
   }
 
   void rotate(RankLoop& loop, Rank rank) {
     const auto all = active(loop);
     for (const SubdomainId s : all) hand_over(loop, s, next_in_ring(rank, scenario_.ranks));
-    if (!all.empty()) ++deeds_.rotations;
+    if (!all.empty()) ++effects_.rotations;
   }
 
-  // The case that Safra's colors are for: the token will not come by that rank again.
+  // The case that Safra's colors are for: the token will not visit that rank again.
   void follow_token(RankLoop& loop, Rank rank) {
     if (rank == Rank{0} || !loop.protocol().termination().has_token()) return;
     const auto all = active(loop);
     if (all.empty()) return;
     const auto to = static_cast<Rank>(below(static_cast<std::uint64_t>(to_int(rank))));
-    if (hand_over(loop, all[below(all.size())], to)) ++deeds_.behind_token;
+    if (hand_over(loop, all[below(all.size())], to)) ++effects_.behind_token;
   }
 
   std::uint64_t below(std::uint64_t n) { return random_() % n; }
@@ -90,7 +90,7 @@ class Mover {
   std::int64_t left_;  // moves
   SubdomainId ball_;
   std::map<Rank, Rank> came_from_;  // the ball, to each rank when it last did
-  Deeds deeds_;
+  AdversaryEffects effects_;
 };
 
 }  // namespace driftmesh::sim

@@ -19,8 +19,8 @@ const char* words_of(Mischief mischief) {
       return ", hand-offs and SPLITs race";
     case Mischief::kLateLocations:
       return ", locations known late";
-    case Mischief::kRumors:
-      return ", rumors of locations";
+    case Mischief::kStaleLocations:
+      return ", stale locations";
     case Mischief::kLateAdvice:
       return ", late advice";
   }
@@ -39,7 +39,7 @@ bool Scenario::balanced() const {
   return std::find(mover_names().begin() + 4, mover_names().end(), mover) != mover_names().end();
 }
 
-// Every draw is made whatever the choice says, so that a choice changes nothing else.
+// Every random draw is made regardless of the choice, so that a choice changes nothing else.
 Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
   std::mt19937_64 random(seed * 0x9e3779b97f4a7c15u + 1);
   const auto one_of = [&](const auto& values) { return values[random() % values.size()]; };
@@ -64,9 +64,9 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
   if (choice.mover) s.mover = *choice.mover;
   s.lopsided = random() % 4 == 0;
   s.mischief = one_of(std::array{Mischief::kNone, Mischief::kNone, Mischief::kRacingHandOffs, Mischief::kLateLocations,
-                                 Mischief::kRumors, Mischief::kLateAdvice});
-  // A message that must wait would block all behind it.
-  if (s.mischief != Mischief::kNone && s.mischief != Mischief::kRumors) s.adversary.fifo = false;
+                                 Mischief::kStaleLocations, Mischief::kLateAdvice});
+  // With first-in-first-out order, a delayed message would block all behind it.
+  if (s.mischief != Mischief::kNone && s.mischief != Mischief::kStaleLocations) s.adversary.fifo = false;
   return s;
 }
 
@@ -75,10 +75,10 @@ std::string Scenario::describe() const {
   return fmt::format(
       "seed {}: {} in {} subdomains on {} ranks, presplit {}, {} SPLITs a message, slices of {}{}; moved by {}{}, {} "
       "times at most, by chance {} at each step; {}, delay {}{}{}{}{}",
-      seed, domain, subdomains, ranks, presplit ? "on" : "off", aggregation, slice, sleep ? ", the finished sleep" : "",
-      mover, lopsided ? " from a single rank" : "", most_moves, move_chance, a.fifo ? "in order" : "reordered", a.delay,
-      a.starve ? ", a rank starved" : "", a.hold_one ? ", a message held back" : "", a.copy > 0 ? ", copies" : "",
-      words_of(mischief));
+      seed, domain, subdomains, ranks, presplit ? "on" : "off", aggregation, slice,
+      sleep ? ", finished subdomains sleep" : "", mover, lopsided ? " from a single rank" : "", most_moves, move_chance,
+      a.fifo ? "in order" : "reordered", a.delay, a.starve ? ", a rank starved" : "",
+      a.hold_one ? ", a message held back" : "", a.copy > 0 ? ", copies" : "", words_of(mischief));
 }
 
 }  // namespace driftmesh::sim

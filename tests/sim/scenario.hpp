@@ -11,7 +11,7 @@
 
 namespace driftmesh::sim {
 
-/// What of a scenario is not left to the seed.
+/// The parameters of a scenario that are not left to the seed.
 struct Choice {
   std::optional<std::string> domain;
   std::optional<std::int32_t> ranks;
@@ -20,15 +20,15 @@ struct Choice {
   std::optional<std::string> mover;
 };
 
-/// Who moves subdomains: an adversary of Mover, or a balancer policy by its name; "collective" is Zoltan on all ranks.
+/// What moves subdomains: an adversary of Mover, or a policy by its name; "collective" is Zoltan on all ranks.
 [[nodiscard]] const std::vector<std::string>& mover_names();
 
 /// How messages about subdomains that move are treated, beyond what the network does to any message.
 enum class Mischief {
   kNone,
-  kRacingHandOffs,  ///< each hand-off overtakes all SPLITs, or is overtaken by those of a long while
-  kLateLocations,   ///< location updates arrive when all work is over
-  kRumors,          ///< instead of a location update another one of this run may come, again and out of date
+  kRacingHandOffs,  ///< each hand-off overtakes all SPLITs, or is overtaken by many of them
+  kLateLocations,   ///< location updates arrive when all work is done
+  kStaleLocations,  ///< location updates may be replaced by earlier, outdated ones
   kLateAdvice,      ///< plans, requests for work and answers take a long while
 };
 
@@ -44,14 +44,14 @@ struct Scenario {
   WorkOrder order = WorkOrder::kGiven;
   double move_chance = 0;       ///< of handing a subdomain over, at each step of a rank
   bool sleep = false;           ///< finished subdomains sleep
-  std::int64_t most_moves = 0;  ///< in the whole run; a policy's are not counted
+  std::int64_t most_moves = 0;  ///< in the whole run, not counting those of a policy
   std::string mover;            ///< one of mover_names()
   bool lopsided = false;        ///< all subdomains start on one rank
   Mischief mischief = Mischief::kNone;
   protocol::Adversary adversary;
 
   [[nodiscard]] static Scenario from_seed(std::uint64_t seed, const Choice& choice = {});
-  /// Whether `mover` is a policy: real controllers decide, in a time of which a step takes one unit.
+  /// Whether `mover` is a policy: real controllers decide, and each step takes one unit of time.
   [[nodiscard]] bool balanced() const;
   /// "seed 7: ell in 9 subdomains on 5 ranks, ..."
   [[nodiscard]] std::string describe() const;

@@ -15,7 +15,7 @@ using namespace driftmesh::sim;
 
 namespace {
 
-// A wrong rule must show within so many seeds, and by the oracle that is there for it.
+// A broken rule must be found within this number of seeds, by the oracle responsible for it.
 void must_be_caught(const protocol::Rules& rules, std::uint64_t seeds, std::string_view as,
                     const AdversarialRun::Wrap& wrap = {}) {
   Domains domains;
@@ -33,7 +33,7 @@ void must_be_caught(const protocol::Rules& rules, std::uint64_t seeds, std::stri
 using Layer = std::unique_ptr<protocol::Transport>;
 using FindLoop = std::function<const RankLoop&()>;
 
-// Edges and subdomains of any number: the loop looks at them again.
+// Edges and subdomains with any number: the loop checks them again.
 protocol::WireLimits limits_of(const protocol::Transport& transport) {
   return {transport.ranks(), 1 << 20, 1 << 20};
 }
@@ -53,14 +53,14 @@ AdversarialRun::Wrap tampering(Tampering tamper) {
 TEST_CASE("the schedules are hard, on every domain and number of ranks") {
   Domains domains;
   protocol::ProtocolCounters sum;
-  Deeds deeds;
+  AdversaryEffects effects;
   protocol::AdversarialNetwork::Counters network;
   std::set<std::string> compared, shapes, movers;
   std::set<std::int32_t> ranks;
   std::uint64_t late_rounds = 0;
   std::int64_t smallest = INT64_MAX, asleep = 0;
   const auto seeds =
-      static_cast<std::uint64_t>(testing::case_count(3000));  // a tenth of it must show what is rare, too
+      static_cast<std::uint64_t>(testing::case_count(3000));  // a tenth of that must still contain the rare events
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     CAPTURE(seed);
     const Scenario scenario = Scenario::from_seed(seed);
@@ -81,28 +81,28 @@ TEST_CASE("the schedules are hard, on every domain and number of ranks") {
     network.copies += o.network.copies;
     network.starved += o.network.starved;
     network.held += o.network.held;
-    deeds += o.deeds;
+    effects += o.effects;
     late_rounds = std::max(late_rounds, o.late_rounds);
   }
   MESSAGE(sum.splits_sent, " SPLITs in ", sum.batches_sent, " messages, ", sum.hand_offs, " moves, ", sum.forwarded,
           " groups forwarded, ", sum.held, " held; at most ", late_rounds, " probes after the last work");
-  MESSAGE(words_of(deeds));
+  MESSAGE(words_of(effects));
   const auto at_least = static_cast<std::int64_t>(seeds / 10);
   CHECK(shapes.size() == domain_names().size());
   CHECK(movers.size() == mover_names().size());
-  CHECK(deeds.by_chance > at_least);
-  CHECK(deeds.returns > at_least);
-  CHECK(deeds.rotations > at_least);
-  CHECK(deeds.behind_token > at_least / 2);
-  CHECK(deeds.by_policy > at_least);
-  CHECK(deeds.hand_offs_ahead > at_least);
-  CHECK(deeds.splits_ahead > at_least);
-  CHECK(deeds.late_locations > at_least);
-  CHECK(deeds.repeated_locations > at_least);
-  CHECK(deeds.outdated_locations > at_least);
-  CHECK(deeds.late_plans > at_least / 20);
-  CHECK(deeds.starved > at_least);
-  CHECK(deeds.most_hops > 1);
+  CHECK(effects.by_chance > at_least);
+  CHECK(effects.returns > at_least);
+  CHECK(effects.rotations > at_least);
+  CHECK(effects.behind_token > at_least / 2);
+  CHECK(effects.by_policy > at_least);
+  CHECK(effects.hand_offs_ahead > at_least);
+  CHECK(effects.splits_ahead > at_least);
+  CHECK(effects.late_locations > at_least);
+  CHECK(effects.repeated_locations > at_least);
+  CHECK(effects.outdated_locations > at_least);
+  CHECK(effects.late_plans > at_least / 20);
+  CHECK(effects.starved > at_least);
+  CHECK(effects.most_hops > 1);
   CHECK(ranks.contains(1));
   CHECK(ranks.contains(16));
   CHECK(compared.contains("square"));
@@ -165,7 +165,7 @@ TEST_CASE("mutation: held messages count as handled and are never delivered") {
       return program_is_passive && aggregator_empty;
     }
   };
-  must_be_caught(HeldIsHandled(), 100, "ranks tell the token the truth");
+  must_be_caught(HeldIsHandled(), 100, "tokens have the right count and color");
 }
 
 TEST_CASE("mutation: hand-offs are not counted") {
@@ -207,7 +207,7 @@ TEST_CASE("mutation: the packed form omits pending points") {
 TEST_CASE("mutation: forwarding changes the color of a rank") {
   for (const bool black : {true, false}) {
     CAPTURE(black);
-    must_be_caught(protocol::sound_rules(), 50, "ranks tell the token the truth",
+    must_be_caught(protocol::sound_rules(), 50, "tokens have the right count and color",
                    [black](protocol::Transport& transport, FindLoop loop) {
                      return std::make_unique<RecoloringTransport>(
                          transport, black, [loop] { return loop().protocol().counters().forwarded; });

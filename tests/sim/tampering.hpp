@@ -25,12 +25,12 @@ inline bool has_point(const Subdomain& subdomain, const SplitPoint<GlobalRootId>
   return mesh.subsegments[s].path == split.path && !mesh.subsegments[s].is_leaf();
 }
 
-/// Takes in SPLITs for one subdomain in a wrong way: changes what it is told. Their number must stay, since ranks count
+/// Makes a subdomain handle SPLITs wrongly, by changing their content. Their number must not change, since ranks count
 /// them.
 using Tampering = void (*)(protocol::SplitGroup& group, const Subdomain& receiver);
 
-/// As a mesh that puts no missing ancestors in before a point: the point cannot be inserted, and is dropped (another of
-/// the same group stands in for it).
+/// Like a mesh that does not insert missing ancestors before a point: the point cannot be inserted, and is dropped
+/// (another one of the same group takes its place).
 inline void drop_orphans(protocol::SplitGroup& group, const Subdomain& receiver) {
   const auto orphan = [&](const SplitPoint<GlobalRootId>& split) {
     const SplitPoint<GlobalRootId> parent{split.root, split.path >> 1};
@@ -46,13 +46,13 @@ inline void drop_orphans(protocol::SplitGroup& group, const Subdomain& receiver)
   group.points = std::move(heeded);
 }
 
-/// As a mesh that does not see that a point is there already, and cuts the half that lies there instead.
+/// Like a mesh that does not notice that a point exists already, and splits the half that lies there instead.
 inline void insert_again(protocol::SplitGroup& group, const Subdomain& receiver) {
   for (SplitPoint<GlobalRootId>& split : group.points)
     if (has_point(receiver, split)) split.path *= 2;
 }
 
-/// Changes what a rank is told of SPLITs.
+/// Changes the SPLITs that a rank receives.
 class TamperingTransport final : public protocol::TransportLayer {
  public:
   using Find = std::function<const Subdomain*(SubdomainId)>;
@@ -75,7 +75,7 @@ class TamperingTransport final : public protocol::TransportLayer {
   Find find_;
 };
 
-/// Loses the first work that comes to a rank: SPLITs, or a subdomain.
+/// Loses the first work that arrives at a rank: SPLITs, or a subdomain.
 class LosingTransport final : public protocol::TransportLayer {
  public:
   using TransportLayer::TransportLayer;
@@ -91,7 +91,7 @@ class LosingTransport final : public protocol::TransportLayer {
   bool lost_ = false;
 };
 
-/// As a rank that takes a subdomain which it had before for one that it has still: drops it.
+/// Like a rank that believes it still has a subdomain that it had before: drops it.
 class UnwelcomingTransport final : public protocol::TransportLayer {
  public:
   UnwelcomingTransport(protocol::Transport& inner, protocol::WireLimits limits)
@@ -116,7 +116,7 @@ class UnwelcomingTransport final : public protocol::TransportLayer {
   std::set<SubdomainId> known_;
 };
 
-/// As a packed form without the points that the subdomain was told of and has not taken in.
+/// Like a packed form without the pending points of the subdomain.
 class ForgetfulTransport final : public protocol::TransportLayer {
  public:
   ForgetfulTransport(protocol::Transport& inner, protocol::WireLimits limits)
@@ -142,11 +142,11 @@ class ForgetfulTransport final : public protocol::TransportLayer {
   protocol::WireLimits limits_;
 };
 
-/// As a rank that takes another color when it forwards SPLITs: shows in the token that it passes on.
+/// Like a rank that changes color when it forwards SPLITs, which shows in the token that it passes on.
 class RecoloringTransport final : public protocol::TransportLayer {
  public:
   using Forwarded = std::function<std::int64_t()>;
-  /// `forwarded`: how often the rank has, so far.
+  /// `forwarded`: the number of SPLITs that the rank has forwarded so far.
   RecoloringTransport(protocol::Transport& inner, bool black, Forwarded forwarded)
       : TransportLayer(inner), black_(black), forwarded_(std::move(forwarded)) {}
 

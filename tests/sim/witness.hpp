@@ -15,7 +15,7 @@
 #include "protocol/codec.hpp"
 #include "protocol/rank_protocol.hpp"
 #include "protocol/transport_layer.hpp"
-#include "sim/deeds.hpp"
+#include "sim/adversary_effects.hpp"
 
 namespace driftmesh::sim {
 
@@ -26,22 +26,22 @@ template <class T>
   return bytes.size() > 1 && bytes[1] == type;
 }
 
-/// Whether it is advice, and that a T of the balancer.
+/// Whether it is advice that contains a T of the balancer.
 template <class T>
 [[nodiscard]] bool is_advice(const Bytes& bytes) {
   static const std::byte type = protocol::encode(balancer::encode(T{}))[1];
   return bytes.size() > 1 && bytes[1] == type;
 }
 
-/// Sees everything that is sent and received, by all ranks: finds what breaks a rule of docs/protocol.md, and counts
-/// what an adversary has brought about.
+/// Sees everything that all ranks send and receive: finds violations of docs/protocol.md, and counts what an adversary
+/// achieved.
 class Witness {
  public:
-  /// `work_is_over`: whether by the truth it is; asked at any time.
+  /// `work_is_over`: whether all work is really done; can be called at any time.
   Witness(std::int32_t ranks, std::size_t subdomains, std::function<bool()> work_is_over)
       : ranks_(to_index(ranks)), moves_(subdomains), work_is_over_(std::move(work_is_over)) {}
 
-  /// `rank` sends; `counters` are its protocol's at that moment.
+  /// `rank` sends; `counters` are those of its protocol at that moment.
   void sent(Rank rank, const Bytes& bytes, const protocol::ProtocolCounters& counters) {
     ++clock_;
     if (is<protocol::Token>(bytes)) return token_passed(rank, decoded<protocol::Token>(bytes), counters);
@@ -55,7 +55,7 @@ class Witness {
     }
   }
 
-  /// `rank` receives; `holds` says of a subdomain whether it is there.
+  /// `rank` receives; `holds` says whether a subdomain is there.
   void received(Rank rank, const Bytes& bytes, const std::function<bool(SubdomainId)>& holds) {
     if (is<protocol::Token>(bytes)) {
       const auto token = decoded<protocol::Token>(bytes);
@@ -69,18 +69,18 @@ class Witness {
       located(rank, decoded<protocol::LocationUpdate>(bytes));
     } else if (is_advice<balancer::Plan>(bytes)) {
       const auto plan = std::get<balancer::Plan>(balancer::decode(rank, decoded<protocol::Advice>(bytes), kLimits));
-      for (const auto& move : plan.moves) deeds_.late_plans += holds(move.subdomain) ? 0 : 1;
+      for (const auto& move : plan.moves) effects_.late_plans += holds(move.subdomain) ? 0 : 1;
     }
   }
 
-  [[nodiscard]] const Deeds& deeds() const { return deeds_; }
-  /// What is wrong with a token that a rank passed on, or nothing.
+  [[nodiscard]] const AdversaryEffects& effects() const { return effects_; }
+  /// The problem of a token that a rank passed on, or "".
   [[nodiscard]] const std::string& token_problem() const { return token_problem_; }
-  /// What is wrong with the way of a SPLIT, or nothing.
+  /// The problem of the route of a SPLIT, or "".
   [[nodiscard]] const std::string& hops_problem() const { return hops_problem_; }
 
  private:
-  // A group of SPLITs on one leg of its way. Each point is announced once, so that no other group begins with it.
+  // A group of SPLITs on one leg of its route. Each point is announced once, so no other group begins with it.
   using Leg = std::tuple<SubdomainId, GlobalRootId, dyadic::Path, std::uint32_t>;
   struct OfRank {
     std::map<std::uint64_t, protocol::Token> tokens;  // received, by round
@@ -108,8 +108,9 @@ class Witness {
     const bool black = came.black || has_handled;
     const std::int64_t count = came.count + counters.splits_sent + counters.hand_offs - handled;
     if (token.black != black)
-      complain(token_problem_, rank, token.black ? "blackens a token without a reason" : "passes a token on too white");
-    if (token.count != count) complain(token_problem_, rank, "adds to a token what is not its count");
+      complain(token_problem_, rank,
+               token.black ? "blackens a token without a reason" : "passes a token on white that must be black");
+    if (token.count != count) complain(token_problem_, rank, "adds a wrong count to a token");
   }
 
   void split_sent(const protocol::SplitGroup& group) {
@@ -119,8 +120,8 @@ class Witness {
 
   void split_received(const protocol::SplitGroup& group) {
     splits_[group.to].erase(leg(group));
-    if (under_way_.contains(group.to)) ++deeds_.splits_ahead;
-    deeds_.most_hops = std::max<std::int64_t>(deeds_.most_hops, group.hops);
+    if (under_way_.contains(group.to)) ++effects_.splits_ahead;
+    effects_.most_hops = std::max<std::int64_t>(effects_.most_hops, group.hops);
     Leg first = leg(group);
     std::get<3>(first) = 0;
     if (group.hops > group.epoch - first_epoch_.at(first) || group.epoch > moves_.at(group.to))
@@ -133,15 +134,15 @@ class Witness {
     under_way_.erase(s);
     for (const auto& [leg, sent] : splits_[s])
       if (sent < left) {
-        ++deeds_.hand_offs_ahead;
+        ++effects_.hand_offs_ahead;
         return;
       }
   }
 
   void located(Rank rank, const protocol::LocationUpdate& update) {
-    if (work_is_over_()) ++deeds_.late_locations;
-    if (update.epoch < moves_.at(update.subdomain)) ++deeds_.outdated_locations;
-    if (++ranks_[rank].locations[{update.subdomain, update.owner, update.epoch}] > 1) ++deeds_.repeated_locations;
+    if (work_is_over_()) ++effects_.late_locations;
+    if (update.epoch < moves_.at(update.subdomain)) ++effects_.outdated_locations;
+    if (++ranks_[rank].locations[{update.subdomain, update.owner, update.epoch}] > 1) ++effects_.repeated_locations;
   }
 
   static void complain(std::string& problem, Rank rank, const char* what) {
@@ -155,11 +156,11 @@ class Witness {
   std::map<SubdomainId, std::map<Leg, std::uint64_t>> splits_;  // under way, and when they were sent
   std::map<Leg, protocol::Epoch> first_epoch_;
   std::function<bool()> work_is_over_;
-  Deeds deeds_;
+  AdversaryEffects effects_;
   std::string token_problem_, hops_problem_;
 };
 
-/// Between a rank and its network: lets the witness see both ways, and lets time pass by the work that is done.
+/// Between a rank and its network: shows the witness both directions, and lets time pass according to the work done.
 class WitnessedTransport final : public protocol::TransportLayer {
  public:
   using Holds = std::function<bool(SubdomainId)>;

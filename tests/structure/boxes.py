@@ -1,10 +1,10 @@
-"""The boxes of the project as the build files declare them, and the graph of who stands on whom."""
+"""The boxes of the project as the build files declare them, and the graph of their dependencies."""
 
 import dataclasses
 import pathlib
 import re
 
-# Where boxes lie, and from where their headers are named.
+# The folders of boxes, and the folders that their headers are named from.
 TOPS = ("include", "src", "protocol", "migration", "balancer")
 INCLUDE_ROOTS = ("src", ".", "include")
 
@@ -43,7 +43,7 @@ def without_remarks(path):
 
 
 def closure(boxes, name):
-    """The names of all boxes that the box of this name stands on, itself among them."""
+    """The names of all boxes that the box of this name depends on, including itself."""
     found, open_names = set(), [name]
     while open_names:
         name = open_names.pop()
@@ -73,7 +73,7 @@ def cycle_in(boxes):
 
 
 def graph(boxes):
-    """The graph in text: a line for each box, those it stands on without the ones that these stand on themselves, and its
+    """The graph as text: a line for each box, with its dependencies except those implied by others, and its
     outside libraries. Lowest boxes first; boxes between two empty lines stand on those above the line. No cycle, please."""
     level = {}
 

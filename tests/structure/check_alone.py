@@ -38,7 +38,7 @@ def flags_of_boxes(build):
 
 
 def flags_of_all(flags):
-    """A compiler with the include folders of every box: for boxes of headers alone, which have no flags of their own."""
+    """A compiler with the include folders of every box, for boxes that consist of headers and have no flags of their own."""
     words = [word for command in flags.values() for word in command]
     folders = {word for word in words if word.startswith("-I")}
     foreign = {folder for mark, folder in zip(words, words[1:]) if mark == "-isystem"}
@@ -46,7 +46,7 @@ def flags_of_all(flags):
 
 
 def compiled_alone(command, text, build):
-    """What the compiler says against the text of a source."""
+    """The compiler's errors for the text of a source."""
     return subprocess.run([*command, "-fsyntax-only", "-x", "c++", "-"], input=text, cwd=build, capture_output=True, text=True,
                           check=False)
 

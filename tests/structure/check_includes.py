@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the sources to the dependency graph that the build files declare.
+"""Checks the sources against the dependency graph that the build files declare.
 
 usage: check_includes.py [--graph | --update] PROJECT_FOLDER
 
@@ -40,7 +40,7 @@ STANDARD = re.compile(r"""[a-z_]+ | sys/[a-z]+\.h
     | (assert|ctype|dirent|dlfcn|errno|fcntl|fenv|float|inttypes|limits|locale|malloc|math|poll|pthread|sched|setjmp|signal
        |stdarg|stddef|stdint|stdio|stdlib|string|strings|termios|time|unistd|wchar|wctype)\.h""", re.VERBOSE)
 
-# What a box must never stand on: algorithms see no messages, planners and what moves see no communicator.
+# Dependencies that are never allowed: algorithms see no messages; planners and mobile objects see no communicator.
 MESSAGES = ["protocol", "transport_mpi", "council_mpi"]
 KEPT_APART = {"mesh": MESSAGES, "decompose": MESSAGES, "verify": MESSAGES, "io": MESSAGES, "picture": MESSAGES,
               "balancer": MESSAGES[1:], "policies": MESSAGES[1:], "migration": MESSAGES[1:]}
@@ -75,7 +75,7 @@ class Tree:
         return header, found.resolve() if found else None
 
     def reached(self, path):
-        """{file of the project, or name of a header that is none: the files on the way there}, to the very end."""
+        """{file of the project, or name of an outside header: the files on the way there}, transitively."""
         ways, waiting = {}, [(path, [])]
         for file, way in waiting:
             for _, header, target in self.includes(file):
@@ -101,7 +101,7 @@ def library_of(header):
 
 
 def declaration_problems(tree, declared, boxes):
-    """What is wrong with the declarations as such."""
+    """The problems of the declarations themselves."""
     folders = [box.folder for box in declared]
     for box in declared:
         place = tree.name(box.folder)
@@ -130,7 +130,7 @@ def declaration_problems(tree, declared, boxes):
 
 
 def include_problems(tree, boxes, box):
-    """What a box includes and must not, and what it declares and does not include."""
+    """What a box includes without permission, and what it declares without including it."""
     box_of = {other.folder: name for name, other in boxes.items()}
     below = closure(boxes, box.name)
     used_boxes, used_libs, told = set(), set(), set()  # one way to each box or library that is out of reach will do

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whatever states a version states that of include/driftmesh/version.hpp.
+"""Everything that states a version agrees with include/driftmesh/version.hpp.
 
 usage: version_test.py PROJECT_FOLDER VERSION_OF_THE_BUILD PROGRAM
 """

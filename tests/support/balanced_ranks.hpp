@@ -21,11 +21,11 @@
 
 namespace driftmesh::testing {
 
-/// Work that a rank can do bit by bit and hand over: all that balancing sees of a subdomain.
+/// Work that a rank can do step by step and hand over: all that balancing sees of a subdomain.
 struct Job {
   double done = 0;      // triangles
-  double work = 0;      // in truth
-  double forecast = 0;  // what everybody believes
+  double work = 0;      // the actual amount
+  double forecast = 0;  // what all ranks believe
   [[nodiscard]] double remaining() const { return done >= work ? 0 : std::max(1.0, forecast - done); }
   [[nodiscard]] std::uint64_t bytes() const { return 40 + static_cast<std::uint64_t>(16 * done); }
 };
@@ -94,7 +94,7 @@ class WorkingRank {
     return heard;
   }
 
-  // What is begun comes first, as in the loop of a real rank.
+  // Jobs already begun come first, as in the loop of a real rank.
   [[nodiscard]] std::vector<SubdomainId> agenda() const {
     std::vector<SubdomainId> order;
     for (const auto& [id, job] : jobs_)
@@ -162,7 +162,7 @@ struct Outcome {
   int most_moves_of_one = 0;
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;
-  bool complete = false;  // the run has ended in good order, and every job was done, whole, once
+  bool complete = false;  // the run ended properly, and every job was done completely and once
 };
 
 /// The ranks of one run, made for the endpoints of a network.
@@ -186,7 +186,7 @@ class WorkingRanks {
   }
   [[nodiscard]] const IdVector<Rank, protocol::RankStep>& steps() const { return steps_; }
 
-  /// Found by looking at the jobs, wherever they are.
+  /// Determined from the jobs, wherever they are.
   [[nodiscard]] Outcome outcome(protocol::RunEnd end) const {
     Outcome outcome;
     outcome.complete = end == protocol::RunEnd::kFinished;
@@ -213,7 +213,7 @@ class WorkingRanks {
   IdVector<Rank, protocol::RankStep> steps_;
 };
 
-/// Runs jobs on simulated ranks in simulated time until the protocol says that it is over.
+/// Runs jobs on simulated ranks in virtual time until the protocol terminates.
 inline Outcome run_jobs(const Cluster& cluster, const balancer::Layout& layout, const Jobs& jobs,
                         const std::string& policy, const balancer::Parameters::Values& parameters = {},
                         const balancer::ControllerOptions& options = {}) {

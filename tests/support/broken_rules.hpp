@@ -2,7 +2,7 @@
 
 #include "protocol/rules.hpp"
 
-/// Rules of the protocol with one mistake each, for tests that have to notice: with toy ranks, and with real meshes.
+/// Rules of the protocol with one mistake each, which tests must notice: with toy ranks, and with real meshes.
 namespace driftmesh::testing {
 
 /// A rank counts as passive, and SPLITs as sent when they leave, while the aggregator holds some.
@@ -16,7 +16,7 @@ struct PassiveWithSplitsToSend final : protocol::Rules {
   }
 };
 
-/// An idle rank keeps what its aggregator has collected.
+/// An idle rank does not flush its aggregator.
 struct NoFlushWhenIdle final : protocol::Rules {
   [[nodiscard]] bool flushes_when_idle() const override { return false; }
 };
@@ -27,7 +27,7 @@ struct ForwardingCountsAsSending final : protocol::Rules {
   }
 };
 
-/// What is held back counts as handled, and again when it is.
+/// Held messages count as handled, and again when they are.
 struct HoldingCountsAsHandling final : protocol::Rules {
   [[nodiscard]] bool counts_as_handled(Station station) const override {
     return station == Station::kHeld || Rules::counts_as_handled(station);
@@ -39,7 +39,7 @@ struct HandOffsAreNotCounted final : protocol::Rules {
   [[nodiscard]] bool counts_as_handled(Station station) const override { return station == Station::kReachesSubdomain; }
 };
 
-/// The location heard of last is believed, however old it is.
+/// The location received last is believed, however old it is.
 struct NoEpochs final : protocol::Rules {
   [[nodiscard]] bool supersedes(const protocol::Location&, const protocol::Location&) const override { return true; }
 };

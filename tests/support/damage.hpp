@@ -24,7 +24,7 @@ inline void replace_file(const std::string& path, const std::string& bytes) {
   stream << bytes;
 }
 
-/// How many damaged versions of a file a reader took, and how many it refused with driftmesh::Error. Any other
+/// The numbers of damaged versions of a file that a reader accepted, and rejected with driftmesh::Error. Any other
 /// outcome fails the test by itself.
 struct DamageCount {
   int accepted = 0;

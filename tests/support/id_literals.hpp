@@ -2,7 +2,7 @@
 
 #include "driftmesh/ids.hpp"
 
-/// Numbers of things, as tests write them.
+/// Literals for IDs in tests.
 namespace driftmesh {
 
 [[nodiscard]] consteval Rank operator""_rank(unsigned long long number) {

@@ -8,7 +8,7 @@
 
 namespace driftmesh::testing {
 
-/// What each rank of a snapshot brings to a council. With `random`, some of its subdomains have come just now.
+/// What each rank of a snapshot contributes to a council. With `random`, some of its subdomains have just arrived.
 inline std::vector<balancer::Contribution> contributions_of(const LoadSnapshot& snapshot,
                                                             std::mt19937_64* random = nullptr) {
   std::vector<balancer::Contribution> all;
@@ -28,9 +28,9 @@ inline std::vector<balancer::Move> all_moves(const std::vector<balancer::Council
   return moves;
 }
 
-/// What is wrong with the decisions of one round, or nothing: each rank moves what it owns and what has not come just
-/// now, each subdomain once and to another rank; all ranks believe the same; and what they believe of the future is
-/// what the moves lead to.
+/// The problem of the decisions of a round, or "": each rank must move only subdomains that it owns and that have not
+/// just arrived, each once and to another rank; all ranks must agree; and the states they expect must be those that the
+/// moves lead to.
 inline std::string problem_of(const LoadSnapshot& snapshot, const std::vector<balancer::Contribution>& contributions,
                               const std::vector<balancer::Council::Decision>& decisions) {
   IdVector<Rank, double> work;
@@ -44,8 +44,9 @@ inline std::string problem_of(const LoadSnapshot& snapshot, const std::vector<ba
       const auto& settled = contributions[to_index(r)].settled;
       if (!s || s->owner != r) return "a rank moves what it does not own";
       if (move.destination == s->owner || !work.has(move.destination)) return "a move to nowhere";
-      if (move.subdomain <= last) return "moves are not in order, or one is there twice";
-      if (std::binary_search(settled.begin(), settled.end(), move.subdomain)) return "what came just now moves on";
+      if (move.subdomain <= last) return "moves are not in order, or one is listed twice";
+      if (std::binary_search(settled.begin(), settled.end(), move.subdomain))
+        return "a subdomain that just arrived moves on";
       last = move.subdomain;
       work[r] -= s->remaining;
       work[move.destination] += s->remaining;
@@ -56,10 +57,10 @@ inline std::string problem_of(const LoadSnapshot& snapshot, const std::vector<ba
   for (const Rank r : ids_of(coming)) {
     const balancer::Council::Decision& decision = decisions[to_index(r)];
     if (decision.any_moves != any) return "a rank is wrong about whether anything moves";
-    if (decision.coming.count != coming[r]) return "a rank waits for more or less than comes";
+    if (decision.coming.count != coming[r]) return "a rank waits for more or less than arrives";
     for (const Rank i : ids_of(work))
       if (std::abs(decision.states[i].remaining - work[i]) > 1e-9 * (1 + std::abs(work[i])))
-        return "the states that were planned are not those that the moves lead to";
+        return "the planned states are not those that the moves lead to";
   }
   return {};
 }

@@ -10,11 +10,11 @@
 
 namespace driftmesh::testing {
 
-/// What a rank that joins a run late has at the start.
+/// The subdomains of a rank that joins a run late.
 enum class Start {
-  kNothing,       ///< all subdomains are the others'
-  kOneSubdomain,  ///< all but one
-  kShare,         ///< as many as any
+  kNothing,       ///< none: the others have all subdomains
+  kOneSubdomain,  ///< one
+  kShare,         ///< as many as any other rank
 };
 
 /// One rank that joins a run late.
@@ -24,8 +24,8 @@ struct LateCase {
   Start start = Start::kNothing;
 };
 
-/// Who starts with which of so many subdomains: dealt in turn, so that neighbors have much to tell each other, and of
-/// what would be the late rank's all but what it starts with to the others.
+/// The initial owners of this number of subdomains: round-robin, so that neighbors communicate a lot, except that the
+/// late rank's subdomains beyond those it starts with go to the others.
 inline IdVector<SubdomainId, Rank> late_owners(std::size_t subdomains, std::int32_t ranks, const LateCase& late) {
   const std::size_t kept = late.start == Start::kShare ? subdomains : late.start == Start::kOneSubdomain ? 1 : 0;
   IdVector<SubdomainId, Rank> owners;
@@ -35,8 +35,8 @@ inline IdVector<SubdomainId, Rank> late_owners(std::size_t subdomains, std::int3
   return owners;
 }
 
-/// The plan of a run that makes about so many triangles of `input`, in subdomains of several slices. Policies look
-/// often and report often, so that they do something within tenths of a second.
+/// The plan of a run that makes about this many triangles of `input`, in subdomains of several slices. Policies check
+/// loads often, so that they act within tenths of a second.
 inline RunPlan late_plan(const Pslg& input, double triangles, std::int32_t ranks, const LateCase& late) {
   const double area = summarize_angles(triangulate(input)).total_area;
   RunPlan plan = plan_for(input, {20, 1.5 * area / triangles, {}, nullptr}, ranks, 40, Presplit::kOff);

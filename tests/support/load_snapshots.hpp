@@ -11,7 +11,7 @@ namespace driftmesh::testing {
 using balancer::Layout;
 using balancer::LoadSnapshot;
 
-/// A square of columns x rows subdomains, each as large as the other, dealt to the ranks in blocks of consecutive ones.
+/// A grid of columns x rows equal subdomains, mapped to the ranks in blocks of consecutive ones.
 inline Layout grid_layout(int columns, int rows, std::int32_t ranks) {
   Layout layout;
   layout.ranks = ranks;
@@ -31,7 +31,7 @@ inline Layout grid_layout(int columns, int rows, std::int32_t ranks) {
   return layout;
 }
 
-/// All subdomains of the layout at its owners, with the predicted work, at these speeds.
+/// All subdomains of the layout at their owners, with the predicted work, at these speeds.
 inline LoadSnapshot initial_snapshot(Layout layout, const IdVector<Rank, double>& speeds) {
   LoadSnapshot snapshot;
   IdVector<Rank, std::int32_t> turns(speeds.size(), 0);
@@ -70,7 +70,7 @@ inline LoadSnapshot random_snapshot(std::mt19937_64& random) {
   return snapshot;
 }
 
-/// When the last rank finishes, found from the raw lists: an oracle that shares nothing with the planners.
+/// The finishing time of the last rank, from the raw lists: an oracle that shares nothing with the planners.
 inline double time_with(const LoadSnapshot& snapshot, const std::vector<balancer::Move>& moves) {
   double sum = 0;
   int known = 0;

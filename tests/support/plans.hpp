@@ -8,7 +8,7 @@
 
 namespace driftmesh::testing {
 
-/// The plan of a run, as the program makes it.
+/// A plan made the way the program makes it.
 inline RunPlan plan_for(const Pslg& pslg, const QualityBounds& bounds, std::int32_t ranks, std::int32_t subdomains,
                         Presplit presplit) {
   Triangulation mesh = triangulate(pslg);

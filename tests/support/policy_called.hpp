@@ -6,7 +6,7 @@
 
 namespace driftmesh::testing {
 
-/// A policy as it is named to the factory.
+/// The name and parameters of a policy for the factory.
 struct PolicyCalled {
   std::string name;
   balancer::Parameters::Values parameters;

@@ -10,7 +10,7 @@
 
 namespace driftmesh::test {
 
-/// What random_mesh puts into a mesh beside points and triangles.
+/// The optional parts of a random mesh besides points and triangles.
 struct RandomMeshParts {
   bool point_markers = true;
   bool regions = true;

@@ -16,7 +16,7 @@
 
 namespace driftmesh::testing {
 
-/// Fine at one place, growing away from it.
+/// Fine at one point, growing with the distance.
 class RadialField final : public SizeField {
  public:
   RadialField(Point center, double least, double growth) : center_(center), least_(least), growth_(growth) {}
@@ -29,8 +29,8 @@ class RadialField final : public SizeField {
   double least_, growth_;
 };
 
-/// A random domain cut into subdomains, with random bounds: some with regions of their own bounds, some with a size
-/// field. About `triangles` triangles in all.
+/// A random domain cut into subdomains, with random bounds: some with regions that have their own bounds, some with a
+/// size field. About `triangles` triangles in all.
 class RandomSubdomains {
  public:
   RandomSubdomains(std::uint64_t seed, int subdomains, double triangles) : random_(seed) {
@@ -50,7 +50,7 @@ class RandomSubdomains {
   [[nodiscard]] const SubdomainContext& context() const { return context_; }
   [[nodiscard]] std::size_t size() const { return decomposition_.size(); }
   [[nodiscard]] std::mt19937_64& random() { return random_; }
-  /// A point down to `deepest` halvings that a neighbor might put on the border of subdomain i.
+  /// A point of depth up to `deepest` that a neighbor might put on the border of subdomain i.
   [[nodiscard]] SplitPoint<GlobalRootId> split_of(SubdomainId i, int deepest) {
     const auto roots = decomposition_.roots_of(i);
     const GlobalRootId root = roots[random_() % roots.size()];

@@ -14,13 +14,13 @@
 
 namespace driftmesh::testing {
 
-/// Refines all subdomains of a decomposition in one place, as ranks would: each alone, then split points on shared
-/// roots are exchanged until nothing changes.
+/// Refines all subdomains of a decomposition in one process, as ranks would: each on its own, then split points on
+/// shared roots are exchanged until nothing changes.
 struct RefinedTogether {
   IdVector<SubdomainId, SubdomainMesh> parts;
-  int rounds = 0;             ///< of exchanges that brought something new
+  int rounds = 0;             ///< exchanges with new points
   std::size_t exchanged = 0;  ///< split points that one side had before the other
-  std::size_t refused = 0;    ///< split points that the other side could not take
+  std::size_t refused = 0;    ///< split points that the other side could not insert
   std::vector<std::string> not_conforming;
 };
 

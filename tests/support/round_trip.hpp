@@ -12,7 +12,7 @@
 
 namespace driftmesh::test {
 
-/// The mesh with what is known of one that was made in subdomains, as far as the format holds it.
+/// The mesh with the additional arrays of one made in subdomains, as far as the format stores them.
 inline Mesh in_subdomains(Mesh mesh, const std::string& extension) {
   if (extension == ".vtu")
     for (std::size_t v = 0; v < mesh.points.size(); ++v)
@@ -26,7 +26,7 @@ inline Mesh in_subdomains(Mesh mesh, const std::string& extension) {
 }
 
 /// Writes random meshes with and without each of their parts to a file with this extension (".vtu"), and checks that
-/// they read back as they were.
+/// they read back unchanged.
 inline void check_random_meshes_read_back(const std::string& extension) {
   const TemporaryFolder folder;
   const std::string path = folder.path() / ("mesh" + extension);
@@ -41,7 +41,7 @@ inline void check_random_meshes_read_back(const std::string& extension) {
   }
 }
 
-/// The same for a mesh of nothing, and for points without triangles.
+/// The same for an empty mesh, and for points without triangles.
 inline void check_meshes_without_triangles_read_back(const std::string& extension) {
   const TemporaryFolder folder;
   const std::string path = folder.path() / ("mesh" + extension);

@@ -37,8 +37,8 @@ struct SimulatedRanks {
   }
 };
 
-/// What is wrong with the parts as one mesh: subdomains that are missing or live twice, and shared edges whose sides
-/// hold different points.
+/// The problems of the parts as one mesh: subdomains that are missing or live twice, and shared edges whose sides have
+/// different points.
 inline std::vector<std::string> conformity_problems(const Decomposition& d,
                                                     const std::vector<const Subdomain*>& subdomains) {
   std::vector<std::string> problems;

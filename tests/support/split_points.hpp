@@ -7,7 +7,7 @@
 
 namespace driftmesh::testing {
 
-/// Of each root: its split points by their names, with coordinates.
+/// The split points of each root by path, with coordinates.
 using SplitPoints = std::map<GlobalRootId, std::map<dyadic::Path, Point>>;
 
 inline SplitPoints split_points(const SubdomainMesh& part) {
@@ -20,8 +20,8 @@ inline SplitPoints split_points(const SubdomainMesh& part) {
   return points;
 }
 
-/// The roots of this part whose split points are not those that the part before had there. `first` has the points of
-/// the parts before, and gets those of this one.
+/// The roots of this part whose split points differ from those that an earlier part had there. `first` has the points
+/// of the earlier parts, and gets those of this one.
 inline std::vector<GlobalRootId> not_conforming_roots(const SubdomainMesh& part, SplitPoints& first) {
   std::vector<GlobalRootId> differing;
   SplitPoints own = split_points(part);

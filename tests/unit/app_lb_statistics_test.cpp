@@ -48,7 +48,7 @@ std::vector<Task> tasks(const std::vector<std::string>& files, std::size_t rank,
 
 using Kind = Json::value_t;
 
-/// Fields with their types: those that must be there, and those that may.
+/// Fields with their types: required and optional ones.
 struct Fields {
   std::map<std::string, Kind> required, optional;
 };
@@ -63,7 +63,7 @@ const Fields kEntity{{{"home", kWhole}, {"id", kWhole}, {"migratable", Kind::boo
 const Fields kCommunication{
     {{"type", Kind::string}, {"from", Kind::object}, {"to", Kind::object}, {"messages", kWhole}, {"bytes", kReal}}, {}};
 
-/// Whole numbers are one type for tools: signed or not is a matter of this library alone.
+/// Integers are one type for the tools; only this library distinguishes signed from unsigned.
 Kind kind_of(const Json& value) {
   return value.is_number_integer() ? kWhole : value.type();
 }
@@ -106,7 +106,8 @@ void check_task(const Json& task, std::size_t rank) {
   }
 }
 
-/// One phase in the files of all ranks: nobody is two tasks, and who says something to somebody is a task, and another.
+/// One phase in the files of all ranks: each subdomain is one task, and each communication is between two different
+/// tasks.
 void check_phase(const std::vector<Json>& files, std::size_t phase) {
   std::set<std::int64_t> tasks;
   for (std::size_t rank = 0; rank < files.size(); ++rank) {
@@ -125,7 +126,7 @@ void check_phase(const std::vector<Json>& files, std::size_t phase) {
       const std::int64_t from = edge.at("from").at("id"), to = edge.at("to").at("id");
       for (const char* end : {"from", "to"}) check_entity(edge.at(end));
       CHECK((tasks.count(from) > 0 && tasks.count(to) > 0 && from != to));
-      CHECK(edges.emplace(from, to).second);  // of two, LBAF forgets one
+      CHECK(edges.emplace(from, to).second);  // LBAF drops one of two
     }
 }
 

@@ -69,7 +69,7 @@ std::string error_of(const Advice& advice) {
   return {};
 }
 
-// Whatever the bytes, decode either refuses them or understands all of them.
+// Whatever the bytes, decode either rejects them or decodes all of them.
 bool refused_or_canonical(const Advice& advice) {
   try {
     return encode(decode(kSender, advice, kLimits)) == advice;

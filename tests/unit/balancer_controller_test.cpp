@@ -38,16 +38,16 @@ std::vector<std::pair<Rank, M>> sent(const Decision& decision) {
 
 TEST_CASE("a rank that works as reported has nothing to report") {
   ReportRule rule(0.02, 5, 0.1);
-  CHECK(!rule.due(0, 1000, 0, false));  // does not know its speed
-  CHECK(rule.due(0, 0, 0, false));      // has nothing to do
+  CHECK(!rule.due(0, 1000, 0, false));  // its speed is unknown
+  CHECK(rule.due(0, 0, 0, false));      // has no work
   CHECK(rule.due(0.1, 1000, 100, false));
   rule.told(0.1, 1000, 100);
   CHECK(!rule.due(1.1, 900, 100, false));
   CHECK(!rule.due(1.1, 850, 95, false));
-  CHECK(rule.due(1.1, 900, 80, false));    // slower than it thought
-  CHECK(rule.due(1.1, 1200, 100, false));  // more to do
+  CHECK(rule.due(1.1, 900, 80, false));    // slower than expected
+  CHECK(rule.due(1.1, 1200, 100, false));  // more work
   CHECK(rule.due(1.1, 900, 100, true));    // other subdomains
-  CHECK(!rule.due(0.11, 900, 80, true));   // but not at once again
+  CHECK(!rule.due(0.11, 900, 80, true));   // but not again at once
   CHECK(rule.due(5.2, 490, 100, false));   // a sign of life
   CHECK(rule.due(9, 0, 100, false));       // finished
   rule.told(10, 0, 100);
@@ -134,7 +134,7 @@ TEST_CASE("the leader plans when all have reported, and a rank follows") {
   CHECK(plans[0].first == 1_rank);
   CHECK(plans[0].second.moves.size() == 4);
 
-  // What is not here, or finished, or costs more than it is worth, stays.
+  // Subdomains that are not here, finished, or not worth their cost stay.
   other.receive(0_rank, plans[0].second, 100.2);
   CHECK(other.waiting());
   Loads here = loads_of(6, 11, 1000);
@@ -145,7 +145,7 @@ TEST_CASE("the leader plans when all have reported, and a rank follows") {
   CHECK(!other.waiting());
   CHECK(followed.moves.size() == 2);
   const auto answer = sent<LoadReport>(followed);
-  REQUIRE(answer.size() == 1);  // the leader learns what was done
+  REQUIRE(answer.size() == 1);  // the leader learns the outcome
   CHECK(answer[0].second.plan == plans[0].second.round);
   CHECK(answer[0].second.loads.size() == 3);
 }
@@ -250,7 +250,7 @@ TEST_CASE("a refused rank stops asking and is served later") {
   CHECK(!thief.waiting());
   for (int i = 0; i < 100; ++i) CHECK(sent<balancer::WorkRequest>(thief.think(2 + i, {}, 300)).empty());
 
-  // SPLITs have made work at the broker.
+  // SPLITs have created work at the broker.
   CHECK(broker.think(200, loads_of(0, 4, 1000), 1000).moves.empty());
   const Decision late = broker.think(200.1, loads_of(0, 4, 1000), 1000);
   CHECK(!late.moves.empty());

@@ -64,14 +64,15 @@ TEST_CASE("a speed is known after a while, and adapts") {
   CHECK(speed.value() == 0);
   for (int i = 0; i < 1000; ++i) speed.add({100, 0.01});
   CHECK(speed.value() == doctest::Approx(10'000));
-  for (int i = 0; i < 200; ++i) speed.add({50, 0.01});  // one memory's time at half the speed
+  for (int i = 0; i < 200; ++i) speed.add({50, 0.01});  // one averaging period at half the speed
   CHECK(speed.value() == doctest::Approx(5000 + 5000 * std::exp(-1)).epsilon(0.01));
   speed.add({1e9, 0});
   CHECK(speed.value() < 10'000);
 }
 
 TEST_CASE("the start of a subdomain alone does not determine a speed") {
-  // Beginning takes 30 ms of a rank of 1,000 triangles a second, 60 ms of one half as fast; then a point makes two.
+  // The start takes 30 ms on a rank of 1,000 triangles per second, 60 ms on one half as fast; then each point makes two
+  // triangles.
   const auto after = [](double speed, double seconds, bool finished) {
     SpeedEstimate estimate;
     estimate.add({0, 30 / speed, true, false});
@@ -83,7 +84,7 @@ TEST_CASE("the start of a subdomain alone does not determine a speed") {
   CHECK(after(500, 0.2, false) == 0);
   CHECK(after(1000, 0.4, false) == doctest::Approx(1000).epsilon(0.1));
   CHECK(after(500, 0.8, false) == doctest::Approx(500).epsilon(0.1));
-  // What was finished tells it, however much of the time the beginning took.
+  // Finished subdomains determine it, however much of the time the start took.
   CHECK(after(1000, 0.2, true) / after(500, 0.4, true) == doctest::Approx(2).epsilon(0.02));
 }
 
@@ -128,7 +129,7 @@ TEST_CASE("subdomains that cost more to move than to finish stay") {
   sum_up(s);
   const std::vector<Move> plan{{0_sub, 1_rank}};
   CHECK(worth_moving(s, plan, {}) == plan);
-  // In the time that a byte takes to pack these ranks make 0.015 triangles.
+  // In the time to pack a byte, these ranks make 0.015 triangles.
   s.subdomains[0].bytes = 80'000;  // 1.2 s to pack, for 1 s of work
   CHECK(worth_moving(s, plan, {}).empty());
   s.subdomains[0].bytes = 70'000;  // 1.05 s to unpack; the other one would finish after 2.05 s instead of 2 s

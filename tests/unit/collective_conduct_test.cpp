@@ -1,4 +1,4 @@
-// One rank's side of a round that all ranks plan in, step by step.
+// One rank's side of a joint planning round, step by step.
 #include "balancer/collective_conduct.hpp"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ using Stage = balancer::JointRound::Stage;
 
 namespace {
 
-/// Decides what it was told, and remembers what it was brought.
+/// Decides as instructed, and records the contributions.
 class ScriptedCouncil final : public Council {
  public:
   Decision next;
@@ -49,7 +49,7 @@ struct Bench {
   std::shared_ptr<const Layout> layout = std::make_shared<const Layout>(grid_layout(12, 1, 3));
   std::shared_ptr<const Policy> policy = make_policy("zoltan", {{"placement", "collective"}});
 
-  /// A round is called and started for a rank that has this to do; it decides when it thinks next.
+  /// Calls and starts a round for a rank with this work; it decides at its next think().
   static void begin_round(CollectiveConduct& rank, std::uint32_t number, double now,
                           const std::vector<ReportedLoad>& loads) {
     rank.receive(0_rank, JointRound{number, Stage::kCall}, now);
@@ -57,7 +57,7 @@ struct Bench {
     rank.receive(0_rank, JointRound{number, Stage::kStart}, now);
   }
   CollectiveConduct rank(Rank self) { return {self, layout, ControllerOptions{}, council, 0}; }
-  /// Rank 0 after everybody has reported: rank 2 has much, the others little.
+  /// Rank 0 after all reports: rank 2 has much work, the others little.
   CollectiveConduct leader_that_knows() {
     CollectiveConduct leader = rank(0_rank);
     static_cast<void>(leader.think({0.01, loads_of(0, 0, 100), 300}));
@@ -86,7 +86,7 @@ TEST_CASE("rank 0 calls when there is something to gain, and starts the plan whe
   const auto start = sent<JointRound>(leader.think({0.07, loads_of(0, 0, 100), 300}));
   REQUIRE(start.size() == 2);
   CHECK(start[1] == std::pair<Rank, JointRound>{2_rank, {1, Stage::kStart}});
-  // The others must hear of the start before rank 0 waits for them.
+  // The start must be sent to the others before rank 0 waits for them.
   CHECK(bench.council.brought.empty());
   CHECK(leader.pressing());
 
@@ -96,7 +96,7 @@ TEST_CASE("rank 0 calls when there is something to gain, and starts the plan whe
   CHECK(bench.council.brought[0].state.remaining == 90);
   CHECK(decided.planned);
   CHECK(!leader.waiting());
-  CHECK(sent<JointRound>(decided).empty());  // what was decided is even
+  CHECK(sent<JointRound>(decided).empty());  // the decision balances the loads
 }
 
 TEST_CASE("rank 0 does not call while loads are even, nor before all speeds are known") {
@@ -130,7 +130,7 @@ TEST_CASE("a rank answers a call once, continues, and hands over what was decide
   bench.council.next.moves = {{8_sub, 0_rank}, {9_sub, 1_rank}};
   const Decision decided = rank.think({1.02, loads_of(9, 11, 980), 300});  // 8 is finished
   CHECK(decided.moves == std::vector<Move>{{9_sub, 1_rank}});
-  CHECK(sent<LoadNews>(decided).empty());  // what leaves is still in the list
+  CHECK(sent<LoadNews>(decided).empty());  // subdomains about to leave are still listed
   CHECK(!rank.waiting());
   const auto news = sent<LoadNews>(rank.think({1.05, loads_of(10, 11, 970), 300}));
   REQUIRE(news.size() == 1);
@@ -147,13 +147,13 @@ TEST_CASE("a subdomain that has just arrived stays, and one under way counts as 
     return rank.think({now, loads_of(4, 5, 100), 300});
   };
   bench.council.next.coming = {1000, 2};
-  CHECK(sent<LoadNews>(round(1, 1)).empty());  // rank 0 knows better than what is here now
+  CHECK(sent<LoadNews>(round(1, 1)).empty());  // rank 0 knows more than the present load
   bench.council.next.coming = {0, 0};
   rank.arrived(5_sub, 1.1);
   static_cast<void>(round(2, 1.1));
   CHECK(bench.council.brought[1].state.remaining == 200 + 500);
   CHECK(bench.council.brought[1].settled == std::vector<SubdomainId>{5_sub});
-  static_cast<void>(round(3, 1.2));  // the one before has promised nothing, and takes nothing back
+  static_cast<void>(round(3, 1.2));  // the previous round promised nothing, and revokes nothing
   CHECK(bench.council.brought[2].state.remaining == 200 + 500);
   static_cast<void>(round(4, 4.5));
   CHECK(bench.council.brought[3].state.remaining == 200);

@@ -14,7 +14,7 @@ using namespace driftmesh::cli;
 
 namespace {
 
-/// A program with two commands, and what it was told.
+/// A program with two commands, and the values it received.
 struct Program {
   std::string input, order = "given";
   std::vector<std::string> outputs;

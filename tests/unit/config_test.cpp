@@ -34,7 +34,7 @@ class Files {
   TemporaryFolder folder_;
 };
 
-/// The message for a file that is refused, from its name or from the setting on.
+/// The message for an invalid file, starting with its name or the setting.
 std::string message_for(const std::string& yaml, const std::vector<std::string>& settings = {}) {
   try {
     static_cast<void>(Files().read(yaml, settings));
@@ -100,7 +100,7 @@ TEST_CASE("settings override the file and its sweeps") {
   CHECK(one.points[1].request.cluster.ranks == 5);
   CHECK(files.read(yaml, {"cluster.ranks=[1, 2, 3]"}).points.size() == 6);
   CHECK(files.read(kLeast, {"cluster.groups=[{ranks: 4}]", "cluster.ranks=0"}).base.cluster.groups.size() == 1);
-  // A text with what YAML takes for a table's colon.
+  // A text with a colon that YAML takes for a table's.
   CHECK(files.read(kLeast, {"sizing.size=x < 1 ? 0.1 : 0.2"}).base.sizing.expression == "x < 1 ? 0.1 : 0.2");
 }
 

@@ -9,7 +9,7 @@
 #include "oracles/grid_mesh.hpp"
 #include "verify/verify.hpp"
 
-// What tests of the judge share: ways to damage a mesh that is right, and what is asked of the report.
+// Shared by tests of the verifier: ways to damage a correct mesh, and checks of the report.
 
 namespace driftmesh::testing {
 

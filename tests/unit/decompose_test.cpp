@@ -76,7 +76,7 @@ std::string first_problem(const DecompositionReport& report) {
   return report.valid() ? "" : report.problems[0];
 }
 
-/// The invariants, the area, and that every subdomain has a triangulation of its area.
+/// Checks the invariants, the area, and that every subdomain has a triangulation of its area.
 DecompositionReport check_whole(const Decomposition& d, const Triangulation& mesh, std::size_t n) {
   CHECK(d.size() == n);
   const DecompositionReport report = check_decomposition(d);

@@ -25,7 +25,7 @@ using namespace driftmesh::test;
 
 namespace {
 
-/// Two unit squares side by side, a subdomain each, as a person would write it down.
+/// Two unit squares side by side, one subdomain each, written by hand.
 Decomposition two_squares() {
   Decomposition d;
   d.points = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}};
@@ -61,7 +61,7 @@ void split(SubdomainMesh& part, GlobalRootId global, std::initializer_list<dyadi
 
 constexpr GlobalRootId kSeparator{6};
 
-/// Both squares with their separator split alike, and no other point.
+/// Both squares with the same split points on their separator, and no other points.
 struct TwoSquares {
   Decomposition d = two_squares();
   IdVector<SubdomainId, SubdomainMesh> parts{subdomain_triangulation(d, 0_sub), subdomain_triangulation(d, 1_sub)};
@@ -99,7 +99,7 @@ DistributedCase plate(std::int32_t subdomains) {
   return {generate_holes({.columns = 3, .rows = 2}), subdomains, bounds};
 }
 
-/// What happens when all ranks write: each message that one of them throws, or "".
+/// The messages of the exceptions of all ranks when they write, or "".
 std::vector<std::string> write_all(const IdVector<Rank, Exchange*>& ranks) {
   protocol::AdversarialNetwork network(static_cast<std::int32_t>(ranks.size()), protocol::Adversary::from_seed(3));
   IdVector<Rank, ExchangeRunner> runners;
@@ -184,7 +184,7 @@ TEST_CASE("sides of a root with different points are an error that names it and 
   CAPTURE(together);
   CHECK(mentions(together, {"root 6", "rank 0 has 2 points", "rank 0 has 1 points"}));
 
-  split(squares.parts[1_sub], kSeparator, {3});  // as many, but others
+  split(squares.parts[1_sub], kSeparator, {3});  // as many, but different ones
   const std::string same_count = message_of([&] {
     PieceAssembly one(0_rank, 2, squares.d, squares.held({1_sub})), other(1_rank, 2, squares.d, squares.held({0_sub}));
     talk({&one, &other});

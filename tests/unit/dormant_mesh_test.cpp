@@ -45,7 +45,7 @@ std::map<std::pair<GlobalRootId, dyadic::Path>, std::pair<Edge, int>> subsegment
   return all;
 }
 
-/// What every vertex is, by its place: the subsegment of a midpoint by root and path.
+/// The kind of every vertex, by position: the subsegment of a midpoint by root and path.
 std::multiset<std::string> origins_of(const SubdomainMesh& part) {
   std::multiset<std::string> all;
   const Triangulation& mesh = part.mesh;

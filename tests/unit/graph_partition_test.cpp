@@ -10,7 +10,7 @@ namespace {
 
 using driftmesh::WeightedGraph;
 
-/// side x side cells, each joined to the ones beside it.
+/// side x side cells, each joined to its neighbors.
 WeightedGraph grid(std::int32_t side) {
   WeightedGraph graph;
   const auto join = [&](std::int32_t x, std::int32_t y) {

@@ -82,6 +82,6 @@ TEST_CASE("kNone is -1 as a number of any signed kind") {
   CHECK(0 != kNone);
   const IdVector<std::int32_t, int> values(3);
   CHECK_FALSE(values.has(kNone));
-  // A label of 16 bits would come out as 65535, which may be one.
+  // A 16-bit label would become 65535, which may be a valid one.
   static_assert(!std::is_convertible_v<NoId, std::uint16_t>);
 }

@@ -11,7 +11,7 @@ using namespace driftmesh::job;
 
 namespace {
 
-/// The key that is refused at a place, or "" where nothing is.
+/// The key that is rejected at a place, or "" if none is.
 std::string refused(Place place, const std::function<void(Request&)>& change) {
   Request request;
   if (place == kSimulated) request.cluster.ranks = 4;
@@ -42,7 +42,7 @@ TEST_CASE("keys that do not apply are rejected, never ignored") {
   CHECK(refused(kOnePiece, [](Request& r) { r.run.sleep = true; }) == "run.sleep");
   CHECK(refused(kSubdomains, [](Request& r) { r.run.sleep = true; }).empty());
   CHECK(refused(kRanks, [](Request& r) { r.limits.keep_incomplete = true; }) == "limits.keep-incomplete");
-  CHECK(refused(kRanks, [](Request& r) { r.cluster.latency = 1; }).empty());  // a file may be for both kinds of ranks
+  CHECK(refused(kRanks, [](Request& r) { r.cluster.latency = 1; }).empty());  // a file may serve both kinds of ranks
   CHECK(refused(kOnePiece, [](Request& r) { r.cluster.latency = 1; }) == "cluster.latency");
   CHECK(refused(kRanks, [](Request& r) { r.cluster.groups = {{"a", 2, 1e6}}; }) == "cluster.groups");
 }

@@ -14,7 +14,7 @@ const KeyInfo& key(const char* name) {
   return *find_key(name).key;
 }
 
-/// The number that a key takes a text for, or -1 where it refuses.
+/// The number that a key reads from a text, or -1 if the key rejects it.
 double number(const char* name, const std::string& text) {
   try {
     const Value value = read_value(key(name), text);
@@ -58,7 +58,7 @@ TEST_CASE("no two keys share a name, an option, a letter or a place in the reque
     if (!k.option.empty()) CHECK(options.insert(k.option).second);
     if (k.letter != 0) CHECK(letters.insert(k.letter).second);
   }
-  // What is stored through one key shows through no other.
+  // A value stored through one key does not change any other.
   for (const Key& k : keys()) {
     Request request;
     Value other = k.standard;

@@ -18,7 +18,7 @@
 #include "mesh/digest.hpp"
 #include "pslg/generators.hpp"
 
-// The one way from a request to a mesh, at every place that needs no MPI.
+// The path from a request to a mesh, at every place that needs no MPI.
 
 using namespace driftmesh;
 using namespace driftmesh::job;
@@ -38,7 +38,7 @@ Prepared prepared(const Request& request, Place place, std::size_t ranks) {
   return prepare(request, domain, {}, place, IdVector<Rank, double>(ranks, 1.0), Limits{}, watch);
 }
 
-/// The digest of the mesh in subdomains, on this process alone.
+/// The digest of the mesh made in subdomains by this process alone.
 std::uint64_t digest_alone(const Request& request) {
   Watch watch;
   const auto team = lone_team();

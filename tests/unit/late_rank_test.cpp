@@ -1,4 +1,4 @@
-// A rank that joins the work late, in virtual time: until then it takes nothing in and says nothing.
+// A rank that joins the work late, in virtual time: until then it neither receives nor sends.
 #include <doctest/doctest.h>
 
 #include <memory>
@@ -28,7 +28,7 @@ VirtualCluster slow_cluster(std::int32_t ranks) {
   return cluster;
 }
 
-/// A run in which one rank makes its loop at a moment of its own.
+/// A run in which one rank creates its loop later than the others.
 class LateRun {
  public:
   LateRun(const RunPlan& plan, std::int32_t ranks, Rank late, double moment)
@@ -79,7 +79,7 @@ RunPlan plan_for_late(std::int32_t ranks, const LateCase& late) {
   return late_plan(generate_holes({.columns = 3, .rows = 2}), 15'000, ranks, late);
 }
 
-/// How long the others take for all that is theirs.
+/// The time that the others take for all their work.
 double seconds_without(std::int32_t ranks, LateCase late) {
   late.policy = "none";
   const RunPlan plan = plan_for_late(ranks, late);
@@ -102,7 +102,7 @@ TEST_CASE("a late rank without subdomains gets work, and two or three ranks fini
           const RunPlan plan = plan_for_late(ranks, late);
           const LateRun run(plan, ranks, rank, share * alone);
           run.check_mesh();
-          // Diffusion knows ranks that touch; who has nothing does not.
+          // Diffusion considers adjacent ranks, and a rank without subdomains has none.
           const bool gives = late.policy != "none" && late.policy != "diffusion";
           CHECK((run.loop(rank).protocol().counters().arrivals > 0) == gives);
           CHECK((run.loop(rank).times().computing > 0) == gives);
@@ -126,7 +126,7 @@ TEST_CASE("a run waits for a late rank when all work could be done, even if it w
       CHECK((run.loop(rank).times().computing > 0) == arrived);
       given += arrived ? 1 : 0;
     }
-  CHECK(given > 0);  // by a leader, which takes a rank that says nothing for one that has nothing to do
+  CHECK(given > 0);  // by a leader, which takes a silent rank for one without work
 }
 
 TEST_CASE("a late rank with subdomains finds them, and all messages to them") {

@@ -18,7 +18,7 @@
 #include "temporary_folder.hpp"
 #include "verify/verify.hpp"
 
-// What a program calls that makes meshes in its own process.
+// The library's functions for meshes in one process.
 
 using namespace driftmesh;
 
@@ -163,7 +163,7 @@ TEST_CASE("options are checked against the table of keys, and errors name them a
     CHECK(error_of_options(options).find(" is not a number") != std::string::npos);
   CHECK(error_of_options({.subdomains = {.count = 4, .skew = kNoNumber}}) ==
         "MeshOptions::subdomains.skew is not a number; give one");
-  // Nothing is advised that the library does not have.
+  // Advice refers only to options that the library has.
   CHECK(error_of_options({.max_area = 1, .triangles = 100}) ==
         "MeshOptions::triangles cannot be combined with MeshOptions::max_area; remove one of them");
   const std::string too_many = error_of_options({.max_area = 1e-5, .max_triangles = 100});
@@ -173,7 +173,7 @@ TEST_CASE("options are checked against the table of keys, and errors name them a
   CHECK(error_of_options({.subdomains = {.count = 4, .presplit = Presplit::kOn}}) ==
         "MeshOptions::subdomains.presplit is on, but nothing says how long the pieces of interfaces may be; give "
         "MeshOptions::max_area, MeshOptions::triangles or MeshOptions::size, or remove it");
-  // What means nothing here is refused.
+  // Options that do not apply are rejected.
   CHECK(error_of_options({.subdomains = {.slice = 100}}).starts_with("MeshOptions::subdomains.slice "));
   CHECK(error_of_options({.subdomains = {.count = 4}, .balance = {.policy = "greedy"}})
             .starts_with("MeshOptions::balance.policy "));

@@ -57,7 +57,7 @@ TEST_CASE("work follows the speeds of the ranks") {
 TEST_CASE("area can be balanced instead of work") {
   Decomposition d = square_in(400);
   for (const SubdomainId i : first_ids<SubdomainId>(40))
-    d.subdomains[i].predicted *= 50;  // as a size field does that is fine in a corner
+    d.subdomains[i].predicted *= 50;  // like a size field that is fine in a corner
   for (const MappingMethod method : {MappingMethod::kGraph, MappingMethod::kBlock}) {
     MappingOptions options{4, {}, method, MappingWeight::kArea};
     const Assignment assignment = map_subdomains(d, options);

@@ -159,7 +159,7 @@ TEST_CASE("the narrowest place between two segments is found, with a forecast of
     CHECK(place->triangles > triangles / 2);
     CHECK(place->triangles < triangles * 2);
   }
-  // A point near a segment, or segments that meet, are no such place.
+  // A point near a segment, or segments that meet, do not count.
   Pslg point = slit(0.1, 0.1, 1e-6, 0.5);
   CHECK(find_narrow_place(triangulate(point))->triangles < 100);
   Pslg wedge = slit(0, 0, 0, 0);

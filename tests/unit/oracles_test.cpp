@@ -10,7 +10,7 @@
 #include "oracles/random_pslg.hpp"
 #include "verify/domain.hpp"
 
-// The oracles themselves can fail.
+// The oracles detect errors.
 
 using namespace driftmesh;
 using namespace driftmesh::oracles;

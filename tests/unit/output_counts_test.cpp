@@ -13,7 +13,7 @@
 #include "support/random_mesh.hpp"
 #include "temporary_folder.hpp"
 
-// Every number of records or columns that a mesh file declares is held against the records themselves.
+// Every number of records or columns that a mesh file declares is compared with the records themselves.
 
 using namespace driftmesh;
 using namespace driftmesh::test;

@@ -1,4 +1,4 @@
-// The real Gmsh reads what is written here and writes what is read here.
+// The real Gmsh reads our files and writes files that we read.
 
 #include <doctest/doctest.h>
 
@@ -77,7 +77,7 @@ struct Msh22 {
   }
 };
 
-// A mesh whose order does not matter: Gmsh numbers nodes and elements anew.
+// A mesh compared regardless of order, since Gmsh renumbers nodes and elements.
 struct Unordered {
   using Key = std::pair<long long, long long>;  // coordinates in units of 1e-12
   explicit Unordered(const Mesh& mesh) {
@@ -141,7 +141,7 @@ TEST_CASE("Gmsh shows the subdomain and the rank of the triangles") {
   // Views are loaded with the mesh; Gmsh writes each as text: one line for each element, its value last.
   replace_file(script, "Merge \"" + written + "\";\nFor i In {0 : PostProcessing.NbViews - 1}\n" +
                            "  Save View[i] Sprintf(\"" + (folder.path() / "view%g.pos").string() + "\", i);\nEndFor\n");
-  // Errors alone are said: for each view it warns that it has higher orders, which do not go into text.
+  // Print only errors: for each view, Gmsh warns about higher orders, which the text does not contain.
   run_gmsh("-v 1 '" + script + "' -0 -o '" + (folder.path() / "ignored.msh").string() + "'", folder.path());
   for (const auto& [values, name] : {std::pair(&mesh.subdomains, "subdomain"), {&mesh.ranks, "rank"}}) {
     CAPTURE(name);

@@ -41,7 +41,7 @@ class Picture {
     std::memcpy(&pixel, row + 4 * x, 4);
     return pixel & 0xffffff;
   }
-  // How many pixels of a rectangle are not white.
+  // The number of pixels of a rectangle that are not white.
   [[nodiscard]] int drawn(int left, int top, int right, int bottom) const {
     int count = 0;
     for (int y = top; y < bottom; ++y)
@@ -172,7 +172,7 @@ TEST_CASE("a picture shows triangles in their colors and leaves holes white") {
   const Picture picture(path);
   REQUIRE(picture.width() == 800);
   REQUIRE(picture.height() == 600);
-  // The square's place is found from the picture itself: its boundary is the darkest thing below the title.
+  // The square is located by its fill color.
   int left = 800, right = 0, top = 600, bottom = 0;
   for (int y = 70; y < 560; ++y)
     for (int x = 60; x < 790; ++x)

@@ -17,8 +17,7 @@ using namespace driftmesh::test;
 
 namespace {
 
-// A second reader of VTU, line by line and with nothing of the first: the raw bytes of each array by
-// "section/name".
+// An independent reader of VTU, line by line: the raw bytes of each array by "section/name".
 class VtuOracle {
  public:
   explicit VtuOracle(const std::string& path) : bytes_(file_bytes(path)) {

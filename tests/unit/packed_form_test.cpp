@@ -32,7 +32,7 @@ std::string refusal_of(const Bytes& bytes, const SubdomainContext& context, Sour
   return "";
 }
 
-/// The same payload under a new header: what lies within is tested, not the checksum.
+/// The same payload with a new header, so that the content is tested, not the checksum.
 Bytes sealed_again(const Bytes& bytes) {
   SealedBytes sealed(bytes.size());
   sealed.append(bytes.data() + sizeof(PackedHeader), bytes.size() - sizeof(PackedHeader));
@@ -56,7 +56,7 @@ Subdomain asleep(RandomSubdomains& world, SubdomainId id) {
   return subdomain;
 }
 
-/// Reads all arrays by all handles, under the eyes of a sanitizer where there is one.
+/// Reads all arrays by all handles, so that a sanitizer can detect errors.
 void look_at_everything(Subdomain& subdomain) {
   if (!subdomain.started()) return;
   if (subdomain.dormant()) {
@@ -145,7 +145,7 @@ TEST_CASE("damage with a correct checksum is rejected, or leaves a mesh whose in
       Bytes changed = whole;
       for (auto flips = 1 + random() % 3; flips > 0; --flips) {
         const std::size_t at = sizeof(PackedHeader) + random() % (whole.size() - sizeof(PackedHeader));
-        // Small numbers, since lengths and handles are made of them; and any others.
+        // Small numbers, since lengths and handles are small, and any others.
         changed[at] = static_cast<std::byte>(random() % 2 == 0 ? random() % 4 : random());
       }
       changed = sealed_again(changed);
@@ -161,7 +161,7 @@ TEST_CASE("damage with a correct checksum is rejected, or leaves a mesh whose in
   }
   MESSAGE(refused << " refused, " << accepted << " accepted");
   CHECK(refused > accepted);
-  CHECK(accepted > 0);  // low bits of coordinates, forecasts, counters: nobody can tell
+  CHECK(accepted > 0);  // low bits of coordinates, forecasts and counters cannot be checked
 }
 
 TEST_CASE("every invariant of a triangulation is checked") {
@@ -204,7 +204,7 @@ TEST_CASE("every invariant of a triangulation is checked") {
   CHECK(fault([&](Triangulation& m) { std::swap(m.triangles[live].neighbor[1], m.triangles[other].neighbor[1]); }) !=
         "");
   CHECK(fault([&](Triangulation& m) {
-          Triangle& t = m.triangles[live];  // turned, but not its neighbors' views of it
+          Triangle& t = m.triangles[live];  // rotated, but not its neighbors' references to it
           t = {{t.vertex[1], t.vertex[2], t.vertex[0]}, {t.neighbor[1], t.neighbor[2], t.neighbor[0]}};
         }) != "");
   CHECK(fault([&](Triangulation& m) { m.subsegments[inner(m)].path = 0; }) != "");

@@ -13,7 +13,7 @@
 #include "temporary_folder.hpp"
 #include "verify/verify.hpp"
 
-// Pieces written down by hand: two unit squares side by side that share the points 1, 4 and, halfway, 6.
+// Pieces written by hand: two unit squares side by side that share the points 1, 4 and, halfway, 6.
 
 using namespace driftmesh;
 using namespace driftmesh::test;

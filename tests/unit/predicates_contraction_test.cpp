@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Whether the variants can run here; says so where not.
+/// Whether the variants can run here; prints a message if not.
 bool processor_fuses() {
 #if defined(__x86_64__)
   const bool fuses = __builtin_cpu_supports("fma");

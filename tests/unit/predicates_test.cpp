@@ -19,7 +19,7 @@ TEST_CASE("incircle tells inside, outside and on the circle") {
   CHECK(incircle({1, 0}, {0, 1}, {-1, 0}, {0, 0}) > 0);
   CHECK(incircle({1, 0}, {0, 1}, {-1, 0}, {0, -2}) < 0);
   CHECK(incircle({1, 0}, {0, 1}, {-1, 0}, {0, -1}) == 0);
-  CHECK(incircle({0, 1}, {1, 0}, {-1, 0}, {0, 0}) < 0);  // clockwise: the sign turns over
+  CHECK(incircle({0, 1}, {1, 0}, {-1, 0}, {0, 0}) < 0);  // clockwise: the sign is reversed
 }
 
 TEST_CASE("one ulp off a line is detected") {
@@ -27,7 +27,7 @@ TEST_CASE("one ulp off a line is detected") {
   CHECK(orient2d({0, 0}, {1, 1}, {x, x}) == 0);
   CHECK(orient2d({0, 0}, {1, 1}, {x, up}) > 0);
   CHECK(orient2d({0, 0}, {1, 1}, {x, down}) < 0);
-  // Far beyond the end of a short segment, where plain doubles see nothing.
+  // Far beyond the end of a short segment, where plain doubles fail.
   const Point far_up{1e9 * x, std::nextafter(1e9 * x, 1e10)};
   CHECK(orient2d({0, 0}, {1e-9, 1e-9}, far_up) > 0);
 }

@@ -2,8 +2,8 @@
 
 #include <array>
 
-// The predicates once more, compiled for a processor that can fuse a multiplication and an addition: with the flags of
-// the project, and with contraction allowed. See predicates_contraction_test.cpp.
+// Copies of the predicates, compiled for a processor with fused multiply-add: with the flags of the project, and with
+// contraction allowed. See predicates_contraction_test.cpp.
 
 namespace uncontracted {
 double product_difference(double a, double b, double c, double d);

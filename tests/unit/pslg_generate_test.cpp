@@ -36,7 +36,7 @@ std::map<std::int32_t, int> marker_counts(const Pslg& pslg) {
   return counts;
 }
 
-/// How often a ray from p to the east crosses segments.
+/// The number of segments that a ray from p to the east crosses.
 int crossings_east(const Pslg& pslg, const Point& p) {
   int count = 0;
   for (const Pslg::Segment& s : pslg.segments) {
@@ -47,7 +47,7 @@ int crossings_east(const Pslg& pslg, const Point& p) {
   return count;
 }
 
-/// What holds for every kind that has a boundary: planar, loops only, holes inside their loops.
+/// Checks that hold for every kind with a boundary: planar, loops only, holes inside their loops.
 void check_closed_model(const Pslg& pslg) {
   Pslg copy = pslg;
   const RepairReport report = repair(copy);
@@ -79,7 +79,7 @@ TEST_CASE("pipe: bore and channels, area of the ring less the channels") {
   check_closed_model(pslg);
   CHECK(pslg.holes.size() == 9);
   CHECK(marker_counts(pslg).size() == 10);
-  // Bending a channel keeps its area, because it is centerd on the circle along which widths are measured.
+  // Bending a channel keeps its area, because it is centered on the circle along which widths are measured.
   const double channel = o.channel_depth * o.channel_width - (4 - kPiHere) * o.fillet * o.fillet;
   const double ring = kPiHere * (o.outer_radius * o.outer_radius - o.bore_radius * o.bore_radius);
   CHECK(area(pslg) == doctest::Approx(ring - 8 * channel).epsilon(2e-3));

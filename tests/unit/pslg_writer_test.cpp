@@ -18,7 +18,7 @@ bool same(const Pslg& a, const Pslg& b) {
          a.regions == b.regions && a.first_number == b.first_number;
 }
 
-// Coordinates of every size, so that a writer that drops a digit is seen.
+// Coordinates of every magnitude, to detect a writer that drops a digit.
 Pslg random_pslg(std::mt19937_64& random) {
   std::uniform_real_distribution<double> mantissa(-1, 1);
   std::uniform_int_distribution<int> exponent(-60, 60);

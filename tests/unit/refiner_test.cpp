@@ -13,7 +13,7 @@
 #include "mesh/exceptions.hpp"
 #include "small_domains.hpp"
 
-// The refiner as a subdomain uses it: slice by slice, stopped and taken up again, told of points and telling them.
+// The refiner as a subdomain uses it: in slices, stopped and resumed, with split points received and reported.
 
 using namespace driftmesh;
 using namespace driftmesh::testing;

@@ -30,14 +30,14 @@ inline RunPlan plan_of(const Pslg& pslg, const QualityBounds& bounds, std::int32
   return plan;
 }
 
-/// Of the whole mesh.
+/// The digest of the whole mesh.
 inline std::uint64_t digest_of(const std::vector<const Subdomain*>& subdomains) {
   std::uint64_t sum = 0;
   for (const Subdomain* s : subdomains) sum += mesh_digest(s->mesh().mesh);
   return sum;
 }
 
-/// The subdomains conform and meet the bounds of the plan.
+/// Checks that the subdomains conform and meet the bounds of the plan.
 inline void check_mesh(const RunPlan& plan, const std::vector<const Subdomain*>& subdomains) {
   const auto problems = conformity_problems(plan.decomposition, subdomains);
   CHECK_MESSAGE(problems.empty(), (problems.empty() ? "" : problems[0]));

@@ -93,7 +93,7 @@ TEST_CASE("every policy gives a slow rank less work and leaves the mesh unchange
     plan.balancing.policy = name;
     prepare_balancing(plan, 3, balancer::make_policy);
     protocol::VirtualNetwork network({speeds, {}, 1e-6, 1e-6});
-    // Long enough for reports and plans to matter: what takes a microsecond here takes a hundred on these ranks.
+    // Slow enough for reports and plans to matter: what takes a microsecond here takes a hundred on these ranks.
     CostModel slow;
     slow.point *= 100;
     SimulatedRanks run(network, 3, plan, slow);

@@ -39,7 +39,7 @@ std::vector<Point> random_points(double low, double high, int count) {
   return points;
 }
 
-/// Points inside and outside of a mesh of side n, on its corners and on the middles of its edges.
+/// Points inside and outside a mesh of side n, at its corners and at the midpoints of its edges.
 std::vector<Point> telling_points(const FlatMesh& mesh, double n) {
   std::vector<Point> points = random_points(-0.3 * n, 1.3 * n, 2000);
   points.insert(points.end(), mesh.points.begin(), mesh.points.end());
@@ -139,7 +139,7 @@ TEST_CASE("gradation: no edge exceeds the limit, and no larger function respects
   for (double& length : lengths) length = std::exp(std::uniform_real_distribution(-4.0, 3.0)(random));
   lengths[3] = kInfinity;
   for (const double gradation : {0.05, 0.25, 1.0}) {
-    // The oracle: shortest ways between all pairs of points.
+    // The oracle: shortest paths between all pairs of points.
     std::vector<double> way(n * n, kInfinity);
     for (std::size_t i = 0; i < n; ++i) way[i * n + i] = 0;
     for (const auto& t : mesh.triangles)

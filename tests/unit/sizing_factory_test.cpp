@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A folder of files that goes away with the test.
+/// A temporary folder of files.
 class Folder {
  public:
   Folder() {

@@ -20,7 +20,7 @@ inline Pslg rectangle(double width, double height) {
   return pslg;
 }
 
-/// A square with `wedges` segments of random lengths and directions that meet in its middle.
+/// A square with `wedges` segments of random lengths and directions that meet at its center.
 inline Pslg fan(unsigned seed, int wedges) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi), radius(0.1, 0.9);

@@ -57,7 +57,7 @@ TEST_CASE("the circumcenter is equally far from all corners") {
 }
 
 TEST_CASE("the circumcenter keeps its accuracy far from the origin") {
-  // The corners are exact doubles, so the center is known: it moves with the triangle.
+  // The corners are exact doubles, so the center is known: it is translated with the triangle.
   const double far = 0x1p40, size = 0x1p-8;
   const Point center = circumcenter({far, far}, {far + 4 * size, far}, {far + size, far + 3 * size});
   CHECK(center == Point{far + 2 * size, far + size});
@@ -70,8 +70,8 @@ TEST_CASE("computed coordinates too small for the predicates become zero") {
   CHECK(snap_to_zero(-0x1p-190) == -0x1p-190);
 }
 
-// The circumcenter sees the shortest edge at twice the smallest angle, the off-center at just over theta: they change
-// over at tan(smallest) = tan(theta / 2) / 0.95.
+// The circumcenter sees the shortest edge at twice the smallest angle, the off-center at just over theta: they coincide
+// at tan(smallest) = tan(theta / 2) / 0.95.
 
 TEST_CASE("an off-center is the circumcenter where that is near") {
   const double factor = off_center_factor(20);
@@ -95,7 +95,7 @@ TEST_CASE("the off-center of a skinny triangle lies on the bisector of the short
     CHECK(distance(p, off) == doctest::Approx(distance(q, off)).epsilon(1e-9));
     CHECK(orient2d(p, q, off) > 0);
     CHECK(distance(midpoint(p, q), off) == doctest::Approx(distance(p, q) * off_center_factor(theta)));
-    // The new triangle meets the bound, with little room.
+    // The new triangle meets the bound by a small margin.
     CHECK(seen_angle(off, p, q) > theta * kDegree);
     CHECK(seen_angle(off, p, q) < (theta + 2) * kDegree);
     // It is nearer to the edge than the circumcenter.

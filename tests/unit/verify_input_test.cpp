@@ -6,8 +6,8 @@
 
 #include "damaged_grid.hpp"
 
-// A mesh against what it was asked to be: segments, markers, regions, holes, points and bounds of the input. Each test
-// damages one of the two, and asks for the kind of flaw that names it.
+// Checks of a mesh against its input: segments, markers, regions, holes, points and bounds. Each test damages one of
+// the two, and expects the corresponding kind of flaw.
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
@@ -18,7 +18,7 @@ TEST_CASE("a subsegment that is missing, listed twice or no edge") {
   drop_subsegment(grid.mesh, grid.at(3, 0), grid.at(4, 0));
   CHECK_HAS(check(grid), Flaw::open_edge);
   CHECK_HAS(check(grid), Flaw::segment_missing);
-  grid = GridCase();  // inside the domain nothing but the input can tell
+  grid = GridCase();  // inside the domain, only the input shows it
   drop_subsegment(grid.mesh, grid.at(3, 9), grid.at(4, 9));
   CHECK(verify(grid.mesh, {}).accepted());
   CHECK_HAS(check(grid), Flaw::segment_missing);
@@ -168,7 +168,7 @@ TEST_CASE("a chain that leaves its segment") {
   grid.mesh.points[grid.at(6, 9)].y = 9.0000001;
   CHECK_HAS(check(grid, 0, 0), Flaw::off_segment);
   CHECK(check(grid, 0, 0).findings.messages(Flaw::off_segment).front().find("off its line") != std::string::npos);
-  grid = GridCase();  // rounding is no flaw
+  grid = GridCase();  // rounding is not a flaw
   grid.mesh.points[grid.at(6, 9)].y = std::nextafter(9.0, 10.0);
   CHECK(check(grid, 0, 0).findings.count(Flaw::off_segment) == 0);
 }

@@ -6,8 +6,8 @@
 
 #include "damaged_grid.hpp"
 
-// Each test damages a mesh that is right in one way and asks for the kind of flaw that names it. Here are flaws of the
-// mesh itself; tests of a mesh and its input are in verify_input_test.cpp.
+// Each test damages a correct mesh in one way and expects the corresponding kind of flaw. Flaws of the mesh itself are
+// here; those of a mesh and its input are in verify_input_test.cpp.
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
@@ -140,7 +140,7 @@ TEST_CASE("a vertex in an edge: a T-junction") {
   add_triangle(grid.mesh, {m, b, c}, 10);
   CHECK_HAS(check(grid), Flaw::open_edge);
   CHECK_HAS(verify(grid.mesh, {}), Flaw::open_edge);
-  // Called a slit of constrained edges, it is still seen: the boundary touches itself.
+  // Declared as a slit of constrained edges, it is still detected: the boundary touches itself.
   grid.mesh.edges.insert(grid.mesh.edges.end(), {{a, m, 0}, {m, b, 0}, {a, b, 0}});
   CHECK_HAS(verify(grid.mesh, {}), Flaw::boundary_crosses);
 }

@@ -74,7 +74,7 @@ TEST_CASE("an arrangement with verticals, a dangling link and squares that share
   add_loop(points, links, square(0, 0, 4));
   points.insert(points.end(), {{8, 4}, {8, 8}, {4, 8}, {2, 4.5}, {1, 1}, {1, 3}});
   links.insert(links.end(), {{2, 4}, {4, 5}, {5, 6}, {6, 2}});  // a square at the corner (4, 4)
-  links.push_back({8, 9});                                      // a link of its own inside the first
+  links.push_back({8, 9});                                      // a separate link inside the first
   const Arrangement a(points, links, {{2, 2}, {6, 6}, {2, 6}, {1, 2}});
   REQUIRE(!a.conflict());
   CHECK(a.face_count() == 3);
@@ -95,7 +95,7 @@ TEST_CASE("links that cross, overlap or touch are a conflict, whatever their ord
     return one;
   };
   CHECK(conflict({{0, 0}, {2, 2}, {0, 2}, {2, 0}}));   // cross
-  CHECK(conflict({{0, 0}, {2, 0}, {1, 0}, {1, 5}}));   // an end in the inside
+  CHECK(conflict({{0, 0}, {2, 0}, {1, 0}, {1, 5}}));   // an end inside the other link
   CHECK(conflict({{0, 0}, {0, 4}, {0, 1}, {0, 9}}));   // overlap on a vertical
   CHECK(conflict({{0, 0}, {4, 4}, {1, 1}, {2, 2}}));   // one in the other
   CHECK(conflict({{0, 0}, {0, 4}, {-1, 2}, {1, 2}}));  // cross a vertical
@@ -249,7 +249,7 @@ TEST_CASE("a small angle is accepted where the input has it, and nowhere else") 
   CHECK(report.accepted());
   CHECK(report.quality.exceptions[ExceptionReason::input_angle].count == 1);
 
-  // The same corner cut by a vertex: its two angles of 7 degrees are no angles of the input.
+  // The same corner cut by a vertex: its two angles of 7 degrees are not angles of the input.
   Mesh cut;
   cut.points = {{0, 0}, {4, 0}, {4, 0.5}, {4, 1}};
   cut.triangles = {{0, 1, 2}, {0, 2, 3}};
