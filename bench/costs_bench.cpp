@@ -59,7 +59,7 @@ Costs measure(const RunPlan& plan) {
     const SliceWork start = subdomain.work(0, said);
     const double prepared = thread_seconds();
     double points = static_cast<double>(start.points);
-    while (subdomain.active()) points += static_cast<double>(subdomain.work(plan.slice, said).points);
+    while (subdomain.active()) points += static_cast<double>(subdomain.work(plan.work.slice, said).points);
     costs.subdomains += 1;
     costs.prepared += static_cast<double>(start.prepared);
     costs.prepare_seconds += prepared - begin;

@@ -70,10 +70,10 @@ PlanOptions plan_options(const Request& request, Place place, const IdVector<Ran
   if (request.mapping.by_area) options.mapping.weight = MappingWeight::kArea;
   options.mapping.speeds = request.mapping.by_speed ? speeds : IdVector<Rank, double>(request.mapping.speeds);
   options.presplit = request.run.presplit;
-  options.aggregation = static_cast<std::size_t>(request.run.aggregation);
-  options.slice = request.run.slice;
-  options.order = request.run.order;
-  options.sleep = request.run.sleep;
+  options.work.aggregation = static_cast<std::size_t>(request.run.aggregation);
+  options.work.slice = request.run.slice;
+  options.work.order = request.run.order;
+  options.work.sleep = request.run.sleep;
   options.balancing = balancing_of(request, place);
   return options;
 }

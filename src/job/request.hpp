@@ -87,7 +87,7 @@ struct Request {
     Presplit presplit = Presplit::kAuto;
     std::int64_t aggregation = protocol::Aggregator::kDefaultThreshold;
     WorkOrder order = WorkOrder::kGiven;
-    std::int64_t slice = RunPlan{}.slice;
+    std::int64_t slice = WorkSettings{}.slice;
     bool sleep = false;
   } run;
 

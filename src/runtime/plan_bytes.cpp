@@ -27,10 +27,7 @@ void transfer_plan(Stream& stream, Plan& plan) {
   stream.value(plan.bounds.max_area);
   stream.array(plan.bounds.region_max_area);
   stream.value(plan.presplit);
-  stream.value(plan.aggregation);
-  stream.value(plan.slice);
-  stream.value(plan.order);
-  stream.value(plan.sleep);
+  stream.value(plan.work);
   stream.value(plan.max_triangles);
   stream.value(plan.balancing.options);
 }

@@ -44,17 +44,14 @@ Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options,
 RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options,
                  const balancer::PolicyMaker& policies) {
   require_possible(bounds);
-  if (options.slice < 1) throw Error("a slice must be at least one insertion");
+  if (options.work.slice < 1) throw Error("a slice must be at least one insertion");
   const bool sized = bounds_size(bounds);
   RunPlan plan;
   plan.owners = map_subdomains(decomposition, options.mapping);
   plan.decomposition = std::move(decomposition);
   plan.bounds = bounds;
   plan.presplit = options.presplit != Presplit::kOff && sized;
-  plan.aggregation = options.aggregation;
-  plan.slice = options.slice;
-  plan.order = options.order;
-  plan.sleep = options.sleep;
+  plan.work = options.work;
   plan.balancing = options.balancing;
   prepare_balancing(plan, options.mapping.ranks, policies);
   return plan;

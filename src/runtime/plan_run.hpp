@@ -15,10 +15,7 @@ namespace driftmesh {
 struct PlanOptions {
   MappingOptions mapping;               ///< mapping.ranks: of the run
   Presplit presplit = Presplit::kAuto;  ///< kOn is for bounds that limit the size of triangles
-  std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;
-  std::int64_t slice = RunPlan{}.slice;
-  WorkOrder order = WorkOrder::kGiven;
-  bool sleep = false;
+  WorkSettings work;
   Balancing balancing;
 };
 

@@ -17,10 +17,10 @@ RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, const Co
       costs_(costs),
       observers_(std::move(observers)),
       rules_(rules),
-      protocol_(transport.rank(), transport.ranks(), plan.owners, plan.aggregation, rules),
+      protocol_(transport.rank(), transport.ranks(), plan.owners, plan.work.aggregation, rules),
       limits_{transport.ranks(), static_cast<std::int32_t>(plan.owners.size()),
               static_cast<std::int32_t>(plan.decomposition.roots.size())},
-      agenda_(plan.order),
+      agenda_(plan.work.order),
       clock_(transport.now()) {
   if (plan.policy)
     controller_.emplace(transport.rank(), plan.layout, plan.policy, plan.balancing.options, clock_, council);
@@ -131,7 +131,7 @@ bool RankLoop::work() {
   own_failure_ = true;
   const std::int64_t before = subdomain.triangles();
   const double start = transport_.now();
-  const SliceWork done = subdomain.work(plan_.slice, said_);
+  const SliceWork done = subdomain.work(plan_.work.slice, said_);
   triangles_ += subdomain.triangles() - before;
   if (triangles_ > plan_.max_triangles)
     throw LimitError("rank " + to_string(transport_.rank()) + " has more than " + std::to_string(plan_.max_triangles) +
@@ -140,7 +140,7 @@ bool RankLoop::work() {
                    (done.prepared > 0 ? costs_.start + static_cast<double>(done.prepared) * costs_.prepared : 0));
   reschedule(subdomain);
   if (done.woken > 0) transport_.spend(static_cast<double>(done.woken) * costs_.woken);
-  if (plan_.sleep && !subdomain.active()) {
+  if (plan_.work.sleep && !subdomain.active()) {
     subdomain.sleep();
     transport_.spend(static_cast<double>(subdomain.triangles()) * costs_.asleep);
   }

@@ -25,17 +25,22 @@ struct Balancing {
   balancer::ControllerOptions options;
 };
 
+/// How each rank works, the same on all ranks.
+struct WorkSettings {
+  std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;  ///< most SPLITs in one message
+  /// Insertions between polls of the transport: some milliseconds, and most subdomains in one go.
+  std::int64_t slice = 16384;
+  WorkOrder order = WorkOrder::kGiven;
+  bool sleep = false;  ///< compress finished subdomains to a quarter of their memory until a neighbor needs them
+};
+
 /// What every rank of a parallel run knows from the start, equal on all ranks.
 struct RunPlan {
   Decomposition decomposition;
   IdVector<SubdomainId, Rank> owners;  ///< at the start
   QualityBounds bounds;
   bool presplit = false;
-  std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;  ///< SPLITs in one message at most
-  /// Insertions between two looks at the transport: some milliseconds, and most subdomains in one go.
-  std::int64_t slice = 16384;
-  WorkOrder order = WorkOrder::kGiven;
-  bool sleep = false;  ///< compress finished subdomains to a quarter of their memory until a neighbor needs them
+  WorkSettings work;
   std::int64_t max_triangles = INT64_MAX;  ///< on one rank; more is a LimitError
 
   Balancing balancing;

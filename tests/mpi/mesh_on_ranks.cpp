@@ -57,9 +57,9 @@ RunPlan plan_of(const Job& job, const QualityBounds& bounds, const Triangulation
   PlanOptions options;
   options.mapping.ranks = ranks;
   options.presplit = job.presplit;
-  options.aggregation = 1 + job.seed % 20;
-  options.slice = job.slice;
-  options.sleep = job.sleep;
+  options.work.aggregation = 1 + job.seed % 20;
+  options.work.slice = job.slice;
+  options.work.sleep = job.sleep;
   options.balancing = job.balancing;
   return plan_run(decompose_for(mesh, cutting, ranks), bounds, options, balancer::make_policy);
 }

@@ -53,10 +53,10 @@ void AdversarialRun::make_plan() {
   plan_.bounds = domain_.bounds();
   context_ = {&plan_.decomposition, plan_.bounds, scenario_.presplit};
   plan_.presplit = scenario_.presplit;
-  plan_.aggregation = scenario_.aggregation;
-  plan_.slice = scenario_.slice;
-  plan_.order = scenario_.order;
-  plan_.sleep = scenario_.sleep;
+  plan_.work.aggregation = scenario_.aggregation;
+  plan_.work.slice = scenario_.slice;
+  plan_.work.order = scenario_.order;
+  plan_.work.sleep = scenario_.sleep;
   if (!scenario_.balanced()) return;
   const testing::PolicyCalled called = testing::policy_called(scenario_.mover);
   plan_.balancing.policy = called.name;

@@ -41,8 +41,8 @@ inline RunPlan late_plan(const Pslg& input, double triangles, std::int32_t ranks
   const double area = summarize_angles(triangulate(input)).total_area;
   RunPlan plan = plan_for(input, {20, 1.5 * area / triangles, {}, nullptr}, ranks, 40, Presplit::kOff);
   plan.owners = late_owners(plan.owners.size(), ranks, late);
-  plan.slice = 40;
-  plan.aggregation = 8;
+  plan.work.slice = 40;
+  plan.work.aggregation = 8;
   const PolicyCalled called = policy_called(late.policy);
   plan.balancing.policy = called.name;
   plan.balancing.parameters = called.parameters;

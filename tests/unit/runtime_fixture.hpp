@@ -26,7 +26,7 @@ inline Pslg ell() {
 inline RunPlan plan_of(const Pslg& pslg, const QualityBounds& bounds, std::int32_t ranks, std::int32_t subdomains,
                        Presplit presplit) {
   RunPlan plan = plan_for(pslg, bounds, ranks, subdomains, presplit);
-  plan.slice = 50;
+  plan.work.slice = 50;
   return plan;
 }
 

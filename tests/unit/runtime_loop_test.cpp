@@ -89,7 +89,7 @@ TEST_CASE("every policy gives a slow rank less work and leaves the mesh unchange
   for (const std::string name : {"none", "zoltan", "stealing", "diffusion", "greedy"}) {
     CAPTURE(name);
     RunPlan plan = plan_of(ell(), bounds, 3, 120, Presplit::kOn);
-    plan.slice = 500;
+    plan.work.slice = 500;
     plan.balancing.policy = name;
     prepare_balancing(plan, 3, balancer::make_policy);
     protocol::VirtualNetwork network({speeds, {}, 1e-6, 1e-6});

@@ -13,7 +13,7 @@ TEST_CASE("sleeping subdomains wake up when a new point arrives") {
   std::int64_t asleep = 0, split = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 3, 20, Presplit::kOff);
-    plan.sleep = true;
+    plan.work.sleep = true;
     protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
     SimulatedRanks run(network, 3, plan);
     REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
@@ -39,7 +39,7 @@ TEST_CASE("subdomains that sleep when finished make one conforming mesh, and can
       const SubdomainContext context{&plan.decomposition, plan.bounds, plan.presplit};
       std::uint64_t digest = 0;
       for (const bool sleep : {false, true}) {
-        plan.sleep = sleep;
+        plan.work.sleep = sleep;
         protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
         SimulatedRanks run(network, 3, plan);
         const auto move_sleeper = [&](Rank r) {

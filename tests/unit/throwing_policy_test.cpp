@@ -54,7 +54,7 @@ TEST_CASE("a policy that throws on one rank ends the run on all of them") {
   square.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   square.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
   RunPlan plan = plan_for(square, {20, 1e-3, {}, nullptr}, 3, 20, Presplit::kOff);
-  plan.slice = 50;
+  plan.work.slice = 50;
   plan.balancing.options.look = 3;
   plan.balancing.options.gap = 10;
   plan.balancing.options.interval = 30;
