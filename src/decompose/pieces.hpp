@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "decompose/planar_map.hpp"
+#include "driftmesh/id_vector.hpp"
+#include "driftmesh/ids.hpp"
 #include "mesh/bounds.hpp"
 
 namespace driftmesh {
