@@ -80,7 +80,7 @@ std::vector<std::string> mesh_files(const std::string& path) {
 std::vector<std::string> files_to_read(const std::string& path, const ReadOptions& options) {
   std::vector<std::string> files = mesh_files(path);
   if (is_in_pieces(path))
-    for (const std::string& piece : pvtu_pieces(path, options)) files.push_back(piece);
+    for (const std::string& piece : read_pvtu_header(path, options).pieces) files.push_back(piece);
   return files;
 }
 

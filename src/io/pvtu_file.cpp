@@ -1,10 +1,14 @@
+#include <algorithm>
+#include <charconv>
 #include <filesystem>
 
 #include "base/file_identity.hpp"
 #include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
+#include "io/byte_cursor.hpp"
 #include "io/mesh_file.hpp"
 #include "io/pvtu_format.hpp"
+#include "io/read_checks.hpp"
 #include "io/xml_scanner.hpp"
 #include "mesh/merge_pieces.hpp"
 
@@ -71,6 +75,63 @@ class PvtuFile {
   FileSink sink_;
 };
 
+class PvtuParser {
+ public:
+  PvtuParser(const std::string& file, std::string_view bytes, const ReadOptions& options)
+      : file_(file), bytes_(bytes), options_(options), scanner_(file, bytes) {}
+
+  Pvtu parse() {
+    XmlTag tag;
+    bool is_pvtu = false;
+    std::size_t end = 0;  // of </VTKFile>
+    while (scanner_.next(tag)) {
+      if (tag.name == "VTKFile" && tag.opens) is_pvtu = tag.attribute("type") == "PUnstructuredGrid";
+      if (tag.name == "VTKFile" && !tag.opens) end = scanner_.position();
+      if (tag.opens) enter(tag);
+    }
+    if (!is_pvtu) throw InputError({file_, 0}, "is not of type PUnstructuredGrid", "name a .pvtu of triangle meshes");
+    if (end == 0) throw InputError({file_, 0}, "ends before </VTKFile>", kDamaged);
+    if (!std::all_of(bytes_.begin() + static_cast<std::ptrdiff_t>(end), bytes_.end(), ByteCursor::is_blank))
+      throw InputError({file_, 0}, "has more behind </VTKFile>", kDamaged);
+    if (pvtu_.pieces.empty()) throw InputError({file_, 0}, "names no pieces", kDamaged);
+    return std::move(pvtu_);
+  }
+
+ private:
+  void enter(const XmlTag& tag) {
+    if (tag.name == "PPointData" || tag.name == "PCellData") section_ = tag.name.substr(1);
+    if (tag.name == "PPoints") section_.clear();  // which no piece can do without
+    if (tag.name == "PDataArray" && !section_.empty()) declare(tag);
+    if (tag.name == "Piece") add_piece(tag);
+  }
+
+  void declare(const XmlTag& tag) {
+    const std::string_view digits = tag.attribute("NumberOfComponents", "1");
+    std::uint64_t components = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), components);
+    if (error != std::errc() || end != digits.data() + digits.size())
+      throw InputError({file_, tag.line}, "needs NumberOfComponents=\"a number\" in <PDataArray>", kDamaged);
+    pvtu_.arrays.push_back({section_, std::string(tag.attribute("Name")), components});
+  }
+
+  void add_piece(const XmlTag& tag) {
+    const std::string source = unescaped(std::string(tag.attribute("Source")));
+    if (source.empty()) throw InputError({file_, tag.line}, "has a Piece without Source", kDamaged);
+    const fs::path folder = fs::path(file_).parent_path();
+    pvtu_.pieces.push_back((folder / source).string());
+    if (!options_.allow_outside && !lies_within(pvtu_.pieces.back(), folder.empty() ? "." : folder.string()))
+      throw InputError({file_, tag.line}, "names the piece " + source + ", outside of its own folder",
+                       "move it there, or allow it with --allow-outside");
+  }
+
+  const std::string& file_;
+  std::string_view bytes_;
+  const ReadOptions& options_;
+  XmlScanner scanner_;
+  std::string section_;
+  Pvtu pvtu_;
+};
+
 }  // namespace
 
 std::string pvtu_piece_path(const std::string& path, std::int32_t k) {
@@ -81,37 +142,18 @@ void write_pvtu(const std::string& path, std::int32_t pieces, const VtuArrays& a
   PvtuFile(path).write(path, pieces, arrays);
 }
 
-std::vector<std::string> parse_pvtu(const std::string& file, std::string_view bytes, const ReadOptions& options) {
-  XmlScanner scanner(file, bytes);
-  XmlTag tag;
-  std::vector<std::string> pieces;
-  bool is_pvtu = false, is_complete = false;
-  while (scanner.next(tag)) {
-    if (tag.name == "VTKFile" && tag.opens) is_pvtu = tag.attribute("type") == "PUnstructuredGrid";
-    if (tag.name == "VTKFile" && !tag.opens) is_complete = true;
-    if (tag.name != "Piece") continue;
-    const std::string_view source = tag.attribute("Source");
-    if (source.empty()) throw InputError({file, tag.line}, "has a Piece without Source", "the file is damaged");
-    const fs::path folder = fs::path(file).parent_path();
-    pieces.push_back((folder / unescaped(std::string(source))).string());
-    if (!options.allow_outside && !lies_within(pieces.back(), folder.empty() ? "." : folder.string()))
-      throw InputError({file, tag.line},
-                       "names the piece " + unescaped(std::string(source)) + ", outside of its own folder",
-                       "move it there, or allow it with --allow-outside");
-  }
-  if (!is_pvtu) throw InputError({file, 0}, "is not of type PUnstructuredGrid", "name a .pvtu of triangle meshes");
-  if (!is_complete) throw InputError({file, 0}, "ends before </VTKFile>", "it was not written completely");
-  if (pieces.empty()) throw InputError({file, 0}, "names no pieces", "the file is damaged");
-  return pieces;
+Pvtu parse_pvtu(const std::string& file, std::string_view bytes, const ReadOptions& options) {
+  return PvtuParser(file, bytes, options).parse();
 }
 
-std::vector<std::string> pvtu_pieces(const std::string& path, const ReadOptions& options) {
+Pvtu read_pvtu_header(const std::string& path, const ReadOptions& options) {
   return parse_pvtu(path, read_file(path), options);
 }
 
 std::vector<Mesh> read_pieces(const std::string& path, const ReadOptions& options) {
+  const Pvtu pvtu = read_pvtu_header(path, options);
   std::vector<Mesh> pieces;
-  for (const std::string& piece : pvtu_pieces(path, options)) pieces.push_back(read_vtu(piece));
+  for (const std::string& piece : pvtu.pieces) pieces.push_back(read_vtu(piece, pvtu.arrays));
   return pieces;
 }
 

@@ -15,11 +15,16 @@ namespace driftmesh {
 /// Writes the .pvtu that names `pieces` pieces, which have been written with the given arrays.
 void write_pvtu(const std::string& path, std::int32_t pieces, const VtuArrays& arrays);
 
-/// The paths of the pieces that a .pvtu names. Throws InputError for one outside of its folder, unless that is allowed.
-[[nodiscard]] std::vector<std::string> pvtu_pieces(const std::string& path, const ReadOptions& options = {});
+/// What a .pvtu says.
+struct Pvtu {
+  std::vector<std::string> pieces;    ///< their paths
+  std::vector<DeclaredArray> arrays;  ///< which every piece has
+};
+
+/// Throws InputError for what is damaged, and for a piece outside of the file's folder, unless that is allowed.
+[[nodiscard]] Pvtu read_pvtu_header(const std::string& path, const ReadOptions& options = {});
 /// The same from memory; `file` is for messages, and its folder is where the pieces are.
-[[nodiscard]] std::vector<std::string> parse_pvtu(const std::string& file, std::string_view bytes,
-                                                  const ReadOptions& options = {});
+[[nodiscard]] Pvtu parse_pvtu(const std::string& file, std::string_view bytes, const ReadOptions& options = {});
 
 /// The whole mesh of a .pvtu (see merge_pieces). Throws InputError if its pieces contradict each other.
 [[nodiscard]] Mesh read_pvtu(const std::string& path, const ReadOptions& options = {});

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -61,10 +62,19 @@ void write_vtu(const Mesh& mesh, const std::string& path);
 /// The same with the given arrays. The file is complete, but appears under its name only on commit().
 [[nodiscard]] std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path);
 
+/// An array that a .pvtu declares for each of its pieces.
+struct DeclaredArray {
+  std::string section;  ///< of a piece: "PointData"
+  std::string name;
+  std::uint64_t components = 1;
+};
+
 /// Reads what write_vtu writes, and what other programs write of triangles and lines: appended or inline, as bytes, in
 /// base64 or as text, compressed by zlib or not. Points may come as any numbers; arrays of other names are ignored.
-[[nodiscard]] Mesh read_vtu(const std::string& path);
+/// A piece must have the arrays that are `declared` for it.
+[[nodiscard]] Mesh read_vtu(const std::string& path, std::span<const DeclaredArray> declared = {});
 /// The same from memory; `file` is for messages.
-[[nodiscard]] Mesh parse_vtu(const std::string& file, std::string_view bytes);
+[[nodiscard]] Mesh parse_vtu(const std::string& file, std::string_view bytes,
+                             std::span<const DeclaredArray> declared = {});
 
 }  // namespace driftmesh

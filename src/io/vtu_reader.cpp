@@ -197,10 +197,23 @@ void read_cells(Mesh& mesh, const std::string& path, const ArrayReader& arrays, 
   load_of_triangles("rank", mesh.ranks);
 }
 
+void require_array(const std::string& file, const VtuHeader& header, const DeclaredArray& declared) {
+  const auto found = header.arrays.find({declared.section, declared.name});
+  const std::string words = "array '" + declared.name + "' in <" + declared.section + ">";
+  if (found == header.arrays.end())
+    throw InputError({file, 0}, "has no " + words + ", which its .pvtu declares", kDamaged);
+  if (found->second.components != declared.components)
+    throw InputError({file, found->second.line},
+                     "has " + std::to_string(found->second.components) + " components in its " + words +
+                         ", and its .pvtu declares " + std::to_string(declared.components),
+                     kDamaged);
+}
+
 }  // namespace
 
-Mesh parse_vtu(const std::string& file, std::string_view bytes) {
+Mesh parse_vtu(const std::string& file, std::string_view bytes, std::span<const DeclaredArray> declared) {
   const VtuHeader header = parse_vtu_header(file, bytes);
+  for (const DeclaredArray& array : declared) require_array(file, header, array);
   const ArrayReader arrays(file, header);
   Mesh mesh;
   read_points(mesh, file, arrays, header.points);
@@ -210,8 +223,8 @@ Mesh parse_vtu(const std::string& file, std::string_view bytes) {
   return mesh;
 }
 
-Mesh read_vtu(const std::string& path) {
-  return parse_vtu(path, read_file(path));
+Mesh read_vtu(const std::string& path, std::span<const DeclaredArray> declared) {
+  return parse_vtu(path, read_file(path), declared);
 }
 
 }  // namespace driftmesh

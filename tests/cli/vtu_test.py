@@ -194,5 +194,30 @@ class Vtu(Cli):
                                           (offsets[-1], offsets[-1] + 1), (offsets[-1], 1 << 40))})
 
 
+class Pieces(Cli):
+    def setUp(self):
+        super().setUp()
+        self.write("square.poly", SQUARE.replace("4 2 0 0", "4 2 1 1").replace("1 0 0", "1 0 0 .5 3", 1)
+                   .replace("2 4 0", "2 4 0 1 0", 1).replace("3 4 4", "3 4 4 1 0", 1).replace("4 0 4", "4 0 4 1 -7", 1)
+                   + "1\n1 1 1 2.5 0\n")
+        self.succeed("mesh", "square.poly", "--area", "0.05", "-n", "3", "-o", "m.pvtu")
+
+    def test_what_a_pvtu_declares_is_in_its_pieces(self):
+        whole = (self.folder / "m_0.vtu").read_bytes()
+        names = [b"marker", b"attribute", b"global_number", b"region", b"subdomain", b"rank"]
+        for name in names:
+            for found in re.finditer(b'Name="' + name + b'"', whole):
+                other = b'Name="' + b"x" * len(name) + b'"'
+                self.write("m_0.vtu", whole[:found.start()] + other + whole[found.end():])
+                self.refuse("convert", "m.pvtu", "x.vtu", says=["m_0.vtu", name.decode(), ".pvtu declares"])
+        self.write("m_0.vtu", whole)
+        text = (self.folder / "m.pvtu").read_text()
+        self.write("m.pvtu", text.replace('Name="attribute"', 'Name="attribute" NumberOfComponents="2"'))
+        self.refuse("convert", "m.pvtu", "x.vtu", says=["m_0.vtu", "attribute", "declares 2"])
+        for more in ("more", "<Piece/>"):
+            self.write("m.pvtu", text + more)
+            self.refuse("check", "m.pvtu", code=2, says=["m.pvtu"])
+
+
 if __name__ == "__main__":
     main()
