@@ -14,7 +14,7 @@ void commit(Team& team, StagedFiles& files) {
 }
 
 std::vector<StagedFiles::Listed> staged_by_all(Team& team, const StagedFiles& files) {
-  const std::vector<StagedFiles::Listed> own = files.files();
+  std::vector<StagedFiles::Listed> own = files.files();
   if (team.alone()) return own;
   ByteWriter writer;
   writer.value(own.size());
