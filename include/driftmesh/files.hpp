@@ -8,13 +8,12 @@
 
 namespace driftmesh {
 
-/// Reads Triangle's .poly: vertices with attributes and boundary markers, segments, holes, and regions with
-/// an attribute and an area bound. A region with one value uses it for both, as Triangle does: the caller's
-/// options decide which of the two counts. A .poly with 0 vertices takes them from the .node file of the same
-/// stem, and its separators, segments
-/// with marker -1000000, are not read: it may be that of a mesh made in subdomains. A path that ends in .node is read as points alone. Geometric faults (duplicates, crossings)
-/// are left for repair(). Throws FileError when a file cannot be read and InputError with up to
-/// ten messages "file:line: what; next step".
+/// Reads Triangle's .poly: vertices with attributes and boundary markers, segments, holes, and regions with an
+/// attribute and an area bound. A region with one value uses it for both, as Triangle does: the caller's options decide
+/// which of the two counts. A .poly with 0 vertices takes them from the .node file of the same stem, and its
+/// separators, segments with marker -1000000, are not read: it may be that of a mesh made in subdomains. A path that
+/// ends in .node is read as points alone. Geometric faults (duplicates, crossings) are left for repair(). Throws
+/// FileError when a file cannot be read and InputError with up to ten messages "file:line: what; next step".
 [[nodiscard]] Pslg read_poly(const std::string& path);
 
 /// Writes `pslg` as .poly, numbered from pslg.first_number. Numbers are the shortest that read back to the
