@@ -53,7 +53,7 @@ double GradedField::bound_from(const Point& p, const LeastSearch::Cell& cell) co
 void GradedField::descend(Query& query, const LeastSearch::Cell& cell) const {
   const Box box = cell.box();
   if (!box.overlaps(box_) || bound_from(query.at, cell) >= kAccurate * query.length) return;
-  if (cell.exponent < root_.exponent - kMostHalvings || ++query.cells > kMostCells) return;
+  if (cell.exponent < root_.exponent - kMostHalvings || cell.is_smallest() || ++query.cells > kMostCells) return;
   if (const Point center = box.center(); box_.contains(center))
     if (const double here = field_->value(center); here > 0)
       query.length = std::min(query.length, here + gradation_ * std::sqrt(squared_distance(query.at, center)));

@@ -56,10 +56,8 @@ inline constexpr Interval kYes{1, 1}, kNo{0, 0}, kMaybe{0, 1};
 }
 
 [[nodiscard]] inline Interval divide(const Interval& a, const Interval& b) {
-  if (b.low < 0 && b.high > 0) return kAll;
-  if (b.low == 0 && b.high == 0) return kAll;
-  const double from = b.high == 0 ? kAll.low : 1 / b.high, to = b.low == 0 ? kAll.high : 1 / b.low;
-  return multiply(a, outward(from, to));
+  if (b.holds(0)) return kAll;  // 0 may be -0, and the quotient -infinity
+  return multiply(a, outward(1 / b.high, 1 / b.low));
 }
 
 /// A function that never falls.

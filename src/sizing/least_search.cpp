@@ -64,6 +64,11 @@ Box LeastSearch::Cell::box() const {
           {static_cast<double>(i + 1) * w, static_cast<double>(j + 1) * w}};
 }
 
+bool LeastSearch::Cell::is_smallest() const {
+  constexpr std::int64_t kMost = std::int64_t{1} << 51;
+  return std::max({i, j, -i, -j}) > kMost;
+}
+
 std::array<LeastSearch::Cell, 4> LeastSearch::Cell::quarters() const {
   const Cell first{2 * i, 2 * j, exponent - 1};
   std::array<Cell, 4> all{first, first, first, first};
@@ -161,7 +166,8 @@ bool LeastSearch::descend_from_cover(Question& question) {
 bool LeastSearch::descend(Question& question, const Cell& cell) {
   if (lower_bound(cell) >= question.tolerated || !question.meets(cell)) return false;
   if (question.counts_at(cell.box().center())) return true;
-  if (cell.width() <= question.finest) return question.counts_at_corners(cell) || dive(question, cell);
+  if (cell.width() <= question.finest || cell.is_smallest())
+    return question.counts_at_corners(cell) || dive(question, cell);
   for (const Cell& quarter : cell.quarters())
     if (descend(question, quarter)) return true;
   return false;
@@ -171,7 +177,7 @@ bool LeastSearch::descend(Question& question, const Cell& cell) {
 bool LeastSearch::dive(Question& question, Cell cell) {
   if (question.dives == 0) return false;
   --question.dives;
-  for (int depth = 0; depth < kDeepestDive; ++depth) {
+  for (int depth = 0; depth < kDeepestDive && !cell.is_smallest(); ++depth) {
     double lowest = question.tolerated;
     for (const Cell& quarter : cell.quarters()) {
       const double bound = lower_bound(quarter);

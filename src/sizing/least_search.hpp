@@ -45,6 +45,8 @@ class LeastSearch {
     int exponent = 0;
     [[nodiscard]] double width() const;
     [[nodiscard]] Box box() const;
+    /// Where coordinates have no digits left for its quarters.
+    [[nodiscard]] bool is_smallest() const;
     [[nodiscard]] std::array<Cell, 4> quarters() const;
     /// The lowest and leftmost of the cells, at most two in each direction, that cover a box and are larger than it.
     [[nodiscard]] static Cell first_of_cover(const Box& box);

@@ -85,7 +85,7 @@ std::unique_ptr<SizeField> expression_field(const SizingOptions& options) {
   auto field = std::make_unique<ExpressionField>(options.expression, options.shortest, options.spacing);
   if (options.gradation) return graded_expression(std::move(field), options);
   if (field->has_bounds() || !std::isfinite(options.spacing)) return field;
-  return std::make_unique<SampledField>(std::move(field), options.spacing);
+  return std::make_unique<SampledField>(std::move(field), SampledField::Grid{options.domain.low, options.spacing});
 }
 
 /// A background mesh tells all about what lies in it, but not what the nearest points of its boundary say outside.
@@ -93,7 +93,8 @@ std::unique_ptr<SizeField> sampled_outside(SizeSource source, const SizingOption
   const BackgroundMesh& mesh = *source.background;
   if (mesh.covers(options.domain) || !std::isfinite(options.spacing)) return std::move(source.field);
   const auto inside = [&mesh](const std::array<Point, 3>& triangle) { return mesh.covers(triangle); };
-  return std::make_unique<SampledField>(std::move(source.field), options.spacing, inside);
+  return std::make_unique<SampledField>(std::move(source.field),
+                                        SampledField::Grid{options.domain.low, options.spacing}, inside);
 }
 
 void require_sound(const SizingOptions& options) {

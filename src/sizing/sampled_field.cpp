@@ -16,12 +16,13 @@ constexpr std::size_t kMostTiles = 16384;   // of 4 KB; beyond, values are not k
 constexpr double kFinestStep = 1.0 / 1024;  // of the spacing
 constexpr int kMostSteps = 64;
 
-std::int64_t first_at(double x, double spacing) {
-  return static_cast<std::int64_t>(std::ceil(x / spacing));
+/// The first and the last point of a grid from `low` to `high`, which are relative to its origin.
+std::int64_t first_at(double low, double spacing) {
+  return static_cast<std::int64_t>(std::ceil(low / spacing));
 }
 
-std::int64_t last_at(double x, double spacing) {
-  return static_cast<std::int64_t>(std::floor(x / spacing));
+std::int64_t last_at(double high, double spacing) {
+  return static_cast<std::int64_t>(std::floor(high / spacing));
 }
 
 /// From where to where a horizontal line meets the triangle.
@@ -59,10 +60,12 @@ bool SampledField::falls_below(const std::array<Point, 3>& triangle, double leng
 /// Stops at the first that is less than `enough`.
 SampledField::Lowest SampledField::lowest_on_grid(const std::array<Point, 3>& triangle, double enough) const {
   Lowest lowest;
+  const auto [origin, spacing] = grid_;
   const Box box = Box::of(triangle);
-  for (std::int64_t j = first_at(box.low.y, spacing_); j <= last_at(box.high.y, spacing_); ++j) {
-    const auto [left, right] = row_of(triangle, static_cast<double>(j) * spacing_);
-    for (std::int64_t i = first_at(left, spacing_); i <= last_at(right, spacing_); ++i) {
+  const std::int64_t top = last_at(box.high.y - origin.y, spacing);
+  for (std::int64_t j = first_at(box.low.y - origin.y, spacing); j <= top; ++j) {
+    const auto [left, right] = row_of(triangle, at(0, j).y);
+    for (std::int64_t i = first_at(left - origin.x, spacing); i <= last_at(right - origin.x, spacing); ++i) {
       if (!contains(triangle, at(i, j))) continue;
       if (const double length = length_at(i, j); length < lowest.length) lowest = {length, i, j};
       if (lowest.length < enough) return lowest;
@@ -87,8 +90,8 @@ bool SampledField::is_steep(const std::array<Point, 3>& triangle, const Lowest& 
 
 /// Pattern search (Hooke and Jeeves 1961).
 bool SampledField::descends_below(const std::array<Point, 3>& triangle, Point from, double length, double limit) const {
-  double step = spacing_ / 2;
-  for (int steps = 0; steps < kMostSteps && step > kFinestStep * spacing_; ++steps) {
+  double step = grid_.spacing / 2;
+  for (int steps = 0; steps < kMostSteps && step > kFinestStep * grid_.spacing; ++steps) {
     const Point start = from;
     for (const Point& p : {Point{start.x - step, start.y}, Point{start.x + step, start.y},
                            Point{start.x, start.y - step}, Point{start.x, start.y + step}}) {
@@ -105,11 +108,12 @@ bool SampledField::descends_below(const std::array<Point, 3>& triangle, Point fr
 }
 
 Point SampledField::at(std::int64_t i, std::int64_t j) const {
-  return {static_cast<double>(i) * spacing_, static_cast<double>(j) * spacing_};
+  return {grid_.origin.x + static_cast<double>(i) * grid_.spacing,
+          grid_.origin.y + static_cast<double>(j) * grid_.spacing};
 }
 
 float SampledField::rounded_down(double length) const {
-  const double exact = length / spacing_;
+  const double exact = length / grid_.spacing;
   const auto rounded = static_cast<float>(exact);
   return rounded > exact ? std::nextafter(rounded, 0.0F) : rounded;
 }
@@ -120,13 +124,13 @@ double SampledField::length_at(std::int64_t i, std::int64_t j) const {
   const auto ask = [&] { return rounded_down(field_.edge_length(at(i, j))); };
   auto known = tiles_.find({u, v});
   if (known == tiles_.end()) {
-    if (tiles_.size() >= kMostTiles) return ask() * spacing_;
+    if (tiles_.size() >= kMostTiles) return ask() * grid_.spacing;
     known = tiles_.emplace(std::array{u, v}, std::make_unique<Tile>()).first;
     known->second->fill(std::numeric_limits<float>::quiet_NaN());
   }
   float& value = (*known->second)[static_cast<std::size_t>((j - v * kTile) * kTile + (i - u * kTile))];
   if (std::isnan(value)) value = ask();
-  return value * spacing_;
+  return value * grid_.spacing;
 }
 
 }  // namespace driftmesh

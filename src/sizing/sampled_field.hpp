@@ -23,11 +23,16 @@ class SampledField final : public SizeField {
   /// Whether the field itself tells all about a triangle by its falls_below.
   using Knows = std::function<bool(const std::array<Point, 3>&)>;
 
-  /// `spacing` > 0. The field must outlive this one.
-  SampledField(const SizeField& field, double spacing) : field_(field), spacing_(spacing) {}
+  /// A grid with a point at `origin` and a `spacing` > 0.
+  struct Grid {
+    Point origin{};
+    double spacing = 0;
+  };
+  /// The field must outlive this one.
+  SampledField(const SizeField& field, const Grid& grid) : field_(field), grid_(grid) {}
   /// Owns the field.
-  SampledField(std::unique_ptr<const SizeField> field, double spacing, Knows knows = nullptr)
-      : owned_(std::move(field)), field_(*owned_), spacing_(spacing), knows_(std::move(knows)) {}
+  SampledField(std::unique_ptr<const SizeField> field, const Grid& grid, Knows knows = nullptr)
+      : owned_(std::move(field)), field_(*owned_), grid_(grid), knows_(std::move(knows)) {}
 
   [[nodiscard]] double edge_length(const Point& p) const override { return field_.edge_length(p); }
   [[nodiscard]] double least() const override { return field_.least(); }
@@ -52,7 +57,7 @@ class SampledField final : public SizeField {
 
   std::unique_ptr<const SizeField> owned_;
   const SizeField& field_;
-  double spacing_;
+  Grid grid_;
   Knows knows_;
   mutable std::unordered_map<std::array<std::int64_t, 2>, std::unique_ptr<Tile>, TileHash> tiles_;
 };

@@ -94,6 +94,13 @@ TEST_CASE("an expression falls below a length where it does, however narrow the 
   CHECK(!crease.falls_below({{{0, 0}, {0.2, 0}, {0.2, 0.2}}}, 0.9));
 }
 
+TEST_CASE("the search ends where coordinates have no digits left") {
+  const ExpressionField crease("1e-30 + abs(y - 1e6)");
+  const std::array<Point, 3> tiny{{{1e6, 1e6 - 1e-9}, {1e6 + 2e-9, 1e6 - 1e-9}, {1e6, 1e6 + 1e-9}}};
+  CHECK(crease.falls_below(tiny, 1e-9));
+  CHECK(!ExpressionField("2e-9 + abs(y - 1e6)").falls_below(tiny, 1e-9));
+}
+
 TEST_CASE("a constant is known not to fall anywhere") {
   CHECK(ExpressionField("0.25 + 0*x").least() == doctest::Approx(0.25));
   CHECK(ExpressionField("max(x, 0.125)").least() == 0.125);
@@ -115,7 +122,7 @@ TEST_CASE("the smallest of fields falls where one of them does, but not below th
 
 TEST_CASE("a sampled field asks once for each point of its grid, and for none outside the triangle") {
   const Counted counted;
-  const SampledField field(counted, 1.0 / 128);
+  const SampledField field(counted, {{0, 0}, 1.0 / 128});
   CHECK(!field.falls_below(kHalfSquare, 0.5));
   CHECK(counted.calls == 129 * 130 / 2);
   CHECK(!field.falls_below(kHalfSquare, 0.5));
@@ -127,7 +134,7 @@ TEST_CASE("a sampled field is searched between the points of its grid where it i
   const auto crease = [](double slope) {
     return std::make_unique<ExpressionField>("0.001 + " + std::to_string(slope) + "*abs(y - 0.5031)");
   };
-  const SampledField steep(crease(20), 1.0 / 64);
+  const SampledField steep(crease(20), {{0, 0}, 1.0 / 64});
   CHECK(steep.falls_below(kHalfSquare, 0.01));
   CHECK(!steep.falls_below(kHalfSquare, 0.0005));
 }
