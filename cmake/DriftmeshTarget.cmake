@@ -13,8 +13,10 @@ if(DRIFTMESH_CHECKED)
   target_compile_definitions(driftmesh_flags INTERFACE DRIFTMESH_CHECKED)
 endif()
 if(DRIFTMESH_SANITIZE)
-  target_compile_options(driftmesh_flags INTERFACE -fsanitize=${DRIFTMESH_SANITIZE} -fno-omit-frame-pointer
-                                                   -fno-sanitize-recover=all)
+  # Three checks of undefined behavior are left out, which took a quarter of the time to compile: the address sanitizer sees
+  # what they look for, except for misaligned access, and bytes become numbers in one place only (src/base/bytes.hpp), by copying.
+  target_compile_options(driftmesh_flags INTERFACE -fsanitize=${DRIFTMESH_SANITIZE} -fno-sanitize=null,alignment,object-size
+                                                   -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(driftmesh_flags INTERFACE -fsanitize=${DRIFTMESH_SANITIZE})
 endif()
 if(DRIFTMESH_FUZZ)
