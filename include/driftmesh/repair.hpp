@@ -17,6 +17,7 @@ struct RepairItem {
 
 /// What repair() changed in a Pslg.
 struct RepairReport {
+  RepairItem rounded_points;          ///< coordinates below 7.5e-37 rounded to multiples of 2^-172 (1.7e-52)
   RepairItem duplicate_points;        ///< equal to an earlier one, merged into it
   RepairItem close_points;            ///< within rounding error of an earlier one, merged into it
   RepairItem zero_length_segments;    ///< dropped

@@ -20,8 +20,9 @@ std::string counted(std::int64_t n, const char* what) {
 
 std::int64_t repair_count(const RepairReport& r) {
   std::int64_t count = 0;
-  for (const RepairItem* item : {&r.duplicate_points, &r.close_points, &r.zero_length_segments, &r.duplicate_segments,
-                                 &r.points_on_segments, &r.points_close_segments, &r.crossings, &r.overlaps})
+  for (const RepairItem* item :
+       {&r.rounded_points, &r.duplicate_points, &r.close_points, &r.zero_length_segments, &r.duplicate_segments,
+        &r.points_on_segments, &r.points_close_segments, &r.crossings, &r.overlaps})
     count += item->count;
   return count;
 }

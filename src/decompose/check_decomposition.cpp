@@ -55,11 +55,8 @@ class Checker {
   bool check_ranges() {
     if (d_.origin.size() != d_.points.size())
       problem(std::to_string(d_.points.size()) + " points but " + std::to_string(d_.origin.size()) + " origins");
-    const auto in_range = [](double x) {
-      return x == 0 || (std::fabs(x) >= kSmallestCoordinate && std::fabs(x) <= kMaxCoordinate);
-    };
     for (const GlobalPointId v : ids_of(d_.points))
-      if (!in_range(d_.points[v].x) || !in_range(d_.points[v].y))
+      if (!in_coordinate_range(d_.points[v].x) || !in_coordinate_range(d_.points[v].y))
         problem("point " + to_string(v) + " has a coordinate out of range");
     const auto is_subdomain = [&](SubdomainId s) { return s == kNoSubdomain || d_.subdomains.has(s); };
     for (const GlobalRootId r : ids_of(d_.roots)) {

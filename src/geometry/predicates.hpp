@@ -31,19 +31,26 @@ namespace driftmesh {
 // are exact doubles if U^4 >= 2^-1074, and the filters' bounds (about 2^-50 of a sum of such products) are
 // normal numbers if also 2^-50 U^4 >= 2^-1022. U = 2^-242 gives both: 2^-968 and 2^-1018.
 //
-// A double of magnitude >= 2^e is a multiple of 2^(e - 52), so 2^-190 is the smallest magnitude besides zero
-// that the predicates take. Input is held to 2^-120: a bisection of depth 62 between such points only makes
-// multiples of 2^(-172 - 62) = 2^-234. Other computed points (circumcenters) are brought into range by
-// snap_to_zero.
-inline constexpr double kMaxCoordinate = 0x1p240;             ///< largest magnitude of an input coordinate, 1.8e72
-inline constexpr double kSmallestInputCoordinate = 0x1p-120;  ///< smallest magnitude besides 0, 7.5e-37
-inline constexpr double kSmallestCoordinate = 0x1p-190;       ///< smallest magnitude of a computed coordinate besides 0
+// A double of magnitude >= 2^e is a multiple of 2^(e - 52), so from 2^-190 on the predicates take any. Input is
+// held to multiples of 2^-172: a bisection of depth 62 between such points only makes multiples of 2^(-172 - 62) =
+// 2^-234. Other computed points (circumcenters) are brought into range by snap_to_zero.
+inline constexpr double kMaxCoordinate = 0x1p240;        ///< largest magnitude of an input coordinate, 1.8e72
+inline constexpr double kInputGrid = 0x1p-172;           ///< of which input coordinates are multiples, 1.7e-52
+inline constexpr double kCoordinateGrid = 0x1p-242;      ///< of which all coordinates are multiples, 1.4e-73
+inline constexpr double kSmallestCoordinate = 0x1p-190;  ///< all larger doubles are such multiples
 
-/// Whether an input coordinate may enter the mesher: 0, or kSmallestInputCoordinate <= |x| <= kMaxCoordinate.
-/// False for NaN and infinities.
+/// The nearest multiple of a power of two.
+[[nodiscard]] inline double rounded_to(double x, double grid) {
+  return std::fabs(x) >= grid * 0x1p53 ? x : std::nearbyint(x / grid) * grid;
+}
+
+/// Whether the predicates take a coordinate, of the input or computed. False for NaN and infinities.
 [[nodiscard]] inline bool in_coordinate_range(double x) {
-  const double magnitude = std::fabs(x);
-  return x == 0 || (magnitude >= kSmallestInputCoordinate && magnitude <= kMaxCoordinate);
+  return std::fabs(x) <= kMaxCoordinate && rounded_to(x, kCoordinateGrid) == x;
+}
+/// Whether an input coordinate may enter the mesher.
+[[nodiscard]] inline bool in_input_range(double x) {
+  return std::fabs(x) <= kMaxCoordinate && rounded_to(x, kInputGrid) == x;
 }
 
 /// A computed coordinate, or 0 where it is too small for exact predicates. A few cycles, no branch.

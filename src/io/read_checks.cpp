@@ -1,6 +1,5 @@
 #include "io/read_checks.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "driftmesh/error.hpp"
@@ -12,14 +11,9 @@ namespace {
 
 const char* const kNext = "the file is damaged or was not written completely";
 
-// The range of coordinates that the mesher computes; false for NaN.
-bool is_in_range(double x) {
-  return x == 0 || (std::fabs(x) >= kSmallestCoordinate && std::fabs(x) <= kMaxCoordinate);
-}
-
 void check_points(const Mesh& mesh, const std::string& path) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
-    if (!is_in_range(mesh.points[v].x) || !is_in_range(mesh.points[v].y))
+    if (!in_coordinate_range(mesh.points[v].x) || !in_coordinate_range(mesh.points[v].y))
       throw InputError({path, 0}, "point " + std::to_string(v) + " (counted from 0) is not finite or out of range",
                        kNext);
 }

@@ -21,12 +21,15 @@
 namespace driftmesh {
 namespace {
 
+/// Of the box around a domain without extent, as the predicates need it.
+constexpr double kSmallestMargin = 0x1p-120;
+
 /// Adds a box around all points. Constrained segments will hide its corners from the inside of the domain, so the final
 /// triangulation is Delaunay however far away they are.
 void add_box(Triangulation& mesh, const Pslg& pslg) {
   const auto [low, high] = Box::of(pslg.points);
   const double margin = 4 * std::max({high.x - low.x, high.y - low.y, std::ldexp(std::abs(low.x), -40),
-                                      std::ldexp(std::abs(low.y), -40), kSmallestInputCoordinate});
+                                      std::ldexp(std::abs(low.y), -40), kSmallestMargin});
   const VertexId a = mesh.add_vertex({low.x - margin, low.y - margin}, kFrame);
   const VertexId b = mesh.add_vertex({high.x + margin, low.y - margin}, kFrame);
   const VertexId c = mesh.add_vertex({high.x + margin, high.y + margin}, kFrame);

@@ -21,12 +21,12 @@ bool in_box(const Point& p, const Point& a, const Point& b, double margin) {
          p.y >= std::min(a.y, b.y) - margin && p.y <= std::max(a.y, b.y) + margin;
 }
 
-// Clamped to both intervals, and to 0 where the predicates do not accept the magnitude.
+// Clamped to both intervals, and rounded as input coordinates are.
 double settle(double value, double a, double b, double c, double d) {
   const double low = std::max(std::min(a, b), std::min(c, d));
   const double high = std::min(std::max(a, b), std::max(c, d));
   const double inside = std::clamp(value, low, high);
-  return in_coordinate_range(inside) ? inside : 0.0;
+  return rounded_to(inside, kInputGrid);
 }
 
 }  // namespace

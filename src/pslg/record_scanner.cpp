@@ -123,9 +123,9 @@ double RecordScanner::number(const char* what) {
 
 double RecordScanner::coordinate(const char* what) {
   const double value = number(what);
-  if (in_coordinate_range(value)) return value;
+  if (std::fabs(value) <= kMaxCoordinate) return rounded_to(value, kCoordinateGrid);
   problem(std::string(what) + " is outside the range of coordinates",
-          "scale the input: besides 0, magnitudes from 7.6e-37 to 1.7e72 are supported");
+          "scale the input: magnitudes up to 1.7e72 are supported");
   return 0;
 }
 

@@ -35,7 +35,7 @@ class RecordScanner {
   /// with `what`, and it reads as 0.
   std::int32_t integer(const char* what);
   double number(const char* what);  ///< finite
-  Point point();                    ///< both coordinates in the range of in_coordinate_range
+  Point point();                    ///< both coordinates in range, rounded to kCoordinateGrid
 
   /// A field that announces a count or a choice from 0 to `limit`; throws if it is anything else.
   std::int32_t header(const char* what, std::int32_t limit = std::numeric_limits<std::int32_t>::max());

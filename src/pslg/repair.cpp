@@ -1,5 +1,6 @@
 #include "driftmesh/repair.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "driftmesh/error.hpp"
@@ -14,7 +15,24 @@ namespace driftmesh {
 namespace {
 
 bool usable(const Point& p) {
-  return in_coordinate_range(p.x) && in_coordinate_range(p.y);
+  return std::fabs(p.x) <= kMaxCoordinate && std::fabs(p.y) <= kMaxCoordinate;
+}
+
+/// So that the predicates are exact for all points that bisection makes of the input's.
+Point on_grid(const Point& p) {
+  return {rounded_to(p.x, kInputGrid), rounded_to(p.y, kInputGrid)};
+}
+
+void round_coordinates(Pslg& pslg, RepairReport& report) {
+  for (std::size_t i = 0; i < pslg.points.size(); ++i) {
+    const Point rounded = on_grid(pslg.points[i]);
+    if (rounded == pslg.points[i]) continue;
+    if (report.rounded_points.count++ < RepairItem::kMaxExamples)
+      report.rounded_points.examples.push_back(vertex_name(pslg, static_cast<std::int32_t>(i), pslg.points[i]));
+    pslg.points[i] = rounded;
+  }
+  for (Point& hole : pslg.holes) hole = on_grid(hole);
+  for (Pslg::Region& region : pslg.regions) region.at = on_grid(region.at);
 }
 
 // Checks what readers guarantee, but programs that fill a Pslg may get wrong.
@@ -128,6 +146,7 @@ void check_seeds(const Pslg& pslg, const std::string& file, RepairReport& report
 RepairReport repair(Pslg& pslg, const std::string& file) {
   check_values(pslg, file);
   RepairReport report;
+  round_coordinates(pslg, report);
   planarize(pslg, file, report);
   check_spans_plane(pslg, file);
   check_seeds(pslg, file, report);

@@ -10,8 +10,9 @@ constexpr std::size_t kMaxWarnings = 10;
 
 using NamedItem = std::pair<const RepairItem*, const char*>;
 
-std::array<NamedItem, 9> items_of(const RepairReport& r) {
-  return {{{&r.duplicate_points, "duplicate vertices merged"},
+std::array<NamedItem, 10> items_of(const RepairReport& r) {
+  return {{{&r.rounded_points, "vertices with coordinates below 7.5e-37 rounded to multiples of 1.7e-52"},
+           {&r.duplicate_points, "duplicate vertices merged"},
            {&r.close_points, "vertices within rounding error of another merged"},
            {&r.zero_length_segments, "segments of length zero dropped"},
            {&r.duplicate_segments, "duplicate segments dropped"},

@@ -71,7 +71,7 @@ void Domain::take_points(const Pslg& input, std::vector<std::int32_t>& number) {
   std::vector<std::int32_t> number_of_first(input.points.size(), -1);
   for (const std::int32_t i : first_ids<std::int32_t>(input.points.size())) {
     const Point& p = input.points[i];
-    if (!in_coordinate_range(p.x) || !in_coordinate_range(p.y)) {
+    if (!in_input_range(p.x) || !in_input_range(p.y)) {
       conflict_ = "the point " + place_words(p) + " is outside the range of coordinates";
       return;
     }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "driftmesh/id_vector.hpp"
@@ -18,12 +17,6 @@ void check_length(std::size_t actual, std::size_t expected, const char* array, F
   if (actual != expected)
     findings.add(Flaw::bad_array,
                  [&] { return fmt::format("{} has {} entries, expected {}", array, actual, expected); });
-}
-
-// The range of points that a mesher computes is wider than that of its input.
-bool computable(double x) {
-  const double magnitude = std::fabs(x);
-  return x == 0 || (magnitude >= kSmallestCoordinate && magnitude <= kMaxCoordinate);
 }
 
 }  // namespace
@@ -61,7 +54,7 @@ std::size_t check_points(const Mesh& mesh, const CornerTable& corners, PointInde
     if (!corners.used(i)) continue;
     ++used;
     const Point& p = mesh.points[i];
-    if (!computable(p.x) || !computable(p.y)) {
+    if (!in_coordinate_range(p.x) || !in_coordinate_range(p.y)) {
       findings.add(Flaw::bad_coordinate, [&] { return point_words(mesh, i) + " is outside the range of coordinates"; });
       continue;
     }

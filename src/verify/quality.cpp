@@ -225,7 +225,7 @@ class QualityCheck {
 
   /// Made on demand: most meshes never need it.
   const Room& room() {
-    if (!room_) room_.emplace(mesh_, chains_.subsegments());
+    if (!room_) room_.emplace(mesh_, chains_);
     return *room_;
   }
 

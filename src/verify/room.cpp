@@ -19,6 +19,9 @@ constexpr double kNeighbors = 2;  // no edge longer: nothing between the corners
 constexpr double kNarrow = 2;     // rounding moves a midpoint, and moved the ends, by up to 0.71 each
 constexpr double kShort = 256;    // of a subsegment: the room that refinement needs beside a vertex
 
+/// Of a segment, with some rounding: a shorter subsegment is not split.
+constexpr long double kDeepest = 0x1p-60L * (1 + 1e-9L);
+
 /// The spacing of doubles of the size of the larger coordinate.
 double spacing_at(const Point& p) {
   const double size = std::max(std::fabs(p.x), std::fabs(p.y));
@@ -47,14 +50,20 @@ bool cross(const Point& p, const Point& q, const Point& a, const Point& b) {
 
 }  // namespace
 
-Room::Room(const Mesh& mesh, const Subsegments& subsegments) : mesh_(mesh), subsegments_(subsegments) {
-  std::vector<Box> boxes;
-  for (const std::int32_t s : subsegments.ids()) {
-    if (!is_stuck(s)) continue;
-    stuck_.push_back({mesh.points[subsegments[s].a], mesh.points[subsegments[s].b]});
-    boxes.push_back(box_around(stuck_.back().a, stuck_.back().b));
+Room::Room(const Mesh& mesh, const Chains& chains) : mesh_(mesh), subsegments_(chains.subsegments()) {
+  for (const Chains::Chain& chain : chains.all()) {
+    const Point &first = mesh.points[chain.vertices.front()], &last = mesh.points[chain.vertices.back()];
+    for (const std::int32_t s : chain.subsegments) add_stuck(s, distance(first, last) * kDeepest);
   }
+  std::vector<Box> boxes;
+  for (const Segment& s : stuck_) boxes.push_back(box_around(s.a, s.b));
   tree_ = BoxTree(boxes);
+}
+
+void Room::add_stuck(std::int32_t subsegment, long double shortest) {
+  const Mesh::Edge& edge = subsegments_[subsegment];
+  const Point &a = mesh_.points[edge.a], &b = mesh_.points[edge.b];
+  if (distance(a, b) <= shortest || is_stuck(subsegment)) stuck_.push_back({a, b});
 }
 
 const Point& Room::corner(std::size_t t, std::size_t k) const {

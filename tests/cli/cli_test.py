@@ -210,6 +210,25 @@ class Pipeline(Cli):
         self.succeed("check", "out.vtu", "square.poly", "--area", "0.5")
 
 
+class TinyDomains(Cli):
+    """Midpoints as small as 1e-52 are read back, from a mesh and as an input."""
+
+    def test_every_format(self):
+        corners = [(-1e-36, -1e-36), (1.0000000000000002e-36, -1e-36), (1e-36, 1e-36), (-1e-36, 1e-36)]
+        self.write("tiny.poly", "4 2 0 0\n" + "".join(f"{i + 1} {x!r} {y!r}\n" for i, (x, y) in enumerate(corners)) +
+                   "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
+        for arguments in (), ("-n", "3"):
+            self.succeed("mesh", "tiny.poly", "--area", "1e-73", *arguments, "-o", "m.poly", "-o", "m.msh", "-o", "m.vtu")
+            if not arguments:
+                self.assertRegex((self.folder / "m.node").read_text(), r"\de-5[12]")
+            for mesh in "m.ele", "m.msh", "m.vtu":
+                self.succeed("check", mesh, "tiny.poly", "--angle", "20")
+            (self.folder / "m.node").rename(self.folder / "again.node")
+            (self.folder / "m.poly").rename(self.folder / "again.poly")
+            self.succeed("mesh", "again.poly", "-o", "again.vtu")
+            self.succeed("check", "again.vtu", "again.poly", "--angle", "20")
+
+
 class DomainWarnings(Cli):
     # A chain beside a square, and a ring in it.
     TEXT = """10 2 0 0

@@ -31,7 +31,7 @@ double coordinate(Bytes& bytes) {
   const int code = bytes.next(), off = bytes.next();
   double value = (code & 15) * kUnits[code >> 4 & 3];
   for (int i = 0; i < (off & 7); ++i) value = std::nextafter(value, off & 8 ? 1e9 : -1e9);
-  return in_coordinate_range(value) ? value : 0;
+  return in_input_range(value) ? value : 0;
 }
 
 Pslg decode(Bytes& bytes) {

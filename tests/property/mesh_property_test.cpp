@@ -134,3 +134,27 @@ TEST_CASE("arbitrary bytes become inputs that are rejected or meshed correctly")
   CHECK(meshed > 100 / kFewer);
   CHECK(refused > 0);
 }
+
+TEST_CASE("mesher and check agree on details of any size, at the origin and elsewhere") {
+  constexpr Point kPlaces[] = {{0, 0}, {1, 0}, {0.5, 0.5}, {0, 0.5}};
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> in(0, 1);
+  std::size_t exceptions = 0;
+  for (std::uint64_t i = 0; i < 400 / kFewer; ++i) {
+    const double size = std::pow(10, -1 - 35 * in(random));
+    const Point& place = kPlaces[i % 4];
+    Pslg input;
+    input.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    input.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}, {4, 5, 2}};
+    for (int k = 0; k < 2; ++k)
+      input.points.push_back({place.x + size * (1 + 4 * in(random)), place.y + size * (1 + 4 * in(random))});
+    CAPTURE(poly_text(input));
+    MeshRequest request;
+    request.max_triangles = 200000;
+    const MeshingOutcome outcome = repair_mesh_and_verify(input, request);
+    CHECK(outcome.failure == "");
+    CHECK(outcome.complete);
+    exceptions += outcome.exceptions;
+  }
+  CHECK(exceptions > 0);
+}

@@ -54,9 +54,14 @@ TEST_CASE("both paths behind the filter are exact") {
 
 TEST_CASE("the coordinate range") {
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const double inside : {0.0, -0.0, 1.0, -77.5, kMaxCoordinate, -kMaxCoordinate, kSmallestInputCoordinate})
-    CHECK(in_coordinate_range(inside));
+  for (const double inside : {0.0, -0.0, 1.0, -77.5, kMaxCoordinate, -kMaxCoordinate, 0x1p-120, 3 * kInputGrid})
+    CHECK((in_coordinate_range(inside) && in_input_range(inside)));
+  for (const double computed : {std::nextafter(0x1p-120, 0), 1.1 * kSmallestCoordinate, 5 * kCoordinateGrid})
+    CHECK((in_coordinate_range(computed) && !in_input_range(computed)));
   for (const double outside : {std::nan(""), infinity, -infinity, 1e300, 1e-300, std::nextafter(kMaxCoordinate, 1e300),
-                               -std::nextafter(kSmallestInputCoordinate, 0)})
-    CHECK_FALSE(in_coordinate_range(outside));
+                               1.5 * kCoordinateGrid, std::nextafter(kSmallestCoordinate, 0)})
+    CHECK_FALSE((in_coordinate_range(outside) || in_input_range(outside)));
+  CHECK(rounded_to(1e-300, kInputGrid) == 0);
+  CHECK(rounded_to(-2.6 * kInputGrid, kInputGrid) == -3 * kInputGrid);
+  CHECK(rounded_to(0.1, kInputGrid) == 0.1);
 }

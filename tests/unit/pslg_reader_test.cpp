@@ -158,8 +158,7 @@ TEST_CASE("every malformed file gets the right message") {
       {"nan_coordinate", ".poly:3: x is not finite; replace NaN and infinity by numbers or remove the record"},
       {"infinite_coordinate", ".poly:3: y is not finite; replace NaN and infinity by numbers or remove the record"},
       {"huge_coordinate",
-       ".poly:3: x is outside the range of coordinates; scale the input: besides 0, magnitudes from 7.6e-37 to 1.7e72 "
-       "are supported"},
+       ".poly:3: x is outside the range of coordinates; scale the input: magnitudes up to 1.7e72 are supported"},
       {"overflowing_coordinate", ".poly:3: x '1e400' is too large or too small; use a number of moderate size"},
       {"text_coordinate", ".poly:3: x is '1,5', which is not a number; correct the field"},
       {"missing_coordinate",

@@ -7,6 +7,7 @@
 
 #include "driftmesh/error.hpp"
 #include "driftmesh/repair.hpp"
+#include "geometry/predicates.hpp"
 #include "pslg/open_boundary.hpp"
 #include "pslg/poly_file.hpp"
 
@@ -246,4 +247,17 @@ TEST_CASE("input that would take forever fails early") {
   }
   CHECK(error_of(pslg) ==
         "in.poly: the segments cross or overlap more than 20000000 times; their vertex numbers are probably wrong");
+}
+
+TEST_CASE("coordinates that are too small for exact midpoints are rounded, and reported") {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {1e-36, 3e-60}, {1e-36, 1e-36}, {1.2 * kInputGrid, 1e-36}};
+  for (std::int32_t i = 0; i < 4; ++i) pslg.segments.push_back({i, (i + 1) % 4, 1});
+  pslg.holes = {{1e-37, 3e-37}};
+  const RepairReport report = repair(pslg);
+  CHECK(report.rounded_points.count == 2);
+  CHECK(pslg.points[1].y == 0);
+  CHECK(pslg.points[3].x == kInputGrid);
+  CHECK(report.summary().find("rounded") != std::string::npos);
+  CHECK_FALSE(repair(pslg).changed());
 }
