@@ -62,7 +62,8 @@ class Checker {
     for (const GlobalRootId r : ids_of(d_.roots)) {
       const Decomposition::Root& root = d_.roots[r];
       const std::string name = "root " + to_string(r) + " ";
-      if (!d_.points.has(root.a) || !d_.points.has(root.b) || root.a >= root.b)
+      if (!d_.points.has(root.a) || !d_.points.has(root.b) || root.a == root.b ||
+          (root.a > root.b && root.shell == kNone))
         problem(name + "joins points " + to_string(root.a) + " and " + to_string(root.b) + " of " +
                 std::to_string(d_.points.size()));
       if (!is_subdomain(root.left) || !is_subdomain(root.right) ||

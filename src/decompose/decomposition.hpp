@@ -30,7 +30,7 @@ inline constexpr GlobalPointId kNoPoint{-1};
 struct Decomposition {
   /// A segment that refinement cuts only at dyadic points, which are the same on both sides.
   struct Root {
-    GlobalPointId a{};  ///< a < b: the root's direction
+    GlobalPointId a{};  ///< a -> b is the root's direction: a < b, or for a shell piece, away from its apex
     GlobalPointId b{};
     std::int32_t marker = 0;          ///< of the input segment; 0 for separators
     std::int32_t shell = kNone;       ///< of a shell piece (see mesh/corners.hpp)

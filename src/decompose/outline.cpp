@@ -70,10 +70,9 @@ void halve_shell(PlanarMap& map, std::int32_t shell) {
   for (const WallId w : ids_of(map.walls)) {  // without those that are added
     if (map.walls[w].shell != shell) continue;
     const SideId h = PlanarMap::first_side(w);
-    const bool ascending = map.start(h) < map.end(h);
     const SideId rest = split_at(map, h, midpoint(map.at(map.start(h)), map.at(map.end(h))), kShellEnd + name);
-    map.wall(h).shell = ascending ? name : name + 1;
-    map.wall(rest).shell = ascending ? name + 1 : name;
+    map.wall(h).shell = name;
+    map.wall(rest).shell = name + 1;
   }
 }
 

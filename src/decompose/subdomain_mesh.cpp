@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "driftmesh/error.hpp"
 #include "driftmesh/pslg.hpp"
@@ -23,6 +24,15 @@ IdVector<VertexId, GlobalPointId> points_of(const Decomposition& d, SubdomainId 
   return points;
 }
 
+/// Makes a root segment that has not been split run from its higher to its lower vertex.
+void turn_around(Triangulation& mesh, RootId r) {
+  RootSegment& root = mesh.roots[r];
+  Subsegment& s = mesh.subsegments[root.tree];
+  std::swap(s.vertex[0], s.vertex[1]);
+  std::swap(s.half[0], s.half[1]);
+  root.vertex = s.vertex;
+}
+
 }  // namespace
 
 SubdomainMesh subdomain_triangulation(const Decomposition& d, SubdomainId i) {
@@ -37,14 +47,19 @@ SubdomainMesh subdomain_triangulation(const Decomposition& d, SubdomainId i) {
   std::vector<SegmentSides> sides;
   for (const GlobalRootId r : result.roots) {
     const Decomposition::Root& root = d.roots[r];
-    pslg.segments.push_back({local(root.a), local(root.b), root.marker});
-    sides.push_back({root.left == i ? std::int32_t{root.left_region} : kNone,
-                     root.right == i ? std::int32_t{root.right_region} : kNone});
+    const std::int32_t left = root.left == i ? std::int32_t{root.left_region} : kNone;
+    const std::int32_t right = root.right == i ? std::int32_t{root.right_region} : kNone;
+    pslg.segments.push_back({local(std::min(root.a, root.b)), local(std::max(root.a, root.b)), root.marker});
+    sides.push_back(root.a < root.b ? SegmentSides{left, right} : SegmentSides{right, left});
   }
   result.mesh = triangulate(pslg, sides);
   if (result.mesh.roots.size() != result.roots.size())
     throw Error("subdomain " + to_string(i) + " of the decomposition is broken: two roots coincide");
-  for (const RootId r : ids_of(result.roots)) result.mesh.roots[r].shell = d.roots[result.roots[r]].shell;
+  for (const RootId r : ids_of(result.roots)) {
+    const Decomposition::Root& root = d.roots[result.roots[r]];
+    result.mesh.roots[r].shell = root.shell;
+    if (root.a > root.b) turn_around(result.mesh, r);
+  }
   for (VertexOrigin& origin : result.mesh.origin) {
     const GlobalPointId v = points[VertexId{origin}];  // the points of the PSLG
     result.points.push_back(v);

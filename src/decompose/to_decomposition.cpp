@@ -84,7 +84,8 @@ void set_roots(Decomposition& d, const PlanarMap& map, const IdVector<SideId, Su
   for (const WallId w : ids_of(map.walls)) {
     const PlanarMap::Wall& wall = map.walls[w];
     const SideId h = PlanarMap::first_side(w);
-    const SideId s = map.start(h) < map.end(h) ? h : PlanarMap::twin(h);  // in ascending direction
+    const bool directed = wall.shell != kNone;  // away from its apex, like all of its shell
+    const SideId s = directed || map.start(h) < map.end(h) ? h : PlanarMap::twin(h);
     const SubdomainId left = subdomain_of[s], right = subdomain_of[PlanarMap::twin(s)];
     if (!is_kept(map, h, left, right)) continue;
     d.roots.push_back({to_global(map.start(s)), to_global(map.end(s)), wall.marker, wall.shell, left, right,

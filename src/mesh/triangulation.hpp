@@ -34,7 +34,8 @@ struct Subsegment {
 
 /// A segment that is cut only at dyadic points: a segment of the input, or a piece of one after corners were prepared.
 struct RootSegment {
-  std::array<VertexId, 2> vertex;  ///< in its direction: from the lower to the higher global id
+  std::array<VertexId, 2>
+      vertex;  ///< in its direction: from the lower to the higher global ID, or away from an acute corner
   std::int32_t marker = 0;
   std::int32_t shell = kNone;  ///< of a shell piece (see corners.hpp): which two circles of which corner it joins
   SubsegmentId tree = kNone;   ///< the root of its tree of subsegments

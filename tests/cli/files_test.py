@@ -156,8 +156,8 @@ class TogetherOrNotAtAll(Files):
             self.assertIn("No space left", result.stderr)
             self.assertEqual(self.contents(), before)
 
-    def blocked(self, *arguments, before=()):
-        """A run that waits at out.neigh, the last file to be opened, until that is read."""
+    def blocked(self, *arguments, before=(), staged=("out.edge",)):
+        """A run that waits at out.neigh, the last file to be opened, until that is read; the files `staged` have been begun."""
         os.mkfifo(self.folder / "out.neigh")
         run = subprocess.Popen([*before, program.PATH, "mesh", "square.poly", *arguments, "-o", "out.ele"],
                                cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
@@ -165,7 +165,7 @@ class TogetherOrNotAtAll(Files):
         self.addCleanup(run.stderr.close)
         self.addCleanup(lambda: run.poll() is None and run.kill())
         deadline = time.monotonic() + MESHER_SECONDS
-        while not list(self.folder.glob("out.edge.tmp-*")):
+        while not all(list(self.folder.glob(f"{name}.tmp-*")) for name in staged):
             self.assertLess(time.monotonic(), deadline)
             self.assertIsNone(run.poll())
             time.sleep(0.01)
@@ -173,10 +173,12 @@ class TogetherOrNotAtAll(Files):
 
     def test_a_rank_that_cannot_rename(self):
         self.write("m_0.vtu", "old")
-        run = self.blocked("--area", "0.1", "-n", "4", "-o", "m.pvtu", "--json", "m.json", before=["mpiexec", "-n", "2"])
+        run = self.blocked("--area", "0.1", "-n", "4", "-o", "m.pvtu", "--json", "m.json", before=["mpiexec", "-n", "2"],
+                           staged=["out.edge", "m_1.vtu"])
         before = self.files()
         (self.folder / "m_1.vtu").mkdir()
-        (self.folder / "out.neigh").read_bytes()
+        reader = os.open(self.folder / "out.neigh", os.O_RDONLY | os.O_NONBLOCK)  # what is written fits into the pipe
+        self.addCleanup(os.close, reader)
         self.assertNotEqual(run.wait(MESHER_SECONDS), 0)
         self.assertIn("rank 1: m_1.vtu", run.stderr.read())
         self.assertEqual((self.folder / "m_0.vtu").read_text(), "old")

@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
@@ -14,6 +17,7 @@
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
+#include "mesh/mesher.hpp"
 #include "oracles/meshing.hpp"
 #include "oracles/random_pslg.hpp"
 #include "property/cases.hpp"
@@ -240,4 +244,44 @@ TEST_CASE("random domains, refined apart, conform after exchanging split points"
   }
   MESSAGE(triangles << " triangles, " << exchanged << " split points exchanged");
   CHECK(exchanged > 2 * cases);  // else nothing was tested
+}
+
+TEST_CASE("narrow corners take as few triangles in subdomains as in one piece") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::size_t whole = 0, cut = 0;
+  for (std::int64_t i = 0; i < testing::case_count(60); ++i) {
+    // Two segments from the middle of a square, at an angle from 1e-5 to 0.01, their ends in any order.
+    const double angle = std::pow(10, -5 + 3 * unit(random)), turn = 6.28 * unit(random);
+    const double first = 0.1 + 0.3 * unit(random), second = 0.1 + 0.3 * unit(random);
+    const Point points[] = {{0, 0},
+                            {1, 0},
+                            {1, 1},
+                            {0, 1},
+                            {0.5, 0.5},
+                            {0.5 + first * std::cos(turn), 0.5 + first * std::sin(turn)},
+                            {0.5 + second * std::cos(turn + angle), 0.5 + second * std::sin(turn + angle)}};
+    std::vector<std::int32_t> place{0, 1, 2, 3, 4, 5, 6};
+    std::shuffle(place.begin(), place.end(), random);
+    Pslg input;
+    input.points.resize(place.size());
+    for (std::size_t k = 0; k < place.size(); ++k) input.points[place[k]] = points[k];
+    for (const auto& [a, b] : {std::pair(0, 1), {1, 2}, {2, 3}, {3, 0}, {4, 5}, {4, 6}})
+      input.segments.push_back({place[a], place[b], 1});
+    CAPTURE(poly_text(input));
+    MeshRequest request;
+    request.max_triangles = 100000;
+    const std::size_t in_one_piece = mesh_domain(input, request).mesh.live_triangles();
+    DecomposeOptions options;
+    options.subdomains = static_cast<std::int32_t>(1 + i % 3);
+    std::size_t in_subdomains = 0;
+    for (const SubdomainMesh& part :
+         testing::refine_together(decompose(prepared(input), options), {request.min_angle, 0, {}, nullptr}).parts)
+      in_subdomains += part.mesh.live_triangles();
+    CHECK(in_subdomains < 1.5 * static_cast<double>(in_one_piece) + 50);
+    whole += in_one_piece;
+    cut += in_subdomains;
+  }
+  MESSAGE(whole << " triangles in one piece, " << cut << " in subdomains");
+  CHECK(cut < 1.2 * static_cast<double>(whole));
 }
