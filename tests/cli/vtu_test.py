@@ -103,12 +103,15 @@ ENCODINGS = [Encoding(place, coding, lengths, compressed, block)
 ENCODINGS.append(Encoding("ascii", None, "UInt32", False))
 
 
+# With attributes, markers and a region.
+RICH_SQUARE = (SQUARE.replace("4 2 0 0", "4 2 1 1").replace("1 0 0", "1 0 0 .5 3", 1).replace("2 4 0", "2 4 0 1 0", 1)
+               .replace("3 4 4", "3 4 4 1 0", 1).replace("4 0 4", "4 0 4 1 -7", 1) + "1\n1 1 1 2.5 0\n")
+
+
 class Vtu(Cli):
     def setUp(self):
         super().setUp()
-        self.write("square.poly", SQUARE.replace("4 2 0 0", "4 2 1 1").replace("1 0 0", "1 0 0 .5 3", 1)
-                   .replace("2 4 0", "2 4 0 1 0", 1).replace("3 4 4", "3 4 4 1 0", 1).replace("4 0 4", "4 0 4 1 -7", 1)
-                   + "1\n1 1 1 2.5 0\n")
+        self.write("square.poly", RICH_SQUARE)
         self.succeed("mesh", "square.poly", "--area", "0.05", "-n", "3", "-o", "mesh.vtu")
         self.original = (self.folder / "mesh.vtu").read_bytes()
         self.grid = Grid(self.original)
@@ -197,9 +200,7 @@ class Vtu(Cli):
 class Pieces(Cli):
     def setUp(self):
         super().setUp()
-        self.write("square.poly", SQUARE.replace("4 2 0 0", "4 2 1 1").replace("1 0 0", "1 0 0 .5 3", 1)
-                   .replace("2 4 0", "2 4 0 1 0", 1).replace("3 4 4", "3 4 4 1 0", 1).replace("4 0 4", "4 0 4 1 -7", 1)
-                   + "1\n1 1 1 2.5 0\n")
+        self.write("square.poly", RICH_SQUARE)
         self.succeed("mesh", "square.poly", "--area", "0.05", "-n", "3", "-o", "m.pvtu")
 
     def test_what_a_pvtu_declares_is_in_its_pieces(self):

@@ -9,14 +9,15 @@
 #include "driftmesh/repair.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
-#include "mesh/domain_warnings.hpp"
 #include "mesh/nested_rings.hpp"
 #include "oracles/random_pslg.hpp"
 #include "property/cases.hpp"
+#include "support/warnings_of.hpp"
 
 // Random trees of rings inside rings: what is known from how they are made against what is found in the triangulation.
 
 using namespace driftmesh;
+using testing::warnings_of;
 
 namespace {
 
@@ -70,13 +71,6 @@ double area_of(const Pslg& pslg) {
   for (const TriangleId t : ids_of(mesh.triangles))
     if (mesh.triangles[t].alive()) area += signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
   return area;
-}
-
-std::vector<std::string> warnings_of(Pslg pslg) {
-  const RepairReport repairs = repair(pslg);
-  CarveReport report;
-  const Triangulation mesh = triangulate(pslg, &report);
-  return domain_warnings(pslg, repairs, report, mesh);
 }
 
 }  // namespace

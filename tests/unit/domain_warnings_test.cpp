@@ -1,4 +1,3 @@
-#include "mesh/domain_warnings.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +7,10 @@
 #include <vector>
 
 #include "mesh/cdt.hpp"
+#include "support/warnings_of.hpp"
 
 using namespace driftmesh;
+using testing::warnings_of;
 
 namespace {
 
@@ -25,13 +26,6 @@ Pslg square() {
   Pslg pslg;
   add_chain(pslg, {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, true);
   return pslg;
-}
-
-std::vector<std::string> warnings_of(Pslg pslg) {
-  const RepairReport repairs = repair(pslg);
-  CarveReport report;
-  const Triangulation mesh = triangulate(pslg, &report);
-  return domain_warnings(pslg, repairs, report, mesh);
 }
 
 }  // namespace

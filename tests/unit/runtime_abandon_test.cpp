@@ -4,6 +4,7 @@
 #include "driftmesh/error.hpp"
 #include "protocol/adversarial_network.hpp"
 #include "runtime_fixture.hpp"
+#include "support/abandon_on_errors.hpp"
 #include "support/policy_called.hpp"
 
 using namespace driftmesh;
@@ -61,17 +62,7 @@ TEST_CASE("an exception in a slice of work leaves a loop that can abandon the ru
   SimulatedRanks run(network, 2, plan);
   field.broken = true;
   int failures = 0;
-  for (const Rank r : ids_of(run.loops))
-    run.steps[r] = [&failures, loop = run.loops[r].get()] {
-      try {
-        return loop->step();
-      } catch (const Error&) {
-        CHECK(loop->can_abandon());
-        ++failures;
-        loop->abandon();
-        return protocol::StepResult::kBusy;
-      }
-    };
+  abandon_on_errors(run, failures);
   REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
   CHECK(failures > 0);
   for (const auto& loop : run.loops) CHECK(loop->abandoned());

@@ -6,6 +6,7 @@
 
 #include "driftmesh/error.hpp"
 #include "protocol/adversarial_network.hpp"
+#include "support/abandon_on_errors.hpp"
 #include "support/plans.hpp"
 #include "support/simulated_run.hpp"
 
@@ -68,17 +69,7 @@ TEST_CASE("a policy that throws on one rank ends the run on all of them") {
       protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
       SimulatedRanks run(network, 3, plan);
       int failures = 0;
-      for (const Rank r : ids_of(run.loops))
-        run.steps[r] = [&failures, loop = run.loops[r].get()] {
-          try {
-            return loop->step();
-          } catch (const Error&) {
-            REQUIRE(loop->can_abandon());
-            ++failures;
-            loop->abandon();
-            return protocol::StepResult::kBusy;
-          }
-        };
+      abandon_on_errors(run, failures);
       REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
       CHECK(network.in_flight() == 0);
       CHECK((failures > 0) == policy->has_thrown());
