@@ -29,15 +29,9 @@ struct Chain {
   std::vector<Link> links;
 };
 
-/// A part of a shell piece of the domain: its shell, and the part's heap index from one end of the piece on.
+/// A part of a shell piece of the domain: its shell, and the part's heap index from the start of the piece on.
 using ShellPart = std::pair<std::int32_t, std::uint64_t>;
 constexpr std::uint64_t kWhole = 1, kDeepest = std::uint64_t{1} << 60;
-
-/// The same part counted from the other end.
-ShellPart mirrored(const ShellPart& part) {
-  const std::uint64_t first = std::bit_floor(part.second);  // of its level
-  return {part.first, first + (2 * first - 1 - part.second)};
-}
 
 /// Names of shells (of parts that are roots) and of circles (in the middle of parts that are halved).
 struct ShellNames {
@@ -56,10 +50,6 @@ struct ShellNames {
   void add(const ShellNames& others) {
     shells.insert(others.shells.begin(), others.shells.end());
     circles.insert(others.circles.begin(), others.circles.end());
-  }
-  void mirror() {
-    for (auto* names : {&shells, &circles})
-      for (auto& [name, part] : *names) part = mirrored(part);
   }
 };
 
@@ -215,11 +205,12 @@ class SegmentCheck {
     }
   }
 
-  /// Pieces of one shell are halved alike, and named alike; they may have opposite directions.
+  /// Pieces of one shell are halved alike, named alike, and directed alike: away from their corner.
   void check_shell_piece(const Chain& chain, std::int32_t shell) {
     ShellNames names;
     check_shell(chain, 0, chain.links.size(), {shell, kWhole}, names);
-    if (!names.agrees_with(names_)) names.mirror();
+    for (const Link& link : chain.links)
+      if (!link.ascending) refuse_root(link.root, "runs against its shell piece");
     if (!names.agrees_with(names_)) refuse_root(chain.links[0].root, "is on a shell whose pieces differ");
     names_.add(names);
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "driftmesh/error.hpp"
 #include "driftmesh/pslg.hpp"
@@ -22,15 +21,6 @@ IdVector<VertexId, GlobalPointId> points_of(const Decomposition& d, SubdomainId 
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
-}
-
-/// Makes a root segment that has not been split run from its higher to its lower vertex.
-void turn_around(Triangulation& mesh, RootId r) {
-  RootSegment& root = mesh.roots[r];
-  Subsegment& s = mesh.subsegments[root.tree];
-  std::swap(s.vertex[0], s.vertex[1]);
-  std::swap(s.half[0], s.half[1]);
-  root.vertex = s.vertex;
 }
 
 }  // namespace
@@ -58,7 +48,7 @@ SubdomainMesh subdomain_triangulation(const Decomposition& d, SubdomainId i) {
   for (const RootId r : ids_of(result.roots)) {
     const Decomposition::Root& root = d.roots[result.roots[r]];
     result.mesh.roots[r].shell = root.shell;
-    if (root.a > root.b) turn_around(result.mesh, r);
+    if (root.a > root.b) result.mesh.turn_around(r);
   }
   for (VertexOrigin& origin : result.mesh.origin) {
     const GlobalPointId v = points[VertexId{origin}];  // the points of the PSLG

@@ -1,6 +1,5 @@
 #include "mesh/corners.hpp"
 
-#include <utility>
 #include <vector>
 
 #include "mesh/cavity.hpp"
@@ -29,12 +28,8 @@ VertexId cut_shell_piece(Triangulation& mesh, Cavity& cavity, VertexId from, con
 /// Turns the rest of a root segment into a shell piece, directed away from the apex like all of them.
 void make_shell_piece(Triangulation& mesh, VertexId from, const CornerPlan::TipPiece& tip) {
   RootSegment& root = mesh.roots[root_of(tip.end)];
-  Subsegment& s = mesh.subsegments[root.tree];
   root.shell = tip.shell;
-  if (s.vertex[0] == from) return;
-  std::swap(s.vertex[0], s.vertex[1]);
-  std::swap(s.half[0], s.half[1]);
-  root.vertex = s.vertex;
+  if (root.vertex[0] != from) mesh.turn_around(root_of(tip.end));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "mesh/triangulation.hpp"
 
+#include <utility>
+
 #include "base/assert.hpp"
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
@@ -64,6 +66,13 @@ RootId Triangulation::add_root(VertexId a, VertexId b, std::int32_t marker, std:
   subsegments.push_back({ends, {kNone, kNone}, dyadic::kWhole, root, kNone});
   roots.push_back({ends, marker, shell, tree});
   return root;
+}
+
+void Triangulation::turn_around(RootId r) {
+  Subsegment& s = subsegments[roots[r].tree];
+  std::swap(s.vertex[0], s.vertex[1]);
+  std::swap(s.half[0], s.half[1]);
+  roots[r].vertex = s.vertex;
 }
 
 SubsegmentId Triangulation::halve(SubsegmentId s, VertexId m) {

@@ -93,6 +93,8 @@ struct Triangulation {
   void link(HalfEdge inner, HalfEdge outer);
   /// A new root segment from `a` to `b` with one leaf; its half-edges are still kNone.
   RootId add_root(VertexId a, VertexId b, std::int32_t marker, std::int32_t shell);
+  /// Reverses the direction of a root segment that has not been split.
+  void turn_around(RootId r);
   /// Turns leaf `s` into an inner node with two leaves that meet at vertex `m`.
   SubsegmentId halve(SubsegmentId s, VertexId m);
   /// The leaf or inner node of `root` that names interval `path`, or the leaf above it where the tree ends earlier.

@@ -8,9 +8,11 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/read_file.hpp"
+#include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/same_input.hpp"
 #include "decompose/same_segments.hpp"
@@ -257,4 +259,26 @@ TEST_CASE("every edit of a point, a root or an inner point is noticed") {
     CHECK(roots > 10);
     CHECK(edited > 1000);
   }
+}
+
+TEST_CASE("a shell piece that runs toward its corner is refused") {
+  const Triangulation domain = prepared(fan_input());
+  DecomposeOptions options;
+  options.subdomains = 6;
+  Decomposition d = decompose(domain, options);
+  require_same_segments(d, domain, "f");
+  std::size_t pieces = 0;
+  for (Decomposition::Root& root : d.roots) {
+    if (root.shell == kNone) continue;
+    const Decomposition::Root whole = root;
+    std::swap(root.a, root.b);
+    std::swap(root.left, root.right);
+    std::swap(root.left_region, root.right_region);
+    CHECK(check_decomposition(d).valid());  // it fits its neighbors: only the input tells
+    CHECK_THROWS_WITH_AS(require_same_segments(d, domain, "f"), doctest::Contains("runs against its shell piece"),
+                         InputError);
+    root = whole;
+    ++pieces;
+  }
+  CHECK(pieces > 10);
 }
