@@ -19,7 +19,10 @@ constexpr std::uint32_t kMostParts = 1 << 20;
 }  // namespace
 
 Bytes ExchangeRunner::Arriving::joined() && {
+  std::size_t size = 0;
+  for (const Bytes& part : parts) size += part.size();
   Bytes all = std::move(parts[0]);
+  all.reserve(size);
   for (std::size_t i = 1; i < parts.size(); ++i) {
     all.insert(all.end(), parts[i].begin(), parts[i].end());
     parts[i] = {};

@@ -81,14 +81,17 @@ VtuArrays arrays_of_pieces(const DistributedPiece& piece) {
 
 std::vector<Mail> GatherPieces::send(int round) {
   std::vector<Mail> mail;
-  if (round == 0) mail.push_back({kWriter, pack(piece_.mesh)});
+  if (round == 0 && piece_.rank != kWriter) mail.push_back({kWriter, pack(piece_.mesh)});
   if (round == 1 && piece_.rank == kWriter) mail = status_to_all(piece_.ranks, [&] { merge(); });
   return mail;
 }
 
 std::vector<Rank> GatherPieces::senders(int round) const {
   if (round == 1) return {kWriter};
-  return piece_.rank == kWriter ? all_ranks(piece_.ranks) : std::vector<Rank>();
+  if (piece_.rank != kWriter) return {};
+  std::vector<Rank> others = all_ranks(piece_.ranks);
+  std::erase(others, kWriter);
+  return others;
 }
 
 void GatherPieces::receive(int round, std::vector<Mail> mail) {
@@ -99,11 +102,13 @@ void GatherPieces::receive(int round, std::vector<Mail> mail) {
 }
 
 void GatherPieces::merge() {
-  std::vector<Mesh> pieces;
+  std::vector<Mesh> others;
   for (Mail& mail : pieces_) {
-    pieces.push_back(unpack(mail));
+    others.push_back(unpack(mail));
     mail.bytes = {};
   }
+  std::vector<const Mesh*> pieces{&piece_.mesh};
+  for (const Mesh& piece : others) pieces.push_back(&piece);
   MergeFaults faults;
   whole_ = merge_pieces(pieces, faults);
   if (faults.count != 0) throw Error("the pieces of the mesh do not fit together: " + faults.first[0]);

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <tuple>
+#include <vector>
 
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
@@ -19,7 +20,7 @@ bool same_bits(double a, double b) {
 
 class Merger {
  public:
-  Merger(std::span<const Mesh> pieces, MergeFaults& faults) : pieces_(pieces), faults_(faults) {}
+  Merger(std::span<const Mesh* const> pieces, MergeFaults& faults) : pieces_(pieces), faults_(faults) {}
 
   Mesh merge() {
     count_points();
@@ -38,7 +39,7 @@ class Merger {
     std::size_t sum = 0;
     std::int64_t largest = -1;
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
-      const Mesh& piece = pieces_[k];
+      const Mesh& piece = *pieces_[k];
       sum += piece.points.size();
       if (piece.numbers.size() != piece.points.size())
         throw Error("piece " + std::to_string(k) + " does not say which numbers its points have in the whole mesh");
@@ -56,7 +57,7 @@ class Merger {
 
   /// Closes the gaps if numbers exceed the count of points, as they do when a piece is missing, to save memory.
   void close_ranks(std::int64_t largest) {
-    for (const Mesh& piece : pieces_) numbers_.insert(numbers_.end(), piece.numbers.begin(), piece.numbers.end());
+    for (const Mesh* piece : pieces_) numbers_.insert(numbers_.end(), piece->numbers.begin(), piece->numbers.end());
     std::sort(numbers_.begin(), numbers_.end());
     numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
     faults_.add([&] {
@@ -73,11 +74,13 @@ class Merger {
 
   /// An array is merged if every piece has it.
   void choose_arrays() {
-    const auto all = [&](auto tells) { return std::all_of(pieces_.begin(), pieces_.end(), tells); };
+    const auto all = [&](auto tells) {
+      return std::all_of(pieces_.begin(), pieces_.end(), [&](const Mesh* piece) { return tells(*piece); });
+    };
     const bool markers = all([](const Mesh& p) { return p.point_markers.size() == p.points.size(); });
     if (markers) whole_.point_markers.assign(whole_.points.size(), 0);
-    for (const Mesh& p : pieces_)
-      whole_.attributes_per_point = std::max(whole_.attributes_per_point, p.attributes_per_point);
+    for (const Mesh* p : pieces_)
+      whole_.attributes_per_point = std::max(whole_.attributes_per_point, p->attributes_per_point);
     if (!all(
             [&](const Mesh& p) { return p.points.empty() || p.attributes_per_point == whole_.attributes_per_point; })) {
       faults_.add([] { return std::string("pieces have different numbers of attributes at a point"); });
@@ -90,7 +93,7 @@ class Merger {
   }
 
   void take_points(std::size_t k) {
-    const Mesh& piece = pieces_[k];
+    const Mesh& piece = *pieces_[k];
     for (std::size_t v = 0; v < piece.points.size(); ++v) {
       const std::int64_t number = piece.numbers[v];
       Holder& holder = holder_[place_of(number)];
@@ -118,7 +121,7 @@ class Merger {
   };
 
   void compare(const Holder& first, std::size_t k, std::size_t v) {
-    const Mesh &one = pieces_[first.piece], &other = pieces_[k];
+    const Mesh &one = *pieces_[first.piece], &other = *pieces_[k];
     const std::size_t u = first.point;
     const Point &p = one.points[u], &q = other.points[v];
     const auto say = [&](const char* what) {
@@ -154,7 +157,7 @@ class Merger {
     std::vector<Run> runs;
     std::size_t count = 0;
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
-      const Mesh& piece = pieces_[k];
+      const Mesh& piece = *pieces_[k];
       count += piece.triangles.size();
       for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
         const std::int32_t subdomain = has_subdomains_ ? piece.subdomains[t] : 0;
@@ -166,12 +169,19 @@ class Merger {
     }
     (void)narrow<std::int32_t>(count, "triangles of the merged mesh");
     std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.subdomain < b.subdomain; });
-    whole_.triangles.reserve(count);
+    reserve_triangles(count);
     for (const Run& run : runs) take_run(run);
   }
 
+  void reserve_triangles(std::size_t count) {
+    whole_.triangles.reserve(count);
+    if (has_regions_) whole_.regions.reserve(count);
+    if (has_subdomains_) whole_.subdomains.reserve(count);
+    if (has_ranks_) whole_.ranks.reserve(count);
+  }
+
   void take_run(const Run& run) {
-    const Mesh& piece = pieces_[run.piece];
+    const Mesh& piece = *pieces_[run.piece];
     for (std::size_t t = run.begin; t < run.end; ++t) {
       const auto& [a, b, c] = piece.triangles[t];
       whole_.triangles.push_back({place(piece, a), place(piece, b), place(piece, c)});
@@ -200,15 +210,15 @@ class Merger {
     };
     std::vector<Entry> all;
     for (std::size_t k = 0; k < pieces_.size(); ++k)
-      for (const Mesh::Edge& e : pieces_[k].edges)
-        all.push_back({{place(pieces_[k], e.a), place(pieces_[k], e.b), e.marker}, k});
+      for (const Mesh::Edge& e : pieces_[k]->edges)
+        all.push_back({{place(*pieces_[k], e.a), place(*pieces_[k], e.b), e.marker}, k});
     std::stable_sort(all.begin(), all.end(), [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
     for (std::size_t i = 0; i < all.size(); ++i)
       if (i == 0 || all[i].key() != all[i - 1].key() || all[i].piece == all[i - 1].piece)
         whole_.edges.push_back(all[i].edge);
   }
 
-  std::span<const Mesh> pieces_;
+  std::span<const Mesh* const> pieces_;
   MergeFaults& faults_;
   Mesh whole_;
   std::vector<std::int64_t> numbers_;  // ascending; empty unless gaps are left out
@@ -220,8 +230,14 @@ class Merger {
 
 }  // namespace
 
-Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults) {
+Mesh merge_pieces(std::span<const Mesh* const> pieces, MergeFaults& faults) {
   return Merger(pieces, faults).merge();
+}
+
+Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults) {
+  std::vector<const Mesh*> all;
+  for (const Mesh& piece : pieces) all.push_back(&piece);
+  return merge_pieces(all, faults);
 }
 
 }  // namespace driftmesh

@@ -30,6 +30,7 @@ struct MergeFaults {
 /// different coordinates, marker or attributes in another piece; a number twice in one piece; a number below the
 /// largest that no piece has (such a point is in no triangle; if there are many, the gaps are closed). Throws Error if
 /// a piece has no numbers, or negative ones.
+[[nodiscard]] Mesh merge_pieces(std::span<const Mesh* const> pieces, MergeFaults& faults);
 [[nodiscard]] Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults);
 
 }  // namespace driftmesh
