@@ -153,7 +153,7 @@ RefinerState load_refiner(ArchiveReader& in) {
   in.value(state.stage);
   in.value(state.next_segment);
   Sweep::Places places{};
-  std::vector<TriangleId> again;
+  GrowingArray<TriangleId> again;
   in.value(places);
   in.array(again);
   state.sweep = Sweep(places, std::move(again));

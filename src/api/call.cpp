@@ -50,11 +50,11 @@ job::Order Call::order_for(const job::Team& team, job::Place place) {
   check(place);
   job::check_ranks(request_, place, team.ranks());
   job::Domain domain = job::read_domain(request_, given_, watch_);
-  const job::Limits limits = job::limits_of_all(
-      request_.limits, job::find_limits(request_.limits, domain.pslg, true, team.ranks_on_machine()), team.ranks());
+  const job::Use use{.by = job::kLibrary, .in_subdomains = true, .sleeps = request_.run.sleep, .writes = true};
+  const job::Limits limits = job::find_limits(request_.limits, domain.pslg, use, job::processes_of(team));
   job::Prepared prepared =
       job::prepare(request_, domain, given_, place, job::shares_of_time(request_, team.ranks()), limits, watch_);
-  return {std::move(prepared.plan), std::move(domain.pslg), request_.sizing, request_.limits, {}, true};
+  return {std::move(prepared.plan), std::move(domain.pslg), request_.sizing, request_.limits, {}, use};
 }
 
 }  // namespace driftmesh

@@ -20,7 +20,7 @@ Mesh in_one_piece(Call& call) {
   const job::OnePiece made = job::mesh_in_one_piece(call.request(), domain, true, call.watch(), false);
   if (!made.result.complete) {
     const auto triangles = static_cast<std::int64_t>(made.result.mesh.live_triangles());
-    throw LimitError(job::stopped_message(made.limits, triangles, true));
+    throw LimitError(job::stopped_message(made.limits, made.by_memory, triangles, true));
   }
   Mesh mesh = to_piece(made.result.mesh, domain.pslg);
   interpolate_attributes(domain.pslg, mesh);

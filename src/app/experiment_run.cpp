@@ -33,12 +33,16 @@ IdVector<Rank, double> known_speeds(const job::Request& request, const RealClust
   return cluster == nullptr ? speeds_of(job::cluster_of(request), {}) : job::shares_of_time(request, cluster->ranks());
 }
 
+job::Use use_of(const job::Request& request) {
+  return {.by = job::kExperiment, .in_subdomains = true, .sleeps = request.run.sleep};
+}
+
 void run_real(ExperimentRun& run, RealCluster& cluster, job::Prepared&& prepared, job::Domain&& domain,
               job::Watch& watch) {
   run.plan = prepared.plan;
-  run.outcome = cluster.run(
-      {std::move(prepared.plan), std::move(domain.pslg), run.request.sizing, run.request.limits, run.speeds, false},
-      run.record, watch);
+  run.outcome = cluster.run({std::move(prepared.plan), std::move(domain.pslg), run.request.sizing, run.request.limits,
+                             run.speeds, use_of(run.request)},
+                            run.record, watch);
   run.speeds = measured_speeds(run.outcome, run.speeds);
 }
 
@@ -74,15 +78,15 @@ Json moves_json(const ClusterRun& outcome) {
 
 void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   const job::Request& request = run.request;
+  job::cap_memory(request.limits);
   const bool real = request.cluster.kind == job::ClusterKind::kReal;
   if (!real) cluster = nullptr;
   run.speeds = known_speeds(request, cluster);
   const Stopwatch preparing;
   job::Domain domain = job::read_domain(request, {}, watch);
   job::record_domain(run.record, request, domain);
-  const job::Limits limits = job::limits_of_all(
-      request.limits, job::find_limits(request.limits, domain.pslg, false, real ? cluster->ranks_on_machine() : 1),
-      real ? cluster->ranks() : 1);
+  const job::Limits limits =
+      job::find_limits(request.limits, domain.pslg, use_of(request), real ? cluster->processes() : job::Processes{});
   job::Prepared prepared = job::prepare(request, domain, {.policies = balancer::make_policy},
                                         real ? job::kRanks : job::kSimulated, run.speeds, limits, watch);
   job::add_prepared(run.record, prepared);

@@ -1,5 +1,6 @@
 #include "app/mesh_run.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -93,13 +94,14 @@ int mesh_in_one_piece(const Told& told) {
   const Request& request = told.request;
   register_files(told, 0);
   RunNotes notes(request, told.command);
+  job::cap_memory(request.limits);
   const job::Domain domain = job::read_domain(request, {}, notes);
   job::record_domain(notes.run, request, domain);
   job::OnePiece made = job::mesh_in_one_piece(request, domain, writes(request.output), notes);
   notes.run.forecast = made.forecast;
   notes.run.seconds_refine = made.result.seconds_refine;
   notes.run.peak_refining = job::peak_memory();
-  notes.run.stopped_by = made.limits.option();
+  notes.run.stopped_by = made.limits.called(made.by_memory);
   timed(notes, "inspect", [&] { job::record_mesh(notes.run, made.result); });
   const bool keep = request.limits.keep_incomplete;
   StagedFiles files;
@@ -111,28 +113,39 @@ int mesh_in_one_piece(const Told& told) {
   files.commit();
   notes.show();
   if (notes.run.complete) return 0;
+  made.result.mesh = {};
   const auto narrow = find_narrow_place(triangulate(domain.pslg));
-  std::cerr << "driftmesh: " << job::stopped_message(made.limits, notes.run.triangles, keep, narrow) << '\n';
+  std::cerr << "driftmesh: " << job::stopped_message(made.limits, made.by_memory, notes.run.triangles, keep, narrow)
+            << '\n';
   return job::kStoppedByLimit;
 }
 
 // ---- In subdomains ---------------------------------------------------------------------------------------------
+
+job::Use use_in_subdomains(const Request& request, const job::Team& team) {
+  const std::vector<std::string>& meshes = request.output.meshes;
+  const bool whole = !request.output.picture.empty() || !std::all_of(meshes.begin(), meshes.end(), is_in_pieces);
+  return {.in_subdomains = true,
+          .sleeps = request.run.sleep,
+          .writes = writes(request.output),
+          .gathers = whole && !team.alone()};
+}
 
 /// The part of rank 0 before the others start.
 job::Order prepare_order(const Told& told, job::Place place, const job::Team& team, RunNotes& notes) {
   const Request& request = told.request;
   job::check_ranks(request, place, team.ranks());
   register_files(told, team.ranks());
+  job::cap_memory(request.limits);
   job::Domain domain = job::read_domain(request, {}, notes);
   job::record_domain(notes.run, request, domain);
-  const bool written = writes(request.output);
+  const job::Use use = use_in_subdomains(request, team);
   const IdVector<Rank, double> shares = job::shares_of_time(request, team.ranks());
-  const job::Limits limits = job::limits_of_all(
-      request.limits, job::find_limits(request.limits, domain.pslg, written, team.ranks_on_machine()), team.ranks());
+  const job::Limits limits = job::find_limits(request.limits, domain.pslg, use, job::processes_of(team));
   job::Prepared prepared =
       job::prepare(request, domain, {.policies = balancer::make_policy}, place, shares, limits, notes);
   job::add_prepared(notes.run, prepared);
-  return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, shares, written};
+  return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, shares, use};
 }
 
 void report(job::Team& team, const job::RankRun& run, RunNotes& notes) {
@@ -174,6 +187,7 @@ void mesh_in_subdomains(const Told& told, job::Place place, job::Team& team) {
   RunNotes notes(request, start + told.command, !team.leads());
   std::optional<job::Order> order = job::share(
       team, [&] { return std::optional(prepare_order(told, place, team, notes)); }, balancer::make_policy);
+  job::cap_memory(order->limits);
   std::optional<job::RankRun> run(std::in_place, team, std::move(*order), nullptr, notes);
   timed(notes, "refine", [&] { run->refine(); });
   report(team, *run, notes);

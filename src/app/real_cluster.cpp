@@ -24,6 +24,7 @@ void RealCluster::serve() {
   job::Watch watch;
   while (std::optional<job::Order> order = job::share(team_, {}, balancer::make_policy)) {
     job::RunRecord unused;
+    job::cap_memory(order->limits);
     try {
       static_cast<void>(job::run_with_log(team_, std::move(*order), unused, watch));
     } catch (const std::exception&) {  // all ranks have it, and rank 0 decides what is next

@@ -23,7 +23,7 @@ class RealCluster {
 
   [[nodiscard]] bool leads() const { return team_.leads(); }
   [[nodiscard]] std::int32_t ranks() const { return team_.ranks(); }
-  [[nodiscard]] int ranks_on_machine() const { return team_.ranks_on_machine(); }
+  [[nodiscard]] job::Processes processes() const { return job::processes_of(team_); }
 
   /// Rank 0: makes a run with all ranks. Their reports go into the record; `watch` sees rank 0's part.
   [[nodiscard]] ClusterRun run(job::Order&& order, job::RunRecord& record, job::Watch& watch);

@@ -12,7 +12,7 @@ namespace driftmesh {
 /// The message when memory runs out before a limit stops the work. Like other limits it names an option of the command
 /// line, which the library replaces by its own.
 inline constexpr const char* kOutOfMemory =
-    "out of memory; ask for larger triangles, or have the work stop in time with --max-memory";
+    "out of memory: all that the system or --max-memory allows is in use; allow more, or ask for larger triangles";
 
 /// An error in the form in which a rank sends it to the others, which throw it too.
 struct Failure {

@@ -2,6 +2,7 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -14,10 +15,11 @@
 namespace driftmesh {
 
 /// A contiguous array of trivially copyable values that grows without copying once it is large: small arrays live on
-/// the heap, large ones in their own mapping, which mremap extends in place or by moving page tables. Only pages that
-/// were touched cost memory, so doubling the capacity of a large array is free. Large mappings request huge pages,
-/// because accesses to a mesh are too scattered for a TLB of small pages. Elements above size() are uninitialized.
-/// Throws std::bad_alloc when the system has no more memory to map. Elements are indexed by Id.
+/// the heap, large ones in their own mapping, which mremap extends in place or by moving page tables. Since that costs
+/// little, large arrays grow in small steps: what a process has mapped stays close to what it uses, and can be limited
+/// (see cap_memory in job/memory.hpp). Large mappings request huge pages, because accesses to a mesh are too scattered
+/// for a TLB of small pages. Elements above size() are uninitialized. Throws std::bad_alloc when the system has no more
+/// memory to map. Elements are indexed by Id.
 template <class T, IsId Id = std::size_t>
 class GrowingArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -41,6 +43,7 @@ class GrowingArray {
   [[nodiscard]] std::size_t capacity() const { return capacity_; }
   [[nodiscard]] T* data() { return data_; }
   [[nodiscard]] const T* data() const { return data_; }
+  [[nodiscard]] const T& back() const { return data_[size_ - 1]; }
   [[nodiscard]] T& operator[](Id id) { return data_[to_index(id)]; }
   [[nodiscard]] const T& operator[](Id id) const { return data_[to_index(id)]; }
   /// Whether an element has this number.
@@ -61,6 +64,8 @@ class GrowingArray {
       data_[size_++] = value;
     }
   }
+
+  void pop_back() { --size_; }
 
   /// Sets the size; new elements are uninitialized.
   void resize_uninitialized(std::size_t size) {
@@ -92,7 +97,10 @@ class GrowingArray {
     resize_uninitialized(size);
     if (size != 0) std::memcpy(data_, data, size * sizeof(T));
   }
-  void grow(std::size_t needed) { reallocate(needed < 2 * capacity_ ? 2 * capacity_ : needed < 16 ? 16 : needed); }
+  void grow(std::size_t needed) {
+    const std::size_t step = mapped_bytes_ != 0 ? capacity_ / 32 : capacity_;
+    reallocate(std::max({needed, capacity_ + step, std::size_t{16}}));
+  }
 
   void reallocate(std::size_t capacity) {
     const std::size_t bytes = capacity * sizeof(T);

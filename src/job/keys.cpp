@@ -272,7 +272,7 @@ Section limit_section() {
                "Stop at this many triangles, or at once if far more are expected",
                in(1, static_cast<double>(MeshRequest{}.max_triangles)), option("max-triangles", "N")),
            key("limits.max-memory", &R::limits, &R::Limits::max_memory,
-               "Likewise for the memory of each process: 6G is 6 GiB; 0: 90 % of the machine's free memory",
+               "A ceiling for the memory of each process: 6G is 6 GiB; 0: 90 % of the machine's free memory",
                unit("bytes"), in(0, 1e18), option("max-memory", "SIZE")),
            key("limits.keep-incomplete", &R::limits, &R::Limits::keep_incomplete,
                "Write the incomplete mesh when a limit stops the work", option("keep-incomplete"), places(kOnePiece),

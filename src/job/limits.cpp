@@ -6,83 +6,113 @@
 
 #include "base/words.hpp"
 #include "driftmesh/error.hpp"
+#include "job/files.hpp"
 #include "job/memory.hpp"
 
 namespace driftmesh::job {
 namespace {
 
-// Measured on meshes of 4 to 10 million triangles, rounded up: the triangulation with its work lists, and additionally
-// with the flat arrays from which files are written.
-constexpr std::uint64_t kBytesRefining = 44;
-constexpr std::uint64_t kBytesWriting = 64;
-constexpr std::uint64_t kBytesRegion = 10;
-constexpr std::uint64_t kBytesAttribute = 4;  // 8 bytes per vertex, of which there are half as many
+// Measured on meshes of 4 to 10 million triangles, rounded up.
+constexpr std::uint64_t kBytesAwake = 44;   // the triangulation with its work lists
+constexpr std::uint64_t kBytesAsleep = 12;  // of a finished subdomain
+// What files are written from: corners, and points with their markers, of which there are half as many; in subdomains
+// also the subdomain and rank of each triangle, the number and owner of each point.
+constexpr std::uint64_t kBytesArrays = 26;
+constexpr std::uint64_t kBytesArraysOfRanks = 42;
+constexpr std::uint64_t kBytesRegion = 8;
+constexpr std::uint64_t kBytesAttribute = 4;
+constexpr std::uint64_t kSlack = 20;  // the cap is one part in 20 above the limit, for what comes between two looks
+constexpr std::uint64_t kLeastSlack = 4 << 20;
 constexpr double kForecastError = 1.1;
 constexpr double kGoodPart = 0.1;  // of the triangles at which a mesh was stopped
 
-std::uint64_t bytes_per_triangle(const Pslg& pslg, bool writes) {
-  if (!writes) return kBytesRefining;
-  return kBytesWriting + (pslg.regions.empty() ? 0 : kBytesRegion) +
+std::uint64_t bytes_of_arrays(const Pslg& pslg, const Use& use) {
+  return (use.in_subdomains ? kBytesArraysOfRanks : kBytesArrays) + (pslg.regions.empty() ? 0 : kBytesRegion) +
          kBytesAttribute * static_cast<std::uint64_t>(pslg.attributes_per_point);
 }
 
-std::string advice(const Limits& limits) {
-  return fmt::format("allow more with {}, or ask for larger triangles", limits.option());
+/// Who sends his part has it three times for a moment, but no longer in the form in which it was refined.
+std::uint64_t bytes_finishing(const Pslg& pslg, const Use& use) {
+  if (!use.writes) return 0;
+  const std::uint64_t arrays = bytes_of_arrays(pslg, use);
+  const std::uint64_t refined = use.sleeps ? kBytesAsleep : kBytesAwake;
+  return use.gathers ? std::max(arrays, 3 * arrays - refined) : arrays;
+}
+
+std::string advice(const Limits& limits, bool by_memory) {
+  return fmt::format("allow more with {}, or ask for larger triangles", limits.called(by_memory));
 }
 
 /// Good angles require triangles as small as the gap all along it.
-std::string narrow_words(const NarrowPlace& narrow, const Limits& limits) {
+std::string narrow_words(const NarrowPlace& narrow, const std::string& limit) {
   return fmt::format(
       "near ({:.10g}, {:.10g}) two segments of the input that do not touch are {:.3g} apart and run side by side for "
       "{:.3g}, which alone takes about {} triangles at any area bound; join them or move them apart there, or allow "
-      "more "
-      "with {}",
-      narrow.at.x, narrow.at.y, narrow.width, narrow.length, estimate_words(narrow.triangles), limits.option());
+      "more with {}",
+      narrow.at.x, narrow.at.y, narrow.width, narrow.length, estimate_words(narrow.triangles), limit);
 }
 
 std::string words_of(const Limits& limits) {
-  if (!limits.by_memory) return "the " + grouped(limits.triangles) + " of --max-triangles";
-  return fmt::format("the {} that fit in {} of memory (about {} bytes each)", grouped(limits.triangles),
-                     bytes_words(limits.memory), limits.bytes_per_triangle);
+  if (!limits.by_memory()) return "the " + grouped(limits.triangles) + " of " + limits.called(false);
+  return fmt::format("the {} for which {} of memory suffice", grouped(limits.in_memory), bytes_words(limits.memory));
+}
+
+std::string reached_words(const Limits& limits, bool by_memory) {
+  if (!by_memory) return "the " + grouped(limits.triangles) + " of " + limits.called(false);
+  return fmt::format("which fill {} of memory{}", bytes_words(limits.memory),
+                     limits.bytes_finishing > 0 ? " together with what it takes to finish them" : "");
 }
 
 }  // namespace
 
-Limits find_limits(const Request::Limits& asked, const Pslg& pslg, bool writes, int processes_on_machine) {
-  Limits limits{asked.max_triangles, false, static_cast<std::uint64_t>(asked.max_memory),
-                bytes_per_triangle(pslg, writes)};
+std::string Limits::called(bool by_memory) const {
+  return job::called(by_memory ? "limits.max-memory" : "limits.max-triangles", by);
+}
+
+Limits find_limits(const Request::Limits& asked, const Pslg& pslg, const Use& use, const Processes& processes) {
+  Limits limits{.by = use.by,
+                .triangles = asked.max_triangles,
+                .memory = static_cast<std::uint64_t>(asked.max_memory),
+                .bytes_finishing = bytes_finishing(pslg, use)};
   const std::uint64_t present = present_memory();
   if (limits.memory == 0)
     if (const std::uint64_t free = free_memory(); free != 0)
-      limits.memory = present + free / 10 * 9 / static_cast<std::uint64_t>(processes_on_machine);
+      limits.memory = present + free / 10 * 9 / static_cast<std::uint64_t>(processes.on_machine);
   if (limits.memory == 0) return limits;
   const std::uint64_t room = limits.memory > present ? limits.memory - present : 0;
-  const auto fit = static_cast<std::int64_t>(std::min<std::uint64_t>(room / limits.bytes_per_triangle, INT64_MAX));
-  limits.by_memory = fit < limits.triangles;
-  limits.triangles = std::min(limits.triangles, fit);
+  const std::uint64_t each = (use.sleeps ? kBytesAsleep : kBytesAwake) + limits.bytes_finishing;
+  std::uint64_t triangles = room / each * static_cast<std::uint64_t>(processes.all);
+  if (use.gathers) triangles = std::min(triangles, room / (2 * bytes_of_arrays(pslg, use)));
+  limits.in_memory = static_cast<std::int64_t>(std::min<std::uint64_t>(triangles, INT64_MAX));
   return limits;
 }
 
-Limits limits_of_all(const Request::Limits& asked, Limits limits, int ranks) {
-  if (!limits.by_memory) return limits;
-  limits.by_memory = limits.triangles < asked.max_triangles / ranks;
-  limits.triangles = limits.by_memory ? limits.triangles * ranks : asked.max_triangles;
-  limits.memory *= static_cast<std::uint64_t>(ranks);
-  return limits;
+void cap_memory(const Request::Limits& asked) {
+  const auto bytes = static_cast<std::uint64_t>(asked.max_memory);
+  cap_memory(bytes + bytes / kSlack);
+}
+
+bool memory_is_full(const Limits& limits, std::int64_t triangles) {
+  if (limits.memory == 0) return false;
+  const std::uint64_t needed = static_cast<std::uint64_t>(triangles) * limits.bytes_finishing;
+  const std::uint64_t until_next_look = std::max(kLeastSlack, limits.memory / kSlack / 2);
+  return present_memory() + needed > limits.memory || needed + until_next_look > room_under_cap();
 }
 
 void check_forecast(const Limits& limits, double forecast, bool may_keep) {
-  if (!(forecast > kForecastError * static_cast<double>(limits.triangles))) return;
+  const std::int64_t most = std::min(limits.triangles, limits.in_memory);
+  if (!(forecast > kForecastError * static_cast<double>(most))) return;
   throw LimitError(fmt::format("these bounds need about {} triangles, more than {}; {}{}", estimate_words(forecast),
-                               words_of(limits), advice(limits),
+                               words_of(limits), advice(limits, limits.by_memory()),
                                may_keep ? ", or keep what fits with --keep-incomplete" : ""));
 }
 
-std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept,
+std::string stopped_message(const Limits& limits, bool by_memory, std::int64_t triangles, bool kept,
                             const std::optional<NarrowPlace>& narrow) {
   const bool by_narrowness = narrow && narrow->triangles > kGoodPart * static_cast<double>(triangles);
   return fmt::format("stopped at {} triangles, {}, before all bounds were met; {}{}", grouped(triangles),
-                     words_of(limits), by_narrowness ? narrow_words(*narrow, limits) : advice(limits),
+                     reached_words(limits, by_memory),
+                     by_narrowness ? narrow_words(*narrow, limits.called(by_memory)) : advice(limits, by_memory),
                      kept ? "" : ". No mesh was written; --keep-incomplete writes what was made");
 }
 

@@ -5,31 +5,58 @@
 #include <string>
 
 #include "driftmesh/pslg.hpp"
+#include "job/key.hpp"
 #include "job/request.hpp"
+#include "job/team.hpp"
 #include "mesh/mesher.hpp"
 #include "mesh/narrow_place.hpp"
 
 namespace driftmesh::job {
 
-/// Limits on the mesh of one process.
-struct Limits {
-  std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop at this number
-  bool by_memory = false;                                ///< set by memory: max_triangles would allow more
-  std::uint64_t memory = 0;                              ///< bytes that the process may use; 0: unknown
-  std::uint64_t bytes_per_triangle = 0;                  ///< expected peak per triangle
-
-  /// The option that sets the limit.
-  [[nodiscard]] std::string option() const { return by_memory ? "--max-memory" : "--max-triangles"; }
+/// Who asks for a mesh, and what is done with it, as far as that takes memory.
+struct Use {
+  EntryPoint by = kMesh;
+  bool in_subdomains = false;
+  bool sleeps = false;   ///< finished subdomains take less memory
+  bool writes = false;   ///< the mesh is written, drawn or returned
+  bool gathers = false;  ///< rank 0 gathers it from the others for that
 };
 
-/// The limits that a request and the machine set for meshing `pslg` at this moment: memory that the process has now
-/// counts as used. Free memory is shared with the other processes of the job on this machine; max_memory is that of
-/// each. `writes`: the mesh is also written or drawn, which takes memory.
-[[nodiscard]] Limits find_limits(const Request::Limits& asked, const Pslg& pslg, bool writes,
-                                 int processes_on_machine = 1);
+/// Limits on a mesh. The number of triangles for which memory suffices is an expectation, to refuse in time what cannot
+/// succeed; at work, a process measures what it has.
+struct Limits {
+  EntryPoint by = kMesh;                                 ///< whose words messages use
+  std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop at this number
+  std::uint64_t memory = 0;                              ///< bytes that a process may have; 0: unknown
+  std::int64_t in_memory = INT64_MAX;                    ///< the triangles for which that should suffice
+  std::uint64_t bytes_finishing = 0;  ///< per triangle, what a process takes after refinement before it frees anything
 
-/// The limits of all `ranks` processes together: the memory limit is per process, max_triangles is for all.
-[[nodiscard]] Limits limits_of_all(const Request::Limits& asked, Limits of_one, int ranks);
+  /// Whether memory is expected to run out first.
+  [[nodiscard]] bool by_memory() const { return in_memory < triangles; }
+  /// What the user calls the limit.
+  [[nodiscard]] std::string called(bool by_memory) const;
+};
+
+/// The processes that make a mesh together.
+struct Processes {
+  int all = 1;
+  int on_machine = 1;  ///< sharing the memory of this machine
+};
+[[nodiscard]] inline Processes processes_of(const Team& team) {
+  return {team.ranks(), team.ranks_on_machine()};
+}
+
+/// The limits that a request and the machine set for meshing `pslg` at this moment: max_triangles is for all processes
+/// together, the memory that of each.
+[[nodiscard]] Limits find_limits(const Request::Limits& asked, const Pslg& pslg, const Use& use,
+                                 const Processes& processes = {});
+
+/// Holds this process, a program, to max_memory if it is asked for: beyond it there is no memory to be had, and whoever
+/// asks for it throws std::bad_alloc.
+void cap_memory(const Request::Limits& asked);
+
+/// Whether a process that has made this many triangles cannot make more, if it is to finish them within its memory.
+[[nodiscard]] bool memory_is_full(const Limits& limits, std::int64_t triangles);
 
 /// Exit code of a program stopped by a limit.
 inline constexpr int kStoppedByLimit = 3;
@@ -38,9 +65,9 @@ inline constexpr int kStoppedByLimit = 3;
 /// `may_keep`: whether an incomplete mesh can be kept.
 void check_forecast(const Limits& limits, double forecast, bool may_keep = true);
 
-/// The message for a mesh that hit the limit. `narrow` is the narrow place of the input that needs the most triangles;
-/// it is named if it accounts for a large part of them.
-[[nodiscard]] std::string stopped_message(const Limits& limits, std::int64_t triangles, bool kept,
+/// The message for a mesh stopped by the limit on memory or on triangles. `narrow` is the narrow place of the input
+/// that needs the most triangles; it is named if it accounts for a large part of them.
+[[nodiscard]] std::string stopped_message(const Limits& limits, bool by_memory, std::int64_t triangles, bool kept,
                                           const std::optional<NarrowPlace>& narrow = {});
 
 }  // namespace driftmesh::job

@@ -8,7 +8,7 @@ namespace driftmesh::job {
 
 OnePiece mesh_in_one_piece(const Request& request, const Domain& domain, bool writes, Watch& watch, bool may_keep) {
   OnePiece made;
-  made.limits = find_limits(request.limits, domain.pslg, writes);
+  made.limits = find_limits(request.limits, domain.pslg, {.writes = writes});
   Triangulated triangulated = triangulate_domain(request, domain, 1, watch);
   MeshResult& result = made.result;
   result.mesh = std::move(triangulated.mesh);
@@ -19,6 +19,8 @@ OnePiece mesh_in_one_piece(const Request& request, const Domain& domain, bool wr
       if (std::exchange(made.forecast, forecast) == 0 && !request.limits.keep_incomplete)
         check_forecast(made.limits, forecast, may_keep);
       watch.refining(triangles, forecast);
+      made.by_memory = memory_is_full(made.limits, triangles);
+      return !made.by_memory;
     });
   });
   return made;

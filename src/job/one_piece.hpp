@@ -12,7 +12,8 @@ namespace driftmesh::job {
 struct OnePiece {
   MeshResult result;  ///< not complete if a limit stopped it
   Limits limits;
-  double forecast = 0;  ///< of triangles, before refinement
+  bool by_memory = false;  ///< whether it was the limit on memory
+  double forecast = 0;     ///< of triangles, before refinement
 };
 
 /// Meshes the domain as one piece. `writes`: the mesh is written or plotted afterward, which takes memory too. Throws

@@ -22,7 +22,7 @@ void transfer_rest(Stream& stream, Fields& order) {
   stream.value(order.sizing.resolution);
   stream.value(order.limits);
   stream.array(order.shares);
-  stream.value(order.writes);
+  stream.value(order.use);
 }
 
 Bytes pack(const Order& order) {

@@ -9,6 +9,7 @@
 
 #include "balancer/policy_list.hpp"
 #include "driftmesh/pslg.hpp"
+#include "job/limits.hpp"
 #include "job/request.hpp"
 #include "job/team.hpp"
 #include "runtime/run_plan.hpp"
@@ -22,7 +23,7 @@ struct Order {
   Request::Sizing sizing;
   Request::Limits limits;
   IdVector<Rank, double> shares;  ///< fraction of its time that each rank works, for experiments; empty: all of it
-  bool writes = false;            ///< the mesh is written or drawn afterward
+  Use use;                        ///< of the mesh
 };
 
 /// Shares the order that rank 0 makes with all ranks; empty if it makes none because there is no more work. Collective;

@@ -19,7 +19,7 @@ RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
   by_itself(team_, [&] {
     size_ = size_of(order_.sizing, size, order_.pslg).field;
     order_.plan.bounds.size = size_.get();
-    limits_ = find_limits(order_.limits, order_.pslg, order_.writes, team_.ranks_on_machine());
+    limits_ = find_limits(order_.limits, order_.pslg, order_.use, processes_of(team_));
     order_.plan.max_triangles = limits_.triangles;
   });
 }
@@ -49,17 +49,21 @@ void RankRun::run_loop(const RankHooks& hooks) {
 }
 
 protocol::StepResult RankRun::step_or_abandon() {
+  const bool by_memory = !loop_->abandoned() && memory_is_full(limits_, loop_->triangles());
   try {
-    return loop_->step();
+    if (!by_memory) return loop_->step();
+    failure_ = stopped(by_memory);
   } catch (const std::exception&) {
     if (!loop_->can_abandon()) throw;
-    failure_ = std::current_exception();
-    if (loop_->triangles() > limits_.triangles)
-      failure_ = std::make_exception_ptr(
-          LimitError(stopped_message(limits_, loop_->triangles(), true) + ". No mesh was written"));
-    loop_->abandon();
-    return protocol::StepResult::kBusy;
+    failure_ = loop_->triangles() > limits_.triangles ? stopped(by_memory) : std::current_exception();
   }
+  loop_->abandon();
+  return protocol::StepResult::kBusy;
+}
+
+std::exception_ptr RankRun::stopped(bool by_memory) const {
+  return std::make_exception_ptr(
+      LimitError(stopped_message(limits_, by_memory, loop_->triangles(), true) + ". No mesh was written"));
 }
 
 RankLoop::Observers RankRun::observers(const RankHooks& hooks) {

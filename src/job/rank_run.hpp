@@ -55,6 +55,7 @@ class RankRun {
   [[nodiscard]] RankLoop::Observers observers(const RankHooks& hooks);
   void run_loop(const RankHooks& hooks);
   [[nodiscard]] protocol::StepResult step_or_abandon();
+  [[nodiscard]] std::exception_ptr stopped(bool by_memory) const;
 
   Team& team_;
   Order order_;

@@ -8,8 +8,8 @@
 namespace driftmesh {
 namespace {
 
-/// Insertions between two reports: some tens of milliseconds.
-constexpr std::int64_t kReportEvery = 100'000;
+/// Insertions between two reports: a few milliseconds, and about a megabyte.
+constexpr std::int64_t kReportEvery = 10'000;
 
 }  // namespace
 
@@ -37,12 +37,11 @@ void refine_domain(MeshResult& result, std::int64_t max_triangles, const MeshPro
   Refiner refiner(result.mesh, result.bounds);
   refiner.limit_triangles(max_triangles);
   const double forecast = progress ? refiner.predict_triangles() : 0;
-  if (progress) progress(static_cast<std::int64_t>(result.mesh.live_triangles()), forecast);
+  const auto goes_on = [&] {
+    return !progress || progress(static_cast<std::int64_t>(result.mesh.live_triangles()), forecast);
+  };
   Refiner::Status status = Refiner::Status::kBudget;
-  while (status == Refiner::Status::kBudget) {
-    status = refiner.refine(progress ? kReportEvery : INT64_MAX);
-    if (progress) progress(static_cast<std::int64_t>(result.mesh.live_triangles()), forecast);
-  }
+  while (goes_on() && status == Refiner::Status::kBudget) status = refiner.refine(progress ? kReportEvery : INT64_MAX);
   result.complete = status == Refiner::Status::kDone;
   result.counters = refiner.counters();
   result.seconds_refine = refining.seconds();

@@ -23,7 +23,7 @@ struct MeshRequest {
 struct MeshResult {
   Triangulation mesh;
   QualityBounds bounds;            ///< as applied
-  bool complete = true;            ///< false: stopped at max_triangles; the mesh is valid but misses bounds
+  bool complete = true;            ///< false: stopped before; the mesh is valid but misses bounds
   std::int32_t acute_corners = 0;  ///< clusters of segments that meet at less than 60 degrees (see prepare_corners)
   RefineCounters counters;
   double seconds_triangulate = 0;  ///< constrained Delaunay triangulation, carving, corners
@@ -33,9 +33,10 @@ struct MeshResult {
 /// The bounds that a request sets on the mesh of `pslg`, whose region labels index them.
 [[nodiscard]] QualityBounds bounds_of(const Pslg& pslg, const MeshRequest& request);
 
-/// Called before refinement and at short intervals during it with the present and the forecast number of triangles.
-/// An exception that it throws ends the meshing and reaches the caller.
-using MeshProgress = std::function<void(std::int64_t triangles, double forecast)>;
+/// Called before refinement and every few milliseconds during it with the present and the forecast number of triangles.
+/// Returns whether to go on; if not, the mesh is incomplete. An exception that it throws ends the meshing and reaches
+/// the caller.
+using MeshProgress = std::function<bool(std::int64_t triangles, double forecast)>;
 
 /// Meshes the domain of a repaired PSLG (see repair) in one piece: triangulates it, prepares acute corners, refines.
 ///

@@ -23,7 +23,7 @@ struct RefinerState {
   SubsegmentId next_segment{0};  ///< of kSegments
   Sweep sweep;
   SkinnyBuckets skinny;
-  std::vector<TriangleId> deferred;               ///< skinny ones, until kRest
+  GrowingArray<TriangleId> deferred;              ///< skinny ones, until kRest
   std::unordered_set<SubsegmentId> unsplittable;  ///< coordinates are too coarse for their midpoints
   std::vector<SplitPoint<RootId>> made;           ///< split points not yet taken by take_split_points
   GrowingArray<double, VertexId> size;            ///< the size field at each vertex; empty without one

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/growing_array.hpp"
 #include "mesh/handles.hpp"
 
 namespace driftmesh {
@@ -59,9 +60,9 @@ class Sweep {
     std::int32_t cursor, block_end, given, added, block;
   };
   [[nodiscard]] Places places() const { return {cursor_, block_end_, given_, added_, block_}; }
-  [[nodiscard]] const std::vector<TriangleId>& again() const { return again_; }
+  [[nodiscard]] const GrowingArray<TriangleId>& again() const { return again_; }
   Sweep() = default;
-  Sweep(const Places& p, std::vector<TriangleId> again)
+  Sweep(const Places& p, GrowingArray<TriangleId> again)
       : cursor_(p.cursor),
         block_end_(p.block_end),
         given_(p.given),
@@ -75,7 +76,7 @@ class Sweep {
   std::int32_t given_ = 0;
   std::int32_t added_ = 0;  // added slots before it are done
   std::int32_t block_ = 1;
-  std::vector<TriangleId> again_;
+  GrowingArray<TriangleId> again_;
 };
 
 /// Skinny triangles by the length of their shortest edge, in buckets a factor of sqrt(2) apart: off-centers pay off
@@ -132,7 +133,7 @@ class SkinnyBuckets {
     if (bucket >= end()) buckets_.resize(bucket - first_ + 1);
   }
 
-  std::vector<std::vector<TriangleId>> buckets_;  // from bucket first_ on
+  std::vector<GrowingArray<TriangleId>> buckets_;  // from bucket first_ on
   int first_ = 0;
   int lowest_ = kBuckets;  // none before it has entries
 };

@@ -165,7 +165,7 @@ TEST_CASE("a failure on one rank ends the work of all, which can then continue w
   };
   if (ranks > 1) {
     CHECK_THROWS_AS(make(), LimitError);
-    CHECK(common_error(make).ends_with("MeshOptions::max_memory"));
+    CHECK(common_error(make).find("MeshOptions::max_memory") != std::string::npos);
   }
   options.size = {};
   if (ranks > 1) {

@@ -36,31 +36,50 @@ TEST_CASE("The process knows its memory") {
 
 TEST_CASE("The tighter of two limits counts") {
   Request::Limits options = with_memory(present_memory() + 1'000'000'000);
-  const Limits by_memory = find_limits(options, Pslg{}, false);
-  CHECK(by_memory.by_memory);
-  CHECK(by_memory.option() == "--max-memory");
-  CHECK(by_memory.triangles > 10'000'000);
-  CHECK(by_memory.triangles < 30'000'000);
+  const Limits by_memory = find_limits(options, Pslg{}, {});
+  CHECK(by_memory.by_memory());
+  CHECK(by_memory.in_memory > 10'000'000);
+  CHECK(by_memory.in_memory < 30'000'000);
   options.max_triangles = 1000;
-  const Limits by_count = find_limits(options, Pslg{}, false);
-  CHECK(by_count.option() == "--max-triangles");
-  CHECK(by_count.triangles == 1000);
+  CHECK_FALSE(find_limits(options, Pslg{}, {}).by_memory());
 }
 
 TEST_CASE("Arrays that are written with a mesh take memory too") {
-  Request::Limits options = with_memory(present_memory() + 1'000'000'000);
-  Pslg pslg;
-  const std::int64_t summary_alone = find_limits(options, pslg, false).triangles;
-  const std::int64_t written = find_limits(options, pslg, true).triangles;
-  pslg.attributes_per_point = 10;
-  pslg.regions.resize(1);
-  const std::int64_t with_values = find_limits(options, pslg, true).triangles;
+  const Request::Limits options = with_memory(present_memory() + 1'000'000'000);
+  const auto fit = [&](const Pslg& pslg, const Use& use, const Processes& processes = {}) {
+    return find_limits(options, pslg, use, processes).in_memory;
+  };
+  Pslg values;
+  values.attributes_per_point = 10;
+  values.regions.resize(1);
+  const std::int64_t summary_alone = fit({}, {});
+  const std::int64_t written = fit({}, {.writes = true});
   CHECK(written < summary_alone);
-  CHECK(with_values < written);
+  CHECK(fit(values, {.writes = true}) < written);
+  const std::int64_t in_subdomains = fit({}, {.in_subdomains = true, .writes = true});
+  CHECK(in_subdomains < written);
+  CHECK(fit({}, {.in_subdomains = true, .sleeps = true, .writes = true}) > in_subdomains);
+  CHECK(fit({}, {.in_subdomains = true, .sleeps = true}) > 3 * summary_alone);
+
+  const Processes many{100, 2};
+  CHECK(fit({}, {.in_subdomains = true, .writes = true}, many) > 99 * in_subdomains);
+  CHECK(fit({}, {.in_subdomains = true, .writes = true, .gathers = true}, many) < 2 * in_subdomains);
 }
 
 TEST_CASE("No memory means no triangles, not a wrapped number") {
-  CHECK(find_limits(with_memory(1), Pslg{}, false).triangles == 0);
+  CHECK(find_limits(with_memory(1), Pslg{}, {}).in_memory == 0);
+}
+
+TEST_CASE("Memory is full once a mesh can no longer be finished within the limit") {
+  constexpr std::int64_t kTriangles = 1'000'000;
+  const Use use{.writes = true};
+  const auto full = [&](std::uint64_t bytes) {
+    return memory_is_full(find_limits(with_memory(bytes), Pslg{}, use), kTriangles);
+  };
+  const std::uint64_t present = present_memory();
+  CHECK(full(present + 10 * kTriangles));
+  CHECK_FALSE(full(present + 100 * kTriangles));
+  CHECK_FALSE(memory_is_full({}, kTriangles));  // unknown
 }
 
 TEST_CASE("A forecast above the limit is rejected with both numbers and what to change") {
@@ -73,18 +92,14 @@ TEST_CASE("A forecast above the limit is rejected with both numbers and what to 
     CHECK_MESSAGE(message.find(expected) != std::string::npos, message);
 }
 
-TEST_CASE("Ranks together may have as many triangles as their memory allows, or as the limit for all") {
-  Request::Limits asked;
-  asked.max_triangles = 1000;
-  Limits one;
-  one.triangles = 300;
-  one.by_memory = true;
-  one.memory = 10;
-  const Limits two = limits_of_all(asked, one, 2);
-  CHECK(two.triangles == 600);
-  CHECK(two.by_memory);
-  CHECK(two.memory == 20);
-  const Limits four = limits_of_all(asked, one, 4);
-  CHECK(four.triangles == 1000);
-  CHECK_FALSE(four.by_memory);
+TEST_CASE("The message for a stopped mesh names the limit and its option") {
+  const Limits limits = find_limits(with_memory(1 << 30), Pslg{}, {.writes = true});
+  const auto says = [](const std::string& message, const char* words) {
+    CHECK_MESSAGE(message.find(words) != std::string::npos, message);
+  };
+  says(stopped_message(limits, true, 12345, false), "12,345");
+  says(stopped_message(limits, true, 12345, false), "--max-memory");
+  says(stopped_message(limits, false, 12345, false), "--max-triangles");
+  const Limits of_experiment = find_limits(with_memory(1 << 30), Pslg{}, {.by = kExperiment});
+  says(stopped_message(of_experiment, true, 12345, false), "limits.max-memory");
 }

@@ -122,7 +122,7 @@ TEST_CASE("an order reaches the whole team, and so does an error") {
   order.sizing = request.sizing;
   order.limits.max_triangles = 77;
   order.shares = {0.5};
-  order.writes = true;
+  order.use.writes = true;
   request.sizing = {};
   request.bounds.triangles = 1000;
   order.plan = prepared(request, kSubdomains, 1).plan;
@@ -132,7 +132,7 @@ TEST_CASE("an order reaches the whole team, and so does an error") {
   CHECK(shared->sizing.expression == "0.1 + x");
   CHECK(shared->limits.max_triangles == 77);
   CHECK(shared->shares == order.shares);
-  CHECK(shared->writes);
+  CHECK(shared->use.writes);
   CHECK(shared->plan.decomposition == order.plan.decomposition);
   CHECK_FALSE(share(*team, [] { return std::optional<Order>(); }));
   CHECK_THROWS_AS(static_cast<void>(share(*team, []() -> std::optional<Order> { throw LimitError("too much"); })),

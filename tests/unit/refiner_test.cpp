@@ -67,7 +67,7 @@ TEST_CASE("a state that refers to parts outside its mesh is rejected") {
   const SubsegmentId past_subsegments = mesh.subsegments.next_id();
   CHECK_NOTHROW(Refiner(mesh, bounds, RefinerState{}));
   RefinerState state;
-  state.deferred = {past_triangles};
+  state.deferred.push_back(past_triangles);
   refused(state, "deferred");
   state = {};
   state.skinny.add(kNone, 5);
@@ -75,7 +75,9 @@ TEST_CASE("a state that refers to parts outside its mesh is rejected") {
   state = {};
   state.sweep = Sweep({0, 0, 0, to_int(past_triangles) + 1, 1}, {});
   refused(state, "sweep");
-  state.sweep = Sweep({0, 0, 0, 0, 1}, {past_triangles});
+  GrowingArray<TriangleId> again;
+  again.push_back(past_triangles);
+  state.sweep = Sweep({0, 0, 0, 0, 1}, again);
   refused(state, "sweep");
   state = {};
   state.next_segment = after(past_subsegments);

@@ -12,7 +12,9 @@ ClusterRun run_simulated(const Request& request, const Prepared& prepared, const
                          Watch& watch) {
   SimulationObservers observers;
   observers.progress = [&](std::int64_t triangles) {
-    if (triangles > limits.triangles) throw LimitError(stopped_message(limits, triangles, true) + ". No mesh was made");
+    const bool by_memory = memory_is_full(limits, triangles);
+    if (by_memory || triangles > limits.triangles)
+      throw LimitError(stopped_message(limits, by_memory, triangles, true) + ". No mesh was made");
     watch.refining(triangles, prepared.forecast);
   };
   observers.finished = [&](const RankLoop& rank) { add_report(record, report_of(rank, prepared.plan)); };

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""--max-memory is a ceiling: the peak of every process stays within 1.05 times the limit, or the run is refused or
+stopped with a message that names the limit, whatever takes the memory.
+
+usage: limits_test.py DRIFTMESH [unittest options]
+"""
+
+import os
+import random
+import re
+import subprocess
+import unittest
+
+import program
+
+MEGABYTE = 1 << 20
+GRADED = ("--size", "1e-9+x")  # far more triangles than fit
+LIMITS = (50, 90, 200)  # MiB
+
+
+class Ceiling(program.Cli):
+    def setUp(self):
+        super().setUp()
+        self.write("square.poly", program.SQUARE)
+
+    def peak_of(self, *command):
+        """Exit code, standard error and the peak of the largest process (that of mpiexec has its ranks' among it)."""
+        errors = self.folder / "errors.txt"
+        with errors.open("w") as stream:
+            process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=stream,
+                                       env=program.RANKS_ENVIRONMENT)
+            _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        return process.returncode, errors.read_text(errors="replace"), usage.ru_maxrss * 1024
+
+    def hold(self, limit, *arguments, ranks=None):
+        """Runs `mesh` within `limit` MiB. Returns whether it was completed."""
+        start = ["mpiexec", "-n", str(ranks)] if ranks else []
+        code, errors, peak = self.peak_of(*start, program.PATH, "mesh", "square.poly", "--max-memory", f"{limit}M",
+                                          *arguments)
+        what = f"{limit} MiB, {ranks} ranks, {arguments}: peak {peak / MEGABYTE:.1f} MiB\n{errors}"
+        self.assertLessEqual(peak, 1.05 * limit * MEGABYTE, what)
+        self.assertIn(code, (0, 3), what)
+        if code == 3:
+            self.assertIn("--max-memory", errors, what)
+            self.assertNotIn("terminate called", errors, what)
+        return code == 0
+
+    def test_graded_sizes_in_one_piece(self):
+        for limit in (60, 150):
+            for output in ([], ["-o", "a.vtu"], ["-o", "a.ele", "--keep-incomplete"], ["-o", "a.msh"],
+                           ["--plot", "a.png", "--keep-incomplete"]):
+                self.assertFalse(self.hold(limit, *GRADED, *output))
+
+    def test_what_fits_is_kept(self):
+        """An incomplete mesh is written within the limit, too, and it is not a small part of what would fit."""
+        self.hold(150, *GRADED, "--keep-incomplete", "-o", "kept.vtu")
+        triangles = int(re.search(r'NumberOfCells="(\d+)"', (self.folder / "kept.vtu").read_bytes()[:4000].decode(
+            errors="replace")).group(1))
+        self.assertGreater(triangles, 1_000_000)
+
+    def test_subdomains_of_one_process(self):
+        for limit in LIMITS:
+            self.hold(limit, "-n", "50", "--area", "3e-5", "-o", "a.vtu")
+            self.hold(limit, "-n", "3000", "--area", "3e-5", "-o", "a.ele")
+
+    def test_many_tiny_subdomains_on_ranks(self):
+        self.assertFalse(self.hold(100, "-n", "30000", ranks=2))
+        self.assertTrue(self.hold(400, "-n", "10000", ranks=2))
+
+    def test_meshes_written_by_ranks(self):
+        for limit in (60, 120):
+            for output in ("a.pvtu", "a.vtu", "a.ele"):
+                self.hold(limit, "-n", "100", "--area", "4e-5", "-o", output, ranks=2)
+
+    def test_a_rank_that_gets_the_work_of_the_others(self):
+        for limit in (40, 60):
+            self.hold(limit, "-n", "300", "--area", "3e-5", "--balance", "stealing", "--mapping", "block",
+                      "--map-by-area", "--drag", "1,0.02", ranks=2)
+
+    def test_sleep_is_reckoned_with(self):
+        """Asleep, a triangle takes a quarter of the memory, so the forecast does not refuse what then succeeds."""
+        self.assertFalse(self.hold(60, "-n", "200", "--area", "1.5e-5"))
+        self.assertTrue(self.hold(60, "-n", "200", "--area", "1.5e-5", "--sleep"))
+
+    def test_random_requests(self):
+        seed = random.randrange(2**32)
+        print(f"seed {seed}", flush=True)
+        choose = random.Random(seed)
+        for _ in range(6):
+            limit = choose.choice(LIMITS)
+            area = ["--area", f"{16 / (limit * MEGABYTE / choose.uniform(10, 60)):.2g}"]
+            parts = choose.choice(([], ["-n", str(choose.choice((20, 200, 2000)))]))
+            ranks = choose.choice((None, 2)) if parts else None
+            sleep = choose.choice(([], ["--sleep"])) if parts else []
+            output = choose.choice(([], ["-o", "a.vtu"], ["-o", "a.ele"], ["-o", "a.msh"], ["--plot", "a.png"]))
+            with self.subTest(seed=seed):
+                self.hold(limit, *choose.choice((area, [*area, "--size", "0.001+0.1*y"])), *parts, *sleep, *output,
+                          ranks=ranks)
+
+
+if __name__ == "__main__":
+    program.main()
