@@ -1,8 +1,11 @@
 #include "sizing/expression_range.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -56,7 +59,8 @@ std::size_t ExpressionRange::operands_of(Op op) {
   return op < Op::kChoose ? 2 : 3;
 }
 
-Interval ExpressionRange::apply(Op op, const Interval* v) {
+/// The result of an operation on values that are numbers.
+Interval ExpressionRange::apply_to_numbers(Op op, const Interval* v) {
   using namespace intervals;
   constexpr auto kReal = [](double (*f)(double)) { return f; };  // of the overloads, the one of doubles
   switch (op) {
@@ -135,6 +139,20 @@ Interval ExpressionRange::apply(Op op, const Interval* v) {
     default:
       return kAll;
   }
+}
+
+Interval ExpressionRange::apply(Op op, const Interval* v) {
+  Interval result = apply_to_numbers(op, v);
+  if (op == Op::kChoose) return result;
+  const std::span operands(v, operands_of(op));
+  const auto may_be_infinite = [](const Interval& a) { return std::isinf(a.low) || std::isinf(a.high); };
+  const bool of_undefined =
+      std::any_of(operands.begin(), operands.end(), [](const Interval& a) { return a.undefined; });
+  if (op >= Op::kLess && op <= Op::kOr) return of_undefined ? intervals::kMaybe : result;
+  // An operation that may be undefined results in kAll, and infinities can become NaN in any.
+  result.undefined =
+      of_undefined || result == intervals::kAll || std::any_of(operands.begin(), operands.end(), may_be_infinite);
+  return result;
 }
 
 Interval ExpressionRange::over(const Box& box) const {

@@ -33,6 +33,7 @@ class ExpressionRange {
   static constexpr std::size_t kDeepest = 64;  // operands on the stack
   static std::size_t operands_of(Op op);
   static Interval apply(Op op, const Interval* operands);
+  static Interval apply_to_numbers(Op op, const Interval* operands);
 
   std::vector<Step> steps_;
 };

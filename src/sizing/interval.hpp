@@ -13,6 +13,7 @@ namespace driftmesh {
 struct Interval {
   double low;
   double high;
+  bool undefined = false;  ///< whether the value may also be NaN, with which every comparison fails
 
   [[nodiscard]] bool is_point() const { return low == high; }
   [[nodiscard]] bool holds(double value) const { return low <= value && value <= high; }
@@ -33,7 +34,7 @@ inline constexpr Interval kYes{1, 1}, kNo{0, 0}, kMaybe{0, 1};
 }
 
 [[nodiscard]] inline Interval hull(const Interval& a, const Interval& b) {
-  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+  return {std::min(a.low, b.low), std::max(a.high, b.high), a.undefined || b.undefined};
 }
 
 [[nodiscard]] inline Interval add(const Interval& a, const Interval& b) {
@@ -156,7 +157,7 @@ template <class Function>
 
 /// As a condition: whatever is not 0 is true.
 [[nodiscard]] inline Interval condition(const Interval& a) {
-  return truth(!a.holds(0), a == kNo);
+  return a.undefined ? kMaybe : truth(!a.holds(0), a == kNo);
 }
 
 [[nodiscard]] inline Interval opposite(const Interval& a) {

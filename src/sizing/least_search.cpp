@@ -13,9 +13,10 @@ namespace {
 constexpr std::size_t kTableSize = std::size_t{1} << 14;
 /// Cells are divided until they are this much smaller than the triangle, where it matters.
 constexpr double kFinest = 1.0 / 32;
-/// How many of them are divided further, along one way only, and how often.
+/// How many of them are divided further, how often, and how many cells each of these dives may look at.
 constexpr int kMostDives = 32;
 constexpr int kDeepestDive = 24;
+constexpr int kCellsOfDive = 2 * kDeepestDive;
 /// Tells the exponents of cells with what is around them from others.
 constexpr int kAround = 1 << 16;
 
@@ -94,6 +95,7 @@ struct LeastSearch::Question {
   double counts, tolerated;
   double finest;  // width of cells
   int dives = kMostDives;
+  int cells_left = 0;  // of the present dive
 
   [[nodiscard]] bool meets(const Cell& cell) const { return meet(triangle, bounds, cell.box()); }
   [[nodiscard]] bool counts_at(const Point& p) const { return contains(triangle, p) && field.edge_length(p) < counts; }
@@ -167,26 +169,34 @@ bool LeastSearch::descend(Question& question, const Cell& cell) {
   if (lower_bound(cell) >= question.tolerated || !question.meets(cell)) return false;
   if (question.counts_at(cell.box().center())) return true;
   if (cell.width() <= question.finest || cell.is_smallest())
-    return question.counts_at_corners(cell) || dive(question, cell);
+    return question.counts_at_corners(cell) || start_dive(question, cell);
   for (const Cell& quarter : cell.quarters())
     if (descend(question, quarter)) return true;
   return false;
 }
 
 /// Follows the lowest bound from one of the smallest cells: where values change steeply, it leads to the least.
-bool LeastSearch::dive(Question& question, Cell cell) {
+bool LeastSearch::start_dive(Question& question, const Cell& cell) {
   if (question.dives == 0) return false;
   --question.dives;
-  for (int depth = 0; depth < kDeepestDive && !cell.is_smallest(); ++depth) {
-    double lowest = question.tolerated;
-    for (const Cell& quarter : cell.quarters()) {
-      const double bound = lower_bound(quarter);
-      if (bound >= lowest || !question.meets(quarter)) continue;
-      lowest = bound;
-      cell = quarter;
-    }
-    if (lowest == question.tolerated) return false;
-    if (question.counts_at(cell.box().center()) || question.counts_at_corners(cell)) return true;
+  question.cells_left = kCellsOfDive;
+  return dive(question, cell, 0);
+}
+
+/// Turns back where what is low lies outside the triangle.
+bool LeastSearch::dive(Question& question, const Cell& cell, int depth) {
+  if (depth == kDeepestDive || cell.is_smallest()) return false;
+  std::array<std::pair<double, Cell>, 4> quarters;
+  const std::array<Cell, 4> cells = cell.quarters();
+  std::transform(cells.begin(), cells.end(), quarters.begin(),
+                 [&](const Cell& quarter) { return std::pair(lower_bound(quarter), quarter); });
+  std::stable_sort(quarters.begin(), quarters.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [bound, quarter] : quarters) {
+    if (bound >= question.tolerated || question.cells_left == 0) return false;
+    if (!question.meets(quarter)) continue;
+    --question.cells_left;
+    if (question.counts_at(quarter.box().center()) || question.counts_at_corners(quarter)) return true;
+    if (dive(question, quarter, depth + 1)) return true;
   }
   return false;
 }

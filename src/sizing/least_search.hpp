@@ -65,7 +65,8 @@ class LeastSearch {
   [[nodiscard]] double bound_around(const Cell& cell);
   [[nodiscard]] bool descend_from_cover(Question& question);
   [[nodiscard]] bool descend(Question& question, const Cell& cell);
-  [[nodiscard]] bool dive(Question& question, Cell cell);
+  [[nodiscard]] bool start_dive(Question& question, const Cell& cell);
+  [[nodiscard]] bool dive(Question& question, const Cell& cell, int depth);
 
   std::function<double(const Box&)> lower_bound_;
   double spacing_;
