@@ -6,6 +6,7 @@
 
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
+#include "geometry/hilbert_sort.hpp"
 #include "geometry/predicates.hpp"
 
 namespace driftmesh {
@@ -95,13 +96,20 @@ std::vector<CarveReport::Meeting> label_regions(Triangulation& mesh, const std::
   std::vector<CarveReport::Meeting> meetings;
   if (seeds.empty()) return meetings;
   mesh.region.resize(mesh.triangles.size(), 0);
+  Flood flood(mesh);
+  std::vector<std::pair<std::size_t, std::size_t>> areas(seeds.size());  // of each region, a part of flood.triangles()
   for (std::size_t r = 0; r < seeds.size(); ++r) {
     if (seeds[r] == kNone || !mesh.triangles[seeds[r]].alive()) continue;
-    if (const std::uint16_t before = mesh.region[seeds[r]]; before != 0)
+    if (const std::uint16_t before = mesh.region[seeds[r]]; before != 0) {
       meetings.push_back({before - 1, static_cast<std::int32_t>(r)});
-    Flood flood(mesh);
-    flood.add(seeds[r]);
-    for (const TriangleId t : flood.triangles()) mesh.region[t] = narrow<std::uint16_t>(r + 1, "number of regions");
+      areas[r] = areas[before - 1];
+    } else {
+      areas[r].first = flood.triangles().size();
+      flood.add(seeds[r]);
+      areas[r].second = flood.triangles().size();
+    }
+    for (std::size_t k = areas[r].first; k < areas[r].second; ++k)
+      mesh.region[flood.triangles()[k]] = narrow<std::uint16_t>(r + 1, "number of regions");
   }
   return meetings;
 }
@@ -139,6 +147,17 @@ void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& side
   for (const TriangleId t : ids_of(label)) mesh.region[t] = label[t];
 }
 
+/// The triangle of each point. Points that follow each other along a Hilbert curve are close, and so are the walks.
+std::vector<TriangleId> locate_all(const Triangulation& mesh, const std::vector<Point>& points) {
+  std::vector<TriangleId> found(points.size(), kNone);
+  TriangleId near{0};
+  for (const std::size_t i : in_hilbert_order(points)) {
+    found[i] = locate(mesh, points[i], near);
+    if (found[i] != kNone) near = found[i];
+  }
+  return found;
+}
+
 }  // namespace
 
 TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start) {
@@ -163,11 +182,9 @@ TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start) {
 }
 
 CarveReport carve(Triangulation& mesh, const Pslg& pslg, std::size_t first_root) {
-  const auto seed = [&](const Point& p) { return locate(mesh, p, TriangleId{0}); };
-  std::vector<TriangleId> region_seeds;
-  for (const Pslg::Region& r : pslg.regions) region_seeds.push_back(seed(r.at));
-  std::vector<TriangleId> hole_seeds;
-  for (const Point& h : pslg.holes) hole_seeds.push_back(seed(h));
+  std::vector<Point> regions;
+  for (const Pslg::Region& r : pslg.regions) regions.push_back(r.at);
+  const std::vector<TriangleId> region_seeds = locate_all(mesh, regions), hole_seeds = locate_all(mesh, pslg.holes);
 
   Flood outside(mesh);
   for (const Subsegment& s : mesh.subsegments)

@@ -10,7 +10,7 @@
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/box.hpp"
-#include "geometry/hilbert.hpp"
+#include "geometry/hilbert_sort.hpp"
 #include "geometry/predicates.hpp"
 #include "mesh/carve.hpp"
 #include "mesh/cavity.hpp"
@@ -47,19 +47,6 @@ void add_box(Triangulation& mesh, const Pslg& pslg) {
   mesh.link(half_edge(t, 1), half_edge(u, 2));
 }
 
-std::vector<VertexId> in_hilbert_order(const std::vector<Point>& points) {
-  const Box box = Box::of(points);
-  const HilbertOrder order(box.low, box.high);
-  std::vector<std::pair<std::uint64_t, VertexId>> keyed;
-  keyed.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) keyed.emplace_back(order.index(points[i]), static_cast<VertexId>(i));
-  std::sort(keyed.begin(), keyed.end());
-  std::vector<VertexId> sorted;
-  sorted.reserve(points.size());
-  for (const auto& k : keyed) sorted.push_back(k.second);
-  return sorted;
-}
-
 std::string describe(const Triangulation& mesh, VertexId v) {
   const Point& p = mesh.points[v];
   return "point " + std::to_string(to_int(v)) + " (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
@@ -68,7 +55,8 @@ std::string describe(const Triangulation& mesh, VertexId v) {
 void insert_points(Triangulation& mesh, const Pslg& pslg) {
   Cavity cavity(mesh);
   TriangleId near{0};
-  for (const VertexId v : in_hilbert_order(pslg.points)) {
+  for (const std::size_t i : in_hilbert_order(pslg.points)) {
+    const auto v = static_cast<VertexId>(i);
     const Cavity::Found found = cavity.gather_from_afar(mesh.points[v], near);
     if (found != Cavity::Found::kClear)
       throw Error(describe(mesh, v) + " coincides with another point; repair the input first");

@@ -75,8 +75,9 @@ class SeedCheck {
   /// The index of a segment that `p` lies on, or -1.
   [[nodiscard]] std::int32_t segment_at(const Point& p) const {
     std::int32_t found = -1;
-    visit(Box::around(p, p), [&](std::int32_t i, const Point& a, const Point& b) {
+    visit_until(Box::around(p, p), [&](std::int32_t i, const Point& a, const Point& b) {
       if (orient2d(a, b, p) == 0) found = i;
+      return found >= 0;
     });
     return found;
   }
@@ -96,21 +97,24 @@ class SeedCheck {
     return all;
   }
 
+  /// Visits the segments whose boxes overlap `place` until one makes `visit` return true.
   template <class Visit>
-  void visit(const Box& place, Visit visit) const {
-    tree_.search([&](const Box& box) { return box.overlaps(place); },
+  void visit_until(const Box& place, Visit visit) const {
+    bool done = false;
+    tree_.search([&](const Box& box) { return !done && box.overlaps(place); },
                  [&](std::int32_t i) {
                    const Pslg::Segment& s = pslg_.segments[i];
-                   visit(i, pslg_.points[s.a], pslg_.points[s.b]);
+                   done = visit(i, pslg_.points[s.a], pslg_.points[s.b]);
                  });
   }
 
   // The ray meets a segment whose box it meets unless both ends of the ray lie on the same side of the segment.
   [[nodiscard]] bool sees_nothing(const Point& p, const Point& far) const {
     bool nothing = true;
-    visit(Box::around(p, far), [&](std::int32_t, const Point& a, const Point& b) {
+    visit_until(Box::around(p, far), [&](std::int32_t, const Point& a, const Point& b) {
       const double side = orient2d(a, b, p), far_side = orient2d(a, b, far);
-      nothing = nothing && ((side > 0 && far_side > 0) || (side < 0 && far_side < 0));
+      nothing = (side > 0 && far_side > 0) || (side < 0 && far_side < 0);
+      return !nothing;
     });
     return nothing;
   }
