@@ -6,6 +6,7 @@
 
 #include "decompose/presplit.hpp"
 #include "driftmesh/error.hpp"
+#include "mesh/forecast.hpp"
 #include "mesh/refiner.hpp"
 
 namespace driftmesh {
@@ -60,7 +61,7 @@ std::string misfit(const SubdomainState& state, const Decomposition& d) {
 
 struct Subdomain::Body {
   Body(SubdomainMesh&& made, const QualityBounds& bounds)
-      : part(std::move(made)), refiner(part.mesh, bounds), forecast(refiner.predict_triangles()) {}
+      : part(std::move(made)), refiner(part.mesh, bounds), forecast(forecast_triangles(part.mesh, bounds)) {}
   Body(SubdomainState::Body&& packed, const QualityBounds& bounds)
       : part(std::move(packed.part)),
         refiner(part.mesh, bounds, std::move(packed.refiner)),

@@ -60,14 +60,13 @@ job::Request request_of(const GivenKeys& given) {
   return request;
 }
 
-std::string summary(const Decomposition& d, const DecompositionReport& report, bool predicts, double seconds) {
+std::string summary(const Decomposition& d, const DecompositionReport& report, double seconds) {
   double work = 0;
   for (const auto& s : d.subdomains) work += s.predicted;
   std::string text =
       fmt::format("Subdomains       {}, {} interfaces, made in {:.3f} s\n", d.size(), interfaces(d).size(), seconds);
-  text += fmt::format("Work             {}largest {:.2f}, smallest {:.2f} of the mean\n",
-                      predicts ? fmt::format("about {:.4g} triangles; ", work) : "by area; ", report.largest_load,
-                      report.smallest_load);
+  text += fmt::format("Work             about {:.4g} triangles; largest {:.2f}, smallest {:.2f} of the mean\n", work,
+                      report.largest_load, report.smallest_load);
   text += fmt::format("Separators       length {:.6g}, {:.3f} of the border's\n", report.separator_length,
                       report.separator_length / report.border_length);
   if (report.smallest_at != kNoPoint) {
@@ -102,7 +101,7 @@ void run_decompose(const DecomposeCommand& command) {
         d, command.picture,
         fmt::format("{}: {} subdomains", std::filesystem::path(request.input.file).filename().string(), d.size()));
   files.commit();
-  if (!command.quiet) print(summary(d, report, bounds_size(triangulated.bounds), seconds));
+  if (!command.quiet) print(summary(d, report, seconds));
 }
 
 std::vector<cli::Option> decompose_options(DecomposeCommand& command) {

@@ -11,9 +11,11 @@
 #include "decompose/bridges.hpp"
 #include "decompose/cut_search.hpp"
 #include "decompose/pieces.hpp"
+#include "decompose/presplit.hpp"
 #include "decompose/to_decomposition.hpp"
 #include "decompose/work_samples.hpp"
 #include "driftmesh/error.hpp"
+#include "mesh/forecast.hpp"
 
 namespace driftmesh {
 namespace {
@@ -55,12 +57,17 @@ double work_of(const WorkSamples& samples) {
   return work;
 }
 
-/// Samples of the work in each piece, which set the piece's work; none without a size field.
-IdVector<PieceId, WorkSamples> sample_pieces(const PlanarMap& map, IdVector<PieceId, Piece>& pieces,
-                                             const Triangulation& mesh, const DecomposeOptions& options) {
+/// Work in proportion to area becomes a number of triangles.
+void scale_work(IdVector<PieceId, Piece>& pieces, double total) {
+  double sum = 0;
+  for (const Piece& p : pieces) sum += p.work;
+  for (Piece& p : pieces) p.work *= total / sum;
+}
+
+/// Samples of the work in each piece, which set the piece's work; none if there are none of all.
+IdVector<PieceId, WorkSamples> share_out(WorkSamples all, const PlanarMap& map, IdVector<PieceId, Piece>& pieces) {
   IdVector<PieceId, WorkSamples> samples(pieces.size());
-  if (options.bounds.size == nullptr) return samples;
-  WorkSamples all = sample_work(mesh, options.bounds, kSamplesPerSubdomain * options.subdomains);
+  if (all.empty()) return samples;
   for (const PieceId i : ids_of(pieces)) {
     samples[i] = take_inside(all, border_of(map, pieces[i].side));
     pieces[i].work = std::max(1.0, work_of(samples[i]));
@@ -255,12 +262,15 @@ struct Domain {
   IdVector<PieceId, WorkSamples> samples;
 };
 
-Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options) {
+/// With work according to the samples, or in proportion to area if there are none.
+Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options, WorkSamples samples) {
   const double compact = std::sqrt(area_of(mesh) / options.subdomains);  // the width of a compact subdomain
   Domain domain;
   domain.map = connected_walls(mesh, compact / 4, options.min_angle * std::numbers::pi / 180);
   domain.pieces = find_pieces(domain.map, options.bounds);
-  domain.samples = sample_pieces(domain.map, domain.pieces, mesh, options);
+  if (samples.empty() && !bounds_size(options.bounds))
+    scale_work(domain.pieces, forecast_triangles(mesh, options.bounds));
+  domain.samples = share_out(std::move(samples), domain.map, domain.pieces);
   return domain;
 }
 
@@ -287,11 +297,7 @@ double largest_load(const Decomposition& d) {
   return most * static_cast<double>(d.size()) / work;
 }
 
-}  // namespace
-
-Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& options) {
-  check_options(options);
-  const Domain domain = prepare_domain(mesh, options);
+Decomposition cut_evenly(const Domain& domain, const DecomposeOptions& options) {
   Decomposition result = cut_domain(domain, options, 1);
   if (options.skew > 0) return result;
   for (const std::int32_t finer : {4, 8}) {
@@ -300,6 +306,20 @@ Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& optio
     if (largest_load(grouped) < largest_load(result)) result = std::move(grouped);
   }
   return result;
+}
+
+}  // namespace
+
+Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& options) {
+  check_options(options);
+  WorkSamples samples = sample_work(mesh, options.bounds, kSamplesPerSubdomain * options.subdomains);
+  const bool may_ignore_samples = options.bounds.size == nullptr && !samples.empty();
+  try {
+    return cut_evenly(prepare_domain(mesh, options, std::move(samples)), options);
+  } catch (const Error&) {
+    if (!may_ignore_samples) throw;  // otherwise the work may be where there is no room for cuts
+  }
+  return cut_evenly(prepare_domain(mesh, options, {}), options);
 }
 
 }  // namespace driftmesh

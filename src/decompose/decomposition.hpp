@@ -47,7 +47,7 @@ struct Decomposition {
   };
   struct Subdomain {
     double area = 0;
-    double predicted = 0;  ///< triangles after refinement, in the unit of the work measure it was made with
+    double predicted = 0;  ///< triangles after refinement
     Point centroid;
     std::uint16_t region = 0;  ///< the region label of the largest part of its area
     friend bool operator==(const Subdomain&, const Subdomain&) = default;

@@ -6,6 +6,8 @@
 
 #include "decompose/work.hpp"
 #include "geometry/predicates.hpp"
+#include "mesh/bound_forecast.hpp"
+#include "mesh/forecast.hpp"
 #include "mesh/refiner.hpp"
 
 namespace driftmesh {
@@ -49,6 +51,36 @@ double work_in(const Triangulation& mesh, TriangleId t, const QualityBounds& bou
   return std::max(1.0, area * density / 3);
 }
 
+/// By a coarse mesh, graded by the size field itself.
+WorkSamples sample_sized(const Triangulation& mesh, const QualityBounds& bounds, double count) {
+  Triangulation coarse = mesh;
+  const double final_size = BoundForecast(mesh, bounds).total();
+  const double factor = std::max(1.0, final_size / count);
+  const ScaledField field(*bounds.size, std::sqrt(factor));
+  Refiner refiner(coarse, coarser(bounds, factor, &field));
+  refiner.limit_triangles(static_cast<std::int64_t>(20 * count + 10 * static_cast<double>(mesh.live_triangles())));
+  refiner.refine();
+  WorkSamples samples;
+  for (const TriangleId t : ids_of(coarse.triangles)) {
+    if (!coarse.triangles[t].alive()) continue;
+    const Point &a = coarse.corner(t, 0), &b = coarse.corner(t, 1), &c = coarse.corner(t, 2);
+    samples.push_back({{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}, work_in(coarse, t, bounds)});
+  }
+  return samples;
+}
+
+/// By the forecast; none if the details of the input add little to what the bounds on area ask for, or if the triangles
+/// are so few that most of them will be there because of the separators.
+WorkSamples sample_detailed(const Triangulation& mesh, const QualityBounds& bounds, double count) {
+  constexpr double kLittle = 1.01;
+  const Forecast forecast(mesh, bounds);
+  const double total = forecast.total();
+  if (total <= kLittle * forecast.asked() || total < count) return {};
+  WorkSamples samples;
+  forecast.visit_samples(total / count, [&](const Point& at, double work) { samples.push_back({at, work}); });
+  return samples;
+}
+
 /// The samples whose ray to the right can meet an edge between two values of y.
 std::span<const WorkSample> between(std::span<const WorkSample> samples, double low, double high) {
   const auto below = [](const WorkSample& s, double y) { return s.at.y < y; };
@@ -69,19 +101,8 @@ void for_each_crossing(std::span<const WorkSample> samples, const Point& a, cons
 }  // namespace
 
 WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double count) {
-  Triangulation coarse = mesh;
-  const double final_size = Refiner(coarse, bounds).predict_triangles();
-  const double factor = std::max(1.0, final_size / count);
-  const ScaledField field(*bounds.size, std::sqrt(factor));
-  Refiner refiner(coarse, coarser(bounds, factor, &field));
-  refiner.limit_triangles(static_cast<std::int64_t>(20 * count + 10 * static_cast<double>(mesh.live_triangles())));
-  refiner.refine();
-  WorkSamples samples;
-  for (const TriangleId t : ids_of(coarse.triangles)) {
-    if (!coarse.triangles[t].alive()) continue;
-    const Point &a = coarse.corner(t, 0), &b = coarse.corner(t, 1), &c = coarse.corner(t, 2);
-    samples.push_back({{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}, work_in(coarse, t, bounds)});
-  }
+  WorkSamples samples =
+      bounds.size != nullptr ? sample_sized(mesh, bounds, count) : sample_detailed(mesh, bounds, count);
   std::sort(samples.begin(), samples.end(), [](const WorkSample& p, const WorkSample& q) {
     return p.at.y != q.at.y ? p.at.y < q.at.y : p.at.x < q.at.x;
   });

@@ -16,13 +16,13 @@ struct WorkSample {
   double work;  ///< triangles
 };
 
-/// Samples in ascending order of y. There is no formula for the work that a size function requires, so it is sampled at
-/// points of a coarse mesh graded by the function itself.
+/// Samples in ascending order of y. There is no formula for the work in an area that a size function or details of the
+/// input require, so it is sampled.
 using WorkSamples = std::vector<WorkSample>;
 
-/// The number of triangles that refinement to `bounds` is expected to make, sampled at the centroids of a coarse mesh
-/// of about `count` triangles of similar work (more if features of the domain require them). Each of these counts as at
-/// least one.
+/// The number of triangles that refinement to `bounds` is expected to make, in about `count` samples of similar work.
+/// With a size field, at the centroids of a coarse mesh graded by it (more if features of the domain require them);
+/// without one, by the forecast (see Forecast). Empty if work is in proportion to area (see work_density).
 [[nodiscard]] WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double count);
 
 /// The work of the samples from which a ray to the right meets edge ab, > 0 if the edge goes up and < 0 if it goes

@@ -10,6 +10,7 @@
 #include "decompose/same_input.hpp"
 #include "decompose/same_segments.hpp"
 #include "job/key.hpp"
+#include "mesh/forecast.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh::job {
@@ -97,7 +98,8 @@ Prepared prepare(const Request& request, const Domain& domain, const Given& give
   Prepared prepared;
   prepared.acute_corners = triangulated.acute_corners;
   check_presplit(request, triangulated.bounds);
-  check_forecast(limits, forecast_triangles(triangulated.mesh, triangulated.bounds), false);
+  check_forecast(limits, forecast_triangles(triangulated.mesh, triangulated.bounds), false,
+                 [&] { return find_narrow_place(triangulated.mesh); });
   Decomposition decomposition = decomposition_of(request, domain, given, triangulated, ranks, watch);
   for (const Decomposition::Subdomain& s : decomposition.subdomains) prepared.forecast += s.predicted;
   prepared.plan = timed(watch, "map", [&] {

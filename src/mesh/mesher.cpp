@@ -3,6 +3,7 @@
 #include "base/stopwatch.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
+#include "mesh/forecast.hpp"
 #include "mesh/refiner.hpp"
 
 namespace driftmesh {
@@ -36,7 +37,7 @@ void refine_domain(MeshResult& result, std::int64_t max_triangles, const MeshPro
   const Stopwatch refining;
   Refiner refiner(result.mesh, result.bounds);
   refiner.limit_triangles(max_triangles);
-  const double forecast = progress ? refiner.predict_triangles() : 0;
+  const double forecast = progress ? forecast_triangles(result.mesh, result.bounds) : 0;
   const auto goes_on = [&] {
     return !progress || progress(static_cast<std::int64_t>(result.mesh.live_triangles()), forecast);
   };

@@ -9,6 +9,7 @@
 #include "driftmesh/error.hpp"
 #include "geometry/midpoint.hpp"
 #include "geometry/triangle_geometry.hpp"
+#include "mesh/bound_forecast.hpp"
 #include "mesh/exceptions.hpp"
 #include "mesh/flips.hpp"
 #include "mesh/renumber.hpp"
@@ -20,8 +21,6 @@ namespace {
 /// block with its vertices (32 bytes per triangle) fits in a second-level cache.
 constexpr double kFinePerCoarse = 256;
 constexpr double kFinePerBlock = 65536;
-/// The mean area of triangles relative to the bound, measured for area-bounded refinement.
-constexpr double kMeanArea = 0.645;
 
 double radians(double degrees) {
   return degrees * (std::numbers::pi / 180);
@@ -33,32 +32,6 @@ double radians(double degrees) {
 double cos_squared_of_lens(double min_angle) {
   const double cosine = std::cos(radians(std::min(120.0, 180 - 2 * min_angle)));
   return cosine * cosine;
-}
-
-/// How many triangles a size field asks for in a triangle: the integral of one over the mean area, by subdivision until
-/// the field varies little or the pieces are about as small as the triangles asked for. Where the field falls between
-/// the points that were looked at, so steeply that the mesh cannot follow, each piece counts at least like a triangle.
-double integrate_size(const SizeField& field, double twice_area_bound, const CornerPoints& corners, int depth = 0,
-                      bool steep = false) {
-  const auto& [a, b, c] = corners;
-  const Point middle = centroid(corners);
-  const double h[4] = {field.edge_length(a), field.edge_length(b), field.edge_length(c), field.edge_length(middle)};
-  const auto [least, most] = std::minmax({h[0], h[1], h[2], h[3]});
-  const double twice = 2 * signed_area(a, b, c);
-  constexpr int kDeepest = 8, kDeepestSteep = 14;
-  constexpr double kSmooth = 1.2;
-  if (depth >= kDeepest || most <= kSmooth * least || twice < 4 * twice_area_of_edge(least)) {
-    const bool falls = depth < kDeepestSteep && field.falls_below(corners, std::min(least, edge_of_twice_area(twice)));
-    const double mean = (h[0] + h[1] + h[2] + 3 * h[3]) / 6;
-    const double count = twice / (kMeanArea * std::min(twice_area_of_edge(mean), twice_area_bound));
-    if (!falls) return steep ? std::max(count, 1 / kMeanArea) : count;
-    steep = true;
-  }
-  const Point ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
-  double sum = 0;
-  for (const CornerPoints& part : {CornerPoints{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}})
-    sum += integrate_size(field, twice_area_bound, part, depth + 1, steep);
-  return sum;
 }
 
 RefinerState initial_state(const Triangulation& mesh, const QualityBounds& bounds) {
@@ -83,10 +56,7 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState 
   lens_.cos_squared = cos_squared_of_lens(bounds.min_angle);
 
   if (bounds.size != nullptr) twice_area_of_least_ = twice_area_of_edge(bounds.size->least());
-  const auto twice = [](double area) { return area > 0 ? 2 * area * (1 - 1e-12) : kNoBound; };
-  twice_area_bounds_.push_back(twice(bounds.max_area));
-  for (std::size_t r = 1; r < bounds.region_max_area.size(); ++r)
-    twice_area_bounds_.push_back(std::min(twice(bounds.max_area), twice(bounds.region_max_area[r])));
+  twice_area_bounds_ = twice_area_bounds(bounds);
   if (const std::string fault = state_.fault(mesh, bounds); !fault.empty())
     throw Error("the state of refinement does not fit its mesh: " + fault);
   coarsening_ = state_.stage == Stage::kCoarse ? kFinePerCoarse : 1;
@@ -151,19 +121,6 @@ void Refiner::look_between() {
   if (bounds_.size == nullptr) return;
   for (const TriangleId t : ids_of(mesh_.triangles))
     if (mesh_.triangles[t].alive() && asks_between(t, twice_area(t))) state_.sweep.visit_again(t);
-}
-
-double Refiner::predict_triangles() const {
-  double sum = 0;
-  for (const TriangleId t : ids_of(mesh_.triangles)) {
-    if (!mesh_.triangles[t].alive()) continue;
-    double count = twice_area(t) / (kMeanArea * constant_bound(t));
-    if (bounds_.size != nullptr)
-      count = integrate_size(*bounds_.size, constant_bound(t),
-                             {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
-    sum += std::max(1.0, count);
-  }
-  return sum;
 }
 
 // ---- The order of work ----
@@ -238,7 +195,7 @@ void Refiner::enter(Stage stage) {
 
 /// Whether the finished mesh will outgrow the cache by far, so that it pays to refine it block by block.
 bool Refiner::wants_coarse_stage() const {
-  const double final_size = predict_triangles();
+  const double final_size = BoundForecast(mesh_, bounds_).total();
   return final_size > 4 * kFinePerBlock &&
          final_size > kFinePerCoarse / 4 * static_cast<double>(mesh_.live_triangles());
 }

@@ -54,10 +54,6 @@ class Refiner {
   /// Continues from a state. Throws Error like the other constructor, and if the state has a fault.
   Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state);
 
-  /// A forecast of the final number of triangles from the present mesh and the bounds on area and size. Within a few
-  /// percent where these bounds are active; triangles that only the angle bound requires are not forecast.
-  [[nodiscard]] double predict_triangles() const;
-
  private:
   using Stage = RefinerState::Stage;
   enum class Progress { kChanged, kStuck };

@@ -8,7 +8,7 @@
 #include "decompose/work.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/triangle_geometry.hpp"
-#include "mesh/refiner.hpp"
+#include "mesh/forecast.hpp"
 
 namespace driftmesh {
 namespace {
@@ -23,10 +23,6 @@ constexpr std::int32_t kSubdomainsPerRank = 20;
 std::int32_t default_subdomains(double triangles, std::int32_t ranks) {
   const double for_cache = std::min(std::ceil(triangles / kTrianglesPerSubdomain), 1e6);
   return std::max(kSubdomainsPerRank * ranks, static_cast<std::int32_t>(for_cache));
-}
-
-double forecast_triangles(Triangulation mesh, const QualityBounds& bounds) {
-  return Refiner(mesh, bounds).predict_triangles();
 }
 
 Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options, std::int32_t ranks) {

@@ -23,9 +23,6 @@ struct PlanOptions {
 /// would otherwise exceed a second-level cache.
 [[nodiscard]] std::int32_t default_subdomains(double triangles, std::int32_t ranks);
 
-/// The forecast of the number of triangles for a domain (triangulated, corners prepared) with these bounds.
-[[nodiscard]] double forecast_triangles(Triangulation mesh, const QualityBounds& bounds);
-
 /// Cuts the domain (triangulated, corners prepared) as `options` say; with options.subdomains = 0 into
 /// default_subdomains, or as many as the domain allows. Throws like decompose.
 [[nodiscard]] Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options, std::int32_t ranks);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/triangle_geometry.hpp"
+#include "mesh/bounds.hpp"
+#include "mesh/triangulation.hpp"
+
+namespace driftmesh {
+
+/// How many triangles the bounds on area and size ask for, by themselves: the area over the mean area of triangles.
+class BoundForecast {
+ public:
+  /// Both must outlive it. `bounds` must be possible.
+  BoundForecast(const Triangulation& mesh, const QualityBounds& bounds);
+
+  /// The number in triangle t, which has this area, as a fraction: 0 without a bound.
+  [[nodiscard]] double in(TriangleId t, double twice_area) const;
+  /// The sum over all triangles, each of which counts at least as one. Within a few percent of the final number where
+  /// these bounds decide; triangles that only the angle bound requires are not in it.
+  [[nodiscard]] double total() const;
+  /// Whether there is any bound.
+  [[nodiscard]] bool any() const;
+
+ private:
+  [[nodiscard]] double twice_area_bound(TriangleId t) const;
+
+  const Triangulation& mesh_;
+  const SizeField* size_;
+  std::vector<double> twice_area_bounds_;  // by region label
+};
+
+/// Twice the largest area of triangles by region label, with a margin for rounding; the first is that of the request.
+[[nodiscard]] std::vector<double> twice_area_bounds(const QualityBounds& bounds);
+
+}  // namespace driftmesh
