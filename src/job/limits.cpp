@@ -23,8 +23,8 @@ constexpr std::uint64_t kBytesRegion = 8;
 constexpr std::uint64_t kBytesAttribute = 4;
 constexpr std::uint64_t kSlack = 20;  // the cap is one part in 20 above the limit, for what comes between two looks
 constexpr std::uint64_t kLeastSlack = 4 << 20;
-constexpr double kForecastError = 1.1;
-constexpr double kGoodPart = 0.1;  // of the triangles at which a mesh was stopped
+constexpr double kForecastError = 1.5;  // where details of the input decide
+constexpr double kGoodPart = 0.1;       // of the triangles at which a mesh was stopped
 
 std::uint64_t bytes_of_arrays(const Pslg& pslg, const Use& use) {
   return (use.in_subdomains ? kBytesArraysOfRanks : kBytesArrays) + (pslg.regions.empty() ? 0 : kBytesRegion) +
@@ -99,12 +99,16 @@ bool memory_is_full(const Limits& limits, std::int64_t triangles) {
   return present_memory() + needed > limits.memory || needed + until_next_look > room_under_cap();
 }
 
-void check_forecast(const Limits& limits, double forecast, bool may_keep) {
+void check_forecast(const Limits& limits, double forecast, bool may_keep,
+                    const std::function<std::optional<NarrowPlace>()>& find_narrow) {
   const std::int64_t most = std::min(limits.triangles, limits.in_memory);
   if (!(forecast > kForecastError * static_cast<double>(most))) return;
-  throw LimitError(fmt::format("these bounds need about {} triangles, more than {}; {}{}", estimate_words(forecast),
-                               words_of(limits), advice(limits, limits.by_memory()),
-                               may_keep ? ", or keep what fits with --keep-incomplete" : ""));
+  const auto narrow = find_narrow ? find_narrow() : std::nullopt;
+  const bool by_narrowness = narrow && narrow->triangles > kGoodPart * forecast;
+  throw LimitError(fmt::format(
+      "these bounds need about {} triangles, more than {}; {}{}", estimate_words(forecast), words_of(limits),
+      by_narrowness ? narrow_words(*narrow, limits.called(limits.by_memory())) : advice(limits, limits.by_memory()),
+      may_keep ? ", or keep what fits with --keep-incomplete" : ""));
 }
 
 std::string stopped_message(const Limits& limits, bool by_memory, std::int64_t triangles, bool kept,

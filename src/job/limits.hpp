@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -63,7 +64,9 @@ inline constexpr int kStoppedByLimit = 3;
 
 /// Throws LimitError if the forecast of the number of triangles exceeds the limit by more than the error of forecasts.
 /// `may_keep`: whether an incomplete mesh can be kept.
-void check_forecast(const Limits& limits, double forecast, bool may_keep = true);
+/// `find_narrow` is asked for the place that stopped_message names, too.
+void check_forecast(const Limits& limits, double forecast, bool may_keep = true,
+                    const std::function<std::optional<NarrowPlace>()>& find_narrow = {});
 
 /// The message for a mesh stopped by the limit on memory or on triangles. `narrow` is the narrow place of the input
 /// that needs the most triangles; it is named if it accounts for a large part of them.

@@ -17,7 +17,7 @@ OnePiece mesh_in_one_piece(const Request& request, const Domain& domain, bool wr
   timed(watch, "refine", [&] {
     refine_domain(result, made.limits.triangles, [&](std::int64_t triangles, double forecast) {
       if (std::exchange(made.forecast, forecast) == 0 && !request.limits.keep_incomplete)
-        check_forecast(made.limits, forecast, may_keep);
+        check_forecast(made.limits, forecast, may_keep, [&] { return find_narrow_place(result.mesh); });
       watch.refining(triangles, forecast);
       made.by_memory = memory_is_full(made.limits, triangles);
       return !made.by_memory;

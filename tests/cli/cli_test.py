@@ -373,7 +373,8 @@ class Errors(Cli):
             self.refuse(*mesh, "--area", area, code=3, says=["more than the 1,000 of --max-triangles"])
         self.refuse(*mesh, "--keep-incomplete", code=2, says=["--keep-incomplete", "in one piece"])
         self.succeed("generate", "comb", "-o", "comb.poly")  # of which less is forecast than it takes
-        self.refuse("mesh", "comb.poly", *mesh[2:], code=3, says=["stopped at 1,", "the 1,000 of --max-triangles"])
+        self.refuse("mesh", "comb.poly", "-n", "4", "--max-triangles", "1500", "-o", "x.vtu", code=3,
+                    says=["stopped at 1,", "the 1,500 of --max-triangles"])
         self.assertEqual(self.files(), ["comb.poly", "square.poly"])
 
     def test_options_that_do_not_apply_are_rejected_and_not_ignored(self):
