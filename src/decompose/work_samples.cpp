@@ -75,7 +75,7 @@ WorkSamples sample_detailed(const Triangulation& mesh, const QualityBounds& boun
   constexpr double kLittle = 1.01;
   const Forecast forecast(mesh, bounds);
   const double total = forecast.total();
-  if (total <= kLittle * forecast.asked() || total < count) return {};
+  if (total <= kLittle * forecast.asked() || total < count || !std::isfinite(total)) return {};
   WorkSamples samples;
   forecast.visit_samples(total / count, [&](const Point& at, double work) { samples.push_back({at, work}); });
   return samples;

@@ -59,7 +59,7 @@ Facing facing_segments(const Triangulation& mesh, HalfEdge base, double length) 
     if (!(std::fabs(rise) <= kSteepest)) continue;
     const Channel channel{std::max(0.0, std::min(at_c, at_d)), std::min(length, std::max(at_c, at_d)),
                           width_c - rise * at_c, rise};
-    if (channel.from < channel.to && channel.width_at(channel.from) > 0 && channel.width_at(channel.to) > 0)
+    if (channel.from < channel.to && channel.least_width() > kResolution * length)
       facing.channels[facing.count++] = channel;
   }
   return facing;

@@ -20,7 +20,8 @@ double distance_to_segment(const Triangulation& mesh, TriangleId t, int i, doubl
   const double along = (pc.x - pa.x) * (pb.x - pa.x) + (pc.y - pa.y) * (pb.y - pa.y);
   if (!(along > 0 && along < length * length)) return kNoBound;
   if (is_shell_edge(mesh, a, c) || is_shell_edge(mesh, b, c)) return kNoBound;
-  return twice_area / length;
+  const double distance = twice_area / length;
+  return distance > kResolution * length ? distance : kNoBound;
 }
 
 GrowingArray<double, VertexId> feature_sizes(const Triangulation& mesh) {

@@ -212,7 +212,7 @@ double Forecast::in(TriangleId t) const {
 
 double Forecast::total() const {
   // One in kStride stands for triangles that cannot become many, if there are very many of them.
-  constexpr std::size_t kMany = 200'000;
+  constexpr std::size_t kMany = 30'000;
   constexpr int kStride = 8;
   constexpr double kFew = 300;
   const bool all = mesh_.live_triangles() <= kMany;
@@ -248,9 +248,9 @@ double Forecast::density(const Shape& s, const Point& p) const {
   return sizes_.empty() ? asked : std::max(asked, growth_density(s, p, 1));
 }
 
-void Forecast::spread(const Shape& s, const CornerPoints& part, double count, double quota,
+void Forecast::spread(const Shape& s, const CornerPoints& part, double count, double quota, int halvings,
                       const std::function<void(const Point& at, double triangles)>& visit) const {
-  if (count <= quota) return visit(centroid(part), count);
+  if (count <= quota || halvings == 0) return visit(centroid(part), count);
   int longest = 0;
   for (const int i : {1, 2})
     if (squared_distance(part[next(i)], part[previous(i)]) >
@@ -260,12 +260,14 @@ void Forecast::spread(const Shape& s, const CornerPoints& part, double count, do
   const Point m = midpoint(a, b);
   const CornerPoints first{apex, a, m}, second{apex, m, b};
   const double here = density(s, centroid(first)), there = density(s, centroid(second));
-  const double share = here / (here + there);
-  spread(s, first, count * share, quota, visit);
-  spread(s, second, count * (1 - share), quota, visit);
+  const double ratio = there / here;
+  const double share = ratio > 0 ? 1 / (1 + ratio) : 0.5;
+  spread(s, first, count * share, quota, halvings - 1, visit);
+  spread(s, second, count * (1 - share), quota, halvings - 1, visit);
 }
 
 void Forecast::visit_samples(double quota, const std::function<void(const Point& at, double triangles)>& visit) const {
+  constexpr int kHalvings = 40;
   double pending = 0;
   Point last{};
   for (const TriangleId t : ids_of(mesh_.triangles)) {
@@ -274,7 +276,7 @@ void Forecast::visit_samples(double quota, const std::function<void(const Point&
     const double count = in(t);
     if (count > quota) {
       const double twice_area = 2 * signed_area(corners[0], corners[1], corners[2]);
-      spread(shape_of(t, twice_area, bound_.in(t, twice_area)), corners, count, quota, visit);
+      spread(shape_of(t, twice_area, bound_.in(t, twice_area)), corners, count, quota, kHalvings, visit);
       continue;
     }
     pending += count;

@@ -53,7 +53,7 @@ class Forecast {
   [[nodiscard]] double growth_density(const Shape& s, const Point& p, double stretch) const;
   [[nodiscard]] double along_wedge(const Shape& s, int i) const;
   [[nodiscard]] double density(const Shape& s, const Point& p) const;
-  void spread(const Shape& s, const CornerPoints& part, double count, double quota,
+  void spread(const Shape& s, const CornerPoints& part, double count, double quota, int halvings,
               const std::function<void(const Point& at, double triangles)>& visit) const;
 
   const Triangulation& mesh_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/error.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
 #include "job/one_piece.hpp"
@@ -32,10 +33,28 @@ Request pipe() {
   return request;
 }
 
-Prepared prepared(const Request& request, Place place, std::size_t ranks) {
+Request bay() {
+  Request request;
+  request.input.generator = "bay";
+  request.input.parameters = {{"resolution", "400"}};
+  return request;
+}
+
+Limits limits_of(const Request& request) {
+  Limits limits;
+  limits.triangles = request.limits.max_triangles;
+  return limits;
+}
+
+Prepared prepared(const Request& request, Place place, std::size_t ranks, const Limits& limits = {}) {
   Watch watch;
   const Domain domain = read_domain(request, {}, watch);
-  return prepare(request, domain, {}, place, IdVector<Rank, double>(ranks, 1.0), Limits{}, watch);
+  return prepare(request, domain, {}, place, IdVector<Rank, double>(ranks, 1.0), limits, watch);
+}
+
+OnePiece meshed(const Request& request) {
+  Watch watch;
+  return mesh_in_one_piece(request, read_domain(request, {}, watch), false, watch);
 }
 
 /// The digest of the mesh made in subdomains by this process alone.
@@ -88,6 +107,25 @@ TEST_CASE("a prepared run has about the requested number of triangles") {
   request.mapping.method = MappingMethod::kRoundRobin;
   const RunPlan plan = prepared(request, kRanks, 4).plan;
   for (const SubdomainId s : ids_of(plan.owners)) CHECK(to_int(plan.owners[s]) == to_int(s) % 4);
+}
+
+TEST_CASE("without a bound on size, the forecast is of triangles, in subdomains too") {
+  const Prepared ready = prepared(bay(), kSubdomains, 1);  // of 5e9 square meters
+  const auto in_one_piece = static_cast<double>(meshed(bay()).result.mesh.live_triangles());
+  CHECK(ready.forecast == doctest::Approx(in_one_piece).epsilon(0.3));
+  for (const Decomposition::Subdomain& s : ready.plan.decomposition.subdomains)
+    CHECK(s.predicted == doctest::Approx(ready.forecast / 20).epsilon(0.6));
+}
+
+TEST_CASE("details of the input are refused before refinement, and only if the limit is too low for them") {
+  Request request = bay();
+  const auto triangles = static_cast<std::int64_t>(meshed(request).result.mesh.live_triangles());
+  request.limits.max_triangles = triangles / 2;  // more than the initial triangulation has
+  CHECK_THROWS_WITH_AS(static_cast<void>(meshed(request)), doctest::Contains("these bounds need about"), LimitError);
+  CHECK_THROWS_AS(static_cast<void>(prepared(request, kSubdomains, 1, limits_of(request))), LimitError);
+  request.limits.max_triangles = triangles + 100;
+  CHECK(meshed(request).result.complete);
+  CHECK_NOTHROW(static_cast<void>(prepared(request, kSubdomains, 1, limits_of(request))));
 }
 
 TEST_CASE("a mesh in one piece has about the requested number of triangles") {
