@@ -22,7 +22,7 @@ struct SourcePlace {
 /// The user's input is wrong, and the intent is not clear enough to repair it.
 class InputError : public Error {
  public:
-  /// Message "file:line: what; next".
+  /// Message "file:line: what; next". In `what`, control characters become '?', and what is too long is cut off.
   InputError(const SourcePlace& place, const std::string& what, const std::string& next);
   /// A complete message: several of the above, one per line.
   explicit InputError(const std::string& message) : Error(message) {}

@@ -1,5 +1,6 @@
 #include "io/msh_parser.hpp"
 
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -20,9 +21,10 @@ class MshParser {
 
   RawMsh parse() {
     while (cursor_.remaining() > 0) {
-      const std::string_view line = cursor_.take_line();
-      if (!line.starts_with('$')) continue;
-      parse_section(std::string(line.substr(1, line.find_last_not_of(" \t"))));
+      cursor_.skip_blanks();
+      if (cursor_.remaining() == 0) break;
+      if (!cursor_.rest().starts_with('$')) fail("has something between its sections", kDamaged);
+      parse_section(std::string(take_title().substr(1)));
     }
     for (const char* name : {"MeshFormat", "Nodes", "Elements"})
       if (!seen_.contains(name)) fail("has no $" + std::string(name), "is this a .msh file, and complete?");
@@ -68,11 +70,18 @@ class MshParser {
     return true;
   }
 
+  /// A line without blanks at its end.
+  std::string_view take_title() {
+    std::string_view line = cursor_.take_line();
+    while (!line.empty() && ByteCursor::is_blank(line.back())) line.remove_suffix(1);
+    return line;
+  }
+
   /// Of a section that has been read by its counts.
   void require_end_of(const std::string& name) {
     cursor_.skip_blanks();
     const SourcePlace place = cursor_.place();
-    if (!cursor_.take_line().starts_with("$End" + name))
+    if (take_title() != "$End" + name)
       throw InputError(place, "there is more in $" + name + " than its counts announce", kDamaged);
   }
 
@@ -80,17 +89,19 @@ class MshParser {
     const std::string end = "$End" + name;
     while (true) {
       if (cursor_.remaining() == 0) fail("ends before " + end, kDamaged);
-      if (cursor_.take_line().starts_with(end)) return;
+      if (take_title() == end) return;
     }
   }
 
   void parse_format() {
     TextMshInput input(cursor_);
     const double version = input.real();
-    is_binary_ = input.integer() == 1;
+    const std::int32_t form = input.integer();
     const std::uint64_t size_bytes = input.size();
     if (version != 4.1)
       fail("is not of format version 4.1", "convert it: gmsh FILE -0 -save_all -format msh41 -o NEW.msh");
+    if (form != 0 && form != 1) fail("is neither ASCII (0) nor binary (1)", kDamaged);
+    is_binary_ = form == 1;
     if (size_bytes != 8)
       fail("has sizes of " + std::to_string(size_bytes) + " bytes, not 8", "write it on a 64-bit system");
     (void)cursor_.take_line();
@@ -108,7 +119,9 @@ class MshParser {
       const std::size_t end = rest.rfind('"');
       if (begin == std::string_view::npos || begin == end)
         fail("has a physical group without a name in quotes", kDamaged);
-      raw_.group_names[{dimension, tag}] = rest.substr(begin + 1, end - begin - 1);
+      if (!raw_.group_names.try_emplace({dimension, tag}, rest.substr(begin + 1, end - begin - 1)).second)
+        fail("has two physical groups of dimension " + std::to_string(dimension) + " and tag " + std::to_string(tag),
+             kDamaged);
     }
   }
 
@@ -123,7 +136,8 @@ class MshParser {
   template <class Input>
   void parse_entity(Input& input, std::int32_t dimension) {
     const std::int32_t tag = input.integer();
-    entities_.insert({dimension, tag});
+    if (!entities_.insert({dimension, tag}).second)
+      fail("has two entities of dimension " + std::to_string(dimension) + " and tag " + std::to_string(tag), kDamaged);
     for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) (void)input.real();
     const std::uint64_t groups = input.size();
     for (std::uint64_t i = 0; i < groups; ++i) {
@@ -174,7 +188,6 @@ class MshParser {
     const std::uint64_t blocks = input.size();
     const std::uint64_t announced = input.size();
     for (int i = 0; i < 2; ++i) (void)input.size();  // smallest and largest tag
-    std::uint64_t points = 0;
     for (std::uint64_t b = 0; b < blocks; ++b) {
       const std::int32_t dimension = input.integer();
       const std::int32_t entity = input.integer();
@@ -189,14 +202,14 @@ class MshParser {
           parse_element_block(input, raw_.triangles, entity, count);
           break;
         case 15:
-          skip_point_elements(input, count);
-          points += count;
+          parse_point_elements(input, count);
           break;
         default:
           fail_element_type(type);
       }
     }
-    require_count("elements", raw_.lines.tags.size() + raw_.triangles.tags.size() + points, announced);
+    require_count("elements", raw_.lines.tags.size() + raw_.triangles.tags.size() + raw_.point_elements.size(),
+                  announced);
   }
 
   /// The marker or region of elements is that of their entity.
@@ -224,9 +237,9 @@ class MshParser {
   }
 
   template <class Input>
-  static void skip_point_elements(Input& input, std::uint64_t count) {
+  void parse_point_elements(Input& input, std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) {
-      (void)input.size();
+      raw_.point_elements.push_back(input.size());
       (void)input.size();
     }
   }
@@ -239,7 +252,7 @@ class MshParser {
 
   struct View {
     std::string_view name;
-    std::int32_t values = 0;  // 0 for views of more than one component
+    std::vector<std::int32_t> integers;
   };
   View parse_view_header(const char* section) {
     TextMshInput text(cursor_);
@@ -251,22 +264,28 @@ class MshParser {
       if (cursor_.remaining() == 0) fail(std::string("ends within ") + section, kDamaged);
     }
     for (std::uint64_t left = text.size(); left > 0; --left) (void)text.real();
-    std::vector<std::int32_t> integers;
-    for (std::uint64_t left = text.size(); left > 0; --left) integers.push_back(text.integer());
+    for (std::uint64_t left = text.size(); left > 0; --left) view.integers.push_back(text.integer());
     (void)cursor_.take_line();
-    if (integers.size() >= 3 && integers[1] == 1) view.values = integers[2];
     return view;
+  }
+
+  /// How many values a view has that write_msh wrote.
+  [[nodiscard]] std::int32_t count_of_values(const View& view) const {
+    if (view.integers.size() < 3 || view.integers[1] != 1 || view.integers[2] < 0)
+      fail("has a view " + std::string(view.name) + " with other than one component, or without a count", kDamaged);
+    return view.integers[2];
   }
 
   // Whether it is an attribute written by write_msh; other views are not read.
   template <class Input>
   bool parse_node_data(Input& input) {
     const View view = parse_view_header("$NodeData");
+    if (!view.name.starts_with("\"attribute ")) return false;
     const std::string expected = "\"attribute " + std::to_string(raw_.attributes.size() + 1) + "\"";
-    if (view.name != expected) return false;
+    if (view.name != expected) fail("has the view " + std::string(view.name) + " in place of " + expected, kDamaged);
     if (raw_.attributes.size() == kMaxAttributes) fail("has more than 1000 attributes", kDamaged);
     RawMsh::Attribute& attribute = raw_.attributes.emplace_back();
-    for (std::int32_t left = view.values; left > 0; --left) {
+    for (std::int32_t left = count_of_values(view); left > 0; --left) {
       attribute.nodes.push_back(input.integer());
       attribute.values.push_back(input.real());
     }
@@ -281,10 +300,11 @@ class MshParser {
                                                       : view.name == quoted(kRankView)    ? &raw_.ranks
                                                                                           : nullptr;
     if (values == nullptr) return false;
-    for (std::int32_t left = view.values; left > 0; --left) {
+    for (std::int32_t left = count_of_values(view); left > 0; --left) {
       const std::int32_t element = input.integer();
       const double value = input.real();
-      if (!(value >= 0 && value <= INT32_MAX)) fail("has a " + std::string(view.name) + " out of range", kDamaged);
+      if (!(value >= 0 && value <= INT32_MAX && value == std::floor(value)))
+        fail("has a " + std::string(view.name) + " that is not a whole number from 0 on", kDamaged);
       values->push_back({element, static_cast<std::int32_t>(value)});
     }
     return true;

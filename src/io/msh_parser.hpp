@@ -41,6 +41,7 @@ struct RawMsh {
   std::vector<Point> nodes;
   Elements<2> lines;
   Elements<3> triangles;
+  std::vector<std::uint64_t> point_elements;  ///< only their tags
   std::vector<Attribute> attributes;
   std::vector<ElementValue> subdomains;
   std::vector<ElementValue> ranks;

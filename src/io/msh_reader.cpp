@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/narrow.hpp"
@@ -22,14 +23,17 @@ class MshAssembler {
       : path_(path),
         raw_(std::move(raw)),
         node_order_(order_by_tag(raw_.node_tags)),
-        node_index_(ascending_node_tags()) {}
+        node_index_(ascending_node_tags()),
+        line_order_(order_by_tag(raw_.lines.tags)),
+        triangle_order_(order_by_tag(raw_.triangles.tags)) {}
 
   Mesh assemble() {
+    require_distinct_elements();
     place_points();
     place_edges();
     place_triangles();
-    mesh_.subdomains = values_of_triangles(raw_.subdomains);
-    mesh_.ranks = values_of_triangles(raw_.ranks);
+    mesh_.subdomains = values_of_triangles(raw_.subdomains, kSubdomainView);
+    mesh_.ranks = values_of_triangles(raw_.ranks, kRankView);
     place_attributes();
     place_point_markers();
     return std::move(mesh_);
@@ -42,8 +46,24 @@ class MshAssembler {
     tags.reserve(node_order_.size());
     for (std::size_t i : node_order_) tags.push_back(raw_.node_tags[i]);
     const auto twice = std::adjacent_find(tags.begin(), tags.end());
-    if (twice != tags.end()) throw InputError({path_, 0}, "has two nodes of tag " + std::to_string(*twice), kDamaged);
+    if (twice != tags.end()) fail("has two nodes of tag " + std::to_string(*twice));
     return tags;
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { throw InputError({path_, 0}, what, kDamaged); }
+
+  /// The order of the mesh, and values on elements, are by their tags.
+  void require_distinct_elements() const {
+    const std::vector<std::uint64_t>&lines = raw_.lines.tags, &triangles = raw_.triangles.tags;
+    std::uint64_t last = 0;
+    for (std::size_t i = 0, j = 0; i + j < lines.size() + triangles.size();) {
+      const bool is_line =
+          j == triangles.size() || (i < lines.size() && lines[line_order_[i]] <= triangles[triangle_order_[j]]);
+      const std::uint64_t tag = is_line ? lines[line_order_[i]] : triangles[triangle_order_[j]];
+      if (i + j > 0 && tag == last) fail("has two elements of tag " + std::to_string(tag));
+      last = tag;
+      ++(is_line ? i : j);
+    }
   }
 
   [[nodiscard]] std::int32_t node(std::uint64_t tag, const char* user) const {
@@ -62,7 +82,7 @@ class MshAssembler {
   void place_edges() {
     const auto markers = values_of_entities<std::int32_t>(1, raw_.lines.entities, marker_of_group_name);
     mesh_.edges.reserve(raw_.lines.tags.size());
-    for (std::size_t i : order_by_tag(raw_.lines.tags)) {
+    for (std::size_t i : line_order_) {
       const auto& [a, b] = raw_.lines.nodes[i];
       mesh_.edges.push_back({node(a, "a line"), node(b, "a line"), markers.at(raw_.lines.entities[i])});
     }
@@ -72,25 +92,36 @@ class MshAssembler {
     const auto regions = values_of_entities<double>(2, raw_.triangles.entities, region_of_group_name);
     const bool has_regions = this->has_regions();
     mesh_.triangles.reserve(raw_.triangles.tags.size());
-    for (std::size_t i : order_by_tag(raw_.triangles.tags)) {
+    for (std::size_t i : triangle_order_) {
       const auto& [a, b, c] = raw_.triangles.nodes[i];
       mesh_.triangles.push_back({node(a, "a triangle"), node(b, "a triangle"), node(c, "a triangle")});
       if (has_regions) mesh_.regions.push_back(regions.at(raw_.triangles.entities[i]));
     }
   }
 
-  // Only if each triangle has one; values on lines are skipped.
-  [[nodiscard]] std::vector<std::int32_t> values_of_triangles(const std::vector<RawMsh::ElementValue>& values) const {
+  /// Each triangle must have one; those of other elements are skipped.
+  [[nodiscard]] std::vector<std::int32_t> values_of_triangles(const std::vector<RawMsh::ElementValue>& values,
+                                                              std::string_view name) const {
     if (values.empty()) return {};
-    std::vector<std::uint64_t> tags = raw_.triangles.tags;
-    std::sort(tags.begin(), tags.end());
-    std::vector<std::int32_t> result(tags.size(), -1);
+    const std::string view = "its view '" + std::string(name) + "'";
+    std::vector<std::uint64_t> tags;
+    tags.reserve(triangle_order_.size());
+    for (const std::size_t i : triangle_order_) tags.push_back(raw_.triangles.tags[i]);
+    const TagIndex triangles(std::move(tags));
+    std::set<std::uint64_t> others;
+    std::vector<std::int32_t> result(triangle_order_.size(), -1);
     for (const RawMsh::ElementValue& v : values) {
       const auto tag = static_cast<std::uint64_t>(v.element);
-      const auto found = std::lower_bound(tags.begin(), tags.end(), tag);
-      if (found != tags.end() && *found == tag) result[found - tags.begin()] = v.value;
+      const std::int32_t found = triangles.find(tag);
+      const bool is_new = found < 0 ? others.insert(tag).second : std::exchange(result[found], v.value) < 0;
+      if (!is_new) fail("has two values in " + view + " for element " + std::to_string(tag));
     }
-    if (std::find(result.begin(), result.end(), -1) != result.end()) result.clear();
+    for (const auto* const tags_of_others : {&raw_.lines.tags, &raw_.point_elements})
+      for (const std::uint64_t tag : *tags_of_others) others.erase(tag);
+    if (!others.empty())
+      fail("has a value in " + view + " for element " + std::to_string(*others.begin()) + ", which does not exist");
+    if (std::find(result.begin(), result.end(), -1) != result.end())
+      fail("has no value in " + view + " for some of its triangles");
     return result;
   }
 
@@ -128,6 +159,7 @@ class MshAssembler {
     mesh_.attributes_per_point = narrow<std::int32_t>(per_point, "attributes");
     mesh_.attributes.assign(per_point * mesh_.points.size(), 0);
     for (std::size_t k = 0; k < per_point; ++k) {
+      std::vector<bool> has_value(mesh_.points.size(), false);
       if (raw_.attributes[k].nodes.size() != mesh_.points.size())
         throw InputError({path_, 0},
                          "has attribute " + std::to_string(k + 1) + " at " +
@@ -137,6 +169,9 @@ class MshAssembler {
       for (std::size_t i = 0; i < raw_.attributes[k].nodes.size(); ++i) {
         const auto tag = static_cast<std::uint64_t>(raw_.attributes[k].nodes[i]);
         const auto v = node(tag, "$NodeData");
+        if (has_value[v])
+          fail("has two values of attribute " + std::to_string(k + 1) + " at node " + std::to_string(tag));
+        has_value[v] = true;
         mesh_.attributes[v * per_point + k] = raw_.attributes[k].values[i];
       }
     }
@@ -145,14 +180,21 @@ class MshAssembler {
   void place_point_markers() {
     if (!raw_.point_markers) return;
     mesh_.point_markers.assign(mesh_.points.size(), 0);
-    for (const RawMsh::Marker& marker : *raw_.point_markers)
-      mesh_.point_markers[node(marker.node, "a point marker")] = marker.marker;
+    std::vector<bool> has_marker(mesh_.points.size(), false);
+    for (const RawMsh::Marker& marker : *raw_.point_markers) {
+      const auto v = node(marker.node, "a point marker");
+      if (has_marker[v]) fail("has two point markers of node " + std::to_string(marker.node));
+      has_marker[v] = true;
+      mesh_.point_markers[v] = marker.marker;
+    }
   }
 
   const std::string& path_;
   RawMsh raw_;
   std::vector<std::size_t> node_order_;
   TagIndex node_index_;
+  std::vector<std::size_t> line_order_;
+  std::vector<std::size_t> triangle_order_;
   Mesh mesh_;
 };
 

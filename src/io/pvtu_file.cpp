@@ -85,6 +85,7 @@ class PvtuParser {
     bool is_pvtu = false;
     std::size_t end = 0;  // of </VTKFile>
     while (scanner_.next(tag)) {
+      if (!tag.before.empty()) throw InputError({file_, tag.line}, "has text between its elements", kDamaged);
       if (tag.name == "VTKFile" && tag.opens) is_pvtu = tag.attribute("type") == "PUnstructuredGrid";
       if (tag.name == "VTKFile" && !tag.opens) end = scanner_.position();
       if (tag.opens) enter(tag);
@@ -98,27 +99,32 @@ class PvtuParser {
   }
 
  private:
+  using Path = std::vector<std::string_view>;
+
   void enter(const XmlTag& tag) {
-    if (tag.name == "PPointData" || tag.name == "PCellData") section_ = tag.name.substr(1);
-    if (tag.name == "PPoints") section_.clear();  // which no piece can do without
-    if (tag.name == "PDataArray" && !section_.empty()) declare(tag);
-    if (tag.name == "Piece") add_piece(tag);
+    for (const std::string_view section : {"PPointData", "PCellData"})  // no piece can do without the others
+      if (tag.name == "PDataArray" && tag.parents == Path{"VTKFile", "PUnstructuredGrid", section})
+        declare(tag, std::string(section.substr(1)));
+    if (tag.name == "Piece" && tag.parents == Path{"VTKFile", "PUnstructuredGrid"}) add_piece(tag);
   }
 
-  void declare(const XmlTag& tag) {
+  void declare(const XmlTag& tag, const std::string& section) {
     const std::string_view digits = tag.attribute("NumberOfComponents", "1");
     std::uint64_t components = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), components);
     if (error != std::errc() || end != digits.data() + digits.size())
       throw InputError({file_, tag.line}, "needs NumberOfComponents=\"a number\" in <PDataArray>", kDamaged);
-    pvtu_.arrays.push_back({section_, std::string(tag.attribute("Name")), components});
+    pvtu_.arrays.push_back({section, std::string(tag.attribute("Name")), components});
   }
 
   void add_piece(const XmlTag& tag) {
     const std::string source = unescaped(std::string(tag.attribute("Source")));
     if (source.empty()) throw InputError({file_, tag.line}, "has a Piece without Source", kDamaged);
     const fs::path folder = fs::path(file_).parent_path();
-    pvtu_.pieces.push_back((folder / source).string());
+    const std::string path = (folder / source).string();
+    if (std::find(pvtu_.pieces.begin(), pvtu_.pieces.end(), path) != pvtu_.pieces.end())
+      throw InputError({file_, tag.line}, "names the piece " + source + " twice", kDamaged);
+    pvtu_.pieces.push_back(path);
     if (!options_.allow_outside && !lies_within(pvtu_.pieces.back(), folder.empty() ? "." : folder.string()))
       throw InputError({file_, tag.line}, "names the piece " + source + ", outside of its own folder",
                        "move it there, or allow it with --allow-outside");
@@ -128,7 +134,6 @@ class PvtuParser {
   std::string_view bytes_;
   const ReadOptions& options_;
   XmlScanner scanner_;
-  std::string section_;
   Pvtu pvtu_;
 };
 

@@ -22,9 +22,11 @@ Edges scan_edges(RecordScanner& scanner, const NodeTable& nodes) {
   const bool has_markers = scanner.optional_header("the number of boundary markers", 1) == 1;
   scanner.require_room(count, "edges", has_markers ? 4 : 3);
   Edges edges(count);
-  for (Mesh::Edge& edge : edges) {
-    scanner.require_element(static_cast<std::int32_t>(&edge - edges.data()), count, "edges");
-    (void)scanner.integer("the edge number");
+  RowNumbers numbers("edge", "edges");
+  for (std::int32_t i = 0; i < count; ++i) {
+    scanner.require_element(i, count, "edges");
+    numbers.scan(scanner, i);
+    Mesh::Edge& edge = edges[i];
     edge.a = scan_vertex(scanner, nodes.points.size(), nodes.first_number);
     edge.b = scan_vertex(scanner, nodes.points.size(), nodes.first_number);
     if (has_markers) edge.marker = scanner.integer("the boundary marker");
@@ -37,7 +39,9 @@ std::optional<Edges> read_segments(const std::string& path, const NodeTable& nod
   if (!std::filesystem::exists(path)) return std::nullopt;
   const std::string text = read_file(path);
   RecordScanner scanner(path, text);
-  if (!scan_nodes(scanner).points.empty()) return std::nullopt;
+  const bool has_own_vertices = !scan_nodes(scanner).points.empty();
+  scanner.throw_problems();
+  if (has_own_vertices) return std::nullopt;
   Edges edges = scan_edges(scanner, nodes);
   Pslg seeds;  // belong to the input
   scan_seeds(scanner, seeds);

@@ -40,29 +40,33 @@ class VtuHeaderParser {
 
  private:
   void enter(const XmlTag& tag) {
-    if (tag.name == "VTKFile") read_file_tag(tag);
-    if (tag.name == "Piece") read_piece_tag(tag);
-    if (is_section(tag.name)) section_ = tag.name;
-    if (tag.name == "DataArray" || tag.name == "Array") read_array_tag(tag);
-    if (!tag.closes && open_ != nullptr && tag.name != "DataArray" && tag.name != "Array") ++depth_;
+    if (tag.name == "VTKFile" && tag.parents.empty()) read_file_tag(tag);
+    if (tag.name == "Piece" && lies_in(tag, kGrid)) read_piece_tag(tag);
+    if (is_array(tag.name)) read_array_tag(tag);
   }
 
   void leave(const XmlTag& tag) {
-    if (tag.name == "VTKFile") is_complete_ = true, end_ = scanner_.position();
-    if (is_section(tag.name)) section_.clear();
-    if (tag.name == "DataArray" || tag.name == "Array")
-      open_ = nullptr;
-    else if (!tag.opens && depth_ > 0)
-      --depth_;
+    if (tag.parents.empty()) is_complete_ = true, end_ = scanner_.position();
+    if (is_array(tag.name)) open_ = nullptr;
   }
 
-  static bool is_section(std::string_view name) {
-    return name == "PointData" || name == "CellData" || name == "Points" || name == "Cells";
+  using Path = std::vector<std::string_view>;
+  static inline const Path kGrid{"VTKFile", "UnstructuredGrid"};
+
+  static bool lies_in(const XmlTag& tag, const Path& path) { return tag.parents == path; }
+  static bool is_array(std::string_view name) { return name == "DataArray" || name == "Array"; }
+
+  /// Of the piece: PointData, CellData, Points, Cells; empty for field data and all that a mesh has no place for.
+  static std::string section_of(const XmlTag& tag) {
+    for (const std::string_view section : {"PointData", "CellData", "Points", "Cells"})
+      if (lies_in(tag, {"VTKFile", "UnstructuredGrid", "Piece", section})) return std::string(section);
+    return "";
   }
 
   /// The text of an array, which may stand before or behind elements with information about it.
   void take_text(const XmlTag& tag) {
-    if (open_ == nullptr || depth_ > 0 || is_blank_text(tag.before)) return;
+    if (tag.before.empty() || (open_ != nullptr && !is_array(tag.around_text()))) return;
+    if (open_ == nullptr) fail(tag, "has text between its elements", kDamaged);
     if (!open_->text.empty()) fail(tag, "has a DataArray in two parts", kDamaged);
     open_->text = tag.before;
   }
@@ -95,16 +99,16 @@ class VtuHeaderParser {
     array.format = format_of(tag);
     if (array.format == VtuHeader::Format::kAppended) array.offset = count(tag, "offset");
     VtuHeader::Array* place = nullptr;
-    if (section_.empty()) {  // field data
+    const std::string section = section_of(tag);
+    if (section.empty()) {
       place = &header_.other_arrays.emplace_back(std::move(array));
     } else {
-      const std::string name = section_ == "Points" ? "Points" : std::string(tag.attribute("Name"));
-      const auto [entry, is_new] = header_.arrays.try_emplace({section_, name}, std::move(array));
-      if (!is_new) fail(tag, "has two arrays '" + name + "' in <" + section_ + ">", "keep one of them");
+      const std::string name = section == "Points" ? "Points" : std::string(tag.attribute("Name"));
+      const auto [entry, is_new] = header_.arrays.try_emplace({section, name}, std::move(array));
+      if (!is_new) fail(tag, "has two arrays '" + name + "' in <" + section + ">", "keep one of them");
       place = &entry->second;
     }
     open_ = tag.closes ? nullptr : place;
-    depth_ = 0;
   }
 
   VtuHeader::Format format_of(const XmlTag& tag) const {
@@ -117,13 +121,15 @@ class VtuHeaderParser {
 
   VtuHeader enter_appended_data(const XmlTag& tag) {
     require_piece(tag);
+    if (!lies_in(tag, {"VTKFile"})) fail(tag, "has <AppendedData> inside of its grid", kDamaged);
     const std::string_view encoding = tag.attribute("encoding");
     if (encoding != "raw" && encoding != "base64")
       fail(tag, "has appended data of encoding '" + std::string(encoding) + "'", kSaveVtuAs);
     header_.raw = encoding == "raw";
-    const std::size_t underscore = bytes_.find('_', scanner_.position());
-    if (underscore == std::string_view::npos) fail(tag, "ends before its data", kDamaged);
-    header_.appended = bytes_.substr(underscore + 1);
+    ByteCursor data(file_, bytes_.substr(scanner_.position()));
+    data.skip_blanks();
+    if (!data.rest().starts_with('_')) fail(tag, "has no '_' at the start of its data", kDamaged);
+    header_.appended = data.rest().substr(1);
     return std::move(header_);
   }
 
@@ -155,9 +161,7 @@ class VtuHeaderParser {
   std::string_view bytes_;
   XmlScanner scanner_;
   VtuHeader header_;
-  std::string section_;
   VtuHeader::Array* open_ = nullptr;  // whose element the scanner is in
-  int depth_ = 0;                     // of elements in it
   bool seen_file_ = false;
   bool seen_piece_ = false;
   bool is_complete_ = false;

@@ -1,6 +1,7 @@
 #include "io/xml_scanner.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "driftmesh/error.hpp"
 
@@ -12,7 +13,7 @@ bool is_blank(char c) {
 }
 
 bool ends_name(char c) {
-  return is_blank(c) || c == '=' || c == '/' || c == '>' || c == '<' || c == '"';
+  return is_blank(c) || c == '=' || c == '/' || c == '>' || c == '<' || c == '"' || c == '\'';
 }
 
 }  // namespace
@@ -22,11 +23,15 @@ std::string_view XmlTag::attribute(std::string_view key, std::string_view otherw
   return found == attributes.end() ? otherwise : found->second;
 }
 
+std::string_view XmlTag::around_text() const {
+  if (!opens) return name;
+  return parents.empty() ? std::string_view() : parents.back();
+}
+
 bool XmlScanner::next(XmlTag& tag) {
-  const std::size_t begin = position_;
-  if (!skip_to_tag()) return false;
-  tag = {};
-  tag.before = text_.substr(begin, position_ - begin);
+  XmlTag found;
+  if (!skip_to_tag(found)) return false;
+  tag = std::move(found);
   tag.line = line_;
   advance_to(position_ + 1);
   if (position_ < text_.size() && text_[position_] == '/') {
@@ -36,12 +41,33 @@ bool XmlScanner::next(XmlTag& tag) {
   }
   tag.name = take_name();
   take_attributes(tag);
+  take_nesting(tag);
   return true;
 }
 
-bool XmlScanner::skip_to_tag() {
+void XmlScanner::take_nesting(XmlTag& tag) {
+  if (tag.opens) {
+    if (open_.empty() && std::exchange(has_root_, true)) fail("there is a second root <" + std::string(tag.name) + ">");
+  } else {
+    if (open_.empty() || open_.back() != tag.name)
+      fail("</" + std::string(tag.name) + "> does not close the element that was opened last");
+    open_.pop_back();
+  }
+  tag.parents = open_;
+  if (!tag.closes) open_.push_back(tag.name);
+}
+
+void XmlScanner::take_text(XmlTag& tag, std::size_t end) {
+  const std::string_view text = text_.substr(position_, end - position_);
+  advance_to(end);
+  if (std::all_of(text.begin(), text.end(), is_blank)) return;
+  if (!tag.before.empty()) fail("a text is divided by a comment");
+  tag.before = text;
+}
+
+bool XmlScanner::skip_to_tag(XmlTag& tag) {
   while (true) {
-    advance_to(std::min(text_.find('<', position_), text_.size()));
+    take_text(tag, std::min(text_.find('<', position_), text_.size()));
     const std::string_view rest = text_.substr(position_);
     if (rest.empty()) return false;
     if (rest.starts_with("<?"))
@@ -100,7 +126,7 @@ void XmlScanner::take_attributes(XmlTag& tag) {
     if (!text_.substr(position_).starts_with("=")) fail(std::string("'=' is missing after ").append(key));
     advance_to(position_ + 1);
     skip_blanks();
-    tag.attributes[key] = take_quoted();
+    if (!tag.attributes.emplace(key, take_quoted()).second) fail(std::string(key).append(" is given twice in a tag"));
   }
 }
 

@@ -100,7 +100,8 @@ T RecordScanner::parse(const char* what) {
     return T{};
   }
   T value{};
-  const auto [stop, error] = std::from_chars(*at_ == '+' ? at_ + 1 : at_, end_, value);
+  const bool has_plus = *at_ == '+' && at_ + 1 != end_ && at_[1] != '-';
+  const auto [stop, error] = std::from_chars(has_plus ? at_ + 1 : at_, end_, value);
   const std::string_view field = take_field();
   if (error == std::errc() && stop == at_) return value;
   if (error == std::errc::result_out_of_range && stop == at_)

@@ -28,27 +28,27 @@ NodeHeader scan_node_header(RecordScanner& scanner) {
   return header;
 }
 
-// Scans the number at the start of a line of the vertex section.
-void scan_node_number(RecordScanner& scanner, std::int32_t index, std::int32_t& first_number) {
-  const std::int32_t number = scanner.integer("the vertex number");
-  if (scanner.broken()) return;
-  if (index == 0) {
-    first_number = number;
-    if (number != 0 && number != 1)
-      scanner.fail("the first vertex has number " + std::to_string(number), "number vertices from 0 or from 1");
-  }
-  const std::int64_t expected = std::int64_t{index} + first_number;
-  if (number == expected) return;
-  const bool repeated = number >= first_number && number < expected;
-  scanner.problem("vertex number " + std::to_string(number) + (repeated ? " appears twice" : " is out of order"),
-                  "vertices are numbered consecutively and " + std::to_string(expected) + " is next");
-}
-
 void scan_attributes(RecordScanner& scanner, std::int32_t count, std::vector<double>& out) {
   for (std::int32_t i = 0; i < count; ++i) out.push_back(scanner.number("an attribute"));
 }
 
 }  // namespace
+
+void RowNumbers::scan(RecordScanner& scanner, std::int32_t index) {
+  const std::int32_t number = scanner.integer(field_.c_str());
+  if (scanner.broken()) return;
+  if (index == 0) {
+    first_ = number;
+    if (number != 0 && number != 1)
+      scanner.fail("the first " + word_ + " has number " + std::to_string(number),
+                   "number " + plural_ + " from 0 or from 1");
+  }
+  const std::int64_t expected = std::int64_t{index} + first_;
+  if (number == expected) return;
+  const bool repeated = number >= first_ && number < expected;
+  scanner.problem(word_ + " number " + std::to_string(number) + (repeated ? " appears twice" : " is out of order"),
+                  plural_ + " are numbered consecutively and " + std::to_string(expected) + " is next");
+}
 
 NodeTable scan_nodes(RecordScanner& scanner) {
   const NodeHeader header = scan_node_header(scanner);
@@ -58,13 +58,15 @@ NodeTable scan_nodes(RecordScanner& scanner) {
   nodes.points.reserve(count);
   nodes.attributes.reserve(count * header.attributes);
   if (header.has_markers) nodes.markers.reserve(count);
+  RowNumbers numbers("vertex", "vertices");
   for (std::int32_t i = 0; i < header.count; ++i) {
     scanner.require_element(i, header.count, "vertices");
-    scan_node_number(scanner, i, nodes.first_number);
+    numbers.scan(scanner, i);
     nodes.points.push_back(scanner.point());
     scan_attributes(scanner, header.attributes, nodes.attributes);
     if (header.has_markers) nodes.markers.push_back(scanner.integer("the boundary marker"));
   }
+  nodes.first_number = numbers.first();
   return nodes;
 }
 
@@ -97,9 +99,10 @@ EleTable parse_ele(const std::string& file, std::string_view text, const NodeTab
   table.attributes_per_triangle = scanner.optional_header("the number of attributes", kMaxAttributes);
   scanner.require_room(count, "triangles", 1 + corners + table.attributes_per_triangle);
   table.triangles.reserve(count);
+  RowNumbers numbers("triangle", "triangles");
   for (std::int32_t i = 0; i < count; ++i) {
     scanner.require_element(i, count, "triangles");
-    (void)scanner.integer("the triangle number");
+    numbers.scan(scanner, i);
     auto& triangle = table.triangles.emplace_back();
     for (auto& corner : triangle) corner = scan_vertex(scanner, nodes.points.size(), nodes.first_number);
     for (std::int32_t k = 3; k < corners; ++k) (void)scanner.integer("a midpoint number");
@@ -120,9 +123,10 @@ std::vector<double> parse_area(const std::string& file, std::string_view text, s
                  "give the .area file that belongs to the mesh");
   std::vector<double> areas;
   areas.reserve(triangle_count);
+  RowNumbers numbers("triangle", "triangles");
   for (std::int32_t i = 0; i < count; ++i) {
     scanner.require_element(i, count, "triangles");
-    (void)scanner.integer("the triangle number");
+    numbers.scan(scanner, i);
     areas.push_back(scanner.number("the area bound"));
   }
   scanner.require_end();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "driftmesh/point.hpp"
@@ -31,9 +32,9 @@ struct EleTable {
 
 // All readers accept '#' comments, any blanks and CRLF. They throw FileError if a file cannot be read, and InputError
 // with up to ten messages "file:line: what; next step" if its content is wrong, which includes fields or records that
-// are missing or surplus, except for surplus fields that are 0.
+// are missing or surplus, except for surplus fields that are 0. The first line has number 0 or 1; the others follow
+// consecutively.
 
-/// The first point has number 0 or 1; the others must follow consecutively.
 [[nodiscard]] NodeTable read_node(const std::string& path);
 [[nodiscard]] NodeTable parse_node(const std::string& file, std::string_view text);
 
@@ -50,7 +51,23 @@ struct EleTable {
 /// mesh, but not of the domain.
 inline constexpr std::int32_t kSeparatorMarker = -1'000'000;
 
-// Parts that the .poly reader shares.
+// Parts that the readers of .poly and .edge share.
+
+/// The numbers at the starts of the lines of a table: consecutive, from 0 or from 1.
+class RowNumbers {
+ public:
+  /// What is numbered, for messages.
+  RowNumbers(const std::string& word, std::string plural)
+      : word_(word), plural_(std::move(plural)), field_("the " + word + " number") {}
+  /// The first field of line `index`. Another number is a problem, and another first number the last one.
+  void scan(RecordScanner& scanner, std::int32_t index);
+  /// That of the first line: 0 or 1. 1 if there is none.
+  [[nodiscard]] std::int32_t first() const { return first_; }
+
+ private:
+  std::string word_, plural_, field_;
+  std::int32_t first_ = 1;
+};
 
 /// Reads the node section at the beginning of .node and .poly files; `scanner` has not read anything yet. Problems stay
 /// in the scanner.

@@ -95,6 +95,11 @@ TEST_CASE("a .poly without vertices takes them from the .node file; a .node file
   CHECK(node.segments.empty());
 }
 
+TEST_CASE("a number has one sign") {
+  for (const char* const text : {"3 2\n1 0 0\n2 +-1 0\n3 0 1\n0\n0\n", "3 2 0 1\n1 0 0 1\n2 1 0 +-7\n3 0 1 1\n0\n0\n"})
+    CHECK_THROWS_WITH_AS(static_cast<void>(parse_poly("t.poly", text)), doctest::Contains("t.poly:3: "), InputError);
+}
+
 TEST_CASE("files that cannot be opened are named") {
   CHECK(message_of("/no/such.poly") == "/no/such.poly: cannot open: No such file or directory");
 }
