@@ -48,6 +48,7 @@ class Origin {
                : (std::filesystem::path(folder_) / file).string();
   }
   [[nodiscard]] YAML::Node parse(const std::string& text) const {
+    refuse_control_characters(text);
     try {
       return YAML::Load(text);
     } catch (const YAML::Exception& error) {
@@ -58,6 +59,16 @@ class Origin {
  private:
   Origin(std::string name, std::string folder, bool has_lines)
       : name_(std::move(name)), folder_(std::move(folder)), has_lines_(has_lines) {}
+
+  /// At some of them the parser would take the text for complete.
+  void refuse_control_characters(const std::string& text) const {
+    const auto found =
+        std::ranges::find_if(text, [](unsigned char c) { return c < ' ' && c != '\n' && c != '\r' && c != '\t'; });
+    if (found == text.end()) return;
+    const auto line = 1 + static_cast<std::size_t>(std::count(text.begin(), found, '\n'));
+    throw InputError({name_, has_lines_ ? line : 0}, "holds a control character", "this is not YAML");
+  }
+
   std::string name_;
   std::string folder_;
   bool has_lines_;
@@ -182,6 +193,10 @@ void place_errors(const Experiment& experiment, const Work& work) {
   }
 }
 
+std::string full_name(const KeyPath& path) {
+  return path.entry.empty() ? path.key->name : path.key->name + "." + path.entry;
+}
+
 bool is_section(const std::string& name) {
   return std::ranges::any_of(job::keys(), [&](const job::Key& key) { return key.name.starts_with(name + "."); });
 }
@@ -205,7 +220,7 @@ class KeyReader {
 
   void take_key(const Origin& origin, const std::string& name, const YAML::Mark& mark, const YAML::Node& node) {
     const KeyPath path = known_key(origin, name, mark);
-    const std::string full = path.entry.empty() ? path.key->name : path.key->name + "." + path.entry;
+    const std::string full = full_name(path);
     if (&origin == &origin_ && !seen_.insert(full).second)
       origin.fail(mark, "'" + name + "' is given twice", "remove one of them");
     if (node.IsNull()) origin.fail(mark, "'" + name + "' has no value", "give one, or remove the key");
@@ -229,6 +244,10 @@ class KeyReader {
       if (!entry.first.IsScalar())
         origin_.fail(entry.first.Mark(), "a key that is not a word", "see docs/experiments.md");
       const std::string name = prefix + entry.first.Scalar();
+      const bool is_one_value = entry.second.IsScalar() || entry.second.IsSequence();
+      if (!names_.insert(name).second)
+        origin_.fail(entry.first.Mark(), "'" + name + "' is given twice",
+                     is_one_value ? "remove one of them" : "join the two");
       if (other_ && other_(name, entry.first, entry.second)) continue;
       if (is_section(name) && !is_option(name, entry.second))
         take_subsection(name, entry.first, entry.second);
@@ -246,7 +265,6 @@ class KeyReader {
     if (node.IsNull()) return;
     if (!node.IsMap())
       origin_.fail(node.Mark(), "'" + name + "' has no single value", "give its keys, indented, below");
-    if (!seen_.insert(name).second) origin_.fail(key.Mark(), "'" + name + "' is given twice", "join the two");
     places_[name] = origin_.place(key.Mark());
     take_section(name + ".", node);
   }
@@ -256,7 +274,8 @@ class KeyReader {
   Request& request_;
   SourcePlaces& places_;
   TakeOther other_;
-  std::set<std::string> seen_;
+  std::set<std::string> names_;  // as they are in the file
+  std::set<std::string> seen_;   // keys in full
 };
 
 /// Reads the file of an experiment and the settings of the command line.
@@ -287,8 +306,6 @@ class ExperimentReader {
       origin_.fail(node.Mark(), "'sweep' is not a table", "write for example {cluster.ranks: [2, 4, 8]}");
     for (const auto& entry : node) {
       const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
-      if (std::ranges::any_of(result_.sweep, [&](const auto& axis) { return axis.key == name; }))
-        origin_.fail(entry.first.Mark(), "sweep: '" + name + "' is given twice", "join the two");
       take_axis(origin_, name, entry.first.Mark(), entry.second);
     }
   }
@@ -297,7 +314,10 @@ class ExperimentReader {
     const KeyPath path = keys_.known_key(origin, name, mark);
     if (!values.IsSequence() || values.size() == 0)
       origin.fail(values.Mark(), "sweep: '" + name + "' has no list of values", "write for example [1, 2, 4]");
-    Experiment::Axis axis{name, {}};
+    if (path.negated) origin.fail(mark, "sweep: '" + name + "' is not a key", "sweep over '" + path.key->name + "'");
+    Experiment::Axis axis{full_name(path), {}};
+    if (std::ranges::any_of(result_.sweep, [&](const auto& other) { return other.key == axis.key; }))
+      origin.fail(mark, "sweep: '" + name + "' is given twice", "join the two");
     for (const YAML::Node& value : values) axis.values.push_back(Values(origin).value(path, value));
     result_.sweep.push_back(std::move(axis));
     result_.places[path.key->name] = origin.place(values.Mark());
@@ -313,7 +333,7 @@ class ExperimentReader {
     const KeyPath path = keys_.known_key(origin, name, YAML::Mark::null_mark());
     // YAML takes `a ? b : c` for a table because of its colon.
     if (value.IsMap() && path.key->kind == Kind::kText) value = YAML::Node(text);
-    std::erase_if(result_.sweep, [&](const Experiment::Axis& axis) { return axis.key == name; });
+    std::erase_if(result_.sweep, [&](const Experiment::Axis& axis) { return axis.key == full_name(path); });
     const bool one_list = path.key->kind == Kind::kList || path.key->kind == Kind::kNumbers;
     if (value.IsSequence() && (!one_list || (value.size() > 0 && value[0].IsSequence())))
       take_axis(origin, name, YAML::Mark::null_mark(), value);

@@ -443,8 +443,8 @@ double number(const KeyInfo& key, const std::string& text) {
 
 std::int64_t integer(const KeyInfo& key, const std::string& text) {
   const double value = number(key, text);
-  constexpr double kExact = 9007199254740992.0;  // 2^53
-  const double whole = key.unit == "bytes" ? std::floor(value) : value;
+  constexpr double kExact = 9007199254740992.0;                         // 2^53
+  const double whole = key.unit == "bytes" ? std::ceil(value) : value;  // up: 0 often stands for no limit
   if (whole != std::floor(whole) || std::fabs(whole) > kExact * (key.unit == "bytes" ? 1024 : 1))
     fail(key, "is " + text, "give a whole number");
   return static_cast<std::int64_t>(whole);

@@ -90,6 +90,21 @@ TEST_CASE("sweeps are all combinations, the last key fastest") {
                                                    {"input.parameters.channels", std::string("6")}});
 }
 
+TEST_CASE("a sweep may name a key by its option") {
+  const Files files;
+  const std::string yaml = "input: {generate: pipe}\ncluster: {ranks: 2}\n";
+  const config::Experiment swept = files.read(yaml + "sweep: {area: [1k, 2k], balance: [none, greedy]}\n");
+  REQUIRE(swept.points.size() == 4);
+  CHECK(swept.points[2].request.bounds.area == 2000);
+  CHECK(swept.points[3].request.balance.policy == "greedy");
+  CHECK(swept.points[3].values[1].first == "balance.policy");
+  CHECK(files.read(yaml + "sweep: {area: [1k, 2k]}\n", {"bounds.area=5k"}).points.size() == 1);
+  CHECK(message_for(yaml + "sweep: {area: [1], bounds.area: [2]}\n") ==
+        "test.yaml:3:20: sweep: 'bounds.area' is given twice; join the two");
+  CHECK(message_for(yaml + "sweep: {no-region-areas: [true, false]}\n") ==
+        "test.yaml:3:9: sweep: 'no-region-areas' is not a key; sweep over 'bounds.region-areas'");
+}
+
 TEST_CASE("settings override the file and its sweeps") {
   const Files files;
   const std::string yaml =
@@ -121,8 +136,13 @@ TEST_CASE("errors name the place and what was probably meant") {
         "test.yaml:3:8: 'cluster.groups' has no field 'rank'; the nearest one is 'ranks'");
   CHECK(message_for("cluster: {ranks: 2}\ncluster: {latency: 1}\n") ==
         "test.yaml:2:1: 'cluster' is given twice; join the two");
+  CHECK(message_for("sweep: {cluster.ranks: [1]}\nsweep: {run.aggregation: [1]}\n") ==
+        "test.yaml:2:1: 'sweep' is given twice; join the two");
+  CHECK(message_for("cluster: {ranks: 2}\ncluster:\n") == "test.yaml:2:1: 'cluster' is given twice; join the two");
   CHECK(message_for("bounds: {angle: 20, angle: 21}\n") ==
         "test.yaml:1:21: 'bounds.angle' is given twice; remove one of them");
+  CHECK(message_for(std::string(kLeast) + std::string("# \0\nbounds: {angle: 3}\n", 23)) ==
+        "test.yaml:3: holds a control character; this is not YAML");
   CHECK(message_for("bounds: 3\n") == "test.yaml:1:9: 'bounds' has no single value; give its keys, indented, below");
   CHECK(message_for("seed:\n").find("'seed' has no value") != std::string::npos);
   CHECK(message_for("- 1\n").find("test.yaml:1:1: not a list of 'key: value' lines") == 0);

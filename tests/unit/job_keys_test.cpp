@@ -82,6 +82,7 @@ TEST_CASE("numbers accept units everywhere") {
   CHECK(number("limits.max-triangles", "0.5G") == 0.5e9);
   CHECK(number("limits.max-memory", "2e6") == 2e6);
   CHECK(number("limits.max-memory", "1.5k") == 1536);
+  CHECK(number("limits.max-memory", "0.5") == 1);  // 0 would be no limit
   CHECK(number("limits.max-memory", "3M") == 3 << 20);
   CHECK(number("limits.max-memory", "6GiB") == static_cast<double>(std::int64_t{6} << 30));
   CHECK(number("limits.max-memory", "1tb") == static_cast<double>(std::int64_t{1} << 40));
