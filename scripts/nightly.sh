@@ -1,27 +1,34 @@
 #!/usr/bin/env bash
-# A million adversarial schedules of real meshing with driftmesh-sim, on all cores: prints the failing seeds, and totals of
-# what the schedules achieved. The exit code is 0 if none fails.
-#   scripts/nightly.sh [--seeds FIRST..LAST] [--program PATH]      --program: no build first
+# 100,000 mutated files, read under the sanitizers by driftmesh-mutants, and a million adversarial schedules of real meshing
+# with driftmesh-sim, on all cores: prints the failing seeds, and totals. The exit code is 0 if none fails.
+#   scripts/nightly.sh [--mutants FIRST..LAST] [--seeds FIRST..LAST]      which mutants, and which schedules; 0..0: none
+#                      [--mutants-program PATH] [--program PATH]          without a build first
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 cd "$project_root"
 
 first=1
 last=1000000
+mutants=1..100000
 program=
+mutants_program=
 while [[ $# -gt 0 ]]; do
   case "$1" in
-    --seeds)
-      [[ ${2-} =~ ^([0-9]+)\.\.([0-9]+)$ ]] || { echo "nightly.sh: --seeds must be FIRST..LAST, such as 1..5000" >&2; exit 2; }
-      first=${BASH_REMATCH[1]} last=${BASH_REMATCH[2]}
+    --seeds | --mutants)
+      [[ ${2-} =~ ^([0-9]+)\.\.([0-9]+)$ ]] || { echo "nightly.sh: $1 must be FIRST..LAST, such as 1..5000" >&2; exit 2; }
+      if [[ $1 == --mutants ]]; then mutants=$2; else first=${BASH_REMATCH[1]} last=${BASH_REMATCH[2]}; fi
       shift
       ;;
     --program)
       program=${2-}
       shift
       ;;
+    --mutants-program)
+      mutants_program=${2-}
+      shift
+      ;;
     -h | --help)
-      sed -n '2,4s/^# \{0,1\}//p' "$0"
+      sed -n '2,5s/^# \{0,1\}//p' "$0"
       exit 0
       ;;
     *)
@@ -31,6 +38,17 @@ while [[ $# -gt 0 ]]; do
   esac
   shift
 done
+
+result=0
+if [[ $mutants != 0..0 ]]; then
+  if [[ -z $mutants_program ]]; then
+    cmake --preset asan-ubsan -Wno-dev && cmake --build --preset asan-ubsan -j "$jobs" --target driftmesh-mutants
+    mutants_program=build/asan-ubsan/driftmesh-mutants
+  fi
+  say "Mutated files $mutants on $jobs cores"
+  "$mutants_program" --seeds "$mutants" --keep build/mutants || result=1
+fi
+[[ $last -gt 0 ]] || exit "$result"
 
 if [[ -z $program ]]; then
   cmake --preset release -Wno-dev && cmake --build --preset release -j "$jobs" --target driftmesh-sim
@@ -42,7 +60,6 @@ trap 'rm -rf "$logs"' EXIT
 # Parts small enough for all cores to finish together; each ends with its totals.
 part=2000
 say "Seeds $first to $last on $jobs cores"
-result=0
 for ((begin = first; begin <= last; begin += part)); do
   end=$((begin + part - 1))
   echo "$begin..$((end < last ? end : last))"
