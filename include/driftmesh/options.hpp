@@ -81,7 +81,7 @@ struct MeshOptions {
   std::int64_t size_resolution = 2000;
 
   // ---- Limits of this process ----
-  std::int64_t max_triangles = 0;  ///< beyond it, LimitError; 0: the capacity of the data structure, about 500 million
+  std::int64_t max_triangles = 0;  ///< beyond it, LimitError; 0: none but the capacity of one piece, about 500 million
   std::int64_t max_memory = 0;     ///< in bytes, likewise; 0: 90 % of the machine's free memory
   /// Called from time to time, at least once; returning false cancels the work with Cancelled.
   std::function<bool(const Progress&)> progress{};

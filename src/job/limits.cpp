@@ -31,7 +31,14 @@ std::uint64_t bytes_of_arrays(const Pslg& pslg, const Use& use) {
          kBytesAttribute * static_cast<std::uint64_t>(pslg.attributes_per_point);
 }
 
-/// Who sends his part has it three times for a moment, but no longer in the form in which it was refined.
+/// The capacity of one piece is no limit for many of them.
+std::int64_t most_triangles(const Request::Limits& asked, const Use& use) {
+  const std::int64_t capacity = MeshRequest{}.max_triangles;
+  if (!use.in_subdomains) return std::min(asked.max_triangles, capacity);
+  return asked.max_triangles == capacity ? INT64_MAX : asked.max_triangles;
+}
+
+/// A rank that sends its part has it three times for a moment, but no longer in the form in which it was refined.
 std::uint64_t bytes_finishing(const Pslg& pslg, const Use& use) {
   if (!use.writes) return 0;
   const std::uint64_t arrays = bytes_of_arrays(pslg, use);
@@ -71,7 +78,7 @@ std::string Limits::called(bool by_memory) const {
 
 Limits find_limits(const Request::Limits& asked, const Pslg& pslg, const Use& use, const Processes& processes) {
   Limits limits{.by = use.by,
-                .triangles = asked.max_triangles,
+                .triangles = most_triangles(asked, use),
                 .memory = static_cast<std::uint64_t>(asked.max_memory),
                 .bytes_finishing = bytes_finishing(pslg, use)};
   const std::uint64_t present = present_memory();

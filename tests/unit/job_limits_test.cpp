@@ -44,6 +44,16 @@ TEST_CASE("The tighter of two limits counts") {
   CHECK_FALSE(find_limits(options, Pslg{}, {}).by_memory());
 }
 
+TEST_CASE("The capacity of one piece limits one piece, not a mesh in subdomains") {
+  constexpr std::int64_t kCapacity = 536'870'848;
+  Request::Limits asked;
+  CHECK(find_limits(asked, Pslg{}, {}).triangles < kCapacity);
+  CHECK(find_limits(asked, Pslg{}, {.in_subdomains = true}).triangles > 1'000'000'000'000);
+  asked.max_triangles = 2'000'000'000;
+  CHECK(find_limits(asked, Pslg{}, {}).triangles < kCapacity);
+  CHECK(find_limits(asked, Pslg{}, {.in_subdomains = true}).triangles == 2'000'000'000);
+}
+
 TEST_CASE("Arrays that are written with a mesh take memory too") {
   const Request::Limits options = with_memory(present_memory() + 1'000'000'000);
   const auto fit = [&](const Pslg& pslg, const Use& use, const Processes& processes = {}) {
