@@ -29,7 +29,7 @@ Chain arc(const Point& center, double radius, double from, double to, std::int32
   return chain;
 }
 
-void line_to(Chain& chain, const Point& to, double edge) {
+void line_to(Chain& chain, Point to, double edge) {
   const Point from = chain.back();
   const std::int32_t edges = edges_for(std::hypot(to.x - from.x, to.y - from.y), edge, 1);
   for (std::int32_t i = 1; i < edges; ++i) {

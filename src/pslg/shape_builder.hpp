@@ -21,7 +21,7 @@ void require_option(bool condition, const std::string& kind, const std::string& 
 [[nodiscard]] Chain arc(const Point& center, double radius, double from, double to, std::int32_t edges);
 
 /// Appends points on the straight line from the end of `chain` to `to`, which is the last of them.
-void line_to(Chain& chain, const Point& to, double edge);
+void line_to(Chain& chain, Point to, double edge);
 
 /// Adds points to `pslg` and joins them to form a closed loop.
 void add_loop(Pslg& pslg, const Chain& loop, std::int32_t marker);
