@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/commands.hpp"
@@ -72,6 +73,7 @@ VerifyReport read_and_verify(CheckOptions& options, const job::Request& request)
   const SizingOptions sizes = job::sizing_of(request.sizing, input ? job::box_of(*input) : box_of(pieces));
   options.size = make_size_field(sizes);
   options.verify.size = options.size.get();
+  options.verify.threads = std::thread::hardware_concurrency();
   // Lengths whose growth is limited cannot fall much between the points that are looked up anyway.
   if (!request.sizing.expression.empty() && request.sizing.gradation == 0) options.verify.size_spacing = sizes.spacing;
   if (is_in_pieces(options.mesh)) return verify_pieces(pieces, input ? &*input : nullptr, options.verify);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 #include <iterator>
 
 #include "geometry/triangle_geometry.hpp"
@@ -118,14 +119,19 @@ void add_counters(MeshFacts& facts, const RefineCounters& counters) {
   facts.counters.given_up += counters.given_up;
 }
 
-void add_part(MeshFacts& facts, const Triangulation& mesh, const QualityBounds& bounds, bool complete) {
-  add_shape(facts.shape, summarize_angles(mesh), facts.triangles == 0);
+void add_part(MeshFacts& facts, const Triangulation& mesh, const QualityBounds& bounds, bool complete,
+              bool on_all_cores) {
+  // async | deferred: on a thread of its own if the system has one to give.
+  const std::launch policy = on_all_cores ? std::launch::async | std::launch::deferred : std::launch::deferred;
+  auto shape = std::async(policy, [&] { return summarize_angles(mesh); });
+  auto digest = std::async(policy, [&] { return mesh_digest(mesh); });
+  Exceptions found = find_exceptions(mesh, bounds);
+  add_shape(facts.shape, shape.get(), facts.triangles == 0);
   facts.triangles += static_cast<std::int64_t>(mesh.live_triangles());
   facts.vertices += static_cast<std::int64_t>(mesh.live_vertices());
   facts.subsegments +=
       std::count_if(mesh.subsegments.begin(), mesh.subsegments.end(), [](const auto& s) { return s.is_leaf(); });
-  facts.digest += mesh_digest(mesh);
-  Exceptions found = find_exceptions(mesh, bounds);
+  facts.digest += digest.get();
   add_skinny(facts, mesh, std::move(found.skinny), complete);
   add_large(facts, mesh, found.large);
 }

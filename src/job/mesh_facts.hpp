@@ -36,7 +36,9 @@ struct MeshFacts {
 };
 
 /// Adds the facts of `mesh`, a part refined to `bounds`. `complete`: refinement was not stopped by a limit.
-void add_part(MeshFacts& facts, const Triangulation& mesh, const QualityBounds& bounds, bool complete);
+/// `on_all_cores`: in several threads, where this process is alone.
+void add_part(MeshFacts& facts, const Triangulation& mesh, const QualityBounds& bounds, bool complete,
+              bool on_all_cores = false);
 /// Adds the work of refining a part.
 void add_counters(MeshFacts& facts, const RefineCounters& counters);
 /// Adds the facts of other parts.

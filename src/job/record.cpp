@@ -40,7 +40,7 @@ void record_mesh(RunRecord& run, const MeshResult& result) {
   run.complete = result.complete;
   run.acute_corners = result.acute_corners;
   run.max_area = result.bounds.max_area;
-  add_part(run, result.mesh, result.bounds, result.complete);
+  add_part(run, result.mesh, result.bounds, result.complete, true);
   add_counters(run, result.counters);
 }
 

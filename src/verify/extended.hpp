@@ -14,6 +14,10 @@ class CompensatedSum {
     lost_ += std::fabs(sum_) >= std::fabs(term) ? (sum_ - sum) + term : (term - sum) + sum_;
     sum_ = sum;
   }
+  void add(const CompensatedSum& other) {
+    add(other.sum_);
+    lost_ += other.lost_;
+  }
   [[nodiscard]] double value() const { return static_cast<double>(sum_ + lost_); }
 
  private:

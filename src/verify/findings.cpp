@@ -70,6 +70,16 @@ const char* flaw_name(Flaw flaw) {
   return "unknown flaw";
 }
 
+void Findings::append(const Findings& later) {
+  for (std::size_t k = 0; k < kFlawCount; ++k) {
+    Kind& kind = kinds_[static_cast<Flaw>(k)];
+    const Kind& other = later.kinds_[static_cast<Flaw>(k)];
+    kind.count += other.count;
+    for (const std::string& message : other.messages)
+      if (kind.messages.size() < listed_per_kind_) kind.messages.push_back(message);
+  }
+}
+
 std::uint64_t Findings::total() const {
   std::uint64_t sum = 0;
   for (const Kind& kind : kinds_) sum += kind.count;

@@ -64,7 +64,11 @@ class Findings {
     if (kind.count++ < listed_per_kind_) kind.messages.push_back(describe());
   }
 
+  /// Adds what another part of the same check has found after this one.
+  void append(const Findings& later);
+
   [[nodiscard]] bool empty() const { return total() == 0; }
+  [[nodiscard]] std::size_t listed_per_kind() const { return listed_per_kind_; }
   [[nodiscard]] std::uint64_t total() const;
   [[nodiscard]] std::uint64_t count(Flaw flaw) const { return kinds_[flaw].count; }
   /// The kept messages: each names the triangle, edge or vertex, and the actual and the expected value.

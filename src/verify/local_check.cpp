@@ -89,8 +89,8 @@ void check_subsegments(const Mesh& mesh, const Subsegments& subsegments, Finding
   }
 }
 
-void LocalCheck::check_orientations() {
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+void LocalCheck::check_orientations(std::size_t begin, std::size_t end) {
+  for (std::size_t t = begin; t < end; ++t) {
     const auto& [a, b, c] = mesh_.triangles[t];
     const double orientation = orient2d(at(a), at(b), at(c));
     if (!(orientation > 0))
@@ -101,10 +101,19 @@ void LocalCheck::check_orientations() {
   }
 }
 
-void LocalCheck::check_vertices(DisjointSets<std::int32_t>* parts, bool delaunay) {
+void LocalCheck::check_vertices(std::size_t begin, std::size_t end, DisjointSets<std::int32_t>* parts, bool delaunay) {
   parts_ = parts;
   delaunay_ = delaunay;
-  for (const std::int32_t hub : first_ids<std::int32_t>(mesh_.points.size())) check_vertex(hub);
+  for (std::size_t hub = begin; hub < end; ++hub) check_vertex(static_cast<std::int32_t>(hub));
+}
+
+void LocalCheck::append(const LocalCheck& later) {
+  findings_.append(later.findings_);
+  boundary_.insert(boundary_.end(), later.boundary_.begin(), later.boundary_.end());
+  interfaces_.edges += later.interfaces_.edges;
+  interfaces_.not_delaunay += later.interfaces_.not_delaunay;
+  interfaces_.between_ranks += later.interfaces_.between_ranks;
+  interfaces_.subdomains.insert(later.interfaces_.subdomains.begin(), later.interfaces_.subdomains.end());
 }
 
 void LocalCheck::check_vertex(std::int32_t hub) {

@@ -37,20 +37,24 @@ struct Interfaces {
   std::set<std::pair<std::int32_t, std::int32_t>> subdomains;  ///< the pairs of subdomains that meet
 };
 
-/// The checks that look at one triangle, one edge or one vertex at a time.
+/// The checks that look at one triangle, one edge or one vertex at a time. Parts of a mesh may be checked in several
+/// threads, each by an object of its own, and put together in order.
 class LocalCheck {
  public:
-  LocalCheck(const Mesh& mesh, const CornerTable& corners, Subsegments& subsegments, Findings& findings)
-      : mesh_(mesh), corners_(corners), subsegments_(subsegments), findings_(findings) {}
+  LocalCheck(const Mesh& mesh, const CornerTable& corners, Subsegments& subsegments, std::size_t max_listed)
+      : mesh_(mesh), corners_(corners), subsegments_(subsegments), findings_(max_listed) {}
 
-  /// Every triangle is counterclockwise (exact).
-  void check_orientations();
-  /// Around every vertex: each edge has at most one triangle on either side, an edge with one triangle is a subsegment,
-  /// the fan is closed or bounded by subsegments, and every other edge, except for those between subdomains, is locally
-  /// Delaunay (exact), which makes the triangulation constrained Delaunay. Sets the sides of the subsegments and, if
-  /// `parts` is given, joins triangles there that share an edge which is not a subsegment.
-  void check_vertices(DisjointSets<std::int32_t>* parts, bool delaunay);
+  /// Triangles [begin, end) are counterclockwise (exact).
+  void check_orientations(std::size_t begin, std::size_t end);
+  /// Around vertices [begin, end): each edge has at most one triangle on either side, an edge with one triangle is a
+  /// subsegment, the fan is closed or bounded by subsegments, and every other edge, except for those between
+  /// subdomains, is locally Delaunay (exact), which makes the triangulation constrained Delaunay. Sets the sides of the
+  /// subsegments and, if `parts` is given, joins triangles there that share an edge which is not a subsegment.
+  void check_vertices(std::size_t begin, std::size_t end, DisjointSets<std::int32_t>* parts, bool delaunay);
+  /// Adds what another part has found after this one.
+  void append(const LocalCheck& later);
 
+  [[nodiscard]] const Findings& findings() const { return findings_; }
   /// After check_vertices: the edges with one triangle, directed so that it is on their left.
   [[nodiscard]] const std::vector<Mesh::Edge>& boundary() const { return boundary_; }
   /// After check_vertices: the edges between subdomains, if the mesh lists them.
@@ -71,7 +75,7 @@ class LocalCheck {
   const Mesh& mesh_;
   const CornerTable& corners_;
   Subsegments& subsegments_;
-  Findings& findings_;
+  Findings findings_;
   Fan fan_;
   DisjointSets<std::int32_t>* parts_ = nullptr;
   bool delaunay_ = true;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -11,6 +12,7 @@
 
 #include "driftmesh/id_vector.hpp"
 #include "verify/extended.hpp"
+#include "verify/in_parts.hpp"
 #include "verify/room.hpp"
 #include "verify/size_check.hpp"
 #include "verify/words.hpp"
@@ -66,8 +68,8 @@ class DegreeBins {
 
 class QualityCheck {
  public:
-  QualityCheck(const Mesh& mesh, const Chains& chains, const CheckedBounds& bounds, Findings& findings)
-      : mesh_(mesh), chains_(chains), bounds_(bounds), findings_(findings) {
+  QualityCheck(const Mesh& mesh, const Chains& chains, const CheckedBounds& bounds, std::size_t max_listed)
+      : mesh_(mesh), chains_(chains), bounds_(bounds), findings_(max_listed) {
     if (bounds.size != nullptr) size_.emplace(mesh, *bounds.size, bounds.size_spacing);
     const long double theta = static_cast<long double>(bounds.min_angle) / kDegrees;
     max_ratio_ = bounds.min_angle > 0 ? (1 + kSlack) / (2 * std::sin(theta)) : 0;
@@ -75,8 +77,41 @@ class QualityCheck {
         bounds.min_angle > 0 ? static_cast<double>(1 / std::tan(theta)) : std::numeric_limits<double>::infinity();
   }
 
-  Quality run() {
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) take(t);
+  void take(std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) take(t);
+  }
+
+  /// Adds what was taken of later triangles.
+  void append(const QualityCheck& later) {
+    const Quality& other = later.quality_;
+    area_sum_.add(later.area_sum_);
+    for (std::size_t d = 0; d < quality_.angles.size(); ++d) quality_.angles[d] += other.angles[d];
+    if (later.largest_cotangent_ > largest_cotangent_) {
+      largest_cotangent_ = later.largest_cotangent_;
+      quality_.smallest_angle_triangle = other.smallest_angle_triangle;
+    }
+    if (later.smallest_cotangent_ < smallest_cotangent_) {
+      smallest_cotangent_ = later.smallest_cotangent_;
+      quality_.largest_angle_triangle = other.largest_angle_triangle;
+    }
+    smallest_twice_area_ = std::min(smallest_twice_area_, later.smallest_twice_area_);
+    if (later.largest_twice_area_ > largest_twice_area_) {
+      largest_twice_area_ = later.largest_twice_area_;
+      quality_.largest_area_triangle = other.largest_area_triangle;
+    }
+    for (std::size_t k = 0; k < kExceptionReasonCount; ++k) {
+      Quality::Exceptions& list = quality_.exceptions[static_cast<ExceptionReason>(k)];
+      const Quality::Exceptions& more = other.exceptions[static_cast<ExceptionReason>(k)];
+      list.count += more.count;
+      for (const std::string& message : more.messages)
+        if (list.messages.size() < bounds_.max_listed) list.messages.push_back(message);
+    }
+    findings_.append(later.findings_);
+  }
+
+  [[nodiscard]] const Findings& findings() const { return findings_; }
+
+  Quality finish() {
     quality_.total_area = area_sum_.value() / 2;
     quality_.smallest_area = mesh_.triangles.empty() ? 0 : smallest_twice_area_ / 2;
     quality_.largest_area = mesh_.triangles.empty() ? 0 : largest_twice_area_ / 2;
@@ -238,7 +273,7 @@ class QualityCheck {
   const Mesh& mesh_;
   const Chains& chains_;
   const CheckedBounds& bounds_;
-  Findings& findings_;
+  Findings findings_;
   std::optional<SizeCheck> size_;
   std::optional<Room> room_;
   const DegreeBins bins_;
@@ -278,7 +313,17 @@ std::uint64_t Quality::exception_count() const {
 }
 
 Quality check_quality(const Mesh& mesh, const Chains& chains, const CheckedBounds& bounds, Findings& findings) {
-  return QualityCheck(mesh, chains, bounds, findings).run();
+  // Neither size fields nor the search for a region are for several threads.
+  const bool alone = bounds.size != nullptr || bounds.region_area;
+  const std::size_t threads = alone ? 1 : std::max<std::size_t>(bounds.threads, 1);
+  std::deque<QualityCheck> checks;
+  for (std::size_t part = 0; part < threads; ++part)
+    checks.emplace_back(mesh, chains, bounds, findings.listed_per_kind());
+  in_parts(mesh.triangles.size(), threads,
+           [&](std::size_t part, std::size_t begin, std::size_t end) { checks[part].take(begin, end); });
+  for (std::size_t part = 1; part < threads; ++part) checks[0].append(checks[part]);
+  findings.append(checks[0].findings());
+  return checks[0].finish();
 }
 
 }  // namespace driftmesh

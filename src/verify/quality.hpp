@@ -55,6 +55,7 @@ struct CheckedBounds {
   const SizeField* size = nullptr;                          ///< or target edge lengths, see SizeField
   double size_spacing = 0;                                  ///< see SizeCheck
   std::size_t max_listed = 5;                               ///< messages kept of each cause of an exception
+  std::size_t threads = 1;                                  ///< used if neither region_area nor size are given
 };
 
 /// Measures all triangles, and adds those that miss a bound without an accepted reason to `findings`. The angle bound

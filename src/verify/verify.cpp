@@ -13,6 +13,7 @@
 #include "verify/corner_table.hpp"
 #include "verify/domain.hpp"
 #include "verify/domain_check.hpp"
+#include "verify/in_parts.hpp"
 #include "verify/local_check.hpp"
 #include "verify/point_data_check.hpp"
 #include "verify/point_index.hpp"
@@ -68,14 +69,27 @@ class Verification {
   void check_triangulation() {
     subsegments_.emplace(mesh_.points.size(),
                          report_.subsegments_listed ? mesh_.edges : boundary_edges(mesh_, *corners_));
-    LocalCheck local(mesh_, *corners_, *subsegments_, findings_);
-    local.check_orientations();
-    local.check_vertices(parts_ ? &*parts_ : nullptr, options_.check_delaunay);
+    const LocalCheck local = check_locally();
+    findings_.append(local.findings());
     check_subsegments(mesh_, *subsegments_, findings_);
     check_embedding(mesh_, local.boundary(), findings_);
     report_.boundary_edges = local.boundary().size();
     note_interfaces(local.interfaces());
     corners_.reset();
+  }
+
+  /// Joining triangles is not for several threads.
+  LocalCheck check_locally() {
+    const std::size_t threads = parts_ ? 1 : std::max<std::size_t>(options_.threads, 1);
+    std::vector<LocalCheck> checks(threads, {mesh_, *corners_, *subsegments_, options_.max_listed});
+    in_parts(mesh_.triangles.size(), threads, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      checks[part].check_orientations(begin, end);
+    });
+    in_parts(mesh_.points.size(), threads, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      checks[part].check_vertices(begin, end, parts_ ? &*parts_ : nullptr, options_.check_delaunay);
+    });
+    for (std::size_t part = 1; part < threads; ++part) checks[0].append(checks[part]);
+    return std::move(checks[0]);
   }
 
   void note_interfaces(const Interfaces& interfaces) {
@@ -118,8 +132,8 @@ class Verification {
 
   using RegionArea = std::function<double(std::size_t)>;
   void take_quality(const Chains& chains, const RegionArea& region_area) {
-    const CheckedBounds bounds{options_.min_angle, options_.max_area,     region_area,
-                               options_.size,      options_.size_spacing, options_.max_listed};
+    const CheckedBounds bounds{options_.min_angle,    options_.max_area,   region_area,     options_.size,
+                               options_.size_spacing, options_.max_listed, options_.threads};
     report_.quality = check_quality(mesh_, chains, bounds, findings_);
     report_.area = report_.quality.total_area;
   }

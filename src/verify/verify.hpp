@@ -22,6 +22,8 @@ struct VerifyOptions {
   double size_spacing = 0;
   bool check_delaunay = true;  ///< false for meshes that only need to be conforming
   std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
+  /// Used where neither a size field nor regions are involved. The report does not depend on their number.
+  std::size_t threads = 1;
 };
 
 /// Everything that was checked and measured.

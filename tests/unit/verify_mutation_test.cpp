@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <utility>
 
 #include "damaged_grid.hpp"
+#include "verify/report_text.hpp"
 
 // Each test damages a correct mesh in one way and expects the corresponding kind of flaw. Flaws of the mesh itself are
 // here; those of a mesh and its input are in verify_input_test.cpp.
@@ -197,4 +200,51 @@ TEST_CASE("a closed ring and another fan at one vertex") {
   add_triangle(grid.mesh, {hub, p, q}, 10);
   grid.mesh.edges.insert(grid.mesh.edges.end(), {{hub, p, 1}, {p, q, 1}, {q, hub, 1}});
   CHECK_HAS(check(grid), Flaw::tangled_vertex);
+}
+
+namespace {
+
+/// A grid with some random damage of every kind that keeps its indices valid.
+Mesh randomly_damaged(std::mt19937& random) {
+  Mesh mesh = GridCase().mesh;
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  for (std::size_t left = below(12); left > 0; --left) {
+    auto& triangle = mesh.triangles[below(mesh.triangles.size())];
+    switch (below(5)) {
+      case 0:
+        std::swap(triangle[0], triangle[1]);
+        break;
+      case 1:
+        mesh.points[below(mesh.points.size())].x += 0.6;
+        break;
+      case 2:
+        drop_triangle(mesh, below(mesh.triangles.size()));
+        break;
+      case 3:
+        mesh.edges.erase(mesh.edges.begin() + static_cast<std::ptrdiff_t>(below(mesh.edges.size())));
+        break;
+      default:
+        mesh.edges.push_back({triangle[0], triangle[1], 3});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("the report does not depend on the number of threads") {
+  std::mt19937 random(5);
+  for (int round = 0; round < 60; ++round) {
+    const Mesh mesh = randomly_damaged(random);
+    VerifyOptions options{.min_angle = 30, .max_area = 0.4};
+    const VerifyReport alone = verify(mesh, options);
+    for (const std::size_t threads : {2, 3, round == 0 ? 300 : 7}) {
+      options.threads = threads;
+      const VerifyReport report = verify(mesh, options);
+      CHECK(report_text(report, options) == report_text(alone, options));
+      CHECK(report.quality.smallest_angle_triangle == alone.quality.smallest_angle_triangle);
+      CHECK(report.quality.largest_angle_triangle == alone.quality.largest_angle_triangle);
+      CHECK(report.quality.largest_area_triangle == alone.quality.largest_area_triangle);
+    }
+  }
 }
