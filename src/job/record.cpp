@@ -1,7 +1,9 @@
 #include "job/record.hpp"
 
 #include <cmath>
+#include <cstdint>
 
+#include "job/memory.hpp"
 #include "job/value.hpp"
 
 namespace driftmesh::job {
@@ -40,7 +42,8 @@ void record_mesh(RunRecord& run, const MeshResult& result) {
   run.complete = result.complete;
   run.acute_corners = result.acute_corners;
   run.max_area = result.bounds.max_area;
-  add_part(run, result.mesh, result.bounds, result.complete, true);
+  const bool capped = room_under_cap() != UINT64_MAX;  // the stacks of threads would count
+  add_part(run, result.mesh, result.bounds, result.complete, !capped);
   add_counters(run, result.counters);
 }
 
