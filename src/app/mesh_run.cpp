@@ -113,7 +113,7 @@ int mesh_in_one_piece(const Told& told) {
   files.commit();
   notes.show();
   if (notes.run.complete) return 0;
-  made.result.mesh = {};
+  made.result.mesh = {};  // its memory is needed
   const auto narrow = find_narrow_place(triangulate(domain.pslg));
   std::cerr << "driftmesh: " << job::stopped_message(made.limits, made.by_memory, notes.run.triangles, keep, narrow)
             << '\n';

@@ -12,7 +12,7 @@
 #include "decompose/graph_partition.hpp"
 #include "decompose/outline.hpp"
 #include "decompose/work.hpp"
-#include "geometry/hilbert.hpp"
+#include "geometry/hilbert_sort.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {
@@ -50,15 +50,11 @@ std::vector<DomainPart> parts_of_domain(const PlanarMap& map, const IdVector<Pie
 
 /// Sorts parts along a Hilbert curve, each by some point of its border.
 void sort_along_curve(const PlanarMap& map, const IdVector<PieceId, Piece>& pieces, std::span<DomainPart> parts) {
-  const auto place = [&](const DomainPart& part) { return map.at(map.start(pieces[part.pieces.front()].side)); };
-  Point low = place(parts.front()), high = low;
-  for (const DomainPart& part : parts) {
-    const Point p = place(part);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const HilbertOrder curve(low, high);
-  std::ranges::stable_sort(parts, {}, [&](const DomainPart& part) { return curve.index(place(part)); });
+  std::vector<Point> places;
+  for (const DomainPart& part : parts) places.push_back(map.at(map.start(pieces[part.pieces.front()].side)));
+  std::vector<DomainPart> sorted;
+  for (const std::size_t i : in_hilbert_order(places)) sorted.push_back(std::move(parts[i]));
+  std::ranges::move(sorted, parts.begin());
 }
 
 /// Cuts a sequence of at least `bundles` parts into that many runs of about equal work, none of which is empty.

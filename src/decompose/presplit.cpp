@@ -23,11 +23,12 @@ struct Spacing {
 };
 
 /// A size field without a lower limit must not lead to points with equal coordinates.
-constexpr int kDeepest = 40;
+constexpr int kDeepestPath = 40;
 
 void cut(const Spacing& spacing, const Point& a, const Point& b, dyadic::Path path, std::vector<dyadic::Path>& paths) {
   const Point m = midpoint(a, b);
-  if (squared_distance(a, b) <= spacing.most(a, m, b) || dyadic::depth(path) >= kDeepest || m == a || m == b) return;
+  if (squared_distance(a, b) <= spacing.most(a, m, b) || dyadic::depth(path) >= kDeepestPath || m == a || m == b)
+    return;
   paths.push_back(path);
   cut(spacing, a, m, dyadic::first_half(path), paths);
   cut(spacing, m, b, dyadic::second_half(path), paths);

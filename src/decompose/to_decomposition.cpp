@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <map>
 #include <utility>
+#include <vector>
 
-#include "geometry/hilbert.hpp"
+#include "geometry/hilbert_sort.hpp"
 
 namespace driftmesh {
 namespace {
@@ -42,17 +43,12 @@ struct Moments {
 
 IdVector<SubdomainId, SubdomainId> along_hilbert_curve(
     const IdVector<SubdomainId, Decomposition::Subdomain>& subdomains) {
-  Point low = subdomains.front().centroid, high = low;
-  for (const auto& s : subdomains) {
-    low = {std::min(low.x, s.centroid.x), std::min(low.y, s.centroid.y)};
-    high = {std::max(high.x, s.centroid.x), std::max(high.y, s.centroid.y)};
-  }
-  const HilbertOrder order(low, high);
-  std::vector<std::pair<std::uint64_t, SubdomainId>> keyed;
-  for (const SubdomainId i : ids_of(subdomains)) keyed.emplace_back(order.index(subdomains[i].centroid), i);
-  std::sort(keyed.begin(), keyed.end());
+  std::vector<Point> centroids;
+  for (const auto& s : subdomains) centroids.push_back(s.centroid);
   IdVector<SubdomainId, SubdomainId> new_of_old(subdomains.size());
-  for (std::size_t k = 0; k < keyed.size(); ++k) new_of_old[keyed[k].second] = static_cast<SubdomainId>(k);
+  std::int32_t next = 0;
+  for (const std::size_t old : in_hilbert_order(centroids))
+    new_of_old[static_cast<SubdomainId>(old)] = SubdomainId{next++};
   return new_of_old;
 }
 

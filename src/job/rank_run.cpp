@@ -49,7 +49,9 @@ void RankRun::run_loop(const RankHooks& hooks) {
 }
 
 protocol::StepResult RankRun::step_or_abandon() {
-  const bool by_memory = !loop_->abandoned() && memory_is_full(limits_, loop_->triangles());
+  // Not at each poll of an idle rank: a look at its memory takes longer.
+  const bool changed = std::exchange(triangles_, loop_->triangles()) != loop_->triangles();
+  const bool by_memory = changed && !loop_->abandoned() && memory_is_full(limits_, triangles_);
   try {
     if (!by_memory) return loop_->step();
     failure_ = stopped(by_memory);

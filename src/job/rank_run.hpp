@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -66,7 +67,8 @@ class RankRun {
   std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   std::optional<RankLog> log_;
   std::optional<RankLoop> loop_;
-  std::exception_ptr failure_;  // of the work on this rank
+  std::int64_t triangles_ = -1;  // when memory was looked at
+  std::exception_ptr failure_;   // of the work on this rank
 };
 
 /// A run of the team with a log: every rank refines as `order` says. On rank 0, adds all reports to `record` and

@@ -8,6 +8,7 @@
 #include "mesh/corners.hpp"
 
 namespace driftmesh {
+
 bool is_shell_edge(const Triangulation& mesh, VertexId u, VertexId v) {
   return !is_input(mesh.origin[u]) && on_same_shell(mesh, u, v);
 }

@@ -15,7 +15,7 @@ constexpr Measured kMeasured[] = {{0, {2.3, 2.5}},     {5, {2.0, 1.9}},     {10,
                                   {32, {2.16, 0.395}}, {33, {1.98, 0.285}}, {34, {1.95, 0.25}}};
 
 /// Relative changes below this are treated as none: the closed forms would cancel.
-constexpr double kFlat = 1e-4;
+constexpr double kLevel = 1e-4;
 
 /// The integral of r / (1 + r)^2 from 0 to x.
 double sector(double x) {
@@ -49,13 +49,13 @@ Growth growth_of(double min_angle) {
 
 double integrate_strip(double length, double w0, double w1, double s0, double s1) {
   const double r = s1 / s0 - 1;
-  if (std::fabs(r) < kFlat) return 2 * length * (w0 + w1) / ((s0 + s1) * (s0 + s1));
+  if (std::fabs(r) < kLevel) return 2 * length * (w0 + w1) / ((s0 + s1) * (s0 + s1));
   return length / (s0 * s0) * (w0 / (1 + r) + (w1 - w0) * (std::log1p(r) - r / (1 + r)) / (r * r));
 }
 
 double integrate_line(double length, double s0, double s1) {
   const double r = s1 / s0 - 1;
-  return length / s0 * (std::fabs(r) < kFlat ? 1 / (1 + r / 2) : std::log1p(r) / r);
+  return length / s0 * (std::fabs(r) < kLevel ? 1 / (1 + r / 2) : std::log1p(r) / r);
 }
 
 Covered grown_from(const GrowthCorner& c, double size, double reach, const Growth& g) {
@@ -68,8 +68,8 @@ Covered grown_from(const GrowthCorner& c, double size, double reach, const Growt
     return sum;
   }
   const double height = 2 * c.area / c.opposite;
-  constexpr double kFlatCorner = 0.3;
-  if (reach <= height || (height > kFlatCorner * c.near && c.far < 2 * c.near))
+  constexpr double kLevelCorner = 0.3;
+  if (reach <= height || (height > kLevelCorner * c.near && c.far < 2 * c.near))
     return cover_sector(c.angle, std::min(std::sqrt(2 * c.area / c.angle), reach), size, g);
   // An obtuse corner over a long edge: two tapering arms.
   constexpr double kMeanDistance = 0.3;  // of points across the start of an arm, relative to its width

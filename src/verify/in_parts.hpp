@@ -12,13 +12,12 @@ namespace driftmesh {
 /// throws what the first of those that fail throws.
 template <class Work>
 void in_parts(std::size_t count, std::size_t parts, const Work& work) {
+  const auto begin_of = [=](std::size_t part) { return count / parts * part + std::min(part, count % parts); };
+  const auto work_on = [&](std::size_t part) { work(part, begin_of(part), begin_of(part + 1)); };
   std::vector<std::future<void>> others;
   for (std::size_t part = 1; part < parts; ++part)
-    others.push_back(std::async(std::launch::async | std::launch::deferred, [&work, part, parts, count] {
-      work(part, count / parts * part + std::min(part, count % parts),
-           count / parts * (part + 1) + std::min(part + 1, count % parts));
-    }));
-  work(std::size_t{0}, std::size_t{0}, count / parts + std::min<std::size_t>(1, count % parts));
+    others.push_back(std::async(std::launch::async | std::launch::deferred, work_on, part));
+  work_on(0);
   for (std::future<void>& other : others) other.get();
 }
 

@@ -14,6 +14,7 @@
 #include "mutants/declared_msh.hpp"
 #include "mutants/vtu_encodings.hpp"
 #include "support/random_mesh.hpp"
+#include "support/varied_domain.hpp"
 
 namespace driftmesh::mutants {
 namespace {
@@ -246,7 +247,7 @@ class CorpusMaker {
         MeshOptions options;
         options.max_area = kDecomposedArea;
         options.subdomains.count = count;
-        save_decomposition(*cut_domain(decomposed_domain(), options), decomposed_domain(), path);
+        save_decomposition(*cut_domain(testing::varied_domain(), options), testing::varied_domain(), path);
       });
   }
 
@@ -275,17 +276,6 @@ class CorpusMaker {
 
 std::vector<Sample> make_corpus(const std::string& folder) {
   return CorpusMaker(folder).make();
-}
-
-Pslg decomposed_domain() {
-  Pslg pslg;
-  pslg.points = {{0, 0},     {4, 0},   {4, 1.5},   {0.2, 2},   {1, 0.5},    {1.5, 0.5},
-                 {1.5, 1.0}, {1, 1.0}, {2.5, 0.4}, {2.9, 1.1}, {3.3, 0.31}, {3.5, 0}};
-  pslg.segments = {{0, 11, 1}, {11, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}, {4, 5, 5},
-                   {5, 6, 5},  {6, 7, 5},  {7, 4, 5}, {8, 9, 6}, {11, 9, 7}};
-  pslg.holes = {{1.2, 0.7}};
-  pslg.regions = {{{0.1, 0.1}, 1, 0}};
-  return pslg;
 }
 
 void write_files(const Files& files, const std::string& folder) {

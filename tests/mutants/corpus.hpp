@@ -23,8 +23,7 @@ struct Sample {
 /// and others by hand. The same on every machine. `folder` is used meanwhile.
 [[nodiscard]] std::vector<Sample> make_corpus(const std::string& folder);
 
-/// The domain whose decompositions are in the corpus, and the area bound for which they were made.
-[[nodiscard]] Pslg decomposed_domain();
+/// The area bound for which the decompositions in the corpus were made, of varied_domain().
 inline constexpr double kDecomposedArea = 0.1;
 
 /// Writes and reads the files of a folder.

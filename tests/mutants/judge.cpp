@@ -24,6 +24,7 @@
 #include "mutants/declared_vtu.hpp"
 #include "mutants/settings_check.hpp"
 #include "sizing/make_size_field.hpp"
+#include "support/varied_domain.hpp"
 #include "verify/verify.hpp"
 
 namespace driftmesh::mutants {
@@ -194,7 +195,7 @@ std::string fault_of_its_mesh(const Decomposition& decomposition) {
   VerifyOptions bounds;
   bounds.max_area = options.max_area;
   bounds.min_angle = options.min_angle;
-  const Pslg domain = decomposed_domain();
+  const Pslg domain = testing::varied_domain();
   const VerifyReport report = verify(mesh(domain, options), domain, bounds);
   return report.accepted() ? "" : "a mesh that is not one of the domain";
 }
@@ -203,8 +204,8 @@ Verdict judge_decomposition(const Sample& sample, const Files& files, const std:
   std::optional<std::string> fault;  // of the mesh
   const auto read = [&] {
     const std::string path = folder + "/" + sample.main;
-    Decomposition decomposition = read_decomposition(path, decomposed_domain());
-    Triangulation domain = triangulate(decomposed_domain());
+    Decomposition decomposition = read_decomposition(path, testing::varied_domain());
+    Triangulation domain = triangulate(testing::varied_domain());
     prepare_corners(domain);
     require_same_segments(decomposition, domain, path);
     fault = fault_of_its_mesh(decomposition);

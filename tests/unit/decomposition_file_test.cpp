@@ -19,23 +19,12 @@
 #include "driftmesh/error.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
+#include "support/varied_domain.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;
 
 namespace {
-
-/// With a hole, a crack, an isolated point, regions, markers and an acute corner.
-Pslg sample_input() {
-  Pslg pslg;
-  pslg.points = {{0, 0},     {4, 0},   {4, 1.5},   {0.2, 2},   {1, 0.5},    {1.5, 0.5},
-                 {1.5, 1.0}, {1, 1.0}, {2.5, 0.4}, {2.9, 1.1}, {3.3, 0.31}, {3.5, 0}};
-  pslg.segments = {{0, 11, 1}, {11, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}, {4, 5, 5},
-                   {5, 6, 5},  {6, 7, 5},  {7, 4, 5}, {8, 9, 6}, {11, 9, 7}};
-  pslg.holes = {{1.2, 0.7}};
-  pslg.regions = {{{0.1, 0.1}, 1, 0}};
-  return pslg;
-}
 
 Triangulation prepared(const Pslg& input) {
   Triangulation mesh = triangulate(input);
@@ -46,13 +35,13 @@ Triangulation prepared(const Pslg& input) {
 Decomposition sample() {
   DecomposeOptions options;
   options.subdomains = 5;
-  return decompose(prepared(sample_input()), options);
+  return decompose(prepared(testing::varied_domain()), options);
 }
 
 std::string sample_text() {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "sample").string();
-  write_decomposition(sample(), sample_input(), path);
+  write_decomposition(sample(), testing::varied_domain(), path);
   return read_file(path);
 }
 
@@ -63,7 +52,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 Decomposition parse(const std::string& text) {
-  return parse_decomposition("f", text, sample_input());
+  return parse_decomposition("f", text, testing::varied_domain());
 }
 
 }  // namespace
@@ -73,7 +62,7 @@ TEST_CASE("a decomposition is read back as it was written") {
   const Decomposition back = parse(sample_text());
   CHECK(back == d);
   CHECK(!d.point_list.empty());
-  require_same_input(back, sample_input(), "f");
+  require_same_input(back, testing::varied_domain(), "f");
 }
 
 TEST_CASE("files that are not decompositions are rejected with file and line") {
@@ -94,8 +83,8 @@ TEST_CASE("a broken decomposition is rejected with the reason") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "broken").string();
   const auto refused = [&](const Decomposition& broken, const char* why) {
-    write_decomposition(broken, sample_input(), path);
-    CHECK_THROWS_WITH_AS(static_cast<void>(read_decomposition(path, sample_input())), doctest::Contains(why),
+    write_decomposition(broken, testing::varied_domain(), path);
+    CHECK_THROWS_WITH_AS(static_cast<void>(read_decomposition(path, testing::varied_domain())), doctest::Contains(why),
                          InputError);
   };
   Decomposition broken = d;
@@ -135,25 +124,25 @@ TEST_CASE("a decomposition of another input is recognized") {
     CHECK_THROWS_WITH_AS(static_cast<void>(parse_decomposition("f", text, other)), doctest::Contains("another input"),
                          InputError);
   };
-  Pslg other = sample_input();
+  Pslg other = testing::varied_domain();
   other.points[2].y = 1.6;
   refused(other);
-  other = sample_input();
+  other = testing::varied_domain();
   other.segments.push_back({0, 4, 0});
   refused(other);
-  other = sample_input();
+  other = testing::varied_domain();
   other.segments.pop_back();
   refused(other);
-  other = sample_input();
+  other = testing::varied_domain();
   other.segments[3].marker = 9;
   refused(other);
-  other = sample_input();
+  other = testing::varied_domain();
   other.holes.clear();
   refused(other);
-  other = sample_input();
+  other = testing::varied_domain();
   other.regions.clear();
   refused(other);
-  other = sample_input();
+  other = testing::varied_domain();
   other.regions[0].max_area = 0.1;  // a bound: other work, the same subdomains
   CHECK(parse_decomposition("f", sample_text(), other) == sample());
 }
@@ -162,16 +151,16 @@ TEST_CASE("a decomposition in memory of another input is recognized, except for 
   const auto refused = [](const Pslg& other, const char* why) {
     CHECK_THROWS_WITH_AS(require_same_input(sample(), other, "f"), doctest::Contains(why), InputError);
   };
-  Pslg other = sample_input();
+  Pslg other = testing::varied_domain();
   other.points[2].y = 1.6;
   refused(other, "is not point 2 of the input");
-  other = sample_input();
+  other = testing::varied_domain();
   std::erase_if(other.segments, [](const Pslg::Segment& s) { return s.a == 8 && s.b == 9; });
   refused(other, "which has a segment from point 8 to point 9 with marker 6");
-  other = sample_input();
+  other = testing::varied_domain();
   other.segments[3].marker = 9;  // from 3 to 2, on which separators end
   refused(other, "with marker 3");
-  other = sample_input();
+  other = testing::varied_domain();
   other.regions.clear();
   refused(other, "with more than 0 regions");
 }
@@ -215,7 +204,7 @@ Pslg fan_input() {
 
 TEST_CASE("every edit of a point, a root or an inner point is noticed") {
   const TemporaryFolder folder;
-  for (const Pslg& input : {sample_input(), fan_input()}) {
+  for (const Pslg& input : {testing::varied_domain(), fan_input()}) {
     const Triangulation domain = prepared(input);
     DecomposeOptions options;
     options.subdomains = 6;
