@@ -3,7 +3,7 @@
 
 #include "protocol/delaying_transport.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
-#include "protocol/toy_rank.hpp"
+#include "protocol/toy_summary.hpp"
 
 using namespace driftmesh::protocol;
 using namespace driftmesh::protocol::toy;
@@ -12,23 +12,6 @@ namespace {
 
 std::vector<std::uint64_t> sum_over_ranks(std::vector<std::uint64_t> values) {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
-  return values;
-}
-
-// For each edge, the digest of one side's points minus that of the other's: the sum over all ranks is 0 if both sides
-// agree. Then the numbers of subdomains, of their points, and of hand-offs.
-std::vector<std::uint64_t> summary(const World& world, const ToyRank& rank) {
-  std::vector<std::uint64_t> values(world.edges.size() + 3, 0);
-  for (const auto& [id, subdomain] : rank.subdomains()) {
-    ++values[world.edges.size()];
-    for (const auto& [edge, paths] : subdomain.points()) {
-      SplitDigest digest;
-      for (const auto path : paths) digest.add(path);
-      values[to_index(edge)] += world.edges[edge].one == id ? digest.sum : 0 - digest.sum;
-      values[world.edges.size() + 1] += digest.count;
-    }
-  }
-  values.back() = static_cast<std::uint64_t>(rank.protocol().counters().hand_offs);
   return values;
 }
 
