@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "decompose/decomposition.hpp"
@@ -8,9 +9,9 @@
 #include "driftmesh/size_field.hpp"
 #include "job/domain.hpp"
 #include "job/key.hpp"
+#include "job/limits.hpp"
 #include "job/order.hpp"
 #include "job/request.hpp"
-#include "job/team.hpp"
 #include "job/watch.hpp"
 
 namespace driftmesh {
@@ -55,8 +56,8 @@ class Call {
   [[nodiscard]] bool in_subdomains() const { return request_.decomposition.subdomains > 0 || given_.decomposition; }
   /// Throws Error for options that are out of range or have no meaning at this place.
   void check(job::Place place) const;
-  /// The domain prepared for a team, on rank 0. Throws like the job.
-  [[nodiscard]] job::Order order_for(const job::Team& team, job::Place place);
+  /// The domain prepared for `ranks` ranks. Throws like the job.
+  [[nodiscard]] job::Order order_for(job::Place place, std::int32_t ranks = 1, const job::Processes& processes = {});
 
  private:
   const MeshOptions& options_;

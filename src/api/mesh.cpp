@@ -1,13 +1,12 @@
-#include <memory>
 #include <utility>
 
 #include "api/call.hpp"
 #include "api/library_request.hpp"
-#include "distributed/exchange.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/mesher.hpp"
 #include "job/one_piece.hpp"
-#include "job/rank_run.hpp"
+#include "job/thread_run.hpp"
+#include "job/triangulated.hpp"
 #include "mesh/interpolate_attributes.hpp"
 #include "mesh/to_piece.hpp"
 
@@ -17,7 +16,9 @@ namespace {
 Mesh in_one_piece(Call& call) {
   call.check(job::kOnePiece);
   const job::Domain domain = job::read_domain(call.request(), call.given(), call.watch());
-  const job::OnePiece made = job::mesh_in_one_piece(call.request(), domain, true, call.watch(), false);
+  const job::OnePiece made =
+      job::mesh_in_one_piece(call.request(), domain, job::triangulate_domain(call.request(), domain, 1, call.watch()),
+                             true, call.watch(), false);
   if (!made.result.complete) {
     const auto triangles = static_cast<std::int64_t>(made.result.mesh.live_triangles());
     throw LimitError(job::stopped_message(made.limits, made.by_memory, triangles, true));
@@ -28,13 +29,9 @@ Mesh in_one_piece(Call& call) {
 }
 
 Mesh in_subdomains(Call& call) {
-  const std::unique_ptr<job::Team> team = job::lone_team();
-  job::RankRun run(*team, call.order_for(*team, job::kSubdomains), call.given().size, call.watch());
+  job::ThreadRun run(call.order_for(job::kSubdomains), 1, call.given().size, call.watch());
   run.refine();
-  const std::unique_ptr<job::Channel> channel = team->open();
-  ExchangeRunner ranks(channel->transport());
-  Mesh mesh = run.assemble(ranks).mesh;
-  channel->close();
+  Mesh mesh = run.assemble().mesh;
   mesh.numbers.clear();  // only for points of a piece; this is the whole mesh
   mesh.ranks.clear();
   return mesh;

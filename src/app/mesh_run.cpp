@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "balancer/policies/policy_factory.hpp"
 #include "base/bytes.hpp"
 #include "base/staged_files.hpp"
+#include "distributed/exchange.hpp"
 #include "distributed/write_distributed.hpp"
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
@@ -26,6 +28,8 @@
 #include "job/outputs.hpp"
 #include "job/prepare.hpp"
 #include "job/rank_run.hpp"
+#include "job/thread_run.hpp"
+#include "job/triangulated.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/interpolate_attributes.hpp"
 #include "mesh/to_piece.hpp"
@@ -73,6 +77,39 @@ void draw(const Request& request, const Mesh& mesh) {
   plot_mesh(mesh, request.output.picture, {.title = title});
 }
 
+// ---- The mesh of one process -----------------------------------------------------------------------------------
+
+/// A whole mesh as the only piece. `numbered`: for a file in pieces.
+DistributedPiece as_piece(Mesh mesh, bool numbered) {
+  DistributedPiece piece;
+  piece.has_regions = !mesh.regions.empty();
+  if (numbered) {
+    mesh.numbers.resize(mesh.points.size());
+    std::iota(mesh.numbers.begin(), mesh.numbers.end(), 0);
+    mesh.subdomains.resize(mesh.triangles.size());
+    mesh.ranks.resize(mesh.triangles.size());
+  }
+  piece.mesh = std::move(mesh);
+  return piece;
+}
+
+/// Writes and draws a mesh, given as its only piece.
+void write_all(const Request& request, DistributedPiece piece, const std::vector<Point>& holes, RunNotes& notes) {
+  Mesh& mesh = piece.mesh;
+  timed(notes, "write", [&] {
+    for (const std::string& output : request.output.meshes) {
+      if (!is_in_pieces(output)) continue;
+      WritePieces writing(piece, output);
+      exchange_directly(IdVector<Rank, Exchange*>{&writing});
+    }
+    mesh.numbers = {};
+    mesh.ranks = {};
+    for (const std::string& output : request.output.meshes)
+      if (!is_in_pieces(output)) write_mesh(mesh, output, {holes});
+  });
+  if (!request.output.picture.empty()) timed(notes, "plot", [&] { draw(request, mesh); });
+}
+
 // ---- In one piece ----------------------------------------------------------------------------------------------
 
 // By value, so that its memory is free before the mesh is written.
@@ -82,22 +119,9 @@ Mesh converted(Triangulation mesh, const Pslg& pslg) {  // NOLINT(performance-un
   return piece;
 }
 
-void write_piece(const Request& request, const Pslg& pslg, Triangulation&& mesh, RunNotes& notes) {
-  const Mesh piece = timed(notes, "convert", [&] { return converted(std::move(mesh), pslg); });
-  timed(notes, "write", [&] {
-    for (const std::string& output : request.output.meshes) write_mesh(piece, output, {pslg.holes});
-  });
-  if (!request.output.picture.empty()) timed(notes, "plot", [&] { draw(request, piece); });
-}
-
-int mesh_in_one_piece(const Told& told) {
+int mesh_in_one_piece(const Told& told, const job::Domain& domain, job::Triangulated&& triangulated, RunNotes& notes) {
   const Request& request = told.request;
-  register_files(told, 0);
-  RunNotes notes(request, told.command);
-  job::cap_memory(request.limits);
-  const job::Domain domain = job::read_domain(request, {}, notes);
-  job::record_domain(notes.run, request, domain);
-  job::OnePiece made = job::mesh_in_one_piece(request, domain, writes(request.output), notes);
+  job::OnePiece made = job::mesh_in_one_piece(request, domain, std::move(triangulated), writes(request.output), notes);
   notes.run.forecast = made.forecast;
   notes.run.seconds_refine = made.result.seconds_refine;
   notes.run.peak_refining = job::peak_memory();
@@ -106,8 +130,10 @@ int mesh_in_one_piece(const Told& told) {
   const bool keep = request.limits.keep_incomplete;
   StagedFiles files;
   if (writes(request.output) && (made.result.complete || keep)) {
-    write_piece(request, domain.pslg, std::move(made.result.mesh), notes);
-    notes.note_files(files_written(request, 0), files.files());
+    Mesh mesh = timed(notes, "convert", [&] { return converted(std::move(made.result.mesh), domain.pslg); });
+    const bool numbered = std::ranges::any_of(request.output.meshes, is_in_pieces);
+    write_all(request, as_piece(std::move(mesh), numbered), domain.pslg.holes, notes);
+    notes.note_files(files_written(request, 1), files.files());
   }
   notes.finish();
   files.commit();
@@ -122,30 +148,89 @@ int mesh_in_one_piece(const Told& told) {
 
 // ---- In subdomains ---------------------------------------------------------------------------------------------
 
-job::Use use_in_subdomains(const Request& request, const job::Team& team) {
+job::Use use_in_subdomains(const Request& request, bool in_one_process) {
   const std::vector<std::string>& meshes = request.output.meshes;
   const bool whole = !request.output.picture.empty() || !std::all_of(meshes.begin(), meshes.end(), is_in_pieces);
   return {.in_subdomains = true,
           .sleeps = request.run.sleep,
           .writes = writes(request.output),
-          .gathers = whole && !team.alone()};
+          .gathers = whole && !in_one_process};
 }
 
-/// The part of rank 0 before the others start.
-job::Order prepare_order(const Told& told, job::Place place, const job::Team& team, RunNotes& notes) {
+/// For ranks, or threads, with these shares of their time.
+job::Order order_of(const Request& request, job::Domain&& domain, const job::Triangulated& triangulated,
+                    job::Place place, const IdVector<Rank, double>& shares, const job::Processes& processes,
+                    RunNotes& notes) {
+  job::Use use = use_in_subdomains(request, processes.all == 1);
+  job::Limits limits = job::find_limits(request.limits, domain.pslg, use, processes);
+  if (triangulated.forecast > static_cast<double>(limits.in_memory)) {
+    use.sleeps = true;
+    limits = job::find_limits(request.limits, domain.pslg, use, processes);
+  }
+  job::Prepared prepared =
+      job::prepare(request, domain, triangulated, {.policies = balancer::make_policy}, place, shares, limits, notes);
+  prepared.plan.work.sleep = use.sleeps;
+  job::add_prepared(notes.run, prepared);
+  return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, shares, use};
+}
+
+// ---- By threads ------------------------------------------------------------------------------------------------
+
+void assemble_and_write(const Request& request, std::optional<job::ThreadRun>& run, RunNotes& notes) {
+  DistributedPiece piece = timed(notes, "assemble", [&] { return run->assemble(); });
+  const std::vector<Point> holes = run->pslg().holes;
+  run.reset();  // the subdomains are no longer needed
+  write_all(request, std::move(piece), holes, notes);
+}
+
+int mesh_by_threads(const Told& told, job::Domain&& domain, job::Triangulated&& triangulated, RunNotes& notes) {
   const Request& request = told.request;
-  job::check_ranks(request, place, team.ranks());
+  const std::int32_t threads = job::threads_of(request);
+  job::Order order = order_of(request, std::move(domain), triangulated, job::kSubdomains,
+                              IdVector<Rank, double>(to_index(threads), 1.0), {}, notes);
+  triangulated = {};
+  std::optional<job::ThreadRun> run(std::in_place, std::move(order), threads, nullptr, notes);
+  timed(notes, "refine", [&] { run->refine(); });
+  timed(notes, "inspect", [&] { run->report(notes.run); });
+  StagedFiles files;
+  if (writes(request.output)) {
+    assemble_and_write(request, run, notes);
+    notes.note_files(files_written(request, 1), files.files());
+  }
+  notes.finish();
+  files.commit();
+  notes.show();
+  return 0;
+}
+
+// ---- In this process -------------------------------------------------------------------------------------------
+
+int mesh_here(const Told& told, job::Place place) {
+  const Request& request = told.request;
+  register_files(told, 1);
+  RunNotes notes(request, told.command);
+  job::cap_memory(request.limits);
+  job::Domain domain = job::read_domain(request, {}, notes);
+  job::record_domain(notes.run, request, domain);
+  job::Triangulated triangulated = job::triangulate_domain(request, domain, 1, notes);
+  if (place == job::kSubdomains || job::suits_subdomains(request, triangulated))
+    return mesh_by_threads(told, std::move(domain), std::move(triangulated), notes);
+  return mesh_in_one_piece(told, domain, std::move(triangulated), notes);
+}
+
+// ---- On ranks --------------------------------------------------------------------------------------------------
+
+/// The part of rank 0 before the others start.
+job::Order prepare_order(const Told& told, const job::Team& team, RunNotes& notes) {
+  const Request& request = told.request;
+  job::check_ranks(request, job::kRanks, team.ranks());
   register_files(told, team.ranks());
   job::cap_memory(request.limits);
   job::Domain domain = job::read_domain(request, {}, notes);
   job::record_domain(notes.run, request, domain);
-  const job::Use use = use_in_subdomains(request, team);
-  const IdVector<Rank, double> shares = job::shares_of_time(request, team.ranks());
-  const job::Limits limits = job::find_limits(request.limits, domain.pslg, use, job::processes_of(team));
-  job::Prepared prepared =
-      job::prepare(request, domain, {.policies = balancer::make_policy}, place, shares, limits, notes);
-  job::add_prepared(notes.run, prepared);
-  return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, shares, use};
+  const job::Triangulated triangulated = job::triangulate_domain(request, domain, team.ranks(), notes);
+  return order_of(request, std::move(domain), triangulated, job::kRanks, job::shares_of_time(request, team.ranks()),
+                  job::processes_of(team), notes);
 }
 
 void report(job::Team& team, const job::RankRun& run, RunNotes& notes) {
@@ -158,14 +243,14 @@ void report(job::Team& team, const job::RankRun& run, RunNotes& notes) {
   job::add_plan(notes.run, run.plan());
 }
 
-void write_pieces(const Request& request, job::Team& team, const DistributedPiece& piece, ExchangeRunner& ranks,
+void write_pieces(const Request& request, const DistributedPiece& piece, ExchangeRunner& ranks,
                   const std::vector<Point>& holes, RunNotes& notes) {
   timed(notes, "write", [&] { write_distributed(ranks, piece, request.output.meshes, {holes}); });
   if (!request.output.picture.empty())
     timed(notes, "plot", [&] {
       GatherPieces gathering(piece);
       ranks.run(gathering);
-      if (team.leads()) draw(request, gathering.whole());
+      if (piece.rank == Rank{0}) draw(request, gathering.whole());
     });
 }
 
@@ -176,17 +261,17 @@ void assemble_and_write(const Request& request, job::Team& team, std::optional<j
     const DistributedPiece piece = timed(notes, "assemble", [&] { return run->assemble(ranks); });
     const std::vector<Point> holes = run->holes();
     run.reset();  // the subdomains are no longer needed
-    write_pieces(request, team, piece, ranks, holes, notes);
+    write_pieces(request, piece, ranks, holes, notes);
   });
   channel->close();
 }
 
-void mesh_in_subdomains(const Told& told, job::Place place, job::Team& team) {
+void mesh_on_team(const Told& told, job::Team& team) {
   const Request& request = told.request;
   const std::string start = team.alone() ? "" : "mpirun -n " + std::to_string(team.ranks()) + " ";
   RunNotes notes(request, start + told.command, !team.leads());
   std::optional<job::Order> order = job::share(
-      team, [&] { return std::optional(prepare_order(told, place, team, notes)); }, balancer::make_policy);
+      team, [&] { return std::optional(prepare_order(told, team, notes)); }, balancer::make_policy);
   job::cap_memory(order->limits);
   std::optional<job::RankRun> run(std::in_place, team, std::move(*order), nullptr, notes);
   timed(notes, "refine", [&] { run->refine(); });
@@ -207,7 +292,7 @@ int mesh_on_ranks(const Told& told) {
   const protocol::MpiSession session;
   job::MpiTeam team(protocol::MpiSession::world());
   try {
-    mesh_in_subdomains(told, job::kRanks, team);
+    mesh_on_team(told, team);
   } catch (const std::exception&) {
     if (team.leads()) throw;
     return 0;  // all ranks have the error, and rank 0 reports it
@@ -220,10 +305,7 @@ int mesh_on_ranks(const Told& told) {
 
 int run_mesh(const Request& request, job::Place place, const std::string& command, const std::string& config) {
   const Told told{request, command, config};
-  if (place == job::kOnePiece) return mesh_in_one_piece(told);
-  if (place == job::kRanks) return mesh_on_ranks(told);
-  mesh_in_subdomains(told, place, *job::lone_team());
-  return 0;
+  return place == job::kRanks ? mesh_on_ranks(told) : mesh_here(told, place);
 }
 
 }  // namespace driftmesh::app

@@ -51,8 +51,7 @@ void register_output(FileRegistry& files, const std::string& path, const std::st
 }
 
 void register_mesh_output(FileRegistry& files, const std::string& path, const std::string& use, std::int32_t ranks) {
-  if (ranks == 0 && is_in_pieces(path))
-    throw InputError({path}, "is for a mesh in pieces", "cut the domain with --subdomains, or write a .vtu");
+  if (ranks == 0 && is_in_pieces(path)) throw InputError({path}, "is for meshes as they are made", "write a .vtu");
   for (const std::string& file : files_of_output(path, ranks)) register_output(files, file, use);
 }
 

@@ -98,7 +98,9 @@ Json parts_json(const RunRecord& run) {
                      {"most_hops", r.counters.most_hops},
                      {"held", r.counters.held},
                      {"peak_bytes", r.peak}});
-  return {{"subdomains", run.subdomains}, {"presplit", run.presplit}, {"ranks", ranks}};
+  Json parts = {{"subdomains", run.subdomains}, {"presplit", run.presplit}, {"ranks", ranks}};
+  if (run.on_threads) parts["rounds"] = run.rounds;
+  return parts;
 }
 
 Json files_json(const RunRecord& run) {

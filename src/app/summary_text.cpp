@@ -92,11 +92,15 @@ void add_work(const RunRecord& run, Text out) {
   fmt::format_to(out, "\n");
 }
 
+const char* rank_word(const RunRecord& run) {
+  return run.on_threads ? "thread" : "rank";
+}
+
 /// One row per rank, or the extremes if there are many.
 void add_rank_table(const RunRecord& run, Text out) {
   constexpr std::size_t kMostRows = 16;
-  fmt::format_to(out, "  {:>8} {:>14} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "rank", "triangles", "subdomains",
-                 "computing", "sending", "polling", "balancing", "idle");
+  fmt::format_to(out, "  {:>8} {:>14} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", rank_word(run), "triangles",
+                 "subdomains", "computing", "sending", "polling", "balancing", "idle");
   const auto row = [&](const std::string& name, const RunRecord::Rank& r) {
     fmt::format_to(out, "  {:>8} {:>14} {:>10} {:>8.3f} s {:>8.3f} s {:>8.3f} s {:>8.3f} s {:>8.3f} s\n", name,
                    grouped(r.triangles), r.subdomains, r.times.computing, r.times.sending, r.times.polling,
@@ -132,12 +136,16 @@ void add_ranks(const RunRecord& run, Text out) {
     sum.held += r.counters.held;
   }
   fmt::format_to(out, "parts        {} on {}; interfaces {} before refinement\n", counted(run.subdomains, "subdomain"),
-                 counted(static_cast<std::int64_t>(run.ranks.size()), "rank"),
+                 counted(static_cast<std::int64_t>(run.ranks.size()), rank_word(run)),
                  run.presplit ? "cut to size" : "not cut");
-  fmt::format_to(out, "             {} put on interfaces by refinement, {} sent between ranks in {}\n",
-                 counted(splits, "split point"), grouped(sum.splits_sent), counted(sum.batches_sent, "message"));
+  fmt::format_to(out, "             {} put on interfaces by refinement, ", counted(splits, "split point"));
+  if (run.on_threads)
+    fmt::format_to(out, "in {}\n", counted(run.rounds, "round"));
+  else
+    fmt::format_to(out, "{} sent between ranks in {}\n", grouped(sum.splits_sent),
+                   counted(sum.batches_sent, "message"));
   if (sum.hand_offs > 0)
-    fmt::format_to(out, "             {} moved between ranks, {}\n", counted(sum.hand_offs, "subdomain"),
+    fmt::format_to(out, "             {} moved between {}s, {}\n", counted(sum.hand_offs, "subdomain"), rank_word(run),
                    bytes_words(static_cast<std::uint64_t>(sum.hand_off_bytes)));
   if (sum.forwarded > 0 || sum.held > 0)
     fmt::format_to(out, "             {} of split points forwarded after a subdomain, {} at most; {} held for one\n",

@@ -6,9 +6,12 @@
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
-namespace {
 
-SubdomainCensus census_of(SubdomainId i, const SubdomainMesh& part) {
+SubdomainCensus census_of(const Decomposition& decomposition, SubdomainId i, const SubdomainMesh& part) {
+  if (!decomposition.subdomains.has(i)) throw Error("subdomain " + to_string(i) + " is not in the decomposition");
+  const auto roots = decomposition.roots_of(i);
+  if (!std::equal(roots.begin(), roots.end(), part.roots.begin(), part.roots.end()))
+    throw Error("subdomain " + to_string(i) + " does not have the roots that the decomposition gives it");
   SubdomainCensus census;
   census.id = i;
   census.triangles = static_cast<std::int64_t>(part.mesh.live_triangles());
@@ -21,17 +24,11 @@ SubdomainCensus census_of(SubdomainId i, const SubdomainMesh& part) {
   return census;
 }
 
-}  // namespace
-
 std::vector<SubdomainCensus> take_census(const Decomposition& decomposition, const HeldSubdomains& held) {
   std::vector<SubdomainCensus> all;
   held([&](SubdomainId i, const SubdomainMesh& part) {
-    if (!decomposition.subdomains.has(i) || (!all.empty() && i <= all.back().id))
-      throw Error("subdomain " + to_string(i) + " is visited out of order, or not in the decomposition");
-    const auto roots = decomposition.roots_of(i);
-    if (!std::equal(roots.begin(), roots.end(), part.roots.begin(), part.roots.end()))
-      throw Error("subdomain " + to_string(i) + " does not have the roots that the decomposition gives it");
-    all.push_back(census_of(i, part));
+    if (!all.empty() && i <= all.back().id) throw Error("subdomain " + to_string(i) + " is visited out of order");
+    all.push_back(census_of(decomposition, i, part));
   });
   return all;
 }

@@ -20,6 +20,9 @@ struct SubdomainCensus {
   std::vector<Root> roots;  ///< ascending
 };
 
+/// The census of one subdomain. Throws Error if it does not belong to the decomposition.
+[[nodiscard]] SubdomainCensus census_of(const Decomposition& decomposition, SubdomainId i, const SubdomainMesh& part);
+
 /// The census of each subdomain visited. Throws Error if they are not visited in ascending order, or do not belong to
 /// the decomposition.
 [[nodiscard]] std::vector<SubdomainCensus> take_census(const Decomposition& decomposition, const HeldSubdomains& held);

@@ -23,13 +23,16 @@ HeldSubdomains held_in_memory(std::vector<HeldSubdomain> held) {
   };
 }
 
+void show_subdomain(const Subdomain& subdomain, const ShowSubdomain& show) {
+  if (subdomain.dormant())
+    show(subdomain.id(), subdomain.dormant_mesh().wake());
+  else
+    show(subdomain.id(), subdomain.mesh());
+}
+
 HeldSubdomains held_by_rank(const std::map<SubdomainId, Subdomain>& subdomains) {
   return [&subdomains](const ShowSubdomain& show) {
-    for (const auto& [i, subdomain] : subdomains)
-      if (subdomain.dormant())
-        show(i, subdomain.dormant_mesh().wake());
-      else
-        show(i, subdomain.mesh());
+    for (const auto& [i, subdomain] : subdomains) show_subdomain(subdomain, show);
   };
 }
 

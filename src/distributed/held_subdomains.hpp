@@ -21,6 +21,9 @@ struct HeldSubdomain {
 /// Subdomains in memory, given in any order.
 [[nodiscard]] HeldSubdomains held_in_memory(std::vector<HeldSubdomain> held);
 
+/// Shows one subdomain that has worked; a dormant one is woken meanwhile.
+void show_subdomain(const Subdomain& subdomain, const ShowSubdomain& show);
+
 /// The subdomains of a rank's loop after a run; `subdomains` must outlive the result. Dormant ones are woken one at a
 /// time, only while they are visited.
 [[nodiscard]] HeldSubdomains held_by_rank(const std::map<SubdomainId, Subdomain>& subdomains);

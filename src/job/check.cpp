@@ -115,7 +115,7 @@ void check_cluster(const Request& request) {
 Place place_of(const Request& request, EntryPoint entry_point, bool launched) {
   if (entry_point == kExperiment) return request.cluster.kind == ClusterKind::kSimulated ? kSimulated : kRanks;
   if (launched) return kRanks;
-  return request.decomposition.subdomains > 0 || !request.decomposition.file.empty() ? kSubdomains : kOnePiece;
+  return request.decomposition.subdomains > 1 || !request.decomposition.file.empty() ? kSubdomains : kOnePiece;
 }
 
 void check(const Request& request, Place place, const balancer::PolicyMaker& policies) {

@@ -290,9 +290,10 @@ Section parts_section() {
       kCut,
       kMeshers,
       {key("decomposition.subdomains", &R::decomposition, &R::Decomposition::subdomains,
-           "Number of subdomains, far more than ranks; also without mpirun; 0: 20 per rank, or more so that each fits "
-           "in cache",
-           in(0, kMaxSubdomains), option('n', "subdomains", "N"), entry_points(kMeshers | kDecompose)),
+           "Number of subdomains, far more than ranks; also without mpirun; 1: one piece; 0: 20 per rank, or more so "
+           "that each fits in cache",
+           in(0, kMaxSubdomains), option('n', "subdomains", "N"), places(kAnywhere),
+           entry_points(kMeshers | kDecompose)),
        key("decomposition.subdomains-per-rank", &R::decomposition, &R::Decomposition::subdomains_per_rank,
            "Likewise, per rank", in(0, 1e5), option("subdomains-per-rank", "N"), places(kMany),
            entry_points(kMesh | kExperiment)),
@@ -333,8 +334,12 @@ Section parts_section() {
        key("run.slice", &R::run, &R::Run::slice, "Points inserted between polls of the network", in(1, 1e9),
            option("slice", "N")),
        key("run.sleep", &R::run, &R::Run::sleep,
-           "Compress finished subdomains to about 10 bytes per triangle, from 40, until a neighbor needs them",
-           option("sleep"))}};
+           "Compress finished subdomains to about 10 bytes per triangle, from 40, until a neighbor needs them; also "
+           "without it where memory would not suffice",
+           option("sleep")),
+       key("run.threads", &R::run, &R::Run::threads,
+           "Threads that mesh together without mpirun; 0: one for each core. The mesh does not depend on their number",
+           in(0, 1024), option("threads", "N"), places(kOnePiece | kSubdomains), entry_points(kMesh))}};
 }
 
 Section balance_section() {

@@ -10,7 +10,6 @@
 #include "decompose/same_input.hpp"
 #include "decompose/same_segments.hpp"
 #include "job/key.hpp"
-#include "mesh/forecast.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh::job {
@@ -49,9 +48,17 @@ void check_presplit(const Request& request, const QualityBounds& bounds) {
                    "give bounds.area, bounds.triangles or sizing.size, or remove it");
 }
 
-Balancing balancing_of(const Request& request, Place place) {
+/// The number of ranks for which the number of subdomains is chosen. Not that of threads, on which no mesh depends:
+/// they share the subdomains that any number of them would have.
+std::int32_t ranks_to_suit(Place place, std::size_t ranks) {
+  constexpr std::int32_t kAnyThreads = 2;
+  return place == kSubdomains ? kAnyThreads : static_cast<std::int32_t>(ranks);
+}
+
+Balancing balancing_of(const Request& request, Place place, std::size_t ranks) {
   Balancing balancing;
   balancing.policy = request.balance.policy;
+  if (place == kSubdomains && ranks > 1) balancing.policy = "stealing";  // needs no planner, and moves cost nothing
   balancing.parameters = parameters_of_policy(request);
   balancing.options.look = request.balance.look;
   balancing.options.gap = request.balance.gap;
@@ -75,11 +82,17 @@ PlanOptions plan_options(const Request& request, Place place, const IdVector<Ran
   options.work.slice = request.run.slice;
   options.work.order = request.run.order;
   options.work.sleep = request.run.sleep;
-  options.balancing = balancing_of(request, place);
+  options.balancing = balancing_of(request, place, speeds.size());
   return options;
 }
 
 }  // namespace
+
+bool suits_subdomains(const Request& request, const Triangulated& triangulated) {
+  constexpr double kWorthwhile = 500'000;  // triangles to be made: a tenth of a second of work
+  return request.decomposition.subdomains == 0 && !request.limits.keep_incomplete && bounds_size(triangulated.bounds) &&
+         triangulated.forecast - static_cast<double>(triangulated.mesh.live_triangles()) >= kWorthwhile;
+}
 
 Decomposition cut(const Request& request, const Triangulated& triangulated, std::int32_t ranks) {
   DecomposeOptions cutting;
@@ -91,16 +104,14 @@ Decomposition cut(const Request& request, const Triangulated& triangulated, std:
   return decompose_for(triangulated.mesh, cutting, ranks);
 }
 
-Prepared prepare(const Request& request, const Domain& domain, const Given& given, Place place,
-                 const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch) {
-  const auto ranks = static_cast<std::int32_t>(speeds.size());
-  const Triangulated triangulated = triangulate_domain(request, domain, ranks, watch);
+Prepared prepare(const Request& request, const Domain& domain, const Triangulated& triangulated, const Given& given,
+                 Place place, const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch) {
   Prepared prepared;
   prepared.acute_corners = triangulated.acute_corners;
   check_presplit(request, triangulated.bounds);
-  check_forecast(limits, forecast_triangles(triangulated.mesh, triangulated.bounds), false,
-                 [&] { return find_narrow_place(triangulated.mesh); });
-  Decomposition decomposition = decomposition_of(request, domain, given, triangulated, ranks, watch);
+  check_forecast(limits, triangulated.forecast, false, [&] { return find_narrow_place(triangulated.mesh); });
+  Decomposition decomposition =
+      decomposition_of(request, domain, given, triangulated, ranks_to_suit(place, speeds.size()), watch);
   for (const Decomposition::Subdomain& s : decomposition.subdomains) prepared.forecast += s.predicted;
   prepared.plan = timed(watch, "map", [&] {
     return plan_run(std::move(decomposition), triangulated.bounds, plan_options(request, place, speeds),

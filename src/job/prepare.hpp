@@ -22,11 +22,16 @@ struct Prepared {
   double forecast = 0;  ///< of triangles
 };
 
-/// Triangulates the domain, prepares its corners, decomposes it, and maps the subdomains to ranks with these speeds, of
-/// which only the ratios matter. Throws Error if domain and bounds do not allow that, LimitError if far more triangles
+/// Decomposes the domain, triangulated, and maps the subdomains to ranks with these speeds, of which only the ratios
+/// matter. Throws Error if domain and bounds do not allow that, LimitError if far more triangles
 /// than `limits` allow are expected, InputError and FileError if a decomposition cannot be read.
-[[nodiscard]] Prepared prepare(const Request& request, const Domain& domain, const Given& given, Place place,
-                               const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch);
+[[nodiscard]] Prepared prepare(const Request& request, const Domain& domain, const Triangulated& triangulated,
+                               const Given& given, Place place, const IdVector<Rank, double>& speeds,
+                               const Limits& limits, Watch& watch);
+
+/// Whether a mesh that need not be in one piece is better made in subdomains, by threads: it is large, and a bound on
+/// size says where its triangles will be. Depends on neither the machine nor the number of threads.
+[[nodiscard]] bool suits_subdomains(const Request& request, const Triangulated& triangulated);
 
 /// Decomposes the domain as requested, for this number of ranks.
 [[nodiscard]] Decomposition cut(const Request& request, const Triangulated& triangulated, std::int32_t ranks);

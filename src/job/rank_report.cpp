@@ -33,17 +33,24 @@ RankReport RankReport::read(ByteReader& reader) {
   return report;
 }
 
+void add_subdomain(MeshFacts& facts, const Decomposition& decomposition, const QualityBounds& bounds,
+                   const Subdomain& subdomain) {
+  MeshFacts own;
+  show_subdomain(subdomain, [&](SubdomainId id, const SubdomainMesh& part) {
+    add_part(own, part.mesh, bounds, true);
+    const SubdomainCensus census = census_of(decomposition, id, part);
+    own.vertices = owned_points(decomposition, census);
+    own.subsegments = owned_subsegments(decomposition, census);
+  });
+  add_counters(own, subdomain.counters());
+  add_facts(facts, own);
+}
+
 RankReport report_of(const RankLoop& loop, const RunPlan& plan) {
   RankReport report;
   static_cast<RankOutcome&>(report.rank) = loop.outcome();
-  const HeldSubdomains held = held_by_rank(loop.subdomains());
-  held([&](SubdomainId, const SubdomainMesh& part) { add_part(report.facts, part.mesh, plan.bounds, true); });
-  for (const auto& [id, subdomain] : loop.subdomains()) add_counters(report.facts, subdomain.counters());
-  report.facts.vertices = report.facts.subsegments = 0;  // add_part counts shared ones in each part
-  for (const SubdomainCensus& census : take_census(plan.decomposition, held)) {
-    report.facts.vertices += owned_points(plan.decomposition, census);
-    report.facts.subsegments += owned_subsegments(plan.decomposition, census);
-  }
+  for (const auto& [id, subdomain] : loop.subdomains())
+    add_subdomain(report.facts, plan.decomposition, plan.bounds, subdomain);
   return report;
 }
 

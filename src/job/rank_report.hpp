@@ -17,6 +17,11 @@ struct RankReport {
   [[nodiscard]] static RankReport read(ByteReader& reader);
 };
 
+/// Adds the facts of one subdomain of `decomposition`, refined to `bounds`. Vertices and subsegments on roots count for
+/// the subdomain that numbers them.
+void add_subdomain(MeshFacts& facts, const Decomposition& decomposition, const QualityBounds& bounds,
+                   const Subdomain& subdomain);
+
 /// The report of a rank whose loop has ended, on `plan`.
 [[nodiscard]] RankReport report_of(const RankLoop& loop, const RunPlan& plan);
 

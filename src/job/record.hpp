@@ -52,6 +52,8 @@ struct RunRecord : MeshFacts {
     std::uint64_t peak = 0;
   };
   std::vector<Rank> ranks;  ///< empty if there were none
+  bool on_threads = false;  ///< ranks are threads of one process
+  int rounds = 0;           ///< of threads (see runtime/threads)
   std::int32_t subdomains = 0;
   bool presplit = false;
 

@@ -89,6 +89,7 @@ struct Request {
     WorkOrder order = WorkOrder::kGiven;
     std::int64_t slice = WorkSettings{}.slice;
     bool sleep = false;
+    std::int32_t threads = 0;  ///< 0: one for each core
   } run;
 
   struct Balance {

@@ -32,8 +32,8 @@ class Channel {
   Channel() = default;
 };
 
-/// The ranks that make a mesh together: this process alone, or those of a communicator (mpi/mpi_team.hpp). All ranks
-/// must make collective calls in the same order.
+/// The ranks that make a mesh together: those of a communicator (mpi/mpi_team.hpp). All ranks must make collective
+/// calls in the same order.
 class Team {
  public:
   virtual ~Team() = default;
@@ -65,9 +65,6 @@ class Team {
  protected:
   Team() = default;
 };
-
-/// This process alone.
-[[nodiscard]] std::unique_ptr<Team> lone_team();
 
 /// Called while handling an exception that occurred on one rank only: rethrows it if the rank is alone, and otherwise
 /// ends the job with its message.

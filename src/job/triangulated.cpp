@@ -9,6 +9,7 @@
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/domain_warnings.hpp"
+#include "mesh/forecast.hpp"
 #include "mesh/mesher.hpp"
 
 namespace driftmesh::job {
@@ -55,8 +56,9 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     warn(request, domain_warnings(domain.pslg, domain.repairs, carved, result.mesh), watch);
     warn(request, background_warnings(domain, result.mesh), watch);
     result.acute_corners = prepare_corners(result.mesh);
+    result.bounds = bounds_of(request, domain, result.mesh, ranks);
+    result.forecast = forecast_triangles(result.mesh, result.bounds);
   });
-  result.bounds = bounds_of(request, domain, result.mesh, ranks);
   return result;
 }
 

@@ -15,6 +15,7 @@ struct Triangulated {
   Triangulation mesh;  ///< constrained Delaunay, acute corners prepared
   std::int32_t acute_corners = 0;
   QualityBounds bounds;  ///< refers to the domain's size field
+  double forecast = 0;   ///< of the triangles after refinement
 };
 
 /// Triangulates the domain, warns of what its author may not have meant, prepares its corners, and determines the

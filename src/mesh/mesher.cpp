@@ -29,15 +29,15 @@ MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshP
   result.mesh = triangulate(pslg);
   result.acute_corners = prepare_corners(result.mesh);
   result.seconds_triangulate = triangulating.seconds();
-  refine_domain(result, request.max_triangles, progress);
+  const double forecast = progress ? forecast_triangles(result.mesh, result.bounds) : 0;
+  refine_domain(result, request.max_triangles, forecast, progress);
   return result;
 }
 
-void refine_domain(MeshResult& result, std::int64_t max_triangles, const MeshProgress& progress) {
+void refine_domain(MeshResult& result, std::int64_t max_triangles, double forecast, const MeshProgress& progress) {
   const Stopwatch refining;
   Refiner refiner(result.mesh, result.bounds);
   refiner.limit_triangles(max_triangles);
-  const double forecast = progress ? forecast_triangles(result.mesh, result.bounds) : 0;
   const auto goes_on = [&] {
     return !progress || progress(static_cast<std::int64_t>(result.mesh.live_triangles()), forecast);
   };

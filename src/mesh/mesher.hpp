@@ -51,7 +51,8 @@ using MeshProgress = std::function<bool(std::int64_t triangles, double forecast)
 [[nodiscard]] MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshProgress& progress = {});
 
 /// The second half of the above: refines `result.mesh`, triangulated and with its corners prepared, to `result.bounds`,
-/// and fills in the rest. Stops at `max_triangles`.
-void refine_domain(MeshResult& result, std::int64_t max_triangles, const MeshProgress& progress = {});
+/// and fills in the rest. Stops at `max_triangles`. `forecast`: for `progress`.
+void refine_domain(MeshResult& result, std::int64_t max_triangles, double forecast = 0,
+                   const MeshProgress& progress = {});
 
 }  // namespace driftmesh

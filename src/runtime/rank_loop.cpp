@@ -9,23 +9,39 @@
 
 namespace driftmesh {
 
-RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs, Observers observers,
-                   balancer::Council* council, const protocol::Rules& rules)
+RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, IdSpan<SubdomainId, const Rank> owners,
+                   Observers observers, const protocol::Rules& rules)
     : transport_(transport),
       plan_(plan),
-      context_{&plan.decomposition, plan.bounds, plan.presplit},
-      costs_(costs),
+      own_context_{&plan.decomposition, plan.bounds, plan.presplit},
       observers_(std::move(observers)),
       rules_(rules),
-      protocol_(transport.rank(), transport.ranks(), plan.owners, plan.work.aggregation, rules),
-      limits_{transport.ranks(), static_cast<std::int32_t>(plan.owners.size()),
+      protocol_(transport.rank(), transport.ranks(), owners, plan.work.aggregation, rules),
+      limits_{transport.ranks(), static_cast<std::int32_t>(owners.size()),
               static_cast<std::int32_t>(plan.decomposition.roots.size())},
       agenda_(plan.work.order),
-      clock_(transport.now()) {
-  if (plan.policy)
-    controller_.emplace(transport.rank(), plan.layout, plan.policy, plan.balancing.options, clock_, council);
+      clock_(transport.now()) {}
+
+RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs, Observers observers,
+                   balancer::Council* council, const protocol::Rules& rules)
+    : RankLoop(transport, plan, plan.owners, std::move(observers), rules) {
+  costs_ = costs;
+  balance_with(plan.layout, council);
   for (const SubdomainId s : ids_of(plan.owners))
-    if (plan.owners[s] == transport.rank()) put(Subdomain(s, context_));
+    if (plan.owners[s] == transport.rank()) put(Subdomain(s, *context_));
+}
+
+RankLoop::RankLoop(protocol::Transport& transport, Round round, const RunPlan& plan, Observers observers)
+    : RankLoop(transport, plan, round.owners, std::move(observers), protocol::sound_rules()) {
+  in_rounds_ = true;
+  context_ = round.context;
+  balance_with(std::move(round.layout), nullptr);
+  for (auto& [id, subdomain] : round.subdomains) put(std::move(subdomain));
+}
+
+void RankLoop::balance_with(std::shared_ptr<const balancer::Layout> layout, balancer::Council* council) {
+  if (plan_.policy)
+    controller_.emplace(transport_.rank(), std::move(layout), plan_.policy, plan_.balancing.options, clock_, council);
 }
 
 bool RankLoop::hand_over(SubdomainId id, Rank to) {
@@ -114,7 +130,7 @@ bool RankLoop::poll() {
 
 void RankLoop::settle(const protocol::HandOff& arrival, Rank sender) {
   charge(&RankTimes::polling);
-  protocol::read_from(sender, [&] { put(Subdomain::unpack(arrival.packed, context_, Source::kThisRun)); });
+  protocol::read_from(sender, [&] { put(Subdomain::unpack(arrival.packed, *context_, Source::kThisRun)); });
   transport_.spend(static_cast<double>(arrival.packed.size()) * costs_.packed_byte);
   charge(&RankTimes::balancing);
   if (controller_) controller_->arrived(arrival.subdomain, arrival.epoch, clock_);
@@ -182,6 +198,7 @@ std::vector<balancer::ReportedLoad> RankLoop::loads() const {
 }
 
 void RankLoop::tell_across(SubdomainId from, const SplitPoint<GlobalRootId>& split) {
+  if (in_rounds_) return;
   const SubdomainId to = plan_.decomposition.roots[split.root].across_from(from);
   if (!protocol_.holds(to)) return protocol_.send_split(to, split);
   Subdomain& neighbor = subdomains_.at(to);

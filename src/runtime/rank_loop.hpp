@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "balancer/controller.hpp"
@@ -50,10 +52,21 @@ class RankLoop {
     std::function<void(const RankLoop&, const Passage&)> settled;
   };
 
+  /// One round of a run in rounds (threads/refinement_in_rounds.hpp): the loop continues with subdomains of earlier
+  /// loops, and tells none of them what its neighbors put on their common border. Whoever runs the rounds does that
+  /// between them, with what after_slice reports.
+  struct Round {
+    std::map<SubdomainId, Subdomain> subdomains;  ///< of this rank
+    const SubdomainContext* context = nullptr;    ///< theirs; outlives the loop
+    IdVector<SubdomainId, Rank> owners;           ///< of all subdomains
+    std::shared_ptr<const balancer::Layout> layout;
+  };
+
   /// `transport`, `plan`, `council` and `rules` must outlive the loop. Collective policies need a council. `rules` are
   /// those of the protocol; tests pass broken ones.
   RankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs = {}, Observers observers = {},
            balancer::Council* council = nullptr, const protocol::Rules& rules = protocol::sound_rules());
+  RankLoop(protocol::Transport& transport, Round round, const RunPlan& plan, Observers observers);
   RankLoop(const RankLoop&) = delete;
   RankLoop& operator=(const RankLoop&) = delete;
 
@@ -76,6 +89,8 @@ class RankLoop {
 
   [[nodiscard]] const protocol::RankProtocol& protocol() const { return protocol_; }
   [[nodiscard]] const std::map<SubdomainId, Subdomain>& subdomains() const { return subdomains_; }
+  /// The same, out of a loop that has ended.
+  [[nodiscard]] std::map<SubdomainId, Subdomain> take_subdomains() { return std::move(subdomains_); }
   [[nodiscard]] const RankTimes& times() const { return times_; }
   [[nodiscard]] std::int64_t triangles() const { return triangles_; }  ///< of all subdomains here
   /// Points that refinement inserted on interfaces here, whichever rank holds the other side.
@@ -86,6 +101,9 @@ class RankLoop {
   [[nodiscard]] bool at_work() const;
 
  private:
+  RankLoop(protocol::Transport& transport, const RunPlan& plan, IdSpan<SubdomainId, const Rank> owners,
+           Observers observers, const protocol::Rules& rules);
+  void balance_with(std::shared_ptr<const balancer::Layout> layout, balancer::Council* council);
   void put(Subdomain&& subdomain);
   void reschedule(const Subdomain& s);
   bool poll();
@@ -104,7 +122,9 @@ class RankLoop {
 
   protocol::Transport& transport_;
   const RunPlan& plan_;
-  SubdomainContext context_;
+  SubdomainContext own_context_;
+  const SubdomainContext* context_ = &own_context_;
+  bool in_rounds_ = false;
   CostModel costs_;
   Observers observers_;
   const protocol::Rules& rules_;

@@ -12,7 +12,7 @@
 
 #include "driftmesh/id_vector.hpp"
 #include "verify/extended.hpp"
-#include "verify/in_parts.hpp"
+#include "base/in_parts.hpp"
 #include "verify/room.hpp"
 #include "verify/size_check.hpp"
 #include "verify/words.hpp"

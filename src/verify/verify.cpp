@@ -13,7 +13,7 @@
 #include "verify/corner_table.hpp"
 #include "verify/domain.hpp"
 #include "verify/domain_check.hpp"
-#include "verify/in_parts.hpp"
+#include "base/in_parts.hpp"
 #include "verify/local_check.hpp"
 #include "verify/point_data_check.hpp"
 #include "verify/point_index.hpp"

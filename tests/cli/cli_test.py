@@ -433,8 +433,6 @@ class Errors(Cli):
         self.refuse("mesh", "square.poly", "-o", "./square.node", says=["square.poly", "INPUT"])
         self.refuse("mesh", "square.poly", "-o", "a.vtu", "-o", "./a.vtu", says=["a.vtu", "twice"])
         self.refuse("mesh", "square.poly", "-n", "2", "-o", "a.pvtu", "-o", "a_0.vtu", says=["a_0.vtu", "twice"])
-        early = self.refuse("mesh", "square.poly", "-o", "a.pvtu", "-o", "no/a.vtu", says=["a.pvtu", "--subdomains"])
-        self.assertNotIn("no/a.vtu", early.stderr)
         self.assertEqual((self.folder / "square.poly").read_text(), SQUARE)
         self.assertEqual(self.files(), ["square.poly"])
 
@@ -559,6 +557,42 @@ class Mesh(Cli):
             self.assertIn(f"digest         {run['mesh']['digest']}",
                           self.succeed("check", f"{ranks}.pvtu", "bay.poly", "--area", "20000", "--angle", "20"))
         self.assertEqual(len(digests), 1)
+
+    def test_a_mesh_is_the_same_with_any_number_of_threads(self):
+        self.succeed("generate", "bay", "--resolution", "1000", "-o", "bay.poly")
+        area = ["--area", "2400"]  # for 800,000 triangles
+        files = set()
+        for threads in 1, 2, 5:
+            said = self.succeed("mesh", "bay.poly", *area, "--threads", threads, "-o", "m.vtu", "-o", "m.pvtu")
+            self.assertIn(f"subdomains on {threads} thread{'s' * (threads > 1)}; interfaces cut to size", said)
+            files.add((self.folder / "m.vtu").read_bytes() + (self.folder / "m_0.vtu").read_bytes())
+        self.assertEqual(len(files), 1)
+        for name in "m.vtu", "m.pvtu":
+            self.assertIn("accepted", self.succeed("check", name, "bay.poly", *area))
+        self.assertNotIn("parts ", self.succeed("mesh", "bay.poly", *area, "--subdomains", "1"))
+
+    def test_rounds_are_the_same_with_any_number_of_threads(self):
+        """Where refinement splits interfaces, which nothing cuts to size before."""
+        self.succeed("generate", "bay", "--resolution", "1000", "-o", "bay.poly")
+        digests = set()
+        for threads in 1, 2, 3:
+            self.succeed("mesh", "bay.poly", "-n", "30", "--threads", threads, "-o", "m.vtu", "--json", "run.json")
+            run = json.loads((self.folder / "run.json").read_text())
+            self.assertGreater(run["parts"]["rounds"], 1)
+            self.assertGreater(sum(thread["interface_splits"] for thread in run["parts"]["ranks"]), 0)
+            self.assertEqual(len(run["parts"]["ranks"]), threads)
+            digests.add(run["mesh"]["digest"])
+            self.assertIn("accepted", self.succeed("check", "m.vtu", "bay.poly"))
+        self.assertEqual(len(digests), 1)
+
+    def test_a_limit_stops_all_threads(self):
+        self.write("square.poly", SQUARE)
+        for threads in 1, 3:
+            result = self.run_program("mesh", "square.poly", "--area", "1.5e-5", "--size", "0.02-0.018*(x>0.5)", "-n", "40",
+                                      "--max-triangles", "900000", "--threads", threads, "-o", "m.vtu")
+            self.assertEqual(result.returncode, 3)
+            self.assertIn("--max-triangles", result.stderr)
+            self.assertEqual([path.name for path in self.folder.glob("m*")], [])
 
     def test_mapping_by_area_leaves_a_corner_of_small_triangles_to_one_rank(self):
         (self.folder / "square.poly").write_text(SQUARE)

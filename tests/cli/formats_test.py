@@ -79,7 +79,7 @@ class Formats(Cli):
         separators = 0
         for (kind, bounds), parts in itertools.product(self.domains(), PARTS):
             with self.subTest(domain=kind, parts=parts):
-                outputs = [*OUTPUTS, *(["p.pvtu"] if parts else [])]
+                outputs = [*OUTPUTS, "p.pvtu"]
                 said = self.succeed("mesh", "in.poly", *bounds, *parts, *itertools.chain(*(["-o", o] for o in outputs)))
                 for output in outputs:
                     checked = self.succeed("check", output, "in.poly", *bounds)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The meshes of 30 runs are the recorded ones to the last bit: one piece, subdomains, 1 to 4 ranks, every policy,
+"""The meshes of 35 runs are the recorded ones to the last bit: one piece, subdomains, 1 to 4 ranks, every policy,
 simulated clusters. What is meant to change no mesh changes none; what is meant to is recorded anew, and says so.
 
 usage: digests_test.py DRIFTMESH [--record]
@@ -43,6 +43,9 @@ MESHES = {
                                 "largest"]),
     "subdomains of regions": (0, ["regions.poly", "-n", "12", "--presplit", "on"]),
     "subdomains with a size field": (0, ["regions.poly", "--size", "0.03+0.05*abs(x-2)", "-n", "16"]),
+    "subdomains on three threads": (0, ["pipe.poly", "--area", "1", "-n", "37", "--presplit", "off", "--order",
+                                        "backlog", "--threads", "3"]),
+    "large enough for threads": (0, ["pipe.poly", "--area", "0.3", "--threads", "2"]),
     "one rank": (1, ["cylinder.poly", "--area", "0.01"]),
     "two ranks": (2, [*PARTS, "--mapping", "block"]),
     "four ranks": (4, [*PARTS, "--mapping", "round-robin"]),

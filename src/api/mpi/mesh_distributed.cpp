@@ -78,7 +78,7 @@ DistributedPiece mesh_on(job::Team& team, Call& call, const MeshOptions& options
   const auto make = [&] {
     return with_words_of_options([&] {
       check_callables(callables);
-      return std::optional(call.order_for(team, job::kRanks));
+      return std::optional(call.order_for(job::kRanks, team.ranks(), job::processes_of(team)));
     });
   };
   std::optional<job::Order> order = job::share(team, make, call.given().policies);

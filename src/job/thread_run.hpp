@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "driftmesh/distributed_piece.hpp"
+#include "job/limits.hpp"
+#include "job/order.hpp"
+#include "job/record.hpp"
+#include "job/watch.hpp"
+#include "runtime/threads/refinement_in_rounds.hpp"
+
+namespace driftmesh::job {
+
+/// The number of threads that a request asks for: by default one for each core that this process may use.
+[[nodiscard]] std::int32_t threads_of(const Request& request);
+
+/// The refinement of a mesh in subdomains by threads of this process, and its results, which do not depend on the
+/// number of threads.
+class ThreadRun {
+ public:
+  /// `order`: its plan maps the subdomains to `threads` ranks. `size`: replaces the size field that the order
+  /// describes, unless null; not owned, and then for one thread only. `watch` outlives the object.
+  ThreadRun(Order order, std::int32_t threads, const SizeField* size, Watch& watch);
+
+  /// Throws what the work on a subdomain or the watch throws, and LimitError at a limit.
+  void refine();
+
+  // After refine():
+
+  /// Adds the facts of the mesh and of the threads to the record.
+  void report(RunRecord& run) const;
+  [[nodiscard]] const Pslg& pslg() const { return order_.pslg; }
+  /// The whole mesh.
+  [[nodiscard]] DistributedPiece assemble() const;
+
+ private:
+  void check(std::int64_t triangles) const;
+  [[nodiscard]] MeshFacts facts() const;
+
+  Order order_;
+  std::vector<std::unique_ptr<const SizeField>> made_;  // here
+  std::vector<const SizeField*> sizes_;                 // one for each thread
+  Watch& watch_;
+  Limits limits_;
+  std::optional<RefinementInRounds> refinement_;
+};
+
+}  // namespace driftmesh::job

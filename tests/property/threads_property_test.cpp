@@ -1,0 +1,196 @@
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "balancer/policies/policy_factory.hpp"
+#include "decompose/decompose.hpp"
+#include "distributed/assembly.hpp"
+#include "distributed/held_subdomains.hpp"
+#include "driftmesh/error.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "mesh/digest.hpp"
+#include "oracles/random_pslg.hpp"
+#include "property/cases.hpp"
+#include "runtime/plan_run.hpp"
+#include "runtime/threads/refinement_in_rounds.hpp"
+#include "sizing/expression_field.hpp"
+#include "support/refine_together.hpp"
+#include "verify/report_text.hpp"
+#include "verify/verify.hpp"
+
+// Random domains refined by threads that take subdomains from each other as often as they can: the mesh is that of a
+// second implementation which knows no threads, whatever their number.
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+
+namespace {
+
+using Sizes = std::vector<std::unique_ptr<const SizeField>>;
+
+struct Outcome {
+  std::uint64_t digest = 0;
+  std::int64_t triangles = 0, moves = 0;
+  int rounds = 0;
+};
+
+PlanOptions options_for(std::int32_t threads, std::int64_t slice, Presplit presplit) {
+  PlanOptions options;
+  options.mapping.ranks = threads;
+  options.mapping.method = MappingMethod::kBlock;
+  options.presplit = presplit;
+  options.work.slice = slice;
+  options.balancing.policy = threads > 1 ? "stealing" : "none";
+  options.balancing.options.look = 1e-6;
+  options.balancing.options.gap = 0;
+  options.balancing.options.worth.gain = 0;
+  return options;
+}
+
+class Case {
+ public:
+  explicit Case(std::mt19937_64& random) {
+    const std::uint64_t seed = random();
+    oracles::RandomPslgShape shape = oracles::make_random_shape(seed);
+    shape.scale = 1;
+    shape.offset = 0;
+    input_ = oracles::make_random_pslg(seed, shape).input;
+    Triangulation mesh = triangulate(input_);
+    prepare_corners(mesh);
+    bounds_.min_angle = std::uniform_real_distribution(15.0, 28.0)(random);
+    if (random() % 2 == 0) bounds_.max_area = 0.02;
+    if (random() % 3 == 0) expression_ = "0.05 + 0.2*abs(x)";
+    sizes_ = fields(1);
+    bounds_.size = sizes_.front().get();
+    DecomposeOptions cutting;
+    cutting.subdomains = static_cast<std::int32_t>(2 + random() % 11);
+    cutting.bounds = bounds_;
+    try {
+      decomposition_ = decompose(mesh, cutting);
+    } catch (const Error&) {  // more than the domain allows
+      cutting.subdomains = 1;
+      decomposition_ = decompose(mesh, cutting);
+    }
+    slice_ = static_cast<std::int64_t>(1 + random() % 50);
+  }
+
+  /// By refine_together, without presplit interfaces.
+  [[nodiscard]] std::uint64_t digest_without_threads() const {
+    std::uint64_t digest = 0;
+    for (const SubdomainMesh& part : refine_together(decomposition_, bounds_).parts) digest += mesh_digest(part.mesh);
+    return digest;
+  }
+
+  [[nodiscard]] Outcome by_threads(std::int32_t threads, Presplit presplit,
+                                   const RefinementInRounds::Watch& watch = {}) const {
+    const PlanOptions options = options_for(threads, slice_, presplit);
+    const RunPlan plan = plan_run(decomposition_, bounds_, options, balancer::make_policy);
+    const Sizes sizes = fields(threads);
+    std::vector<const SizeField*> borrowed;
+    for (const auto& size : sizes) borrowed.push_back(size.get());
+    RefinementInRounds refinement(plan, borrowed, watch);
+    refinement.run();
+    check_mesh(refinement.subdomains(), presplit);
+    Outcome outcome;
+    outcome.rounds = refinement.rounds();
+    for (const auto& [id, subdomain] : refinement.subdomains()) outcome.digest += mesh_digest(subdomain.mesh().mesh);
+    for (const RankOutcome& thread : refinement.outcomes()) {
+      outcome.moves += thread.counters.hand_offs;
+      outcome.triangles += thread.triangles;
+    }
+    return outcome;
+  }
+
+ private:
+  [[nodiscard]] Sizes fields(std::int32_t count) const {
+    Sizes made;
+    for (std::int32_t i = 0; i < count; ++i)
+      made.push_back(expression_.empty() ? nullptr : std::make_unique<ExpressionField>(expression_));
+    return made;
+  }
+
+  void check_mesh(const std::map<SubdomainId, Subdomain>& subdomains, Presplit presplit) const {
+    PieceAssembly assembly(Rank{0}, 1, decomposition_, held_by_rank(subdomains));
+    exchange_directly(IdVector<Rank, Exchange*>{&assembly});  // throws unless both sides of each root conform
+    VerifyOptions options;
+    options.min_angle = bounds_.min_angle;
+    options.max_area = bounds_.max_area;
+    options.region_areas = false;
+    options.size = bounds_.size;
+    const VerifyReport report = verify(assembly.piece(input_).mesh, input_, options);
+    CAPTURE(presplit);
+    CHECK_MESSAGE(report.accepted(), report_text(report, options));
+  }
+
+  Pslg input_;
+  QualityBounds bounds_;
+  std::string expression_;
+  Sizes sizes_;
+  Decomposition decomposition_;
+  std::int64_t slice_ = 1;
+};
+
+}  // namespace
+
+TEST_CASE("any number of threads makes the mesh that one makes") {
+  std::mt19937_64 random = seeded_generator("threads");
+  std::int64_t moves = 0, later_rounds = 0, triangles = 0;
+  for (std::int64_t i = 0; more_cases(i, 150, moves > 50 && later_rounds > 10); ++i) {
+    const Case c(random);
+    const std::uint64_t expected = c.digest_without_threads();
+    const Outcome presplit = c.by_threads(1, Presplit::kAuto);
+    for (const std::int32_t threads : {1, 2, 3, 5}) {
+      CAPTURE(threads);
+      const Outcome made = c.by_threads(threads, Presplit::kOff);
+      CHECK(made.digest == expected);
+      CHECK(c.by_threads(threads, Presplit::kAuto).digest == presplit.digest);
+      moves += made.moves;
+      later_rounds += made.rounds - 1;
+      triangles += made.triangles;
+    }
+  }
+  std::printf("%lld triangles, %lld moves, %lld later rounds\n", static_cast<long long>(triangles),
+              static_cast<long long>(moves), static_cast<long long>(later_rounds));
+  CHECK(moves > 50);
+  CHECK(later_rounds > 10);
+}
+
+TEST_CASE("what one thread throws ends the work of all") {
+  std::mt19937_64 random = seeded_generator("threads");
+  for (int i = 0; i < 20; ++i) {
+    const Case c(random);
+    const std::int64_t enough = c.by_threads(3, Presplit::kOff).triangles / 2;
+    const auto error_with = [&](const RefinementInRounds::Watch& watch) -> std::string {
+      try {
+        static_cast<void>(c.by_threads(3, Presplit::kOff, watch));
+      } catch (const std::runtime_error& error) {
+        return error.what();
+      }
+      return "nothing";
+    };
+    CHECK(error_with({.check = [=](std::int64_t made) {
+            if (made >= enough) throw std::runtime_error("full");
+          }}) == "full");
+    CHECK(error_with({.progress = [](std::int64_t made) {
+            if (made > 0) throw std::runtime_error("cancelled");
+          }}) == "cancelled");
+  }
+}
+
+TEST_CASE("progress is that of all threads") {
+  std::mt19937_64 random = seeded_generator("threads");
+  const Case c(random);
+  std::int64_t last = 0;
+  const Outcome made = c.by_threads(3, Presplit::kOff, {.progress = [&](std::int64_t triangles) { last = triangles; }});
+  CHECK(last > 0);
+  CHECK(last <= made.triangles);
+}
