@@ -4,9 +4,10 @@
 Triangle's program (Debian's non-free package triangle-bin) must be on the PATH; nothing else here needs it. The two
 alternate on each input, so that a busy moment of the machine affects both, and neither writes files. Figures are
 medians: wall time, processor time and peak memory of the process from its start to its end, and the ratio of wall times.
+The suite triangles compares numbers of triangles and angles instead.
 Where valgrind is installed, the suite count adds the instructions and mispredicted branches that it simulates on small meshes.
 
-usage: peers.py [front-end] [kernel] [count] [options]
+usage: peers.py [front-end] [kernel] [count] [triangles] [options]
 """
 
 import argparse
@@ -23,6 +24,19 @@ import time
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 MODELS = {"pipe": "pipe", "cylinder_flow": "cylinder-flow", "chesapeake": "bay"}
+# Inputs of the suite triangles besides the published models: the parameters of driftmesh generate.
+COUNTED = {"bay, 400 m": ("bay", "--resolution", 400, "--seed", 41),
+           "bay, ragged": ("bay", "--resolution", 300, "--roughness", 1, "--seed", 42),
+           "comb": ("comb",), "comb, wide": ("comb", "--pitch", 0.15, "--width", 0.02),
+           "fan": ("fan",), "fan, 10 of 30": ("fan", "--wedges", 10, "--angle", 30), "fan, corner": ("fan", "--corner"),
+           "holes of 12": ("holes",), "holes of 24": ("holes", "--sides", 24, "--radius", 0.15, "--seed", 45),
+           "pipe, finer": ("pipe", "--edge", 3, "--channels", 6),
+           "2,000 points": ("random-points", "--points", 2000, "--segments", 300, "--seed", 49),
+           "1,000 points": ("random-points", "--points", 1000, "--segments", 250, "--seed", 51),
+           "polygon": ("random-polygon",),
+           "polygon, jagged": ("random-polygon", "--vertices", 3000, "--jitter", 0.4, "--seed", 47),
+           "hole in a rectangle": ("rectangle-hole",)}
+PUBLISHED = ("A", "chesapeake", "cylinder_flow", "key", "pipe")
 TRIANGLE = ["triangle", "-pNEPQ"]
 MEBIBYTE = 1 << 20
 
@@ -46,12 +60,13 @@ class Inputs:
     def make(self, name, path):
         if name == "annulus":
             return write_annulus(path, 500_000)
-        kind, *parameters = {"points": ("random-points", "--points", 1_000_000, "--segments", 100_000),
+        kind, *parameters = COUNTED.get(name) or {"points": ("random-points", "--points", 1_000_000, "--segments", 100_000),
                              "more-points": ("random-points", "--points", 10_000_000, "--segments", 1_000_000),
                              "holes": ("holes", "--columns", 300, "--rows", 300),
                              "rectangle": ("rectangle-hole",), **{m: (k,) for m, k in MODELS.items()},
                              "key": ("rectangle-hole", "--sides", 50)}[name]
-        subprocess.run([self.options.program, "generate", kind, *map(str, parameters), "-o", path], check=True)
+        subprocess.run([self.options.program, "generate", kind, *map(str, parameters), "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
 
 
 def write_annulus(path, sides):
@@ -161,12 +176,59 @@ def simulated(command, triangles):
     return totals["Collected"] / triangles, totals["Mispredicts"] / triangles
 
 
-SUITES = {"front-end": front_end, "kernel": kernel, "count": count}
+def triangles(options, inputs):
+    """Triangles that an angle bound alone takes, and angles below it: driftmesh / Triangle."""
+    angles = (20, 25, 30, 33)
+    print("| input | " + " | ".join(f"{angle} degrees | ratio | below" for angle in angles) + " |")
+    print("| --- |" + " --- | --- | --- |" * len(angles))
+    ratios = {angle: [] for angle in angles}
+    for name in (*PUBLISHED, *COUNTED):
+        cells = [name]
+        for angle in angles:
+            (own, own_low), (peer, peer_low) = counted(options, inputs, name, angle)
+            ratios[angle].append(own / peer)
+            cells += [f"{own:,} / {peer:,}", f"{own / peer:.3f}", f"{own_low} / {peer_low}"]
+        print("| " + " | ".join(cells) + " |", flush=True)
+    print("| median | " + " | ".join(f"| {statistics.median(ratios[angle]):.3f} |" for angle in angles) + " |")
+    print("| greatest | " + " | ".join(f"| {max(ratios[angle]):.3f} |" for angle in angles) + " |\n")
+
+
+def counted(options, inputs, name, angle):
+    """Triangles and angles below the bound, of driftmesh and of Triangle."""
+    folder = inputs.folder / "counted"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    ours, theirs = folder / "ours", folder / "theirs"
+    run([options.program, "mesh", inputs.path(name), "--angle", angle, "--no-region-areas", "--quiet", "-o",
+         ours.with_suffix(".node")])
+    shutil.copy(inputs.path(name), theirs.with_suffix(".poly"))
+    run(["triangle", f"-pPq{angle}Q", theirs.with_suffix(".poly")])
+    return count_angles(ours, angle), count_angles(f"{theirs}.1", angle)
+
+
+def count_angles(mesh, bound):
+    """The number of triangles in a mesh of Triangle's format, and that of angles below a bound in degrees."""
+    def rows(extension):
+        lines = (line.split() for line in pathlib.Path(f"{mesh}{extension}").read_text().splitlines())
+        _, *records = (line for line in lines if line and not line[0].startswith("#"))
+        return records
+    points = {row[0]: (float(row[1]), float(row[2])) for row in rows(".node")}
+    corners = [[points[v] for v in row[1:4]] for row in rows(".ele")]
+    low = sum(angle_at(t[k], t[k - 1], t[k - 2]) < bound - 1e-6 for t in corners for k in range(3))
+    return len(corners), low
+
+
+def angle_at(o, a, b):
+    ax, ay, bx, by = a[0] - o[0], a[1] - o[1], b[0] - o[0], b[1] - o[1]
+    return math.degrees(math.atan2(abs(ax * by - ay * bx), ax * bx + ay * by))
+
+
+SUITES = {"front-end": front_end, "kernel": kernel, "count": count, "triangles": triangles}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("suites", nargs="*", metavar="SUITE", help="front-end, kernel or count; all but count by default")
+    parser.add_argument("suites", nargs="*", metavar="SUITE", help="front-end, kernel, count or triangles; by default the first two")
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh")
     parser.add_argument("--data", default=PROJECT.parent / "shared/data", help="folder of the published models")
     parser.add_argument("--repetitions", type=int, default=5)

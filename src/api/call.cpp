@@ -52,8 +52,9 @@ job::Order Call::order_for(job::Place place, std::int32_t ranks, const job::Proc
   job::Domain domain = job::read_domain(request_, given_, watch_);
   const job::Use use{.by = job::kLibrary, .in_subdomains = true, .sleeps = request_.run.sleep, .writes = true};
   const job::Limits limits = job::find_limits(request_.limits, domain.pslg, use, processes);
-  job::Prepared prepared = job::prepare(request_, domain, job::triangulate_domain(request_, domain, ranks, watch_),
-                                        given_, place, job::shares_of_time(request_, ranks), limits, watch_);
+  job::Prepared prepared =
+      job::prepare(request_, domain, job::triangulate_domain(request_, domain, ranks, job::Cut::kAlways, watch_),
+                   given_, place, job::shares_of_time(request_, ranks), limits, watch_);
   return {std::move(prepared.plan), std::move(domain.pslg), request_.sizing, request_.limits, {}, use};
 }
 

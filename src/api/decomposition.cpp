@@ -26,7 +26,8 @@ std::shared_ptr<const Decomposition> cut_domain(const Pslg& input, const MeshOpt
     Call call(input, options);
     call.check(ranks > 1 ? job::kRanks : job::kSubdomains);
     const job::Domain domain = job::read_domain(call.request(), call.given(), call.watch());
-    const job::Triangulated triangulated = job::triangulate_domain(call.request(), domain, ranks, call.watch());
+    const job::Triangulated triangulated =
+        job::triangulate_domain(call.request(), domain, ranks, job::Cut::kAlways, call.watch());
     return std::make_shared<const Decomposition>(job::cut(call.request(), triangulated, ranks));
   });
 }

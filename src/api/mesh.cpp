@@ -16,9 +16,9 @@ namespace {
 Mesh in_one_piece(Call& call) {
   call.check(job::kOnePiece);
   const job::Domain domain = job::read_domain(call.request(), call.given(), call.watch());
-  const job::OnePiece made =
-      job::mesh_in_one_piece(call.request(), domain, job::triangulate_domain(call.request(), domain, 1, call.watch()),
-                             true, call.watch(), false);
+  const job::OnePiece made = job::mesh_in_one_piece(
+      call.request(), domain, job::triangulate_domain(call.request(), domain, 1, job::Cut::kNever, call.watch()), true,
+      call.watch(), false);
   if (!made.result.complete) {
     const auto triangles = static_cast<std::int64_t>(made.result.mesh.live_triangles());
     throw LimitError(job::stopped_message(made.limits, made.by_memory, triangles, true));

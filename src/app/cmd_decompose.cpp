@@ -88,7 +88,7 @@ void run_decompose(const DecomposeCommand& command) {
   register_files(command, request);
   RepairView view(command.quiet);
   const job::Domain domain = job::read_domain(request, {}, view);
-  const job::Triangulated triangulated = job::triangulate_domain(request, domain, 1, view);
+  const job::Triangulated triangulated = job::triangulate_domain(request, domain, 1, job::Cut::kAlways, view);
   const Stopwatch watch;
   const Decomposition d = job::cut(request, triangulated, 1);
   const double seconds = watch.seconds();

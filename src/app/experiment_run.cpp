@@ -88,9 +88,9 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   const job::Limits limits =
       job::find_limits(request.limits, domain.pslg, use_of(request), real ? cluster->processes() : job::Processes{});
   const auto ranks = static_cast<std::int32_t>(run.speeds.size());
-  job::Prepared prepared = job::prepare(request, domain, job::triangulate_domain(request, domain, ranks, watch),
-                                        {.policies = balancer::make_policy}, real ? job::kRanks : job::kSimulated,
-                                        run.speeds, limits, watch);
+  job::Prepared prepared = job::prepare(
+      request, domain, job::triangulate_domain(request, domain, ranks, job::Cut::kAlways, watch),
+      {.policies = balancer::make_policy}, real ? job::kRanks : job::kSimulated, run.speeds, limits, watch);
   job::add_prepared(run.record, prepared);
   run.record.warnings = watch.take_warnings();
   run.record.stages.push_back({"prepare", preparing.seconds()});

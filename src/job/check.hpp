@@ -13,7 +13,7 @@ namespace driftmesh::job {
 
 /// Where the mesh of a request is made. `launched`: whether this is one of the processes started by mpirun or the like.
 /// Experiments name their place (cluster.kind); other meshes are made on ranks if launched, in subdomains if the
-/// request has several, and in one piece otherwise, unless suits_subdomains.
+/// request has several, and in one piece otherwise, unless it is large (see Cut).
 [[nodiscard]] Place place_of(const Request& request, EntryPoint entry_point, bool launched);
 
 /// Throws KeyError for values that are missing, out of range, contradictory, or do not apply at `place`: a key that

@@ -88,12 +88,6 @@ PlanOptions plan_options(const Request& request, Place place, const IdVector<Ran
 
 }  // namespace
 
-bool suits_subdomains(const Request& request, const Triangulated& triangulated) {
-  constexpr double kWorthwhile = 500'000;  // triangles to be made: a tenth of a second of work
-  return request.decomposition.subdomains == 0 && !request.limits.keep_incomplete && bounds_size(triangulated.bounds) &&
-         triangulated.forecast - static_cast<double>(triangulated.mesh.live_triangles()) >= kWorthwhile;
-}
-
 Decomposition cut(const Request& request, const Triangulated& triangulated, std::int32_t ranks) {
   DecomposeOptions cutting;
   cutting.subdomains = wanted_subdomains(request.decomposition, ranks);

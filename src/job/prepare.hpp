@@ -29,10 +29,6 @@ struct Prepared {
                                const Given& given, Place place, const IdVector<Rank, double>& speeds,
                                const Limits& limits, Watch& watch);
 
-/// Whether a mesh that need not be in one piece is better made in subdomains, by threads: it is large, and a bound on
-/// size says where its triangles will be. Depends on neither the machine nor the number of threads.
-[[nodiscard]] bool suits_subdomains(const Request& request, const Triangulated& triangulated);
-
 /// Decomposes the domain as requested, for this number of ranks.
 [[nodiscard]] Decomposition cut(const Request& request, const Triangulated& triangulated, std::int32_t ranks);
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "decompose/presplit.hpp"
 #include "decompose/work.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "job/value.hpp"
@@ -46,17 +47,27 @@ std::vector<std::string> background_warnings(const Domain& domain, const Triangu
   return {};
 }
 
+/// Large meshes are made in subdomains if a bound on size says where their triangles will be. (Acute corners, not yet
+/// prepared, change little there.) Depends on neither the machine nor the number of threads.
+bool is_large(const Triangulation& mesh, const QualityBounds& bounds) {
+  constexpr double kLarge = 500'000;  // triangles to be made: a tenth of a second of work
+  return bounds_size(bounds) && forecast_triangles(mesh, bounds) - static_cast<double>(mesh.live_triangles()) >= kLarge;
+}
+
 }  // namespace
 
-Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks, Watch& watch) {
+Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks, Cut cut,
+                                Watch& watch) {
   Triangulated result;
   timed(watch, "triangulate", [&] {
     CarveReport carved;
     result.mesh = triangulate(domain.pslg, &carved);
     warn(request, domain_warnings(domain.pslg, domain.repairs, carved, result.mesh), watch);
     warn(request, background_warnings(domain, result.mesh), watch);
-    result.acute_corners = prepare_corners(result.mesh);
     result.bounds = bounds_of(request, domain, result.mesh, ranks);
+    result.cut = cut == Cut::kAlways || (cut == Cut::kIfLarge && is_large(result.mesh, result.bounds));
+    result.acute_corners =
+        prepare_corners(result.mesh, result.cut ? CornerUse{} : CornerUse{request.bounds.angle, false});
     result.forecast = forecast_triangles(result.mesh, result.bounds);
   });
   return result;

@@ -10,9 +10,17 @@
 
 namespace driftmesh::job {
 
+/// Whether a domain will be cut into subdomains.
+enum class Cut {
+  kNever,
+  kIfLarge,  ///< for threads, which make large meshes faster in subdomains
+  kAlways,
+};
+
 /// A domain ready for refinement or decomposition.
 struct Triangulated {
   Triangulation mesh;  ///< constrained Delaunay, acute corners prepared
+  bool cut = false;    ///< whether it is to be cut, and its corners are prepared for that
   std::int32_t acute_corners = 0;
   QualityBounds bounds;  ///< refers to the domain's size field
   double forecast = 0;   ///< of the triangles after refinement
@@ -21,7 +29,7 @@ struct Triangulated {
 /// Triangulates the domain, warns of what its author may not have meant, prepares its corners, and determines the
 /// bounds that the request sets on its mesh on this number of ranks: if it names a number of triangles, the area bound
 /// is the one that gives about as many. Throws what triangulate throws.
-[[nodiscard]] Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks,
+[[nodiscard]] Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks, Cut cut,
                                               Watch& watch);
 
 }  // namespace driftmesh::job

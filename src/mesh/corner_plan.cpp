@@ -16,6 +16,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kOpen = 2 * std::numbers::pi;  // stands for all sectors of 180 degrees or more
 constexpr double kAcute = 60 * kDegree * (1 - 1e-12);
+constexpr double kOutsideLenses = 30 * kDegree * (1 - 1e-12);
 constexpr double kSharp = 20 * kDegree;
 /// In radians. Between neighbors that diverge more slowly, pieces that do not line up cost more triangles (about 2.1 /
 /// angle) than an additional cut.
@@ -24,6 +25,8 @@ constexpr double kBundled = 0.01;
 /// Ends of segments share a circle if their distances from the apex differ by at most this fraction of the width
 /// between them.
 constexpr double kSameCircle = 0.25;
+/// The same relative to the distance, for segments of one length: the check looks for distances within a thousandth.
+constexpr double kSameLength = 0.0005;
 
 /// The segment ends of a triangulation with the sectors between them.
 class Sectors {
@@ -72,6 +75,11 @@ class Sectors {
   IdVector<SegmentEnd, double> length_;
 };
 
+/// The angle from which on segments that meet need no protection for an angle bound in degrees, see prepare_corners.
+double protected_below(double min_angle) {
+  return std::max(kOutsideLenses, std::asin(2 / std::numbers::sqrt3 * std::sin(min_angle * kDegree)));
+}
+
 /// Segment ends at one apex that are joined by sectors below some angle.
 struct Group {
   std::vector<SegmentEnd> ends;
@@ -102,22 +110,29 @@ std::vector<Group> groups_below(const Sectors& sectors, double angle) {
 /// Chooses circles around each apex, and turns them into cuts.
 class Planner {
  public:
-  explicit Planner(const Sectors& sectors)
+  Planner(const Sectors& sectors, const CornerUse& use)
       : sectors_(sectors),
+        use_(use),
         circles_(sectors.count()),
         tip_circle_(sectors.count(), kNone),
-        apex_(sectors.count(), kNone) {}
+        apex_(sectors.count(), kNone),
+        whole_(sectors.count(), false) {}
 
   CornerPlan plan() {
-    const std::vector<Group> clusters = groups_below(sectors_, kAcute);
+    const std::vector<Group> clusters = groups_below(sectors_, protected_below(use_.min_angle));
     for (const Group& cluster : clusters) {
       const std::int32_t apex = names_++;
       for (const SegmentEnd e : cluster.ends) apex_[e] = apex;
     }
-    for (const Group& cluster : clusters) add_powers(cluster);
-    for (const Group& bundle : groups_below(sectors_, kBundled)) add_tips(bundle);
+    for (const Group& cluster : clusters)
+      if (!leave_whole(cluster)) {
+        add_powers(cluster);
+        name_tips(cluster);
+      }
+    for (const Group& bundle : groups_below(sectors_, kBundled))
+      if (!whole_[bundle.ends.front()]) add_tips(bundle);
     for (const SegmentEnd e : sectors_.ends()) cut(e);
-    plan_.clusters = static_cast<std::int32_t>(clusters.size());
+    plan_.clusters = static_cast<std::int32_t>(groups_below(sectors_, kAcute).size());
     return std::move(plan_);
   }
 
@@ -130,43 +145,88 @@ class Planner {
 
   [[nodiscard]] bool clustered(SegmentEnd e) const { return apex_[e] != kNone; }
 
-  /// Powers of two: the largest one that is at most a third of the shortest segment and, in a sharp cluster, all larger
-  /// ones, as far as each segment reaches.
+  /// Segments of one length need no cuts: their midpoints are on common circles anyway. Not where a segment ends in
+  /// another acute corner, from which its halves would have to be counted as well.
+  bool leave_whole(const Group& cluster) {
+    if (use_.decomposed) return false;
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (const SegmentEnd e : cluster.ends) {
+      if (clustered(other_end(e))) return false;
+      shortest = std::min(shortest, sectors_.length(e));
+      longest = std::max(longest, sectors_.length(e));
+    }
+    if (longest > shortest * (1 + same_length(cluster))) return false;
+    const std::int32_t tips = names_++;
+    for (const SegmentEnd e : cluster.ends) {
+      whole_[e] = true;
+      plan_.tips.push_back({e, shell_between(apex_[e], tips)});
+    }
+    return true;
+  }
+
+  /// Powers of two: the largest one that all segments reach and, in a sharp cluster, all larger ones, as far as each
+  /// segment reaches.
   void add_powers(const Group& cluster) {
     double shortest = std::numeric_limits<double>::infinity();
-    for (const SegmentEnd e : cluster.ends) shortest = std::min(shortest, sectors_.length(e));
+    for (const SegmentEnd e : cluster.ends)
+      shortest = std::min(shortest, use_.decomposed ? sectors_.length(e) / 3 : reach(e));
     const bool sharp = cluster.smallest_angle < kSharp;
-    double radius = std::exp2(std::floor(std::log2(shortest / 3)));
+    double radius = std::exp2(std::floor(std::log2(shortest)));
     for (bool any = true; any; radius *= 2) {
       any = false;
       const std::int32_t name = names_++;
       for (const SegmentEnd e : cluster.ends) {
-        if (radius > sectors_.length(e) * (clustered(other_end(e)) ? 1.0 / 3 : 2.0 / 3)) continue;
+        if (radius > reach(e)) continue;
         circles_[e].push_back({radius, name, sharp ? name : names_++});
         any = sharp;
       }
     }
   }
 
-  /// In a bundle of nearly parallel segments, the longer ones are cut where the shorter ones end.
-  void add_tips(const Group& bundle) {
-    std::vector<SegmentEnd> by_length = bundle.ends;
-    std::sort(by_length.begin(), by_length.end(), [&](SegmentEnd e, SegmentEnd f) {
+  /// How far from its apex a segment may be cut: a cluster at the other end has the same right.
+  [[nodiscard]] double reach(SegmentEnd e) const {
+    return sectors_.length(e) * (clustered(other_end(e)) ? 1.0 / 3 : 2.0 / 3);
+  }
+
+  /// By which fraction lengths may differ that count as one.
+  static double same_length(const Group& cluster) {
+    return std::min(kSameLength, kSameCircle * cluster.smallest_angle);
+  }
+
+  /// Ends of segments of one length lie on a circle, so that the outermost pieces are cut on common circles as well.
+  void name_tips(const Group& cluster) {
+    if (use_.decomposed) return;
+    const std::vector<SegmentEnd> ends = by_length(cluster);
+    for (auto first = ends.begin(); first != ends.end();) {
+      const std::int32_t name = names_++;
+      const double most = sectors_.length(*first) * (1 + same_length(cluster));
+      for (; first != ends.end() && sectors_.length(*first) <= most; ++first)
+        if (!clustered(other_end(*first))) tip_circle_[*first] = name;
+    }
+  }
+
+  [[nodiscard]] std::vector<SegmentEnd> by_length(const Group& group) const {
+    std::vector<SegmentEnd> ends = group.ends;
+    std::sort(ends.begin(), ends.end(), [&](SegmentEnd e, SegmentEnd f) {
       return std::pair(sectors_.length(e), e) < std::pair(sectors_.length(f), f);
     });
-    for (std::size_t i = 0; i < by_length.size();) {
-      const double radius = sectors_.length(by_length[i]);
+    return ends;
+  }
+
+  /// In a bundle of nearly parallel segments, the longer ones are cut where the shorter ones end.
+  void add_tips(const Group& bundle) {
+    const std::vector<SegmentEnd> ends = by_length(bundle);
+    for (std::size_t i = 0; i < ends.size();) {
+      const double radius = sectors_.length(ends[i]);
       const std::int32_t name = names_++;
-      for (;
-           i < by_length.size() && sectors_.length(by_length[i]) <= radius * (1 + kSameCircle * bundle.smallest_angle);
-           ++i) {
-        if (!clustered(other_end(by_length[i]))) tip_circle_[by_length[i]] = name;
-        drop_powers_near(by_length[i], radius);
+      for (; i < ends.size() && sectors_.length(ends[i]) <= radius * (1 + kSameCircle * bundle.smallest_angle); ++i) {
+        if (!clustered(other_end(ends[i]))) tip_circle_[ends[i]] = name;
+        drop_powers_near(ends[i], radius);
       }
-      for (std::size_t k = i; k < by_length.size(); ++k) {
-        drop_powers_near(by_length[k], radius);
-        const double most = sectors_.length(by_length[k]) * (clustered(other_end(by_length[k])) ? 1.0 / 3 : 1.0);
-        if (radius < most) circles_[by_length[k]].push_back({radius, name, name});
+      for (std::size_t k = i; k < ends.size(); ++k) {
+        drop_powers_near(ends[k], radius);
+        const double most = sectors_.length(ends[k]) * (clustered(other_end(ends[k])) ? 1.0 / 3 : 1.0);
+        if (radius < most) circles_[ends[k]].push_back({radius, name, name});
       }
     }
   }
@@ -197,9 +257,11 @@ class Planner {
   }
 
   const Sectors& sectors_;
+  CornerUse use_;
   IdVector<SegmentEnd, std::vector<Circle>> circles_;  // of each end
   IdVector<SegmentEnd, std::int32_t> tip_circle_;      // of each end: the circle that the other end lies on
   IdVector<SegmentEnd, std::int32_t> apex_;  // of each end: the name of its cluster's apex, kNone if it is in none
+  IdVector<SegmentEnd, bool> whole_;         // of each end: whether its cluster needs no cuts
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> shells_;
   std::int32_t names_ = 0;
   CornerPlan plan_;
@@ -207,9 +269,9 @@ class Planner {
 
 }  // namespace
 
-CornerPlan plan_corners(const Triangulation& mesh) {
+CornerPlan plan_corners(const Triangulation& mesh, const CornerUse& use) {
   const Sectors sectors(mesh);
-  return Planner(sectors).plan();
+  return Planner(sectors, use).plan();
 }
 
 }  // namespace driftmesh

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "driftmesh/point.hpp"
+#include "mesh/corners.hpp"
 #include "mesh/triangulation.hpp"
 
 namespace driftmesh {
@@ -41,9 +42,9 @@ struct CornerPlan {
     std::int32_t shell;
   };
   std::vector<TipPiece> tips;
-  std::int32_t clusters = 0;
+  std::int32_t clusters = 0;  ///< groups of segments that meet at less than 60 degrees, cut or not
 };
 
-[[nodiscard]] CornerPlan plan_corners(const Triangulation& mesh);
+[[nodiscard]] CornerPlan plan_corners(const Triangulation& mesh, const CornerUse& use);
 
 }  // namespace driftmesh

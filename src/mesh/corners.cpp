@@ -34,8 +34,8 @@ void make_shell_piece(Triangulation& mesh, VertexId from, const CornerPlan::TipP
 
 }  // namespace
 
-std::int32_t prepare_corners(Triangulation& mesh) {
-  const CornerPlan plan = plan_corners(mesh);
+std::int32_t prepare_corners(Triangulation& mesh, const CornerUse& use) {
+  const CornerPlan plan = plan_corners(mesh, use);
   IdVector<SegmentEnd, VertexId> reached;  // from each end
   for (const RootSegment& root : mesh.roots) reached.insert(reached.end(), root.vertex.begin(), root.vertex.end());
   Cavity cavity(mesh);

@@ -23,7 +23,10 @@ constexpr double kBesideChannel = 0.63;
 /// Only bases that are longer than this times the height of their triangle can be in a channel worth mentioning.
 constexpr double kLongBase = 1.5;
 /// Triangles in a wedge per edge along it.
-constexpr double kInWedge = 1.33;
+constexpr double kInWedge = 1.9;
+/// Edges that bounds on area and size ask for, per square root of the area of a triangle that they ask for: those of an
+/// equilateral one.
+constexpr double kAskedEdge = 1.52;
 /// Below this angle bound, in degrees, channels and wedges have fewer: their triangles may be longer.
 constexpr double kFlat = 20;
 /// Of the points of a compact triangle from a corner, relative to that of the centroid.
@@ -120,13 +123,15 @@ bool Forecast::meets_angle_bound(double twice_area, double bc, double ca, double
   return twice_area * twice_area >= sin_squared_ * std::max(bc * ca, std::max(ca * ab, ab * bc));
 }
 
-/// Edges along segment i of a triangle in a wedge, as sizes grow from both of its ends.
+/// Edges along segment i of a triangle in a wedge, as sizes grow from both of its ends, and as the bounds ask for
+/// beside the wedge: all segments of a corner are split alike.
 double Forecast::along_wedge(const Shape& s, int i) const {
   const auto& v = mesh_.triangles[s.t].vertex;
   const double a = kTurn * sizes_[v[next(i)]], b = kTurn * sizes_[v[previous(i)]], length = s.length[i];
   const double middle = std::clamp((b - a) / growth_.slope + length, 0.0, 2 * length) / 2;
-  return integrate_line(middle, a, a + growth_.slope * middle) +
-         integrate_line(length - middle, b, b + growth_.slope * (length - middle));
+  const double grown = integrate_line(middle, a, a + growth_.slope * middle) +
+                       integrate_line(length - middle, b, b + growth_.slope * (length - middle));
+  return std::max(grown, length / kAskedEdge * std::sqrt(s.asked / s.area()));
 }
 
 /// The sum over the corners of what grows away from them, or, farther away, of what the bounds ask for.

@@ -27,7 +27,7 @@ MeshResult mesh_domain(const Pslg& pslg, const MeshRequest& request, const MeshP
   result.bounds = bounds_of(pslg, request);
   const Stopwatch triangulating;
   result.mesh = triangulate(pslg);
-  result.acute_corners = prepare_corners(result.mesh);
+  result.acute_corners = prepare_corners(result.mesh, {request.min_angle, false});
   result.seconds_triangulate = triangulating.seconds();
   const double forecast = progress ? forecast_triangles(result.mesh, result.bounds) : 0;
   refine_domain(result, request.max_triangles, forecast, progress);

@@ -10,9 +10,9 @@
 #include <numeric>
 #include <optional>
 
+#include "base/in_parts.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "verify/extended.hpp"
-#include "base/in_parts.hpp"
 #include "verify/room.hpp"
 #include "verify/size_check.hpp"
 #include "verify/words.hpp"
@@ -21,7 +21,7 @@ namespace driftmesh {
 namespace {
 
 constexpr double kSlack = 1e-9;         // relative, for rounding
-constexpr double kSameDistance = 1e-6;  // relative: two vertices count as equally far from their apex
+constexpr double kSameDistance = 1e-3;  // relative: two vertices count as equally far from their apex
 // In a wedge narrower than this, in degrees, distances count as equal up to a fraction of the wedge's width: where
 // segments hardly diverge and end almost side by side, no points are needed to separate their ends.
 constexpr double kNarrowWedge = 1;

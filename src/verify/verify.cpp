@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "base/disjoint_sets.hpp"
+#include "base/in_parts.hpp"
 #include "mesh/merge_pieces.hpp"
 #include "verify/chains.hpp"
 #include "verify/corner_table.hpp"
 #include "verify/domain.hpp"
 #include "verify/domain_check.hpp"
-#include "base/in_parts.hpp"
 #include "verify/local_check.hpp"
 #include "verify/point_data_check.hpp"
 #include "verify/point_index.hpp"
