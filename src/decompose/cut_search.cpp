@@ -78,6 +78,7 @@ void CutSearch::rank(std::size_t i, std::size_t j, std::vector<Cut>& ranked) con
   const double load_rest = goal_.load * (1 - fair) * n / (n - between);
   const double length = std::sqrt(dx * dx + dy * dy);
   const double area_between = outline_->twice_area_between(i, j) / 2;
+  if (!(area_between >= 0 && area_between <= outline_->area)) return;  // it crosses the border
   const double border_between = b.length - a.length;
   const double expected =
       expected_border(area_between, border_between + length, between) +
