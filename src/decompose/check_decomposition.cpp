@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "base/disjoint_sets.hpp"
 #include "geometry/box_tree.hpp"
@@ -61,16 +63,16 @@ class Checker {
     const auto is_subdomain = [&](SubdomainId s) { return s == kNoSubdomain || d_.subdomains.has(s); };
     for (const GlobalRootId r : ids_of(d_.roots)) {
       const Decomposition::Root& root = d_.roots[r];
-      const std::string name = "root " + to_string(r) + " ";
+      const auto name = [&] { return "root " + to_string(r) + " "; };
       if (!d_.points.has(root.a) || !d_.points.has(root.b) || root.a == root.b ||
           (root.a > root.b && root.shell == kNone))
-        problem(name + "joins points " + to_string(root.a) + " and " + to_string(root.b) + " of " +
+        problem(name() + "joins points " + to_string(root.a) + " and " + to_string(root.b) + " of " +
                 std::to_string(d_.points.size()));
       if (!is_subdomain(root.left) || !is_subdomain(root.right) ||
           (root.left == kNoSubdomain && root.right == kNoSubdomain))
-        problem(name + "lies between subdomains " + to_string(root.left) + " and " + to_string(root.right) + " of " +
+        problem(name() + "lies between subdomains " + to_string(root.left) + " and " + to_string(root.right) + " of " +
                 std::to_string(d_.size()));
-      if (root.separator && !root.is_interface()) problem(name + "is a separator without two subdomains");
+      if (root.separator && !root.is_interface()) problem(name() + "is a separator without two subdomains");
     }
     return report_.problems.empty();
   }
@@ -78,14 +80,13 @@ class Checker {
   void check_crossings() {
     IdVector<GlobalRootId, Box> boxes;
     for (const Decomposition::Root& r : d_.roots) boxes.push_back(Box::around(point(r.a), point(r.b)));
-    const BoxTree tree(boxes);
-    for (const GlobalRootId r : ids_of(d_.roots))
-      tree.search([&](const Box& box) { return box.overlaps(boxes[r]); },
-                  [&](std::int32_t found) {
-                    const GlobalRootId other{found};
-                    if (other > r && meet_inside(d_.roots[r], d_.roots[other]))
-                      problem("roots " + to_string(r) + " and " + to_string(other) + " cross");
-                  });
+    std::vector<std::pair<GlobalRootId, GlobalRootId>> crossing;
+    BoxTree(boxes).visit_overlapping([&](std::int32_t i, std::int32_t j) {
+      const GlobalRootId r{i}, other{j};
+      if (meet_inside(d_.roots[r], d_.roots[other])) crossing.emplace_back(r, other);
+    });
+    std::sort(crossing.begin(), crossing.end());
+    for (const auto& [r, other] : crossing) problem("roots " + to_string(r) + " and " + to_string(other) + " cross");
   }
 
   /// Whether two roots share a point that is not an end of both.
@@ -111,14 +112,19 @@ class Checker {
 
   /// Sorts the darts at every point by angle, which yields the loops of the borders, and checks each sector.
   void check_points() {
-    std::vector<Dart> darts(2 * d_.roots.size());
-    std::iota(darts.begin(), darts.end(), 0);
-    std::sort(darts.begin(), darts.end(),
-              [&](Dart e, Dart f) { return start(e) != start(f) ? start(e) < start(f) : before(e, f); });
-    for (std::size_t i = 0, j = 0; i < darts.size(); i = j) {
-      while (j < darts.size() && start(darts[j]) == start(darts[i])) ++j;
-      for (std::size_t k = i; k < j; ++k) check_sector(darts[k], darts[k + 1 < j ? k + 1 : i]);
-    }
+    std::vector<std::size_t> begin(d_.points.size() + 1, 0);  // of the darts at each point; later, their end
+    const auto darts = static_cast<Dart>(2 * d_.roots.size());
+    for (Dart e = 0; e < darts; ++e) ++begin[to_index(start(e)) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<Dart> sorted(to_index(darts));
+    for (Dart e = 0; e < darts; ++e) sorted[begin[to_index(start(e))]++] = e;
+    for (std::size_t v = 0, i = 0; v < d_.points.size(); i = begin[v++])
+      check_point({sorted.begin() + i, sorted.begin() + begin[v]});
+  }
+
+  void check_point(std::span<Dart> darts) {
+    std::sort(darts.begin(), darts.end(), [&](Dart e, Dart f) { return before(e, f); });
+    for (std::size_t k = 0; k < darts.size(); ++k) check_sector(darts[k], darts[k + 1 < darts.size() ? k + 1 : 0]);
   }
 
   /// Counterclockwise order of darts with a common start, beginning at the positive x axis.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {
-
 void list_roots(Decomposition& d) {
   const auto each_side = [&](auto&& visit) {
     for (const GlobalRootId r : ids_of(d.roots)) {
@@ -25,22 +25,31 @@ void list_roots(Decomposition& d) {
 }
 
 std::vector<Interface> interfaces(const Decomposition& d) {
-  std::vector<Interface> all;
-  for (const Decomposition::Root& root : d.roots) {
-    if (!root.is_interface()) continue;
-    const Point &a = d.points[root.a], &b = d.points[root.b];
-    all.push_back(
-        {std::min(root.left, root.right), std::max(root.left, root.right), std::sqrt(squared_distance(a, b))});
+  std::vector<std::int32_t> begin(d.size() + 1, 0);  // of each subdomain's interfaces; later, their end
+  const auto each = [&](auto&& visit) {
+    for (const Decomposition::Root& root : d.roots)
+      if (root.is_interface()) visit(root, std::min(root.left, root.right), std::max(root.left, root.right));
+  };
+  each([&](const auto&, SubdomainId first, SubdomainId) { ++begin[to_index(first) + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Interface> all(to_index(begin.back()));
+  each([&](const Decomposition::Root& root, SubdomainId first, SubdomainId second) {
+    const double length = std::sqrt(squared_distance(d.points[root.a], d.points[root.b]));
+    all[to_index(begin[to_index(first)]++)] = {first, second, length};
+  });
+  std::size_t merged = 0;
+  for (std::size_t i = 0, of = 0; of < d.size(); ++of) {
+    const std::size_t end = to_index(begin[of]);
+    std::stable_sort(all.begin() + i, all.begin() + end,
+                     [](const Interface& a, const Interface& b) { return a.second < b.second; });
+    for (const std::size_t none = merged; i < end; ++i)
+      if (merged > none && all[merged - 1].second == all[i].second)
+        all[merged - 1].length += all[i].length;
+      else
+        all[merged++] = all[i];
   }
-  const auto pair = [](const Interface& i) { return std::pair(i.first, i.second); };
-  std::stable_sort(all.begin(), all.end(), [&](const auto& i, const auto& j) { return pair(i) < pair(j); });
-  std::vector<Interface> merged;
-  for (const Interface& i : all)
-    if (!merged.empty() && pair(merged.back()) == pair(i))
-      merged.back().length += i.length;
-    else
-      merged.push_back(i);
-  return merged;
+  all.resize(merged);
+  return all;
 }
 
 }  // namespace driftmesh

@@ -1,7 +1,8 @@
 #include "decompose/to_decomposition.hpp"
 
 #include <algorithm>
-#include <map>
+#include <array>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -12,8 +13,13 @@ namespace {
 
 /// Area, first moments, and area by region, summed over pieces.
 struct Moments {
+  struct RegionArea {
+    std::uint16_t region;
+    double area;
+  };
   double area = 0, work = 0, x = 0, y = 0;
-  std::map<std::uint16_t, double> by_region;
+  RegionArea first{0, -1};  // of most subdomains the only one
+  std::vector<RegionArea> others;
 
   void add(const PlanarMap& map, const Piece& piece) {
     const Point o = map.at(map.start(piece.side));
@@ -31,13 +37,26 @@ struct Moments {
     work += piece.work;
     x += px + o.x * piece.area;
     y += py + o.y * piece.area;
-    by_region[map.side(piece.side).region] += piece.area;
+    add(map.side(piece.side).region, piece.area);
+  }
+
+  void add(std::uint16_t region, double more) {
+    if (first.area < 0) first = {region, 0};
+    RegionArea* found = first.region == region ? &first : nullptr;
+    for (RegionArea& other : others)
+      if (other.region == region) found = &other;
+    if (found == nullptr) {
+      others.push_back({region, 0});
+      found = &others.back();
+    }
+    found->area += more;
   }
 
   [[nodiscard]] Decomposition::Subdomain subdomain() const {
-    const auto most = std::max_element(by_region.begin(), by_region.end(),
-                                       [](const auto& a, const auto& b) { return a.second < b.second; });
-    return {area, work, {x / area, y / area}, most->first};
+    RegionArea most = first;
+    for (const RegionArea& other : others)
+      if (other.area > most.area || (other.area == most.area && other.region < most.region)) most = other;
+    return {area, work, {x / area, y / area}, most.region};
   }
 };
 
@@ -94,7 +113,7 @@ class Rejoiner {
  public:
   Rejoiner(Decomposition& d, const PlanarMap& map) : d_(d), map_(map), ending_(map.points.size()) {
     for (const GlobalRootId r : ids_of(d.roots))
-      for (const GlobalPointId v : {d.roots[r].a, d.roots[r].b}) ending_[v].push_back(r);
+      for (const GlobalPointId v : {d.roots[r].a, d.roots[r].b}) ending_[v].add(r);
   }
 
   void run() {
@@ -104,13 +123,23 @@ class Rejoiner {
   }
 
  private:
+  /// The roots that end at a point: two of them, which are all where it matters.
+  struct Ending {
+    std::int32_t count = 0;
+    std::array<GlobalRootId, 2> some{};
+    void add(GlobalRootId root) {
+      if (count < 2) some[static_cast<std::size_t>(count)] = root;
+      ++count;
+    }
+  };
+
   [[nodiscard]] bool is_needless(GlobalPointId v) const {
-    if (map_.origin[in_map(v)] != kNone || ending_[v].size() != 2) return false;
-    return !d_.roots[ending_[v][0]].separator && !d_.roots[ending_[v][1]].separator;
+    if (map_.origin[in_map(v)] != kNone || ending_[v].count != 2) return false;
+    return !d_.roots[ending_[v].some[0]].separator && !d_.roots[ending_[v].some[1]].separator;
   }
 
   void join_at(GlobalPointId v) {
-    const GlobalRootId kept = ending_[v][0], gone = ending_[v][1];
+    const auto [kept, gone] = ending_[v].some;
     Decomposition::Root &root = d_.roots[kept], &rest = d_.roots[gone];
     const GlobalPointId end = rest.a == v ? rest.b : rest.a;
     (root.a == v ? root.a : root.b) = end;
@@ -119,13 +148,13 @@ class Rejoiner {
       std::swap(root.left, root.right);
       std::swap(root.left_region, root.right_region);
     }
-    std::ranges::replace(ending_[end], gone, kept);
+    std::ranges::replace(ending_[end].some, gone, kept);
     rest.a = kNoPoint;
   }
 
   Decomposition& d_;
   const PlanarMap& map_;
-  IdVector<GlobalPointId, std::vector<GlobalRootId>> ending_;  // the roots that end at each point
+  IdVector<GlobalPointId, Ending> ending_;
 };
 
 /// The subdomain of each point that is on no root, known from a former bridge to it; kNoSubdomain for other points.

@@ -45,6 +45,13 @@ class BoxTree {
     search([&p](const Box& box) { return box.contains(p); }, visit);
   }
 
+  /// Calls visit(i, j), i < j, once for every two items whose boxes overlap, in an order that depends on the tree
+  /// alone.
+  template <class Visit>
+  void visit_overlapping(Visit&& visit) const {
+    if (!levels_.empty()) join_within(levels_.size() - 1, 0, levels_.back().size(), visit);
+  }
+
   /// The item with the least squared_distance(index), the lowest index among equals; -1 for an empty tree. The function
   /// gives an item's squared distance to p, at least that of its box.
   template <class SquaredDistance>
@@ -75,6 +82,27 @@ class BoxTree {
       else
         visit_below(level - 1, kChildren * i, children_end(level, i), enter, visit);
     }
+  }
+
+  template <class Visit>
+  void join_within(std::size_t level, std::size_t begin, std::size_t end, Visit& visit) const {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (level > 0) join_within(level - 1, kChildren * i, children_end(level, i), visit);
+      for (std::size_t j = i + 1; j < end; ++j) join(level, i, j, visit);
+    }
+  }
+
+  template <class Visit>
+  void join(std::size_t level, std::size_t i, std::size_t j, Visit& visit) const {
+    const Box &box = levels_[level][i], &other = levels_[level][j];
+    if (!box.overlaps(other)) return;
+    if (level == 0) {
+      visit(std::min(items_[i], items_[j]), std::max(items_[i], items_[j]));
+      return;
+    }
+    for (std::size_t k = kChildren * i; k < children_end(level, i); ++k)
+      if (levels_[level - 1][k].overlaps(other))
+        for (std::size_t l = kChildren * j; l < children_end(level, j); ++l) join(level - 1, k, l, visit);
   }
 
   template <class SquaredDistance>

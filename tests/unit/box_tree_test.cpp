@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <random>
+#include <utility>
 #include <vector>
 
 using namespace driftmesh;
@@ -51,6 +52,22 @@ TEST_CASE("a box tree finds the boxes that contain a point and the nearest one")
         if (distance(k) < distance(nearest)) nearest = k;
       CHECK(tree.nearest(p, distance) == nearest);
     }
+  }
+}
+
+TEST_CASE("a box tree finds all pairs of boxes that overlap, each once") {
+  std::mt19937_64 random(5);
+  for (const int count : {1, 2, 8, 9, 65, 1000}) {
+    CAPTURE(count);
+    const std::vector<Box> boxes = random_boxes(random, count);
+    std::vector<std::pair<std::int32_t, std::int32_t>> found, expected;
+    BoxTree(boxes).visit_overlapping([&](std::int32_t i, std::int32_t j) { found.emplace_back(i, j); });
+    for (std::int32_t i = 0; i < count; ++i)
+      for (std::int32_t j = i + 1; j < count; ++j)
+        if (boxes[static_cast<std::size_t>(i)].overlaps(boxes[static_cast<std::size_t>(j)]))
+          expected.emplace_back(i, j);
+    std::sort(found.begin(), found.end());
+    CHECK(found == expected);
   }
 }
 
