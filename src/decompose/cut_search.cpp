@@ -2,29 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
+#include "base/wide.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {
 namespace {
 
-/// The length of a compact subdomain's border over the square root of its area, as measured for good decompositions.
-constexpr double kPerimeter = 4.1;
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// The total border length of the `parts` subdomains that a piece will be cut into: compact ones, or slices if the
-/// piece is long and thin.
-double expected_border(double area, double length, std::int32_t parts) {
-  if (parts == 1) return length;
-  const double compact = kPerimeter * std::sqrt(area * parts);
-  const double slices = length + 4 * (parts - 1) * area / length;
-  return std::max(compact, slices);
-}
-
-/// The cost of a deviation from the mean work, in units of the expected border.
-double imbalance_cost(double load) {
-  const double over = std::max(0.0, load - 1.25);
-  return 0.3 * (load - 1) * (load - 1) + 8 * over * over;
+/// At least 0 for the stations l > k that station k can be joined with.
+DRIFTMESH_WIDE void measure_leeway(const StationColumns& columns, std::size_t k, std::size_t count, double* leeway) {
+  const double *const x = columns.x.data(), *const y = columns.y.data();
+  const double *const first_x = columns.first_x.data(), *const first_y = columns.first_y.data();
+  const double *const last_x = columns.last_x.data(), *const last_y = columns.last_y.data();
+  const double ax = x[k], ay = y[k];
+  const double from_x = first_x[k], from_y = first_y[k], to_x = last_x[k], to_y = last_y[k];
+  for (std::size_t l = k + 1; l < count; ++l) {
+    const double dx = x[l] - ax, dy = y[l] - ay;
+    const double leaving = std::min(from_x * dy - from_y * dx, dx * to_y - dy * to_x);
+    const double arriving = std::min(first_y[l] * dx - first_x[l] * dy, last_x[l] * dy - last_y[l] * dx);
+    leeway[l] = std::min(leaving, arriving);
+  }
 }
 
 }  // namespace
@@ -63,37 +65,42 @@ void CutSearch::select_stations() {
   stride_ = std::max<std::size_t>(1, stations.size() / selected_.size());
 }
 
-void CutSearch::rank(std::size_t i, std::size_t j, std::vector<Cut>& ranked) const {
-  const auto& stations = outline_->stations;
-  const auto &a = stations[i], &b = stations[j];
-  const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y;
-  if (!Outline::allows(a, dx, dy) || !Outline::allows(b, -dx, -dy)) return;
-  const double share = outline_->share_between(i, j);
-  if (!(share > 0 && share < 1)) return;
-  const double fair =
-      share / (share + goal_.bias * (1 - share));  // the share of the parts that corresponds to this share of the work
-  const auto n = goal_.parts;
-  const auto between = std::clamp(static_cast<std::int32_t>(std::lround(fair * n)), 1, n - 1);
-  const double load_between = goal_.load * fair * n / between;
-  const double load_rest = goal_.load * (1 - fair) * n / (n - between);
-  const double length = std::sqrt(dx * dx + dy * dy);
-  const double area_between = outline_->twice_area_between(i, j) / 2;
-  if (!(area_between >= 0 && area_between <= outline_->area)) return;  // it crosses the border
-  const double border_between = b.length - a.length;
-  const double expected =
-      expected_border(area_between, border_between + length, between) +
-      expected_border(outline_->area - area_between, outline_->length - border_between + length, n - between);
-  const double unit = kPerimeter * std::sqrt(outline_->area * n);
-  const double depth = 1 - 2.0 * std::min(between, n - between) / n;
-  const double cost =
-      (expected + 0.3 * length) / unit + imbalance_cost(load_between) + imbalance_cost(load_rest) + 0.1 * depth * depth;
-  ranked.push_back({i, j, between, share, cost});
+void StationColumns::clear() {
+  for (auto* column : {&x, &y, &first_x, &first_y, &last_x, &last_y}) column->clear();
 }
 
-void CutSearch::rank_pairs() {
-  ranked_.clear();
-  for (std::size_t k = 0; k < selected_.size(); ++k)
-    for (std::size_t l = k + 1; l < selected_.size(); ++l) rank(selected_[k], selected_[l], ranked_);
+void StationColumns::add(const Outline::Station& s) {
+  const double limits = s.reflex ? 0 : 1;  // without limits here, the sector is left to allows()
+  x.push_back(s.at.x);
+  y.push_back(s.at.y);
+  first_x.push_back(limits * s.first.x);
+  first_y.push_back(limits * s.first.y);
+  last_x.push_back(limits * s.last.x);
+  last_y.push_back(limits * s.last.y);
+}
+
+bool CutSearch::allows(std::size_t i, std::size_t j) const {
+  const Outline::Station &a = outline_->stations[i], &b = outline_->stations[j];
+  const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y;
+  return Outline::allows(a, dx, dy) && Outline::allows(b, -dx, -dy);
+}
+
+/// All pairs of selected stations whose sectors allow a separator.
+void CutSearch::collect_pairs() {
+  candidates_.clear();
+  columns_.clear();
+  bool any_reflex = false;
+  for (const std::size_t i : selected_) {
+    columns_.add(outline_->stations[i]);
+    any_reflex |= outline_->stations[i].reflex;
+  }
+  const std::size_t count = selected_.size();
+  leeway_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    measure_leeway(columns_, k, count, leeway_.data());
+    candidates_.add(selected_[k], std::span(selected_).subspan(k + 1), leeway_.data() + k + 1);
+  }
+  if (any_reflex) candidates_.keep([this](std::size_t i, std::size_t j) { return allows(i, j); });
 }
 
 bool CutSearch::stays_inside(std::size_t i, std::size_t j) const {
@@ -108,11 +115,10 @@ bool CutSearch::stays_inside(std::size_t i, std::size_t j) const {
   const auto touches_end = [&](const Outline::Station& end, const Point& u, const Point& v, SideId side) {
     return u == end.at || v == end.at || (!end.corner && PlanarMap::wall_of(side) == PlanarMap::wall_of(end.side));
   };
-  SideId h = stations[0].side;
-  do {
-    const Point &u = map_->at(map_->start(h)), &v = map_->at(map_->end(h));
-    const SideId side = h;
-    h = map_->side(h).next;
+  const Loop& loop = outline_->loop;
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Point &u = loop[k].at, &v = loop[k + 1 < loop.size() ? k + 1 : 0].at;
+    const SideId side = loop[k].side;
     if (std::max(u.x, v.x) < low.x || std::min(u.x, v.x) > high.x || std::max(u.y, v.y) < low.y ||
         std::min(u.y, v.y) > high.y)
       continue;
@@ -128,51 +134,39 @@ bool CutSearch::stays_inside(std::size_t i, std::size_t j) const {
     const double at_a = orient2d(u, v, a), at_b = orient2d(u, v, b);
     if ((at_a > 0 && at_b > 0) || (at_a < 0 && at_b < 0)) continue;
     return false;
-  } while (h != stations[0].side);
+  }
   return true;
 }
 
-Cut CutSearch::first_inside(std::vector<Cut>& ranked) const {
-  const auto worse = [](const Cut& a, const Cut& b) {
-    if (a.cost != b.cost) return a.cost > b.cost;
-    return a.first != b.first ? a.first > b.first : a.second > b.second;
-  };
-  std::make_heap(ranked.begin(), ranked.end(), worse);
-  while (!ranked.empty()) {
-    std::pop_heap(ranked.begin(), ranked.end(), worse);
-    const Cut cut = ranked.back();
-    if (stays_inside(cut.first, cut.second)) return cut;
-    ranked.pop_back();
-  }
-  return {};
+Cut CutSearch::best_inside(double limit) {
+  candidates_.rank(*outline_, goal_);
+  return candidates_.best(limit, [this](std::size_t i, std::size_t j) { return stays_inside(i, j); });
 }
 
 /// Tries the neighbors of a cut's ends that the selection left out, in decreasing steps.
 Cut CutSearch::refine(Cut cut) {
   const auto count = static_cast<std::ptrdiff_t>(outline_->stations.size());
   for (std::ptrdiff_t step = static_cast<std::ptrdiff_t>(stride_ + 1) / 2; stride_ > 1 && step >= 1; step /= 2) {
-    nearby_.clear();
+    candidates_.clear();
     for (std::ptrdiff_t p = -2; p <= 2; ++p)
       for (std::ptrdiff_t q = -2; q <= 2; ++q) {
         const auto i = static_cast<std::ptrdiff_t>(cut.first) + p * step;
         const auto j = static_cast<std::ptrdiff_t>(cut.second) + q * step;
         if (i < 0 || j >= count || i >= j || (p == 0 && q == 0)) continue;
         const auto u = static_cast<std::size_t>(i), v = static_cast<std::size_t>(j);
-        if (outline_->stations[u].usable && outline_->stations[v].usable) rank(u, v, nearby_);
+        if (outline_->stations[u].usable && outline_->stations[v].usable && allows(u, v)) candidates_.add(u, v);
       }
-    std::erase_if(nearby_, [&](const Cut& c) { return c.cost >= cut.cost; });
-    if (const Cut better = first_inside(nearby_)) cut = better;
+    if (const Cut better = best_inside(cut.cost)) cut = better;
   }
   return cut;
 }
 
-Cut CutSearch::find(const PlanarMap& map, const Outline& outline, const CutGoal& goal) {
-  map_ = &map;
+Cut CutSearch::find(const Outline& outline, const CutGoal& goal) {
   outline_ = &outline;
   goal_ = goal;
   select_stations();
-  rank_pairs();
-  const Cut cut = first_inside(ranked_);
+  collect_pairs();
+  const Cut cut = best_inside(kNoLimit);
   return cut ? refine(cut) : cut;
 }
 

@@ -32,12 +32,13 @@ class Sectors {
  public:
   explicit Sectors(double angle) : angle_(angle), cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
 
-  void set(Outline::Station& s, double interior) const {
+  /// `forward` and `backward`: unit vectors along the border, `interior`: the angle between them.
+  void set(Outline::Station& s, const Point& forward, const Point& backward, double interior) const {
     const double sector = interior - 2 * angle_;
     s.usable = sector > 0;
     s.reflex = sector >= std::numbers::pi;
-    s.first = rotated(s.forward, cosine_, sine_);
-    s.last = rotated(s.backward, cosine_, -sine_);
+    s.first = rotated(forward, cosine_, sine_);
+    s.last = rotated(backward, cosine_, -sine_);
   }
 
  private:
@@ -76,18 +77,22 @@ void halve_shell(PlanarMap& map, std::int32_t shell) {
   }
 }
 
-}  // namespace
-
-double Outline::twice_area_between(std::size_t i, std::size_t j) const {
-  const Point &o = stations[0].at, &a = stations[i].at, &b = stations[j].at;
-  const double closing = (b.x - o.x) * (a.y - o.y) - (b.y - o.y) * (a.x - o.x);
-  return stations[j].twice_area - stations[i].twice_area + closing;
+/// Twice the area between o and edge ab.
+double swept_from(const Point& o, const Point& a, const Point& b) {
+  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
-double Outline::share_between(std::size_t i, std::size_t j) const {
-  if (samples.empty()) return twice_area_between(i, j) / (2 * area);
-  const double crossed = stations[j].crossed_work - stations[i].crossed_work;
-  return (crossed + crossing_work(samples, stations[j].at, stations[i].at)) / work;
+/// visit(side, where it ends)
+template <class Visit>
+void for_each_side(const Loop& loop, const Visit& visit) {
+  for (std::size_t k = 0; k + 1 < loop.size(); ++k) visit(loop[k], loop[k + 1].at);
+  visit(loop.back(), loop.front().at);
+}
+
+}  // namespace
+
+double Outline::sampled_share(const Station& a, const Station& b) const {
+  return (b.crossed_work - a.crossed_work + crossing_work(samples, b.at, a.at)) / work;
 }
 
 void set_samples(Outline& outline, WorkSamples samples) {
@@ -102,53 +107,78 @@ void set_samples(Outline& outline, WorkSamples samples) {
   }
 }
 
-PieceSize measure_piece(const PlanarMap& map, SideId side) {
-  const Point o = map.at(map.start(side));
-  double twice_area = 0, length = 0;
+void read_loop(const PlanarMap& map, SideId side, Loop& loop) {
+  loop.clear();
   SideId h = side;
   do {
-    const Point &a = map.at(map.start(h)), &b = map.at(map.end(h));
-    twice_area += (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
-    length += std::sqrt(squared_distance(a, b));
+    loop.push_back({map.at(map.start(h)), h});
     h = map.side(h).next;
   } while (h != side);
+}
+
+std::vector<Point> border_of(const PlanarMap& map, SideId side) {
+  Loop loop;
+  read_loop(map, side, loop);
+  std::vector<Point> border;
+  for (const LoopSide& s : loop) border.push_back(s.at);
+  return border;
+}
+
+double area_inside(const Loop& loop) {
+  const Point o = loop.front().at;
+  double twice_area = 0;
+  for_each_side(loop, [&](const LoopSide& from, const Point& b) { twice_area += swept_from(o, from.at, b); });
+  return twice_area / 2;
+}
+
+PieceSize measure(const Loop& loop) {
+  const Point o = loop.front().at;
+  double twice_area = 0, length = 0;
+  for_each_side(loop, [&](const LoopSide& from, const Point& b) {
+    const Point& a = from.at;
+    twice_area += swept_from(o, a, b);
+    length += std::sqrt(squared_distance(a, b));
+  });
   return {twice_area / 2, length};
 }
 
-void read_outline(const PlanarMap& map, SideId side, double spacing, double angle, Outline& outline) {
+void place_stations(const PlanarMap& map, double spacing, double angle, Outline& outline) {
   const Sectors sectors(angle);
   auto& stations = outline.stations;
   stations.clear();
   outline.spacing = spacing;
-  const Point o = map.at(map.start(side));
+  const Point o = outline.loop.front().at;
   double length = 0, twice_area = 0;
-  Point backward = direction(o, map.at(map.start(map.side(side).previous)));
-  SideId h = side;
-  do {
-    const Point &a = map.at(map.start(h)), &b = map.at(map.end(h));
+  Point backward = direction(o, outline.loop.back().at);
+  for_each_side(outline.loop, [&](const LoopSide& from, const Point& b) {
+    const Point& a = from.at;
     const double whole = std::sqrt(squared_distance(a, b));
-    const double swept = (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+    const double swept = swept_from(o, a, b);
     const Point forward{(b.x - a.x) / whole, (b.y - a.y) / whole};
-    const int parts = parts_of(map.wall(h), whole, spacing);
-    for (int k = 0; k < parts; ++k) {
+    const int parts = parts_of(map.wall(from.side), whole, spacing);
+    Outline::Station corner;
+    corner.at = a;
+    corner.side = from.side;
+    corner.corner = true;
+    corner.length = length;
+    corner.twice_area = twice_area;
+    sectors.set(corner, forward, backward, interior_angle(forward, backward));
+    stations.push_back(corner);
+    backward = {-forward.x, -forward.y};
+    Outline::Station place = corner;
+    place.corner = false;
+    if (parts > 1) sectors.set(place, forward, backward, std::numbers::pi);
+    for (int k = 1; k < parts; ++k) {
       const double t = static_cast<double>(k) / parts;
-      Outline::Station s;
-      s.at = k == 0 ? a : Point{snap_to_zero(a.x + t * (b.x - a.x)), snap_to_zero(a.y + t * (b.y - a.y))};
-      if (2 * k == parts) s.at = midpoint(a, b);
-      s.side = h;
-      s.corner = k == 0;
-      s.forward = forward;
-      s.backward = k == 0 ? backward : Point{-forward.x, -forward.y};
-      s.length = length + t * whole;
-      s.twice_area = twice_area + t * swept;
-      sectors.set(s, k == 0 ? interior_angle(forward, backward) : std::numbers::pi);
-      stations.push_back(s);
+      place.at = {snap_to_zero(a.x + t * (b.x - a.x)), snap_to_zero(a.y + t * (b.y - a.y))};
+      if (2 * k == parts) place.at = midpoint(a, b);
+      place.length = length + t * whole;
+      place.twice_area = twice_area + t * swept;
+      stations.push_back(place);
     }
     length += whole;
     twice_area += swept;
-    backward = {-forward.x, -forward.y};
-    h = map.side(h).next;
-  } while (h != side);
+  });
   outline.length = length;
   outline.area = twice_area / 2;
 }

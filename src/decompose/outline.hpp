@@ -7,6 +7,13 @@
 
 namespace driftmesh {
 
+/// The sides around a piece, counterclockwise, each with the point where it starts.
+struct LoopSide {
+  Point at;
+  SideId side;
+};
+using Loop = std::vector<LoopSide>;
+
 /// The border of a piece as a closed sequence of stations, counterclockwise: the corners of its loop, and places
 /// between them where a separator may end. Places are only candidates; realize() turns one into a vertex.
 struct Outline {
@@ -14,8 +21,6 @@ struct Outline {
     Point at;
     SideId side;  ///< starts here, or contains the place
     bool corner;
-    /// Unit vectors along the border, forward and backward.
-    Point forward, backward;
     /// A separator may leave between these two directions (counterclockwise from first to last), so that it makes at
     /// least the requested angle with the border on both sides.
     Point first, last;
@@ -26,6 +31,7 @@ struct Outline {
     double crossed_work = 0;  ///< likewise, crossing_work of the border; only if there are samples
   };
 
+  Loop loop;
   std::vector<Station> stations;
   WorkSamples samples;  ///< of the work inside; empty where work is in proportion to area
   double length = 0;
@@ -33,10 +39,14 @@ struct Outline {
   double spacing = 0;
   double work = 0;  ///< of the samples
 
-  /// Twice the area to the right of the separator from station i to j (i < j): along the border from i to j and back.
-  [[nodiscard]] double twice_area_between(std::size_t i, std::size_t j) const;
-  /// The fraction of the work there.
-  [[nodiscard]] double share_between(std::size_t i, std::size_t j) const;
+  /// Twice the area to the right of the separator from one station to a later one: along the border and back.
+  [[nodiscard]] double twice_area_between(const Station& a, const Station& b) const {
+    const Point& o = stations.front().at;
+    const double closing = (b.at.x - o.x) * (a.at.y - o.y) - (b.at.y - o.y) * (a.at.x - o.x);
+    return b.twice_area - a.twice_area + closing;
+  }
+  /// The fraction of the work there, by the samples.
+  [[nodiscard]] double sampled_share(const Station& a, const Station& b) const;
   /// Whether a separator may leave station i in direction `d`, a vector of any length.
   [[nodiscard]] static bool allows(const Station& s, double dx, double dy) {
     if (s.reflex) return !(s.last.x * dy - s.last.y * dx > 0 && dx * s.first.y - dy * s.first.x > 0);
@@ -49,12 +59,18 @@ struct PieceSize {
   double length;  ///< of the border
 };
 
-/// Area and border of the piece left of `side`.
-[[nodiscard]] PieceSize measure_piece(const PlanarMap& map, SideId side);
+/// Reads the loop of `side`.
+void read_loop(const PlanarMap& map, SideId side, Loop& loop);
 
-/// Reads the loop of `side`, with places at most `spacing` apart (lengths) on straight walls. Shell pieces offer only
-/// their midpoint. `angle`: radians.
-void read_outline(const PlanarMap& map, SideId side, double spacing, double angle, Outline& outline);
+/// The corners of the loop of `side`.
+[[nodiscard]] std::vector<Point> border_of(const PlanarMap& map, SideId side);
+
+[[nodiscard]] double area_inside(const Loop& loop);
+[[nodiscard]] PieceSize measure(const Loop& loop);
+
+/// Sets the stations on outline.loop, with places at most `spacing` apart (lengths) on straight walls. Shell pieces
+/// offer only their midpoint. `angle`: radians.
+void place_stations(const PlanarMap& map, double spacing, double angle, Outline& outline);
 
 /// Sets the samples of the work inside (none: work is in proportion to area).
 void set_samples(Outline& outline, WorkSamples samples);

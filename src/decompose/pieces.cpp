@@ -228,12 +228,14 @@ IdVector<SideId, PieceId> label_sides(const PlanarMap& map, const IdVector<Piece
 IdVector<PieceId, Piece> find_pieces(const PlanarMap& map, const QualityBounds& bounds) {
   IdVector<PieceId, Piece> pieces;
   IdVector<SideId, bool> seen(map.sides.size(), false);
+  Loop loop;
   for (const SideId first : ids_of(map.sides)) {
     if (seen[first] || !map.side(first).in_domain()) continue;
-    for (SideId h = first; !seen[h]; h = map.side(h).next) seen[h] = true;
+    read_loop(map, first, loop);
+    for (const LoopSide& s : loop) seen[s.side] = true;
     Piece piece;
     piece.side = first;
-    piece.area = measure_piece(map, first).area;
+    piece.area = area_inside(loop);
     piece.work = piece.area * work_density(bounds, map.side(first).region);
     pieces.push_back(piece);
   }

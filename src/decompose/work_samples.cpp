@@ -109,6 +109,12 @@ WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, 
   return samples;
 }
 
+double work_of(const WorkSamples& samples) {
+  double work = 0;
+  for (const WorkSample& s : samples) work += s.work;
+  return work;
+}
+
 double crossing_work(std::span<const WorkSample> samples, const Point& a, const Point& b) {
   double work = 0;
   for_each_crossing(samples, a, b, [&](const WorkSample& s, bool up) { work += up ? s.work : -s.work; });

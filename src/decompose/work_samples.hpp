@@ -25,6 +25,8 @@ using WorkSamples = std::vector<WorkSample>;
 /// without one, by the forecast (see Forecast). Empty if work is in proportion to area (see work_density).
 [[nodiscard]] WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double count);
 
+[[nodiscard]] double work_of(const WorkSamples& samples);
+
 /// The work of the samples from which a ray to the right meets edge ab, > 0 if the edge goes up and < 0 if it goes
 /// down. Over all edges of a counterclockwise border this sums to the work inside.
 [[nodiscard]] double crossing_work(std::span<const WorkSample> samples, const Point& a, const Point& b);

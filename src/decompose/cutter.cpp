@@ -1,0 +1,117 @@
+#include "decompose/cutter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace driftmesh {
+Cutter::Cutter(PlanarMap& map, IdVector<PieceId, Piece>& pieces, IdVector<PieceId, WorkSamples>& samples,
+               const DecomposeOptions& options, std::int32_t parts)
+    : map_(map),
+      pieces_(pieces),
+      samples_(samples),
+      skew_(options.skew),
+      random_(options.seed),
+      finder_(map, options.min_angle * std::numbers::pi / 180) {
+  double work = 0;
+  for (const Piece& p : pieces)
+    if (p.bundle == kNone) work += p.work;
+  mean_ = work / parts;
+}
+
+std::int32_t Cutter::run() {
+  for (const PieceId i : ids_of(pieces_)) enqueue(i);
+  while (!queue_.empty()) {
+    std::vector<PieceId> next = std::move(queue_.extract(queue_.begin()).mapped());
+    std::sort(next.begin(), next.end(), std::greater<>());
+    cut_all(next);
+  }
+  spend_spare_parts();
+  return spare_;
+}
+
+void Cutter::enqueue(PieceId piece) {
+  if (pieces_[piece].parts >= 2) queue_[pieces_[piece].parts].push_back(piece);
+}
+
+void Cutter::cut_all(std::span<const PieceId> pieces) {
+  for (const PieceId piece : pieces)
+    if (!cut(piece, find(piece, random_bias()))) give_up(piece);
+}
+
+void Cutter::give_up(PieceId piece) {
+  spare_ += pieces_[piece].parts - 1;
+  pieces_[piece].parts = 1;
+  solid_.resize(pieces_.size(), false);
+  solid_[piece] = true;
+}
+
+/// The heaviest subdomains that can be cut take over the parts that a piece could not be cut into.
+void Cutter::spend_spare_parts() {
+  while (spare_ > 0) {
+    solid_.resize(pieces_.size(), false);
+    PieceId heaviest = kNone;
+    for (const PieceId i : ids_of(pieces_))
+      if (pieces_[i].parts == 1 && !solid_[i] && (heaviest == kNone || pieces_[i].work > pieces_[heaviest].work))
+        heaviest = i;
+    if (heaviest == kNone) return;
+    pieces_[heaviest].parts = 2;
+    --spare_;
+    if (!cut(heaviest, find(heaviest, random_bias()))) give_up(heaviest);
+  }
+}
+
+FoundCut Cutter::find(PieceId piece, double bias) {
+  const Piece& p = pieces_[piece];
+  return finder_.find(p, samples_[piece], {skew_ > 0 ? 1 : p.work / p.parts / mean_, bias, skew_ > 0});
+}
+
+/// 1 without skew; else from 1 / (1 + skew) to 1 + skew.
+double Cutter::random_bias() {
+  if (skew_ == 0) return 1;
+  constexpr double kUnit = 0x1p-64;
+  const double bias = 1 + skew_ * kUnit * static_cast<double>(random_());
+  return random_() % 2 == 0 ? bias : 1 / bias;
+}
+
+bool Cutter::cut(PieceId index, const FoundCut& found) {
+  if (!found) return false;
+  const Piece piece = pieces_[index];
+  const SideId first = realize(map_, found.first);
+  const SideId second = realize(map_, found.second);
+  const SideId separator = map_.connect(first, second, PlanarMap::Kind::kSeparator);
+  Piece rest, between;
+  rest.side = separator;
+  between.side = PlanarMap::twin(separator);
+  read_loop(map_, between.side, loop_);
+  between.area = area_inside(loop_);
+  rest.area = piece.area - between.area;
+  between.work = piece.work * found.cut.share_between;
+  rest.work = piece.work - between.work;
+  between.parts = found.cut.parts_between;
+  rest.parts = piece.parts - found.cut.parts_between;
+  pieces_[index] = rest;
+  const PieceId added = pieces_.next_id();
+  pieces_.push_back(between);
+  samples_.emplace_back();
+  if (!samples_[index].empty()) share_samples(index, added);
+  enqueue(index);
+  enqueue(added);
+  return true;
+}
+
+/// The search uses some of the samples; the work of each side, and its number of parts, follow from all of them.
+void Cutter::share_samples(PieceId rest, PieceId between) {
+  samples_[between] = take_inside(samples_[rest], border_of(map_, pieces_[between].side));
+  const double work = pieces_[rest].work + pieces_[between].work;
+  if (samples_[between].empty() || samples_[rest].empty()) return;
+  pieces_[between].work = work_of(samples_[between]);
+  pieces_[rest].work = work - pieces_[between].work;
+  if (skew_ > 0) return;
+  const std::int32_t parts = pieces_[rest].parts + pieces_[between].parts;
+  const auto due = static_cast<std::int32_t>(std::lround(parts * pieces_[between].work / work));
+  pieces_[between].parts = std::clamp(due, 1, parts - 1);
+  pieces_[rest].parts = parts - pieces_[between].parts;
+}
+
+}  // namespace driftmesh
