@@ -4,10 +4,10 @@
 Triangle's program (Debian's non-free package triangle-bin) must be on the PATH; nothing else here needs it. The two
 alternate on each input, so that a busy moment of the machine affects both, and neither writes files. Figures are
 medians: wall time, processor time and peak memory of the process from its start to its end, and the ratio of wall times.
-The suite triangles compares numbers of triangles and angles instead.
+The suite triangles compares numbers of triangles and angles instead, and threads compares driftmesh on one core and on all.
 Where valgrind is installed, the suite count adds the instructions and mispredicted branches that it simulates on small meshes.
 
-usage: peers.py [front-end] [kernel] [count] [triangles] [options]
+usage: peers.py [front-end] [kernel] [threads] [count] [triangles] [options]
 """
 
 import argparse
@@ -38,6 +38,7 @@ COUNTED = {"bay, 400 m": ("bay", "--resolution", 400, "--seed", 41),
            "hole in a rectangle": ("rectangle-hole",)}
 PUBLISHED = ("A", "chesapeake", "cylinder_flow", "key", "pipe")
 TRIANGLE = ["triangle", "-pNEPQ"]
+ONE_PIECE = ["--subdomains", "1", "--threads", "1"]
 MEBIBYTE = 1 << 20
 
 
@@ -143,12 +144,26 @@ def area_for(options, inputs, name, triangles):
 
 
 def kernel(options, inputs):
-    """Where refinement to an area bound counts."""
+    """Where refinement to an area bound counts: in one piece, on one core."""
     rows = []
     for name in (*MODELS, "rectangle"):
-        area = area_for(options, inputs, name, options.size)
-        rows.append((f"{name}, {options.size / 1e6:.3g} M triangles", *commands(options, inputs, name, 20, area)))
+        ours, theirs = commands(options, inputs, name, 20, area_for(options, inputs, name, options.size))
+        rows.append((f"{name}, {options.size / 1e6:.3g} M triangles", ours + ONE_PIECE, theirs))
     print_table(options, rows)
+
+
+def threads(options, inputs):
+    """Whole processes of driftmesh on one core and on all, which alternate."""
+    print("| input | one piece, one core s | subdomains, one core s | all cores s | against one core | against one piece |")
+    print("| --- | --- | --- | --- | --- | --- |")
+    for name in (*MODELS, "rectangle"):
+        ours, _ = commands(options, inputs, name, 20, area_for(options, inputs, name, options.size))
+        cases = [ours + ONE_PIECE, ours + ["--threads", "1"], ours]
+        runs = [[run(case)[0] for case in cases] for _ in range(options.repetitions + 1)][1:]
+        piece, one, all_cores = medians(runs)
+        print(f"| {name}, {options.size / 1e6:.3g} M triangles | {piece:.3f} | {one:.3f} | {all_cores:.3f} "
+              f"| {one / all_cores:.2f} | {piece / all_cores:.2f} |", flush=True)
+    print()
 
 
 def count(options, inputs):
@@ -223,16 +238,16 @@ def angle_at(o, a, b):
     return math.degrees(math.atan2(abs(ax * by - ay * bx), ax * bx + ay * by))
 
 
-SUITES = {"front-end": front_end, "kernel": kernel, "count": count, "triangles": triangles}
+SUITES = {"front-end": front_end, "kernel": kernel, "threads": threads, "count": count, "triangles": triangles}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("suites", nargs="*", metavar="SUITE", help="front-end, kernel, count or triangles; by default the first two")
+    parser.add_argument("suites", nargs="*", metavar="SUITE", help="front-end, kernel, threads, count or triangles; by default the first two")
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh")
     parser.add_argument("--data", default=PROJECT.parent / "shared/data", help="folder of the published models")
     parser.add_argument("--repetitions", type=int, default=5)
-    parser.add_argument("--size", type=int, default=4_000_000, help="triangles of the suite kernel")
+    parser.add_argument("--size", type=int, default=4_000_000, help="triangles of the suites kernel and threads")
     parser.add_argument("--large", action="store_true", help="10 million points, too")
     options = parser.parse_args()
     for suite in options.suites:

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "job/memory.hpp"
+#include "job/thread_run.hpp"
 #include "job/value.hpp"
 
 namespace driftmesh::job {
@@ -43,7 +44,7 @@ void record_mesh(RunRecord& run, const MeshResult& result) {
   run.acute_corners = result.acute_corners;
   run.max_area = result.bounds.max_area;
   const bool capped = room_under_cap() != UINT64_MAX;  // the stacks of threads would count
-  add_part(run, result.mesh, result.bounds, result.complete, !capped);
+  add_part(run, result.mesh, result.bounds, result.complete, !capped && threads_of(run.request) > 1);
   add_counters(run, result.counters);
 }
 
