@@ -1,7 +1,6 @@
 #include "job/thread_run.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <thread>
 #include <utility>
 
