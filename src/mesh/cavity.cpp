@@ -22,14 +22,18 @@ constexpr double kUnderflow = 1e-290;
 }  // namespace
 
 Cavity::Cavity(Triangulation& mesh) : mesh_(mesh) {
-  reserve(64);
+  wake();
 }
 
 void Cavity::reserve(std::size_t corners) {
-  corners_.resize(corners);
-  stack_.resize(corners);
-  border_.resize(corners);
-  slots_.resize(corners);
+  const auto set_size = [corners](auto& array) {
+    array.resize(corners);
+    array.shrink_to_fit();
+  };
+  set_size(corners_);
+  set_size(stack_);
+  set_size(border_);
+  set_size(slots_);
 }
 
 /// Doubles the capacity. This moves the corners, and all pointers to them are adjusted; returns `e` adjusted.

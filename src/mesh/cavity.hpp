@@ -28,6 +28,10 @@ class Cavity {
  public:
   explicit Cavity(Triangulation& mesh);
 
+  /// Gives its memory back; no point can be inserted before wake().
+  void rest() { reserve(0); }
+  void wake() { reserve(kCorners); }
+
   enum class Found {
     kClear,       ///< the cavity is ready to be filled
     kEncroached,  ///< the point lies in the lens of a constrained segment or beyond it, see encroached()
@@ -90,6 +94,7 @@ class Cavity {
   Found check_star() const;
   void push(HalfEdge outer, int a, int b, double cross_ab);
   void take_slots();
+  static constexpr std::size_t kCorners = 64;  // enough for nearly all cavities
   void reserve(std::size_t corners);
   Edge with_more_room(const Edge& e);
   /// One past the last element in use of each array, as pointers for the inner loop.

@@ -60,6 +60,7 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState 
   if (const std::string fault = state_.fault(mesh, bounds); !fault.empty())
     throw Error("the state of refinement does not fit its mesh: " + fault);
   coarsening_ = state_.stage == Stage::kCoarse ? kFinePerCoarse : 1;
+  if (state_.stage == Stage::kDone) cavity_.rest();
 }
 
 // ---- Shapes and bounds ----
@@ -180,6 +181,7 @@ void Refiner::enter(Stage stage) {
       break;
     }
     case Stage::kRest:
+      cavity_.wake();
       for (const TriangleId t : state_.deferred)
         if (mesh_.triangles[t].alive()) note(t, shape_of(t));
       state_.deferred.clear();
@@ -187,6 +189,7 @@ void Refiner::enter(Stage stage) {
     case Stage::kDone:  // most refiners are done for most of a run; keep them small
       state_.skinny.clear();
       changed_ = {};
+      cavity_.rest();
       break;
     case Stage::kSegments:
       break;

@@ -66,8 +66,14 @@ class Ceiling(program.Cli):
             self.hold(limit, "-n", "3000", "--area", "3e-5", "-o", "a.ele")
 
     def test_many_tiny_subdomains_on_ranks(self):
-        self.assertFalse(self.hold(100, "-n", "30000", ranks=2))
-        self.assertTrue(self.hold(400, "-n", "10000", ranks=2))
+        self.assertFalse(self.hold(60, "-n", "30000", ranks=2))
+        self.assertTrue(self.hold(200, "-n", "10000", ranks=2))
+
+    def test_finished_subdomains_are_small(self):
+        """A subdomain that is done keeps its triangles, but nothing that only the work on them needed."""
+        code, errors, peak = self.peak_of(program.PATH, "mesh", "square.poly", "-n", "20000", "--triangles", "400k")
+        self.assertEqual(code, 0, errors)
+        self.assertLessEqual(peak, 40 * MEGABYTE + 20000 * 4500)
 
     def test_meshes_written_by_ranks(self):
         for limit in (60, 120):
