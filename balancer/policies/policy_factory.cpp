@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "balancer/policy_list.hpp"
+#include "balancer/stealing/policy_stealing.hpp"
 #include "base/nearest_name.hpp"
 #include "driftmesh/error.hpp"
 

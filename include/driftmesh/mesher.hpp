@@ -6,7 +6,8 @@
 
 namespace driftmesh {
 
-/// A mesh of the domain that `input` describes, made in this process: in one piece, or in options.subdomains.
+/// A mesh of the domain that `input` describes, made in this process by options.threads: in one piece, or in
+/// options.subdomains.
 ///
 /// The input need not be clean: a copy of it is repaired first, see repair().
 /// The mesh is constrained Delaunay, by exact predicates, and covers every segment of the repaired input. No triangle

@@ -71,7 +71,7 @@ struct MeshOptions {
   /// Target edge length at a point, > 0, or infinity for no bound: a triangle is too large if its area exceeds that of
   /// the equilateral triangle whose side is the smallest value at its corners and centroid, or 1.11 times a value
   /// between them that size_resolution finds. Must depend on the point alone; pass a SizeField by std::ref. Called
-  /// often, from the calling thread, at points of the domain only; on many ranks it must be the same function on all of
+  /// often, at points of the domain only; on many ranks it must be the same function on all of
   /// them. Exceptions it throws end the work and propagate.
   std::function<double(const Point&)> size{};
   /// `size` is also looked up on a grid of this many squares along the longer side of the domain, and around its lowest
@@ -79,6 +79,12 @@ struct MeshOptions {
   /// corners and centroid alone. The function is called about once for each point of the grid, up to 4 million times by
   /// default; choose less for one that is costly and known to be smooth.
   std::int64_t size_resolution = 2000;
+
+  /// The most threads that work at once in a single process, where the mesh is large enough to be cut; the mesh does
+  /// not depend on it. 0: one for each core, but only the calling thread if there is a `size`, which may not be made
+  /// for more. With more than one, `size` is called by all of them at once; `progress` and `warning` by the calling
+  /// one.
+  std::int32_t threads = 0;
 
   // ---- Limits of this process ----
   std::int64_t max_triangles = 0;  ///< beyond it, LimitError; 0: none but the capacity of one piece, about 500 million
@@ -88,7 +94,9 @@ struct MeshOptions {
 
   /// Decomposition into subdomains.
   struct Subdomains {
-    std::int32_t count = 0;  ///< 0: one piece in a single process; else 20 per rank, or more so that each fits in cache
+    /// 1: one piece. 0: 20 per rank, or more so that each fits in cache; in a single process one piece, except where a
+    /// bound on size asks for more than half a million triangles.
+    std::int32_t count = 0;
     /// An existing decomposition of the same input, possibly made with other bounds. See decomposition.hpp.
     std::shared_ptr<const Decomposition> given{};
     double separator_angle = 60;  ///< smallest angle between separators and whatever they meet, where the domain allows

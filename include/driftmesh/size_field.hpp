@@ -14,8 +14,8 @@ class SizeField {
  public:
   virtual ~SizeField() = default;
   /// The target edge length at `p`: > 0, or +infinity where the field sets no bound. Must depend on `p` alone and
-  /// return the same bits on every rank. May throw; the exception ends meshing and propagates to the caller. Never
-  /// called on one object from two threads at once.
+  /// return the same bits on every rank. May throw; the exception ends meshing and propagates to the caller. Called
+  /// on one object from several threads at once only if MeshOptions::threads asks for several.
   [[nodiscard]] virtual double edge_length(const Point& p) const = 0;
   /// Whether the field asks for less than `length` somewhere in a counterclockwise triangle, asked where it does not at
   /// the corners and the centroid. Depends on its arguments alone, like edge_length. What counts, and how surely it is

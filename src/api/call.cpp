@@ -8,6 +8,7 @@
 #include "job/check.hpp"
 #include "job/limits.hpp"
 #include "job/prepare.hpp"
+#include "job/thread_run.hpp"
 
 namespace driftmesh {
 
@@ -36,6 +37,15 @@ Call::Call(const Pslg& input, const MeshOptions& options, const balancer::Policy
   if (const auto& own = options.balance.own) given_.policies = [own](const std::string&, const auto&) { return own; };
 }
 
+job::Place Call::place() const {
+  return given_.decomposition != nullptr ? job::kSubdomains : job::place_of(request_, job::kLibrary, false);
+}
+
+std::int32_t Call::threads() const {
+  const bool only_this_one = request_.run.threads == 0 && given_.size != nullptr;
+  return only_this_one ? 1 : job::threads_of(request_);
+}
+
 void Call::check(job::Place place) const {
   if (options_.balance.own && place != job::kRanks)
     throw Error("MeshOptions::balance.own is for many ranks, but this process is alone; remove it");
@@ -46,15 +56,12 @@ void Call::check(job::Place place) const {
   job::check(request_, place, given_.policies);
 }
 
-job::Order Call::order_for(job::Place place, std::int32_t ranks, const job::Processes& processes) {
-  check(place);
-  job::check_ranks(request_, place, ranks);
-  job::Domain domain = job::read_domain(request_, given_, watch_);
+job::Order Call::order(job::Domain domain, const job::Triangulated& triangulated, job::Place place, std::int32_t ranks,
+                       const job::Processes& processes) {
   const job::Use use{.by = job::kLibrary, .in_subdomains = true, .sleeps = request_.run.sleep, .writes = true};
   const job::Limits limits = job::find_limits(request_.limits, domain.pslg, use, processes);
   job::Prepared prepared =
-      job::prepare(request_, domain, job::triangulate_domain(request_, domain, ranks, job::Cut::kAlways, watch_),
-                   given_, place, job::shares_of_time(request_, ranks), limits, watch_);
+      job::prepare(request_, domain, triangulated, given_, place, job::shares_of_time(request_, ranks), limits, watch_);
   return {std::move(prepared.plan), std::move(domain.pslg), request_.sizing, request_.limits, {}, use};
 }
 

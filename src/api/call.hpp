@@ -12,6 +12,7 @@
 #include "job/limits.hpp"
 #include "job/order.hpp"
 #include "job/request.hpp"
+#include "job/triangulated.hpp"
 #include "job/watch.hpp"
 
 namespace driftmesh {
@@ -52,12 +53,17 @@ class Call {
   [[nodiscard]] const job::Given& given() const { return given_; }
   [[nodiscard]] job::Watch& watch() { return watch_; }
 
-  /// Whether subdomains are requested.
-  [[nodiscard]] bool in_subdomains() const { return request_.decomposition.subdomains > 0 || given_.decomposition; }
+  /// Where a process by itself makes the mesh: in subdomains if they are requested.
+  [[nodiscard]] job::Place place() const;
+  /// The number of threads for that.
+  [[nodiscard]] std::int32_t threads() const;
   /// Throws Error for options that are out of range or have no meaning at this place.
   void check(job::Place place) const;
-  /// The domain prepared for `ranks` ranks. Throws like the job.
-  [[nodiscard]] job::Order order_for(job::Place place, std::int32_t ranks = 1, const job::Processes& processes = {});
+  /// Throws what reading the input throws.
+  [[nodiscard]] job::Domain read_domain() { return job::read_domain(request_, given_, watch_); }
+  /// The domain, triangulated to be cut, prepared for this number of ranks. Throws like the job.
+  [[nodiscard]] job::Order order(job::Domain domain, const job::Triangulated& triangulated, job::Place place,
+                                 std::int32_t ranks, const job::Processes& processes = {});
 
  private:
   const MeshOptions& options_;

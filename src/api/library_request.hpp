@@ -20,6 +20,7 @@ void visit_options(const MeshOptions& o, job::Request& r, const Visit& visit) {
   visit("bounds.triangles", "triangles", o.triangles, r.bounds.triangles);
   visit("bounds.region-areas", "region_areas", o.region_areas, r.bounds.region_areas);
   visit("sizing.resolution", "size_resolution", o.size_resolution, r.sizing.resolution);
+  visit("run.threads", "threads", o.threads, r.run.threads);
   visit("limits.max-triangles", "max_triangles", o.max_triangles, r.limits.max_triangles);
   visit("limits.max-memory", "max_memory", o.max_memory, r.limits.max_memory);
 

@@ -205,12 +205,6 @@ int mesh_by_threads(const Told& told, job::Domain&& domain, job::Triangulated&& 
 
 // ---- In this process -------------------------------------------------------------------------------------------
 
-job::Cut cut_of(const Request& request, job::Place place) {
-  if (place == job::kSubdomains) return job::Cut::kAlways;
-  const bool one_piece = request.decomposition.subdomains == 1 || request.limits.keep_incomplete;
-  return one_piece ? job::Cut::kNever : job::Cut::kIfLarge;
-}
-
 int mesh_here(const Told& told, job::Place place) {
   const Request& request = told.request;
   register_files(told, 1);
@@ -218,7 +212,7 @@ int mesh_here(const Told& told, job::Place place) {
   job::cap_memory(request.limits);
   job::Domain domain = job::read_domain(request, {}, notes);
   job::record_domain(notes.run, request, domain);
-  job::Triangulated triangulated = job::triangulate_domain(request, domain, 1, cut_of(request, place), notes);
+  job::Triangulated triangulated = job::triangulate_domain(request, domain, 1, job::cut_of(request, place), notes);
   if (triangulated.cut) return mesh_by_threads(told, std::move(domain), std::move(triangulated), notes);
   return mesh_in_one_piece(told, domain, std::move(triangulated), notes);
 }

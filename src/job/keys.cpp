@@ -339,7 +339,7 @@ Section parts_section() {
            option("sleep")),
        key("run.threads", &R::run, &R::Run::threads,
            "Threads that mesh together without mpirun; 0: one for each core. The mesh does not depend on their number",
-           in(0, 1024), option("threads", "N"), places(kOnePiece | kSubdomains), entry_points(kMesh))}};
+           in(0, 1024), option("threads", "N"), places(kOnePiece | kSubdomains), entry_points(kMesh | kLibrary))}};
 }
 
 Section balance_section() {

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "balancer/parameters.hpp"
+#include "balancer/stealing/policy_stealing.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
 #include "decompose/presplit.hpp"
@@ -55,10 +57,22 @@ std::int32_t ranks_to_suit(Place place, std::size_t ranks) {
   return place == kSubdomains ? kAnyThreads : static_cast<std::int32_t>(ranks);
 }
 
+/// Threads take work from each other: that needs no planner, and moves cost nothing.
+constexpr const char* kPolicyOfThreads = "stealing";
+
+balancer::PolicyMaker policies_of(const Given& given, Place place, std::size_t ranks) {
+  if (place != kSubdomains) return given.policies;
+  if (ranks == 1) return nullptr;
+  return [](const std::string& name, const balancer::Parameters::Values& values) {
+    balancer::Parameters parameters(name, values);
+    return balancer::make_stealing(parameters);
+  };
+}
+
 Balancing balancing_of(const Request& request, Place place, std::size_t ranks) {
   Balancing balancing;
   balancing.policy = request.balance.policy;
-  if (place == kSubdomains && ranks > 1) balancing.policy = "stealing";  // needs no planner, and moves cost nothing
+  if (place == kSubdomains && ranks > 1) balancing.policy = kPolicyOfThreads;
   balancing.parameters = parameters_of_policy(request);
   balancing.options.look = request.balance.look;
   balancing.options.gap = request.balance.gap;
@@ -109,7 +123,7 @@ Prepared prepare(const Request& request, const Domain& domain, const Triangulate
   for (const Decomposition::Subdomain& s : decomposition.subdomains) prepared.forecast += s.predicted;
   prepared.plan = timed(watch, "map", [&] {
     return plan_run(std::move(decomposition), triangulated.bounds, plan_options(request, place, speeds),
-                    given.policies);
+                    policies_of(given, place, speeds.size()));
   });
   return prepared;
 }

@@ -22,7 +22,7 @@ namespace driftmesh::job {
 class ThreadRun {
  public:
   /// `order`: its plan maps the subdomains to `threads` ranks. `size`: replaces the size field that the order
-  /// describes, unless null; not owned, and then for one thread only. `watch` outlives the object.
+  /// describes, unless null; not owned, and shared by all threads. `watch` outlives the object.
   ThreadRun(Order order, std::int32_t threads, const SizeField* size, Watch& watch);
 
   /// Throws what the work on a subdomain or the watch throws, and LimitError at a limit.

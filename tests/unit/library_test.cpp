@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <mutex>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -77,6 +78,42 @@ TEST_CASE("a mesh in subdomains meets its bounds and lists the subdomain of each
     options.subdomains.order = WorkOrder::kLargest;
     if (presplit == Presplit::kOn) CHECK(mesh_digest(mesh(plate(), options)) == mesh_digest(made));
   }
+}
+
+TEST_CASE("a large mesh is made in subdomains, the same by any number of threads") {
+  MeshOptions options{.triangles = 600'000};
+  const Mesh made = mesh(plate(), options);
+  CHECK(accepted(made, {}));
+  CHECK(std::set(made.subdomains.begin(), made.subdomains.end()).size() > 20);
+  for (const int threads : {1, 2, 3}) {
+    options.threads = threads;
+    CHECK(mesh_digest(mesh(plate(), options)) == mesh_digest(made));
+  }
+  options.subdomains.count = 1;
+  CHECK(mesh(plate(), options).subdomains.empty());
+}
+
+TEST_CASE("a size function is called by other threads only if they are asked for") {
+  for (const int threads : {0, 3}) {
+    std::mutex mutex;
+    std::set<std::thread::id> callers;
+    const auto size = [&](const Point&) {
+      const std::scoped_lock lock(mutex);
+      callers.insert(std::this_thread::get_id());
+      return 0.02;
+    };
+    CHECK(mesh(plate(), {.size = size, .threads = threads, .subdomains = {.count = 60}}).triangles.size() > 10'000);
+    CHECK(callers.contains(std::this_thread::get_id()));
+    CHECK((callers.size() > 1) == (threads > 1));
+  }
+  const std::thread::id calling = std::this_thread::get_id();
+  const auto fails_elsewhere = [&](const Point&) {
+    if (std::this_thread::get_id() != calling) throw std::domain_error("not here");
+    return 0.02;
+  };
+  CHECK_THROWS_AS(
+      static_cast<void>(mesh(plate(), {.size = fails_elsewhere, .threads = 2, .subdomains = {.count = 60}})),
+      std::domain_error);
 }
 
 TEST_CASE("an input is repaired first") {

@@ -72,13 +72,22 @@ void check_callables(const std::vector<Bytes>& of_ranks) {
                   to_string(r) + " differ; give the same on each rank");
 }
 
+job::Order order_for(const job::Team& team, Call& call) {
+  call.check(job::kRanks);
+  job::check_ranks(call.request(), job::kRanks, team.ranks());
+  job::Domain domain = call.read_domain();
+  const job::Triangulated triangulated =
+      job::triangulate_domain(call.request(), domain, team.ranks(), job::Cut::kAlways, call.watch());
+  return call.order(std::move(domain), triangulated, job::kRanks, team.ranks(), job::processes_of(team));
+}
+
 DistributedPiece mesh_on(job::Team& team, Call& call, const MeshOptions& options) {
   const std::vector<Bytes> callables = team.gather(callables_of(options));
   // Rephrase the error where it occurs: only its message travels to the other ranks.
   const auto make = [&] {
     return with_words_of_options([&] {
       check_callables(callables);
-      return std::optional(call.order_for(job::kRanks, team.ranks(), job::processes_of(team)));
+      return std::optional(order_for(team, call));
     });
   };
   std::optional<job::Order> order = job::share(team, make, call.given().policies);

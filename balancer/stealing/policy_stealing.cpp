@@ -1,8 +1,6 @@
-#include <algorithm>
-#include <memory>
+#include "balancer/stealing/policy_stealing.hpp"
 
-#include "balancer/parameters.hpp"
-#include "driftmesh/policy.hpp"
+#include <algorithm>
 
 namespace driftmesh::balancer {
 namespace {

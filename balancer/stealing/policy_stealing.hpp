@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "balancer/parameters.hpp"
+#include "driftmesh/policy.hpp"
+
+namespace driftmesh::balancer {
+
+/// Work stealing, one of the policies by name, and the one of threads.
+[[nodiscard]] std::unique_ptr<Policy> make_stealing(Parameters& parameters);
+
+}  // namespace driftmesh::balancer
