@@ -123,17 +123,16 @@ void add_part(MeshFacts& facts, const Triangulation& mesh, const QualityBounds& 
               bool on_all_cores) {
   // async | deferred: on a thread of its own if the system has one to give.
   const std::launch policy = on_all_cores ? std::launch::async | std::launch::deferred : std::launch::deferred;
-  auto shape = std::async(policy, [&] { return summarize_angles(mesh); });
   auto digest = std::async(policy, [&] { return mesh_digest(mesh); });
-  Exceptions found = find_exceptions(mesh, bounds);
-  add_shape(facts.shape, shape.get(), facts.triangles == 0);
+  Inspection found = inspect(mesh, bounds);
+  add_shape(facts.shape, found.shape, facts.triangles == 0);
   facts.triangles += static_cast<std::int64_t>(mesh.live_triangles());
   facts.vertices += static_cast<std::int64_t>(mesh.live_vertices());
   facts.subsegments +=
       std::count_if(mesh.subsegments.begin(), mesh.subsegments.end(), [](const auto& s) { return s.is_leaf(); });
   facts.digest += digest.get();
-  add_skinny(facts, mesh, std::move(found.skinny), complete);
-  add_large(facts, mesh, found.large);
+  add_skinny(facts, mesh, std::move(found.exceptions.skinny), complete);
+  add_large(facts, mesh, found.exceptions.large);
 }
 
 void add_facts(MeshFacts& facts, const MeshFacts& others) {

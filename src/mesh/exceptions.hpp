@@ -32,15 +32,26 @@ struct Exceptions {
   std::vector<TriangleId>
       large;  ///< above their area bound: empty unless refinement was stopped early or precision ran out
 };
-[[nodiscard]] Exceptions find_exceptions(const Triangulation& mesh, const QualityBounds& bounds);
 
-/// The distribution of the angles of a mesh.
+/// The distribution of the angles of a mesh, and its areas.
 struct AngleSummary {
   double smallest = 180;                ///< degrees
   double largest = 0;                   ///< degrees
   std::array<std::int64_t, 18> bins{};  ///< number of angles from 10 i to 10 (i + 1) degrees
   double smallest_area = 0, largest_area = 0, total_area = 0;
 };
-[[nodiscard]] AngleSummary summarize_angles(const Triangulation& mesh);
+
+/// What there is to say about the triangles of a refined mesh, in one pass over them.
+struct Inspection {
+  Exceptions exceptions;
+  AngleSummary shape;
+};
+[[nodiscard]] Inspection inspect(const Triangulation& mesh, const QualityBounds& bounds);
+[[nodiscard]] inline Exceptions find_exceptions(const Triangulation& mesh, const QualityBounds& bounds) {
+  return inspect(mesh, bounds).exceptions;
+}
+[[nodiscard]] inline AngleSummary summarize_angles(const Triangulation& mesh) {
+  return inspect(mesh, {}).shape;
+}
 
 }  // namespace driftmesh
