@@ -233,7 +233,7 @@ job::Order prepare_order(const Told& told, const job::Team& team, RunNotes& note
                   job::processes_of(team), notes);
 }
 
-void report(job::Team& team, const job::RankRun& run, RunNotes& notes) {
+void report(job::Team& team, job::RankRun& run, RunNotes& notes) {
   ByteWriter writer;
   timed(notes, "inspect", [&] { job::by_itself(team, [&] { run.report().write(writer); }); });
   for (const Bytes& bytes : team.gather(writer.take())) {

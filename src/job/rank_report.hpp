@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/bytes.hpp"
+#include "job/facts_book.hpp"
 #include "job/prepare.hpp"
 #include "job/record.hpp"
 #include "runtime/rank_loop.hpp"
@@ -17,13 +18,8 @@ struct RankReport {
   [[nodiscard]] static RankReport read(ByteReader& reader);
 };
 
-/// Adds the facts of one subdomain of `decomposition`, refined to `bounds`. Vertices and subsegments on roots count for
-/// the subdomain that numbers them.
-void add_subdomain(MeshFacts& facts, const Decomposition& decomposition, const QualityBounds& bounds,
-                   const Subdomain& subdomain);
-
-/// The report of a rank whose loop has ended, on `plan`.
-[[nodiscard]] RankReport report_of(const RankLoop& loop, const RunPlan& plan);
+/// The report of a rank whose loop has ended, on `plan`. Subdomains that are not in the book yet are noted there.
+[[nodiscard]] RankReport report_of(const RankLoop& loop, const RunPlan& plan, FactsBook& book);
 
 /// Adds the report of a rank to the record of its run.
 void add_report(RunRecord& run, const RankReport& report);

@@ -15,7 +15,7 @@
 namespace driftmesh::job {
 
 RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
-    : team_(team), order_(std::move(order)), watch_(watch) {
+    : team_(team), order_(std::move(order)), watch_(watch), book_(order_.plan.decomposition) {
   by_itself(team_, [&] {
     size_ = size_of(order_.sizing, size, order_.pslg).field;
     order_.plan.bounds.size = size_.get();
@@ -79,7 +79,11 @@ RankLoop::Observers RankRun::observers(const RankHooks& hooks) {
     drag(share, slice.seconds);
     if (log_) log_->worked(loop, slice, slice.seconds + (channel_->transport().now() - begin));
   };
-  if (!log_) return observers;
+  if (!log_) {  // which times the work alone
+    if (inspects_at_once(order_.plan))
+      observers.finished = [this](const Subdomain& subdomain) { book_.note(subdomain, order_.plan.bounds); };
+    return observers;
+  }
   observers.handed_over = [this](const RankLoop& loop, const RankLoop::Passage& passage) {
     log_->departs(loop, passage);
   };
@@ -98,8 +102,8 @@ double RankRun::forecast() const {
   return forecast;
 }
 
-RankReport RankRun::report() const {
-  RankReport report = report_of(*loop_, order_.plan);
+RankReport RankRun::report() {
+  RankReport report = report_of(*loop_, order_.plan, book_);
   report.rank.peak = peak_memory();
   return report;
 }

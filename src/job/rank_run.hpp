@@ -43,7 +43,7 @@ class RankRun {
   // After refine():
 
   [[nodiscard]] const RankLoop& loop() const { return *loop_; }
-  [[nodiscard]] RankReport report() const;
+  [[nodiscard]] RankReport report();
   [[nodiscard]] const RankLog& log() const { return *log_; }
   [[nodiscard]] const RunPlan& plan() const { return order_.plan; }
   [[nodiscard]] const std::vector<Point>& holes() const { return order_.pslg.holes; }
@@ -66,6 +66,7 @@ class RankRun {
   std::unique_ptr<Channel> channel_;
   std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   std::optional<RankLog> log_;
+  FactsBook book_;
   std::optional<RankLoop> loop_;
   std::int64_t triangles_ = -1;  // when memory was looked at
   std::exception_ptr failure_;   // of the work on this rank

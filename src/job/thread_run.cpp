@@ -21,7 +21,7 @@ std::int32_t threads_of(const Request& request) {
 }
 
 ThreadRun::ThreadRun(Order order, std::int32_t threads, const SizeField* size, Watch& watch)
-    : order_(std::move(order)), watch_(watch) {
+    : order_(std::move(order)), watch_(watch), book_(order_.plan.decomposition) {
   for (std::int32_t t = 0; t < threads; ++t) {
     made_.push_back(size_of(order_.sizing, size, order_.pslg).field);
     sizes_.push_back(made_.back().get());
@@ -33,11 +33,12 @@ ThreadRun::ThreadRun(Order order, std::int32_t threads, const SizeField* size, W
 void ThreadRun::refine() {
   double forecast = 0;
   for (const Decomposition::Subdomain& s : order_.plan.decomposition.subdomains) forecast += s.predicted;
-  refinement_.emplace(
-      order_.plan, sizes_,
-      RefinementInRounds::Watch{.progress = [=, this](std::int64_t made) { watch_.refining(made, forecast); },
-                                .check = [this](std::int64_t made) { check(made); },
-                                .stalled = [this](const std::string& why) { watch_.stalled(why); }});
+  RefinementInRounds::Watch watch{.progress = [=, this](std::int64_t made) { watch_.refining(made, forecast); },
+                                  .check = [this](std::int64_t made) { check(made); },
+                                  .stalled = [this](const std::string& why) { watch_.stalled(why); }};
+  if (inspects_at_once(order_.plan))
+    watch.finished = [this](const Subdomain& subdomain, const SizeField* size) { note(subdomain, size); };
+  refinement_.emplace(order_.plan, sizes_, std::move(watch));
   refinement_->run();
 }
 
@@ -47,7 +48,7 @@ void ThreadRun::check(std::int64_t triangles) const {
     throw LimitError(stopped_message(limits_, by_memory, triangles, true) + ". No mesh was written");
 }
 
-void ThreadRun::report(RunRecord& run) const {
+void ThreadRun::report(RunRecord& run) {
   add_facts(run, facts());
   for (const RankOutcome& outcome : refinement_->outcomes()) {
     run.ranks.push_back({outcome, 0});
@@ -59,20 +60,22 @@ void ThreadRun::report(RunRecord& run) const {
   add_plan(run, order_.plan);
 }
 
-/// Sums are formed in the same order for any number of threads.
-MeshFacts ThreadRun::facts() const {
-  constexpr std::size_t kBlock = 16;  // subdomains
-  std::vector<const Subdomain*> subdomains;
-  for (const auto& [id, subdomain] : refinement_->subdomains()) subdomains.push_back(&subdomain);
-  std::vector<MeshFacts> blocks((subdomains.size() + kBlock - 1) / kBlock);
-  in_parts(blocks.size(), sizes_.size(), [&](std::size_t thread, std::size_t begin, std::size_t end) {
-    QualityBounds bounds = order_.plan.bounds;
-    bounds.size = sizes_[thread];
-    for (std::size_t i = begin * kBlock; i < std::min(end * kBlock, subdomains.size()); ++i)
-      add_subdomain(blocks[i / kBlock], order_.plan.decomposition, bounds, *subdomains[i]);
+void ThreadRun::note(const Subdomain& subdomain, const SizeField* size) {
+  QualityBounds bounds = order_.plan.bounds;
+  bounds.size = size;
+  book_.note(subdomain, bounds);
+}
+
+/// In parallel what is not in the book yet. Sums are formed in the same order for any number of threads.
+MeshFacts ThreadRun::facts() {
+  std::vector<const Subdomain*> open;
+  for (const auto& [id, subdomain] : refinement_->subdomains())
+    if (!book_.has(id)) open.push_back(&subdomain);
+  in_parts(open.size(), sizes_.size(), [&](std::size_t thread, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) note(*open[i], sizes_[thread]);
   });
   MeshFacts all;
-  for (const MeshFacts& block : blocks) add_facts(all, block);
+  for (const auto& [id, subdomain] : refinement_->subdomains()) add_facts(all, book_.of(id));
   return all;
 }
 

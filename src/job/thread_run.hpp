@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "driftmesh/distributed_piece.hpp"
+#include "job/facts_book.hpp"
 #include "job/limits.hpp"
 #include "job/order.hpp"
 #include "job/record.hpp"
@@ -31,20 +32,22 @@ class ThreadRun {
   // After refine():
 
   /// Adds the facts of the mesh and of the threads to the record.
-  void report(RunRecord& run) const;
+  void report(RunRecord& run);
   [[nodiscard]] const Pslg& pslg() const { return order_.pslg; }
   /// The whole mesh.
   [[nodiscard]] DistributedPiece assemble() const;
 
  private:
   void check(std::int64_t triangles) const;
-  [[nodiscard]] MeshFacts facts() const;
+  void note(const Subdomain& subdomain, const SizeField* size);
+  [[nodiscard]] MeshFacts facts();
 
   Order order_;
   std::vector<std::unique_ptr<const SizeField>> made_;  // here
   std::vector<const SizeField*> sizes_;                 // one for each thread
   Watch& watch_;
   Limits limits_;
+  FactsBook book_;
   std::optional<RefinementInRounds> refinement_;
 };
 

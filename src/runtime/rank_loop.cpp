@@ -156,6 +156,7 @@ bool RankLoop::work() {
                    (done.prepared > 0 ? costs_.start + static_cast<double>(done.prepared) * costs_.prepared : 0));
   reschedule(subdomain);
   if (done.woken > 0) transport_.spend(static_cast<double>(done.woken) * costs_.woken);
+  if (observers_.finished && !subdomain.active()) observers_.finished(subdomain);
   if (plan_.work.sleep && !subdomain.active()) {
     subdomain.sleep();
     transport_.spend(static_cast<double>(subdomain.triangles()) * costs_.asleep);

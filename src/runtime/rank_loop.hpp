@@ -46,6 +46,8 @@ class RankLoop {
   /// Observers of the loop; each may be empty.
   struct Observers {
     std::function<void(const RankLoop&, const Slice&)> after_slice;
+    /// A subdomain has nothing to do, for now, and is still awake.
+    std::function<void(const Subdomain&)> finished;
     /// Nothing has moved for a minute: what this rank waits for, and what waits here.
     std::function<void(const std::string&)> stalled;
     std::function<void(const RankLoop&, const Passage&)> handed_over;

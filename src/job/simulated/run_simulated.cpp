@@ -17,7 +17,8 @@ ClusterRun run_simulated(const Request& request, const Prepared& prepared, const
       throw LimitError(stopped_message(limits, by_memory, triangles, true) + ". No mesh was made");
     watch.refining(triangles, prepared.forecast);
   };
-  observers.finished = [&](const RankLoop& rank) { add_report(record, report_of(rank, prepared.plan)); };
+  FactsBook book(prepared.plan.decomposition);
+  observers.finished = [&](const RankLoop& rank) { add_report(record, report_of(rank, prepared.plan, book)); };
   ClusterRun outcome = simulate(prepared.plan, cluster_of(request), {}, observers);
   add_plan(record, prepared.plan);
   record.peak = record.peak_refining = peak_memory();

@@ -135,6 +135,10 @@ class RefinementInRounds::Round {
       rank.triangles = loop.triangles();
       if (all_.watch_.check) all_.watch_.check(triangles());
     };
+    if (all_.watch_.finished)
+      observers.finished = [this, size = all_.contexts_[r].bounds.size](const Subdomain& subdomain) {
+        all_.watch_.finished(subdomain, size);
+      };
     return observers;
   }
 

@@ -31,6 +31,8 @@ class RefinementInRounds {
     std::function<void(std::int64_t triangles)> progress{};
     /// Called by each thread after a slice of work, at the same time as others.
     std::function<void(std::int64_t triangles)> check{};
+    /// Called by a thread, which has that field of `sizes`, when a subdomain has nothing to do, for now.
+    std::function<void(const Subdomain&, const SizeField*)> finished{};
     /// A thread waits for the others for very long.
     std::function<void(const std::string& why)> stalled{};
   };
