@@ -83,7 +83,7 @@ struct MeshOptions {
   /// The most threads that work at once in a single process, where the mesh is large enough to be cut; the mesh does
   /// not depend on it. 0: one for each core, but only the calling thread if there is a `size`, which may not be made
   /// for more. With more than one, `size` is called by all of them at once; `progress` and `warning` by the calling
-  /// one.
+  /// one. On many ranks, the threads of each, 0: one.
   std::int32_t threads = 0;
 
   // ---- Limits of this process ----

@@ -1,11 +1,14 @@
 #include "app/mesh_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -219,12 +222,21 @@ int mesh_here(const Told& told, job::Place place) {
 
 // ---- On ranks --------------------------------------------------------------------------------------------------
 
+/// mpirun binds each rank to a core or a few, unless it is told otherwise.
+void warn_of_few_cores(const Request& request, RunNotes& notes) {
+  const auto cores = static_cast<std::int64_t>(std::thread::hardware_concurrency());
+  if (cores == 0 || request.run.threads <= cores) return;
+  notes.warn(fmt::format("a rank has {} threads, but may use only {} of the cores; start it with mpirun --bind-to none",
+                         request.run.threads, cores));
+}
+
 /// The part of rank 0 before the others start.
 job::Order prepare_order(const Told& told, const job::Team& team, RunNotes& notes) {
   const Request& request = told.request;
   job::check_ranks(request, job::kRanks, team.ranks());
   register_files(told, team.ranks());
   job::cap_memory(request.limits);
+  warn_of_few_cores(request, notes);
   job::Domain domain = job::read_domain(request, {}, notes);
   job::record_domain(notes.run, request, domain);
   const job::Triangulated triangulated =

@@ -135,9 +135,11 @@ void add_ranks(const RunRecord& run, Text out) {
     sum.most_hops = std::max(sum.most_hops, r.counters.most_hops);
     sum.held += r.counters.held;
   }
-  fmt::format_to(out, "parts        {} on {}; interfaces {} before refinement\n", counted(run.subdomains, "subdomain"),
+  const std::int32_t threads = run.on_threads ? 1 : run.request.run.threads;
+  fmt::format_to(out, "parts        {} on {}{}; interfaces {} before refinement\n",
+                 counted(run.subdomains, "subdomain"),
                  counted(static_cast<std::int64_t>(run.ranks.size()), rank_word(run)),
-                 run.presplit ? "cut to size" : "not cut");
+                 threads > 1 ? fmt::format(" of {} threads", threads) : "", run.presplit ? "cut to size" : "not cut");
   fmt::format_to(out, "             {} put on interfaces by refinement, ", counted(splits, "split point"));
   if (run.on_threads)
     fmt::format_to(out, "in {}\n", counted(run.rounds, "round"));

@@ -338,8 +338,11 @@ Section parts_section() {
            "without it where memory would not suffice",
            option("sleep")),
        key("run.threads", &R::run, &R::Run::threads,
-           "Threads that mesh together without mpirun; 0: one for each core. The mesh does not depend on their number",
-           in(0, 1024), option("threads", "N"), places(kOnePiece | kSubdomains), entry_points(kMesh | kLibrary))}};
+           "Threads that mesh together in a process; 0: one for each core, but under mpirun one in each. Without "
+           "mpirun "
+           "the mesh does not depend on their number",
+           in(0, 1024), option("threads", "N"), places(kOnePiece | kSubdomains | kRanks),
+           entry_points(kMesh | kLibrary))}};
 }
 
 Section balance_section() {

@@ -96,6 +96,7 @@ PlanOptions plan_options(const Request& request, Place place, const IdVector<Ran
   options.work.slice = request.run.slice;
   options.work.order = request.run.order;
   options.work.sleep = request.run.sleep;
+  if (place == kRanks) options.work.threads = std::max(1, request.run.threads);
   options.balancing = balancing_of(request, place, speeds.size());
   return options;
 }

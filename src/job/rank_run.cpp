@@ -11,13 +11,27 @@
 #include "job/failure.hpp"
 #include "job/memory.hpp"
 #include "protocol/rank_step.hpp"
+#include "runtime/threads/thread_crew.hpp"
+#include "sizing/field_of_threads.hpp"
 
 namespace driftmesh::job {
+namespace {
+
+/// The size field that the order describes, or the given one, for all threads of a rank.
+std::unique_ptr<const SizeField> size_for_threads(const Order& order, const SizeField* given) {
+  const std::int32_t threads = order.plan.work.threads;
+  std::vector<std::unique_ptr<const SizeField>> fields;
+  for (std::int32_t t = 0; t < threads; ++t) fields.push_back(size_of(order.sizing, given, order.pslg).field);
+  if (threads == 1 || fields.front() == nullptr) return std::move(fields.front());
+  return std::make_unique<FieldOfThreads>(std::move(fields));
+}
+
+}  // namespace
 
 RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
     : team_(team), order_(std::move(order)), watch_(watch), book_(order_.plan.decomposition) {
   by_itself(team_, [&] {
-    size_ = size_of(order_.sizing, size, order_.pslg).field;
+    size_ = size_for_threads(order_, size);
     order_.plan.bounds.size = size_.get();
     limits_ = find_limits(order_.limits, order_.pslg, order_.use, processes_of(team_));
     order_.plan.max_triangles = limits_.triangles;
@@ -41,6 +55,10 @@ void RankRun::run_loop(const RankHooks& hooks) {
   protocol::Transport& transport = hooks.through ? hooks.through(own) : own;
   council_ = channel_->council(order_.plan);
   loop_.emplace(transport, order_.plan, CostModel{}, observers(hooks), council_.get());
+  if (order_.plan.work.threads > 1) {
+    crew_ = std::make_unique<ThreadCrew>(to_index(order_.plan.work.threads - 1));
+    loop_->hire(*crew_);
+  }
   if (log_) log_->begins(*loop_);
   protocol::run_rank(transport, [&] {
     if (hooks.before_step) hooks.before_step(*loop_);

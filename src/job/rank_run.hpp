@@ -14,6 +14,7 @@
 #include "job/rank_report.hpp"
 #include "job/team.hpp"
 #include "job/watch.hpp"
+#include "runtime/crew.hpp"
 #include "runtime/rank_loop.hpp"
 
 namespace driftmesh::job {
@@ -67,6 +68,7 @@ class RankRun {
   std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   std::optional<RankLog> log_;
   FactsBook book_;
+  std::unique_ptr<Crew> crew_;  // if ranks have several threads
   std::optional<RankLoop> loop_;
   std::int64_t triangles_ = -1;  // when memory was looked at
   std::exception_ptr failure_;   // of the work on this rank

@@ -39,6 +39,13 @@ RankLoop::RankLoop(protocol::Transport& transport, Round round, const RunPlan& p
   for (auto& [id, subdomain] : round.subdomains) put(std::move(subdomain));
 }
 
+RankLoop::~RankLoop() {
+  while (!out_.empty()) {
+    crew_->wait();
+    while (const Shift* const shift = crew_->finished()) out_.erase(shift->subdomain->id());
+  }
+}
+
 void RankLoop::balance_with(std::shared_ptr<const balancer::Layout> layout, balancer::Council* council) {
   if (plan_.policy)
     controller_.emplace(transport_.rank(), std::move(layout), plan_.policy, plan_.balancing.options, clock_, council);
@@ -46,7 +53,8 @@ void RankLoop::balance_with(std::shared_ptr<const balancer::Layout> layout, bala
 
 bool RankLoop::hand_over(SubdomainId id, Rank to) {
   const auto place = subdomains_.find(id);
-  if (to == transport_.rank() || place == subdomains_.end() || !place->second.active() || abandoned_) return false;
+  if (to == transport_.rank() || place == subdomains_.end() || out_.contains(id)) return false;
+  if (!place->second.active() || abandoned_) return false;
   if (place->second.packed_bytes() > protocol::kMostPackedBytes) return false;
   triangles_ -= place->second.triangles();
   Bytes packed = place->second.pack();
@@ -77,14 +85,15 @@ protocol::StepResult RankLoop::step() {
   charge(agenda_.empty() && !heard ? &RankTimes::idle : &RankTimes::polling);
   const bool came_first = controller_ && controller_->pressing() && balance(worked_);
   const bool worked = work();
-  charge(worked ? &RankTimes::computing : &RankTimes::idle);
+  if (!worked && !heard && !out_.empty()) crew_->wait();
+  charge(worked || !out_.empty() ? &RankTimes::computing : &RankTimes::idle);
   const bool balanced = balance(worked) || came_first;
-  if (rules_.rests(worked)) protocol_.rest(!controller_ || !controller_->waiting());
+  if (out_.empty() && rules_.rests(worked)) protocol_.rest(!controller_ || !controller_->waiting());
   const bool sent = send();
   charge(sent || worked ? &RankTimes::sending : &RankTimes::idle);
-  watch(heard || worked || balanced || sent);
+  watch(heard || worked || balanced || sent || !out_.empty());
   if (protocol_.finished()) return protocol::StepResult::kFinished;
-  return heard || worked ? protocol::StepResult::kBusy : protocol::StepResult::kIdle;
+  return heard || worked || !out_.empty() ? protocol::StepResult::kBusy : protocol::StepResult::kIdle;
 }
 
 RankOutcome RankLoop::outcome() const {
@@ -93,7 +102,7 @@ RankOutcome RankLoop::outcome() const {
 }
 
 bool RankLoop::at_work() const {
-  return !agenda_.empty() || protocol_.aggregated() > 0 || protocol_.held_groups() > 0;
+  return !agenda_.empty() || !out_.empty() || protocol_.aggregated() > 0 || protocol_.held_groups() > 0;
 }
 
 void RankLoop::put(Subdomain&& subdomain) {
@@ -119,11 +128,7 @@ bool RankLoop::poll() {
     if (delivery.abandoned) drop_work();
     if (delivery.advice && controller_)
       controller_->receive(received->source, balancer::decode(received->source, *delivery.advice, limits_), clock_);
-    for (const protocol::SplitGroup& group : delivery.splits) {
-      Subdomain& subdomain = subdomains_.at(group.to);
-      for (const SplitPoint<GlobalRootId>& split : group.points) subdomain.tell(split);
-      reschedule(subdomain);
-    }
+    for (const protocol::SplitGroup& group : delivery.splits) tell(group.to, group.points);
   }
   return heard;
 }
@@ -138,35 +143,63 @@ void RankLoop::settle(const protocol::HandOff& arrival, Rank sender) {
     observers_.settled(*this, {arrival.subdomain, arrival.epoch, transport_.rank(), arrival.packed.size()});
 }
 
-// One slice of work on the next subdomain. False if none has anything to do.
+// Ends the shifts that the crew has performed, gives it new ones, and performs one here. False if there was none.
 bool RankLoop::work() {
+  bool any = false;
+  while (Shift* const shift = crew_ != nullptr ? crew_->finished() : nullptr) {
+    end(*shift, shift->seconds);
+    any = true;
+  }
+  constexpr std::size_t kAhead = 2;  // each finds another shift when it has performed one while this thread works
+  for (; crew_ != nullptr && out_.size() < kAhead * crew_->size() && agenda_.size() > 1; any = true)
+    crew_->start(begin(*agenda_.first()));
   const auto id = agenda_.first();
-  if (!id) return false;
-  Subdomain& subdomain = subdomains_.at(*id);
-  said_.clear();
-  own_failure_ = true;
-  const std::int64_t before = subdomain.triangles();
+  if (!id) return any;
   const double start = transport_.now();
-  const SliceWork done = subdomain.work(plan_.work.slice, said_);
-  triangles_ += subdomain.triangles() - before;
+  Shift& own = begin(*id);
+  own.perform();
+  transport_.spend(
+      static_cast<double>(own.done.points) * costs_.point +
+      (own.done.prepared > 0 ? costs_.start + static_cast<double>(own.done.prepared) * costs_.prepared : 0) +
+      static_cast<double>(own.done.woken) * costs_.woken +
+      (own.subdomain->dormant() ? static_cast<double>(own.subdomain->triangles()) * costs_.asleep : 0));
+  end(own, transport_.now() - start);
+  return true;
+}
+
+Shift& RankLoop::begin(SubdomainId id) {
+  Subdomain& subdomain = subdomains_.at(id);
+  agenda_.remove(id);
+  const Shift shift{.subdomain = &subdomain,
+                    .insertions = plan_.work.slice,
+                    .finished = &observers_.finished,
+                    .sleep = plan_.work.sleep};
+  return out_.emplace(id, Out{shift, subdomain.triangles(), load_of(subdomain), {}}).first->second.shift;
+}
+
+void RankLoop::end(Shift& shift, double seconds) {
+  Subdomain& subdomain = *shift.subdomain;
+  const SubdomainId id = subdomain.id();
+  const Out out = std::move(out_.extract(id).mapped());
+  if (abandoned_) return;
+  own_failure_ = true;
+  if (out.shift.failure) std::rethrow_exception(out.shift.failure);
+  triangles_ += subdomain.triangles() - out.triangles;
   if (triangles_ > plan_.max_triangles)
     throw LimitError("rank " + to_string(transport_.rank()) + " has more than " + std::to_string(plan_.max_triangles) +
                      " triangles");
-  transport_.spend(static_cast<double>(done.points) * costs_.point +
-                   (done.prepared > 0 ? costs_.start + static_cast<double>(done.prepared) * costs_.prepared : 0));
+  const bool finished = !subdomain.active();
+  for (const SplitPoint<GlobalRootId>& split : out.told) subdomain.tell(split);
   reschedule(subdomain);
-  if (done.woken > 0) transport_.spend(static_cast<double>(done.woken) * costs_.woken);
-  if (observers_.finished && !subdomain.active()) observers_.finished(subdomain);
-  if (plan_.work.sleep && !subdomain.active()) {
-    subdomain.sleep();
-    transport_.spend(static_cast<double>(subdomain.triangles()) * costs_.asleep);
-  }
-  interface_splits_ += static_cast<std::int64_t>(said_.size());
-  for (const SplitPoint<GlobalRootId>& split : said_) tell_across(*id, split);
-  if (observers_.after_slice) observers_.after_slice(*this, {*id, transport_.now() - start, said_});
-  speed_.add({static_cast<double>(done.triangles), transport_.now() - start, done.prepared > 0, !subdomain.active()});
+  const auto& said = out.shift.said;
+  interface_splits_ += static_cast<std::int64_t>(said.size());
+  for (const SplitPoint<GlobalRootId>& split : said) tell_across(id, split);
+  const double start = transport_.now();
+  if (observers_.after_slice) observers_.after_slice(*this, {id, seconds, said});
+  seconds += transport_.now() - start;  // a slow rank may be made by waiting there
+  const SliceWork& done = out.shift.done;
+  speed_.add({static_cast<double>(done.triangles), seconds, done.prepared > 0, finished});
   own_failure_ = false;
-  return true;
 }
 
 // Calls the controller when it is due or work has just run out, but not after termination. Returns whether it did
@@ -179,7 +212,8 @@ bool RankLoop::balance(bool worked) {
   const std::vector<balancer::ReportedLoad> own = loads();
   transport_.spend(static_cast<double>(own.size()) * costs_.listed);
   own_failure_ = plan_.policy->placement() != balancer::Placement::kCollective;
-  balancer::Decision decision = controller_->think(clock_, own, speed_.value());
+  balancer::Decision decision =
+      controller_->think(clock_, own, speed_.value() * static_cast<double>(1 + (crew_ != nullptr ? crew_->size() : 0)));
   own_failure_ = false;
   for (const balancer::Move& move : decision.moves) hand_over(move.subdomain, move.destination);
   for (const balancer::Outgoing& o : decision.messages) protocol_.advise(o.destination, balancer::encode(o.message));
@@ -191,20 +225,32 @@ bool RankLoop::balance(bool worked) {
 // The work here, in order.
 std::vector<balancer::ReportedLoad> RankLoop::loads() const {
   std::vector<balancer::ReportedLoad> own;
-  for (const SubdomainId id : agenda_.in_order()) {
-    const Subdomain& s = subdomains_.at(id);
-    own.push_back({id, protocol_.where(id).epoch, s.remaining(), s.packed_bytes()});
-  }
+  for (const auto& [id, out] : out_) own.push_back(out.load);
+  for (const SubdomainId id : agenda_.in_order()) own.push_back(load_of(subdomains_.at(id)));
   return own;
+}
+
+balancer::ReportedLoad RankLoop::load_of(const Subdomain& s) const {
+  return {s.id(), protocol_.where(s.id()).epoch, s.remaining(), s.packed_bytes()};
+}
+
+void RankLoop::tell(SubdomainId to, std::span<const SplitPoint<GlobalRootId>> splits) {
+  if (const auto out = out_.find(to); out != out_.end()) {
+    out->second.told.insert(out->second.told.end(), splits.begin(), splits.end());
+    return;
+  }
+  Subdomain& subdomain = subdomains_.at(to);
+  for (const SplitPoint<GlobalRootId>& split : splits) subdomain.tell(split);
+  reschedule(subdomain);
 }
 
 void RankLoop::tell_across(SubdomainId from, const SplitPoint<GlobalRootId>& split) {
   if (in_rounds_) return;
   const SubdomainId to = plan_.decomposition.roots[split.root].across_from(from);
-  if (!protocol_.holds(to)) return protocol_.send_split(to, split);
-  Subdomain& neighbor = subdomains_.at(to);
-  neighbor.tell(split);
-  reschedule(neighbor);
+  if (protocol_.holds(to))
+    tell(to, std::span(&split, 1));
+  else
+    protocol_.send_split(to, split);
 }
 
 bool RankLoop::send() {

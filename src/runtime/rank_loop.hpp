@@ -19,6 +19,7 @@
 #include "protocol/transport.hpp"
 #include "protocol/wire.hpp"
 #include "runtime/agenda.hpp"
+#include "runtime/crew.hpp"
 #include "runtime/rank_outcome.hpp"
 #include "runtime/rank_times.hpp"
 #include "runtime/run_plan.hpp"
@@ -27,7 +28,9 @@
 namespace driftmesh {
 
 /// The loop of one rank: poll the transport, dispatch what arrived, refine one subdomain for a slice, send. It runs on
-/// one thread, on real ranks and on simulated ones alike; it never waits, except in a council, and prints nothing.
+/// one thread, on real ranks and on simulated ones alike; it never waits, except in a council, and prints nothing. A
+/// crew may refine other subdomains meanwhile: it does nothing but slices of work, and everything else stays on this
+/// thread.
 class RankLoop {
  public:
   /// A slice of work that was done.
@@ -69,12 +72,18 @@ class RankLoop {
   RankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs = {}, Observers observers = {},
            balancer::Council* council = nullptr, const protocol::Rules& rules = protocol::sound_rules());
   RankLoop(protocol::Transport& transport, Round round, const RunPlan& plan, Observers observers);
+  /// Waits for the shifts of the crew.
+  ~RankLoop();
   RankLoop(const RankLoop&) = delete;
   RankLoop& operator=(const RankLoop&) = delete;
 
+  /// Lets a crew take part in the work from now on. It must outlive the loop, and so must the subdomains' context be
+  /// fit for several threads.
+  void hire(Crew& crew) { crew_ = &crew; }
+
   /// Moves subdomain `id` to rank `to`, with all points it has received. Only between steps, and not once this rank has
   /// nothing to do: then it must not make work for others (docs/protocol.md, rule 6). Returns false, and does nothing,
-  /// if the subdomain is not here, is finished, would stay, or is too large for one message.
+  /// if the subdomain is not here, is finished, would stay, is worked on by the crew, or is too large for one message.
   bool hand_over(SubdomainId id, Rank to);
 
   /// Gives up the run: refinement stops here, and on other ranks once they learn of it. The loop must be stepped until
@@ -111,14 +120,26 @@ class RankLoop {
   bool poll();
   void settle(const protocol::HandOff& arrival, Rank sender);
   bool work();
+  [[nodiscard]] Shift& begin(SubdomainId id);
+  void end(Shift& shift, double seconds);
   bool balance(bool worked);
   void drop_work();
   [[nodiscard]] std::vector<balancer::ReportedLoad> loads() const;
+  [[nodiscard]] balancer::ReportedLoad load_of(const Subdomain& s) const;
+  void tell(SubdomainId to, std::span<const SplitPoint<GlobalRootId>> splits);
   void tell_across(SubdomainId from, const SplitPoint<GlobalRootId>& split);
   bool send();
   void charge(double RankTimes::*kind);
   void watch(bool moved);
   [[nodiscard]] bool waits() const;
+
+  /// A subdomain that is worked on: what it is told must wait, and its load is that at the beginning.
+  struct Out {
+    Shift shift;
+    std::int64_t triangles;
+    balancer::ReportedLoad load;
+    std::vector<SplitPoint<GlobalRootId>> told;
+  };
 
   static constexpr double kWatchdogSeconds = 60, kLongSeconds = 600;
 
@@ -134,12 +155,13 @@ class RankLoop {
   protocol::WireLimits limits_;
   std::map<SubdomainId, Subdomain> subdomains_;
   Agenda agenda_;
+  Crew* crew_ = nullptr;
+  std::map<SubdomainId, Out> out_;
   std::optional<balancer::Controller> controller_;
   balancer::SpeedEstimate speed_;
   bool worked_ = false;       // in the last step
   bool own_failure_ = false;  // what is thrown now concerns this rank alone, or has been thrown
   bool abandoned_ = false;
-  std::vector<SplitPoint<GlobalRootId>> said_;
   std::int64_t triangles_ = 0;
   std::int64_t interface_splits_ = 0;
   std::uint64_t messages_ = 0, message_bytes_ = 0;

@@ -31,7 +31,8 @@ struct WorkSettings {
   /// Insertions between polls of the transport: some milliseconds, and most subdomains in one go.
   std::int64_t slice = 16384;
   WorkOrder order = WorkOrder::kGiven;
-  bool sleep = false;  ///< compress finished subdomains to a quarter of their memory until a neighbor needs them
+  bool sleep = false;        ///< compress finished subdomains to a quarter of their memory until a neighbor needs them
+  std::int32_t threads = 1;  ///< of each rank, where ranks are real
 };
 
 /// What every rank of a parallel run knows from the start, equal on all ranks.

@@ -558,6 +558,25 @@ class Mesh(Cli):
                           self.succeed("check", f"{ranks}.pvtu", "bay.poly", "--area", "20000", "--angle", "20"))
         self.assertEqual(len(digests), 1)
 
+    def test_ranks_with_threads(self):
+        """Their meshes are the same where refinement puts no points on interfaces, and correct where it does."""
+        self.succeed("generate", "bay", "--resolution", "1000", "-o", "bay.poly")
+        digests = set()
+        for threads in 1, 3:
+            for presplit in "on", "off":
+                result = self.on_ranks(2, "mesh", "bay.poly", "--area", "20000", "-n", "30", "--presplit", presplit,
+                                       "--size", "500+x*x", "--threads", threads, "--sleep", "-o", "m.pvtu", "--json",
+                                       "run.json")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn("on 2 ranks of 3 threads;" if threads > 1 else "on 2 ranks;", result.stdout)
+                self.assertIn("accepted", self.succeed("check", "m.pvtu", "bay.poly", "--area", "20000", "--angle", "20",
+                                                       "--size", "500+x*x"))
+                if presplit == "on":
+                    digests.add(json.loads((self.folder / "run.json").read_text())["mesh"]["digest"])
+        self.assertEqual(len(digests), 1)
+        many = self.on_ranks(1, "mesh", "bay.poly", "--threads", "1000")
+        self.assertIn("a rank has 1000 threads, but may use only", many.stdout + many.stderr)
+
     def test_a_mesh_is_the_same_with_any_number_of_threads(self):
         self.succeed("generate", "bay", "--resolution", "1000", "-o", "bay.poly")
         area = ["--area", "2400"]  # for 800,000 triangles

@@ -4,9 +4,11 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -20,9 +22,14 @@
 #include "mesh/digest.hpp"
 #include "oracles/random_pslg.hpp"
 #include "property/cases.hpp"
+#include "protocol/rank_step.hpp"
+#include "protocol/threads/thread_network.hpp"
 #include "runtime/plan_run.hpp"
+#include "runtime/rank_loop.hpp"
 #include "runtime/threads/refinement_in_rounds.hpp"
+#include "runtime/threads/thread_crew.hpp"
 #include "sizing/expression_field.hpp"
+#include "sizing/field_of_threads.hpp"
 #include "support/refine_together.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
@@ -39,7 +46,7 @@ using Sizes = std::vector<std::unique_ptr<const SizeField>>;
 
 struct Outcome {
   std::uint64_t digest = 0;
-  std::int64_t triangles = 0, moves = 0;
+  std::int64_t triangles = 0, moves = 0, splits = 0;
   int rounds = 0;
 };
 
@@ -106,11 +113,45 @@ class Case {
     for (const RankOutcome& thread : refinement.outcomes()) {
       outcome.moves += thread.counters.hand_offs;
       outcome.triangles += thread.triangles;
+      outcome.splits += thread.interface_splits;
     }
     return outcome;
   }
 
+  /// By ranks that have crews, as real ones do, but in this process.
+  [[nodiscard]] Outcome by_crews(std::int32_t ranks, std::size_t crew, Presplit presplit) const {
+    const RunPlan plan = plan_run(decomposition_, bounds_, options_for(ranks, slice_, presplit), balancer::make_policy);
+    protocol::ThreadNetwork network(ranks);
+    IdVector<Rank, CrewedRank> crewed(to_index(ranks));
+    for (const Rank r : ids_of(crewed)) {
+      crewed[r].plan = plan;
+      if (!expression_.empty())
+        crewed[r].plan.bounds.size = &crewed[r].size.emplace(fields(static_cast<std::int32_t>(crew) + 1));
+      crewed[r].crew.emplace(crew);
+      crewed[r].loop.emplace(network.transport(r), crewed[r].plan);
+      crewed[r].loop->hire(*crewed[r].crew);
+    }
+    std::vector<std::thread> threads;
+    for (const Rank r : ids_of(crewed))
+      threads.emplace_back(
+          [&, r] { protocol::run_rank(network.transport(r), [&, r] { return crewed[r].loop->step(); }); });
+    for (std::thread& thread : threads) thread.join();
+    std::map<SubdomainId, Subdomain> all;
+    for (CrewedRank& rank : crewed) all.merge(rank.loop->take_subdomains());
+    check_mesh(all, presplit);
+    Outcome outcome;
+    for (const auto& [id, subdomain] : all) outcome.digest += mesh_digest(subdomain.mesh().mesh);
+    return outcome;
+  }
+
  private:
+  struct CrewedRank {
+    RunPlan plan;
+    std::optional<FieldOfThreads> size;
+    std::optional<ThreadCrew> crew;
+    std::optional<RankLoop> loop;
+  };
+
   [[nodiscard]] Sizes fields(std::int32_t count) const {
     Sizes made;
     for (std::int32_t i = 0; i < count; ++i)
@@ -162,6 +203,25 @@ TEST_CASE("any number of threads makes the mesh that one makes") {
               static_cast<long long>(moves), static_cast<long long>(later_rounds));
   CHECK(moves > 50);
   CHECK(later_rounds > 10);
+}
+
+TEST_CASE("crews help their ranks, and where no interface is split by refinement the mesh does not tell") {
+  std::mt19937_64 random = seeded_generator("crews");
+  std::int64_t compared = 0;
+  for (std::int64_t i = 0; more_cases(i, 100, compared > 10); ++i) {
+    const Case c(random);
+    const Outcome alone = c.by_threads(1, Presplit::kAuto);
+    compared += alone.splits == 0;
+    for (const std::int32_t ranks : {1, 2})
+      for (const std::size_t crew : {1, 3}) {
+        CAPTURE(ranks);
+        CAPTURE(crew);
+        const Outcome made = c.by_crews(ranks, crew, Presplit::kAuto);
+        if (alone.splits == 0) CHECK(made.digest == alone.digest);
+        static_cast<void>(c.by_crews(ranks, crew, Presplit::kOff));  // checks the mesh
+      }
+  }
+  CHECK(compared > 10);
 }
 
 TEST_CASE("what one thread throws ends the work of all") {

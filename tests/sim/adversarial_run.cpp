@@ -25,6 +25,11 @@ AdversarialRun::AdversarialRun(const Scenario& scenario, Domain& domain, const W
   for (const Rank r : first_ids<Rank>(scenario.ranks))
     loops_.push_back(std::make_unique<RankLoop>(transport_of(r, wrap), plan_, costs_of(r), RankLoop::Observers{},
                                                 council_.get(), rules));
+  for (const Rank r : ids_of(loops_)) {
+    if (scenario.crew == 0) break;
+    crews_.push_back(std::make_unique<testing::SimulatedCrew>(scenario.crew, scenario.seed + to_index(r)));
+    loops_[r]->hire(*crews_.back());
+  }
   arrivals_seen_.resize(loops_.size());
 }
 
@@ -191,6 +196,7 @@ bool AdversarialRun::work_anywhere() {
 }
 
 void AdversarialRun::count() {
+  for (const auto& crew : crews_) outcome_.shifts += crew->performed();
   for (const auto& loop : loops_) {
     const protocol::ProtocolCounters& c = loop->protocol().counters();
     outcome_.counters.splits_sent += c.splits_sent;

@@ -20,6 +20,7 @@
 #include "sim/scenario.hpp"
 #include "sim/stale_locations.hpp"
 #include "sim/witness.hpp"
+#include "support/simulated_crew.hpp"
 
 namespace driftmesh::sim {
 
@@ -39,6 +40,7 @@ struct Outcome {
   protocol::AdversarialNetwork::Counters network;
   AdversaryEffects effects;
   std::int64_t asleep = 0;        ///< subdomains at the end
+  std::int64_t shifts = 0;        ///< slices of work by crews
   std::uint64_t late_rounds = 0;  ///< probes after the one under way when all work was done
   bool digest_compared = false;
 
@@ -101,8 +103,9 @@ class AdversarialRun {
   protocol::AdversarialNetwork network_;
   StaleLocations stale_locations_;
   Witness witness_;
-  std::vector<std::unique_ptr<protocol::Transport>> layers_;  // between ranks and network
-  std::unique_ptr<balancer::SimulatedCouncil> council_;       // if the policy needs one
+  std::vector<std::unique_ptr<protocol::Transport>> layers_;       // between ranks and network
+  std::unique_ptr<balancer::SimulatedCouncil> council_;            // if the policy needs one
+  IdVector<Rank, std::unique_ptr<testing::SimulatedCrew>> crews_;  // if ranks have any
   IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
   IdVector<Rank, std::int64_t> arrivals_seen_;
   std::optional<std::uint64_t> quiet_since_;  // number of probes begun by then

@@ -65,6 +65,7 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
   s.lopsided = random() % 4 == 0;
   s.mischief = one_of(std::array{Mischief::kNone, Mischief::kNone, Mischief::kRacingHandOffs, Mischief::kLateLocations,
                                  Mischief::kStaleLocations, Mischief::kLateAdvice});
+  s.crew = random() % 3 == 0 ? 1 + random() % 4 : 0;
   // With first-in-first-out order, a delayed message would block all behind it.
   if (s.mischief != Mischief::kNone && s.mischief != Mischief::kStaleLocations) s.adversary.fifo = false;
   return s;
@@ -73,12 +74,13 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
 std::string Scenario::describe() const {
   const protocol::Adversary& a = adversary;
   return fmt::format(
-      "seed {}: {} in {} subdomains on {} ranks, presplit {}, {} SPLITs a message, slices of {}{}; moved by {}{}, {} "
+      "seed {}: {} in {} subdomains on {} ranks, presplit {}, {} SPLITs a message, slices of {}{}; {}moved by {}{}, {} "
       "times at most, by chance {} at each step; {}, delay {}{}{}{}{}",
       seed, domain, subdomains, ranks, presplit ? "on" : "off", aggregation, slice,
-      sleep ? ", finished subdomains sleep" : "", mover, lopsided ? " from a single rank" : "", most_moves, move_chance,
-      a.fifo ? "in order" : "reordered", a.delay, a.starve ? ", a rank starved" : "",
-      a.hold_one ? ", a message held back" : "", a.copy > 0 ? ", copies" : "", words_of(mischief));
+      sleep ? ", finished subdomains sleep" : "", crew > 0 ? fmt::format("crews of {}; ", crew) : "", mover,
+      lopsided ? " from a single rank" : "", most_moves, move_chance, a.fifo ? "in order" : "reordered", a.delay,
+      a.starve ? ", a rank starved" : "", a.hold_one ? ", a message held back" : "", a.copy > 0 ? ", copies" : "",
+      words_of(mischief));
 }
 
 }  // namespace driftmesh::sim

@@ -44,6 +44,7 @@ struct Scenario {
   WorkOrder order = WorkOrder::kGiven;
   double move_chance = 0;       ///< of handing a subdomain over, at each step of a rank
   bool sleep = false;           ///< finished subdomains sleep
+  std::size_t crew = 0;         ///< threads of each rank besides its own
   std::int64_t most_moves = 0;  ///< in the whole run, not counting those of a policy
   std::string mover;            ///< one of mover_names()
   bool lopsided = false;        ///< all subdomains start on one rank

@@ -58,7 +58,7 @@ TEST_CASE("the schedules are hard, on every domain and number of ranks") {
   std::set<std::string> compared, shapes, movers;
   std::set<std::int32_t> ranks;
   std::uint64_t late_rounds = 0;
-  std::int64_t smallest = INT64_MAX, asleep = 0;
+  std::int64_t smallest = INT64_MAX, asleep = 0, shifts = 0;
   const auto seeds =
       static_cast<std::uint64_t>(testing::case_count(3000));  // a tenth of that must still contain the rare events
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -72,6 +72,7 @@ TEST_CASE("the schedules are hard, on every domain and number of ranks") {
     if (o.digest_compared) compared.insert(scenario.domain);
     smallest = std::min(smallest, o.triangles);
     asleep += o.asleep;
+    shifts += o.shifts;
     sum.splits_sent += o.counters.splits_sent;
     sum.batches_sent += o.counters.batches_sent;
     sum.hand_offs += o.counters.hand_offs;
@@ -109,6 +110,7 @@ TEST_CASE("the schedules are hard, on every domain and number of ranks") {
   CHECK(compared.contains("ell"));
   CHECK(smallest > 30);
   CHECK(asleep > at_least);
+  CHECK(shifts > 10 * at_least);
   CHECK(sum.splits_sent > 20 * at_least);
   CHECK(sum.splits_sent > sum.batches_sent);
   CHECK(sum.hand_offs > 10 * at_least);
@@ -177,7 +179,7 @@ TEST_CASE("mutation: location records without epochs") {
 }
 
 TEST_CASE("mutation: missing ancestors are not replayed") {
-  must_be_caught(protocol::sound_rules(), 100, "both sides of each edge", tampering(drop_orphans));
+  must_be_caught(protocol::sound_rules(), 400, "both sides of each edge", tampering(drop_orphans));
 }
 
 TEST_CASE("mutation: an existing point is inserted again") {
