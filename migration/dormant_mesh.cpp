@@ -153,6 +153,11 @@ std::size_t DormantMesh::bytes() const {
          (given_.capacity() + free_.capacity()) * sizeof(Point);
 }
 
+void DormantMesh::give(Bulk bulk) {
+  free_ = std::move(bulk.free);
+  triangles_.code = std::move(bulk.code);
+}
+
 bool DormantMesh::holds(RootId root, dyadic::Path path) const {
   BitReader bits(trees_);
   bits.skip(to_index(root));

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "decompose/subdomain_mesh.hpp"
@@ -25,6 +26,15 @@ class DormantMesh {
   [[nodiscard]] std::int32_t triangles() const { return triangles_.triangles; }
   [[nodiscard]] std::int32_t vertices() const { return triangles_.vertices; }
   [[nodiscard]] std::size_t bytes() const;  ///< of memory, all of it
+
+  /// Nearly all of the bytes. What remains without them says which points exist, and how many triangles.
+  struct Bulk {
+    std::vector<Point> free;
+    Bytes code;
+  };
+  /// Until give() only triangles(), vertices(), holds() and skeleton() may be called.
+  [[nodiscard]] Bulk take() { return {std::exchange(free_, {}), std::exchange(triangles_.code, {})}; }
+  void give(Bulk bulk);
 
   /// Whether the point exists, without waking the mesh. `root` is local to the subdomain.
   [[nodiscard]] bool holds(RootId root, dyadic::Path path) const;

@@ -147,12 +147,25 @@ void Subdomain::sleep() {
   dormant->max_triangles = refiner.max_triangles;
   dormant->counters = refiner.counters;
   dormant->forecast = body_->forecast;
+  if (context_->scratch != nullptr) stored_.emplace(*context_->scratch, dormant->mesh.take());
   dormant_ = std::move(dormant);
   body_.reset();
 }
 
+SubdomainMesh Subdomain::woken() const {
+  return stored_ ? whole_dormant().mesh.wake() : dormant_->mesh.wake();
+}
+
+DormantBody Subdomain::whole_dormant() const {
+  DormantBody whole = *dormant_;
+  if (stored_) whole.mesh.give(stored_->read());
+  return whole;
+}
+
 void Subdomain::wake() {
   if (!dormant_) return;
+  if (stored_) dormant_->mesh.give(stored_->read());
+  stored_.reset();
   try {
     body_ = std::make_unique<Body>(std::move(*dormant_), context_->bounds);
   } catch (const Error& error) {
@@ -172,7 +185,12 @@ bool Subdomain::sleeps_through(const SplitPoint<GlobalRootId>& split) const {
 Bytes Subdomain::pack() const {
   SubdomainView view{id_, refined_, pending_, {}, nullptr};
   if (body_) view.body.emplace(SubdomainView::Body{body_->part, body_->refiner.state(), body_->forecast});
-  view.dormant = dormant_.get();
+  if (!stored_) {
+    view.dormant = dormant_.get();
+    return driftmesh::pack(view);
+  }
+  const DormantBody whole = whole_dormant();
+  view.dormant = &whole;
   return driftmesh::pack(view);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,15 +14,17 @@
 #include "mesh/bounds.hpp"
 #include "mesh/refine_counters.hpp"
 #include "migration/packed_form.hpp"
+#include "migration/stored_bulk.hpp"
 #include "protocol/messages.hpp"
 
 namespace driftmesh {
 
-/// Shared by all subdomains of a run, equal on every rank. Not owned; must outlive them.
+/// Shared by all subdomains of a run, equal on every rank but for the file. Not owned; must outlive them.
 struct SubdomainContext {
   const Decomposition* decomposition = nullptr;
   QualityBounds bounds;
   bool presplit = false;  ///< cut interfaces to the bounds' size before refinement (see decompose/presplit.hpp)
+  ScratchFile* scratch = nullptr;  ///< where those that sleep keep most of their bytes; null: in memory
 };
 
 /// Result of a slice of work.
@@ -71,13 +74,16 @@ class Subdomain {
   /// capacity of handles.
   SliceWork work(std::int64_t insertions, std::vector<SplitPoint<GlobalRootId>>& said);
 
-  /// Shrinks to the dormant form (see dormant_mesh.hpp), if it has worked and has nothing to do. Refinement after
-  /// waking, if any, meets the same bounds but need not be bit-identical to that without sleep.
+  /// Shrinks to the dormant form (see dormant_mesh.hpp), if it has worked and has nothing to do; with a scratch file
+  /// most of it goes there. Refinement after waking, if any, meets the same bounds but need not be bit-identical to
+  /// that without sleep.
   void sleep();
   void wake();
   [[nodiscard]] bool dormant() const { return dormant_ != nullptr; }
-  /// The dormant mesh. Only while dormant().
-  [[nodiscard]] const DormantMesh& dormant_mesh() const { return dormant_->mesh; }
+  /// The mesh as it would be awake. Only while dormant().
+  [[nodiscard]] SubdomainMesh woken() const;
+  /// The dormant mesh, read from the scratch file if it is there. Only while dormant().
+  [[nodiscard]] DormantMesh dormant_mesh() const { return whole_dormant().mesh; }
 
   /// Everything as bytes (see packed_form.hpp), very few before the first work(); the subdomain that unpack makes of
   /// them continues exactly as this one would.
@@ -95,6 +101,7 @@ class Subdomain {
   struct Body;  // the mesh and its refiner
 
   void make_body();
+  [[nodiscard]] DormantBody whole_dormant() const;
   [[nodiscard]] bool sleeps_through(const SplitPoint<GlobalRootId>& split) const;
   void take_in(const SplitPoint<GlobalRootId>& split);
   void say_new_points(std::vector<SplitPoint<GlobalRootId>>& said);
@@ -105,6 +112,7 @@ class Subdomain {
   std::vector<SplitPoint<GlobalRootId>> pending_;
   std::unique_ptr<Body> body_;  // at most one of the two
   std::unique_ptr<DormantBody> dormant_;
+  std::optional<StoredBulk> stored_;  // what dormant_ lacks
 };
 
 }  // namespace driftmesh

@@ -155,7 +155,8 @@ job::Use use_in_subdomains(const Request& request, bool in_one_process) {
   const std::vector<std::string>& meshes = request.output.meshes;
   const bool whole = !request.output.picture.empty() || !std::all_of(meshes.begin(), meshes.end(), is_in_pieces);
   return {.in_subdomains = true,
-          .sleeps = request.run.sleep,
+          .sleeps = request.run.sleep || !request.run.scratch.empty(),
+          .stores = !request.run.scratch.empty(),
           .writes = writes(request.output),
           .gathers = whole && !in_one_process};
 }
@@ -174,7 +175,8 @@ job::Order order_of(const Request& request, job::Domain&& domain, const job::Tri
       job::prepare(request, domain, triangulated, {.policies = balancer::make_policy}, place, shares, limits, notes);
   prepared.plan.work.sleep = use.sleeps;
   job::add_prepared(notes.run, prepared);
-  return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, shares, use};
+  return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, shares, use,
+          request.run.scratch};
 }
 
 // ---- By threads ------------------------------------------------------------------------------------------------

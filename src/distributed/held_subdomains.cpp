@@ -25,7 +25,7 @@ HeldSubdomains held_in_memory(std::vector<HeldSubdomain> held) {
 
 void show_subdomain(const Subdomain& subdomain, const ShowSubdomain& show) {
   if (subdomain.dormant())
-    show(subdomain.id(), subdomain.dormant_mesh().wake());
+    show(subdomain.id(), subdomain.woken());
   else
     show(subdomain.id(), subdomain.mesh());
 }

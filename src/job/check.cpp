@@ -101,6 +101,14 @@ void check_parts(const Request& request) {
           "cannot be combined with mapping.speeds", "remove one of them");
 }
 
+void check_scratch(const Request& request) {
+  if (request.run.scratch.empty()) return;
+  require(request.decomposition.subdomains != 1, "run.scratch", "is for subdomains, but one piece is asked for",
+          "remove it or decomposition.subdomains");
+  require(!request.limits.keep_incomplete, "run.scratch",
+          "is for subdomains, but keeping an incomplete mesh takes one piece", "remove it or limits.keep-incomplete");
+}
+
 void check_cluster(const Request& request) {
   const Request::Cluster& c = request.cluster;
   require(c.groups.empty() || c.speed == 0, "cluster.speed",
@@ -125,6 +133,7 @@ void check(const Request& request, Place place, const balancer::PolicyMaker& pol
   check_sizes(request.bounds, request.sizing);
   check_policy(request, policies);
   check_parts(request);
+  check_scratch(request);
   if (place == kSimulated) {
     check_cluster(request);
     check_ranks(request, place, ranks_of(cluster_of(request)));

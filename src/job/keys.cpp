@@ -337,6 +337,10 @@ Section parts_section() {
            "Compress finished subdomains to about 10 bytes per triangle, from 40, until a neighbor needs them; also "
            "without it where memory would not suffice",
            option("sleep")),
+       key("run.scratch", &R::run, &R::Run::scratch,
+           "Folder on a fast disk where finished subdomains sleep, for meshes larger than memory: about 10 bytes per "
+           "triangle, gone when the program ends",
+           option("scratch", "FOLDER"), places(kOnePiece | kSubdomains | kRanks), entry_points(kMesh)),
        key("run.threads", &R::run, &R::Run::threads,
            "Threads that mesh together in a process; 0: one for each core, but under mpirun one in each. Without "
            "mpirun "

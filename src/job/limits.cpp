@@ -15,6 +15,7 @@ namespace {
 // Measured on meshes of 4 to 10 million triangles, rounded up.
 constexpr std::uint64_t kBytesAwake = 44;   // the triangulation with its work lists
 constexpr std::uint64_t kBytesAsleep = 12;  // of a finished subdomain
+constexpr std::uint64_t kBytesStored = 1;   // of one on disk, what stays in memory
 // What files are written from: corners, and points with their markers, of which there are half as many; in subdomains
 // also the subdomain and rank of each triangle, the number and owner of each point.
 constexpr std::uint64_t kBytesArrays = 26;
@@ -38,12 +39,15 @@ std::int64_t most_triangles(const Request::Limits& asked, const Use& use) {
   return asked.max_triangles == capacity ? INT64_MAX : asked.max_triangles;
 }
 
+std::uint64_t bytes_refined(const Use& use) {
+  return use.stores ? kBytesStored : use.sleeps ? kBytesAsleep : kBytesAwake;
+}
+
 /// A rank that sends its part has it three times for a moment, but no longer in the form in which it was refined.
 std::uint64_t bytes_finishing(const Pslg& pslg, const Use& use) {
   if (!use.writes) return 0;
   const std::uint64_t arrays = bytes_of_arrays(pslg, use);
-  const std::uint64_t refined = use.sleeps ? kBytesAsleep : kBytesAwake;
-  return use.gathers ? std::max(arrays, 3 * arrays - refined) : arrays;
+  return use.gathers ? std::max(arrays, 3 * arrays - bytes_refined(use)) : arrays;
 }
 
 std::string advice(const Limits& limits, bool by_memory) {
@@ -87,7 +91,7 @@ Limits find_limits(const Request::Limits& asked, const Pslg& pslg, const Use& us
       limits.memory = present + free / 10 * 9 / static_cast<std::uint64_t>(processes.on_machine);
   if (limits.memory == 0) return limits;
   const std::uint64_t room = limits.memory > present ? limits.memory - present : 0;
-  const std::uint64_t each = (use.sleeps ? kBytesAsleep : kBytesAwake) + limits.bytes_finishing;
+  const std::uint64_t each = bytes_refined(use) + limits.bytes_finishing;
   std::uint64_t triangles = room / each * static_cast<std::uint64_t>(processes.all);
   if (use.gathers) triangles = std::min(triangles, room / (2 * bytes_of_arrays(pslg, use)));
   limits.in_memory = static_cast<std::int64_t>(std::min<std::uint64_t>(triangles, INT64_MAX));

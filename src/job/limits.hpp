@@ -19,6 +19,7 @@ struct Use {
   EntryPoint by = kMesh;
   bool in_subdomains = false;
   bool sleeps = false;   ///< finished subdomains take less memory
+  bool stores = false;   ///< and sleep on disk
   bool writes = false;   ///< the mesh is written, drawn or returned
   bool gathers = false;  ///< rank 0 gathers it from the others for that
 };

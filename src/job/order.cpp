@@ -33,6 +33,7 @@ Bytes pack(const Order& order) {
   writer.text(order.sizing.expression);
   writer.text(order.sizing.background);
   transfer_rest(writer, order);
+  writer.text(order.scratch);
   return writer.take();
 }
 
@@ -46,6 +47,7 @@ Order unpack(ByteReader& reader, std::int32_t ranks, const balancer::PolicyMaker
   order.sizing.expression = reader.text();
   order.sizing.background = reader.text();
   transfer_rest(reader, order);
+  order.scratch = reader.text();
   return order;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "balancer/policy_list.hpp"
@@ -24,6 +25,7 @@ struct Order {
   Request::Limits limits;
   IdVector<Rank, double> shares;  ///< fraction of its time that each rank works, for experiments; empty: all of it
   Use use;                        ///< of the mesh
+  std::string scratch{};          ///< folder where subdomains sleep; empty: in memory
 };
 
 /// Shares the order that rank 0 makes with all ranks; empty if it makes none because there is no more work. Collective;

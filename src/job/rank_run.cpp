@@ -10,6 +10,7 @@
 #include "job/drag.hpp"
 #include "job/failure.hpp"
 #include "job/memory.hpp"
+#include "job/sleeping_room.hpp"
 #include "protocol/rank_step.hpp"
 #include "runtime/threads/thread_crew.hpp"
 #include "sizing/field_of_threads.hpp"
@@ -35,6 +36,8 @@ RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
     order_.plan.bounds.size = size_.get();
     limits_ = find_limits(order_.limits, order_.pslg, order_.use, processes_of(team_));
     order_.plan.max_triangles = limits_.triangles;
+    scratch_ = open_scratch(order_.scratch, forecast() * team_.ranks_on_machine());
+    order_.plan.scratch = scratch_.get();
   });
 }
 

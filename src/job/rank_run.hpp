@@ -64,6 +64,7 @@ class RankRun {
   std::unique_ptr<const SizeField> size_;  // made here
   Watch& watch_;
   Limits limits_;
+  std::unique_ptr<ScratchFile> scratch_;  // if subdomains sleep on disk
   std::unique_ptr<Channel> channel_;
   std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   std::optional<RankLog> log_;

@@ -89,6 +89,7 @@ struct Request {
     WorkOrder order = WorkOrder::kGiven;
     std::int64_t slice = WorkSettings{}.slice;
     bool sleep = false;
+    std::string scratch;       ///< a folder on disk for sleeping subdomains; empty: they sleep in memory
     std::int32_t threads = 0;  ///< 0: one for each core
   } run;
 

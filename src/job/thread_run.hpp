@@ -38,6 +38,7 @@ class ThreadRun {
   [[nodiscard]] DistributedPiece assemble() const;
 
  private:
+  [[nodiscard]] double forecast() const;
   void check(std::int64_t triangles) const;
   void note(const Subdomain& subdomain, const SizeField* size);
   [[nodiscard]] MeshFacts facts();
@@ -47,6 +48,7 @@ class ThreadRun {
   std::vector<const SizeField*> sizes_;                 // one for each thread
   Watch& watch_;
   Limits limits_;
+  std::unique_ptr<ScratchFile> scratch_;  // if subdomains sleep on disk
   FactsBook book_;
   std::optional<RefinementInRounds> refinement_;
 };

@@ -8,6 +8,7 @@
 #include "balancer/conduct.hpp"
 #include "balancer/parameters.hpp"
 #include "balancer/policy_list.hpp"
+#include "base/scratch_file.hpp"
 #include "decompose/decomposition.hpp"
 #include "driftmesh/ids.hpp"
 #include "driftmesh/load_snapshot.hpp"
@@ -43,6 +44,7 @@ struct RunPlan {
   bool presplit = false;
   WorkSettings work;
   std::int64_t max_triangles = INT64_MAX;  ///< on one rank; more is a LimitError
+  ScratchFile* scratch = nullptr;          ///< of this process, for subdomains that sleep; not owned; null: memory
 
   Balancing balancing;
   /// Made from the above by prepare_balancing; null without balancing.

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <vector>
 
 #include "protocol/adversarial_network.hpp"
@@ -30,16 +31,20 @@ TEST_CASE("sleeping subdomains wake up when a new point arrives") {
   CHECK(split > 100);
 }
 
-TEST_CASE("subdomains that sleep when finished make one conforming mesh, and can move asleep") {
+TEST_CASE("subdomains that sleep when finished make one conforming mesh, in memory or on disk, and can move asleep") {
+  enum class Bed { kNone, kMemory, kDisk };
+  ScratchFile disk(std::filesystem::temp_directory_path().string());
   int asleep = 0, moved = 0;
   for (const Presplit presplit : {Presplit::kOn, Presplit::kOff})
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
       CAPTURE(seed);
       RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 3, 20, presplit);
       const SubdomainContext context{&plan.decomposition, plan.bounds, plan.presplit};
-      std::uint64_t digest = 0;
-      for (const bool sleep : {false, true}) {
+      std::uint64_t digest = 0, asleep_in_memory = 0;
+      for (const Bed bed : {Bed::kNone, Bed::kMemory, Bed::kDisk}) {
+        const bool sleep = bed != Bed::kNone;
         plan.work.sleep = sleep;
+        plan.scratch = bed == Bed::kDisk ? &disk : nullptr;
         protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
         SimulatedRanks run(network, 3, plan);
         const auto move_sleeper = [&](Rank r) {
@@ -63,8 +68,10 @@ TEST_CASE("subdomains that sleep when finished make one conforming mesh, and can
         check_mesh(plan, all);
         if (!sleep) digest = digest_of(all);
         if (presplit == Presplit::kOn) CHECK(digest_of(all) == digest);
+        if (bed == Bed::kMemory) asleep_in_memory = digest_of(all);
+        if (bed == Bed::kDisk) CHECK(digest_of(all) == asleep_in_memory);
       }
     }
-  CHECK(asleep == 2 * 8 * 20);
+  CHECK(asleep == 2 * 2 * 8 * 20);
   CHECK(moved > 50);
 }

@@ -158,7 +158,7 @@ class RefinementInRounds::Round {
 RefinementInRounds::RefinementInRounds(const RunPlan& plan, std::span<const SizeField* const> sizes, Watch watch)
     : plan_(plan), watch_(std::move(watch)), owners_(plan.owners), outcomes_(sizes.size()) {
   for (const SizeField* size : sizes) {
-    contexts_.push_back({&plan.decomposition, plan.bounds, plan.presplit});
+    contexts_.push_back({&plan.decomposition, plan.bounds, plan.presplit, plan.scratch});
     contexts_.back().bounds.size = size;
   }
   for (const SubdomainId s : ids_of(owners_)) subdomains_.emplace(s, Subdomain(s, contexts_[owners_[s]]));

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+
+namespace driftmesh {
+
+/// Room on disk for what memory shall not hold. The file has no name, so the system removes it when the process ends,
+/// however that happens. Bytes are only ever appended; where some are no longer needed, a hole is punched, which gives
+/// the room back to the file system if it knows holes. Errors: FileError. Threads may use it at the same time.
+class ScratchFile {
+ public:
+  /// Bytes in the file, while the object exists.
+  class Piece {
+   public:
+    Piece(Piece&& other) noexcept;
+    Piece& operator=(Piece&& other) noexcept;
+    ~Piece();
+    [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+    /// Fills `to` with the bytes from `offset` on.
+    void read(std::uint64_t offset, std::span<std::byte> to) const;
+
+   private:
+    friend ScratchFile;
+    Piece(ScratchFile& file, std::uint64_t begin, std::uint64_t bytes) : file_(&file), begin_(begin), bytes_(bytes) {}
+
+    ScratchFile* file_;
+    std::uint64_t begin_, bytes_;
+  };
+
+  /// In this folder. Throws FileError if it cannot be written there.
+  explicit ScratchFile(std::string folder);
+  ~ScratchFile();
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+
+  /// Writes the parts one after the other. The file must outlive the result.
+  [[nodiscard]] Piece put(std::initializer_list<std::span<const std::byte>> parts);
+  /// What its file system still has for this process.
+  [[nodiscard]] std::uint64_t room() const;
+
+ private:
+  [[noreturn]] void fail(const char* what) const;
+  void write(std::uint64_t place, std::span<const std::byte> bytes) const;
+
+  std::string folder_;
+  int file_ = -1;
+  std::atomic<std::uint64_t> end_ = 0;
+};
+
+}  // namespace driftmesh

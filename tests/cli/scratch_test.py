@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Finished subdomains asleep on disk (--scratch): the mesh is the same, little memory is needed, nothing is left behind.
+
+usage: scratch_test.py DRIFTMESH [unittest options]
+"""
+
+import filecmp
+import os
+import re
+import signal
+import subprocess
+import time
+
+import program
+
+CUT = ("--triangles", "600k", "-n", "60")
+
+
+class Scratch(program.Cli):
+    def setUp(self):
+        super().setUp()
+        self.write("square.poly", program.SQUARE)
+        self.bed = self.folder / "bed"
+        self.bed.mkdir()
+
+    def start(self, *arguments, ranks=None, **options):
+        ranks = ["mpiexec", "-n", str(ranks)] if ranks else []
+        return subprocess.Popen([*ranks, program.PATH, "mesh", "square.poly", *arguments], cwd=self.folder,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                env=program.RANKS_ENVIRONMENT, **options)
+
+    def run_to_end(self, *arguments, **options):
+        process = self.start(*arguments, **options)
+        output, errors = process.communicate(timeout=program.MESHER_SECONDS)
+        return process.returncode, output, errors
+
+    def digest(self, *arguments, **options):
+        code, output, errors = self.run_to_end(*arguments, **options)
+        self.assertEqual(code, 0, errors)
+        self.assertEqual(list(self.bed.iterdir()), [])
+        return re.search(r"digest +(\w+)", output).group(1)
+
+    def test_the_mesh_is_that_of_memory(self):
+        for presplit in ("on", "off"):
+            asleep = self.digest(*CUT, "--presplit", presplit, "--sleep")
+            for threads in ("1", "2", "3"):
+                self.assertEqual(self.digest(*CUT, "--presplit", presplit, "--scratch", "bed", "--threads", threads), asleep)
+        awake = self.digest(*CUT)
+        self.assertEqual(self.digest(*CUT, "--scratch", "bed"), awake)
+        self.assertEqual(self.digest(*CUT, "--scratch", "bed", ranks=2), awake)
+
+    def test_memory(self):
+        """Four million triangles take 40 MB asleep in memory."""
+        code, output, errors = self.run_to_end("--triangles", "4M", "--scratch", "bed", "--threads", "1",
+                                               "--max-memory", "40M")
+        self.assertEqual(code, 0, errors)
+        peak = re.search(r"while refining ([\d.]+) MB", output)
+        self.assertLess(float(peak.group(1)), 30, output)
+
+    def test_files_are_the_same(self):
+        self.digest(*CUT, "--sleep", "-o", "a.pvtu", "-o", "a.msh")
+        self.digest(*CUT, "--scratch", "bed", "-o", "b.pvtu", "-o", "b.msh")
+        for end in ("_0.vtu", ".msh"):
+            self.assertTrue(filecmp.cmp(self.folder / f"a{end}", self.folder / f"b{end}", shallow=False), end)
+
+    def test_refusals_before_the_work_begins(self):
+        for triangles, arguments, code, words in (
+                ("600k", ("nowhere",), 1, ("nowhere", "No such file or directory")),
+                ("600k", ("square.poly",), 1, ("square.poly", "Not a directory")),
+                ("1T", ("bed", "-n", "60", "--max-memory", "10T"), 1, ("bed", "free", "--scratch")),
+                ("600k", ("bed", "-n", "1"), 2, ("--scratch", "one piece")),
+                ("600k", ("bed", "--keep-incomplete"), 2, ("--scratch", "--keep-incomplete"))):
+            ended, _, errors = self.run_to_end("--triangles", triangles, "--scratch", *arguments)
+            self.assertEqual(ended, code, errors)
+            for word in words:
+                self.assertIn(word, errors)
+
+    def test_a_disk_that_gets_full(self):
+        """What the file system says, on a thread and on ranks, and nothing is left."""
+        for ranks in ([], ["mpiexec", "-n", "2"]):
+            as_on_a_full_disk = ["sh", "-c", 'trap "" XFSZ; ulimit -f 12000; exec "$0" "$@"']
+            ended = subprocess.run([*ranks, *as_on_a_full_disk, program.PATH, "mesh", "square.poly", "--triangles", "4M",
+                                    "-n", "200", "--scratch", "bed"], cwd=self.folder, capture_output=True, text=True,
+                                   timeout=program.MESHER_SECONDS, check=False, env=program.RANKS_ENVIRONMENT)
+            errors = ended.stderr
+            self.assertEqual(ended.returncode, 1, errors)
+            self.assertIn("bed: cannot write scratch data", errors)
+            self.assertIn("File too large", errors)
+            self.assertEqual(list(self.bed.iterdir()), [])
+
+    def test_nothing_is_left_by_a_killed_process(self):
+        for number in (signal.SIGKILL, signal.SIGINT, signal.SIGABRT):
+            process = self.start("--triangles", "100M", "--scratch", "bed")
+            time.sleep(0.5)
+            descriptors = [os.readlink(f"/proc/{process.pid}/fd/{fd}") for fd in os.listdir(f"/proc/{process.pid}/fd")]
+            self.assertTrue(any(str(self.bed) in path for path in descriptors), descriptors)  # it is at work there
+            process.send_signal(number)
+            process.communicate()
+            self.assertEqual(process.returncode, -number)
+            self.assertEqual(list(self.bed.iterdir()), [])
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,87 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <random>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "base/bytes.hpp"
+#include "base/scratch_file.hpp"
+#include "driftmesh/error.hpp"
+#include "temporary_folder.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+Bytes noise(std::size_t size, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  Bytes bytes(size);
+  std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::byte>(random()); });
+  return bytes;
+}
+
+Bytes read_all(const ScratchFile::Piece& piece) {
+  Bytes bytes(piece.bytes());
+  piece.read(0, bytes);
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("a scratch file gives back what was put there, and no name of it is seen") {
+  const TemporaryFolder folder;
+  ScratchFile file(folder.path().string());
+  std::vector<std::pair<ScratchFile::Piece, Bytes>> kept;
+  for (std::uint64_t i = 0; i < 50; ++i) {
+    const Bytes bytes = noise(i * 997, i);
+    const auto front = std::span(bytes).first(bytes.size() / 3);
+    kept.emplace_back(file.put({front, std::span(bytes).subspan(front.size())}), bytes);
+    if (i % 4 == 3) kept.erase(kept.begin());  // and where it was nobody else's bytes change
+  }
+  CHECK(std::filesystem::is_empty(folder.path()));
+  for (const auto& [piece, bytes] : kept) CHECK(read_all(piece) == bytes);
+  Bytes tail(100);
+  kept.back().first.read(kept.back().second.size() - 100, tail);
+  CHECK(std::equal(tail.begin(), tail.end(), kept.back().second.end() - 100));
+}
+
+TEST_CASE("room in a scratch file that is no longer needed is given back") {
+  const TemporaryFolder folder;
+  ScratchFile file(folder.path().string());
+  const Bytes megabytes = noise(std::size_t{32} << 20, 1);
+  const std::uint64_t room = file.room();
+  std::optional piece = file.put({megabytes});
+  piece.reset();
+  constexpr std::uint64_t kOfOthers = 24 << 20;  // they use the disk, too
+  CHECK(file.room() + kOfOthers > room);
+}
+
+TEST_CASE("threads may use one scratch file") {
+  const TemporaryFolder folder;
+  ScratchFile file(folder.path().string());
+  std::vector<std::thread> threads;
+  std::vector<int> wrong(4, 0);
+  for (std::size_t t = 0; t < wrong.size(); ++t)
+    threads.emplace_back([&, t] {
+      for (std::uint64_t i = 0; i < 200; ++i) {
+        const Bytes bytes = noise(1000 + i, 1000 * t + i);
+        const ScratchFile::Piece piece = file.put({bytes});
+        if (read_all(piece) != bytes) ++wrong[t];
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(wrong == std::vector<int>(4, 0));
+}
+
+TEST_CASE("a folder that cannot be written is refused by name") {
+  const TemporaryFolder folder;
+  const std::string missing = (folder.path() / "missing").string();
+  CHECK_THROWS_WITH_AS(ScratchFile{missing},
+                       (missing + ": cannot keep scratch data in this folder: No such file or directory").c_str(),
+                       FileError);
+}
