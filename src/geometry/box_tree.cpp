@@ -1,45 +1,41 @@
 #include "geometry/box_tree.hpp"
 
 #include "base/narrow.hpp"
-#include "geometry/hilbert.hpp"
+#include "geometry/hilbert_sort.hpp"
 
 namespace driftmesh {
 namespace {
 
-constexpr std::ptrdiff_t kLongRun = 64;
-
-struct Place {
-  std::uint64_t on_curve;
-  std::int32_t item;
-};
-using Places = std::vector<Place>::iterator;
+constexpr std::size_t kLongRun = 64;
 
 /// Sorts by the position of the boxes' centers along a Hilbert curve. Centers that share a cell of the curve (all but
 /// one may, if there is a distant outlier) are sorted along a finer curve, so the tree is good for any distribution.
-void sort_along_curve(Places begin, Places end, const std::vector<Box>& boxes) {
-  const auto center = [&](const Place& place) { return boxes[place.item].center(); };
+std::vector<std::int32_t> sorted_along_curve(std::vector<std::int32_t> items, const std::vector<Box>& boxes) {
+  const auto center = [&](std::int32_t item) { return boxes[item].center(); };
   Box all;
-  for (Places i = begin; i != end; ++i) all.extend(center(*i));
-  if (all.low == all.high) return;
+  for (const std::int32_t item : items) all.extend(center(item));
+  if (all.low == all.high) return items;
   const HilbertOrder order(all.low, all.high);
-  for (Places i = begin; i != end; ++i) i->on_curve = order.index(center(*i));
-  std::sort(begin, end, [](const Place& a, const Place& b) {
-    return a.on_curve != b.on_curve ? a.on_curve < b.on_curve : a.item < b.item;
-  });
-  for (Places run = begin; run != end;) {
-    const Places next = std::find_if(run, end, [run](const Place& place) { return place.on_curve != run->on_curve; });
-    if (next - run > kLongRun && next - run < end - begin) sort_along_curve(run, next, boxes);
+  AlongCurve<std::int32_t> places;
+  places.reserve(items.size());
+  for (const std::int32_t item : items) places.emplace_back(order.index(center(item)), item);
+  sort_along_curve(places);
+  std::transform(places.begin(), places.end(), items.begin(), [](const auto& place) { return place.second; });
+  for (std::size_t run = 0; run < places.size();) {
+    std::size_t next = run + 1;
+    while (next < places.size() && places[next].first == places[run].first) ++next;
+    if (next - run > kLongRun && next - run < places.size()) {
+      const auto begin = items.begin() + run;
+      std::ranges::copy(sorted_along_curve({begin, items.begin() + next}, boxes), begin);
+    }
     run = next;
   }
+  return items;
 }
 
-/// Indices of boxes, in the order of the curve.
-std::vector<std::int32_t> sorted_along_curve(const std::vector<Box>& boxes) {
-  std::vector<Place> places(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) places[i] = {0, narrow<std::int32_t>(i, "number of boxes")};
-  sort_along_curve(places.begin(), places.end(), boxes);
+std::vector<std::int32_t> all_items(const std::vector<Box>& boxes) {
   std::vector<std::int32_t> items(boxes.size());
-  std::transform(places.begin(), places.end(), items.begin(), [](const Place& place) { return place.item; });
+  for (std::size_t i = 0; i < boxes.size(); ++i) items[i] = narrow<std::int32_t>(i, "number of boxes");
   return items;
 }
 
@@ -47,7 +43,7 @@ std::vector<std::int32_t> sorted_along_curve(const std::vector<Box>& boxes) {
 
 BoxTree::BoxTree(const std::vector<Box>& boxes) {
   if (boxes.empty()) return;
-  items_ = sorted_along_curve(boxes);
+  items_ = sorted_along_curve(all_items(boxes), boxes);
   std::vector<Box> level(boxes.size());
   std::transform(items_.begin(), items_.end(), level.begin(), [&](std::int32_t item) { return boxes[item]; });
   while (level.size() > kChildren) {

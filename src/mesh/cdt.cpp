@@ -49,14 +49,22 @@ void add_box(Triangulation& mesh, const Pslg& pslg) {
 
 std::string describe(const Triangulation& mesh, VertexId v) {
   const Point& p = mesh.points[v];
-  return "point " + std::to_string(to_int(v)) + " (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+  return "point " + std::to_string(mesh.origin[v]) + " (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
 }
 
-void insert_points(Triangulation& mesh, const Pslg& pslg) {
+/// Adds the points in the order in which they are to be inserted, so that neighbors in the plane are neighbors in
+/// memory. Returns the vertex of each.
+std::vector<VertexId> add_points(Triangulation& mesh, const std::vector<Point>& points) {
+  std::vector<VertexId> vertex(points.size());
+  for (const std::size_t i : in_hilbert_order(points))
+    vertex[i] = mesh.add_vertex(points[i], narrow<VertexOrigin>(i, "number of points"));
+  return vertex;
+}
+
+void insert_points(Triangulation& mesh, std::size_t count) {
   Cavity cavity(mesh);
   TriangleId near{0};
-  for (const std::size_t i : in_hilbert_order(pslg.points)) {
-    const auto v = static_cast<VertexId>(i);
+  for (const VertexId v : IdRange<VertexId>(count)) {
     const Cavity::Found found = cavity.gather_from_afar(mesh.points[v], near);
     if (found != Cavity::Found::kClear)
       throw Error(describe(mesh, v) + " coincides with another point; repair the input first");
@@ -81,7 +89,8 @@ class SegmentRecovery {
       flip_crossings(a, b);
       edge = find_edge_or_crossing(a, b);
     }
-    constrain(edge, mesh_.add_root(std::min(a, b), std::max(a, b), marker, kNone));
+    const auto [low, high] = mesh_.origin[a] < mesh_.origin[b] ? std::pair(a, b) : std::pair(b, a);
+    constrain(edge, mesh_.add_root(low, high, marker, kNone));
     restore_delaunay();
   }
 
@@ -206,9 +215,10 @@ class SegmentRecovery {
   std::vector<HalfEdge> pending_;
 };
 
-void recover_segments(Triangulation& mesh, const std::vector<Pslg::Segment>& segments) {
+void recover_segments(Triangulation& mesh, const std::vector<Pslg::Segment>& segments,
+                      const std::vector<VertexId>& vertex) {
   SegmentRecovery recovery(mesh);
-  for (const Pslg::Segment& s : segments) recovery.recover(VertexId{s.a}, VertexId{s.b}, s.marker);
+  for (const Pslg::Segment& s : segments) recovery.recover(vertex[s.a], vertex[s.b], s.marker);
 }
 
 /// The segments, or those of the convex hull if there are none.
@@ -222,11 +232,10 @@ std::vector<Pslg::Segment> segments_or_hull(const Pslg& pslg) {
 Triangulation triangulate_box(const Pslg& pslg) {
   if (pslg.points.size() < 3) throw Error("a domain needs at least three points");
   Triangulation mesh;
-  for (std::size_t i = 0; i < pslg.points.size(); ++i)
-    mesh.add_vertex(pslg.points[i], narrow<VertexOrigin>(i, "number of points"));
+  const std::vector<VertexId> vertex = add_points(mesh, pslg.points);
   add_box(mesh, pslg);
-  insert_points(mesh, pslg);
-  recover_segments(mesh, segments_or_hull(pslg));
+  insert_points(mesh, vertex.size());
+  recover_segments(mesh, segments_or_hull(pslg), vertex);
   return mesh;
 }
 

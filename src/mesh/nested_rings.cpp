@@ -75,10 +75,14 @@ class Nesting {
       largest_.push_back(first);
       area_of_[first] = area;
       stack.push_back(first);
+      double largest = 0;
       while (!stack.empty()) {
         const TriangleId t = stack.back();
         stack.pop_back();
-        if (size(t) > size(largest_[area])) largest_[area] = t;
+        if (const double here = size(t); here > largest) {
+          largest = here;
+          largest_[area] = t;
+        }
         for (const HalfEdge h : mesh_.triangles[t].neighbor)
           if (!is_constrained(h) && area_of_[triangle_of(h)] == kNone) {
             area_of_[triangle_of(h)] = area;

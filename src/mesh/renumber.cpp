@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/box.hpp"
-#include "geometry/hilbert.hpp"
+#include "geometry/hilbert_sort.hpp"
 
 namespace driftmesh {
 namespace {
@@ -25,14 +25,14 @@ HilbertOrder hilbert_order(const Triangulation& mesh) {
 
 void sort_by_hilbert(const Triangulation& mesh, std::vector<TriangleId>& triangles) {
   const HilbertOrder order = hilbert_order(mesh);
-  std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
-  keyed.reserve(triangles.size());
+  AlongCurve<TriangleId> places;
+  places.reserve(triangles.size());
   for (const TriangleId t : triangles) {
     const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
-    keyed.emplace_back(order.index({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}), t);
+    places.emplace_back(order.index({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}), t);
   }
-  std::sort(keyed.begin(), keyed.end());
-  std::transform(keyed.begin(), keyed.end(), triangles.begin(), [](const auto& k) { return k.second; });
+  sort_along_curve(places);
+  std::transform(places.begin(), places.end(), triangles.begin(), [](const auto& place) { return place.second; });
 }
 
 IdVector<VertexId, bool> used_vertices(const Triangulation& mesh, const std::vector<TriangleId>& triangles) {

@@ -20,6 +20,8 @@ namespace {
 // The origin of a piece that does not come from a segment of the input.
 constexpr std::int32_t kHullEdge = -1, kDropped = -2;
 
+constexpr std::int32_t kAhead = 16;  // points that the welder looks ahead: as long as memory takes to answer
+
 template <class Describe>
 void note(RepairItem& item, Describe describe) {
   if (item.count++ < RepairItem::kMaxExamples) item.examples.push_back(describe());
@@ -147,6 +149,7 @@ void Planarizer::weld_points() {
   report_.original_point.reserve(pslg_.points.size());
   for (std::int32_t i = 0; i < count; ++i) {
     const Point& p = pslg_.points[i];
+    if (i + kAhead < count) welder_.prefetch(pslg_.points[i + kAhead]);
     const std::int32_t kept = welder_.add(p);
     welded_.push_back(kept);
     if (std::cmp_equal(kept, report_.original_point.size())) {

@@ -21,7 +21,7 @@ std::uint64_t mix(std::uint64_t h) {
 
 }  // namespace
 
-PointWelder::PointWelder(std::size_t expected) : slots_(std::bit_ceil(2 * expected + 16), -1) {
+PointWelder::PointWelder(std::size_t expected) : slots_(std::bit_ceil(2 * expected + 16)) {
   points_.reserve(expected);
 }
 
@@ -35,7 +35,7 @@ PointWelder::Cell PointWelder::cell_of(const Point& p) {
           biased};
 }
 
-std::size_t PointWelder::hash(const Cell& cell) {
+std::uint64_t PointWelder::hash(const Cell& cell) {
   const auto x = static_cast<std::uint64_t>(cell.x), y = static_cast<std::uint64_t>(cell.y);
   return mix(x + mix(y + mix(static_cast<std::uint64_t>(cell.exponent))));
 }
@@ -43,8 +43,10 @@ std::size_t PointWelder::hash(const Cell& cell) {
 void PointWelder::search(const Cell& cell, const Point& p, std::int32_t& best) const {
   const double margin = closeness(p);
   const std::size_t mask = slots_.size() - 1;
-  for (std::size_t slot = hash(cell) & mask; slots_[slot] >= 0; slot = (slot + 1) & mask) {
-    const std::int32_t index = slots_[slot];
+  const std::uint64_t hashed = hash(cell);
+  for (std::size_t slot = hashed & mask; slots_[slot].index >= 0; slot = (slot + 1) & mask) {
+    if (slots_[slot].tag != tag_of(hashed)) continue;
+    const std::int32_t index = slots_[slot].index;
     const Point& q = points_[index];
     const double reach = std::max(margin, closeness(q));
     if (std::fabs(p.x - q.x) > reach || std::fabs(p.y - q.y) > reach) continue;
@@ -76,13 +78,14 @@ std::int32_t PointWelder::add(const Point& p) {
 
 void PointWelder::insert(std::int32_t index) {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = hash(cell_of(points_[index])) & mask;
-  while (slots_[slot] >= 0) slot = (slot + 1) & mask;
-  slots_[slot] = index;
+  const std::uint64_t hashed = hash(cell_of(points_[index]));
+  std::size_t slot = hashed & mask;
+  while (slots_[slot].index >= 0) slot = (slot + 1) & mask;
+  slots_[slot] = {tag_of(hashed), index};
 }
 
 void PointWelder::grow() {
-  slots_.assign(2 * slots_.size(), -1);
+  slots_.assign(2 * slots_.size(), {});
   for (std::int32_t i = 0; i + 1 < static_cast<std::int32_t>(points_.size()); ++i) insert(i);
 }
 

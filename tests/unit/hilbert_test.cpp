@@ -1,11 +1,13 @@
-#include "geometry/hilbert.hpp"
-
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <random>
 #include <vector>
+
+#include "geometry/hilbert_sort.hpp"
 
 using namespace driftmesh;
 
@@ -68,4 +70,16 @@ TEST_CASE("a box may have no width or height") {
   const HilbertOrder point({3, 3}, {3, 3}), line({0, 3}, {10, 3});
   CHECK(point.index({3, 3}) == 0);
   CHECK(line.index({4, 3}) != line.index({7, 3}));
+}
+
+TEST_CASE("many things are sorted as a few are, wherever on the curve they lie") {
+  std::mt19937_64 random(51);
+  for (const int narrowed : {0, 8, 40, 60}) {  // bits in which no two positions differ
+    AlongCurve<int> places;
+    for (int i = 0; i < 50'000; ++i) places.emplace_back(~std::uint64_t{0} - (random() >> narrowed), i % 777);
+    AlongCurve<int> sorted = places;
+    std::sort(sorted.begin(), sorted.end());
+    sort_along_curve(places);
+    CHECK(places == sorted);
+  }
 }
