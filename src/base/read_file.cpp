@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/huge_pages.hpp"
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
 
@@ -52,6 +53,7 @@ std::string read_file(const std::string& path) {
   std::size_t used = 0;
   std::size_t wanted = expected_size(path) + 1;  // one more, so that the end is seen in the first round
   while (true) {
+    reserve_in_huge_pages(bytes, used + wanted);
     bytes.resize(used + wanted);
     errno = 0;
     const std::size_t got = std::fread(bytes.data() + used, 1, wanted, file.get());

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <utility>
 
+#include "base/huge_pages.hpp"
 #include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
@@ -14,7 +15,41 @@
 namespace driftmesh {
 namespace {
 
+constexpr std::uint8_t kVtkTriangle = 5;
 constexpr std::uint64_t kMostTuples = std::uint64_t{1} << 48;  // of any array that a machine can hold
+
+/// The values of an array. Those that the file holds as they are needed stay there.
+template <class T>
+class Values {
+ public:
+  Values(std::string_view bytes, std::string&& unpacked) : unpacked_(std::move(unpacked)), bytes_(bytes) {
+    if (!unpacked_.empty()) bytes_ = unpacked_;
+  }
+  explicit Values(std::vector<T>&& converted)
+      : converted_(std::move(converted)),
+        bytes_(reinterpret_cast<const char*>(converted_.data()), converted_.size() * sizeof(T)) {}
+  Values(const Values&) = delete;
+  Values& operator=(const Values&) = delete;
+
+  [[nodiscard]] std::size_t size() const { return bytes_.size() / sizeof(T); }
+  [[nodiscard]] T operator[](std::size_t i) const {
+    T value;
+    std::memcpy(&value, bytes_.data() + i * sizeof(T), sizeof(T));
+    return value;
+  }
+  [[nodiscard]] std::vector<T> all() const {
+    std::vector<T> copy;
+    reserve_in_huge_pages(copy, size());
+    copy.resize(size());
+    if (!bytes_.empty()) std::memcpy(copy.data(), bytes_.data(), bytes_.size());
+    return copy;
+  }
+
+ private:
+  std::vector<T> converted_;
+  std::string unpacked_;
+  std::string_view bytes_;
+};
 
 // The arrays by name, converted to the types that a Mesh has.
 class ArrayReader {
@@ -33,7 +68,7 @@ class ArrayReader {
 
   /// `tuples` x components values.
   template <class To>
-  [[nodiscard]] std::vector<To> load(const VtuHeader::Array& array, std::uint64_t tuples) const {
+  [[nodiscard]] Values<To> load(const VtuHeader::Array& array, std::uint64_t tuples) const {
     if (array.type == "Float64") return convert<To, double>(array, tuples);
     if (array.type == "Float32") return convert<To, float>(array, tuples);
     if (array.type == "Int8") return convert<To, std::int8_t>(array, tuples);
@@ -49,26 +84,27 @@ class ArrayReader {
 
  private:
   template <class To, class From>
-  [[nodiscard]] std::vector<To> convert(const VtuHeader::Array& array, std::uint64_t tuples) const {
+  [[nodiscard]] Values<To> convert(const VtuHeader::Array& array, std::uint64_t tuples) const {
     if (array.components == 0 || array.components > kMostTuples || tuples > kMostTuples / array.components)
       throw InputError(
           {path_, array.line},
           "a DataArray of " + std::to_string(tuples) + " x " + std::to_string(array.components) + " values", kDamaged);
     const std::uint64_t count = tuples * array.components;
-    if (array.format == VtuHeader::Format::kAscii) return parse_text<To, From>(array, count);
+    if (array.format == VtuHeader::Format::kAscii) return Values<To>(parse_text<To, From>(array, count));
     std::string storage;
     const std::string_view bytes = data_.bytes(array, count * sizeof(From), storage);
-    std::vector<To> result(count);
     if constexpr (std::is_same_v<To, From>) {
-      if (!bytes.empty()) std::memcpy(result.data(), bytes.data(), bytes.size());
+      return Values<To>(bytes, std::move(storage));
     } else {
-      for (std::size_t i = 0; i < result.size(); ++i) {
+      std::vector<To> result;
+      reserve_in_huge_pages(result, count);
+      for (std::size_t i = 0; i < count; ++i) {
         From value;
         std::memcpy(&value, bytes.data() + i * sizeof(From), sizeof(From));
-        result[i] = checked<To>(value, array);
+        result.push_back(checked<To>(value, array));
       }
+      return Values<To>(std::move(result));
     }
-    return result;
   }
 
   template <class To, class From>
@@ -108,7 +144,7 @@ class ArrayReader {
   VtuData data_;
 };
 
-// Splits the cells into triangles and lines, each with its position among all cells.
+// Splits the cells into triangles and lines.
 class CellSplitter {
  public:
   CellSplitter(const std::string& path, const ArrayReader& arrays, std::uint64_t cells)
@@ -116,32 +152,31 @@ class CellSplitter {
         types_(arrays.load<std::uint8_t>(arrays.get("Cells", "types"), cells)),
         ends_(arrays.load<std::int64_t>(arrays.get("Cells", "offsets"), cells)),
         vertices_(arrays.load<std::int32_t>(arrays.get("Cells", "connectivity"),
-                                            ends_.empty() ? 0 : static_cast<std::uint64_t>(ends_.back()))) {}
+                                            cells == 0 ? 0 : static_cast<std::uint64_t>(ends_[cells - 1]))) {}
 
   void split(Mesh& mesh) {
+    reserve_in_huge_pages(mesh.triangles, vertices_.size() / 3);
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < types_.size(); ++cell) {
       const std::size_t corners = corner_count(cell);
       if (ends_[cell] != begin + static_cast<std::int64_t>(corners) || std::cmp_greater(ends_[cell], vertices_.size()))
         throw InputError({path_, 0}, "cell " + std::to_string(cell) + " (counted from 0) has a wrong offset", kDamaged);
-      const std::int32_t* const corner = vertices_.data() + begin;
+      const auto corner = [&](std::size_t k) { return vertices_[static_cast<std::size_t>(begin) + k]; };
       if (corners == 3) {
-        mesh.triangles.push_back({corner[0], corner[1], corner[2]});
-        triangle_cells.push_back(cell);
+        mesh.triangles.push_back({corner(0), corner(1), corner(2)});
       } else {
-        mesh.edges.push_back({corner[0], corner[1], 0});
+        mesh.edges.push_back({corner(0), corner(1), 0});
         line_cells.push_back(cell);
       }
       begin = ends_[cell];
     }
   }
 
-  std::vector<std::size_t> triangle_cells;
-  std::vector<std::size_t> line_cells;
+  std::vector<std::size_t> line_cells;  // ascending; all others are triangles
 
  private:
   [[nodiscard]] std::size_t corner_count(std::size_t cell) const {
-    if (types_[cell] == 5) return 3;
+    if (types_[cell] == kVtkTriangle) return 3;
     if (types_[cell] == 3) return 2;
     throw InputError({path_, 0},
                      "cell " + std::to_string(cell) + " (counted from 0) is of VTK type " +
@@ -150,16 +185,16 @@ class CellSplitter {
   }
 
   const std::string& path_;
-  std::vector<std::uint8_t> types_;
-  std::vector<std::int64_t> ends_;
-  std::vector<std::int32_t> vertices_;
+  Values<std::uint8_t> types_;
+  Values<std::int64_t> ends_;
+  Values<std::int32_t> vertices_;
 };
 
 void read_points(Mesh& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
   const VtuHeader::Array& array = arrays.get("Points", "Points");
   if (array.components != 3) throw InputError({path, array.line}, "the points need NumberOfComponents=\"3\"", kDamaged);
-  const std::vector<double> xyz = arrays.load<double>(array, count);
-  mesh.points.reserve(xyz.size() / 3);
+  const Values<double> xyz = arrays.load<double>(array, count);
+  reserve_in_huge_pages(mesh.points, xyz.size() / 3);
   for (std::size_t i = 0; i < xyz.size(); i += 3) {
     if (xyz[i + 2] != xyz[2])
       throw InputError({path, 0}, "is not planar: its points differ in z", "only planar meshes can be read");
@@ -169,28 +204,33 @@ void read_points(Mesh& mesh, const std::string& path, const ArrayReader& arrays,
 
 void read_point_data(Mesh& mesh, const ArrayReader& arrays, std::uint64_t count) {
   if (const VtuHeader::Array* const marker = arrays.find("PointData", "marker"))
-    mesh.point_markers = arrays.load<std::int32_t>(*marker, count);
+    mesh.point_markers = arrays.load<std::int32_t>(*marker, count).all();
   if (const VtuHeader::Array* const attribute = arrays.find("PointData", "attribute")) {
-    mesh.attributes = arrays.load<double>(*attribute, count);
+    mesh.attributes = arrays.load<double>(*attribute, count).all();
     mesh.attributes_per_point = static_cast<std::int32_t>(std::min<std::uint64_t>(attribute->components, 1 << 20));
   }
   if (const VtuHeader::Array* const number = arrays.find("PointData", "global_number"))
-    mesh.numbers = arrays.load<std::int64_t>(*number, count);
+    mesh.numbers = arrays.load<std::int64_t>(*number, count).all();
 }
 
 void read_cells(Mesh& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
   CellSplitter cells(path, arrays, count);
   cells.split(mesh);
   if (const VtuHeader::Array* const marker = arrays.find("CellData", "marker")) {
-    const std::vector<std::int32_t> markers = arrays.load<std::int32_t>(*marker, count);
+    const Values<std::int32_t> markers = arrays.load<std::int32_t>(*marker, count);
     for (std::size_t e = 0; e < mesh.edges.size(); ++e) mesh.edges[e].marker = markers[cells.line_cells[e]];
   }
   const auto load_of_triangles = [&]<class T>(const char* name, std::vector<T>& values) {
     const VtuHeader::Array* const array = arrays.find("CellData", name);
     if (array == nullptr) return;
-    const std::vector<T> of_cells = arrays.load<T>(*array, count);
-    values.reserve(cells.triangle_cells.size());
-    for (std::size_t cell : cells.triangle_cells) values.push_back(of_cells[cell]);
+    const Values<T> of_cells = arrays.load<T>(*array, count);
+    reserve_in_huge_pages(values, mesh.triangles.size());
+    auto line = cells.line_cells.begin();
+    for (std::size_t cell = 0; cell < count; ++cell)
+      if (line != cells.line_cells.end() && *line == cell)
+        ++line;
+      else
+        values.push_back(of_cells[cell]);
   };
   load_of_triangles("region", mesh.regions);
   load_of_triangles("subdomain", mesh.subdomains);

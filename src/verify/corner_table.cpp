@@ -1,10 +1,15 @@
 #include "verify/corner_table.hpp"
 
+#include "base/huge_pages.hpp"
 #include "base/narrow.hpp"
 
 namespace driftmesh {
 
-CornerTable::CornerTable(const Mesh& mesh) : first_(mesh.points.size() + 1), corners_(3 * mesh.triangles.size()) {
+CornerTable::CornerTable(const Mesh& mesh) {
+  reserve_in_huge_pages(first_, mesh.points.size() + 1);
+  reserve_in_huge_pages(corners_, 3 * mesh.triangles.size());
+  first_.resize(mesh.points.size() + 1);
+  corners_.resize(3 * mesh.triangles.size());
   (void)narrow<std::uint32_t>(corners_.size(), "triangle corners to check");
   for (const auto& triangle : mesh.triangles)
     for (const std::int32_t v : triangle) ++first_[v];

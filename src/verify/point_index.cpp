@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "base/huge_pages.hpp"
 #include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
@@ -17,8 +18,11 @@ std::uint64_t hash(const Point& p) {
 
 }  // namespace
 
-PointIndex::PointIndex(std::span<const Point> points)
-    : points_(points), slots_(std::bit_ceil(2 * points.size() + 1), kNone) {}
+PointIndex::PointIndex(std::span<const Point> points) : points_(points) {
+  const std::size_t slots = std::bit_ceil(2 * points.size() + 1);
+  reserve_in_huge_pages(slots_, slots);
+  slots_.assign(slots, kNone);
+}
 
 std::int32_t PointIndex::add(std::int32_t i) {
   std::int32_t& slot = slots_[slot_of(points_[i])];

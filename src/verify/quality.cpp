@@ -53,17 +53,30 @@ class DegreeBins {
   DegreeBins() {
     for (std::size_t d = 1; d < 180; ++d)
       limits_[d - 1] = d == 90 ? 0 : static_cast<double>(1 / std::tan(static_cast<long double>(d) / kDegrees));
+    limits_.back() = std::numeric_limits<double>::quiet_NaN();
+    std::size_t above = limits_.size() - 1;
+    for (std::size_t cell = 0; cell < kCells; ++cell) {
+      while (above > 0 && cell_of(limits_[above - 1]) <= cell) --above;
+      above_[cell] = static_cast<std::uint8_t>(above);
+    }
   }
   /// The whole degrees of the angle.
   [[nodiscard]] std::size_t bin(double cotangent) const {
-    std::size_t low = 0;  // the number of limits at or above the cotangent, by halving without branches
-    for (std::size_t step : {90u, 45u, 23u, 11u, 6u, 3u, 2u, 1u})
-      low += low + step <= limits_.size() && limits_[low + step - 1] >= cotangent ? step : 0;
-    return low;
+    const std::size_t above = above_[cell_of(cotangent)];
+    return above + (limits_[above] >= cotangent ? 1 : 0);
   }
 
  private:
-  std::array<double, 179> limits_{};
+  static constexpr std::size_t kCells = 1024;  // so many that none holds two limits
+
+  /// Rises with the cotangent; that of a triangle without area, which is not a number, counts as the largest.
+  static std::size_t cell_of(double cotangent) {
+    const double bounded = cotangent < 1e6 ? std::max(cotangent, -1e6) : 1e6;
+    return static_cast<std::size_t>((1 + bounded / (1 + std::fabs(bounded))) * (kCells / 2));
+  }
+
+  std::array<double, 180> limits_{};          // falling; the last is none, so that nothing passes it
+  std::array<std::uint8_t, kCells> above_{};  // for each cell the number of limits in higher ones
 };
 
 class QualityCheck {
