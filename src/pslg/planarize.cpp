@@ -7,6 +7,7 @@
 
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "driftmesh/repair.hpp"
 #include "geometry/box_tree.hpp"
 #include "pslg/closeness.hpp"
@@ -87,13 +88,6 @@ class Planarizer {
     double along = 0;
   };
 
-  /// Finds points [first, last).
-  struct PointTree {
-    BoxTree tree;
-    std::int32_t first = 0;
-    std::size_t last = 0;
-  };
-
   const std::vector<Point>& points() const { return welder_.points(); }
   const Point& point(std::int32_t v) const { return points()[v]; }
 
@@ -102,11 +96,11 @@ class Planarizer {
   void start_hull();
   void keep_once(RepairItem& item);
   void find_splits();
-  std::size_t points_in_trees() const { return point_trees_.empty() ? 0 : point_trees_.back().last; }
-  void add_point_tree();
+  void note_finders();
+  void index_loose_points();
   std::vector<Box> piece_boxes() const;
-  void find_points_on(std::int32_t piece, const PointTree& points);
-  void find_crossings_of(std::int32_t piece, const BoxTree& tree);
+  void find_loose_points_on(std::int32_t piece);
+  void find_meetings_of(std::int32_t piece, const BoxTree& tree);
   void find_segments_through(std::int32_t vertex, const BoxTree& tree);
   void test_point(std::int32_t vertex, std::int32_t piece);
   void test_pair(std::int32_t piece, std::int32_t other);
@@ -130,7 +124,10 @@ class Planarizer {
   std::vector<double> attributes_;
   std::vector<Piece> pieces_;
   std::vector<Split> splits_;
-  std::vector<PointTree> point_trees_;
+  std::vector<std::int32_t> loose_;   // points that are not ends of segments
+  BoxTree loose_tree_;                // of these
+  std::vector<std::int32_t> finder_;  // of each other point a piece that ends there
+  std::size_t points_seen_ = 0;       // by the rounds so far
   std::int64_t split_count_ = 0;
   bool fresh_exists_ = false;
 };
@@ -236,14 +233,24 @@ void Planarizer::keep_once(RepairItem& item) {
   std::erase_if(pieces_, [](const Piece& piece) { return piece.origin == kDropped; });
 }
 
-// Indexes the points that are new since the last tree.
-void Planarizer::add_point_tree() {
-  const std::size_t first = points_in_trees();
-  if (first == points().size()) return;
+// Points that are ends are found where their pieces are; each is looked at once, with one of its pieces.
+void Planarizer::note_finders() {
+  finder_.assign(points().size(), kNone);
+  for (std::size_t i = 0; i < pieces_.size(); ++i)
+    for (const std::int32_t end : {pieces_[i].segment.a, pieces_[i].segment.b})
+      if (finder_[end] == kNone) finder_[end] = static_cast<std::int32_t>(i);
+  for (const std::int32_t v : loose_) finder_[v] = kNone;
+}
+
+// Once, since all points that are added later are ends.
+void Planarizer::index_loose_points() {
   std::vector<Box> boxes;
-  boxes.reserve(points().size() - first);
-  for (std::size_t i = first; i < points().size(); ++i) boxes.push_back(Box::around(points()[i], points()[i]));
-  point_trees_.push_back({BoxTree(boxes), static_cast<std::int32_t>(first), points().size()});
+  for (std::size_t v = 0; v < points().size(); ++v) {
+    if (finder_[v] != kNone) continue;
+    loose_.push_back(static_cast<std::int32_t>(v));
+    boxes.push_back(Box::around(points()[v], points()[v]));
+  }
+  loose_tree_ = BoxTree(boxes);
 }
 
 std::vector<Box> Planarizer::piece_boxes() const {
@@ -257,23 +264,25 @@ std::vector<Box> Planarizer::piece_boxes() const {
 }
 
 void Planarizer::find_splits() {
-  const std::size_t first_new = point_trees_.empty() ? points().size() : points_in_trees();
-  add_point_tree();
+  note_finders();
+  if (points_seen_ == 0) index_loose_points();
+  const std::size_t first_new = points_seen_ == 0 ? points().size() : points_seen_;
+  points_seen_ = points().size();
   const BoxTree piece_tree(piece_boxes());
   const auto piece_count = narrow<std::int32_t>(pieces_.size(), "segments");
   splits_.clear();
   for (std::int32_t i = 0; i < piece_count; ++i) {
     if (!pieces_[i].fresh) continue;
-    for (const PointTree& tree : point_trees_) find_points_on(i, tree);
-    find_crossings_of(i, piece_tree);
+    find_loose_points_on(i);
+    find_meetings_of(i, piece_tree);
   }
   for (std::size_t v = first_new; v < points().size(); ++v)
     find_segments_through(static_cast<std::int32_t>(v), piece_tree);
 }
 
-void Planarizer::find_points_on(std::int32_t piece, const PointTree& points) {
+void Planarizer::find_loose_points_on(std::int32_t piece) {
   const Pslg::Segment s = pieces_[piece].segment;
-  points.tree.search(NearSegment(point(s.a), point(s.b)), [&](std::int32_t i) { test_point(points.first + i, piece); });
+  loose_tree_.search(NearSegment(point(s.a), point(s.b)), [&](std::int32_t i) { test_point(loose_[i], piece); });
 }
 
 void Planarizer::find_segments_through(std::int32_t vertex, const BoxTree& tree) {
@@ -282,9 +291,11 @@ void Planarizer::find_segments_through(std::int32_t vertex, const BoxTree& tree)
   });
 }
 
-void Planarizer::find_crossings_of(std::int32_t piece, const BoxTree& tree) {
+void Planarizer::find_meetings_of(std::int32_t piece, const BoxTree& tree) {
   const Pslg::Segment s = pieces_[piece].segment;
   tree.search(NearSegment(point(s.a), point(s.b)), [&](std::int32_t other) {
+    for (const std::int32_t end : {pieces_[other].segment.a, pieces_[other].segment.b})
+      if (finder_[end] == other) test_point(end, piece);
     if (other > piece || !pieces_[other].fresh) test_pair(piece, other);
   });
 }
