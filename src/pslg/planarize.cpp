@@ -244,12 +244,12 @@ void Planarizer::note_finders() {
 
 // Once, since all points that are added later are ends.
 void Planarizer::index_loose_points() {
+  loose_.reserve(static_cast<std::size_t>(std::count(finder_.begin(), finder_.end(), std::int32_t{kNone})));
+  for (const std::int32_t v : first_ids<std::int32_t>(points().size()))
+    if (finder_[v] == kNone) loose_.push_back(v);
   std::vector<Box> boxes;
-  for (std::size_t v = 0; v < points().size(); ++v) {
-    if (finder_[v] != kNone) continue;
-    loose_.push_back(static_cast<std::int32_t>(v));
-    boxes.push_back(Box::around(points()[v], points()[v]));
-  }
+  boxes.reserve(loose_.size());
+  for (const std::int32_t v : loose_) boxes.push_back(Box::around(point(v), point(v)));
   loose_tree_ = BoxTree(boxes);
 }
 
