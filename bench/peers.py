@@ -4,10 +4,11 @@
 Triangle's program (Debian's non-free package triangle-bin) must be on the PATH; nothing else here needs it. The two
 alternate on each input, so that a busy moment of the machine affects both, and neither writes files. Figures are
 medians: wall time, processor time and peak memory of the process from its start to its end, and the ratio of wall times.
-The suite triangles compares numbers of triangles and angles instead, and threads compares driftmesh on one core and on all.
+The suite triangles compares numbers of triangles and angles instead, threads compares driftmesh on one core and on all, and
+sizes a size expression with a constant bound.
 Where valgrind is installed, the suite count adds the instructions and mispredicted branches that it simulates on small meshes.
 
-usage: peers.py [front-end] [kernel] [threads] [count] [triangles] [options]
+usage: peers.py [front-end] [kernel] [threads] [sizes] [count] [triangles] [options]
 """
 
 import argparse
@@ -166,6 +167,19 @@ def threads(options, inputs):
     print()
 
 
+def sizes(options, inputs):
+    """A quadratic size expression against a constant area bound with as many triangles: in one piece, on one core."""
+    print("| input | constant bound, CPU s | size expression, CPU s | ratio |")
+    print("| --- | --- | --- | --- |")
+    size = f"{math.sqrt(600_000 / options.size)}*(1 + 0.000004*((x - 400)^2 + (y - 300)^2))"
+    sized = [options.program, "mesh", inputs.path("pipe"), "--quiet", "--size", size, *ONE_PIECE]
+    text = subprocess.run([arg for arg in sized if arg != "--quiet"], check=True, capture_output=True, text=True).stdout
+    number = int(re.search(r"mesh +([\d,]+) triangles", text).group(1).replace(",", ""))
+    constant = commands(options, inputs, "pipe", 20, area_for(options, inputs, "pipe", number))[0] + ONE_PIECE
+    one, other = compare(options, constant, sized)
+    print(f"| pipe, {number / 1e6:.3g} M triangles | {one[1]:.3f} | {other[1]:.3f} | {other[1] / one[1]:.2f} |\n")
+
+
 def count(options, inputs):
     """Instructions and mispredicted branches for each triangle, simulated."""
     if shutil.which("valgrind") is None:
@@ -238,16 +252,16 @@ def angle_at(o, a, b):
     return math.degrees(math.atan2(abs(ax * by - ay * bx), ax * bx + ay * by))
 
 
-SUITES = {"front-end": front_end, "kernel": kernel, "threads": threads, "count": count, "triangles": triangles}
+SUITES = {"front-end": front_end, "kernel": kernel, "threads": threads, "sizes": sizes, "count": count, "triangles": triangles}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("suites", nargs="*", metavar="SUITE", help="front-end, kernel, threads, count or triangles; by default the first two")
+    parser.add_argument("suites", nargs="*", metavar="SUITE", help=f"{', '.join(SUITES)}; by default the first two")
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh")
     parser.add_argument("--data", default=PROJECT.parent / "shared/data", help="folder of the published models")
     parser.add_argument("--repetitions", type=int, default=5)
-    parser.add_argument("--size", type=int, default=4_000_000, help="triangles of the suites kernel and threads")
+    parser.add_argument("--size", type=int, default=4_000_000, help="triangles of the suites kernel, threads and sizes")
     parser.add_argument("--large", action="store_true", help="10 million points, too")
     options = parser.parse_args()
     for suite in options.suites:

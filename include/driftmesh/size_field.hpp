@@ -25,6 +25,9 @@ class SizeField {
   }
   /// A length that no value falls below, so that falls_below need not be asked; 0: unknown.
   [[nodiscard]] virtual double least() const { return 0; }
+  /// The same for the values in a triangle, where this takes less time than values at points: most triangles are so
+  /// small that they need not be looked at more closely.
+  [[nodiscard]] virtual double least_near(const std::array<Point, 3>& /*triangle*/) const { return least(); }
   /// Calls visit(p) for the points where the field may be least, for those who check a mesh: the points of a background
   /// mesh. A field without such points visits none.
   virtual void visit_marks(const std::function<void(const Point&)>& /*visit*/) const {}

@@ -27,8 +27,7 @@ class AreaBounds {
   AreaBounds(const Triangulation& mesh, const QualityBounds& bounds) : mesh_(mesh), bounds_(bounds) {
     if (bounds.size == nullptr) return;
     twice_area_of_least_ = twice_area_of_edge(bounds.size->least());
-    size_.reserve(mesh.points.size());
-    for (const Point& p : mesh.points) size_.push_back(bounds.size->edge_length(p));
+    size_.assign(mesh.points.size(), kNotAsked);
   }
 
   /// Whether no triangle of this area, or of less, can be above its bound, wherever it is.
@@ -36,7 +35,7 @@ class AreaBounds {
     const bool one_bound = bounds_.size == nullptr && (bounds_.region_max_area.empty() || mesh_.region.empty());
     return one_bound && twice_area <= 2 * greatest_bound();
   }
-  [[nodiscard]] bool exceeded(TriangleId t, double twice_area) const {
+  [[nodiscard]] bool exceeded(TriangleId t, double twice_area) {
     return twice_area > 2 * constant_bound(t) ||
            (bounds_.size != nullptr && twice_area > twice_area_of_least_ && too_large_for_size(t, twice_area));
   }
@@ -51,17 +50,24 @@ class AreaBounds {
     return own > 0 ? std::min(bound, own) : bound;
   }
 
-  [[nodiscard]] bool too_large_for_size(TriangleId t, double twice_area) const {
+  [[nodiscard]] bool too_large_for_size(TriangleId t, double twice_area) {
     const CornerPoints corners{mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
+    if (twice_area <= twice_area_of_edge(bounds_.size->least_near(corners))) return false;
     double h = bounds_.size->edge_length(centroid(corners));
-    for (const VertexId v : mesh_.triangles[t].vertex) h = std::min(h, size_[v]);
+    for (const VertexId v : mesh_.triangles[t].vertex) h = std::min(h, size_at(v));
     return twice_area > twice_area_of_edge(h) || bounds_.size->falls_below(corners, edge_of_twice_area(twice_area));
   }
 
+  [[nodiscard]] double size_at(VertexId v) {
+    if (size_[v] == kNotAsked) size_[v] = bounds_.size->edge_length(mesh_.points[v]);
+    return size_[v];
+  }
+
+  static constexpr double kNotAsked = 0;  // no value of a size field
   const Triangulation& mesh_;
   const QualityBounds& bounds_;
   double twice_area_of_least_ = 0;
-  IdVector<VertexId, double> size_;  // of the field at each vertex
+  IdVector<VertexId, double> size_;  // of the field at each vertex, where it was needed
 };
 
 /// Calls visit(triangles, shapes) for the live triangles in their order, block by block. Corners are prefetched some
@@ -110,7 +116,7 @@ ExceptionCause cause_of(const Triangulation& mesh, TriangleId t) {
 
 Inspection inspect(const Triangulation& mesh, const QualityBounds& bounds) {
   Inspection found;
-  const AreaBounds areas(mesh, bounds);
+  AreaBounds areas(mesh, bounds);
   double least_cosine = 1, greatest_cosine = -1;
   double least_area = kNoBound, greatest_area = 0;  // twice
   visit_blocks(mesh, [&](std::span<const TriangleId> block, ShapeColumns& shapes) {

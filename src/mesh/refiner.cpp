@@ -81,34 +81,40 @@ inline Refiner::Shape Refiner::shape_of(TriangleId t, double twice_area) const {
 
 /// The bound of the request and of the region, without the size field.
 inline double Refiner::constant_bound(TriangleId t) const {
-  return twice_area_bounds_.size() > 1 && !mesh_.region.empty() ? twice_area_bounds_[mesh_.region[t]]
-                                                                : twice_area_bounds_[0];
+  return coarsening_ * (twice_area_bounds_.size() > 1 && !mesh_.region.empty() ? twice_area_bounds_[mesh_.region[t]]
+                                                                               : twice_area_bounds_[0]);
 }
 
-/// The bound on a triangle with twice this area: less if the triangle is too large.
-inline double Refiner::twice_area_bound(TriangleId t, double twice_area) const {
-  const double bound = constant_bound(t) * coarsening_;
-  return bounds_.size == nullptr || twice_area > bound ? bound : sized_bound(t, twice_area, bound);
+/// Whether a triangle with twice this area is too large.
+inline bool Refiner::is_large(TriangleId t, double twice_area) const {
+  return twice_area > constant_bound(t) || (bounds_.size != nullptr && is_large_for_size(t, twice_area));
 }
 
-/// The same with the size field, asked what is cheapest first.
-double Refiner::sized_bound(TriangleId t, double twice_area, double bound) const {
+/// The size field is asked first what lets most triangles pass that are small enough.
+bool Refiner::is_large_for_size(TriangleId t, double twice_area) const {
+  const auto above = [&](double h) { return twice_area > twice_area_of_edge(h) * coarsening_; };
+  const CornerPoints at = corners(t);
+  if (!above(bounds_.size->least_near(at))) return false;
   const auto& v = mesh_.triangles[t].vertex;
-  const auto limited = [&](double h) { return std::min(bound, twice_area_of_edge(h) * coarsening_); };
-  const double h = std::min({state_.size[v[0]], state_.size[v[1]], state_.size[v[2]]});
-  if (twice_area > limited(h)) return limited(h);
-  const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-  bound = limited(std::min(h, bounds_.size->edge_length({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3})));
-  const bool between = twice_area <= bound && looks_between() && asks_between(t, twice_area);
-  return between ? twice_area / 2 : bound;
+  if (above(std::min({state_.size[v[0]], state_.size[v[1]], state_.size[v[2]]}))) return true;
+  return above(bounds_.size->edge_length(centroid(at))) || (looks_between() && asks_between(t, twice_area));
+}
+
+/// The bound on twice the area of a triangle that is not too large.
+double Refiner::twice_area_bound(TriangleId t) const {
+  double bound = constant_bound(t);
+  if (bounds_.size == nullptr) return bound;
+  const auto limit = [&](double h) { bound = std::min(bound, twice_area_of_edge(h) * coarsening_); };
+  for (const VertexId v : mesh_.triangles[t].vertex) limit(state_.size[v]);
+  limit(bounds_.size->edge_length(centroid(corners(t))));
+  return bound;
 }
 
 /// Whether the size field asks for a smaller triangle somewhere between corners and centroid.
 bool Refiner::asks_between(TriangleId t, double twice_area) const {
   const double fine_area = twice_area / coarsening_;
   if (fine_area <= twice_area_of_least_) return false;
-  return bounds_.size->falls_below({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)},
-                                   edge_of_twice_area(fine_area));
+  return bounds_.size->falls_below(corners(t), edge_of_twice_area(fine_area));
 }
 
 /// Most triangles of the fine stage are to disappear again. What would be missed by far is found in the coarse stage,
@@ -226,14 +232,14 @@ bool Refiner::step_large() {
     const TriangleId t = state_.sweep.current(to_int(mesh_.triangles.next_id()));
     if (t == kNone) return false;
     if (mesh_.triangles[t].alive()) [[likely]] {
-      const double twice = twice_area(t), bound = twice_area_bound(t, twice);
-      if (twice > bound) {
+      const double twice = twice_area(t);
+      if (is_large(t, twice)) {
         if (improve(t, circumcenter(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2))) == Progress::kChanged)
           return true;
         ++state_.counters.given_up;
       } else if (state_.stage != Stage::kCoarse) {
         const Shape s = shape_of(t, twice);
-        if (is_skinny(s)) note_skinny(t, s, bound);
+        if (is_skinny(s)) note_skinny(t, s);
       }
     }
     state_.sweep.done_with(t);
@@ -353,17 +359,16 @@ void Refiner::note_fresh() {
 /// Queues a triangle that needs work, unless the sweep will come to it anyway.
 inline void Refiner::note(TriangleId t, const Shape& s) {
   if (state_.sweep.will_visit(t)) return;
-  const double bound = twice_area_bound(t, s.twice_area);
-  if (s.twice_area > bound)
+  if (is_large(t, s.twice_area))
     state_.sweep.visit_again(t);
   else if (state_.stage != Stage::kCoarse && is_skinny(s))
-    note_skinny(t, s, bound);
+    note_skinny(t, s);
 }
 
 /// A long skinny triangle at the border of the current block reaches into a block that is still coarse. It will
 /// disappear when that block is refined, so it waits for the end.
-inline void Refiner::note_skinny(TriangleId t, const Shape& s, double bound) {
-  if (state_.stage == Stage::kFine && s.longest > 8 * bound)
+inline void Refiner::note_skinny(TriangleId t, const Shape& s) {
+  if (state_.stage == Stage::kFine && s.longest > 8 * twice_area_bound(t))
     state_.deferred.push_back(t);
   else
     state_.skinny.add(t, SkinnyBuckets::bucket_of(s.shortest));

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/triangle_geometry.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/cavity.hpp"
 #include "mesh/refiner_state.hpp"
@@ -67,9 +68,13 @@ class Refiner {
   [[nodiscard]] Shape shape_of(TriangleId t, double twice_area) const;
   [[nodiscard]] Shape shape_of(TriangleId t) const { return shape_of(t, twice_area(t)); }
   [[nodiscard]] double twice_area(TriangleId t) const;
+  [[nodiscard]] CornerPoints corners(TriangleId t) const {
+    return {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
+  }
   [[nodiscard]] double constant_bound(TriangleId t) const;
-  [[nodiscard]] double twice_area_bound(TriangleId t, double twice_area) const;
-  [[nodiscard]] double sized_bound(TriangleId t, double twice_area, double bound) const;
+  [[nodiscard]] bool is_large(TriangleId t, double twice_area) const;
+  [[nodiscard]] bool is_large_for_size(TriangleId t, double twice_area) const;
+  [[nodiscard]] double twice_area_bound(TriangleId t) const;
   [[nodiscard]] bool asks_between(TriangleId t, double twice_area) const;
   [[nodiscard]] bool looks_between() const;
   void look_between();
@@ -92,7 +97,7 @@ class Refiner {
   void clear_diametral_circle(SubsegmentId s);
   void note_fresh();
   void note(TriangleId t, const Shape& s);
-  void note_skinny(TriangleId t, const Shape& s, double bound);
+  void note_skinny(TriangleId t, const Shape& s);
   VertexId add_vertex(const Point& p, VertexOrigin origin);
 
   Triangulation& mesh_;

@@ -39,6 +39,11 @@ class SmallestField final : public SizeField {
     for (const auto& field : fields_) length = std::min(length, field->least());
     return std::max(length, shortest_);
   }
+  [[nodiscard]] double least_near(const std::array<Point, 3>& triangle) const override {
+    double length = std::numeric_limits<double>::infinity();
+    for (const auto& field : fields_) length = std::min(length, field->least_near(triangle));
+    return std::max(length, shortest_);
+  }
   [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override {
     return shortest_ < length && std::any_of(fields_.begin(), fields_.end(),
                                              [&](const auto& field) { return field->falls_below(triangle, length); });

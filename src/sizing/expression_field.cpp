@@ -78,8 +78,8 @@ void refuse_assignment(const std::string& expression) {
 
 constexpr double kRounding = 1e-9;  // relative
 
-/// Whether values at some points are in the range at each, but for rounding: muParser multiplies a * (x - b) out. They
-/// are, if both understand the same by the expression.
+/// Whether values at some points are the same, and in the range at each, but for rounding: muParser multiplies
+/// a * (x - b) out. They are, if both understand the same by the expression.
 template <class Value>
 bool agree(const ExpressionRange& range, const Value& value) {
   std::uint64_t state = 0;
@@ -91,12 +91,17 @@ bool agree(const ExpressionRange& range, const Value& value) {
     const Interval expected = range.over({p, p});
     const double rounding = std::isfinite(found) ? kRounding * std::fabs(found) : 0;
     if (found < expected.low - rounding || found > expected.high + rounding) return false;
+    const double own = range.at(p);
+    const bool same = own == found || std::fabs(own - found) <= rounding || (std::isnan(own) && std::isnan(found));
+    if (!same) return false;
   }
   return true;
 }
 
 }  // namespace
 
+/// What is known about an expression that ExpressionRange understands. Its values then come from there, too: muParser
+/// takes several times as long, most of it for calls of pow where a product does.
 struct ExpressionField::Bounds {
   ExpressionRange range;
   LeastSearch search;
@@ -141,11 +146,16 @@ double ExpressionField::least() const {
   return bounds_ ? std::max(bounds_->search.least(), 0.0) : shortest_;
 }
 
+double ExpressionField::least_near(const std::array<Point, 3>& triangle) const {
+  return bounds_ ? std::max(bounds_->search.least_near(triangle), 0.0) : shortest_;
+}
+
 bool ExpressionField::falls_below(const std::array<Point, 3>& triangle, double length) const {
   return bounds_ && bounds_->search.is_below(*this, triangle, length);
 }
 
 double ExpressionField::value(const Point& p) const {
+  if (bounds_) return std::max(bounds_->range.at(p), shortest_);
   try {
     return std::max(parser_->value_at(p), shortest_);  // NaN stays NaN
   } catch (const mu::ParserError& error) {

@@ -30,6 +30,7 @@ class ExpressionField final : public SizeField {
   /// The value at a point, not below the shortest length: not a length if it is not positive or NaN.
   [[nodiscard]] double value(const Point& p) const;
   [[nodiscard]] double least() const override;
+  [[nodiscard]] double least_near(const std::array<Point, 3>& triangle) const override;
   [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override;
 
  private:

@@ -16,6 +16,7 @@ enum class ExpressionRange::Op : std::uint8_t {
   kY,
   kConstant,
   kNegative,  // one
+  kSquare,
   kSin,
   kCos,
   kTan,
@@ -66,6 +67,8 @@ Interval ExpressionRange::apply_to_numbers(Op op, const Interval* v) {
   switch (op) {
     case Op::kNegative:
       return negative(v[0]);
+    case Op::kSquare:
+      return square(v[0]);
     case Op::kSin:
       return sine(v[0]);
     case Op::kCos:
@@ -178,6 +181,111 @@ Interval ExpressionRange::over(const Box& box) const {
   return stack[0];
 }
 
+/// As muParser defines them: whatever is not 0 is true.
+double ExpressionRange::apply(Op op, const double* v) {
+  switch (op) {
+    case Op::kNegative:
+      return -v[0];
+    case Op::kSquare:
+      return v[0] * v[0];
+    case Op::kSin:
+      return std::sin(v[0]);
+    case Op::kCos:
+      return std::cos(v[0]);
+    case Op::kTan:
+      return std::tan(v[0]);
+    case Op::kAsin:
+      return std::asin(v[0]);
+    case Op::kAcos:
+      return std::acos(v[0]);
+    case Op::kAtan:
+      return std::atan(v[0]);
+    case Op::kSinh:
+      return std::sinh(v[0]);
+    case Op::kCosh:
+      return std::cosh(v[0]);
+    case Op::kTanh:
+      return std::tanh(v[0]);
+    case Op::kLog2:
+      return std::log2(v[0]);
+    case Op::kLog10:
+      return std::log10(v[0]);
+    case Op::kLog:
+      return std::log(v[0]);
+    case Op::kExp:
+      return std::exp(v[0]);
+    case Op::kSqrt:
+      return std::sqrt(v[0]);
+    case Op::kSign:
+      return (v[0] > 0) - (v[0] < 0);
+    case Op::kRint:
+      return std::floor(v[0] + 0.5);
+    case Op::kAbs:
+      return std::fabs(v[0]);
+    case Op::kAdd:
+      return v[0] + v[1];
+    case Op::kSubtract:
+      return v[0] - v[1];
+    case Op::kMultiply:
+      return v[0] * v[1];
+    case Op::kDivide:
+      return v[0] / v[1];
+    case Op::kPower:
+      return std::pow(v[0], v[1]);
+    case Op::kLess:
+      return v[0] < v[1];
+    case Op::kAtMost:
+      return v[0] <= v[1];
+    case Op::kGreater:
+      return v[0] > v[1];
+    case Op::kAtLeast:
+      return v[0] >= v[1];
+    case Op::kEqual:
+      return v[0] == v[1];
+    case Op::kDifferent:
+      return v[0] != v[1];
+    case Op::kAnd:
+      return v[0] != 0 && v[1] != 0;
+    case Op::kOr:
+      return v[0] != 0 || v[1] != 0;
+    case Op::kMin:
+      return std::min(v[0], v[1]);
+    case Op::kMax:
+      return std::max(v[0], v[1]);
+    case Op::kAtan2:
+      return std::atan2(v[0], v[1]);
+    case Op::kHypot:
+      return std::hypot(v[0], v[1]);
+    case Op::kChoose:
+      return v[0] != 0 ? v[1] : v[2];
+    default:
+      return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+double ExpressionRange::at(const Point& p) const {
+  std::array<double, kDeepest> stack;
+  std::size_t size = 0;
+  for (const Step& step : steps_) {
+    size -= operands_of(step.op);
+    switch (step.op) {
+      case Op::kX:
+        stack[size] = p.x;
+        break;
+      case Op::kY:
+        stack[size] = p.y;
+        break;
+      case Op::kConstant:
+        stack[size] = step.constant.low;
+        break;
+      default:
+        stack[size] = apply(step.op, &stack[size]);
+    }
+    ++size;
+  }
+  return stack[0];
+}
+
 /// By recursive descent, with the precedences of muParser: from ?: over ||, &&, comparisons, sums, products and signs
 /// to powers, which like ?: group from the right.
 class ExpressionCompiler {
@@ -203,6 +311,13 @@ class ExpressionCompiler {
     range_.steps_.push_back({op, constant});
   }
   void emit_constant(double value) { emit(Op::kConstant, {value, value}); }
+  void emit_power() {
+    const ExpressionRange::Step& exponent = range_.steps_.back();
+    if (!known_ || exponent.op != Op::kConstant || exponent.constant.low != 2) return emit(Op::kPower);
+    range_.steps_.pop_back();
+    --depth_;
+    emit(Op::kSquare);
+  }
   void give_up() {
     known_ = false;
     rest_ = {};
@@ -277,7 +392,7 @@ class ExpressionCompiler {
       read_primary();
       if (take("^")) {
         read_signed();
-        emit(Op::kPower);
+        emit_power();
       }
     }
     --nesting_;

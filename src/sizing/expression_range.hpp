@@ -20,6 +20,8 @@ class ExpressionRange {
 
   /// Infinite ends are allowed.
   [[nodiscard]] Interval over(const Box& box) const;
+  /// The value at a point, NaN where the expression has none.
+  [[nodiscard]] double at(const Point& p) const;
 
  private:
   friend class ExpressionCompiler;
@@ -34,6 +36,7 @@ class ExpressionRange {
   static std::size_t operands_of(Op op);
   static Interval apply(Op op, const Interval* operands);
   static Interval apply_to_numbers(Op op, const Interval* operands);
+  static double apply(Op op, const double* operands);
 
   std::vector<Step> steps_;
 };

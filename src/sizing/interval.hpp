@@ -80,6 +80,10 @@ template <class Function>
   return {0, std::max(-a.low, a.high)};
 }
 
+[[nodiscard]] inline Interval square(const Interval& a) {
+  return rising([](double x) { return x * x; }, absolute(a));
+}
+
 [[nodiscard]] inline Interval whole_power(const Interval& a, double n) {
   const auto power = [n](double x) { return std::pow(x, n); };
   if (n < 0) return divide({1, 1}, whole_power(a, -n));

@@ -17,6 +17,9 @@ constexpr double kFinest = 1.0 / 32;
 constexpr int kMostDives = 32;
 constexpr int kDeepestDive = 24;
 constexpr int kCellsOfDive = 2 * kDeepestDive;
+/// How many times as wide as a triangle the cells are that are looked at first, as exponents of two. The wider ones,
+/// which many triangles share, answer for nearly all where lengths change little.
+constexpr int kNear = 4, kBeside = 2;
 /// Tells the exponents of cells with what is around them from others.
 constexpr int kAround = 1 << 16;
 
@@ -136,18 +139,27 @@ double LeastSearch::bound_around(const Cell& cell) {
   return known.bound;
 }
 
+/// The cell around the middle of a box that is more than 2^wider times as wide.
+LeastSearch::Cell LeastSearch::cell_around(const Box& box, int wider) {
+  const int exponent = exponent_above(std::max(box.high.x - box.low.x, box.high.y - box.low.y)) + wider;
+  const double scale = power_of_two(-exponent);
+  const Point middle = box.center();
+  return {index_at(middle.x, scale), index_at(middle.y, scale), exponent};
+}
+
+double LeastSearch::least_near(const CornerPoints& triangle) {
+  const Cell cell = cell_around(Box::of(triangle), kNear);
+  Known& latest = latest_[cell.exponent % 2 == 0 ? 0 : 1];
+  if (latest.cell != cell) latest = {cell, bound_around(cell)};
+  return latest.bound;
+}
+
 bool LeastSearch::is_below(const SizeField& field, const CornerPoints& triangle, double length) {
-  if (least_ >= kTolerated * length) return false;
-  const auto& [a, b, c] = triangle;
-  const Box bounds{{std::min(a.x, std::min(b.x, c.x)), std::min(a.y, std::min(b.y, c.y))},
-                   {std::max(a.x, std::max(b.x, c.x)), std::max(a.y, std::max(b.y, c.y))}};
-  // One cell from 4 to 8 times as wide answers for most triangles of a smooth field.
-  const int exponent = exponent_above(std::max(bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y));
-  const double scale = power_of_two(-exponent - 2);
-  const Point middle = bounds.center();
-  if (bound_around({index_at(middle.x, scale), index_at(middle.y, scale), exponent + 2}) >= kTolerated * length)
+  const double enough = kTolerated * length;
+  const Box bounds = Box::of(triangle);
+  if (least_ >= enough || least_near(triangle) >= enough || bound_around(cell_around(bounds, kBeside)) >= enough)
     return false;
-  Question question{field, triangle, bounds, kCounts * length, kTolerated * length, 0};
+  Question question{field, triangle, bounds, kCounts * length, enough, 0};
   return descend_from_cover(question);
 }
 

@@ -34,6 +34,9 @@ class LeastSearch {
   /// The bound over the whole plane.
   [[nodiscard]] double least() const { return least_; }
 
+  /// A bound over a triangle and what is near it.
+  [[nodiscard]] double least_near(const CornerPoints& triangle);
+
   /// Whether `field` is below kCounts * length at a point that was looked at. If not, it is at least
   /// kTolerated * length everywhere, wherever the bounds approach the least values fast enough: for sure if they are
   /// exact, and otherwise where a value in question takes up more than `spacing` in both directions.
@@ -63,6 +66,7 @@ class LeastSearch {
 
   [[nodiscard]] Known& place_of(const Cell& cell);
   [[nodiscard]] double bound_around(const Cell& cell);
+  [[nodiscard]] static Cell cell_around(const Box& box, int wider);
   [[nodiscard]] bool descend_from_cover(Question& question);
   [[nodiscard]] bool descend(Question& question, const Cell& cell);
   [[nodiscard]] bool start_dive(Question& question, const Cell& cell);
@@ -72,6 +76,7 @@ class LeastSearch {
   double spacing_;
   double least_;  // over the whole plane
   std::vector<Known> known_;
+  std::array<Known, 2> latest_;  // of least_near, for cells of even and of odd exponents
 };
 
 }  // namespace driftmesh

@@ -36,6 +36,9 @@ class SampledField final : public SizeField {
 
   [[nodiscard]] double edge_length(const Point& p) const override { return field_.edge_length(p); }
   [[nodiscard]] double least() const override { return field_.least(); }
+  [[nodiscard]] double least_near(const std::array<Point, 3>& triangle) const override {
+    return field_.least_near(triangle);
+  }
   [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override;
   void visit_marks(const std::function<void(const Point&)>& visit) const override { field_.visit_marks(visit); }
 

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -99,6 +100,33 @@ TEST_CASE("the search ends where coordinates have no digits left") {
   const std::array<Point, 3> tiny{{{1e6, 1e6 - 1e-9}, {1e6 + 2e-9, 1e6 - 1e-9}, {1e6, 1e6 + 1e-9}}};
   CHECK(crease.falls_below(tiny, 1e-9));
   CHECK(!ExpressionField("2e-9 + abs(y - 1e6)").falls_below(tiny, 1e-9));
+}
+
+TEST_CASE("the least length near a triangle is a bound on all in it, and a close one where lengths change little") {
+  const auto field = std::make_unique<ExpressionField>("0.1 + 0.02*(x - 0.3)^2 + 0.01*y^2");
+  for (int i = 0; i < 400; ++i) {
+    const double x = 0.01 * i - 2, y = 0.03 * (i % 50), side = i % 3 == 0 ? 0.5 : 0.002;
+    const std::array<Point, 3> triangle{{{x, y}, {x + side, y}, {x, y + side}}};
+    const double least = field->least_near(triangle);
+    double found = kInfinity;
+    for (int j = 0; j <= 10; ++j)
+      for (int k = 0; j + k <= 10; ++k)
+        found = std::min(found, field->edge_length({x + side * j / 10, y + side * k / 10}));
+    CHECK(least <= found);
+    if (side < 0.1) CHECK(least >= 0.95 * found);
+  }
+}
+
+TEST_CASE("the least length near a triangle is that of the smallest of fields, but not below the shortest") {
+  const auto fields = [] {
+    std::vector<std::unique_ptr<SizeField>> all;
+    all.push_back(std::make_unique<ExpressionField>("2"));
+    all.push_back(std::make_unique<UniformField>(3));
+    return all;
+  };
+  CHECK(SmallestField(fields()).least_near(kHalfSquare) == 2);
+  CHECK(SmallestField(fields(), 2.5).least_near(kHalfSquare) == 2.5);
+  CHECK(Counted().least_near(kHalfSquare) == 0);
 }
 
 TEST_CASE("a constant is known not to fall anywhere") {

@@ -47,6 +47,44 @@ TEST_CASE("an expression in x and y gives the edge length") {
   CHECK(ExpressionField("max(min(x, y), 0.01)").edge_length({-4, 0}) == 0.01);
 }
 
+TEST_CASE("values are those of muParser") {
+  const std::string terms[] = {"x^2 + (y - 0.3)^2 - x^y^2 + 2^2^x",
+                               "x^-2 + x^2.5 + (x - y)^3",
+                               "-x^2 + (-x)^2",
+                               "sin(x) + cos(y) + tan(x)",
+                               "asin(x/9) + acos(y/9) + atan(x)",
+                               "sinh(x) - cosh(y) * tanh(x)",
+                               "log2(y) + log10(y) + log(y) + ln(y) + exp(-x)",
+                               "sqrt(x) + sign(x) + rint(y) + abs(x)",
+                               "(x < y) + 2*(x <= y) + 4*(x > y) + 8*(x >= 1) + 16*(x == y) + 32*(x != y)",
+                               "x > 1 && y < 2 || y > 3 ? x/y : 1/0",
+                               "min(x, y, 1) + max(x, 2*y) + sum(x, y, 1) + avg(x, y, 4)",
+                               "atan2(y, x) + hypot(x, y)"};
+  for (const std::string& term : terms) {
+    const ExpressionField own(term);
+    const ExpressionField parsed("(" + term + ") + 0*asinh(1)");  // a function that is not known
+    REQUIRE(own.has_bounds());
+    REQUIRE_FALSE(parsed.has_bounds());
+    for (int i = 0; i < 100; ++i) {
+      const Point p{0.07 * i - 1, 4 - 0.05 * (i % 37)};
+      const double expected = parsed.value(p), found = own.value(p);
+      CAPTURE(term);
+      CAPTURE(p.x);
+      CAPTURE(p.y);
+      CHECK((found == expected || std::isnan(found) == std::isnan(expected)));
+      if (std::isfinite(expected)) CHECK(found == doctest::Approx(expected).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("squares are products, which are the same on every machine") {
+  const ExpressionField field("(x + y)^2");
+  for (int i = 1; i < 1000; ++i) {
+    const double x = 0.37 * i, y = 1.0 / i;
+    CHECK(field.edge_length({x, y}) == (x + y) * (x + y));
+  }
+}
+
 TEST_CASE("values do not depend on earlier queries") {
   const ExpressionField field("1 + x*x + y");
   const double first = field.edge_length({0.1, 0.2});
