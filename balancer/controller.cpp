@@ -1,5 +1,6 @@
 #include "balancer/controller.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "driftmesh/error.hpp"
@@ -84,6 +85,11 @@ void Controller::took(double seconds) {
   std::visit(Each{[&](PlanningConduct& planning) { planning.took(seconds); }, [](RequestConduct&) {},
                   [&](CollectiveConduct& collective) { collective.took(seconds); }, [](std::monostate) {}},
              conduct_);
+}
+
+void Controller::looked(double now, double seconds) {
+  constexpr double kWorkPerLook = 50;  // times as long
+  next_look_ = std::max(next_look_, now + kWorkPerLook * seconds);
 }
 
 }  // namespace driftmesh::balancer

@@ -56,6 +56,11 @@ class Controller {
   /// The duration of the last think(). Plans that take long are made less often.
   void took(double seconds);
 
+  /// The duration of the last think() with the listing of loads for it, until `now`. Where that takes long, because
+  /// there are many subdomains, it is not due again before much more time has been spent on work, unless advice
+  /// arrives.
+  void looked(double now, double seconds);
+
  private:
   std::variant<std::monostate, PlanningConduct, RequestConduct, CollectiveConduct> conduct_;
   double look_interval_;

@@ -16,8 +16,10 @@
 #include "app/run_notes.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/bytes.hpp"
+#include "base/keep_memory.hpp"
 #include "base/staged_files.hpp"
 #include "distributed/exchange.hpp"
+#include "distributed/piece_series.hpp"
 #include "distributed/write_distributed.hpp"
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
@@ -66,6 +68,10 @@ void register_files(const Told& told, std::int32_t ranks) {
   register_output(files, wanted.record, called("output.record"));
 }
 
+bool writes_whole(const Request::Output& wanted) {
+  return !wanted.picture.empty() || !std::ranges::all_of(wanted.meshes, is_in_pieces);
+}
+
 /// Of the mesh and its picture, but not the record.
 std::vector<std::string> files_written(const Request& request, std::int32_t ranks) {
   std::vector<std::string> files;
@@ -96,17 +102,18 @@ DistributedPiece as_piece(Mesh mesh, bool numbered) {
   return piece;
 }
 
-/// Writes and draws a mesh, given as its only piece.
-void write_all(const Request& request, DistributedPiece piece, const std::vector<Point>& holes, RunNotes& notes) {
-  Mesh& mesh = piece.mesh;
+/// Calls write(path) for each .pvtu.
+template <class Write>
+void write_in_pieces(const Request& request, const Write& write) {
+  for (const std::string& output : request.output.meshes)
+    if (is_in_pieces(output)) write(output);
+}
+
+/// Writes the other formats, and draws.
+void write_whole(const Request& request, Mesh& mesh, const std::vector<Point>& holes, RunNotes& notes) {
+  mesh.numbers = {};
+  mesh.ranks = {};
   timed(notes, "write", [&] {
-    for (const std::string& output : request.output.meshes) {
-      if (!is_in_pieces(output)) continue;
-      WritePieces writing(piece, output);
-      exchange_directly(IdVector<Rank, Exchange*>{&writing});
-    }
-    mesh.numbers = {};
-    mesh.ranks = {};
     for (const std::string& output : request.output.meshes)
       if (!is_in_pieces(output)) write_mesh(mesh, output, {holes});
   });
@@ -135,7 +142,15 @@ int mesh_in_one_piece(const Told& told, const job::Domain& domain, job::Triangul
   if (writes(request.output) && (made.result.complete || keep)) {
     Mesh mesh = timed(notes, "convert", [&] { return converted(std::move(made.result.mesh), domain.pslg); });
     const bool numbered = std::ranges::any_of(request.output.meshes, is_in_pieces);
-    write_all(request, as_piece(std::move(mesh), numbered), domain.pslg.holes, notes);
+    DistributedPiece piece = as_piece(std::move(mesh), numbered);
+    if (numbered)
+      timed(notes, "write", [&] {
+        write_in_pieces(request, [&](const std::string& path) {
+          WritePieces writing(piece, path);
+          exchange_directly(IdVector<Rank, Exchange*>{&writing});
+        });
+      });
+    if (writes_whole(request.output)) write_whole(request, piece.mesh, domain.pslg.holes, notes);
     notes.note_files(files_written(request, 1), files.files());
   }
   notes.finish();
@@ -152,13 +167,21 @@ int mesh_in_one_piece(const Told& told, const job::Domain& domain, job::Triangul
 // ---- In subdomains ---------------------------------------------------------------------------------------------
 
 job::Use use_in_subdomains(const Request& request, bool in_one_process) {
-  const std::vector<std::string>& meshes = request.output.meshes;
-  const bool whole = !request.output.picture.empty() || !std::all_of(meshes.begin(), meshes.end(), is_in_pieces);
   return {.in_subdomains = true,
           .sleeps = request.run.sleep || !request.run.scratch.empty(),
           .stores = !request.run.scratch.empty(),
           .writes = writes(request.output),
-          .gathers = whole && !in_one_process};
+          .gathers = writes_whole(request.output) && !in_one_process};
+}
+
+void check_capacity(const Request& request, const job::Prepared& prepared, const job::Use& use,
+                    const job::Processes& processes) {
+  double subdomain = 0;
+  for (const Decomposition::Subdomain& s : prepared.plan.decomposition.subdomains)
+    subdomain = std::max(subdomain, s.predicted);
+  const double file =
+      writes_whole(request.output) ? prepared.forecast : prepared.forecast * use.at_once / processes.all;
+  job::check_capacity(subdomain, writes(request.output) ? file : 0, use.by);
 }
 
 /// For ranks, or threads, with these shares of their time.
@@ -166,6 +189,8 @@ job::Order order_of(const Request& request, job::Domain&& domain, const job::Tri
                     job::Place place, const IdVector<Rank, double>& shares, const job::Processes& processes,
                     RunNotes& notes) {
   job::Use use = use_in_subdomains(request, processes.all == 1);
+  if (place == job::kSubdomains && !writes_whole(request.output))  // each thread a piece
+    use.at_once = std::min(1.0, static_cast<double>(shares.size()) * kTrianglesInSeries / triangulated.forecast);
   job::Limits limits = job::find_limits(request.limits, domain.pslg, use, processes);
   if (triangulated.forecast > static_cast<double>(limits.in_memory)) {
     use.sleeps = true;
@@ -173,6 +198,7 @@ job::Order order_of(const Request& request, job::Domain&& domain, const job::Tri
   }
   job::Prepared prepared =
       job::prepare(request, domain, triangulated, {.policies = balancer::make_policy}, place, shares, limits, notes);
+  check_capacity(request, prepared, use, processes);
   prepared.plan.work.sleep = use.sleeps;
   job::add_prepared(notes.run, prepared);
   return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, shares, use,
@@ -182,10 +208,18 @@ job::Order order_of(const Request& request, job::Domain&& domain, const job::Tri
 // ---- By threads ------------------------------------------------------------------------------------------------
 
 void assemble_and_write(const Request& request, std::optional<job::ThreadRun>& run, RunNotes& notes) {
+  if (!std::ranges::none_of(request.output.meshes, is_in_pieces))
+    timed(notes, "write", [&] { write_in_pieces(request, [&](const std::string& path) { run->write_pieces(path); }); });
+  if (!writes_whole(request.output)) return;
   DistributedPiece piece = timed(notes, "assemble", [&] { return run->assemble(); });
   const std::vector<Point> holes = run->pslg().holes;
   run.reset();  // the subdomains are no longer needed
-  write_all(request, std::move(piece), holes, notes);
+  write_whole(request, piece.mesh, holes, notes);
+}
+
+/// Every subdomain takes what the one before has freed. Under a ceiling, free memory counts as well as any other.
+void reuse_memory(const Request::Limits& limits) {
+  if (limits.max_memory == 0) keep_freed_memory();
 }
 
 int mesh_by_threads(const Told& told, job::Domain&& domain, job::Triangulated&& triangulated, RunNotes& notes) {
@@ -194,13 +228,16 @@ int mesh_by_threads(const Told& told, job::Domain&& domain, job::Triangulated&& 
   job::Order order = order_of(request, std::move(domain), triangulated, job::kSubdomains,
                               IdVector<Rank, double>(to_index(threads), 1.0), {}, notes);
   triangulated = {};
+  const std::int32_t pieces = PieceSeries::count(order.plan.decomposition);
+  if (pieces > 1) register_files(told, pieces);
+  reuse_memory(request.limits);
   std::optional<job::ThreadRun> run(std::in_place, std::move(order), threads, nullptr, notes);
   timed(notes, "refine", [&] { run->refine(); });
   timed(notes, "inspect", [&] { run->report(notes.run); });
   StagedFiles files;
   if (writes(request.output)) {
     assemble_and_write(request, run, notes);
-    notes.note_files(files_written(request, 1), files.files());
+    notes.note_files(files_written(request, pieces), files.files());
   }
   notes.finish();
   files.commit();
@@ -287,6 +324,7 @@ void mesh_on_team(const Told& told, job::Team& team) {
   std::optional<job::Order> order = job::share(
       team, [&] { return std::optional(prepare_order(told, team, notes)); }, balancer::make_policy);
   job::cap_memory(order->limits);
+  reuse_memory(order->limits);
   std::optional<job::RankRun> run(std::in_place, team, std::move(*order), nullptr, notes);
   timed(notes, "refine", [&] { run->refine(); });
   report(team, *run, notes);

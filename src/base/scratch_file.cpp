@@ -34,7 +34,12 @@ ScratchFile::ScratchFile(std::string folder) : folder_(std::move(folder)), file_
 }
 
 ScratchFile::~ScratchFile() {
-  ::close(file_);
+  discard();
+}
+
+void ScratchFile::discard() {
+  if (file_ >= 0) ::close(file_);
+  file_ = -1;
 }
 
 ScratchFile::Piece ScratchFile::put(std::initializer_list<std::span<const std::byte>> parts) {
@@ -80,7 +85,7 @@ ScratchFile::Piece& ScratchFile::Piece::operator=(Piece&& other) noexcept {
 }
 
 ScratchFile::Piece::~Piece() {
-  if (file_ == nullptr || bytes_ == 0) return;
+  if (file_ == nullptr || file_->file_ < 0 || bytes_ == 0) return;
   std::ignore = ::fallocate(file_->file_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(begin_),
                             static_cast<off_t>(bytes_));
 }

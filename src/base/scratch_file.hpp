@@ -40,6 +40,9 @@ class ScratchFile {
 
   /// Writes the parts one after the other. The file must outlive the result.
   [[nodiscard]] Piece put(std::initializer_list<std::span<const std::byte>> parts);
+  /// Nothing in it is needed any more: pieces may only be destroyed. The system is faster in giving up the whole file
+  /// than many pieces of it, which would have to reach the disk first.
+  void discard();
   /// What its file system still has for this process.
   [[nodiscard]] std::uint64_t room() const;
 

@@ -77,13 +77,13 @@ std::string holds_words(Rank rank, const protocol::SplitDigest& splits) {
 }  // namespace
 
 PieceAssembly::PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, HeldSubdomains held)
-    : rank_(rank),
-      ranks_(ranks),
-      decomposition_(decomposition),
-      held_(std::move(held)),
-      census_(take_census(decomposition, held_)) {
-  for (const SubdomainCensus& census : census_)
-    for (const SubdomainCensus::Root& root : census.roots) roots_.push_back({root.root, root.splits, -1});
+    : PieceAssembly(rank, ranks, decomposition, held, take_census(decomposition, held)) {}
+
+PieceAssembly::PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, HeldSubdomains held,
+                             std::vector<SubdomainCensus> census)
+    : rank_(rank), ranks_(ranks), decomposition_(decomposition), held_(std::move(held)), census_(std::move(census)) {
+  for (const SubdomainCensus& subdomain : census_)
+    for (const SubdomainCensus::Root& root : subdomain.roots) roots_.push_back({root.root, root.splits, -1});
   const auto by_root = [](const NumberedRoot& a, const NumberedRoot& b) { return a.root < b.root; };
   std::sort(roots_.begin(), roots_.end(), by_root);
   const auto same = [](const NumberedRoot& a, const NumberedRoot& b) { return a.root == b.root; };

@@ -25,6 +25,9 @@ class PieceAssembly final : public Exchange {
  public:
   /// The decomposition outlives the object. `held` is called here and in piece().
   PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, HeldSubdomains held);
+  /// The same with the census of these subdomains, which spares the first of the two calls.
+  PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, HeldSubdomains held,
+                std::vector<SubdomainCensus> census);
 
   [[nodiscard]] int rounds() const override { return 2; }
   [[nodiscard]] std::vector<Mail> send(int round) override;
@@ -34,6 +37,12 @@ class PieceAssembly final : public Exchange {
   /// After the exchange. `pslg` is the (repaired) input that the decomposition was made from: markers, attributes and
   /// regions come from it. Throws Error if the coordinates of a point differ between two subdomains of this rank.
   [[nodiscard]] DistributedPiece piece(const Pslg& pslg) const;
+
+  // After the exchange, too:
+
+  [[nodiscard]] const SubdomainTable& subdomains() const { return subdomains_; }
+  /// Those of this rank, ascending.
+  [[nodiscard]] const std::vector<NumberedRoot>& roots() const { return roots_; }
 
  private:
   [[nodiscard]] Rank holder(SubdomainId i) const { return subdomains_.rank[i]; }

@@ -1,5 +1,6 @@
 #include "distributed/write_distributed.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -7,6 +8,8 @@
 
 #include "base/bytes.hpp"
 #include "base/failure.hpp"
+#include "base/in_parts.hpp"
+#include "base/staged_files.hpp"
 #include "driftmesh/error.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/merge_pieces.hpp"
@@ -133,6 +136,25 @@ std::vector<Rank> WritePieces::senders(int) const {
 
 void WritePieces::receive(int, std::vector<Mail> mail) {
   throw_first_failure(mail);
+}
+
+/// As many pieces at a time as there are threads, so that the calling thread, whose files wait for each other, commits.
+void write_series(const std::string& path, std::int32_t pieces, std::size_t threads,
+                  const std::function<DistributedPiece(Rank)>& make) {
+  StagedFiles files;
+  VtuArrays arrays;
+  for (std::int32_t first = 0; first < pieces; first += static_cast<std::int32_t>(threads)) {
+    std::vector<std::unique_ptr<FileSink>> made(std::min(threads, to_index(pieces - first)));
+    in_parts(made.size(), made.size(), [&](std::size_t i, std::size_t, std::size_t) {
+      const Rank k{first + static_cast<std::int32_t>(i)};
+      const DistributedPiece piece = make(k);
+      if (k == Rank{0}) arrays = arrays_of_pieces(piece);
+      made[i] = prepare_vtu(piece.mesh, arrays_of_pieces(piece), pvtu_piece_path(path, to_int(k)));
+    });
+    for (const auto& file : made) file->commit();
+  }
+  write_pvtu(path, pieces, arrays);
+  files.commit();
 }
 
 WriteWhole::WriteWhole(const DistributedPiece& piece, const Mesh& whole, std::string path, WriteOptions options)

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -55,6 +58,11 @@ class WritePieces final : public Exchange {
   std::string path_;
   std::unique_ptr<FileSink> file_;  // complete, but not yet under its name
 };
+
+/// Writes a .pvtu of `pieces` pieces, each made by make(its number) when it is written, in `threads` threads. All files
+/// appear together (see StagedFiles).
+void write_series(const std::string& path, std::int32_t pieces, std::size_t threads,
+                  const std::function<DistributedPiece(Rank)>& make);
 
 /// Writes a mesh that rank 0 has gathered. On failure, all ranks throw.
 class WriteWhole final : public Exchange {

@@ -19,15 +19,15 @@ std::int64_t owned_subsegments(const Decomposition& d, const SubdomainCensus& ce
 }  // namespace
 
 void FactsBook::note(const Subdomain& subdomain, const QualityBounds& bounds) {
-  auto facts = std::make_unique<MeshFacts>();
+  auto page = std::make_unique<Page>();
   show_subdomain(subdomain, [&](SubdomainId id, const SubdomainMesh& part) {
-    add_part(*facts, part.mesh, bounds, true);
-    const SubdomainCensus census = census_of(decomposition_, id, part);
-    facts->vertices = owned_points(decomposition_, census);
-    facts->subsegments = owned_subsegments(decomposition_, census);
+    add_part(page->facts, part.mesh, bounds, true);
+    page->census = driftmesh::census_of(decomposition_, id, part);
+    page->facts.vertices = owned_points(decomposition_, page->census);
+    page->facts.subsegments = owned_subsegments(decomposition_, page->census);
   });
-  add_counters(*facts, subdomain.counters());
-  facts_[subdomain.id()] = std::move(facts);
+  add_counters(page->facts, subdomain.counters());
+  pages_[subdomain.id()] = std::move(page);
 }
 
 }  // namespace driftmesh::job

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "decompose/decomposition.hpp"
+#include "distributed/census.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "job/mesh_facts.hpp"
 #include "mesh/bounds.hpp"
@@ -16,18 +17,24 @@ class FactsBook {
  public:
   /// `decomposition` must outlive the object.
   explicit FactsBook(const Decomposition& decomposition)
-      : decomposition_(decomposition), facts_(decomposition.size()) {}
+      : decomposition_(decomposition), pages_(decomposition.size()) {}
 
   /// Inspects a subdomain that has been refined to `bounds`; what was noted about it before no longer holds. Vertices
   /// and subsegments on roots count for the subdomain that numbers them.
   void note(const Subdomain& subdomain, const QualityBounds& bounds);
-  [[nodiscard]] bool has(SubdomainId id) const { return facts_[id] != nullptr; }
+  [[nodiscard]] bool has(SubdomainId id) const { return pages_[id] != nullptr; }
   /// Only if it has them.
-  [[nodiscard]] const MeshFacts& of(SubdomainId id) const { return *facts_[id]; }
+  [[nodiscard]] const MeshFacts& of(SubdomainId id) const { return pages_[id]->facts; }
+  [[nodiscard]] const SubdomainCensus& census_of(SubdomainId id) const { return pages_[id]->census; }
 
  private:
+  struct Page {
+    MeshFacts facts;
+    SubdomainCensus census;
+  };
+
   const Decomposition& decomposition_;
-  IdVector<SubdomainId, std::unique_ptr<const MeshFacts>> facts_;
+  IdVector<SubdomainId, std::unique_ptr<const Page>> pages_;
 };
 
 /// Whether to inspect each subdomain when it is finished, while its mesh is in the cache and awake, rather than all at

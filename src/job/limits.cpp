@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/words.hpp"
 #include "driftmesh/error.hpp"
@@ -24,8 +25,10 @@ constexpr std::uint64_t kBytesRegion = 8;
 constexpr std::uint64_t kBytesAttribute = 4;
 constexpr std::uint64_t kSlack = 20;  // the cap is one part in 20 above the limit, for what comes between two looks
 constexpr std::uint64_t kLeastSlack = 4 << 20;
-constexpr double kForecastError = 1.5;  // where details of the input decide
-constexpr double kGoodPart = 0.1;       // of the triangles at which a mesh was stopped
+constexpr double kForecastError = 1.5;                           // where details of the input decide
+constexpr std::int64_t kCapacity = MeshRequest{}.max_triangles;  // of one piece
+constexpr double kMostInFile = 2147483647;                       // triangles; their corners have numbers of 32 bits
+constexpr double kGoodPart = 0.1;                                // of the triangles at which a mesh was stopped
 
 std::uint64_t bytes_of_arrays(const Pslg& pslg, const Use& use) {
   return (use.in_subdomains ? kBytesArraysOfRanks : kBytesArrays) + (pslg.regions.empty() ? 0 : kBytesRegion) +
@@ -34,9 +37,8 @@ std::uint64_t bytes_of_arrays(const Pslg& pslg, const Use& use) {
 
 /// The capacity of one piece is no limit for many of them.
 std::int64_t most_triangles(const Request::Limits& asked, const Use& use) {
-  const std::int64_t capacity = MeshRequest{}.max_triangles;
-  if (!use.in_subdomains) return std::min(asked.max_triangles, capacity);
-  return asked.max_triangles == capacity ? INT64_MAX : asked.max_triangles;
+  if (!use.in_subdomains) return std::min(asked.max_triangles, kCapacity);
+  return asked.max_triangles == kCapacity ? INT64_MAX : asked.max_triangles;
 }
 
 std::uint64_t bytes_refined(const Use& use) {
@@ -46,11 +48,15 @@ std::uint64_t bytes_refined(const Use& use) {
 /// A rank that sends its part has it three times for a moment, but no longer in the form in which it was refined.
 std::uint64_t bytes_finishing(const Pslg& pslg, const Use& use) {
   if (!use.writes) return 0;
-  const std::uint64_t arrays = bytes_of_arrays(pslg, use);
+  const auto arrays =
+      static_cast<std::uint64_t>(std::ceil(use.at_once * static_cast<double>(bytes_of_arrays(pslg, use))));
   return use.gathers ? std::max(arrays, 3 * arrays - bytes_refined(use)) : arrays;
 }
 
 std::string advice(const Limits& limits, bool by_memory) {
+  if (!by_memory && limits.triangles == kCapacity)
+    return fmt::format("no piece can have more; cut the domain with {}, or ask for larger triangles",
+                       called("decomposition.subdomains", limits.by));
   return fmt::format("allow more with {}, or ask for larger triangles", limits.called(by_memory));
 }
 
@@ -120,6 +126,20 @@ void check_forecast(const Limits& limits, double forecast, bool may_keep,
       "these bounds need about {} triangles, more than {}; {}{}", estimate_words(forecast), words_of(limits),
       by_narrowness ? narrow_words(*narrow, limits.called(limits.by_memory())) : advice(limits, limits.by_memory()),
       may_keep ? ", or keep what fits with --keep-incomplete" : ""));
+}
+
+void check_capacity(double subdomain, double file, EntryPoint by) {
+  if (subdomain > static_cast<double>(kCapacity))
+    throw LimitError(
+        fmt::format("a subdomain would have about {} triangles, more than the {} that can be numbered; cut the domain "
+                    "into more with {}",
+                    estimate_words(subdomain), grouped(kCapacity), called("decomposition.subdomains", by)));
+  if (file > kMostInFile)
+    throw LimitError(
+        fmt::format("a file would have about {} triangles, more than the {} that it can number; write a .pvtu instead, "
+                    "on more ranks "
+                    "if there are ranks, or ask for larger triangles",
+                    estimate_words(file), grouped(static_cast<std::int64_t>(kMostInFile))));
 }
 
 std::string stopped_message(const Limits& limits, bool by_memory, std::int64_t triangles, bool kept,

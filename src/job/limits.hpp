@@ -22,6 +22,7 @@ struct Use {
   bool stores = false;   ///< and sleep on disk
   bool writes = false;   ///< the mesh is written, drawn or returned
   bool gathers = false;  ///< rank 0 gathers it from the others for that
+  double at_once = 1;    ///< share of the mesh whose arrays are in memory at a time for that
 };
 
 /// Limits on a mesh. The number of triangles for which memory suffices is an expectation, to refuse in time what cannot
@@ -68,6 +69,9 @@ inline constexpr int kStoppedByLimit = 3;
 /// `find_narrow` is asked for the place that stopped_message names, too.
 void check_forecast(const Limits& limits, double forecast, bool may_keep = true,
                     const std::function<std::optional<NarrowPlace>()>& find_narrow = {});
+
+/// Throws LimitError if numbers do not suffice for the largest expected subdomain or file, both in triangles; 0: none.
+void check_capacity(double subdomain, double file, EntryPoint by);
 
 /// The message for a mesh stopped by the limit on memory or on triangles. `narrow` is the narrow place of the input
 /// that needs the most triangles; it is named if it accounts for a large part of them.

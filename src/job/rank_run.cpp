@@ -41,6 +41,10 @@ RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
   });
 }
 
+RankRun::~RankRun() {
+  if (scratch_) scratch_->discard();
+}
+
 void RankRun::refine(bool logs, const RankHooks& hooks) {
   team_.meet();  // the clocks of all start together
   channel_ = team_.open();

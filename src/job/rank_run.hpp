@@ -35,6 +35,9 @@ class RankRun {
   /// `size`: replaces the size field that the order describes, unless null; not owned. `team` and `watch` outlive the
   /// object.
   RankRun(Team& team, Order order, const SizeField* size, Watch& watch);
+  ~RankRun();
+  RankRun(const RankRun&) = delete;
+  RankRun& operator=(const RankRun&) = delete;
 
   /// Refines until all ranks are done. Collective. With a log, records what each slice of work did. An exception thrown
   /// by the work on a subdomain, by the policy, or by the watch meanwhile, ends refinement on all ranks cleanly and is

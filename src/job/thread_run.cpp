@@ -8,6 +8,8 @@
 #include "distributed/assembly.hpp"
 #include "distributed/exchange.hpp"
 #include "distributed/held_subdomains.hpp"
+#include "distributed/piece_series.hpp"
+#include "distributed/write_distributed.hpp"
 #include "driftmesh/error.hpp"
 #include "job/domain.hpp"
 #include "job/memory.hpp"
@@ -31,6 +33,10 @@ ThreadRun::ThreadRun(Order order, std::int32_t threads, const SizeField* size, W
   scratch_ = open_scratch(order_.scratch, forecast());
   order_.plan.scratch = scratch_.get();
   limits_ = find_limits(order_.limits, order_.pslg, order_.use);
+}
+
+ThreadRun::~ThreadRun() {
+  if (scratch_) scratch_->discard();
 }
 
 double ThreadRun::forecast() const {
@@ -87,8 +93,27 @@ MeshFacts ThreadRun::facts() {
   return all;
 }
 
+/// From the book as far as it has it.
+std::vector<SubdomainCensus> ThreadRun::census() const {
+  std::vector<SubdomainCensus> all;
+  for (const auto& [id, subdomain] : refinement_->subdomains()) {
+    if (book_.has(id))
+      all.push_back(book_.census_of(id));
+    else
+      show_subdomain(subdomain, [&](SubdomainId, const SubdomainMesh& part) {
+        all.push_back(census_of(order_.plan.decomposition, subdomain.id(), part));
+      });
+  }
+  return all;
+}
+
+void ThreadRun::write_pieces(const std::string& path) const {
+  const PieceSeries series(order_.plan.decomposition, refinement_->subdomains(), census(), order_.pslg);
+  write_series(path, series.size(), sizes_.size(), [&](Rank k) { return series.piece(k); });
+}
+
 DistributedPiece ThreadRun::assemble() const {
-  PieceAssembly assembly(Rank{0}, 1, order_.plan.decomposition, held_by_rank(refinement_->subdomains()));
+  PieceAssembly assembly(Rank{0}, 1, order_.plan.decomposition, held_by_rank(refinement_->subdomains()), census());
   const IdVector<Rank, Exchange*> alone{&assembly};
   exchange_directly(alone);
   return assembly.piece(order_.pslg);

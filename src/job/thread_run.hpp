@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "driftmesh/distributed_piece.hpp"
@@ -25,6 +26,9 @@ class ThreadRun {
   /// `order`: its plan maps the subdomains to `threads` ranks. `size`: replaces the size field that the order
   /// describes, unless null; not owned, and shared by all threads. `watch` outlives the object.
   ThreadRun(Order order, std::int32_t threads, const SizeField* size, Watch& watch);
+  ~ThreadRun();
+  ThreadRun(const ThreadRun&) = delete;
+  ThreadRun& operator=(const ThreadRun&) = delete;
 
   /// Throws what the work on a subdomain or the watch throws, and LimitError at a limit.
   void refine();
@@ -36,12 +40,15 @@ class ThreadRun {
   [[nodiscard]] const Pslg& pslg() const { return order_.pslg; }
   /// The whole mesh.
   [[nodiscard]] DistributedPiece assemble() const;
+  /// Writes it as a .pvtu, in pieces that depend on the decomposition alone (distributed/piece_series.hpp).
+  void write_pieces(const std::string& path) const;
 
  private:
   [[nodiscard]] double forecast() const;
   void check(std::int64_t triangles) const;
   void note(const Subdomain& subdomain, const SizeField* size);
   [[nodiscard]] MeshFacts facts();
+  [[nodiscard]] std::vector<SubdomainCensus> census() const;
 
   Order order_;
   std::vector<std::unique_ptr<const SizeField>> made_;  // here

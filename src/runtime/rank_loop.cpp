@@ -219,6 +219,7 @@ bool RankLoop::balance(bool worked) {
   for (const balancer::Outgoing& o : decision.messages) protocol_.advise(o.destination, balancer::encode(o.message));
   if (decision.planned) controller_->took(transport_.now() - start);
   charge(&RankTimes::balancing);
+  controller_->looked(clock_, clock_ - start);
   return !decision.moves.empty() || !decision.messages.empty();
 }
 

@@ -63,11 +63,25 @@ class Scratch(program.Cli):
         for end in ("_0.vtu", ".msh"):
             self.assertTrue(filecmp.cmp(self.folder / f"a{end}", self.folder / f"b{end}", shallow=False), end)
 
+    def test_many_pieces(self):
+        """The same for any number of threads, and each is made while most subdomains sleep."""
+        made = [self.digest("--triangles", "11M", "-n", "550", "--scratch", "bed", "--threads", threads, "-o",
+                            f"t{threads}.pvtu") for threads in ("1", "2")]
+        pieces = sorted(self.folder.glob("t1_*.vtu"))
+        self.assertEqual(len(pieces), 3)
+        for piece in pieces:
+            twin = piece.with_name(piece.name.replace("t1", "t2"))
+            self.assertTrue(filecmp.cmp(piece, twin, shallow=False), piece)
+        checked = self.succeed("check", "t1.pvtu", "square.poly", "--angle", "20")
+        self.assertIn(made[0], checked)
+        self.assertIn("accepted", checked)
+        self.assertEqual(made[0], made[1])
+
     def test_refusals_before_the_work_begins(self):
         for triangles, arguments, code, words in (
                 ("600k", ("nowhere",), 1, ("nowhere", "No such file or directory")),
                 ("600k", ("square.poly",), 1, ("square.poly", "Not a directory")),
-                ("1T", ("bed", "-n", "60", "--max-memory", "10T"), 1, ("bed", "free", "--scratch")),
+                ("1T", ("bed", "-n", "4000", "--max-memory", "10T"), 1, ("bed", "free", "--scratch")),
                 ("600k", ("bed", "-n", "1"), 2, ("--scratch", "one piece")),
                 ("600k", ("bed", "--keep-incomplete"), 2, ("--scratch", "--keep-incomplete"))):
             ended, _, errors = self.run_to_end("--triangles", triangles, "--scratch", *arguments)

@@ -256,3 +256,16 @@ TEST_CASE("a refused rank stops asking and is served later") {
   CHECK(!late.moves.empty());
   CHECK(sent<balancer::WorkAnswer>(late).size() == 1);
 }
+
+TEST_CASE("listing many subdomains does not take the time of refining them") {
+  const Layout layout = grid_layout(4, 1, 2);
+  Controller controller = controller_of(0_rank, layout, "stealing");
+  static_cast<void>(controller.think(1, loads_of(0, 1, 500), 100));
+  CHECK(controller.due(1.1));
+  controller.looked(1.005, 0.005);
+  CHECK_FALSE(controller.due(1.1));
+  CHECK(controller.due(1.3));
+  controller.looked(1.3, 0.1);
+  controller.receive(1_rank, WorkRequest{1_rank, 1, 0}, 1.4);
+  CHECK(controller.due(1.4));  // somebody waits for an answer
+}

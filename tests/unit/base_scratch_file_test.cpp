@@ -61,6 +61,18 @@ TEST_CASE("room in a scratch file that is no longer needed is given back") {
   CHECK(file.room() + kOfOthers > room);
 }
 
+TEST_CASE("pieces may outlive what is in a discarded scratch file") {
+  const TemporaryFolder folder;
+  ScratchFile file(folder.path().string());
+  const std::uint64_t room = file.room();
+  const Bytes megabytes = noise(std::size_t{32} << 20, 1);
+  {
+    const ScratchFile::Piece piece = file.put({megabytes});
+    file.discard();
+  }
+  CHECK(ScratchFile(folder.path().string()).room() + (24 << 20) > room);
+}
+
 TEST_CASE("threads may use one scratch file") {
   const TemporaryFolder folder;
   ScratchFile file(folder.path().string());

@@ -70,6 +70,10 @@ TEST_CASE("Arrays that are written with a mesh take memory too") {
   CHECK(in_subdomains < written);
   CHECK(fit({}, {.in_subdomains = true, .sleeps = true, .writes = true}) > in_subdomains);
   CHECK(fit({}, {.in_subdomains = true, .sleeps = true}) > 3 * summary_alone);
+  const Use on_disk{.in_subdomains = true, .sleeps = true, .stores = true, .writes = true};
+  Use in_a_series = on_disk;
+  in_a_series.at_once = 0.01;
+  CHECK(fit({}, in_a_series) > 10 * fit({}, on_disk));
 
   const Processes many{100, 2};
   CHECK(fit({}, {.in_subdomains = true, .writes = true}, many) > 99 * in_subdomains);
@@ -100,6 +104,22 @@ TEST_CASE("A forecast above the limit is rejected with both numbers and what to 
   const std::string message = refusal(limits, 12'345'678);
   for (const char* expected : {"12,300,000", "1,000,000", "--max-triangles", "--keep-incomplete"})
     CHECK_MESSAGE(message.find(expected) != std::string::npos, message);
+}
+
+TEST_CASE("More than can be numbered is rejected with what to do instead") {
+  const auto says = [](double subdomain, double file) -> std::string {
+    try {
+      check_capacity(subdomain, file, kMesh);
+    } catch (const LimitError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  CHECK(says(5e8, 2.1e9) == "accepted");
+  CHECK(says(6e8, 0).find("--subdomains") != std::string::npos);
+  CHECK(says(0, 2.2e9).find(".pvtu") != std::string::npos);
+  const std::string of_one_piece = refusal(find_limits(with_memory(UINT64_C(1) << 50), Pslg{}, {}), 1e9);
+  CHECK_MESSAGE(of_one_piece.find("--subdomains") != std::string::npos, of_one_piece);
 }
 
 TEST_CASE("The message for a stopped mesh names the limit and its option") {
