@@ -3,7 +3,7 @@
 #include <sys/mman.h>
 
 #include <cstddef>
-#include <cstdint>
+#include <memory>
 
 namespace driftmesh {
 
@@ -13,9 +13,10 @@ template <class Values>
 void reserve_in_huge_pages(Values& values, std::size_t count) {
   constexpr std::size_t kHugePage = std::size_t{2} << 20;
   values.reserve(count);
-  const auto begin = (reinterpret_cast<std::uintptr_t>(values.data()) + kHugePage - 1) / kHugePage * kHugePage;
-  const auto end = reinterpret_cast<std::uintptr_t>(values.data() + count) / kHugePage * kHugePage;
-  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  void* begin = values.data();
+  std::size_t room = count * sizeof(*values.data());
+  if (std::align(kHugePage, kHugePage, begin, room) != nullptr)
+    madvise(begin, room / kHugePage * kHugePage, MADV_HUGEPAGE);
 }
 
 }  // namespace driftmesh

@@ -76,7 +76,8 @@ std::string holds_words(Rank rank, const protocol::SplitDigest& splits) {
 
 }  // namespace
 
-PieceAssembly::PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, HeldSubdomains held)
+PieceAssembly::PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition,
+                             const HeldSubdomains& held)
     : PieceAssembly(rank, ranks, decomposition, held, take_census(decomposition, held)) {}
 
 PieceAssembly::PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, HeldSubdomains held,

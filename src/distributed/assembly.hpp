@@ -24,7 +24,7 @@ namespace driftmesh {
 class PieceAssembly final : public Exchange {
  public:
   /// The decomposition outlives the object. `held` is called here and in piece().
-  PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, HeldSubdomains held);
+  PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, const HeldSubdomains& held);
   /// The same with the census of these subdomains, which spares the first of the two calls.
   PieceAssembly(Rank rank, std::int32_t ranks, const Decomposition& decomposition, HeldSubdomains held,
                 std::vector<SubdomainCensus> census);

@@ -100,8 +100,8 @@ std::vector<SubdomainCensus> ThreadRun::census() const {
     if (book_.has(id))
       all.push_back(book_.census_of(id));
     else
-      show_subdomain(subdomain, [&](SubdomainId, const SubdomainMesh& part) {
-        all.push_back(census_of(order_.plan.decomposition, subdomain.id(), part));
+      show_subdomain(subdomain, [&](SubdomainId shown, const SubdomainMesh& part) {
+        all.push_back(census_of(order_.plan.decomposition, shown, part));
       });
   }
   return all;

@@ -72,7 +72,7 @@ class DegreeBins {
   /// Rises with the cotangent; that of a triangle without area, which is not a number, counts as the largest.
   static std::size_t cell_of(double cotangent) {
     const double bounded = cotangent < 1e6 ? std::max(cotangent, -1e6) : 1e6;
-    return static_cast<std::size_t>((1 + bounded / (1 + std::fabs(bounded))) * (kCells / 2));
+    return static_cast<std::size_t>((1 + bounded / (1 + std::fabs(bounded))) * (kCells / 2.0));
   }
 
   std::array<double, 180> limits_{};          // falling; the last is none, so that nothing passes it
