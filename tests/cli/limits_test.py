@@ -92,6 +92,10 @@ class Ceiling(program.Cli):
         self.assertTrue(self.hold(60, "--area", "1.5e-5"))
         self.assertFalse(self.hold(60, "-n", "1", "--area", "1.5e-5"))
 
+    def test_subdomains_on_disk(self):
+        """Four million triangles take 40 MB asleep in memory, besides the program."""
+        self.assertTrue(self.hold(40, "--triangles", "4M", "--threads", "1", "--scratch", "."))
+
     def test_random_requests(self):
         seed = random.randrange(2**32)
         print(f"seed {seed}", flush=True)
