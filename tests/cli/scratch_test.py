@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Finished subdomains asleep on disk (--scratch): the mesh is the same, and nothing is left behind. (limits_test.py measures memory.)
+"""Finished subdomains asleep on disk (--scratch): the mesh is the same, and nothing is left behind. What memory they take is
+measured in limits_test.py.
 
 usage: scratch_test.py DRIFTMESH [unittest options]
 """
