@@ -208,7 +208,7 @@ job::Order order_of(const Request& request, job::Domain&& domain, const job::Tri
 // ---- By threads ------------------------------------------------------------------------------------------------
 
 void assemble_and_write(const Request& request, std::optional<job::ThreadRun>& run, RunNotes& notes) {
-  if (!std::ranges::none_of(request.output.meshes, is_in_pieces))
+  if (std::ranges::any_of(request.output.meshes, is_in_pieces))
     timed(notes, "write", [&] { write_in_pieces(request, [&](const std::string& path) { run->write_pieces(path); }); });
   if (!writes_whole(request.output)) return;
   DistributedPiece piece = timed(notes, "assemble", [&] { return run->assemble(); });

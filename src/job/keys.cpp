@@ -343,8 +343,7 @@ Section parts_section() {
            option("scratch", "FOLDER"), places(kOnePiece | kSubdomains | kRanks), entry_points(kMesh)),
        key("run.threads", &R::run, &R::Run::threads,
            "Threads that mesh together in a process; 0: one for each core, but under mpirun one in each. Without "
-           "mpirun "
-           "the mesh does not depend on their number",
+           "mpirun the mesh does not depend on their number",
            in(0, 1024), option("threads", "N"), places(kOnePiece | kSubdomains | kRanks),
            entry_points(kMesh | kLibrary))}};
 }

@@ -116,11 +116,12 @@ ExceptionCause cause_of(const Triangulation& mesh, TriangleId t) {
 
 Inspection inspect(const Triangulation& mesh, const QualityBounds& bounds) {
   Inspection found;
+  const double sine = std::sin(bounds.min_angle / kDegrees);
   AreaBounds areas(mesh, bounds);
   double least_cosine = 1, greatest_cosine = -1;
   double least_area = kNoBound, greatest_area = 0;  // twice
   visit_blocks(mesh, [&](std::span<const TriangleId> block, ShapeColumns& shapes) {
-    const ShapeColumns::Summary sum = shapes.measure(std::sin(bounds.min_angle / kDegrees));
+    const ShapeColumns::Summary sum = shapes.measure(sine);
     least_cosine = std::min(least_cosine, sum.least_cosine);
     greatest_cosine = std::max(greatest_cosine, sum.greatest_cosine);
     least_area = std::min(least_area, sum.least_twice_area);

@@ -10,8 +10,8 @@
 #include <tuple>
 #include <utility>
 
-#include "driftmesh/error.hpp"
 #include "protocol/threads/thread_network.hpp"
+#include "runtime/threads/few_threads.hpp"
 
 namespace driftmesh {
 namespace {
@@ -64,9 +64,7 @@ class RefinementInRounds::Round {
       run_rank(kCalling);
     } catch (const std::system_error&) {  // by the constructor of a thread
       failed_ = true;
-      ranks_[kCalling].failure =
-          std::make_exception_ptr(LimitError("the system gives this process only " + std::to_string(others.size() + 1) +
-                                             " of " + std::to_string(ranks_.size()) + " threads; use fewer"));
+      ranks_[kCalling].failure = std::make_exception_ptr(too_few_threads(others.size() + 1, ranks_.size()));
     }
     for (std::thread& other : others) other.join();
     for (const OneRank& rank : ranks_)

@@ -1,11 +1,10 @@
 #include "runtime/threads/thread_crew.hpp"
 
 #include <chrono>
-#include <string>
 #include <system_error>
 
 #include "base/thread_place.hpp"
-#include "driftmesh/error.hpp"
+#include "runtime/threads/few_threads.hpp"
 
 namespace driftmesh {
 
@@ -15,8 +14,7 @@ ThreadCrew::ThreadCrew(std::size_t threads) {
   } catch (const std::system_error&) {
     const std::size_t given = threads_.size() + 1;
     dismiss();
-    throw LimitError("the system gives this process only " + std::to_string(given) + " of " +
-                     std::to_string(threads + 1) + " threads; use fewer");
+    throw too_few_threads(given, threads + 1);
   }
 }
 
