@@ -209,9 +209,10 @@ bool Refiner::wants_coarse_stage() const {
          final_size > kFinePerCoarse / 4 * static_cast<double>(mesh_.live_triangles());
 }
 
-/// Splits the next given segment if its lens holds a vertex from the start.
+/// Splits the next given segment if its lens holds a vertex from the start. Done before anything else, this saves
+/// triangles where angles are bounded; otherwise a segment stays whole until a point encroaches upon it.
 bool Refiner::step_segments() {
-  if (state_.next_segment == mesh_.subsegments.next_id()) return false;
+  if (bounds_.min_angle == 0 || state_.next_segment == mesh_.subsegments.next_id()) return false;
   const Subsegment& s = mesh_.subsegments[state_.next_segment];
   if (s.is_leaf()) {
     const Point &a = mesh_.points[s.vertex[0]], &b = mesh_.points[s.vertex[1]];

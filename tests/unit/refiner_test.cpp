@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
@@ -140,4 +141,21 @@ TEST_CASE("the refiner reports the points it has put on segments, ancestors firs
   for (const Subsegment& s : mesh.subsegments) inner += !s.is_leaf();
   for (const auto& paths : known) told += paths.size();
   CHECK(inner == told);
+}
+
+TEST_CASE("without bounds the constrained Delaunay triangulation stays as it is") {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    CAPTURE(seed);
+    // Many segments see a point close by.
+    const Pslg pslg = generate_random_points({.points = 300, .segments = 60, .seed = seed});
+    Triangulation mesh = triangulate(pslg);
+    const std::size_t triangles = mesh.live_triangles();
+    QualityBounds bounds;
+    bounds.min_angle = 0;
+    prepare_corners(mesh, {bounds.min_angle, false});
+    Refiner refiner(mesh, bounds);
+    CHECK(refiner.refine() == Refiner::Status::kDone);
+    CHECK(refiner.counters().segment_points == 0);
+    CHECK(mesh.live_triangles() == triangles);
+  }
 }
