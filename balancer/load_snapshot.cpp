@@ -39,6 +39,11 @@ const SubdomainLoad* find(const LoadSnapshot& snapshot, SubdomainId id) {
   return find_in(snapshot.subdomains, id);
 }
 
+Rank owner_of(const LoadSnapshot& snapshot, SubdomainId id) {
+  const SubdomainLoad* const known = find(snapshot, id);
+  return known ? known->owner : (*snapshot.layout)[id].owner;
+}
+
 IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankLoad> ranks) {
   double sum = 0;
   int known = 0;

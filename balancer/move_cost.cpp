@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <tuple>
 
 #include "protocol/messages.hpp"
@@ -33,7 +34,7 @@ class Selection {
   void consider(const Move& move) {
     const SubdomainLoad* const s = find(snapshot_, move.subdomain);
     const bool possible =
-        s && speeds_.has(move.destination) && move.destination != s->owner && !taken_twice(move.subdomain);
+        s && !s->fixed && speeds_.has(move.destination) && move.destination != s->owner && !taken_twice(move.subdomain);
     if (!possible) return;
     const double giver_speed = speeds_[s->owner], taker_speed = speeds_[move.destination];
     const double giving = cost_.for_giver(s->bytes, giver_speed), taking = cost_.for_taker(s->bytes, taker_speed);
@@ -99,6 +100,15 @@ std::vector<Move> those_that_fit(const LoadSnapshot& snapshot, std::span<const M
 
 }  // namespace
 
+void price_moves(LoadSnapshot& snapshot, const MoveCost& cost) {
+  const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
+  const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
+  for (SubdomainLoad& s : snapshot.subdomains) {
+    s.cost = cost.for_giver(s.bytes, mean) + cost.for_taker(s.bytes, mean);
+    s.fixed = s.cost * mean > s.remaining;
+  }
+}
+
 bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning) {
   const double last = finishing_time(snapshot);
   const double gain = last - ideal_time(snapshot);
@@ -106,11 +116,12 @@ bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_p
 }
 
 std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost,
-                               const Worth& worth) {
+                               const Worth& worth, Kept kept) {
   Selection selection(snapshot, cost);
   const double before = selection.finish();
   selection.consider(those_that_fit(snapshot, moves));
-  selection.drop_needless(std::max(selection.finish(), ideal_time(snapshot) * (1 + worth.slack)));
+  if (kept == Kept::kNeeded)
+    selection.drop_needless(std::max(selection.finish(), ideal_time(snapshot) * (1 + worth.slack)));
   const double saved = before - selection.finish();
   if (saved <= 0 || saved < worth.gain * before || saved < worth.seconds) return {};
   return selection.kept();

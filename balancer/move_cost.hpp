@@ -22,6 +22,9 @@ struct MoveCost {
   }
 };
 
+/// Sets what a move of each listed subdomain costs, and fixes those that are finished before they would have moved.
+void price_moves(LoadSnapshot& snapshot, const MoveCost& cost);
+
 /// How much a plan must gain before anything moves.
 struct Worth {
   double gain = 0.02;     ///< of the finishing time, saved
@@ -33,13 +36,16 @@ struct Worth {
 /// takes, in seconds.
 [[nodiscard]] bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning);
 
+/// Whether a plan may be reduced to the moves that it needs.
+enum class Kept { kNeeded, kAll };
+
 /// The worthwhile moves of `moves`, in their order. With their costs they reduce the finishing time by at least what
 /// `worth` requires; otherwise the result is empty. Dropped are invalid moves (unknown subdomain or rank, to the owner,
-/// a second move of a subdomain), moves of subdomains too large for one message, moves that cost more than the work
-/// they move, and moves without which the finishing time is no later, or within the slack of the ideal time; the ones
-/// with the highest cost for their work go first.
+/// a second move of a subdomain, a fixed one), moves of subdomains too large for one message, moves that cost more than
+/// the work they move, and, with Kept::kNeeded, moves without which the finishing time is no later, or within the slack
+/// of the ideal time; the ones with the highest cost for their work go first.
 [[nodiscard]] std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves,
-                                             const MoveCost& cost, const Worth& worth = {});
+                                             const MoveCost& cost, const Worth& worth = {}, Kept kept = Kept::kNeeded);
 
 /// The finishing time of each rank, including costs, if all of `moves` are made that are valid and cost less than the
 /// work they move.

@@ -79,24 +79,40 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   const bool leads = policy_->placement() == Placement::kLeader;
   if (!news_ || !pace_.due(now)) return;
   // The first plan waits a little for the speeds of all ranks.
-  if (leads && !knowledge_->complete() && now < start_ + options_.interval) return;
+  if (leads && !knowledge_->complete() && now < start_ + options_.patience()) return;
   news_ = false;
   pace_.looked(now);
   decision.planned = true;
-  const LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
+  LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
   if (leads && !may_gain(snapshot, options_.worth, pace_.cost_of_planning())) return;
-  std::vector<Move> planned = policy_->plan(snapshot, self_);
   std::erase_if(moved_, [&](const auto& move) { return now - move.second > options_.interval; });
-  std::erase_if(planned, [&](const Move& move) {
-    return knowledge_->in_motion(move.subdomain) || moved_.contains(move.subdomain);
-  });
-  const auto moves =
-      worth_moving(leads ? snapshot : between(snapshot, self_, planned), planned, options_.cost, options_.worth);
+  price_moves(snapshot, options_.cost);
+  for (SubdomainLoad& s : snapshot.subdomains)
+    s.fixed = s.fixed || knowledge_->in_motion(s.id) || moved_.contains(s.id);
+  const std::vector<Move> moves = worthwhile_plan(snapshot);
   pace_.planned(now, !moves.empty());
   if (moves.empty()) return;
   advise(moves, snapshot, own, decision);
   knowledge_->expect(moves, snapshot, plans_, now);
   for (const Move& move : moves) moved_[move.subdomain] = now;
+}
+
+/// The plan of the policy as far as it is worth its moves. If the policy offers single moves as well, the plan is kept
+/// as a whole, since what makes it better than those would be lost in parts, or not at all.
+std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot) const {
+  const std::vector<Move> plan = policy_->plan(snapshot, self_);
+  const bool leads = policy_->placement() == Placement::kLeader;
+  const auto needed = [&](const std::vector<Move>& moves) {
+    return worth_moving(leads ? snapshot : between(snapshot, self_, moves), moves, options_.cost, options_.worth);
+  };
+  const auto single = leads ? policy_->touch_up(snapshot) : std::nullopt;
+  if (!single) return needed(plan);
+  std::vector<Move> whole = worth_moving(snapshot, plan, options_.cost, options_.worth, Kept::kAll);
+  std::vector<Move> few = needed(*single);
+  const auto finish = [&](const std::vector<Move>& moves) {
+    return std::ranges::max(finishing_times(snapshot, moves, options_.cost));
+  };
+  return finish(whole) <= finish(few) + options_.worth.gain * ideal_time(snapshot) ? whole : few;
 }
 
 void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own,

@@ -21,6 +21,10 @@ std::vector<Move> Policy::plan(const LoadSnapshot&, Rank) const {
   return {};
 }
 
+std::optional<std::vector<Move>> Policy::touch_up(const LoadSnapshot&) const {
+  return std::nullopt;
+}
+
 std::optional<ZoltanParameters> Policy::partitioning(const LoadSnapshot&) const {
   return std::nullopt;
 }

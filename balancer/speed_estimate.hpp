@@ -1,50 +1,74 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace driftmesh::balancer {
 
 /// A rank's speed as a running average: work done `memory` seconds ago has 1/e of the weight of current work.
+///
+/// The start of a subdomain takes time and makes few triangles. Counted when it occurs, it would make a rank seem slow
+/// just then, and work would move about for nothing. So it is spread over all triangles that the subdomain will have.
 class SpeedEstimate {
  public:
   explicit SpeedEstimate(double memory = 2) : memory_(memory) {}
 
   /// Result of a slice of work on a subdomain.
   struct Slice {
-    double triangles = 0;   ///< made
-    double seconds = 0;     ///< of the rank's wall-clock time, whatever else used the processor
-    bool prepared = false;  ///< the subdomain was started in it
-    bool finished = false;  ///< the subdomain was finished in it
+    double triangles = 0;  ///< made
+    double seconds = 0;    ///< of the rank's wall-clock time, whatever else used the processor
+    double started = 0;    ///< triangles that the subdomain will have, if it was started in this slice
   };
 
   /// Idle time does not belong here.
   void add(const Slice& slice) {
     if (slice.seconds <= 0) return;
-    if (slice.prepared) preparing_ += slice.seconds;
-    finished_ = finished_ || slice.finished;
-    const double kept = std::exp(-slice.seconds / memory_);
-    triangles_ = triangles_ * kept + slice.triangles;
-    seconds_ = seconds_ * kept + slice.seconds;
     observed_ += slice.seconds;
+    const double kept = std::exp(-slice.seconds / memory_);
+    all_.fade(kept);
+    refining_.fade(kept);
+    all_.add(slice);
+    if (slice.started > 0) {
+      starting_.fade(kKept);
+      starting_.add(slice);
+      will_have_ = will_have_ * kKept + slice.started;
+    } else {
+      refining_.add(slice);
+    }
   }
 
-  /// Triangles per second; 0 while there is too little data: too short a time, or only the start of a subdomain, which
-  /// takes time but makes few triangles. A slow rank spends more time on that, and would seem slower than it is.
+  /// Triangles per second; 0 while there is too little data.
   [[nodiscard]] double value() const {
-    const bool whole = finished_ || preparing_ <= kPreparing * observed_;
-    return observed_ < kEnough || !whole || triangles_ <= 0 ? 0 : triangles_ / seconds_;
+    if (observed_ < kEnough) return 0;
+    // With small subdomains most slices start one, and there is nothing to tell apart.
+    if (refining_.seconds < kRefining * all_.seconds)
+      return will_have_ < kFewStarts * starting_.triangles ? all_.speed() : 0;
+    const double speed = refining_.speed();
+    if (speed <= 0 || will_have_ <= 0) return speed;
+    const double start = std::max(0.0, starting_.seconds - starting_.triangles / speed) / will_have_;
+    return 1 / (1 / speed + start);
   }
 
  private:
-  static constexpr double kEnough = 0.02;    // seconds
-  static constexpr double kPreparing = 0.1;  // fraction of the time
+  static constexpr double kEnough = 0.02;   // seconds
+  static constexpr double kRefining = 0.1;  // share of the time
+  static constexpr double kFewStarts = 2;
+  static constexpr double kKept = 0.9;  // weight of the starts before the last one
+
+  struct Sum {
+    double triangles = 0;
+    double seconds = 0;
+
+    void add(const Slice& slice) { triangles += slice.triangles, seconds += slice.seconds; }
+    void fade(double kept) { triangles *= kept, seconds *= kept; }
+    [[nodiscard]] double speed() const { return triangles > 0 ? triangles / seconds : 0; }
+  };
 
   double memory_;
-  double triangles_ = 0;
-  double seconds_ = 0;
+  Sum all_, refining_;  // of late
+  Sum starting_;
+  double will_have_ = 0;  // triangles of the subdomains whose start is in starting_
   double observed_ = 0;
-  double preparing_ = 0;
-  bool finished_ = false;
 };
 
 }  // namespace driftmesh::balancer

@@ -1,22 +1,24 @@
 #include "balancer/surplus.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <queue>
 #include <tuple>
 
 namespace driftmesh::balancer {
 namespace {
 
-using Indices = std::vector<std::size_t>;
+using Index = std::size_t;  // into the listed subdomains
 
-/// For each rank, the indices of its subdomains, those first that leave most easily.
-IdVector<Rank, Indices> by_owner(const LoadSnapshot& snapshot) {
-  IdVector<Rank, Indices> lists(snapshot.ranks.size());
-  for (std::size_t i = 0; i < snapshot.subdomains.size(); ++i) lists[snapshot.subdomains[i].owner].push_back(i);
-  for (Indices& list : lists)
-    std::sort(list.begin(), list.end(), [&](std::size_t a, std::size_t b) {
-      return leaves_before(snapshot.subdomains[a], snapshot.subdomains[b]);
-    });
-  return lists;
+/// The listed subdomain with this ID, or none.
+std::optional<Index> index_of(const LoadSnapshot& snapshot, SubdomainId id) {
+  const SubdomainLoad* const s = find(snapshot, id);
+  return s ? std::optional<Index>(s - snapshot.subdomains.data()) : std::nullopt;
+}
+
+std::vector<Neighbor> neighbors_of(const LoadSnapshot& snapshot, const SubdomainLoad& s) {
+  return snapshot.layout ? (*snapshot.layout)[s.id].neighbors : std::vector<Neighbor>();
 }
 
 class Dealer {
@@ -27,46 +29,106 @@ class Dealer {
         ideal_(ideal_time(snapshot)),
         speeds_(assumed_speeds(snapshot.ranks)) {}
 
-  LoadSnapshot deal() {
-    Indices pool = collect();
-    std::sort(pool.begin(), pool.end(), [&](std::size_t a, std::size_t b) {
-      const auto& one = snapshot_.subdomains[a];
-      const auto& other = snapshot_.subdomains[b];
-      return std::tuple(-one.remaining, one.id) < std::tuple(-other.remaining, other.id);
+  /// Subdomains that are neighbors stay together where ranks have room for them.
+  LoadSnapshot deal_together() {
+    std::vector<Index> left;
+    for (const Index i : collect())
+      if (!place_within_shares(i)) left.push_back(i);
+    return deal_singly(std::move(left));
+  }
+  /// Largest first, each to the rank that would finish it first.
+  LoadSnapshot deal_singly() { return deal_singly(collect()); }
+
+ private:
+  LoadSnapshot deal_singly(std::vector<Index> pool) {
+    std::ranges::sort(pool, {}, [&](Index i) {
+      const SubdomainLoad& s = snapshot_.subdomains[i];
+      return std::tuple(-s.remaining, s.id);
     });
-    for (const std::size_t i : pool) place(i);
+    for (const Index i : pool) place_earliest(i);
     return std::move(snapshot_);
   }
 
- private:
   double& load(Rank rank) { return snapshot_.ranks[rank].remaining; }
+  [[nodiscard]] double share(Rank rank) const { return ideal_ * speeds_[rank]; }
 
-  Indices collect() {
-    Indices pool;
-    const IdVector<Rank, Indices> lists = by_owner(snapshot_);
-    for (const Rank r : ids_of(lists)) {
-      const double share = ideal_ * speeds_[r];
-      if (load(r) <= share * (1 + tolerance_)) continue;
-      for (const std::size_t i : lists[r]) {
-        if (load(r) <= share) break;
-        load(r) -= snapshot_.subdomains[i].remaining;
-        pool.push_back(i);
-      }
-    }
+  /// The surplus of all ranks.
+  std::vector<Index> collect() {
+    IdVector<Rank, std::vector<Index>> own(snapshot_.ranks.size());
+    for (Index i = 0; i < snapshot_.subdomains.size(); ++i)
+      if (!snapshot_.subdomains[i].fixed) own[snapshot_.subdomains[i].owner].push_back(i);
+    std::vector<Index> pool;
+    for (const Rank r : ids_of(own))
+      if (load(r) > share(r) * (1 + tolerance_)) peel(r, own[r], pool);
     return pool;
   }
 
+  /// Adds the surplus of a rank to the pool: what leaves most easily, each next to the one before if possible, so that
+  /// they can stay together elsewhere.
+  void peel(Rank r, const std::vector<Index>& own, std::vector<Index>& pool) {
+    std::map<Index, double> border;  // with those that leave, less that with those that stay
+    for (const Index i : own)
+      for (const Neighbor& n : neighbors_of(snapshot_, snapshot_.subdomains[i]))
+        if (const auto j = index_of(snapshot_, n.subdomain); j && snapshot_.subdomains[*j].owner == r)
+          border[i] -= n.length;
+    const auto key = [&](Index i) {
+      const SubdomainLoad& s = snapshot_.subdomains[i];
+      return std::tuple(-static_cast<std::int64_t>(weight_class(s)), border[i], s.turn, s.remaining, -to_int(s.id));
+    };
+    using Entry = std::pair<decltype(key(0)), Index>;
+    std::priority_queue<Entry> queue;
+    for (const Index i : own) queue.emplace(key(i), i);
+    std::vector<bool> gone(snapshot_.subdomains.size(), false);
+    while (load(r) > share(r) && !queue.empty()) {
+      const auto [was, i] = queue.top();
+      queue.pop();
+      if (gone[i] || was != key(i)) continue;
+      gone[i] = true;
+      const SubdomainLoad& s = snapshot_.subdomains[i];
+      load(r) -= s.remaining;
+      pool.push_back(i);
+      for (const Neighbor& n : neighbors_of(snapshot_, s))
+        if (const auto j = index_of(snapshot_, n.subdomain); j && snapshot_.subdomains[*j].owner == r && !gone[*j]) {
+          border[*j] += 2 * n.length;
+          queue.emplace(key(*j), *j);
+        }
+    }
+  }
+
+  void give(Index i, Rank taker) {
+    snapshot_.subdomains[i].owner = taker;
+    load(taker) += snapshot_.subdomains[i].remaining;
+  }
+
+  [[nodiscard]] bool has_room(Rank r, const SubdomainLoad& s) { return load(r) + s.remaining <= share(r); }
+
+  /// To the rank with the longest border that has room for it in its share, or to the one with most room.
+  bool place_within_shares(Index i) {
+    const SubdomainLoad& s = snapshot_.subdomains[i];
+    std::map<Rank, double> borders;
+    for (const Neighbor& n : neighbors_of(snapshot_, s))
+      if (const Rank r = owner_of(snapshot_, n.subdomain); has_room(r, s)) borders[r] += n.length;
+    const auto longest = std::ranges::max_element(borders, {}, [](const auto& b) { return b.second; });
+    if (longest != borders.end()) {
+      give(i, longest->first);
+      return true;
+    }
+    const Rank roomiest = std::ranges::max(ids_of(speeds_), {}, [&](Rank r) { return share(r) - load(r); });
+    if (!has_room(roomiest, s)) return false;
+    give(i, roomiest);
+    return true;
+  }
+
   // Ties go to the owner, so that nothing moves without a reason.
-  void place(std::size_t i) {
-    SubdomainLoad& s = snapshot_.subdomains[i];
+  void place_earliest(Index i) {
+    const SubdomainLoad& s = snapshot_.subdomains[i];
     Rank best = s.owner;
     double earliest = (load(best) + s.remaining) / speeds_[best];
     for (const Rank r : ids_of(speeds_)) {
       const double finished = (load(r) + s.remaining) / speeds_[r];
       if (finished < earliest) best = r, earliest = finished;
     }
-    s.owner = best;
-    load(best) += s.remaining;
+    give(i, best);
   }
 
   LoadSnapshot snapshot_;
@@ -78,8 +140,11 @@ class Dealer {
 }  // namespace
 
 LoadSnapshot deal_surplus(const LoadSnapshot& snapshot, double tolerance) {
-  LoadSnapshot dealt = Dealer(snapshot, tolerance).deal();
-  return finishing_time(dealt) < finishing_time(snapshot) ? dealt : snapshot;
+  LoadSnapshot together = Dealer(snapshot, tolerance).deal_together();
+  LoadSnapshot singly = Dealer(snapshot, tolerance).deal_singly();
+  const double latest = finishing_time(singly) + tolerance / 2 * ideal_time(snapshot);
+  LoadSnapshot& dealt = finishing_time(together) <= latest ? together : singly;
+  return finishing_time(dealt) < finishing_time(snapshot) ? std::move(dealt) : snapshot;
 }
 
 }  // namespace driftmesh::balancer

@@ -9,12 +9,6 @@
 namespace driftmesh::balancer {
 namespace {
 
-// The owner of a subdomain by the snapshot, otherwise its initial owner.
-Rank owner_of(const LoadSnapshot& snapshot, SubdomainId id) {
-  const SubdomainLoad* const known = find(snapshot, id);
-  return known ? known->owner : (*snapshot.layout)[id].owner;
-}
-
 /// For each rank, the ranks adjacent to its listed subdomains, in ascending order.
 IdVector<Rank, std::set<Rank>> touching_ranks(const LoadSnapshot& snapshot) {
   IdVector<Rank, std::set<Rank>> touching(snapshot.ranks.size());
@@ -79,7 +73,7 @@ class Round {
     std::map<SubdomainId, double> attachment;
     std::vector<SubdomainLoad> own;
     for (const SubdomainLoad& s : snapshot_.subdomains) {
-      if (s.owner != self_ || s.turn == 0 || gone_.contains(s.id)) continue;
+      if (s.owner != self_ || s.turn == 0 || s.fixed || gone_.contains(s.id)) continue;
       own.push_back(s);
       for (const Neighbor& n : (*snapshot_.layout)[s.id].neighbors) {
         const Rank owner = owner_of(snapshot_, n.subdomain);

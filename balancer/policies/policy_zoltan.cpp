@@ -10,6 +10,32 @@
 namespace driftmesh::balancer {
 namespace {
 
+/// The length of the borders of `s` with subdomains of `rank`.
+double border_with(const LoadSnapshot& snapshot, const SubdomainLoad& s, Rank rank) {
+  double length = 0;
+  for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors)
+    if (owner_of(snapshot, n.subdomain) == rank) length += n.length;
+  return length;
+}
+
+/// Takes back moves without which the owner still finishes in time and no more border lies between ranks.
+void take_back_needless(const LoadSnapshot& from, LoadSnapshot& planned, double tolerance) {
+  const IdVector<Rank, double> speeds = assumed_speeds(from.ranks);
+  const double time = std::max(finishing_time(planned), ideal_time(from) * (1 + tolerance));
+  for (bool any = true; std::exchange(any, false);)
+    for (std::size_t i = 0; i < planned.subdomains.size(); ++i) {
+      SubdomainLoad& s = planned.subdomains[i];
+      const Rank owner = from.subdomains[i].owner;
+      RankLoad& home = planned.ranks[owner];
+      if (s.owner == owner || home.remaining + s.remaining > time * speeds[owner]) continue;
+      if (border_with(planned, s, owner) < border_with(planned, s, s.owner)) continue;
+      home.remaining += s.remaining;
+      planned.ranks[s.owner].remaining -= s.remaining;
+      s.owner = owner;
+      any = true;
+    }
+}
+
 /// Parts by Zoltan, in proportion to the speeds of the ranks: compact and, with the approach repartition or refine,
 /// close to the current distribution. Small imbalances are fixed by moving single subdomains instead of making new
 /// parts.
@@ -27,11 +53,19 @@ class ZoltanPolicy final : public Policy {
   [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override {
     if (snapshot.subdomains.empty() || snapshot.ranks.size() < 2) return {};
     if (wants_touch_up_alone(snapshot)) return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
-    const auto owners = remap_parts(snapshot, zoltan_partition(snapshot, parameters_), dealing_.tolerance);
+    const std::vector<Part> parts = zoltan_partition(snapshot, parameters_);
+    const auto owners = keeps_parts() ? owners_of(parts) : remap_parts(snapshot, parts, dealing_.tolerance);
     LoadSnapshot planned = snapshot;
-    for (std::size_t i = 0; i < owners.size(); ++i) planned.subdomains[i].owner = owners[i];
+    for (std::size_t i = 0; i < owners.size(); ++i)
+      if (!planned.subdomains[i].fixed) planned.subdomains[i].owner = owners[i];
     sum_up(planned);
-    return moves_between(snapshot, dealing_.polish ? deal_surplus(planned, dealing_.tolerance) : planned);
+    if (dealing_.polish) planned = deal_surplus(planned, dealing_.tolerance);
+    take_back_needless(snapshot, planned, dealing_.tolerance);
+    return moves_between(snapshot, planned);
+  }
+
+  [[nodiscard]] std::optional<std::vector<Move>> touch_up(const LoadSnapshot& snapshot) const override {
+    return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
   }
 
   [[nodiscard]] std::optional<ZoltanParameters> partitioning(const LoadSnapshot& own) const override {
@@ -39,6 +73,16 @@ class ZoltanPolicy final : public Policy {
   }
 
  private:
+  [[nodiscard]] bool keeps_parts() const {
+    const std::string& method = parameters_.at("LB_METHOD");
+    return (method == "GRAPH" || method == "HYPERGRAPH") && parameters_.at("LB_APPROACH") != "PARTITION";
+  }
+  static std::vector<Rank> owners_of(const std::vector<Part>& parts) {
+    std::vector<Rank> owners;
+    for (const Part p : parts) owners.push_back(Rank{to_int(p)});
+    return owners;
+  }
+
   // Depends only on the states of ranks, which are equal everywhere.
   [[nodiscard]] bool wants_touch_up_alone(const LoadSnapshot& snapshot) const {
     return finishing_time(snapshot) <= (1 + touch_up_) * ideal_time(snapshot);
@@ -60,11 +104,13 @@ std::string upper_case(std::string text) {
 
 std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
   ZoltanParameters all{
-      {"LB_METHOD", upper_case(parameters.choice("method", {"graph", "rcb", "hsfc", "hypergraph"}))},
+      {"LB_METHOD", upper_case(parameters.choice("method", {"graph", "rcb", "hsfc", "rib", "hypergraph"}))},
       {"LB_APPROACH", upper_case(parameters.choice("approach", {"repartition", "partition", "refine"}))},
       {"IMBALANCE_TOL", "1.03"},
       // Do not omit dense hyperedges: in a small graph, none would be left.
       {"PHG_EDGE_SIZE_THRESHOLD", "1.0"},
+      // Borders and moves count alike (see zoltan_partition.cpp for their units).
+      {"PHG_REPART_MULTIPLIER", "1"},
       {"SEED", std::to_string(parameters.integer("seed", 1, 0, INT32_MAX))}};
   // Partition graphs with Zoltan's own partitioner, available in every build.
   if (all["LB_METHOD"] == "GRAPH") all["GRAPH_PACKAGE"] = "PHG";

@@ -4,6 +4,7 @@
 #include <zoltan.h>
 #include <zoltan_dd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <numeric>
@@ -100,6 +101,7 @@ struct Graph {
       for (const Neighbor& n : (*snapshot->layout)[s.id].neighbors)
         neighbors.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
     const std::vector<int> processes = process_of(neighbors);
+    const double mean = mean_border();
     std::size_t at = 0;
     for (const SubdomainLoad& s : snapshot->subdomains) {
       for (const Neighbor& n : (*snapshot->layout)[s.id].neighbors) {
@@ -107,10 +109,17 @@ struct Graph {
         if (where < 0) continue;
         target.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
         process.push_back(where);
-        weight.push_back(static_cast<float>(n.length));
+        weight.push_back(static_cast<float>(n.length / mean));
       }
       first.push_back(narrow<int>(target.size(), "borders between subdomains"));
     }
+  }
+  /// Of all subdomains, so that it is the same on all processes. Zoltan weighs borders against sizes_to_move.
+  [[nodiscard]] double mean_border() const {
+    double sum = 0, count = 0;
+    for (const Layout::Subdomain& s : snapshot->layout->subdomains)
+      for (const Neighbor& n : s.neighbors) sum += n.length, ++count;
+    return sum > 0 ? sum / count : 1;
   }
   [[nodiscard]] int size() const { return static_cast<int>(snapshot->subdomains.size()); }
   [[nodiscard]] const SubdomainLoad& at(ZOLTAN_ID_TYPE i) const { return snapshot->subdomains[i]; }
@@ -144,10 +153,32 @@ void current_parts(void* data, int, int, int count, Ids, Ids local, int* parts, 
   *error = ZOLTAN_OK;
 }
 
+/// In units of the cheapest move of any.
 void sizes_to_move(void* data, int, int, int count, Ids, Ids local, int* sizes, int* error) {
-  constexpr std::uint64_t kMost = 1u << 30;
-  for (int i = 0; i < count; ++i)
-    sizes[i] = static_cast<int>(std::min(kMost, std::max<std::uint64_t>(1, graph_of(data).at(local[i]).bytes)));
+  constexpr double kMost = 1e6;
+  const Graph& graph = graph_of(data);
+  const double least = graph.snapshot->subdomains.empty()
+                           ? 0
+                           : std::ranges::min(graph.snapshot->subdomains, {}, &SubdomainLoad::cost).cost;
+  for (int i = 0; i < count; ++i) {
+    const double cost = graph.at(local[i]).cost;
+    sizes[i] = least > 0 ? static_cast<int>(std::min(kMost, cost / least)) : 1;
+  }
+  *error = ZOLTAN_OK;
+}
+
+int count_fixed(void* data, int* error) {
+  const Graph& graph = graph_of(data);
+  *error = ZOLTAN_OK;
+  return static_cast<int>(std::ranges::count_if(graph.snapshot->subdomains, &SubdomainLoad::fixed));
+}
+
+void list_fixed(void* data, int, int, Ids global, int* parts, int* error) {
+  for (const SubdomainLoad& s : graph_of(data).snapshot->subdomains) {
+    if (!s.fixed) continue;
+    *global++ = static_cast<ZOLTAN_ID_TYPE>(s.id);
+    *parts++ = to_int(s.owner);
+  }
   *error = ZOLTAN_OK;
 }
 
@@ -211,6 +242,10 @@ void answer_questions(Zoltan_Struct* zoltan, Graph& graph, bool as_hypergraph) {
   Zoltan_Set_Obj_Size_Multi_Fn(zoltan, sizes_to_move, &graph);
   Zoltan_Set_Num_Geom_Fn(zoltan, count_dimensions, &graph);
   Zoltan_Set_Geom_Multi_Fn(zoltan, centroids, &graph);
+  if (std::ranges::any_of(graph.snapshot->subdomains, &SubdomainLoad::fixed)) {
+    Zoltan_Set_Num_Fixed_Obj_Fn(zoltan, count_fixed, &graph);
+    Zoltan_Set_Fixed_Obj_List_Fn(zoltan, list_fixed, &graph);
+  }
   if (as_hypergraph) {
     Zoltan_Set_HG_Size_CS_Fn(zoltan, hypergraph_size, &graph);
     Zoltan_Set_HG_CS_Fn(zoltan, hypergraph, &graph);

@@ -39,6 +39,8 @@ struct SubdomainLoad {
   double remaining = 0;     ///< triangles still to be made, predicted
   std::uint64_t bytes = 0;  ///< to move it
   std::int32_t turn = 0;    ///< position in the owner's order of work; 0 is being worked on
+  double cost = 0;          ///< of a move, in seconds of both ranks at mean speed
+  bool fixed = false;       ///< it may not move now: it is on its way, has just moved, or costs more than it has left
 };
 
 /// Its size in units of 64 KiB: smaller differences do not affect the cost of a move.
@@ -91,6 +93,9 @@ void sum_up(LoadSnapshot& snapshot);
 
 /// The snapshot after `moves`, which must be valid. If a subdomain is moved more than once, its last move counts.
 [[nodiscard]] LoadSnapshot after(LoadSnapshot snapshot, std::span<const Move> moves);
+
+/// Its owner by the snapshot; of a subdomain that is not listed, the initial one.
+[[nodiscard]] Rank owner_of(const LoadSnapshot& snapshot, SubdomainId id);
 
 /// The moves that lead from one snapshot to another of the same subdomains with other owners.
 [[nodiscard]] std::vector<Move> moves_between(const LoadSnapshot& from, const LoadSnapshot& to);

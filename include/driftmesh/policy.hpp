@@ -44,6 +44,10 @@ class Policy {
   /// once, and never to its owner.
   [[nodiscard]] virtual std::vector<Move> plan(const LoadSnapshot& snapshot, Rank self) const;
 
+  /// kLeader: moves of single subdomains, which are made where plan() would not pay off as a whole. Without them (the
+  /// default) plan() is reduced to those moves that do.
+  [[nodiscard]] virtual std::optional<std::vector<Move>> touch_up(const LoadSnapshot& snapshot) const;
+
   /// kCollective: parameters with which Zoltan divides the subdomains into parts, one per rank in proportion to its
   /// speed. Without any, each subdomain stays in the part of its owner. A rank knows the loads of all ranks, but lists
   /// only its own subdomains; so the result may depend only on the loads of ranks, and is the same on all of them.

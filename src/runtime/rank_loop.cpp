@@ -188,7 +188,6 @@ void RankLoop::end(Shift& shift, double seconds) {
   if (triangles_ > plan_.max_triangles)
     throw LimitError("rank " + to_string(transport_.rank()) + " has more than " + std::to_string(plan_.max_triangles) +
                      " triangles");
-  const bool finished = !subdomain.active();
   for (const SplitPoint<GlobalRootId>& split : out.told) subdomain.tell(split);
   reschedule(subdomain);
   const auto& said = out.shift.said;
@@ -198,7 +197,7 @@ void RankLoop::end(Shift& shift, double seconds) {
   if (observers_.after_slice) observers_.after_slice(*this, {id, seconds, said});
   seconds += transport_.now() - start;  // a slow rank may be made by waiting there
   const SliceWork& done = out.shift.done;
-  speed_.add({static_cast<double>(done.triangles), seconds, done.prepared > 0, finished});
+  speed_.add({static_cast<double>(done.triangles), seconds, done.prepared > 0 ? out.load.remaining : 0});
   own_failure_ = false;
 }
 
@@ -215,11 +214,14 @@ bool RankLoop::balance(bool worked) {
   balancer::Decision decision =
       controller_->think(clock_, own, speed_.value() * static_cast<double>(1 + (crew_ != nullptr ? crew_->size() : 0)));
   own_failure_ = false;
-  for (const balancer::Move& move : decision.moves) hand_over(move.subdomain, move.destination);
+  // Only what planning took: packing what it hands over does not make looking at loads more expensive.
+  const double took = transport_.now() - start;
+  if (decision.planned) controller_->took(took);
+  controller_->looked(transport_.now(), took);
+  // Messages first: they are short, and must not wait for subdomains to be packed and sent.
   for (const balancer::Outgoing& o : decision.messages) protocol_.advise(o.destination, balancer::encode(o.message));
-  if (decision.planned) controller_->took(transport_.now() - start);
+  for (const balancer::Move& move : decision.moves) hand_over(move.subdomain, move.destination);
   charge(&RankTimes::balancing);
-  controller_->looked(clock_, clock_ - start);
   return !decision.moves.empty() || !decision.messages.empty();
 }
 

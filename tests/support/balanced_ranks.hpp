@@ -109,8 +109,8 @@ class WorkingRank {
       own.push_back({id, protocol_.where(id).epoch, jobs_.at(id).remaining(), jobs_.at(id).bytes()});
     auto decision = controller_.think(transport_.now(), own, given_speed_ > 0 ? given_speed_ : speed_.value());
     if (decision.planned) controller_.took(1e-3);
-    for (const auto& move : decision.moves) hand_over(move);
     for (auto& message : decision.messages) protocol_.advise(message.destination, balancer::encode(message.message));
+    for (const auto& move : decision.moves) hand_over(move);
   }
 
   void hand_over(const balancer::Move& move) {

@@ -70,22 +70,42 @@ TEST_CASE("a speed is known after a while, and adapts") {
   CHECK(speed.value() < 10'000);
 }
 
-TEST_CASE("the start of a subdomain alone does not determine a speed") {
-  // The start takes 30 ms on a rank of 1,000 triangles per second, 60 ms on one half as fast; then each point makes two
-  // triangles.
-  const auto after = [](double speed, double seconds, bool finished) {
+TEST_CASE("starts of subdomains lower a speed evenly, and not only while they last") {
+  // 1,000 triangles, of which the start makes none and takes as long as 100 others; in slices of 20.
+  const auto after = [](double speed, double subdomains) {
     SpeedEstimate estimate;
-    estimate.add({0, 30 / speed, true, false});
-    for (double at = 30 / speed; at < seconds; at += 2 / speed) estimate.add({2, 2 / speed});
-    if (finished) estimate.add({2, 2 / speed, false, true});
-    return estimate.value();
+    double least = 1e9, most = 0;
+    for (double made = 0; made < 1000 * subdomains; made += 20) {
+      if (std::fmod(made, 1000) == 0) estimate.add({0, 100 / speed, 1000});
+      estimate.add({20, 20 / speed});
+      if (made < 100) continue;
+      least = std::min(least, estimate.value());
+      most = std::max(most, estimate.value());
+    }
+    return std::pair(least, most);
   };
-  CHECK(after(1000, 0.2, false) == 0);
-  CHECK(after(500, 0.2, false) == 0);
-  CHECK(after(1000, 0.4, false) == doctest::Approx(1000).epsilon(0.1));
-  CHECK(after(500, 0.8, false) == doctest::Approx(500).epsilon(0.1));
-  // Finished subdomains determine it, however much of the time the start took.
-  CHECK(after(1000, 0.2, true) / after(500, 0.4, true) == doctest::Approx(2).epsilon(0.02));
+  for (const double subdomains : {0.5, 1.0, 7.3})
+    for (const double speed : {500.0, 1000.0, 5000.0}) {
+      CAPTURE(subdomains);
+      CAPTURE(speed);
+      const auto [least, most] = after(speed, subdomains);
+      CHECK(least > 0.99 * speed / 1.1);
+      CHECK(most < 1.01 * speed / 1.1);
+    }
+}
+
+TEST_CASE("the start of a subdomain alone does not determine a speed") {
+  SpeedEstimate estimate;
+  estimate.add({0, 0.5, 1000});
+  CHECK(estimate.value() == 0);
+  estimate.add({1, 0.001});
+  CHECK(estimate.value() == 0);
+}
+
+TEST_CASE("subdomains that are made in the slice that starts them determine a speed") {
+  SpeedEstimate estimate;
+  for (int i = 0; i < 100; ++i) estimate.add({50, 0.01, 50});
+  CHECK(estimate.value() == doctest::Approx(5000));
 }
 
 TEST_CASE("surplus goes to the rank that finishes it first") {
