@@ -40,12 +40,13 @@ enum class HalfEdge : std::int32_t {};
 [[nodiscard]] constexpr HalfEdge constrained(SubsegmentId s) {
   return HalfEdge{~to_int(s)};
 }
-/// The corners of a triangle, or its edges, in their order.
+/// The corners of a triangle, or its edges, in their order: 0, 1, 2, and 0 again. Looked up in two bits each of a small
+/// number, because a branch on a corner is one that no processor can predict.
 [[nodiscard]] constexpr int next(int i) {
-  return i == 2 ? 0 : i + 1;
+  return (0b00'10'01 >> (2 * i)) & 3;
 }
 [[nodiscard]] constexpr int previous(int i) {
-  return i == 0 ? 2 : i - 1;
+  return (0b01'00'10 >> (2 * i)) & 3;
 }
 
 /// A half-edge must fit 31 bits.
