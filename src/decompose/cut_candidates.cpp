@@ -63,17 +63,6 @@ DRIFTMESH_WIDE void set_costs(const Sides& sides, std::size_t count, const Outli
 
 }  // namespace
 
-void CutCandidates::add(std::size_t i, std::span<const std::size_t> others, const double* leeway) {
-  const std::size_t before = pairs_.size();
-  pairs_.resize(before + others.size());
-  Pair* end = pairs_.data() + before;
-  for (std::size_t k = 0; k < others.size(); ++k) {  // without a branch, which could not be predicted
-    *end = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(others[k])};
-    end += leeway[k] >= 0 ? 1 : 0;
-  }
-  pairs_.resize(static_cast<std::size_t>(end - pairs_.data()));
-}
-
 void CutCandidates::measure(const Outline& outline) {
   const std::size_t count = pairs_.size();
   for (auto* column : {&length_, &border_, &area_, &share_, &cost_}) column->resize(count);

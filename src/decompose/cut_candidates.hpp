@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "decompose/outline.hpp"
@@ -39,8 +38,6 @@ class CutCandidates {
   void add(std::size_t i, std::size_t j) {
     pairs_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
   }
-  /// Adds the pairs of station i and those of `others` that have leeway, at least 0.
-  void add(std::size_t i, std::span<const std::size_t> others, const double* leeway);
   template <class Possible>
   void keep(const Possible& possible) {
     std::erase_if(pairs_, [&](const Pair& pair) { return !possible(pair.first, pair.second); });

@@ -1,6 +1,8 @@
 #include "decompose/cut_search.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -14,18 +16,41 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// At least 0 for the stations l > k that station k can be joined with.
-DRIFTMESH_WIDE void measure_leeway(const StationColumns& columns, std::size_t k, std::size_t count, double* leeway) {
-  const double *const x = columns.x.data(), *const y = columns.y.data();
-  const double *const first_x = columns.first_x.data(), *const first_y = columns.first_y.data();
-  const double *const last_x = columns.last_x.data(), *const last_y = columns.last_y.data();
-  const double ax = x[k], ay = y[k];
-  const double from_x = first_x[k], from_y = first_y[k], to_x = last_x[k], to_y = last_y[k];
-  for (std::size_t l = k + 1; l < count; ++l) {
+constexpr std::size_t kWord = 64;
+
+constexpr std::array<std::uint64_t, kWord> kBits = [] {
+  std::array<std::uint64_t, kWord> bits{};
+  for (std::size_t i = 0; i < kWord; ++i) bits[i] = std::uint64_t{1} << i;
+  return bits;
+}();
+
+/// Of the stations in some blocks from `begin` on, at most a word: a bit for each that station k can be joined with.
+DRIFTMESH_WIDE std::uint64_t joinable(const StationColumns& columns, std::size_t k, std::size_t begin,
+                                      std::size_t blocks) {
+  const double *const x = &columns.x[begin], *const y = &columns.y[begin];
+  const double *const first_x = &columns.first_x[begin], *const first_y = &columns.first_y[begin];
+  const double *const last_x = &columns.last_x[begin], *const last_y = &columns.last_y[begin];
+  const double ax = columns.x[k], ay = columns.y[k];
+  const double from_x = columns.first_x[k], from_y = columns.first_y[k];
+  const double to_x = columns.last_x[k], to_y = columns.last_y[k];
+  std::uint64_t found = 0;
+  for (std::size_t l = 0; l < blocks * StationColumns::kBlock; ++l) {
     const double dx = x[l] - ax, dy = y[l] - ay;
     const double leaving = std::min(from_x * dy - from_y * dx, dx * to_y - dy * to_x);
     const double arriving = std::min(first_y[l] * dx - first_x[l] * dy, last_x[l] * dy - last_y[l] * dx);
-    leeway[l] = std::min(leaving, arriving);
+    found |= std::min(leaving, arriving) >= 0 ? kBits[l] : 0;
+  }
+  return found;
+}
+
+/// Calls visit(l) for the stations l > k that station k can be joined with.
+template <class Visit>
+void for_each_joinable(const StationColumns& columns, std::size_t k, const Visit& visit) {
+  constexpr std::size_t kBlock = StationColumns::kBlock;
+  for (std::size_t begin = (k + 1) / kBlock * kBlock; begin < columns.size(); begin += kWord) {
+    std::uint64_t found = joinable(columns, k, begin, std::min(columns.size() - begin, kWord) / kBlock);
+    if (begin <= k) found &= ~std::uint64_t{0} << (k + 1 - begin);
+    for (; found != 0; found &= found - 1) visit(begin + static_cast<std::size_t>(std::countr_zero(found)));
   }
 }
 
@@ -38,7 +63,7 @@ void CutSearch::select_stations() {
   std::size_t usable = 0;
   for (const auto& s : stations) usable += s.usable;
   if (usable <= goal_.max_stations) {
-    for (std::size_t i = 0; i < stations.size(); ++i)
+    for (std::uint32_t i = 0; i < stations.size(); ++i)
       if (stations[i].usable) selected_.push_back(i);
     stride_ = 1;
     return;
@@ -46,7 +71,7 @@ void CutSearch::select_stations() {
   const double stretch = outline_->length / static_cast<double>(goal_.max_stations);
   double end = stretch;
   bool any = false;
-  for (std::size_t i = 0; i < stations.size(); ++i) {
+  for (std::uint32_t i = 0; i < stations.size(); ++i) {
     const auto& s = stations[i];
     while (s.length >= end) {
       end += stretch;
@@ -65,18 +90,23 @@ void CutSearch::select_stations() {
   stride_ = std::max<std::size_t>(1, stations.size() / selected_.size());
 }
 
-void StationColumns::clear() {
-  for (auto* column : {&x, &y, &first_x, &first_y, &last_x, &last_y}) column->clear();
-}
-
-void StationColumns::add(const Outline::Station& s) {
-  const double limits = s.reflex ? 0 : 1;  // without limits here, the sector is left to allows()
-  x.push_back(s.at.x);
-  y.push_back(s.at.y);
-  first_x.push_back(limits * s.first.x);
-  first_y.push_back(limits * s.first.y);
-  last_x.push_back(limits * s.last.x);
-  last_y.push_back(limits * s.last.y);
+void StationColumns::set(const Outline& outline, std::span<const std::uint32_t> selected) {
+  const std::size_t count = selected.size(), whole = (count + kBlock - 1) / kBlock * kBlock;
+  for (auto* column : {&x, &y, &first_x, &first_y, &last_x, &last_y}) {
+    column->resize(whole);
+    std::fill(column->begin() + static_cast<std::ptrdiff_t>(count), column->end(),
+              std::numeric_limits<double>::quiet_NaN());
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Outline::Station& s = outline.stations[selected[k]];
+    const double limits = s.reflex ? 0 : 1;  // without limits here, the sector is left to allows()
+    x[k] = s.at.x;
+    y[k] = s.at.y;
+    first_x[k] = limits * s.first.x;
+    first_y[k] = limits * s.first.y;
+    last_x[k] = limits * s.last.x;
+    last_y[k] = limits * s.last.y;
+  }
 }
 
 bool CutSearch::allows(std::size_t i, std::size_t j) const {
@@ -88,17 +118,11 @@ bool CutSearch::allows(std::size_t i, std::size_t j) const {
 /// All pairs of selected stations whose sectors allow a separator.
 void CutSearch::collect_pairs() {
   candidates_.clear();
-  columns_.clear();
+  columns_.set(*outline_, selected_);
   bool any_reflex = false;
-  for (const std::size_t i : selected_) {
-    columns_.add(outline_->stations[i]);
-    any_reflex |= outline_->stations[i].reflex;
-  }
-  const std::size_t count = selected_.size();
-  leeway_.resize(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    measure_leeway(columns_, k, count, leeway_.data());
-    candidates_.add(selected_[k], std::span(selected_).subspan(k + 1), leeway_.data() + k + 1);
+  for (std::size_t k = 0; k < selected_.size(); ++k) {
+    any_reflex |= outline_->stations[selected_[k]].reflex;
+    for_each_joinable(columns_, k, [&](std::size_t l) { candidates_.add(selected_[k], selected_[l]); });
   }
   if (any_reflex) candidates_.keep([this](std::size_t i, std::size_t j) { return allows(i, j); });
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "decompose/cut_candidates.hpp"
@@ -10,9 +12,10 @@ namespace driftmesh {
 
 /// What decides whether a separator may leave: of some stations, the place and the limits of the sector.
 struct StationColumns {
+  static constexpr std::size_t kBlock = 4;  ///< columns are filled up to whole blocks with what is no number
   std::vector<double> x, y, first_x, first_y, last_x, last_y;
-  void clear();
-  void add(const Outline::Station& s);
+  void set(const Outline& outline, std::span<const std::uint32_t> selected);
+  [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
 /// Finds the best straight cut of a piece with one loop: all pairs of stations (of a selection if there are many, then
@@ -33,9 +36,8 @@ class CutSearch {
   const Outline* outline_ = nullptr;
   CutGoal goal_;
   std::size_t stride_ = 1;
-  std::vector<std::size_t> selected_;
+  std::vector<std::uint32_t> selected_;
   StationColumns columns_;
-  std::vector<double> leeway_;
   CutCandidates candidates_;
 };
 
