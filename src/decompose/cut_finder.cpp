@@ -36,6 +36,7 @@ double heaviest_single(const Cut& cut, const CutGoal& goal) {
 }  // namespace
 
 FoundCut CutFinder::find(const Piece& piece, const WorkSamples& samples, const Fairness& fairness) {
+  if (samples.size() == 1) return {};  // all the work would be on one side
   read_loop(map_, piece.side, outline_.loop);
   const PieceSize size = measure(outline_.loop);
   const WorkSamples some = thinned(samples, kMostSamples);
@@ -44,7 +45,6 @@ FoundCut CutFinder::find(const Piece& piece, const WorkSamples& samples, const F
   goal.load = fairness.load;
   goal.bias = fairness.bias;
   FoundCut best;
-  best.sides = outline_.loop.size();
   for (const Effort& effort : kEfforts) {
     if (best && effort.angle < 1) break;
     const double spacing =

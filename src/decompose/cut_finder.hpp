@@ -10,11 +10,10 @@
 
 namespace driftmesh {
 
-/// A cut of a piece whose border had this many sides.
+/// A cut of a piece, with the stations that it joins.
 struct FoundCut {
   Cut cut;
   Outline::Station first, second;
-  std::size_t sides = 0;
   explicit operator bool() const { return static_cast<bool>(cut); }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <queue>
 
 namespace driftmesh {
 Cutter::Cutter(PlanarMap& map, IdVector<PieceId, Piece>& pieces, IdVector<PieceId, WorkSamples>& samples,
@@ -48,16 +49,27 @@ void Cutter::give_up(PieceId piece) {
 
 /// The heaviest subdomains that can be cut take over the parts that a piece could not be cut into.
 void Cutter::spend_spare_parts() {
-  while (spare_ > 0) {
-    solid_.resize(pieces_.size(), false);
-    PieceId heaviest = kNone;
-    for (const PieceId i : ids_of(pieces_))
-      if (pieces_[i].parts == 1 && !solid_[i] && (heaviest == kNone || pieces_[i].work > pieces_[heaviest].work))
-        heaviest = i;
-    if (heaviest == kNone) return;
-    pieces_[heaviest].parts = 2;
+  if (spare_ == 0) return;
+  solid_.resize(pieces_.size(), false);
+  const auto lighter = [this](PieceId one, PieceId other) {
+    const double work = pieces_[one].work, of_other = pieces_[other].work;
+    return work != of_other ? work < of_other : one > other;
+  };
+  std::priority_queue heaviest(lighter, std::vector<PieceId>());
+  for (const PieceId i : ids_of(pieces_))
+    if (pieces_[i].parts == 1 && !solid_[i]) heaviest.push(i);
+  while (spare_ > 0 && !heaviest.empty()) {
+    const PieceId piece = heaviest.top();
+    heaviest.pop();
+    pieces_[piece].parts = 2;
     --spare_;
-    if (!cut(heaviest, find(heaviest, random_bias()))) give_up(heaviest);
+    const PieceId added = pieces_.next_id();
+    if (cut(piece, find(piece, random_bias()))) {
+      heaviest.push(piece);
+      heaviest.push(added);
+    } else {
+      give_up(piece);
+    }
   }
 }
 
