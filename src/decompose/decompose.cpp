@@ -72,13 +72,13 @@ struct Domain {
 };
 
 /// With work according to the samples, or in proportion to area if there are none.
-Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options, WorkSamples samples) {
+Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options, double forecast,
+                      WorkSamples samples) {
   const double compact = std::sqrt(area_of(mesh) / options.subdomains);  // the width of a compact subdomain
   Domain domain;
   domain.map = connected_walls(mesh, compact / 4, options.min_angle * std::numbers::pi / 180);
   domain.pieces = find_pieces(domain.map, options.bounds);
-  if (samples.empty() && !bounds_size(options.bounds))
-    scale_work(domain.pieces, forecast_triangles(mesh, options.bounds));
+  if (samples.empty() && !bounds_size(options.bounds)) scale_work(domain.pieces, forecast);
   domain.samples = share_out(std::move(samples), domain.map, domain.pieces);
   return domain;
 }
@@ -121,14 +121,16 @@ Decomposition cut_evenly(const Domain& domain, const DecomposeOptions& options) 
 
 Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& options) {
   check_options(options);
-  WorkSamples samples = sample_work(mesh, options.bounds, kSamplesPerSubdomain * options.subdomains);
+  const bool counts = options.bounds.size == nullptr && options.forecast == 0;
+  const double forecast = counts ? forecast_triangles(mesh, options.bounds) : options.forecast;
+  WorkSamples samples = sample_work(mesh, options.bounds, forecast, kSamplesPerSubdomain * options.subdomains);
   const bool may_ignore_samples = options.bounds.size == nullptr && !samples.empty();
   try {
-    return cut_evenly(prepare_domain(mesh, options, std::move(samples)), options);
+    return cut_evenly(prepare_domain(mesh, options, forecast, std::move(samples)), options);
   } catch (const Error&) {
     if (!may_ignore_samples) throw;  // otherwise the work may be where there is no room for cuts
   }
-  return cut_evenly(prepare_domain(mesh, options, {}), options);
+  return cut_evenly(prepare_domain(mesh, options, forecast, {}), options);
 }
 
 }  // namespace driftmesh

@@ -16,6 +16,7 @@ struct DecomposeOptions {
   /// The bounds on the mesh: subdomains are balanced by the number of triangles they require, or by area if there is no
   /// bound on size.
   QualityBounds bounds;
+  double forecast = 0;  ///< forecast_triangles of the mesh and these bounds, where it is known; 0: it is made if needed
   /// 0: equal work. Above, up to kMaxSkew: deliberately uneven, for experiments; each cut gives one side up to (1 +
   /// skew) times its fair share, at random.
   double skew = 0;

@@ -71,13 +71,13 @@ WorkSamples sample_sized(const Triangulation& mesh, const QualityBounds& bounds,
 
 /// By the forecast; none if the details of the input add little to what the bounds on area ask for, or if the triangles
 /// are so few that most of them will be there because of the separators.
-WorkSamples sample_detailed(const Triangulation& mesh, const QualityBounds& bounds, double count) {
+WorkSamples sample_detailed(const Triangulation& mesh, const QualityBounds& bounds, double total, double count) {
   constexpr double kLittle = 1.01;
-  const Forecast forecast(mesh, bounds);
-  const double total = forecast.total();
-  if (total <= kLittle * forecast.asked() || total < count || !std::isfinite(total)) return {};
+  if (total < count || !std::isfinite(total) || total <= kLittle * BoundForecast(mesh, bounds).asked()) return {};
   WorkSamples samples;
-  forecast.visit_samples(total / count, [&](const Point& at, double work) { samples.push_back({at, work}); });
+  Forecast(mesh, bounds).visit_samples(total / count, [&](const Point& at, double work) {
+    samples.push_back({at, work});
+  });
   return samples;
 }
 
@@ -100,9 +100,9 @@ void for_each_crossing(std::span<const WorkSample> samples, const Point& a, cons
 
 }  // namespace
 
-WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double count) {
+WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double forecast, double count) {
   WorkSamples samples =
-      bounds.size != nullptr ? sample_sized(mesh, bounds, count) : sample_detailed(mesh, bounds, count);
+      bounds.size != nullptr ? sample_sized(mesh, bounds, count) : sample_detailed(mesh, bounds, forecast, count);
   std::sort(samples.begin(), samples.end(), [](const WorkSample& p, const WorkSample& q) {
     return p.at.y != q.at.y ? p.at.y < q.at.y : p.at.x < q.at.x;
   });

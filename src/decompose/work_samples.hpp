@@ -22,8 +22,10 @@ using WorkSamples = std::vector<WorkSample>;
 
 /// The number of triangles that refinement to `bounds` is expected to make, in about `count` samples of similar work.
 /// With a size field, at the centroids of a coarse mesh graded by it (more if features of the domain require them);
-/// without one, by the forecast (see Forecast). Empty if work is in proportion to area (see work_density).
-[[nodiscard]] WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double count);
+/// without one, by the forecast (see Forecast), `forecast` in all. Empty if work is in proportion to area (see
+/// work_density).
+[[nodiscard]] WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double forecast,
+                                      double count);
 
 [[nodiscard]] double work_of(const WorkSamples& samples);
 

@@ -108,6 +108,7 @@ Decomposition cut(const Request& request, const Triangulated& triangulated, std:
   cutting.subdomains = wanted_subdomains(request.decomposition, ranks);
   cutting.min_angle = request.decomposition.separator_angle;
   cutting.bounds = triangulated.bounds;
+  cutting.forecast = triangulated.forecast;
   cutting.skew = request.decomposition.skew;
   cutting.seed = static_cast<std::uint64_t>(request.seed);
   return decompose_for(triangulated.mesh, cutting, ranks);
@@ -121,11 +122,11 @@ Prepared prepare(const Request& request, const Domain& domain, const Triangulate
   check_forecast(limits, triangulated.forecast, false, [&] { return find_narrow_place(triangulated.mesh); });
   Decomposition decomposition =
       decomposition_of(request, domain, given, triangulated, ranks_to_suit(place, speeds.size()), watch);
-  for (const Decomposition::Subdomain& s : decomposition.subdomains) prepared.forecast += s.predicted;
   prepared.plan = timed(watch, "map", [&] {
     return plan_run(std::move(decomposition), triangulated.bounds, plan_options(request, place, speeds),
                     policies_of(given, place, speeds.size()));
   });
+  prepared.forecast = forecast_of(prepared.plan);
   return prepared;
 }
 

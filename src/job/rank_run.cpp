@@ -12,6 +12,7 @@
 #include "job/memory.hpp"
 #include "job/sleeping_room.hpp"
 #include "protocol/rank_step.hpp"
+#include "runtime/plan_run.hpp"
 #include "runtime/threads/thread_crew.hpp"
 #include "sizing/field_of_threads.hpp"
 
@@ -36,7 +37,7 @@ RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
     order_.plan.bounds.size = size_.get();
     limits_ = find_limits(order_.limits, order_.pslg, order_.use, processes_of(team_));
     order_.plan.max_triangles = limits_.triangles;
-    scratch_ = open_scratch(order_.scratch, forecast() * team_.ranks_on_machine());
+    scratch_ = open_scratch(order_.scratch, forecast_of(order_.plan, team_.rank()) * team_.ranks_on_machine());
     order_.plan.scratch = scratch_.get();
   });
 }
@@ -96,8 +97,8 @@ std::exception_ptr RankRun::stopped(bool by_memory) const {
 RankLoop::Observers RankRun::observers(const RankHooks& hooks) {
   RankLoop::Observers observers;
   observers.stalled = [this](const std::string& why) { watch_.stalled(why); };
-  observers.after_slice = [this, &hooks, share = share_of_time(), forecast = forecast()](const RankLoop& loop,
-                                                                                         const RankLoop::Slice& slice) {
+  observers.after_slice = [this, &hooks, share = share_of_time(), forecast = forecast_of(order_.plan, team_.rank())](
+                              const RankLoop& loop, const RankLoop::Slice& slice) {
     watch_.refining(loop.triangles(), forecast);
     if (hooks.after_slice) hooks.after_slice(slice);
     const double begin = channel_->transport().now();
@@ -118,13 +119,6 @@ RankLoop::Observers RankRun::observers(const RankHooks& hooks) {
 
 double RankRun::share_of_time() const {
   return order_.shares.empty() ? 1 : order_.shares[team_.rank()];
-}
-
-double RankRun::forecast() const {
-  double forecast = 0;
-  for (const SubdomainId s : ids_of(order_.plan.owners))
-    if (order_.plan.owners[s] == team_.rank()) forecast += order_.plan.decomposition.subdomains[s].predicted;
-  return forecast;
 }
 
 RankReport RankRun::report() {

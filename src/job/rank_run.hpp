@@ -56,7 +56,6 @@ class RankRun {
 
  private:
   [[nodiscard]] double share_of_time() const;
-  [[nodiscard]] double forecast() const;
   [[nodiscard]] RankLoop::Observers observers(const RankHooks& hooks);
   void run_loop(const RankHooks& hooks);
   [[nodiscard]] protocol::StepResult step_or_abandon();

@@ -15,6 +15,7 @@
 #include "job/memory.hpp"
 #include "job/rank_report.hpp"
 #include "job/sleeping_room.hpp"
+#include "runtime/plan_run.hpp"
 
 namespace driftmesh::job {
 
@@ -30,7 +31,7 @@ ThreadRun::ThreadRun(Order order, std::int32_t threads, const SizeField* size, W
     sizes_.push_back(made_.back().get());
   }
   order_.plan.bounds.size = sizes_.front();
-  scratch_ = open_scratch(order_.scratch, forecast());
+  scratch_ = open_scratch(order_.scratch, forecast_of(order_.plan));
   order_.plan.scratch = scratch_.get();
   limits_ = find_limits(order_.limits, order_.pslg, order_.use);
 }
@@ -39,14 +40,8 @@ ThreadRun::~ThreadRun() {
   if (scratch_) scratch_->discard();
 }
 
-double ThreadRun::forecast() const {
-  double forecast = 0;
-  for (const Decomposition::Subdomain& s : order_.plan.decomposition.subdomains) forecast += s.predicted;
-  return forecast;
-}
-
 void ThreadRun::refine() {
-  const double forecast = this->forecast();
+  const double forecast = forecast_of(order_.plan);
   RefinementInRounds::Watch watch{.progress = [=, this](std::int64_t made) { watch_.refining(made, forecast); },
                                   .check = [this](std::int64_t made) { check(made); },
                                   .stalled = [this](const std::string& why) { watch_.stalled(why); }};

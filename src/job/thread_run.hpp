@@ -44,7 +44,6 @@ class ThreadRun {
   void write_pieces(const std::string& path) const;
 
  private:
-  [[nodiscard]] double forecast() const;
   void check(std::int64_t triangles) const;
   void note(const Subdomain& subdomain, const SizeField* size);
   [[nodiscard]] MeshFacts facts();

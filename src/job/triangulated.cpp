@@ -47,11 +47,11 @@ std::vector<std::string> background_warnings(const Domain& domain, const Triangu
   return {};
 }
 
-/// Large meshes are made in subdomains if a bound on size says where their triangles will be. (Acute corners, not yet
-/// prepared, change little there.) Depends on neither the machine nor the number of threads.
-bool is_large(const Triangulation& mesh, const QualityBounds& bounds) {
+/// Large meshes are made in subdomains if a bound on size says where their triangles will be. Depends on neither the
+/// machine nor the number of threads.
+bool is_large(const Triangulation& mesh, double forecast) {
   constexpr double kLarge = 500'000;  // triangles to be made: a tenth of a second of work
-  return bounds_size(bounds) && forecast_triangles(mesh, bounds) - static_cast<double>(mesh.live_triangles()) >= kLarge;
+  return forecast - static_cast<double>(mesh.live_triangles()) >= kLarge;
 }
 
 }  // namespace
@@ -71,10 +71,13 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     warn(request, domain_warnings(domain.pslg, domain.repairs, carved, result.mesh), watch);
     warn(request, background_warnings(domain, result.mesh), watch);
     result.bounds = bounds_of(request, domain, result.mesh, ranks);
-    result.cut = cut == Cut::kAlways || (cut == Cut::kIfLarge && is_large(result.mesh, result.bounds));
+    const auto count = [&] { result.forecast = forecast_triangles(result.mesh, result.bounds); };
+    const bool if_large = cut == Cut::kIfLarge && bounds_size(result.bounds);
+    if (if_large) count();  // acute corners, not yet prepared, change little there
+    result.cut = cut == Cut::kAlways || (if_large && is_large(result.mesh, result.forecast));
     result.acute_corners =
         prepare_corners(result.mesh, result.cut ? CornerUse{} : CornerUse{request.bounds.angle, false});
-    result.forecast = forecast_triangles(result.mesh, result.bounds);
+    if (!if_large || result.acute_corners > 0) count();
   });
   return result;
 }

@@ -68,6 +68,14 @@ double BoundForecast::total() const {
   return sum;
 }
 
+double BoundForecast::asked() const {
+  double sum = 0;
+  for (const TriangleId t : ids_of(mesh_.triangles))
+    if (mesh_.triangles[t].alive())
+      sum += in(t, 2 * signed_area(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)));
+  return sum;
+}
+
 bool BoundForecast::any() const {
   return size_ != nullptr || std::ranges::any_of(twice_area_bounds_, [](double bound) { return bound < kNoBound; });
 }

@@ -19,6 +19,8 @@ class BoundForecast {
   /// The sum over all triangles, each of which counts at least as one. Within a few percent of the final number where
   /// these bounds decide; triangles that only the angle bound requires are not in it.
   [[nodiscard]] double total() const;
+  /// The same without rounding up: what the bounds ask for.
+  [[nodiscard]] double asked() const;
   /// Whether there is any bound.
   [[nodiscard]] bool any() const;
 

@@ -239,14 +239,6 @@ double Forecast::total() const {
   return sum;
 }
 
-double Forecast::asked() const {
-  double sum = 0;
-  for (const TriangleId t : ids_of(mesh_.triangles))
-    if (mesh_.triangles[t].alive())
-      sum += bound_.in(t, 2 * signed_area(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)));
-  return sum;
-}
-
 /// Triangles per area, roughly.
 double Forecast::density(const Shape& s, const Point& p) const {
   const double asked = s.asked / s.area();

@@ -35,8 +35,6 @@ class Forecast {
   /// The number of triangles that will cover triangle t; at least one.
   [[nodiscard]] double in(TriangleId t) const;
   [[nodiscard]] double total() const;
-  /// What the bounds on area and size alone ask for, as fractions of triangles.
-  [[nodiscard]] double asked() const;
 
   /// Calls visit(place, triangles) so that each visit stands for about `quota` triangles around the place.
   /// Deterministic.

@@ -27,7 +27,8 @@ std::int32_t default_subdomains(double triangles, std::int32_t ranks) {
 
 Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options, std::int32_t ranks) {
   if (options.subdomains != 0) return decompose(mesh, options);
-  options.subdomains = default_subdomains(forecast_triangles(mesh, options.bounds), ranks);
+  if (options.forecast == 0) options.forecast = forecast_triangles(mesh, options.bounds);
+  options.subdomains = default_subdomains(options.forecast, ranks);
   for (;; options.subdomains /= 2) {
     try {
       return decompose(mesh, options);
@@ -35,6 +36,13 @@ Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options,
       if (options.subdomains <= 1) throw;  // fewer than the default will do, but not none
     }
   }
+}
+
+double forecast_of(const RunPlan& plan, std::optional<Rank> rank) {
+  double forecast = 0;
+  for (const SubdomainId s : ids_of(plan.owners))
+    if (!rank || plan.owners[s] == *rank) forecast += plan.decomposition.subdomains[s].predicted;
+  return forecast;
 }
 
 RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct PlanOptions {
 /// `policies`, there is only "none". Throws Error for options out of range or that do not go together.
 [[nodiscard]] RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options,
                                const balancer::PolicyMaker& policies = nullptr);
+
+/// The forecast number of triangles of all ranks, or of the subdomains that one has at the start.
+[[nodiscard]] double forecast_of(const RunPlan& plan, std::optional<Rank> rank = {});
 
 /// Makes the plan's layout and policy from its other members. Throws what `policies` throws.
 void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::PolicyMaker& policies);
