@@ -96,6 +96,7 @@ bool is_kept(const PlanarMap& map, SideId h, SubdomainId left, SubdomainId right
 }
 
 void set_roots(Decomposition& d, const PlanarMap& map, const IdVector<SideId, SubdomainId>& subdomain_of) {
+  d.roots.reserve(map.walls.size());
   for (const WallId w : ids_of(map.walls)) {
     const PlanarMap::Wall& wall = map.walls[w];
     const SideId h = PlanarMap::first_side(w);
@@ -172,6 +173,8 @@ void set_points(Decomposition& d, const PlanarMap& map, const IdVector<GlobalPoi
   IdVector<GlobalPointId, bool> used(map.points.size(), false);
   for (const Decomposition::Root& r : d.roots) used[r.a] = used[r.b] = true;
   IdVector<GlobalPointId, GlobalPointId> new_id(map.points.size(), kNoPoint);
+  d.points.reserve(map.points.size());
+  d.origin.reserve(map.points.size());
   std::vector<std::pair<SubdomainId, GlobalPointId>> inner;
   for (const GlobalPointId v : ids_of(used)) {
     if (!used[v] && isolated_in[v] == kNoSubdomain) continue;
@@ -200,6 +203,7 @@ Decomposition to_decomposition(const PlanarMap& map, const IdVector<PieceId, Pie
   Decomposition d;
   set_subdomains(d, map, pieces, group_of, count);
   IdVector<SideId, SubdomainId> subdomain_of;
+  subdomain_of.reserve(map.sides.size());
   for (const PieceId piece : label_sides(map, pieces))
     subdomain_of.push_back(piece == kNone ? kNoSubdomain : group_of[piece]);
   set_roots(d, map, subdomain_of);

@@ -25,11 +25,10 @@ void transfer_rest(Stream& stream, Fields& order) {
   stream.value(order.use);
 }
 
-Bytes pack(const Order& order) {
+/// Everything but plan and input, which are large and follow by themselves.
+Bytes head_of(const Order& order) {
   ByteWriter writer;
   writer.value(Letter::kOrder);
-  writer.array(plan_to_bytes(order.plan));
-  writer.array(pslg_to_bytes(order.pslg));
   writer.text(order.sizing.expression);
   writer.text(order.sizing.background);
   transfer_rest(writer, order);
@@ -37,17 +36,12 @@ Bytes pack(const Order& order) {
   return writer.take();
 }
 
-Order unpack(ByteReader& reader, std::int32_t ranks, const balancer::PolicyMaker& policies) {
+Order order_from(ByteReader& head) {
   Order order;
-  Bytes plan, pslg;
-  reader.array(plan);
-  reader.array(pslg);
-  order.plan = plan_from_bytes(plan, ranks, policies);
-  order.pslg = pslg_from_bytes(pslg);
-  order.sizing.expression = reader.text();
-  order.sizing.background = reader.text();
-  transfer_rest(reader, order);
-  order.scratch = reader.text();
+  order.sizing.expression = head.text();
+  order.sizing.background = head.text();
+  transfer_rest(head, order);
+  order.scratch = head.text();
   return order;
 }
 
@@ -64,32 +58,53 @@ Bytes error(const Failure& failure) {
   return writer.take();
 }
 
-/// What rank 0 broadcasts. If making the order fails, it broadcasts the error before it throws.
-Bytes leader_bytes(Team& team, const std::function<std::optional<Order>()>& make) {
+/// The order that rank 0 makes, if any. If that fails, it broadcasts the error before it throws.
+std::optional<Order> made_by(const std::function<std::optional<Order>()>& make, Team& team) {
   try {
-    const std::optional<Order> order = make();
-    return order ? pack(*order) : nothing();
+    return make();
   } catch (const std::exception&) {
     static_cast<void>(team.broadcast(error(failure_of(std::current_exception()))));
     throw;
   }
 }
 
-}  // namespace
+/// Rank 0 keeps its order as it is: a plan in many subdomains is large.
+std::optional<Order> give(Team& team, const std::function<std::optional<Order>()>& make) {
+  std::optional<Order> order = made_by(make, team);
+  by_itself(team, [&] {
+    static_cast<void>(team.broadcast(order ? head_of(*order) : nothing()));
+    if (!order) return;
+    static_cast<void>(team.broadcast(plan_to_bytes(order->plan)));
+    static_cast<void>(team.broadcast(pslg_to_bytes(order->pslg)));
+    order->plan.bounds.size = nullptr;
+  });
+  return order;
+}
 
-std::optional<Order> share(Team& team, const std::function<std::optional<Order>()>& make,
-                           const balancer::PolicyMaker& policies) {
-  const Bytes bytes = team.broadcast(team.leads() ? leader_bytes(team, make) : Bytes());
-  ByteReader reader(bytes);
-  switch (reader.value<Letter>()) {
+std::optional<Order> take(Team& team, const balancer::PolicyMaker& policies) {
+  const Bytes bytes = team.broadcast({});
+  ByteReader head(bytes);
+  switch (head.value<Letter>()) {
     case Letter::kOrder:
-      return by_itself(team, [&] { return std::optional(unpack(reader, team.ranks(), policies)); });
+      return by_itself(team, [&] {
+        Order order = order_from(head);
+        order.plan = plan_from_bytes(team.broadcast({}), team.ranks(), policies);
+        order.pslg = pslg_from_bytes(team.broadcast({}));
+        return std::optional(std::move(order));
+      });
     case Letter::kNothing:
       return std::nullopt;
     case Letter::kError:
       break;
   }
-  raise(Failure::read(reader));
+  raise(Failure::read(head));
+}
+
+}  // namespace
+
+std::optional<Order> share(Team& team, const std::function<std::optional<Order>()>& make,
+                           const balancer::PolicyMaker& policies) {
+  return team.leads() ? give(team, make) : take(team, policies);
 }
 
 }  // namespace driftmesh::job

@@ -18,8 +18,6 @@ void transfer_plan(Stream& stream, Plan& plan) {
   stream.array(d.origin);
   stream.array(d.roots);
   stream.array(d.subdomains);
-  stream.array(d.root_begin);
-  stream.array(d.root_list);
   stream.array(d.point_begin);
   stream.array(d.point_list);
   stream.array(plan.owners);
@@ -42,6 +40,13 @@ void transfer_pslg(Stream& stream, Input& pslg) {
   stream.array(pslg.holes);
   stream.array(pslg.regions);
   stream.value(pslg.first_number);
+}
+
+/// About the size of the arrays that grow with the number of subdomains.
+std::size_t array_bytes(const RunPlan& plan) {
+  const Decomposition& d = plan.decomposition;
+  return d.points.size() * (sizeof(Point) + sizeof(VertexOrigin)) + d.roots.size() * sizeof(Decomposition::Root) +
+         d.size() * (sizeof(Decomposition::Subdomain) + sizeof(Rank) + sizeof(std::int32_t));
 }
 
 /// Lets `read(ByteReader&)` read everything that another rank has written.
@@ -73,6 +78,7 @@ Pslg pslg_from_bytes(std::span<const std::byte> bytes) {
 
 Bytes plan_to_bytes(const RunPlan& plan) {
   ByteWriter writer;
+  writer.reserve(array_bytes(plan) + (std::size_t{1} << 12));
   transfer_plan(writer, plan);
   writer.text(plan.balancing.policy);
   writer.value(static_cast<std::uint64_t>(plan.balancing.parameters.size()));
@@ -87,6 +93,7 @@ RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks, co
   RunPlan plan;
   read_all("the plan", bytes, [&](ByteReader& reader) {
     transfer_plan(reader, plan);
+    list_roots(plan.decomposition);
     plan.balancing.policy = reader.text();
     for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
       const std::string name = reader.text();
