@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <thread>
@@ -18,6 +22,7 @@
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
+#include "job/memory.hpp"
 #include "mesh/digest.hpp"
 #include "pslg/poly_file.hpp"
 #include "verify/report_text.hpp"
@@ -36,21 +41,9 @@ struct CheckOptions {
   std::unique_ptr<SizeField> size;
   GivenKeys bounds;
   bool quiet = false;
+  std::size_t threads = 0;  // 0: as many as the machine has cores
   ReadOptions reading;
 };
-
-/// Piece by piece: the digest of the whole mesh is the sum.
-std::vector<Mesh> read_and_digest(const CheckOptions& options) {
-  std::vector<Mesh> pieces;
-  if (is_in_pieces(options.mesh))
-    pieces = read_pieces(options.mesh, options.reading);
-  else
-    pieces.push_back(read_mesh(options.mesh, options.reading));
-  std::uint64_t digest = 0;
-  for (const Mesh& piece : pieces) digest += mesh_digest(piece);
-  if (!options.quiet) print(fmt::format("digest         {:016x}\n", digest));
-  return pieces;
-}
 
 std::optional<Pslg> read_and_repair(const CheckOptions& options, HoleRule holes) {
   if (options.input.empty()) return std::nullopt;
@@ -61,23 +54,71 @@ std::optional<Pslg> read_and_repair(const CheckOptions& options, HoleRule holes)
   return input;
 }
 
-Box box_of(const std::vector<Mesh>& pieces) {
-  Box box;
-  for (const Mesh& piece : pieces) box.extend(Box::of(piece.points));
-  return box;
-}
+/// The mesh to check, in one piece or in several that are read one by one.
+class CheckedMesh {
+ public:
+  CheckedMesh(const std::string& path, const ReadOptions& reading) {
+    if (is_in_pieces(path))
+      files_.emplace(path, reading);
+    else
+      whole_ = read_mesh(path, reading);
+  }
+
+  [[nodiscard]] Box box() const {
+    if (!files_) return Box::of(whole_.points);
+    Box box;
+    for (std::size_t k = 0; k < files_->size(); ++k) box.extend(Box::of(files_->read(k).points));
+    return box;
+  }
+
+  [[nodiscard]] VerifyReport verify(const Pslg* input, const VerifyOptions& options) {
+    if (files_) return verify_files(input, options);
+    digest_ = mesh_digest(whole_);
+    return input != nullptr ? driftmesh::verify(whole_, *input, options) : driftmesh::verify(whole_, options);
+  }
+  /// After verify.
+  [[nodiscard]] std::uint64_t digest() const { return digest_; }
+
+ private:
+  /// The digest of the whole mesh is the sum of those of the pieces.
+  VerifyReport verify_files(const Pslg* input, VerifyOptions options) {
+    std::vector<std::uint64_t> digests(files_->size());
+    const Pieces pieces{files_->size(), [&](std::size_t k, const Pieces::Show& show) {
+                          const Mesh piece = files_->read(k);
+                          digests[k] = mesh_digest(piece);
+                          show(piece);
+                        }};
+    options.threads = std::min(options.threads, pieces_at_once());
+    VerifyReport report = verify_pieces(pieces, input, options);
+    digest_ = std::accumulate(digests.begin(), digests.end(), std::uint64_t{0});
+    return report;
+  }
+
+  /// As many as fit into half of the free memory; each takes about three times its file.
+  [[nodiscard]] std::size_t pieces_at_once() const {
+    const std::uint64_t free = job::free_memory(), each = 3 * files_->most_bytes();
+    return free == 0 || each == 0 ? 1 : std::max<std::uint64_t>(1, free / 2 / each);
+  }
+
+  std::optional<PieceFiles> files_;
+  Mesh whole_;
+  std::uint64_t digest_ = 0;
+};
 
 VerifyReport read_and_verify(CheckOptions& options, const job::Request& request) {
-  const std::vector<Mesh> pieces = read_and_digest(options);
+  CheckedMesh mesh(options.mesh, options.reading);
   const std::optional<Pslg> input = read_and_repair(options, request.input.holes);
-  const SizingOptions sizes = job::sizing_of(request.sizing, input ? job::box_of(*input) : box_of(pieces));
+  const bool sized =
+      !request.sizing.expression.empty() || !request.sizing.background.empty() || request.sizing.longest > 0;
+  const SizingOptions sizes = job::sizing_of(request.sizing, input ? job::box_of(*input) : sized ? mesh.box() : Box{});
   options.size = make_size_field(sizes);
   options.verify.size = options.size.get();
-  options.verify.threads = std::thread::hardware_concurrency();
+  options.verify.threads = options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   // Lengths whose growth is limited cannot fall much between the points that are looked up anyway.
   if (!request.sizing.expression.empty() && request.sizing.gradation == 0) options.verify.size_spacing = sizes.spacing;
-  if (is_in_pieces(options.mesh)) return verify_pieces(pieces, input ? &*input : nullptr, options.verify);
-  return input ? verify(pieces[0], *input, options.verify) : verify(pieces[0], options.verify);
+  VerifyReport report = mesh.verify(input ? &*input : nullptr, options.verify);
+  if (!options.quiet) print(fmt::format("digest         {:016x}\n", mesh.digest()));
+  return report;
 }
 
 int run_check(CheckOptions& options) {
@@ -133,6 +174,11 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
        .help = "Number of findings of each kind to print",
        .standard = std::to_string(options.verify.max_listed),
        .take = cli::into(options.verify.max_listed)},
+      {.name = "threads",
+       .value = "N",
+       .help = "Number of threads; 0: as many as the machine has cores",
+       .standard = "0",
+       .take = cli::into(options.threads, {0, 1024})},
       {.kind = cli::Option::Kind::kFlag,
        .name = "quiet",
        .help = "Print only the verdict",

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "driftmesh/files.hpp"
 #include "driftmesh/mesh.hpp"
+#include "io/vtu_format.hpp"
 
 namespace driftmesh {
 
@@ -13,7 +16,22 @@ inline constexpr const char* kMeshFiles = ".vtu, .pvtu, .msh, or any file of Tri
 
 /// Whether the extension is that of a mesh in pieces: .pvtu. Error: InputError for an unknown extension.
 [[nodiscard]] bool is_in_pieces(const std::string& path);
-/// The pieces of a mesh, not merged, with the numbers of their points, for a check. Errors: as read_mesh.
+/// The pieces of a mesh, not merged, with the numbers of their points, to be read one by one. Errors: as read_mesh.
+class PieceFiles {
+ public:
+  explicit PieceFiles(const std::string& path, const ReadOptions& options = {});
+
+  [[nodiscard]] std::size_t size() const;
+  /// Piece `k`. Threads may read at the same time.
+  [[nodiscard]] Mesh read(std::size_t k) const;
+  /// Of the largest one.
+  [[nodiscard]] std::uint64_t most_bytes() const;
+
+ private:
+  std::vector<std::string> paths_;
+  std::vector<DeclaredArray> arrays_;  // which every piece has
+};
+/// All pieces.
 [[nodiscard]] std::vector<Mesh> read_pieces(const std::string& path, const ReadOptions& options = {});
 
 /// The files that write_mesh would replace. Error: InputError for an unknown extension.

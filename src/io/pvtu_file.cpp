@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <system_error>
+#include <utility>
 
 #include "base/file_identity.hpp"
 #include "base/read_file.hpp"
@@ -155,10 +157,34 @@ Pvtu read_pvtu_header(const std::string& path, const ReadOptions& options) {
   return parse_pvtu(path, read_file(path), options);
 }
 
+PieceFiles::PieceFiles(const std::string& path, const ReadOptions& options) {
+  Pvtu pvtu = read_pvtu_header(path, options);
+  paths_ = std::move(pvtu.pieces);
+  arrays_ = std::move(pvtu.arrays);
+}
+
+std::size_t PieceFiles::size() const {
+  return paths_.size();
+}
+
+Mesh PieceFiles::read(std::size_t k) const {
+  return read_vtu(paths_[k], arrays_);
+}
+
+std::uint64_t PieceFiles::most_bytes() const {
+  std::uint64_t most = 0;
+  for (const std::string& path : paths_) {
+    std::error_code unknown;
+    const std::uintmax_t bytes = fs::file_size(path, unknown);
+    if (!unknown) most = std::max<std::uint64_t>(most, bytes);
+  }
+  return most;
+}
+
 std::vector<Mesh> read_pieces(const std::string& path, const ReadOptions& options) {
-  const Pvtu pvtu = read_pvtu_header(path, options);
+  const PieceFiles files(path, options);
   std::vector<Mesh> pieces;
-  for (const std::string& piece : pvtu.pieces) pieces.push_back(read_vtu(piece, pvtu.arrays));
+  for (std::size_t k = 0; k < files.size(); ++k) pieces.push_back(files.read(k));
   return pieces;
 }
 

@@ -20,7 +20,8 @@ bool same_bits(double a, double b) {
 
 class Merger {
  public:
-  Merger(std::span<const Mesh* const> pieces, MergeFaults& faults) : pieces_(pieces), faults_(faults) {}
+  Merger(std::span<const Mesh* const> pieces, MergeFaults& faults, Numbering numbering)
+      : pieces_(pieces), faults_(faults), numbering_(numbering) {}
 
   Mesh merge() {
     count_points();
@@ -29,6 +30,7 @@ class Merger {
     report_gaps();
     take_triangles();
     take_edges();
+    if (numbering_ == Numbering::sparse) whole_.numbers = std::move(numbers_);
     return std::move(whole_);
   }
 
@@ -48,18 +50,23 @@ class Merger {
         largest = std::max(largest, number);
       }
     }
-    if (largest >= static_cast<std::int64_t>(sum)) close_ranks(largest);
-    const std::size_t count = numbers_.empty() ? to_index(largest + 1) : numbers_.size();
+    const bool sparse = numbering_ == Numbering::sparse;
+    if (sparse || largest >= static_cast<std::int64_t>(sum)) close_ranks();
+    if (!sparse && !numbers_.empty()) report_large_numbers(largest);
+    const std::size_t count = !sparse && numbers_.empty() ? to_index(largest + 1) : numbers_.size();
     (void)narrow<std::int32_t>(count, "points of the merged mesh");
     whole_.points.resize(count);
     holder_.assign(count, {kNobody, 0});
   }
 
   /// Closes the gaps if numbers exceed the count of points, as they do when a piece is missing, to save memory.
-  void close_ranks(std::int64_t largest) {
+  void close_ranks() {
     for (const Mesh* piece : pieces_) numbers_.insert(numbers_.end(), piece->numbers.begin(), piece->numbers.end());
     std::sort(numbers_.begin(), numbers_.end());
     numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+  }
+
+  void report_large_numbers(std::int64_t largest) {
     faults_.add([&] {
       return "numbers go up to " + std::to_string(largest) + ", but all pieces together have " +
              std::to_string(numbers_.size()) + " points: pieces are missing";
@@ -220,6 +227,7 @@ class Merger {
 
   std::span<const Mesh* const> pieces_;
   MergeFaults& faults_;
+  Numbering numbering_;
   Mesh whole_;
   std::vector<std::int64_t> numbers_;  // ascending; empty unless gaps are left out
   std::vector<Holder> holder_;         // of each point
@@ -230,8 +238,8 @@ class Merger {
 
 }  // namespace
 
-Mesh merge_pieces(std::span<const Mesh* const> pieces, MergeFaults& faults) {
-  return Merger(pieces, faults).merge();
+Mesh merge_pieces(std::span<const Mesh* const> pieces, MergeFaults& faults, Numbering numbering) {
+  return Merger(pieces, faults, numbering).merge();
 }
 
 Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults) {

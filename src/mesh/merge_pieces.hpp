@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,12 @@ struct MergeFaults {
   }
 };
 
+/// Which numbers the points of all pieces together should have.
+enum class Numbering : std::uint8_t {
+  complete,  ///< all from 0 on
+  sparse,    ///< any: what is merged are parts of pieces. The result lists them (Mesh::numbers)
+};
+
 /// The whole mesh from its pieces: points with the same number become one, at the place of that number; a subsegment
 /// that two pieces have between the same points is taken once. Triangles are sorted by subdomain if all pieces list
 /// subdomains, and subsegments by their ends, so the result (except for `ranks`) does not depend on which rank held
@@ -30,7 +37,8 @@ struct MergeFaults {
 /// different coordinates, marker or attributes in another piece; a number twice in one piece; a number below the
 /// largest that no piece has (such a point is in no triangle; if there are many, the gaps are closed). Throws Error if
 /// a piece has no numbers, or negative ones.
-[[nodiscard]] Mesh merge_pieces(std::span<const Mesh* const> pieces, MergeFaults& faults);
+[[nodiscard]] Mesh merge_pieces(std::span<const Mesh* const> pieces, MergeFaults& faults,
+                                Numbering numbering = Numbering::complete);
 [[nodiscard]] Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults);
 
 }  // namespace driftmesh

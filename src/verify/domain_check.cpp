@@ -15,8 +15,6 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::int32_t kUnknownFace = -1;
-
 /// The boundary alone, its points renumbered.
 Arrangement arrange_boundary(const Mesh& mesh, const std::vector<Mesh::Edge>& boundary) {
   std::unordered_map<std::int32_t, std::int32_t> number;
@@ -37,8 +35,8 @@ Arrangement arrange_boundary(const Mesh& mesh, const std::vector<Mesh::Edge>& bo
 
 }  // namespace
 
-void check_embedding(const Mesh& mesh, const std::vector<Mesh::Edge>& boundary, Findings& findings) {
-  const Arrangement arrangement = arrange_boundary(mesh, boundary);
+void check_embedding(const NamedMesh& mesh, const std::vector<Mesh::Edge>& boundary, Findings& findings) {
+  const Arrangement arrangement = arrange_boundary(mesh.mesh(), boundary);
   if (arrangement.conflict()) {
     findings.add(Flaw::boundary_crosses, [&] { return "on the boundary " + *arrangement.conflict(); });
     return;
@@ -70,9 +68,10 @@ std::vector<char> DomainCheck::find_corners(const Mesh& mesh, const Domain& doma
   return corner;
 }
 
-DomainCheck::DomainCheck(const Mesh& mesh, const Domain& domain, const PointIndex& mesh_points, const Chains& chains,
-                         Findings& findings)
-    : mesh_(mesh),
+DomainCheck::DomainCheck(const NamedMesh& mesh, const Domain& domain, const PointIndex& mesh_points,
+                         const Chains& chains, Findings& findings)
+    : names_(mesh),
+      mesh_(mesh.mesh()),
       domain_(domain),
       chains_(chains),
       findings_(findings),
@@ -92,7 +91,7 @@ void DomainCheck::check_points() {
 
 std::string DomainCheck::chain_words(const Chains::Chain& chain) const {
   return fmt::format("the chain of {} subsegments from {} to {}", chain.subsegments.size(),
-                     point_words(mesh_, chain.vertices.front()), point_words(mesh_, chain.vertices.back()));
+                     point_words(names_, chain.vertices.front()), point_words(names_, chain.vertices.back()));
 }
 
 void DomainCheck::check_chains() {
@@ -140,7 +139,7 @@ void DomainCheck::check_chain(const Chains::Chain& chain, const Domain::Segment&
     if (subsegments[s].marker != segment.marker)
       findings_.add(Flaw::wrong_marker, [&] {
         return fmt::format("subsegment {}, {}, has marker {}, expected {}", s,
-                           edge_words(mesh_, subsegments[s].a, subsegments[s].b), subsegments[s].marker,
+                           edge_words(names_, subsegments[s].a, subsegments[s].b), subsegments[s].marker,
                            segment.marker);
       });
     check_side(s, subsegments.left(s, from), left);
@@ -154,13 +153,13 @@ void DomainCheck::check_side(std::int32_t subsegment, std::int32_t triangle, std
   const Mesh::Edge& edge = chains_.subsegments()[subsegment];
   if (expected)
     findings_.add(Flaw::not_covered, [&] {
-      return edge_words(mesh_, edge.a, edge.b) + " has no triangle on one side although the domain lies there";
+      return edge_words(names_, edge.a, edge.b) + " has no triangle on one side although the domain lies there";
     });
   else
     findings_.add(face == Arrangement::kUnbounded ? Flaw::outside_filled : Flaw::hole_filled, [&] {
-      return triangle_words(mesh_, triangle) + " lies " +
+      return triangle_words(names_, triangle) + " lies " +
              (face == Arrangement::kUnbounded ? "outside the domain" : "in a hole") + ", at " +
-             edge_words(mesh_, edge.a, edge.b);
+             edge_words(names_, edge.a, edge.b);
     });
 }
 
@@ -179,7 +178,7 @@ void DomainCheck::check_straight(const Chains::Chain& chain) {
     findings_.add(Flaw::off_segment, [&] {
       return fmt::format(
           "{} on {} is {:.3g} off its line (at most {:.3g}) and {:.17g} of {:.17g} along it, after {:.17g}",
-          point_words(mesh_, chain.vertices[i]), chain_words(chain), static_cast<double>(off),
+          point_words(names_, chain.vertices[i]), chain_words(chain), static_cast<double>(off),
           static_cast<double>(tolerance), static_cast<double>(along), static_cast<double>(length),
           static_cast<double>(before));
     });
@@ -196,18 +195,17 @@ void DomainCheck::check_area(double mesh_area) {
 }
 
 // From 3F = 2E - B and V - E + F = chi.
-void DomainCheck::check_euler(std::int64_t used_points, std::int64_t boundary_edges) {
+void DomainCheck::check_euler(std::int64_t triangles, std::int64_t used_points, std::int64_t boundary_edges) {
   const std::int64_t expected = 2 * used_points - boundary_edges - 2 * domain_.euler_number();
-  const auto actual = static_cast<std::int64_t>(mesh_.triangles.size());
-  if (actual == expected) return;
+  if (triangles == expected) return;
   findings_.add(Flaw::wrong_euler, [&] {
     return fmt::format("{} triangles; {} vertices, {} boundary edges and Euler number {} of the domain require {}",
-                       actual, used_points, boundary_edges, domain_.euler_number(), expected);
+                       triangles, used_points, boundary_edges, domain_.euler_number(), expected);
   });
 }
 
-void DomainCheck::find_faces(DisjointSets<std::int32_t>& parts) {
-  std::vector<std::int32_t> face_of_part(mesh_.triangles.size(), kUnknownFace);
+std::vector<std::int32_t> DomainCheck::find_faces(DisjointSets<std::int32_t>& parts) const {
+  std::vector<std::int32_t> face_of_part(mesh_.triangles.size(), kNone), faces;
   const auto note = [&](std::int32_t triangle, std::int32_t face) {
     if (triangle != kNone) face_of_part[parts.find(triangle)] = face;
   };
@@ -223,28 +221,10 @@ void DomainCheck::find_faces(DisjointSets<std::int32_t>& parts) {
       note(subsegments.right(s, from), reversed ? segment.left_face : segment.right_face);
     }
   }
-  face_of_triangle_.resize(mesh_.triangles.size());
-  for (const std::int32_t t : first_ids<std::int32_t>(face_of_triangle_.size()))
-    face_of_triangle_[t] = face_of_part[parts.find(t)];
-}
-
-void DomainCheck::check_regions() {
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const std::int32_t face = face_of_triangle_[t];
-    if (face == kUnknownFace) continue;
-    const Pslg::Region* region = domain_.region_of(face);
-    const double expected = region != nullptr ? region->attribute : 0, actual = mesh_.regions[t];
-    if (actual != expected)
-      findings_.add(Flaw::wrong_region, [&] {
-        return fmt::format("{} has region attribute {}, expected {}", triangle_words(mesh_, t), actual, expected);
-      });
-  }
-}
-
-double DomainCheck::region_area(std::size_t triangle) const {
-  const std::int32_t face = face_of_triangle_[triangle];
-  const Pslg::Region* region = face == kUnknownFace ? nullptr : domain_.region_of(face);
-  return region != nullptr ? region->max_area : 0;
+  faces.reserve(face_of_part.size());
+  for (const std::int32_t t : first_ids<std::int32_t>(face_of_part.size()))
+    faces.push_back(face_of_part[parts.find(t)]);
+  return faces;
 }
 
 }  // namespace driftmesh

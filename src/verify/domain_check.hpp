@@ -10,18 +10,19 @@
 #include "verify/findings.hpp"
 #include "verify/point_index.hpp"
 #include "verify/subsegments.hpp"
+#include "verify/words.hpp"
 
 namespace driftmesh {
 
 /// Checks that the boundary of the mesh, directed with a triangle on the left of each edge, meets itself at points
 /// only, and winds once around some faces of its arrangement and not at all around the others. If all triangles are
 /// counterclockwise, this proves that no point is covered twice.
-void check_embedding(const Mesh& mesh, const std::vector<Mesh::Edge>& boundary, Findings& findings);
+void check_embedding(const NamedMesh& mesh, const std::vector<Mesh::Edge>& boundary, Findings& findings);
 
 /// The checks of a mesh against the domain that its input describes.
 class DomainCheck {
  public:
-  DomainCheck(const Mesh& mesh, const Domain& domain, const PointIndex& mesh_points, const Chains& chains,
+  DomainCheck(const NamedMesh& mesh, const Domain& domain, const PointIndex& mesh_points, const Chains& chains,
               Findings& findings);
 
   /// Every point of the domain's input is a vertex.
@@ -29,16 +30,12 @@ class DomainCheck {
   /// Chains of subsegments correspond to the domain's segments; see verify.
   void check_chains();
   void check_area(double mesh_area);
-  void check_euler(std::int64_t used_points, std::int64_t boundary_edges);
+  /// `triangles`: how many there are, also outside of this part of the mesh.
+  void check_euler(std::int64_t triangles, std::int64_t used_points, std::int64_t boundary_edges);
 
-  /// Finds the face of the domain that each triangle lies in. `parts` has joined triangles that share an edge which
-  /// is no subsegment.
-  void find_faces(DisjointSets<std::int32_t>& parts);
-  /// The mesh lists the right region attribute for each triangle. Call after find_faces.
-  void check_regions();
-  /// The area bound of the region that a triangle lies in, 0 if it has none. Call after find_faces.
-  [[nodiscard]] double region_area(std::size_t triangle) const;
-
+  /// The face of the domain that each triangle lies in, kNone if it is not known. `parts` has joined triangles that
+  /// share an edge which is no subsegment.
+  [[nodiscard]] std::vector<std::int32_t> find_faces(DisjointSets<std::int32_t>& parts) const;
   /// For each point of a mesh whether it is one of the domain's points.
   [[nodiscard]] static std::vector<char> find_corners(const Mesh& mesh, const Domain& domain,
                                                       const PointIndex& mesh_points);
@@ -49,13 +46,13 @@ class DomainCheck {
   void check_side(std::int32_t subsegment, std::int32_t triangle, std::int32_t face);
   [[nodiscard]] std::string chain_words(const Chains::Chain& chain) const;
 
+  NamedMesh names_;
   const Mesh& mesh_;
   const Domain& domain_;
   const Chains& chains_;
   Findings& findings_;
   std::vector<std::int32_t> vertex_of_point_;   // of the domain; kNone if missing
   std::vector<std::int32_t> segment_of_chain_;  // kNone: the chain belongs to no segment
-  std::vector<std::int32_t> face_of_triangle_;
 };
 
 }  // namespace driftmesh

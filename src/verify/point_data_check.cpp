@@ -30,7 +30,8 @@ class MarkersOfSubsegments {
   std::set<std::pair<std::int32_t, std::int32_t>> markers_;
 };
 
-void check_markers(const Mesh& mesh, const Pslg& input, const PointIndex& mesh_points, Findings& findings) {
+void check_markers(const NamedMesh& names, const Pslg& input, const PointIndex& mesh_points, Findings& findings) {
+  const Mesh& mesh = names.mesh();
   std::vector<std::pair<std::int32_t, std::size_t>> unlike;  // vertex and point
   for (std::size_t i = 0; i < input.points.size(); ++i)
     if (const std::int32_t v = mesh_points.find(input.points[i]);
@@ -42,12 +43,13 @@ void check_markers(const Mesh& mesh, const Pslg& input, const PointIndex& mesh_p
     const std::int32_t actual = mesh.point_markers[v], expected = input.point_markers[i];
     if (expected == 0 && subsegments.give(v, actual)) continue;
     findings.add(Flaw::wrong_point_marker, [&, vertex = v] {
-      return fmt::format("{} has marker {}, expected {}", point_words(mesh, vertex), actual, expected);
+      return fmt::format("{} has marker {}, expected {}", point_words(names, vertex), actual, expected);
     });
   }
 }
 
-void check_attributes(const Mesh& mesh, const Pslg& input, const PointIndex& mesh_points, Findings& findings) {
+void check_attributes(const NamedMesh& names, const Pslg& input, const PointIndex& mesh_points, Findings& findings) {
+  const Mesh& mesh = names.mesh();
   if (mesh.attributes_per_point != input.attributes_per_point) {
     findings.add(Flaw::wrong_attribute, [&] {
       return fmt::format("points have {} attributes, expected {}", mesh.attributes_per_point,
@@ -62,7 +64,7 @@ void check_attributes(const Mesh& mesh, const Pslg& input, const PointIndex& mes
       const double actual = mesh.attributes[to_index(v) * width + k], expected = input.attributes[i * width + k];
       if (actual != expected)
         findings.add(Flaw::wrong_attribute, [&] {
-          return fmt::format("{} has {} as attribute {}, expected {}", point_words(mesh, v), actual, k + 1, expected);
+          return fmt::format("{} has {} as attribute {}, expected {}", point_words(names, v), actual, k + 1, expected);
         });
     }
   }
@@ -70,9 +72,10 @@ void check_attributes(const Mesh& mesh, const Pslg& input, const PointIndex& mes
 
 }  // namespace
 
-void check_point_data(const Mesh& mesh, const Pslg& input, const PointIndex& mesh_points, Findings& findings) {
-  if (!mesh.point_markers.empty() && !input.point_markers.empty()) check_markers(mesh, input, mesh_points, findings);
-  if (mesh.attributes_per_point > 0 && input.attributes_per_point > 0)
+void check_point_data(const NamedMesh& mesh, const Pslg& input, const PointIndex& mesh_points, Findings& findings) {
+  if (!mesh.mesh().point_markers.empty() && !input.point_markers.empty())
+    check_markers(mesh, input, mesh_points, findings);
+  if (mesh.mesh().attributes_per_point > 0 && input.attributes_per_point > 0)
     check_attributes(mesh, input, mesh_points, findings);
 }
 

@@ -1,31 +1,20 @@
 #include "verify/quality.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 #include "base/in_parts.hpp"
-#include "driftmesh/id_vector.hpp"
 #include "verify/extended.hpp"
-#include "verify/room.hpp"
 #include "verify/size_check.hpp"
-#include "verify/words.hpp"
 
 namespace driftmesh {
 namespace {
 
-constexpr double kSlack = 1e-9;         // relative, for rounding
-constexpr double kSameDistance = 1e-3;  // relative: two vertices count as equally far from their apex
-// In a wedge narrower than this, in degrees, distances count as equal up to a fraction of the wedge's width: where
-// segments hardly diverge and end almost side by side, no points are needed to separate their ends.
-constexpr double kNarrowWedge = 1;
-constexpr double kShareOfWidth = 0.3;
+constexpr double kSlack = 1e-9;  // relative, for rounding
 constexpr long double kDegrees = 180 / std::numbers::pi_v<long double>;
 
 /// One triangle in double precision: its area and the cotangents of its angles, which fall from 0 to 180 degrees.
@@ -40,11 +29,6 @@ Shape shape_of(const Point& a, const Point& b, const Point& c) {
   const double scale = -1 / twice_area;
   return {twice_area,
           {(abx * cax + aby * cay) * scale, (abx * bcx + aby * bcy) * scale, (bcx * cax + bcy * cay) * scale}};
-}
-
-/// The angle at o between oa and ob in degrees, in extended precision.
-double angle_at(const Point& o, const Point& a, const Point& b) {
-  return static_cast<double>(std::atan2(std::fabs(cross_extended(o, a, b)), dot_extended(o, a, b)) * kDegrees);
 }
 
 /// Bins of one degree by cotangent.
@@ -79,100 +63,70 @@ class DegreeBins {
   std::array<std::uint8_t, kCells> above_{};  // for each cell the number of limits in higher ones
 };
 
-class QualityCheck {
+/// Measures the triangles of one mesh.
+class Measurement {
  public:
-  QualityCheck(const Mesh& mesh, const Chains& chains, const CheckedBounds& bounds, std::size_t max_listed)
-      : mesh_(mesh), chains_(chains), bounds_(bounds), findings_(max_listed) {
-    if (bounds.size != nullptr) size_.emplace(mesh, *bounds.size, bounds.size_spacing);
-    const long double theta = static_cast<long double>(bounds.min_angle) / kDegrees;
-    max_ratio_ = bounds.min_angle > 0 ? (1 + kSlack) / (2 * std::sin(theta)) : 0;
-    sure_cotangent_ =
-        bounds.min_angle > 0 ? static_cast<double>(1 / std::tan(theta)) : std::numeric_limits<double>::infinity();
+  Measurement(const NamedMesh& mesh, const CheckedBounds& bounds) : names_(mesh), mesh_(mesh.mesh()), bounds_(bounds) {
+    if (bounds.size != nullptr) size_.emplace(mesh_, *bounds.size, bounds.size_spacing);
+    max_ratio_ = largest_ratio(bounds.min_angle);
+    if (bounds.min_angle > 0)
+      sure_cotangent_ = static_cast<double>(1 / std::tan(static_cast<long double>(bounds.min_angle) / kDegrees));
   }
 
   void take(std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) take(t);
   }
 
-  /// Adds what was taken of later triangles.
-  void append(const QualityCheck& later) {
-    const Quality& other = later.quality_;
-    area_sum_.add(later.area_sum_);
-    for (std::size_t d = 0; d < quality_.angles.size(); ++d) quality_.angles[d] += other.angles[d];
-    if (later.largest_cotangent_ > largest_cotangent_) {
-      largest_cotangent_ = later.largest_cotangent_;
-      quality_.smallest_angle_triangle = other.smallest_angle_triangle;
+  Measures finish() {
+    Quality& quality = measures_.shapes;
+    if (quality.smallest_angle_triangle >= 0) {
+      quality.smallest_angle = angles_of(quality.smallest_angle_triangle).front();
+      quality.largest_angle = angles_of(quality.largest_angle_triangle).back();
     }
-    if (later.smallest_cotangent_ < smallest_cotangent_) {
-      smallest_cotangent_ = later.smallest_cotangent_;
-      quality_.largest_angle_triangle = other.largest_angle_triangle;
-    }
-    smallest_twice_area_ = std::min(smallest_twice_area_, later.smallest_twice_area_);
-    if (later.largest_twice_area_ > largest_twice_area_) {
-      largest_twice_area_ = later.largest_twice_area_;
-      quality_.largest_area_triangle = other.largest_area_triangle;
-    }
-    for (std::size_t k = 0; k < kExceptionReasonCount; ++k) {
-      Quality::Exceptions& list = quality_.exceptions[static_cast<ExceptionReason>(k)];
-      const Quality::Exceptions& more = other.exceptions[static_cast<ExceptionReason>(k)];
-      list.count += more.count;
-      for (const std::string& message : more.messages)
-        if (list.messages.size() < bounds_.max_listed) list.messages.push_back(message);
-    }
-    findings_.append(later.findings_);
-  }
-
-  [[nodiscard]] const Findings& findings() const { return findings_; }
-
-  Quality finish() {
-    quality_.total_area = area_sum_.value() / 2;
-    quality_.smallest_area = mesh_.triangles.empty() ? 0 : smallest_twice_area_ / 2;
-    quality_.largest_area = mesh_.triangles.empty() ? 0 : largest_twice_area_ / 2;
-    if (quality_.smallest_angle_triangle >= 0) {
-      quality_.smallest_angle = angles_of(quality_.smallest_angle_triangle).front();
-      quality_.largest_angle = angles_of(quality_.largest_angle_triangle).back();
-    }
-    return std::move(quality_);
+    return std::move(measures_);
   }
 
  private:
-  [[nodiscard]] const Point& corner(std::size_t t, std::size_t k) const { return mesh_.points[mesh_.triangles[t][k]]; }
+  [[nodiscard]] std::array<Point, 3> corners(std::size_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return {mesh_.points[a], mesh_.points[b], mesh_.points[c]};
+  }
 
   /// Sorted, in degrees.
   [[nodiscard]] std::array<double, 3> angles_of(std::int32_t triangle) const {
-    const Point &a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
+    const auto [a, b, c] = corners(triangle);
     std::array<double, 3> angles{angle_at(a, b, c), angle_at(b, c, a), angle_at(c, a, b)};
     std::sort(angles.begin(), angles.end());
     return angles;
   }
 
   void take(std::size_t t) {
-    const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
-    area_sum_.add(cross_extended(a, b, c));
+    const auto [a, b, c] = corners(t);
+    measures_.twice_area.add(cross_extended(a, b, c));
     const Shape shape = shape_of(a, b, c);
     take_angles(t, shape);
     take_area(t, shape.twice_area);
   }
 
   void take_angles(std::size_t t, const Shape& shape) {
-    for (const double cotangent : shape.cotangent) ++quality_.angles[bins_.bin(cotangent)];
+    for (const double cotangent : shape.cotangent) ++measures_.shapes.angles[bins_.bin(cotangent)];
     const auto [least, most] = std::minmax({shape.cotangent[0], shape.cotangent[1], shape.cotangent[2]});
-    if (most > largest_cotangent_) {
-      largest_cotangent_ = most;
-      quality_.smallest_angle_triangle = static_cast<std::int32_t>(t);
+    if (most > measures_.largest_cotangent) {
+      measures_.largest_cotangent = most;
+      measures_.shapes.smallest_angle_triangle = static_cast<std::int32_t>(t);
     }
-    if (least < smallest_cotangent_) {
-      smallest_cotangent_ = least;
-      quality_.largest_angle_triangle = static_cast<std::int32_t>(t);
+    if (least < measures_.smallest_cotangent) {
+      measures_.smallest_cotangent = least;
+      measures_.shapes.largest_angle_triangle = static_cast<std::int32_t>(t);
     }
     if (!(most <= sure_cotangent_)) check_small_angle(t);
   }
 
   void take_area(std::size_t t, double twice_area) {
-    smallest_twice_area_ = std::min(smallest_twice_area_, twice_area);
-    if (twice_area > largest_twice_area_) {
-      largest_twice_area_ = twice_area;
-      quality_.largest_area_triangle = static_cast<std::int32_t>(t);
+    measures_.smallest_twice_area = std::min(measures_.smallest_twice_area, twice_area);
+    if (twice_area > measures_.largest_twice_area) {
+      measures_.largest_twice_area = twice_area;
+      measures_.shapes.largest_area_triangle = static_cast<std::int32_t>(t);
     }
     const double bound = area_bound(t);
     if (twice_area > 2 * bound)
@@ -193,114 +147,99 @@ class QualityCheck {
   [[nodiscard]] static double area_of_edge(double h) { return std::numbers::sqrt3 / 4 * h * h; }
 
   void check_size(std::size_t t, double area) {
-    const std::optional<SizeCheck::Miss> miss = size_->find_miss(t, area);
-    if (!miss) return;
-    miss_bound(t, [&, this] {
-      return triangle_words(mesh_, t) + fmt::format(" has area {:.9g}, but an edge of {:.9g} is asked for at {}", area,
-                                                    miss->length, place_words(miss->at));
-    });
-  }
-
-  template <class Describe>
-  void miss_bound(std::size_t t, const Describe& describe) {
-    if (room().none_for_area(t))
-      except(ExceptionReason::no_room, describe);
-    else
-      findings_.add(Flaw::large_area, describe);
+    if (const std::optional<SizeCheck::Miss> miss = size_->find_miss(t, area))
+      suspect(t, Suspect::Miss::size, miss->length, miss->at);
   }
 
   void check_large_area(std::size_t t, double bound) {
-    const long double area = cross_extended(corner(t, 0), corner(t, 1), corner(t, 2)) / 2;
-    if (area <= bound * (1 + static_cast<long double>(kSlack))) return;
-    miss_bound(t, [&, this] {
-      return triangle_words(mesh_, t) +
-             fmt::format(" has area {:.9g}, at most {:.9g} is allowed", static_cast<double>(area), bound);
-    });
+    const auto [a, b, c] = corners(t);
+    if (cross_extended(a, b, c) / 2 > bound * (1 + static_cast<long double>(kSlack)))
+      suspect(t, Suspect::Miss::area, bound, {});
   }
 
-  // Circumradius / shortest edge = 1 / (2 sin of the smallest angle); R = abc / (4 area).
   void check_small_angle(std::size_t t) {
-    const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
-    const std::array<long double, 3> opposite{std::sqrt(dot_extended(b, c, c)), std::sqrt(dot_extended(c, a, a)),
-                                              std::sqrt(dot_extended(a, b, b))};
-    const std::size_t apex = std::min_element(opposite.begin(), opposite.end()) - opposite.begin();
-    const long double others = opposite[(apex + 1) % 3] * opposite[(apex + 2) % 3];
-    const long double ratio = others / (2 * cross_extended(a, b, c));
-    if (ratio <= max_ratio_ && ratio > 0) return;
-
-    const double angle = angles_of(static_cast<std::int32_t>(t)).front();
-    const std::int32_t v = mesh_.triangles[t][apex], p = mesh_.triangles[t][(apex + 1) % 3],
-                       q = mesh_.triangles[t][(apex + 2) % 3];
-    const auto describe = [&] {
-      return triangle_words(mesh_, t) + fmt::format(
-                                            " has an angle of {:.6f} degrees at {}, circumradius / shortest edge "
-                                            "{:.6f} (at most {:.6f})",
-                                            angle, point_words(mesh_, v), static_cast<double>(ratio),
-                                            static_cast<double>(max_ratio_));
-    };
-    if (is_subsegment(v, p) && is_subsegment(v, q))
-      except(ExceptionReason::input_angle, describe);
-    else if (is_seditious(p, q))
-      except(ExceptionReason::small_wedge, describe);
-    else if (room().none_for_angle(t, bounds_.min_angle))
-      except(ExceptionReason::no_room, describe);
-    else
-      findings_.add(Flaw::small_angle, describe);
+    const auto [a, b, c] = corners(t);
+    const ShortestEdge edge = shortest_edge({a, b, c});
+    if (!(edge.ratio <= max_ratio_ && edge.ratio > 0)) suspect(t, Suspect::Miss::angle, 0, {});
   }
 
-  [[nodiscard]] bool is_subsegment(std::int32_t u, std::int32_t v) const {
-    return chains_.subsegments().find(u, v) != kNone;
+  void suspect(std::size_t t, Suspect::Miss miss, double bound, const Point& at) {
+    measures_.suspects.push_back({names_.place(t), names_.numbers(t), corners(t), miss, bound, at});
   }
 
-  // Whether p and q lie inside two chains that meet at less than 60 degrees, equally far from their common end.
-  [[nodiscard]] bool is_seditious(std::int32_t p, std::int32_t q) const {
-    const std::int32_t cp = chains_.through(p), cq = chains_.through(q);
-    if (cp == kNone || cq == kNone || cp == cq) return false;
-    const auto &first = chains_.all()[cp].vertices, &second = chains_.all()[cq].vertices;
-    for (const std::int32_t apex : {first.front(), first.back()}) {
-      if (apex != second.front() && apex != second.back()) continue;
-      const Point &o = mesh_.points[apex], &at_p = mesh_.points[p], &at_q = mesh_.points[q];
-      const long double op = std::sqrt(dot_extended(o, at_p, at_p)), oq = std::sqrt(dot_extended(o, at_q, at_q));
-      const long double rounding =
-          64 * 0x1p-52L * std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(at_p.x), std::fabs(at_p.y)});
-      const double angle = angle_at(o, at_p, at_q);
-      const long double same =
-          angle < kNarrowWedge ? kShareOfWidth * std::sqrt(dot_extended(at_p, at_q, at_q)) : kSameDistance * op;
-      if (angle < 60 && std::fabs(op - oq) <= same + rounding) return true;
-    }
-    return false;
-  }
-
-  /// Made on demand: most meshes never need it.
-  const Room& room() {
-    if (!room_) room_.emplace(mesh_, chains_);
-    return *room_;
-  }
-
-  template <class Describe>
-  void except(ExceptionReason reason, const Describe& describe) {
-    Quality::Exceptions& list = quality_.exceptions[reason];
-    if (list.count++ < bounds_.max_listed) list.messages.push_back(describe());
-  }
-
+  NamedMesh names_;
   const Mesh& mesh_;
-  const Chains& chains_;
   const CheckedBounds& bounds_;
-  Findings findings_;
   std::optional<SizeCheck> size_;
-  std::optional<Room> room_;
   const DegreeBins bins_;
-  Quality quality_;
-  CompensatedSum area_sum_;
+  Measures measures_;
   long double max_ratio_ = 0;
-  double sure_cotangent_ = 0;
-  double largest_cotangent_ = -std::numeric_limits<double>::infinity();
-  double smallest_cotangent_ = std::numeric_limits<double>::infinity();
-  double smallest_twice_area_ = std::numeric_limits<double>::infinity();
-  double largest_twice_area_ = -std::numeric_limits<double>::infinity();
+  double sure_cotangent_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
+
+void Measures::add(const Measures& later) {
+  const Quality& other = later.shapes;
+  twice_area.add(later.twice_area);
+  for (std::size_t d = 0; d < shapes.angles.size(); ++d) shapes.angles[d] += other.angles[d];
+  if (later.largest_cotangent > largest_cotangent) {
+    largest_cotangent = later.largest_cotangent;
+    shapes.smallest_angle = other.smallest_angle;
+    shapes.smallest_angle_triangle = other.smallest_angle_triangle;
+  }
+  if (later.smallest_cotangent < smallest_cotangent) {
+    smallest_cotangent = later.smallest_cotangent;
+    shapes.largest_angle = other.largest_angle;
+    shapes.largest_angle_triangle = other.largest_angle_triangle;
+  }
+  smallest_twice_area = std::min(smallest_twice_area, later.smallest_twice_area);
+  if (later.largest_twice_area > largest_twice_area) {
+    largest_twice_area = later.largest_twice_area;
+    shapes.largest_area_triangle = other.largest_area_triangle;
+  }
+  suspects.insert(suspects.end(), later.suspects.begin(), later.suspects.end());
+}
+
+Quality Measures::quality() const {
+  Quality quality = shapes;
+  const bool any = smallest_twice_area <= largest_twice_area;
+  quality.total_area = twice_area.value() / 2;
+  quality.smallest_area = any ? smallest_twice_area / 2 : 0;
+  quality.largest_area = any ? largest_twice_area / 2 : 0;
+  return quality;
+}
+
+Measures measure(const NamedMesh& mesh, const CheckedBounds& bounds, std::size_t threads) {
+  // Neither size fields nor the search for a region are for several threads.
+  const std::size_t parts = bounds.size != nullptr || bounds.region_area ? 1 : threads;
+  std::vector<Measures> measures(parts);
+  in_parts(mesh.mesh().triangles.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Measurement measurement(mesh, bounds);
+    measurement.take(begin, end);
+    measures[part] = measurement.finish();
+  });
+  for (std::size_t part = 1; part < parts; ++part) measures[0].add(measures[part]);
+  return std::move(measures[0]);
+}
+
+double angle_at(const Point& o, const Point& a, const Point& b) {
+  return static_cast<double>(std::atan2(std::fabs(cross_extended(o, a, b)), dot_extended(o, a, b)) * kDegrees);
+}
+
+long double largest_ratio(double min_angle) {
+  return min_angle > 0 ? (1 + kSlack) / (2 * std::sin(static_cast<long double>(min_angle) / kDegrees)) : 0;
+}
+
+// Circumradius / shortest edge = 1 / (2 sin of the smallest angle); R = abc / (4 area).
+ShortestEdge shortest_edge(const std::array<Point, 3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  const std::array<long double, 3> opposite{std::sqrt(dot_extended(b, c, c)), std::sqrt(dot_extended(c, a, a)),
+                                            std::sqrt(dot_extended(a, b, b))};
+  const std::size_t apex = std::min_element(opposite.begin(), opposite.end()) - opposite.begin();
+  const long double others = opposite[(apex + 1) % 3] * opposite[(apex + 2) % 3];
+  return {apex, others / (2 * cross_extended(a, b, c))};
+}
 
 const char* reason_name(ExceptionReason reason) {
   switch (reason) {
@@ -323,20 +262,6 @@ std::uint64_t Quality::exception_count() const {
   std::uint64_t sum = 0;
   for (const Exceptions& list : exceptions) sum += list.count;
   return sum;
-}
-
-Quality check_quality(const Mesh& mesh, const Chains& chains, const CheckedBounds& bounds, Findings& findings) {
-  // Neither size fields nor the search for a region are for several threads.
-  const bool alone = bounds.size != nullptr || bounds.region_area;
-  const std::size_t threads = alone ? 1 : std::max<std::size_t>(bounds.threads, 1);
-  std::deque<QualityCheck> checks;
-  for (std::size_t part = 0; part < threads; ++part)
-    checks.emplace_back(mesh, chains, bounds, findings.listed_per_kind());
-  in_parts(mesh.triangles.size(), threads,
-           [&](std::size_t part, std::size_t begin, std::size_t end) { checks[part].take(begin, end); });
-  for (std::size_t part = 1; part < threads; ++part) checks[0].append(checks[part]);
-  findings.append(checks[0].findings());
-  return checks[0].finish();
 }
 
 }  // namespace driftmesh

@@ -3,14 +3,15 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "driftmesh/id_vector.hpp"
-#include "driftmesh/mesh.hpp"
+#include "driftmesh/point.hpp"
 #include "driftmesh/size_field.hpp"
-#include "verify/chains.hpp"
-#include "verify/findings.hpp"
+#include "verify/extended.hpp"
+#include "verify/words.hpp"
 
 namespace driftmesh {
 
@@ -37,7 +38,7 @@ struct Quality {
   double total_area = 0;        ///< summed in extended precision with compensation
   double smallest_area = 0;
   double largest_area = 0;
-  std::int32_t smallest_angle_triangle = -1;
+  std::int32_t smallest_angle_triangle = -1;  ///< of the whole mesh, or of its piece
   std::int32_t largest_angle_triangle = -1;
   std::int32_t largest_area_triangle = -1;
   std::array<std::uint64_t, 180> angles{};  ///< [d]: angles from d up to d + 1 degrees
@@ -54,14 +55,50 @@ struct CheckedBounds {
   std::function<double(std::size_t triangle)> region_area;  ///< empty, or each triangle's own bound (<= 0: none)
   const SizeField* size = nullptr;                          ///< or target edge lengths, see SizeField
   double size_spacing = 0;                                  ///< see SizeCheck
-  std::size_t max_listed = 5;                               ///< messages kept of each cause of an exception
-  std::size_t threads = 1;                                  ///< used if neither region_area nor size are given
 };
 
-/// Measures all triangles, and adds those that miss a bound without an accepted reason to `findings`. The angle bound
-/// is circumradius / shortest edge <= 1 / (2 sin min_angle), with a relative slack of 1e-9 for rounding; triangles that
-/// seem to miss a bound in double precision are measured again in extended precision.
-[[nodiscard]] Quality check_quality(const Mesh& mesh, const Chains& chains, const CheckedBounds& bounds,
-                                    Findings& findings);
+/// A triangle that misses a bound: a flaw unless there is an accepted reason. See Judge.
+struct Suspect {
+  enum class Miss : std::uint8_t { angle, area, size };
+
+  TrianglePlace place;
+  std::array<std::int64_t, 3> numbers{};  ///< of the corners
+  std::array<Point, 3> corners{};
+  Miss miss = Miss::angle;
+  double bound = 0;  ///< of the area; or the length of an edge that is asked for
+  Point at{};        ///< where that is
+};
+
+/// What was measured at some triangles.
+struct Measures {
+  Quality shapes;  ///< without areas and exceptions
+  CompensatedSum twice_area;
+  double largest_cotangent = -std::numeric_limits<double>::infinity();
+  double smallest_cotangent = std::numeric_limits<double>::infinity();
+  double smallest_twice_area = std::numeric_limits<double>::infinity();
+  double largest_twice_area = -std::numeric_limits<double>::infinity();
+  std::vector<Suspect> suspects;
+
+  /// Adds what was measured at later triangles.
+  void add(const Measures& later);
+  /// What can be said about all of them; exceptions are not known.
+  [[nodiscard]] Quality quality() const;
+};
+
+/// Measures all triangles. The angle bound is circumradius / shortest edge <= 1 / (2 sin min_angle), with a relative
+/// slack of 1e-9 for rounding; triangles that seem to miss a bound in double precision are measured again in extended
+/// precision. Several threads are used if neither region_area nor size are given.
+[[nodiscard]] Measures measure(const NamedMesh& mesh, const CheckedBounds& bounds, std::size_t threads);
+
+/// The largest circumradius / shortest edge for a bound on angles; 0: no bound.
+[[nodiscard]] long double largest_ratio(double min_angle);
+/// The shortest edge of a triangle.
+struct ShortestEdge {
+  std::size_t apex;   ///< the corner opposite
+  long double ratio;  ///< circumradius / its length; not positive if the triangle is not counterclockwise
+};
+[[nodiscard]] ShortestEdge shortest_edge(const std::array<Point, 3>& triangle);
+/// The angle at o between oa and ob in degrees, in extended precision.
+[[nodiscard]] double angle_at(const Point& o, const Point& a, const Point& b);
 
 }  // namespace driftmesh

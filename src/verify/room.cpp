@@ -66,10 +66,6 @@ void Room::add_stuck(std::int32_t subsegment, long double shortest) {
   if (distance(a, b) <= shortest || is_stuck(subsegment)) stuck_.push_back({a, b});
 }
 
-const Point& Room::corner(std::size_t t, std::size_t k) const {
-  return mesh_.points[mesh_.triangles[t][k]];
-}
-
 bool Room::is_stuck(std::int32_t subsegment) const {
   const Mesh::Edge& edge = subsegments_[subsegment];
   const Point &a = mesh_.points[edge.a], &b = mesh_.points[edge.b], m = midpoint(a, b);
@@ -88,21 +84,21 @@ bool Room::is_stuck(std::int32_t subsegment) const {
   return false;
 }
 
-bool Room::none_for_angle(std::size_t t, double min_angle) const {
+bool Room::none_for_angle(const Triangle& t, double min_angle) const {
   return none_for(t, 0.5 / std::tan(min_angle * (std::numbers::pi / 360)));
 }
 
-bool Room::none_for_area(std::size_t t) const {
+bool Room::none_for_area(const Triangle& t) const {
   return none_for(t, std::numeric_limits<double>::infinity());
 }
 
 // The point that helps lies on the bisector of the shortest edge, at the circumcenter but no farther off than the given
 // multiple of the edge.
-bool Room::none_for(std::size_t t, double most_height) const {
+bool Room::none_for(const Triangle& t, double most_height) const {
   std::array<long double, 3> opposite{};
-  for (std::size_t k = 0; k < 3; ++k) opposite[k] = distance(corner(t, (k + 1) % 3), corner(t, (k + 2) % 3));
+  for (std::size_t k = 0; k < 3; ++k) opposite[k] = distance(t[(k + 1) % 3], t[(k + 2) % 3]);
   const std::size_t apex = std::min_element(opposite.begin(), opposite.end()) - opposite.begin();
-  const Point &a = corner(t, (apex + 1) % 3), &b = corner(t, (apex + 2) % 3), &c = corner(t, apex);
+  const Point &a = t[(apex + 1) % 3], &b = t[(apex + 2) % 3], &c = t[apex];
   if (*std::max_element(opposite.begin(), opposite.end()) <= kNeighbors * spacing_at(c)) return true;
   const auto height = std::min(static_cast<double>(dot_extended(c, a, b) / (2 * cross_extended(c, a, b))), most_height);
   const double ex = b.x - a.x, ey = b.y - a.y;

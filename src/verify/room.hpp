@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,10 +26,11 @@ class Room {
  public:
   Room(const Mesh& mesh, const Chains& chains);
 
-  /// Whether nothing can be done about an angle of triangle t below `min_angle` degrees: for its off-center.
-  [[nodiscard]] bool none_for_angle(std::size_t t, double min_angle) const;
-  /// Whether nothing can be done about the area of triangle t: for its circumcenter.
-  [[nodiscard]] bool none_for_area(std::size_t t) const;
+  using Triangle = std::array<Point, 3>;
+  /// Whether nothing can be done about an angle of a triangle below `min_angle` degrees: for its off-center.
+  [[nodiscard]] bool none_for_angle(const Triangle& triangle, double min_angle) const;
+  /// Whether nothing can be done about the area of a triangle: for its circumcenter.
+  [[nodiscard]] bool none_for_area(const Triangle& triangle) const;
 
  private:
   struct Segment {
@@ -37,8 +39,7 @@ class Room {
 
   void add_stuck(std::int32_t subsegment, long double shortest);
   [[nodiscard]] bool is_stuck(std::int32_t subsegment) const;
-  [[nodiscard]] bool none_for(std::size_t t, double most_height) const;
-  [[nodiscard]] const Point& corner(std::size_t t, std::size_t k) const;
+  [[nodiscard]] bool none_for(const Triangle& triangle, double most_height) const;
 
   const Mesh& mesh_;
   const Subsegments& subsegments_;

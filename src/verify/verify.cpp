@@ -4,171 +4,320 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/disjoint_sets.hpp"
-#include "base/in_parts.hpp"
+#include "base/in_turns.hpp"
+#include "driftmesh/error.hpp"
 #include "mesh/merge_pieces.hpp"
 #include "verify/chains.hpp"
 #include "verify/corner_table.hpp"
 #include "verify/domain.hpp"
 #include "verify/domain_check.hpp"
+#include "verify/duplicates.hpp"
+#include "verify/frame.hpp"
+#include "verify/judge.hpp"
 #include "verify/local_check.hpp"
+#include "verify/piece_check.hpp"
+#include "verify/piece_numbers.hpp"
 #include "verify/point_data_check.hpp"
 #include "verify/point_index.hpp"
+#include "verify/regions.hpp"
 #include "verify/subsegments.hpp"
 
 namespace driftmesh {
 namespace {
 
+void require_numbers(const Mesh& piece, std::size_t k) {
+  if (piece.numbers.size() != piece.points.size())
+    throw Error("piece " + std::to_string(k) + " does not say which numbers its points have in the whole mesh");
+  for (const std::int64_t number : piece.numbers)
+    if (number < 0) throw Error("piece " + std::to_string(k) + " has a point of number " + std::to_string(number));
+}
+
 /// One verification: its phases in order, and what later ones need from earlier ones.
 class Verification {
  public:
-  Verification(const Mesh& mesh, const Pslg* input, const VerifyOptions& options)
-      : mesh_(mesh), input_(input), options_(options), findings_(options.max_listed), points_(mesh.points) {}
+  Verification(const Pieces& pieces, bool whole, const Pslg* input, const VerifyOptions& options)
+      : pieces_(pieces), whole_(whole), input_(input), options_(options), findings_(options.max_listed) {}
 
   VerifyReport run() {
-    count();
-    if (check_arrays(mesh_, findings_) && check_coordinates()) {
-      find_domain();
+    find_domain();
+    check_pieces();
+    join_pieces();
+    if (computable_) {
+      if (conflict_) findings_.add(Flaw::input_not_planar, [&] { return *conflict_; });
       check_triangulation();
       check_against_domain();
+      list_duplicates();
     }
     report_.findings = std::move(findings_);
     return std::move(report_);
   }
 
  private:
-  void count() {
-    report_.points = mesh_.points.size();
-    report_.triangles = mesh_.triangles.size();
-    report_.subsegments = mesh_.edges.size();
-    report_.subsegments_listed = !mesh_.edges.empty() || mesh_.triangles.empty();
-  }
-
-  /// False if there are coordinates that no check could compute with.
-  bool check_coordinates() {
-    corners_.emplace(mesh_);
-    used_points_ = check_points(mesh_, *corners_, points_, findings_);
-    report_.unused_points = mesh_.points.size() - used_points_;
-    return findings_.count(Flaw::bad_coordinate) == 0;
-  }
+  // ---- The pieces ----------------------------------------------------------------------------------------------
 
   void find_domain() {
     if (input_ == nullptr) return;
     domain_.emplace(*input_);
-    if (domain_->conflict()) {
-      findings_.add(Flaw::input_not_planar, [&] { return *domain_->conflict(); });
-      domain_.reset();
-    } else if (domain_->has_regions()) {
-      parts_.emplace(mesh_.triangles.size());
+    conflict_ = domain_->conflict();
+    if (conflict_) return domain_.reset();
+    corners_.emplace(domain_->points());
+    for (const std::int32_t p : first_ids<std::int32_t>(domain_->points().size())) corners_->add(p);
+    has_regions_ = domain_->has_regions();
+  }
+
+  void check_pieces() {
+    bounds_ = {options_.min_angle, options_.max_area, {}, options_.size, options_.size_spacing};
+    check_all_pieces();
+    if (whole_) return;
+    shared_ = PieceNumbers(found_).shared();
+    if (!shared_.empty()) check_all_pieces();
+  }
+
+  void check_all_pieces() {
+    found_ = std::vector<PieceReport>(pieces_.count);
+    for_each_piece([&](const NamedMesh& piece, std::size_t k) {
+      found_[k] = check_piece(piece, order());
+      if (!whole_) found_[k].parts.reset();
+    });
+  }
+
+  [[nodiscard]] PieceOrder order() const {
+    return {.corners = corners_ ? &*corners_ : nullptr,
+            .shared = shared_,
+            .bounds = has_regions_ ? nullptr : &bounds_,
+            .parts = has_regions_,
+            .delaunay = options_.check_delaunay,
+            .max_listed = options_.max_listed,
+            .threads = whole_ ? threads() : 1};
+  }
+
+  template <class Work>
+  void for_each_piece(const Work& work) const {
+    // A size field is not for several threads.
+    in_turns(pieces_.count, options_.size != nullptr ? 1 : threads(), [&](std::size_t k) {
+      pieces_.with_piece(k, [&](const Mesh& piece) {
+        if (whole_) return work(NamedMesh(piece), k);
+        require_numbers(piece, k);
+        work(NamedMesh(piece, static_cast<std::int32_t>(k)), k);
+      });
+    });
+  }
+
+  [[nodiscard]] std::size_t threads() const { return std::max<std::size_t>(options_.threads, 1); }
+
+  // ---- The whole -----------------------------------------------------------------------------------------------
+
+  void join_pieces() {
+    std::set<std::int32_t> subdomains;
+    for (PieceReport& piece : found_) {
+      findings_.append(piece.findings);
+      computable_ = computable_ && piece.computable;
+      report_.triangles += piece.triangles;
+      report_.points += piece.points;
+      used_points_ += piece.used_inside;
+      subdomains.merge(piece.subdomains);
+      interfaces_.add(piece.interfaces);
+      measures_.add(piece.measures);
     }
+    report_.subdomains = subdomains.size();
+    report_.subsegments_listed = report_.triangles == 0 || std::ranges::any_of(found_, [](const PieceReport& piece) {
+                                   return piece.has_subsegments;
+                                 });
+    report_.pieces = whole_ ? 0 : pieces_.count;
+    if (computable_) make_frame();
+    report_.unused_points = report_.points - used_points_;
+  }
+
+  void make_frame() {
+    if (whole_)
+      frame_ = std::move(found_[0].frame);
+    else
+      join_frames_of_pieces();
+    report_.subsegments = frame_.mesh.edges.size();
+    Findings of_arrays(options_.max_listed);  // points whose numbers are the same become one
+    computable_ = check_arrays(frame_.named(), of_arrays);
+    findings_.append(of_arrays);
+    if (!computable_) return;
+    table_.emplace(frame_.mesh);
+    index_.emplace(frame_.mesh.points);
+    const auto counts = [&](std::int32_t v) { return frame_.marks[v] != 0 && table_->used(v); };
+    for (const std::int32_t v : frame_.marked()) used_points_ += counts(v) ? 1 : 0;
+    check_duplicates(
+        frame_.named(), counts, [](std::int32_t) { return true; }, *index_, findings_);
+  }
+
+  void join_frames_of_pieces() {
+    const PieceNumbers numbers(found_);
+    report_.points = numbers.points();
+    numbers.check_largest(findings_);
+    std::vector<Frame> frames;
+    for (PieceReport& piece : found_) frames.push_back(std::move(piece.frame));
+    MergeFaults faults;
+    frame_ = join_frames(frames, faults);
+    for (std::size_t i = 0; i < faults.count; ++i)
+      findings_.add(Flaw::pieces_disagree, [&] { return i < faults.first.size() ? faults.first[i] : "..."; });
+    numbers.check_gaps(findings_);
   }
 
   void check_triangulation() {
-    subsegments_.emplace(mesh_.points.size(),
-                         report_.subsegments_listed ? mesh_.edges : boundary_edges(mesh_, *corners_));
-    const LocalCheck local = check_locally();
-    findings_.append(local.findings());
-    check_subsegments(mesh_, *subsegments_, findings_);
-    check_embedding(mesh_, local.boundary(), findings_);
-    report_.boundary_edges = local.boundary().size();
-    note_interfaces(local.interfaces());
-    corners_.reset();
+    const std::vector<std::int32_t> hubs = frame_.marked();
+    subsegments_.emplace(frame_.mesh.points.size(),
+                         report_.subsegments_listed ? frame_.mesh.edges : boundary_edges(frame_.mesh, *table_, hubs));
+    if (has_regions_) parts_.emplace(parts_of_frame(frame_));
+    FanCheck fans(frame_.named(), *table_, *subsegments_, options_.check_delaunay, options_.max_listed);
+    fans.check(hubs, parts_ ? &*parts_ : nullptr);
+    findings_.append(fans.findings());
+    findings_.append(fans.edges().findings());
+    check_subsegments(frame_.named(), *subsegments_, findings_);
+    check_embedding(frame_.named(), fans.boundary(), findings_);
+    report_.boundary_edges = fans.boundary().size();
+    interfaces_.add(fans.edges().interfaces());
+    note_interfaces();
   }
 
-  /// Joining triangles is not for several threads.
-  LocalCheck check_locally() {
-    const std::size_t threads = parts_ ? 1 : std::max<std::size_t>(options_.threads, 1);
-    std::vector<LocalCheck> checks(threads, {mesh_, *corners_, *subsegments_, options_.max_listed});
-    in_parts(mesh_.triangles.size(), threads, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      checks[part].check_orientations(begin, end);
-    });
-    in_parts(mesh_.points.size(), threads, [&](std::size_t part, std::size_t begin, std::size_t end) {
-      checks[part].check_vertices(begin, end, parts_ ? &*parts_ : nullptr, options_.check_delaunay);
-    });
-    for (std::size_t part = 1; part < threads; ++part) checks[0].append(checks[part]);
-    return std::move(checks[0]);
-  }
-
-  void note_interfaces(const Interfaces& interfaces) {
-    std::vector<std::int32_t> subdomains = mesh_.subdomains;
-    subdomains.erase(std::unique(subdomains.begin(), subdomains.end()), subdomains.end());
-    report_.subdomains = std::set(subdomains.begin(), subdomains.end()).size();
-    report_.interfaces = interfaces.subdomains.size();
-    report_.interface_edges = interfaces.edges;
-    report_.interface_edges_not_delaunay = interfaces.not_delaunay;
-    report_.rank_interface_edges = interfaces.between_ranks;
+  void note_interfaces() {
+    report_.interfaces = interfaces_.subdomains.size();
+    report_.interface_edges = interfaces_.edges;
+    report_.interface_edges_not_delaunay = interfaces_.not_delaunay;
+    report_.rank_interface_edges = interfaces_.between_ranks;
   }
 
   void check_against_domain() {
     const Chains chains = make_chains();
-    if (!domain_) return take_quality(chains, {});
-    DomainCheck against(mesh_, *domain_, points_, chains, findings_);
+    if (!domain_) return take_quality(chains);
+    DomainCheck against(frame_.named(), *domain_, *index_, chains, findings_);
     against.check_points();
-    check_point_data(mesh_, *input_, points_, findings_);
+    check_point_data(frame_.named(), *input_, *index_, findings_);
     against.check_chains();
-    against.check_euler(static_cast<std::int64_t>(used_points_), static_cast<std::int64_t>(report_.boundary_edges));
-    if (parts_) check_regions(against);
-    const bool by_region = parts_ && options_.region_areas;
-    take_quality(chains, by_region ? RegionArea([&](std::size_t t) { return against.region_area(t); }) : RegionArea());
+    against.check_euler(static_cast<std::int64_t>(report_.triangles), static_cast<std::int64_t>(used_points_),
+                        static_cast<std::int64_t>(report_.boundary_edges));
+    if (has_regions_) check_regions(FacesOfParts(frame_, against.find_faces(*parts_)));
+    take_quality(chains);
     against.check_area(report_.area);
     report_.against_input = true;
     report_.input_area = domain_->area();
   }
 
   [[nodiscard]] Chains make_chains() const {
-    if (!domain_) return {mesh_, *subsegments_, [&](std::int32_t v) { return bends_at(mesh_, *subsegments_, v); }};
-    const std::vector<char> corner = DomainCheck::find_corners(mesh_, *domain_, points_);
-    return {mesh_, *subsegments_, [&](std::int32_t v) { return corner[v] != 0; }};
+    const Mesh& mesh = frame_.mesh;
+    if (!domain_) return {mesh, *subsegments_, [&](std::int32_t v) { return bends_at(mesh, *subsegments_, v); }};
+    const std::vector<char> corner = DomainCheck::find_corners(mesh, *domain_, *index_);
+    return {mesh, *subsegments_, [&](std::int32_t v) { return corner[v] != 0; }};
   }
 
-  void check_regions(DomainCheck& against) {
-    against.find_faces(*parts_);
-    report_.regions_listed = !mesh_.regions.empty() || mesh_.triangles.empty();
-    if (report_.regions_listed) against.check_regions();
+  // ---- The pieces once more ------------------------------------------------------------------------------------
+
+  /// Now that it is known which regions the triangles of the pieces lie in, they are measured.
+  void check_regions(const FacesOfParts& faces) {
+    std::vector<Findings> findings(pieces_.count, Findings(options_.max_listed));
+    std::vector<Measures> measures(pieces_.count);
+    std::vector<char> listed(pieces_.count);
+    for_each_piece([&](const NamedMesh& piece, std::size_t k) {
+      const std::size_t triangles = piece.mesh().triangles.size();
+      if (!whole_) found_[k].parts = check_piece(piece, order()).parts;
+      const std::vector<std::int32_t> own =
+          faces.of_triangles(whole_ ? kNone : static_cast<std::int32_t>(k), triangles, *found_[k].parts);
+      found_[k].parts.reset();
+      listed[k] = piece.mesh().regions.size() == triangles;
+      if (listed[k] != 0) driftmesh::check_regions(piece, *domain_, own, findings[k]);
+      measures[k] = measure(piece, bounds_in_regions(own), threads());
+    });
+    for (std::size_t k = 0; k < pieces_.count; ++k) measures_.add(measures[k]);
+    report_.regions_listed = std::ranges::count(listed, 0) == 0;
+    if (report_.regions_listed)
+      for (const Findings& piece : findings) findings_.append(piece);
   }
 
-  using RegionArea = std::function<double(std::size_t)>;
-  void take_quality(const Chains& chains, const RegionArea& region_area) {
-    const CheckedBounds bounds{options_.min_angle,    options_.max_area,   region_area,     options_.size,
-                               options_.size_spacing, options_.max_listed, options_.threads};
-    report_.quality = check_quality(mesh_, chains, bounds, findings_);
+  [[nodiscard]] CheckedBounds bounds_in_regions(const std::vector<std::int32_t>& faces) const {
+    CheckedBounds bounds = bounds_;
+    if (options_.region_areas)
+      bounds.region_area = [&](std::size_t t) {
+        const Pslg::Region* region = faces[t] == kNone ? nullptr : domain_->region_of(faces[t]);
+        return region != nullptr ? region->max_area : 0;
+      };
+    return bounds;
+  }
+
+  void take_quality(const Chains& chains) {
+    report_.quality = measures_.quality();
     report_.area = report_.quality.total_area;
+    Judge judge(frame_.mesh, chains, options_.min_angle, options_.max_listed);
+    for (const Suspect& suspect : measures_.suspects) judge.judge(suspect, report_.quality, findings_);
   }
 
-  const Mesh& mesh_;
+  /// Inside pieces: a mesh without other flaws has none, for it covers no place twice.
+  void list_duplicates() {
+    if (findings_.empty()) return;
+    std::vector<Findings> findings(pieces_.count, Findings(options_.max_listed));
+    for_each_piece([&](const NamedMesh& piece, std::size_t k) {
+      std::vector<char> used(piece.mesh().points.size());
+      for (const auto& triangle : piece.mesh().triangles)
+        for (const std::int32_t v : triangle) used[v] = 1;
+      const auto is_inside = [&](std::int32_t v) {
+        const auto known = std::ranges::lower_bound(frame_.mesh.numbers, piece.number(v));
+        return known == frame_.mesh.numbers.end() || *known != piece.number(v) ||
+               frame_.marks[known - frame_.mesh.numbers.begin()] == 0;
+      };
+      PointIndex index(piece.mesh().points);
+      check_duplicates(
+          piece, [&](std::int32_t v) { return used[v] != 0; }, is_inside, index, findings[k]);
+    });
+    for (const Findings& piece : findings) findings_.append(piece);
+  }
+
+  const Pieces& pieces_;
+  bool whole_;  // there is one, and it is a mesh of its own
   const Pslg* input_;
   const VerifyOptions& options_;
+  CheckedBounds bounds_;
   VerifyReport report_;
   Findings findings_;
-  PointIndex points_;  // of the mesh, by coordinates
-  std::size_t used_points_ = 0;
-  std::optional<CornerTable> corners_;
   std::optional<Domain> domain_;
-  std::optional<DisjointSets<std::int32_t>> parts_;  // triangles that subsegments do not separate, if there are regions
+  std::optional<std::string> conflict_;
+  std::optional<PointIndex> corners_;  // of the domain
+  bool has_regions_ = false;
+
+  std::vector<PieceReport> found_;
+  std::vector<std::int64_t> shared_;  // see PieceOrder
+  bool computable_ = true;
+  std::size_t used_points_ = 0;
+  Interfaces interfaces_;
+  Measures measures_;
+
+  Frame frame_;
+  std::optional<CornerTable> table_;  // of the frame
+  std::optional<PointIndex> index_;   // of the frame's marked points, by coordinates
   std::optional<Subsegments> subsegments_;
+  std::optional<DisjointSets<std::int32_t>> parts_;  // triangles that subsegments do not separate, if there are regions
 };
+
+VerifyReport verify_whole(const Mesh& mesh, const Pslg* input, const VerifyOptions& options) {
+  const Pieces one{1, [&](std::size_t, const Pieces::Show& show) { show(mesh); }};
+  return Verification(one, true, input, options).run();
+}
 
 }  // namespace
 
 VerifyReport verify(const Mesh& mesh, const VerifyOptions& options) {
-  return Verification(mesh, nullptr, options).run();
+  return verify_whole(mesh, nullptr, options);
 }
 
 VerifyReport verify(const Mesh& mesh, const Pslg& input, const VerifyOptions& options) {
-  return Verification(mesh, &input, options).run();
+  return verify_whole(mesh, &input, options);
+}
+
+VerifyReport verify_pieces(const Pieces& pieces, const Pslg* input, const VerifyOptions& options) {
+  return Verification(pieces, false, input, options).run();
 }
 
 VerifyReport verify_pieces(std::span<const Mesh> pieces, const Pslg* input, const VerifyOptions& options) {
-  MergeFaults faults;
-  const Mesh whole = merge_pieces(pieces, faults);
-  VerifyReport report = Verification(whole, input, options).run();
-  report.pieces = pieces.size();
-  for (std::size_t i = 0; i < faults.count; ++i)
-    report.findings.add(Flaw::pieces_disagree, [&] { return i < faults.first.size() ? faults.first[i] : "..."; });
-  return report;
+  const Pieces in_memory{pieces.size(), [&](std::size_t k, const Pieces::Show& show) { show(pieces[k]); }};
+  return verify_pieces(in_memory, input, options);
 }
 
 }  // namespace driftmesh

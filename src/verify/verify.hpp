@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "driftmesh/mesh.hpp"
@@ -22,7 +23,8 @@ struct VerifyOptions {
   double size_spacing = 0;
   bool check_delaunay = true;  ///< false for meshes that only need to be conforming
   std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
-  /// Used where neither a size field nor regions are involved. The report does not depend on their number.
+  /// Pieces are spread over them; of a single mesh, what involves neither a size field nor regions. The report does not
+  /// depend on their number.
   std::size_t threads = 1;
 };
 
@@ -61,7 +63,7 @@ struct VerifyReport {
 /// - areas and angles meet the bounds of `options`; see ExceptionReason for accepted exceptions, and SizeCheck for what
 ///   a size field asks for.
 /// Flaws of the mesh are reported, never thrown, whatever its arrays contain. Linear time except for the boundary,
-/// which takes O(n log n); about 55 bytes per triangle besides the mesh. Throws LimitError above 1.4 billion triangles.
+/// which takes O(n log n); about 20 bytes per triangle besides the mesh. Throws LimitError above 1.4 billion triangles.
 [[nodiscard]] VerifyReport verify(const Mesh& mesh, const VerifyOptions& options);
 
 /// Also checks the mesh against its input, which must be planar, as repair() leaves it; otherwise, that is a flaw:
@@ -74,11 +76,26 @@ struct VerifyReport {
 /// its points, with marker 1 all around.
 [[nodiscard]] VerifyReport verify(const Mesh& mesh, const Pslg& input, const VerifyOptions& options);
 
+/// A mesh in pieces, each of which is shown when it is needed.
+struct Pieces {
+  using Show = std::function<void(const Mesh&)>;
+
+  std::size_t count = 0;
+  /// Calls show with piece k, more than once if it is asked for again; threads may ask at the same time.
+  std::function<void(std::size_t k, const Show& show)> with_piece;
+};
+
 /// The same for a mesh in pieces, and checks that the pieces fit: points with the same number have the same
 /// coordinates, marker and attributes to the last bit in every piece, and no number from 0 on is missing. If the whole
 /// mesh also passes the checks above (where points in the same place with different numbers, and interior edges with
 /// one triangle, are flaws), both sides of every interface have the same points and edges. `input` may be null. Throws
 /// Error if a piece has no numbers.
+///
+/// What is inside a piece is checked in that piece alone. What is left are the triangles at points on its rim and on
+/// subsegments: those of all pieces are joined and checked as one small mesh. So memory holds as many pieces as there
+/// are threads, and all rims. A flaw may be found by another of its signs than in the joined mesh: points inside
+/// different pieces in the same place are not listed, but the pieces overlap there, which is.
+[[nodiscard]] VerifyReport verify_pieces(const Pieces& pieces, const Pslg* input, const VerifyOptions& options);
 [[nodiscard]] VerifyReport verify_pieces(std::span<const Mesh> pieces, const Pslg* input, const VerifyOptions& options);
 
 }  // namespace driftmesh

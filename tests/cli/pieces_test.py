@@ -104,6 +104,11 @@ class Pieces(unittest.TestCase):
                          says=["accepted: constrained Delaunay, conforming at 1 interfaces, covers the input",
                                "pieces         2", "points         7", "of 2 edges, 2 of these between ranks"])
 
+    def test_threads_change_nothing(self):
+        said = [self.run_program("check", "two.pvtu", "two.poly", "--threads", n) for n in ("1", "2", "0")]
+        self.assertEqual(said[0], said[1])
+        self.assertEqual(said[0], said[2])
+
     def test_the_folder_that_the_program_runs_in_does_not_matter(self):
         result = subprocess.run([PROGRAM, "check", self.folder / "two.pvtu"], cwd="/", capture_output=True, text=True,
                                 timeout=60, check=False)

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <random>
 #include <string>
+#include <utility>
 
 #include "oracles/grid_mesh.hpp"
 #include "verify/verify.hpp"
@@ -64,6 +66,32 @@ inline Mesh::Edge& subsegment(Mesh& mesh, std::int32_t a, std::int32_t b) {
 
 inline void drop_subsegment(Mesh& mesh, std::int32_t a, std::int32_t b) {
   mesh.edges.erase(mesh.edges.begin() + (&subsegment(mesh, a, b) - mesh.edges.data()));
+}
+
+/// A grid with some random damage of every kind that keeps its indices valid.
+inline Mesh randomly_damaged(std::mt19937& random) {
+  Mesh mesh = oracles::GridCase().mesh;
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  for (std::size_t left = below(12); left > 0; --left) {
+    auto& triangle = mesh.triangles[below(mesh.triangles.size())];
+    switch (below(5)) {
+      case 0:
+        std::swap(triangle[0], triangle[1]);
+        break;
+      case 1:
+        mesh.points[below(mesh.points.size())].x += 0.6;
+        break;
+      case 2:
+        drop_triangle(mesh, below(mesh.triangles.size()));
+        break;
+      case 3:
+        mesh.edges.erase(mesh.edges.begin() + static_cast<std::ptrdiff_t>(below(mesh.edges.size())));
+        break;
+      default:
+        mesh.edges.push_back({triangle[0], triangle[1], 3});
+    }
+  }
+  return mesh;
 }
 
 }  // namespace driftmesh::testing

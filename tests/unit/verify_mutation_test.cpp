@@ -202,36 +202,6 @@ TEST_CASE("a closed ring and another fan at one vertex") {
   CHECK_HAS(check(grid), Flaw::tangled_vertex);
 }
 
-namespace {
-
-/// A grid with some random damage of every kind that keeps its indices valid.
-Mesh randomly_damaged(std::mt19937& random) {
-  Mesh mesh = GridCase().mesh;
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
-  for (std::size_t left = below(12); left > 0; --left) {
-    auto& triangle = mesh.triangles[below(mesh.triangles.size())];
-    switch (below(5)) {
-      case 0:
-        std::swap(triangle[0], triangle[1]);
-        break;
-      case 1:
-        mesh.points[below(mesh.points.size())].x += 0.6;
-        break;
-      case 2:
-        drop_triangle(mesh, below(mesh.triangles.size()));
-        break;
-      case 3:
-        mesh.edges.erase(mesh.edges.begin() + static_cast<std::ptrdiff_t>(below(mesh.edges.size())));
-        break;
-      default:
-        mesh.edges.push_back({triangle[0], triangle[1], 3});
-    }
-  }
-  return mesh;
-}
-
-}  // namespace
-
 TEST_CASE("the report does not depend on the number of threads") {
   std::mt19937 random(5);
   for (int round = 0; round < 60; ++round) {

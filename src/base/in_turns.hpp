@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <future>
+#include <vector>
+
+namespace driftmesh {
+
+/// Calls work(i) for all i below `count` on up to `threads` threads, this one among them, each of which takes the next
+/// when it is done with one. Returns when all are done; throws what one of those that fail throws.
+template <class Work>
+void in_turns(std::size_t count, std::size_t threads, const Work& work) {
+  std::atomic<std::size_t> next = 0;
+  const auto take_turns = [&] {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      next = count;
+      throw;
+    }
+  };
+  std::vector<std::future<void>> others;
+  for (std::size_t other = 1; other < std::min(count, threads); ++other)
+    others.push_back(std::async(std::launch::async | std::launch::deferred, take_turns));
+  take_turns();
+  for (std::future<void>& other : others) other.get();
+}
+
+}  // namespace driftmesh

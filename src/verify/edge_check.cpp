@@ -1,0 +1,56 @@
+#include "verify/edge_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "geometry/predicates.hpp"
+
+namespace driftmesh {
+
+void Interfaces::add(const Interfaces& others) {
+  edges += others.edges;
+  not_delaunay += others.not_delaunay;
+  between_ranks += others.between_ranks;
+  subdomains.insert(others.subdomains.begin(), others.subdomains.end());
+}
+
+void EdgeCheck::check(std::int32_t u, std::int32_t v, const Side& left, const Side& right) {
+  if (is_interface(left, right))
+    note_interface(left, right, is_delaunay(u, v, left.apex, right.apex));
+  else if (delaunay_ && !is_delaunay(u, v, left.apex, right.apex))
+    report(u, v, left, right);
+}
+
+void EdgeCheck::append(const EdgeCheck& later) {
+  findings_.append(later.findings_);
+  interfaces_.add(later.interfaces_);
+}
+
+// The circumcircle test says nothing about an inverted triangle, which is a flaw of its own.
+bool EdgeCheck::is_delaunay(std::int32_t u, std::int32_t v, std::int32_t p, std::int32_t q) const {
+  return !(incircle(at(u), at(v), at(p), at(q)) > 0) || !(orient2d(at(u), at(v), at(p)) > 0) ||
+         !(orient2d(at(v), at(u), at(q)) > 0);
+}
+
+void EdgeCheck::note_interface(const Side& left, const Side& right, bool is_delaunay) {
+  ++interfaces_.edges;
+  interfaces_.not_delaunay += is_delaunay ? 0 : 1;
+  if (!mesh_.ranks.empty())
+    interfaces_.between_ranks += mesh_.ranks[left.triangle] != mesh_.ranks[right.triangle] ? 1 : 0;
+  const auto [low, high] = std::minmax(mesh_.subdomains[left.triangle], mesh_.subdomains[right.triangle]);
+  interfaces_.subdomains.emplace(low, high);
+}
+
+void EdgeCheck::report(std::int32_t u, std::int32_t v, const Side& left, const Side& right) {
+  const double inside = incircle(at(u), at(v), at(left.apex), at(right.apex));
+  findings_.add(Flaw::not_delaunay, [&] {
+    return edge_words(names_, u, v) +
+           fmt::format(" between {} and {}: ", triangle_words(names_, left.triangle),
+                       triangle_words(names_, right.triangle)) +
+           fmt::format("{} lies inside the circumcircle of the first (incircle {}, expected <= 0)",
+                       point_words(names_, right.apex), inside);
+  });
+}
+
+}  // namespace driftmesh

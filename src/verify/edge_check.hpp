@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <utility>
+
+#include "driftmesh/mesh.hpp"
+#include "verify/findings.hpp"
+#include "verify/words.hpp"
+
+namespace driftmesh {
+
+/// The edges between triangles of different subdomains, which count as constrained.
+struct Interfaces {
+  std::size_t edges = 0;          ///< that are no subsegments
+  std::size_t not_delaunay = 0;   ///< of these: Delaunay only because they count as constrained
+  std::size_t between_ranks = 0;  ///< of these: the subdomains' ranks differ
+  std::set<std::pair<std::int32_t, std::int32_t>> subdomains;  ///< the pairs of subdomains that meet
+
+  void add(const Interfaces& others);
+};
+
+/// Checks edges between two triangles that are no subsegments: those between subdomains are counted, all others must be
+/// locally Delaunay (exact).
+class EdgeCheck {
+ public:
+  EdgeCheck(const NamedMesh& mesh, bool delaunay, std::size_t max_listed)
+      : names_(mesh), mesh_(mesh.mesh()), delaunay_(delaunay), findings_(max_listed) {}
+
+  /// The triangle on one side of an edge and its corner opposite.
+  struct Side {
+    std::int32_t triangle = 0;
+    std::int32_t apex = 0;
+  };
+  /// The edge from u to v.
+  void check(std::int32_t u, std::int32_t v, const Side& left, const Side& right);
+  /// The same for an edge that is known to be locally Delaunay.
+  void count(const Side& left, const Side& right) {
+    if (is_interface(left, right)) note_interface(left, right, true);
+  }
+  /// Adds what was found at later edges.
+  void append(const EdgeCheck& later);
+
+  [[nodiscard]] const Findings& findings() const { return findings_; }
+  [[nodiscard]] const Interfaces& interfaces() const { return interfaces_; }
+
+ private:
+  [[nodiscard]] bool is_interface(const Side& left, const Side& right) const {
+    return !mesh_.subdomains.empty() && mesh_.subdomains[left.triangle] != mesh_.subdomains[right.triangle];
+  }
+  [[nodiscard]] bool is_delaunay(std::int32_t u, std::int32_t v, std::int32_t p, std::int32_t q) const;
+  void note_interface(const Side& left, const Side& right, bool is_delaunay);
+  void report(std::int32_t u, std::int32_t v, const Side& left, const Side& right);
+  [[nodiscard]] const Point& at(std::int32_t point) const { return mesh_.points[point]; }
+
+  NamedMesh names_;
+  const Mesh& mesh_;
+  bool delaunay_;
+  Findings findings_;
+  Interfaces interfaces_;
+};
+
+}  // namespace driftmesh
