@@ -115,7 +115,10 @@ void check_cluster(const Request& request) {
           "cannot be combined with cluster.groups, which have their own speeds", "remove one of them");
   require(c.groups.empty() || c.ranks == 0 || c.ranks == ranks_of(cluster_of(request)), "cluster.ranks",
           "differs from the number of ranks in cluster.groups", "remove one of them");
-  require(!c.groups.empty() || c.ranks > 0, "cluster.ranks", "is 0", "give the number of ranks, or cluster.groups");
+  require(c.rank_speeds.empty() || (c.groups.empty() && c.ranks == 0 && c.speed == 0), "cluster.rank-speeds",
+          "cannot be combined with cluster.ranks, cluster.speed or cluster.groups", "remove one of them");
+  require(!c.groups.empty() || !c.rank_speeds.empty() || c.ranks > 0, "cluster.ranks", "is 0",
+          "give the number of ranks, cluster.groups, or cluster.rank-speeds");
 }
 
 }  // namespace
@@ -184,6 +187,7 @@ ClusterSpec cluster_of(const Request& request) {
   const Request::Cluster& c = request.cluster;
   ClusterSpec cluster;
   cluster.groups = c.groups;
+  for (const double speed : c.rank_speeds) cluster.groups.push_back({"", 1, speed});
   if (cluster.groups.empty()) cluster.groups = {{"all", c.ranks, c.speed}};
   cluster.drag = IdVector<Rank, double>(c.drag);
   cluster.latency = c.latency;

@@ -77,6 +77,7 @@ struct Request {
     std::int32_t ranks = 0;
     double speed = 0;  ///< 0: that of the reference machine
     std::vector<RankGroup> groups;
+    std::vector<double> rank_speeds;
     std::vector<double> drag;
     double latency = ClusterSpec{}.latency;
     double bandwidth = ClusterSpec{}.bandwidth;

@@ -77,6 +77,7 @@ TEST_CASE("contradictory values are rejected") {
   CHECK(refused(kRanks, [](Request& r) { r.mapping.speeds = {1}, r.mapping.by_speed = true; }) == "mapping.by-speed");
   CHECK(refused(kSimulated, [](Request& r) { r.cluster.ranks = 0; }) == "cluster.ranks");
   CHECK(refused(kSimulated, [](Request& r) { r.cluster.drag = {1, 1}; }) == "cluster.drag");
+  CHECK(refused(kSimulated, [](Request& r) { r.cluster.rank_speeds = {1e6, 2e6}; }) == "cluster.rank-speeds");
 }
 
 TEST_CASE("the place of a mesh follows from the entry point and the request") {
