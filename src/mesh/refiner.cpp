@@ -22,6 +22,8 @@ namespace {
 constexpr double kFinePerCoarse = 256;
 constexpr double kFinePerBlock = 65536;
 
+constexpr std::int32_t kFetchAhead = 6;  // slots, see fetch_surroundings
+
 double radians(double degrees) {
   return degrees * (std::numbers::pi / 180);
 }
@@ -227,11 +229,23 @@ bool Refiner::step_segments() {
   return true;
 }
 
+/// Has the processor fetch what an insertion into the triangle in slot t would read first. The sweep knows some slots
+/// ahead where it will go, and the insertions in between give memory the time to answer. Always inlined, since gcc
+/// drops calls of a function that does nothing but prefetch.
+[[gnu::always_inline]] inline void Refiner::fetch_surroundings(TriangleId t) const {
+  if (!mesh_.triangles.has(t) || !mesh_.triangles[t].alive()) return;
+  const Triangle& triangle = mesh_.triangles[t];
+  for (const VertexId v : triangle.vertex) __builtin_prefetch(&mesh_.points[v]);
+  for (const HalfEdge h : triangle.neighbor)
+    if (!is_constrained(h)) __builtin_prefetch(&mesh_.triangles[triangle_of(h)]);
+}
+
 /// Sweeps on to the next triangle that is too large, and inserts its circumcenter. False at the end of the block.
 bool Refiner::step_large() {
   for (;;) {
     const TriangleId t = state_.sweep.current(to_int(mesh_.triangles.next_id()));
     if (t == kNone) return false;
+    fetch_surroundings(TriangleId{to_int(t) + kFetchAhead});
     if (mesh_.triangles[t].alive()) [[likely]] {
       const double twice = twice_area(t);
       if (is_large(t, twice)) {

@@ -86,6 +86,7 @@ class Refiner {
 
   bool step();
   bool step_segments();
+  void fetch_surroundings(TriangleId t) const;
   bool step_large();
   bool step_skinny();
   void enter(Stage stage);
