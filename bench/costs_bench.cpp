@@ -7,6 +7,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -38,14 +39,34 @@ struct Costs {
   double bytes = 0, pack_seconds = 0, unpack_seconds = 0;
 };
 
-RunPlan plan_of(const Pslg& pslg, double area, std::int32_t subdomains) {
-  Triangulation mesh = triangulate(pslg);
-  prepare_corners(mesh);
-  const QualityBounds bounds{20, area, {}, nullptr};
+struct Domain {
+  Triangulation mesh;
   DecomposeOptions cutting;
-  cutting.subdomains = subdomains;
-  cutting.bounds = bounds;
-  return plan_run(decompose_for(mesh, cutting, 1), bounds, {});
+};
+
+Domain domain_of(const Pslg& pslg, double area, std::int32_t subdomains) {
+  Domain domain{triangulate(pslg), {}};
+  prepare_corners(domain.mesh);
+  domain.cutting.subdomains = subdomains;
+  domain.cutting.bounds = {20, area, {}, nullptr};
+  return domain;
+}
+
+RunPlan plan_of(const Pslg& pslg, double area, std::int32_t subdomains) {
+  const Domain domain = domain_of(pslg, area, subdomains);
+  return plan_run(decompose(domain.mesh, domain.cutting), domain.cutting.bounds, {});
+}
+
+/// Seconds for each subdomain and halving.
+double cost_of_cutting(std::int32_t subdomains, int repetitions) {
+  const Domain domain = domain_of(generate_pipe({}), 1e-3, subdomains);
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < repetitions; ++i) {
+    const double begin = thread_seconds();
+    static_cast<void>(decompose(domain.mesh, domain.cutting));
+    best = std::min(best, thread_seconds() - begin);
+  }
+  return best / (subdomains * std::log2(subdomains));
 }
 
 Costs measure(const RunPlan& plan) {
@@ -140,6 +161,9 @@ int main(int argc, char** argv) {
         "three: of pipe, 200)\n",
         y1 - slope * x1, slope, all[1].refine_seconds / all[1].points, all[1].pack_seconds / all[1].bytes,
         all[1].unpack_seconds / all[1].bytes);
+    std::printf("cut %.3g with 2,880 subdomains, %.3g with 20,480, %.3g with 100,000\n",
+                cost_of_cutting(2'880, repetitions), cost_of_cutting(20'480, repetitions),
+                cost_of_cutting(100'000, repetitions));
   } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -55,6 +55,8 @@ Cells all_cells(const Row& row, std::optional<double> recovered) {
   add("ideal_seconds", row.ideal_seconds);
   add("triangles_per_second", row.rate);
   add("efficiency", row.efficiency);
+  add("cutting_seconds", row.cutting);
+  add("efficiency_with_cutting", row.efficiency_with_cutting);
   cells.emplace_back("recovered", recovered ? fmt::format("{}", *recovered) : "");
   add("computing", row.times.computing);
   add("sending", row.times.sending);
@@ -122,8 +124,14 @@ void ExperimentTable::add(const ExperimentRun& run) {
   row.ideal_seconds = ideal_seconds(run.outcome, run.speeds);
   row.rate = static_cast<double>(row.triangles) / row.seconds;
   const double for_speed = row.rate / std::accumulate(run.speeds.begin(), run.speeds.end(), 0.0);
-  if (rows_.empty()) first_rate_ = for_speed;
+  row.cutting = run.outcome.cutting;
+  const double with_cutting = for_speed * row.seconds / (row.seconds + row.cutting);
+  if (rows_.empty()) {
+    first_rate_ = for_speed;
+    first_rate_with_cutting_ = with_cutting;
+  }
   row.efficiency = for_speed / first_rate_;
+  row.efficiency_with_cutting = with_cutting / first_rate_with_cutting_;
   row.times = shares_of(run.outcome);
   for (const RankOutcome& rank : run.outcome.ranks) {
     row.splits += rank.counters.splits_sent;

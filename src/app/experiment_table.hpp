@@ -27,10 +27,12 @@ class ExperimentTable {
     std::size_t ranks = 0, subdomains = 0;
     std::int64_t triangles = 0;
     double seconds = 0;
-    double ideal_seconds = 0;  ///< if every rank computed from start to end
-    double rate = 0;           ///< triangles per second
-    double efficiency = 0;     ///< rate relative to the cluster's speed, normalized by the first run
-    RankTimes times;           ///< of all ranks together, as fractions of ranks x seconds
+    double ideal_seconds = 0;            ///< if every rank computed from start to end
+    double rate = 0;                     ///< triangles per second
+    double efficiency = 0;               ///< rate relative to the cluster's speed, normalized by the first run
+    double cutting = 0;                  ///< seconds before these, in which rank 0 cuts the domain
+    double efficiency_with_cutting = 0;  ///< the same of both times together
+    RankTimes times;                     ///< of all ranks together, as fractions of ranks x seconds
     std::int64_t splits = 0, split_messages = 0, hand_offs = 0, hand_off_bytes = 0;
     std::uint64_t messages = 0, message_bytes = 0;
   };
@@ -43,6 +45,7 @@ class ExperimentTable {
  private:
   std::vector<Row> rows_;
   double first_rate_ = 0;  // relative to the cluster's speed
+  double first_rate_with_cutting_ = 0;
 };
 
 }  // namespace driftmesh::app

@@ -37,6 +37,7 @@ struct MoveRecord {
 /// Results of a run on a real or simulated cluster.
 struct ClusterRun {
   double makespan = 0;  ///< seconds from the start until the last rank knows that all work is done
+  double cutting = 0;   ///< seconds before the start, in which rank 0 cuts the domain; only known of simulated clusters
   IdVector<Rank, RankOutcome> ranks;
   std::vector<MoveRecord> moves;       ///< in order of departure
   std::vector<LoadSample> samples;     ///< in the order of time

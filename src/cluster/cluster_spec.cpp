@@ -1,5 +1,6 @@
 #include "cluster/cluster_spec.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "driftmesh/error.hpp"
@@ -8,6 +9,11 @@ namespace driftmesh {
 
 double reference_speed(const CostModel& costs) {
   return 1.8 / costs.point;
+}
+
+double cutting_seconds(const CostModel& costs, std::size_t subdomains) {
+  const auto n = static_cast<double>(std::max<std::size_t>(subdomains, 1));
+  return costs.cut * n * std::log2(n);
 }
 
 std::int32_t ranks_of(const ClusterSpec& cluster) {

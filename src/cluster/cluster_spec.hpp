@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,6 +32,10 @@ struct ClusterSpec {
 /// With the default costs this is the speed of a core of the machine in docs/benchmarks.md, no matter which machine
 /// simulates.
 [[nodiscard]] double reference_speed(const CostModel& costs);
+
+/// Seconds that it takes to cut a domain into that many subdomains, by halving. Not a matter of the ranks' speeds,
+/// which may stand for larger meshes in the same subdomains.
+[[nodiscard]] double cutting_seconds(const CostModel& costs, std::size_t subdomains);
 
 [[nodiscard]] std::int32_t ranks_of(const ClusterSpec& cluster);
 /// The speed of each rank in triangles per second. Throws Error for a cluster without ranks, a group without ranks,

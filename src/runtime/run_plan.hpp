@@ -55,6 +55,7 @@ struct RunPlan {
 /// Costs of a rank's work on the reference machine, in seconds, used for simulated time. Measured with
 /// `driftmesh_bench_costs` (docs/benchmarks.md).
 struct CostModel {
+  double cut = 0.4e-6;          ///< of cutting the domain, per subdomain and halving that leads to it
   double start = 29e-6;         ///< of the initial triangulation of a subdomain
   double prepared = 0.17e-6;    ///< more for each of its triangles
   double point = 0.229e-6;      ///< a point inserted by refinement

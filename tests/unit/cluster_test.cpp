@@ -118,6 +118,14 @@ TEST_CASE("a rank of half the speed computes twice as long") {
   CHECK(ideal_seconds(unequal, {2, 1}) == doctest::Approx(4.0 / 3 * equal.makespan).epsilon(0.1));
 }
 
+TEST_CASE("cutting takes time in proportion to the halvings") {
+  const RunPlan plan = pipe_plan(40e3, 2, 64, Presplit::kOn);
+  CostModel costs;
+  costs.cut = 1e-3;
+  CHECK(simulate(plan, equal_ranks(2), costs).cutting == doctest::Approx(64 * 6 * 1e-3));
+  CHECK(cutting_seconds(costs, 1) == 0);
+}
+
 TEST_CASE("a slower network and costlier messages make the run longer") {
   const RunPlan plan = pipe_plan(40e3, 4, 40, Presplit::kOff);
   ClusterSpec cluster = equal_ranks(4);

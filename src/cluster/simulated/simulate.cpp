@@ -39,6 +39,7 @@ class Simulation {
              const SimulationObservers& observers)
       : network_(virtual_cluster(cluster, costs)),
         council_(balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options)),
+        cutting_(cutting_seconds(costs, plan.owners.size())),
         observers_(observers) {
     const std::int32_t ranks = ranks_of(cluster);
     require_fit(plan, ranks);
@@ -74,7 +75,9 @@ class Simulation {
       logs_[r].ends(*loops_[r]);
       if (observers_.finished) observers_.finished(*loops_[r]);
     }
-    return RankLog::join(logs_);
+    ClusterRun joined = RankLog::join(logs_);
+    joined.cutting = cutting_;
+    return joined;
   }
 
  private:
@@ -93,6 +96,7 @@ class Simulation {
 
   protocol::VirtualNetwork network_;
   std::unique_ptr<balancer::Council> council_;  // if the policy needs one
+  double cutting_;                              // seconds, on rank 0
   const SimulationObservers& observers_;
   IdVector<Rank, std::int64_t> of_rank_;  // triangles of each rank, as last reported
   std::int64_t triangles_ = 0;
