@@ -3,8 +3,8 @@
 #include <cstring>
 #include <utility>
 
+#include "base/file_bytes.hpp"
 #include "base/huge_pages.hpp"
-#include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/read_checks.hpp"
@@ -264,7 +264,8 @@ Mesh parse_vtu(const std::string& file, std::string_view bytes, std::span<const 
 }
 
 Mesh read_vtu(const std::string& path, std::span<const DeclaredArray> declared) {
-  return parse_vtu(path, read_file(path), declared);
+  const FileBytes bytes(path);
+  return parse_vtu(path, bytes.view(), declared);
 }
 
 }  // namespace driftmesh

@@ -33,9 +33,9 @@ bool EdgeCheck::is_delaunay(std::int32_t u, std::int32_t v, std::int32_t p, std:
          !(orient2d(at(v), at(u), at(q)) > 0);
 }
 
-void EdgeCheck::note_interface(const Side& left, const Side& right, bool is_delaunay) {
+void EdgeCheck::note_interface(const Side& left, const Side& right, bool delaunay) {
   ++interfaces_.edges;
-  interfaces_.not_delaunay += is_delaunay ? 0 : 1;
+  interfaces_.not_delaunay += delaunay ? 0 : 1;
   if (!mesh_.ranks.empty())
     interfaces_.between_ranks += mesh_.ranks[left.triangle] != mesh_.ranks[right.triangle] ? 1 : 0;
   const auto [low, high] = std::minmax(mesh_.subdomains[left.triangle], mesh_.subdomains[right.triangle]);

@@ -35,10 +35,6 @@ class EdgeCheck {
   };
   /// The edge from u to v.
   void check(std::int32_t u, std::int32_t v, const Side& left, const Side& right);
-  /// The same for an edge that is known to be locally Delaunay.
-  void count(const Side& left, const Side& right) {
-    if (is_interface(left, right)) note_interface(left, right, true);
-  }
   /// Adds what was found at later edges.
   void append(const EdgeCheck& later);
 
@@ -50,7 +46,7 @@ class EdgeCheck {
     return !mesh_.subdomains.empty() && mesh_.subdomains[left.triangle] != mesh_.subdomains[right.triangle];
   }
   [[nodiscard]] bool is_delaunay(std::int32_t u, std::int32_t v, std::int32_t p, std::int32_t q) const;
-  void note_interface(const Side& left, const Side& right, bool is_delaunay);
+  void note_interface(const Side& left, const Side& right, bool delaunay);
   void report(std::int32_t u, std::int32_t v, const Side& left, const Side& right);
   [[nodiscard]] const Point& at(std::int32_t point) const { return mesh_.points[point]; }
 

@@ -1,6 +1,7 @@
 #include "verify/quality.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -15,19 +16,29 @@ namespace driftmesh {
 namespace {
 
 constexpr double kSlack = 1e-9;  // relative, for rounding
+// Where products are so small against the area that is their difference, rounding changes it by less than 2e-15 of it.
+constexpr double kSharp = 4;
 constexpr long double kDegrees = 180 / std::numbers::pi_v<long double>;
 
 /// One triangle in double precision: its area and the cotangents of its angles, which fall from 0 to 180 degrees.
 struct Shape {
   double twice_area;
+  double products;  ///< the sum of the magnitudes of those that its area is the difference of
   std::array<double, 3> cotangent;
+
+  [[nodiscard]] Extremes extremes() const {
+    const auto& [a, b, c] = cotangent;
+    return {std::max(std::max(a, b), c), std::min(std::min(a, b), c), twice_area, twice_area};
+  }
 };
 
 Shape shape_of(const Point& a, const Point& b, const Point& c) {
   const double abx = b.x - a.x, aby = b.y - a.y, bcx = c.x - b.x, bcy = c.y - b.y, cax = a.x - c.x, cay = a.y - c.y;
-  const double twice_area = abx * -cay - aby * -cax;
+  const double l = abx * -cay, r = aby * -cax;
+  const double twice_area = l - r;
   const double scale = -1 / twice_area;
   return {twice_area,
+          std::fabs(l) + std::fabs(r),
           {(abx * cax + aby * cay) * scale, (abx * bcx + aby * bcy) * scale, (bcx * cax + bcy * cay) * scale}};
 }
 
@@ -51,12 +62,18 @@ class DegreeBins {
   }
 
  private:
-  static constexpr std::size_t kCells = 1024;  // so many that none holds two limits
+  // Cells are told apart by the exponent and the six leading bits of the mantissa from 2^-7 to 2^6: cotangents of whole
+  // degrees are farther apart, so that no cell holds two limits.
+  static constexpr int kDropped = 46;  // bits
+  static constexpr std::int64_t kLowest = std::bit_cast<std::int64_t>(0x1p-7) >> kDropped;
+  static constexpr std::int64_t kHalf = (std::bit_cast<std::int64_t>(0x1p6) >> kDropped) - kLowest;
+  static constexpr std::size_t kCells = 2 * kHalf;
 
   /// Rises with the cotangent; that of a triangle without area, which is not a number, counts as the largest.
   static std::size_t cell_of(double cotangent) {
-    const double bounded = cotangent < 1e6 ? std::max(cotangent, -1e6) : 1e6;
-    return static_cast<std::size_t>((1 + bounded / (1 + std::fabs(bounded))) * (kCells / 2.0));
+    const std::int64_t leading = std::bit_cast<std::int64_t>(std::fabs(cotangent)) >> kDropped;
+    const std::int64_t size = std::clamp<std::int64_t>(leading - kLowest, 0, kHalf - 1);
+    return static_cast<std::size_t>(cotangent < 0 ? kHalf - 1 - size : kHalf + size);
   }
 
   std::array<double, 180> limits_{};          // falling; the last is none, so that nothing passes it
@@ -73,12 +90,30 @@ class Measurement {
       sure_cotangent_ = static_cast<double>(1 / std::tan(static_cast<long double>(bounds.min_angle) / kDegrees));
   }
 
-  void take(std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) take(t);
+  /// Sums of areas are those of the same blocks whichever thread takes them.
+  static constexpr std::size_t kBlock = 256;
+
+  void take_block(std::size_t block) {
+    const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, mesh_.triangles.size());
+    Extremes all;
+    long double twice_area = 0;
+    double products = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const Shape shape = shape_of(t);
+      for (std::size_t k = 0; k < 3; ++k) ++angles_[k][bins_.bin(shape.cotangent[k])];
+      all.add(shape.extremes());
+      twice_area += shape.twice_area;
+      products += shape.products;
+    }
+    measures_.twice_area.add(products <= kSharp * std::fabs(twice_area) ? twice_area : exact_area(begin, end));
+    if (!is_ordinary(all))
+      for (std::size_t t = begin; t < end; ++t) look_at(t);
   }
 
   Measures finish() {
     Quality& quality = measures_.shapes;
+    for (const auto& of_corner : angles_)
+      for (std::size_t d = 0; d < of_corner.size(); ++d) quality.angles[d] += of_corner[d];
     if (quality.smallest_angle_triangle >= 0) {
       quality.smallest_angle = angles_of(quality.smallest_angle_triangle).front();
       quality.largest_angle = angles_of(quality.largest_angle_triangle).back();
@@ -100,34 +135,43 @@ class Measurement {
     return angles;
   }
 
-  void take(std::size_t t) {
+  [[nodiscard]] Shape shape_of(std::size_t t) const {
     const auto [a, b, c] = corners(t);
-    measures_.twice_area.add(cross_extended(a, b, c));
-    const Shape shape = shape_of(a, b, c);
-    take_angles(t, shape);
-    take_area(t, shape.twice_area);
+    return driftmesh::shape_of(a, b, c);
   }
 
-  void take_angles(std::size_t t, const Shape& shape) {
-    for (const double cotangent : shape.cotangent) ++measures_.shapes.angles[bins_.bin(cotangent)];
-    const auto [least, most] = std::minmax({shape.cotangent[0], shape.cotangent[1], shape.cotangent[2]});
-    if (most > measures_.largest_cotangent) {
-      measures_.largest_cotangent = most;
-      measures_.shapes.smallest_angle_triangle = static_cast<std::int32_t>(t);
-    }
-    if (least < measures_.smallest_cotangent) {
-      measures_.smallest_cotangent = least;
-      measures_.shapes.largest_angle_triangle = static_cast<std::int32_t>(t);
-    }
-    if (!(most <= sure_cotangent_)) check_small_angle(t);
+  /// Whether there is nothing to find among triangles with these extremes: neither a new extreme nor a suspect.
+  [[nodiscard]] bool is_ordinary(const Extremes& all) const {
+    const Extremes& known = measures_.extremes;
+    return all.smallest_twice_area > 0 && all.largest_cotangent <= std::min(known.largest_cotangent, sure_cotangent_) &&
+           all.smallest_cotangent >= known.smallest_cotangent && all.smallest_twice_area >= known.smallest_twice_area &&
+           all.largest_twice_area <= known.largest_twice_area &&
+           (bounds_.max_area == 0 || all.largest_twice_area <= 2 * bounds_.max_area) && !bounds_.region_area && !size_;
   }
 
-  void take_area(std::size_t t, double twice_area) {
-    measures_.smallest_twice_area = std::min(measures_.smallest_twice_area, twice_area);
-    if (twice_area > measures_.largest_twice_area) {
-      measures_.largest_twice_area = twice_area;
-      measures_.shapes.largest_area_triangle = static_cast<std::int32_t>(t);
+  void look_at(std::size_t t) {
+    const Shape shape = shape_of(t);
+    const Extremes before = measures_.extremes;
+    Extremes& now = measures_.extremes;
+    now.add(shape.extremes());
+    const auto number = static_cast<std::int32_t>(t);
+    if (now.largest_cotangent > before.largest_cotangent) measures_.shapes.smallest_angle_triangle = number;
+    if (now.smallest_cotangent < before.smallest_cotangent) measures_.shapes.largest_angle_triangle = number;
+    if (now.largest_twice_area > before.largest_twice_area) measures_.shapes.largest_area_triangle = number;
+    if (!(shape.twice_area > 0 && shape.extremes().largest_cotangent <= sure_cotangent_)) check_small_angle(t);
+    check_area(t, shape.twice_area);
+  }
+
+  [[nodiscard]] long double exact_area(std::size_t begin, std::size_t end) const {
+    CompensatedSum twice_area;
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto [a, b, c] = corners(t);
+      twice_area.add(cross_extended(a, b, c));
     }
+    return twice_area.value();
+  }
+
+  void check_area(std::size_t t, double twice_area) {
     const double bound = area_bound(t);
     if (twice_area > 2 * bound)
       check_large_area(t, bound);
@@ -172,6 +216,7 @@ class Measurement {
   const CheckedBounds& bounds_;
   std::optional<SizeCheck> size_;
   const DegreeBins bins_;
+  std::array<std::array<std::uint64_t, 180>, 3> angles_{};  // by corner, so that counts seldom wait for each other
   Measures measures_;
   long double max_ratio_ = 0;
   double sure_cotangent_ = std::numeric_limits<double>::infinity();
@@ -183,30 +228,26 @@ void Measures::add(const Measures& later) {
   const Quality& other = later.shapes;
   twice_area.add(later.twice_area);
   for (std::size_t d = 0; d < shapes.angles.size(); ++d) shapes.angles[d] += other.angles[d];
-  if (later.largest_cotangent > largest_cotangent) {
-    largest_cotangent = later.largest_cotangent;
+  if (later.extremes.largest_cotangent > extremes.largest_cotangent) {
     shapes.smallest_angle = other.smallest_angle;
     shapes.smallest_angle_triangle = other.smallest_angle_triangle;
   }
-  if (later.smallest_cotangent < smallest_cotangent) {
-    smallest_cotangent = later.smallest_cotangent;
+  if (later.extremes.smallest_cotangent < extremes.smallest_cotangent) {
     shapes.largest_angle = other.largest_angle;
     shapes.largest_angle_triangle = other.largest_angle_triangle;
   }
-  smallest_twice_area = std::min(smallest_twice_area, later.smallest_twice_area);
-  if (later.largest_twice_area > largest_twice_area) {
-    largest_twice_area = later.largest_twice_area;
+  if (later.extremes.largest_twice_area > extremes.largest_twice_area)
     shapes.largest_area_triangle = other.largest_area_triangle;
-  }
+  extremes.add(later.extremes);
   suspects.insert(suspects.end(), later.suspects.begin(), later.suspects.end());
 }
 
 Quality Measures::quality() const {
   Quality quality = shapes;
-  const bool any = smallest_twice_area <= largest_twice_area;
+  const bool any = extremes.smallest_twice_area <= extremes.largest_twice_area;
   quality.total_area = twice_area.value() / 2;
-  quality.smallest_area = any ? smallest_twice_area / 2 : 0;
-  quality.largest_area = any ? largest_twice_area / 2 : 0;
+  quality.smallest_area = any ? extremes.smallest_twice_area / 2 : 0;
+  quality.largest_area = any ? extremes.largest_twice_area / 2 : 0;
   return quality;
 }
 
@@ -214,9 +255,10 @@ Measures measure(const NamedMesh& mesh, const CheckedBounds& bounds, std::size_t
   // Neither size fields nor the search for a region are for several threads.
   const std::size_t parts = bounds.size != nullptr || bounds.region_area ? 1 : threads;
   std::vector<Measures> measures(parts);
-  in_parts(mesh.mesh().triangles.size(), parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+  const std::size_t blocks = (mesh.mesh().triangles.size() + Measurement::kBlock - 1) / Measurement::kBlock;
+  in_parts(blocks, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
     Measurement measurement(mesh, bounds);
-    measurement.take(begin, end);
+    for (std::size_t block = begin; block < end; ++block) measurement.take_block(block);
     measures[part] = measurement.finish();
   });
   for (std::size_t part = 1; part < parts; ++part) measures[0].add(measures[part]);

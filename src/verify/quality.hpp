@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -69,14 +70,26 @@ struct Suspect {
   Point at{};        ///< where that is
 };
 
-/// What was measured at some triangles.
-struct Measures {
-  Quality shapes;  ///< without areas and exceptions
-  CompensatedSum twice_area;
+/// The extremes of some triangles.
+struct Extremes {
   double largest_cotangent = -std::numeric_limits<double>::infinity();
   double smallest_cotangent = std::numeric_limits<double>::infinity();
   double smallest_twice_area = std::numeric_limits<double>::infinity();
   double largest_twice_area = -std::numeric_limits<double>::infinity();
+
+  void add(const Extremes& other) {
+    largest_cotangent = std::max(largest_cotangent, other.largest_cotangent);
+    smallest_cotangent = std::min(smallest_cotangent, other.smallest_cotangent);
+    smallest_twice_area = std::min(smallest_twice_area, other.smallest_twice_area);
+    largest_twice_area = std::max(largest_twice_area, other.largest_twice_area);
+  }
+};
+
+/// What was measured at some triangles.
+struct Measures {
+  Quality shapes;  ///< without areas and exceptions
+  CompensatedSum twice_area;
+  Extremes extremes;
   std::vector<Suspect> suspects;
 
   /// Adds what was measured at later triangles.

@@ -1,5 +1,6 @@
 #include "verify/ring_check.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "geometry/predicates.hpp"
@@ -22,51 +23,61 @@ void RingCheck::check(std::size_t begin, std::size_t end, DisjointSets<std::int3
 }
 
 void RingCheck::check_hub(std::int32_t hub) {
-  if (!ring_.gather(mesh_, corners_.around(hub))) {
+  if (!ring_.gather(mesh_, hub, corners_.around(hub))) {
     marks_[hub] = 1;
     return;
   }
-  measure_ring(hub);
-  const std::size_t n = ring_.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::int32_t v = ring_.neighbor(i);
-    if (!is_lower(hub, v)) continue;
-    const std::size_t before = i == 0 ? n - 1 : i - 1, after = i + 1 == n ? 0 : i + 1;
-    const EdgeCheck::Side left{ring_.triangle(i), ring_.neighbor(after)};
-    const EdgeCheck::Side right{ring_.triangle(before), ring_.neighbor(before)};
-    if (surely_delaunay(before, i, after))
-      edges_.count(left, right);
-    else
-      edges_.check(hub, v, left, right);
-    if (parts_ != nullptr) parts_->join(left.triangle, right.triangle);
-  }
+  const bool sure =
+      ring_.size() <= Ring::kUsual ? surely_delaunay<Ring::kUsual>(hub) : surely_delaunay<Ring::kMost>(hub);
+  if (sure && parts_ == nullptr && in_one_subdomain()) return;
+  for (std::size_t i = 1; i <= ring_.size(); ++i)
+    if (is_lower(hub, ring_.neighbor(i))) check_edge(hub, i);
 }
 
-void RingCheck::measure_ring(std::int32_t hub) {
+bool RingCheck::in_one_subdomain() const {
+  if (mesh_.subdomains.empty()) return true;
+  bool same = true;
+  for (std::size_t i = 1; i < ring_.size(); ++i)
+    same &= mesh_.subdomains[ring_.triangle(i)] == mesh_.subdomains[ring_.triangle(0)];
+  return same;
+}
+
+void RingCheck::check_edge(std::int32_t hub, std::size_t i) {
+  const EdgeCheck::Side left{ring_.triangle(i), ring_.neighbor(i + 1)};
+  const EdgeCheck::Side right{ring_.triangle(i - 1), ring_.neighbor(i - 1)};
+  edges_.check(hub, ring_.neighbor(i), left, right);
+  if (parts_ != nullptr) parts_->join(left.triangle, right.triangle);
+}
+
+// Of all edges around the hub: incircle(neighbor before, neighbor, neighbor after, hub), which is not negative if the
+// edge from the hub to the neighbor is locally Delaunay. The operations and the bound on their rounding are those of
+// incircle, but what edges have in common is computed once. Places behind the last neighbor, which hold the hub, give 0
+// >= 0.
+template <std::size_t Most>
+bool RingCheck::surely_delaunay(std::int32_t hub) const {
   const Point& o = mesh_.points[hub];
-  const std::size_t n = ring_.size();
-  for (std::size_t i = 0; i < n; ++i) {
+  std::array<double, Most + 2> x, y, lift, cross, permanent;
+  for (std::size_t i = 0; i < Most + 2; ++i) {
     const Point& p = mesh_.points[ring_.neighbor(i)];
-    x_[i] = p.x - o.x;
-    y_[i] = p.y - o.y;
-    lift_[i] = x_[i] * x_[i] + y_[i] * y_[i];
+    x[i] = p.x - o.x;
+    y[i] = p.y - o.y;
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t after = i + 1 == n ? 0 : i + 1;
-    const double l = x_[i] * y_[after], r = x_[after] * y_[i];
-    cross_[i] = l - r;
-    permanent_[i] = std::fabs(l) + std::fabs(r);
+  for (std::size_t i = 0; i < Most + 2; ++i) lift[i] = x[i] * x[i] + y[i] * y[i];
+  for (std::size_t i = 0; i < Most + 1; ++i) {
+    const double l = x[i] * y[i + 1], r = x[i + 1] * y[i];
+    cross[i] = l - r;
+    permanent[i] = std::fabs(l) + std::fabs(r);
   }
-}
-
-// incircle(before, i, after, hub), which is not negative if the edge from the hub to neighbor i is locally Delaunay: in
-// the same order and with the same bound on rounding, but with what edges around a hub have in common computed once.
-bool RingCheck::surely_delaunay(std::size_t before, std::size_t i, std::size_t after) const {
-  const double l = x_[after] * y_[before], r = x_[before] * y_[after];
-  const double det = lift_[before] * cross_[i] + lift_[i] * (l - r) + lift_[after] * cross_[before];
-  const double permanent =
-      permanent_[i] * lift_[before] + (std::fabs(l) + std::fabs(r)) * lift_[i] + permanent_[before] * lift_[after];
-  return det >= kIncircleBound * permanent;
+  double least = 0;
+  for (std::size_t i = 1; i < Most + 1; ++i) {
+    const double l = x[i + 1] * y[i - 1], r = x[i - 1] * y[i + 1];
+    const double det = lift[i - 1] * cross[i] + lift[i] * (l - r) + lift[i + 1] * cross[i - 1];
+    const double bound =
+        permanent[i] * lift[i - 1] + (std::fabs(l) + std::fabs(r)) * lift[i] + permanent[i - 1] * lift[i + 1];
+    const double margin = det - kIncircleBound * bound;
+    least = margin < least ? margin : least;
+  }
+  return least >= 0;
 }
 
 }  // namespace driftmesh

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -29,8 +28,10 @@ class RingCheck {
 
  private:
   void check_hub(std::int32_t hub);
-  void measure_ring(std::int32_t hub);
-  [[nodiscard]] bool surely_delaunay(std::size_t before, std::size_t i, std::size_t after) const;
+  [[nodiscard]] bool in_one_subdomain() const;
+  template <std::size_t Most>
+  [[nodiscard]] bool surely_delaunay(std::int32_t hub) const;
+  void check_edge(std::int32_t hub, std::size_t i);
   [[nodiscard]] bool is_lower(std::int32_t u, std::int32_t v) const {
     return ascending_ ? u < v : names_.number(u) < names_.number(v);
   }
@@ -43,8 +44,6 @@ class RingCheck {
   bool ascending_;  // the numbers of points
   DisjointSets<std::int32_t>* parts_ = nullptr;
   Ring ring_;
-  // Of the neighbors as seen from the hub, and of the triangles to the next one:
-  std::array<double, Ring::kMost> x_, y_, lift_, cross_, permanent_;
 };
 
 }  // namespace driftmesh

@@ -1,0 +1,40 @@
+#include "base/file_bytes.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/read_file.hpp"
+#include "base/standard_streams.hpp"
+
+namespace driftmesh {
+
+FileBytes::FileBytes(const std::string& path) {
+  if (!is_standard_stream(path) && map(path)) return;
+  read_ = read_file(path);
+  view_ = read_;
+}
+
+FileBytes::~FileBytes() {
+  if (mapped_ != nullptr) munmap(mapped_, view_.size());
+}
+
+bool FileBytes::map(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  struct stat status {};
+  if (fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
+    const auto size = static_cast<std::size_t>(status.st_size);
+    void* const mapped = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
+    if (mapped != MAP_FAILED) {
+      madvise(mapped, size, MADV_WILLNEED);
+      mapped_ = mapped;
+      view_ = {static_cast<const char*>(mapped), size};
+    }
+  }
+  close(file);
+  return mapped_ != nullptr;
+}
+
+}  // namespace driftmesh
