@@ -25,6 +25,7 @@
 #include "job/memory.hpp"
 #include "mesh/digest.hpp"
 #include "pslg/poly_file.hpp"
+#include "sizing/field_of_threads.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -38,7 +39,7 @@ struct CheckOptions {
   std::string mesh;
   std::string input;
   VerifyOptions verify;
-  std::unique_ptr<SizeField> size;
+  std::unique_ptr<const SizeField> size;
   GivenKeys bounds;
   bool quiet = false;
   std::size_t threads = 0;  // 0: as many as the machine has cores
@@ -105,15 +106,23 @@ class CheckedMesh {
   std::uint64_t digest_ = 0;
 };
 
+/// Null if no sizes are asked for.
+std::unique_ptr<const SizeField> size_for_threads(const SizingOptions& sizes, std::size_t threads) {
+  std::vector<std::unique_ptr<const SizeField>> fields;
+  for (std::size_t t = 0; t < threads; ++t) fields.push_back(make_size_field(sizes));
+  if (threads == 1 || fields.front() == nullptr) return std::move(fields.front());
+  return std::make_unique<FieldOfThreads>(std::move(fields));
+}
+
 VerifyReport read_and_verify(CheckOptions& options, const job::Request& request) {
   CheckedMesh mesh(options.mesh, options.reading);
   const std::optional<Pslg> input = read_and_repair(options, request.input.holes);
   const bool sized =
       !request.sizing.expression.empty() || !request.sizing.background.empty() || request.sizing.longest > 0;
   const SizingOptions sizes = job::sizing_of(request.sizing, input ? job::box_of(*input) : sized ? mesh.box() : Box{});
-  options.size = make_size_field(sizes);
-  options.verify.size = options.size.get();
   options.verify.threads = options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  options.size = size_for_threads(sizes, options.verify.threads);
+  options.verify.size = options.size.get();
   // Lengths whose growth is limited cannot fall much between the points that are looked up anyway.
   if (!request.sizing.expression.empty() && request.sizing.gradation == 0) options.verify.size_spacing = sizes.spacing;
   VerifyReport report = mesh.verify(input ? &*input : nullptr, options.verify);

@@ -9,13 +9,14 @@
 #include <optional>
 
 #include "base/in_parts.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "verify/extended.hpp"
-#include "verify/size_check.hpp"
 
 namespace driftmesh {
 namespace {
 
-constexpr double kSlack = 1e-9;  // relative, for rounding
+constexpr std::size_t kMostSuspects = 10'000;  // of a piece: some megabyte
+constexpr double kSlack = 1e-9;                // relative, for rounding
 // Where products are so small against the area that is their difference, rounding changes it by less than 2e-15 of it.
 constexpr double kSharp = 4;
 constexpr long double kDegrees = 180 / std::numbers::pi_v<long double>;
@@ -83,15 +84,22 @@ class DegreeBins {
 /// Measures the triangles of one mesh.
 class Measurement {
  public:
-  Measurement(const NamedMesh& mesh, const CheckedBounds& bounds) : names_(mesh), mesh_(mesh.mesh()), bounds_(bounds) {
-    if (bounds.size != nullptr) size_.emplace(mesh_, *bounds.size, bounds.size_spacing);
+  Measurement(const NamedMesh& mesh, const CheckedBounds& bounds)
+      : names_(mesh), mesh_(mesh.mesh()), bounds_(bounds), take_([this](const Suspect& s) { measures_.add(s); }) {
     max_ratio_ = largest_ratio(bounds.min_angle);
     if (bounds.min_angle > 0)
       sure_cotangent_ = static_cast<double>(1 / std::tan(static_cast<long double>(bounds.min_angle) / kDegrees));
   }
 
+  Measurement(const Measurement&) = delete;
+  Measurement& operator=(const Measurement&) = delete;
+
+  /// Gives suspects away instead of keeping them.
+  void give_to(const std::function<void(const Suspect&)>& take) { take_ = take; }
+
   /// Sums of areas are those of the same blocks whichever thread takes them.
   static constexpr std::size_t kBlock = 256;
+  [[nodiscard]] static std::size_t blocks(const Mesh& mesh) { return (mesh.triangles.size() + kBlock - 1) / kBlock; }
 
   void take_block(std::size_t block) {
     const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, mesh_.triangles.size());
@@ -146,7 +154,8 @@ class Measurement {
     return all.smallest_twice_area > 0 && all.largest_cotangent <= std::min(known.largest_cotangent, sure_cotangent_) &&
            all.smallest_cotangent >= known.smallest_cotangent && all.smallest_twice_area >= known.smallest_twice_area &&
            all.largest_twice_area <= known.largest_twice_area &&
-           (bounds_.max_area == 0 || all.largest_twice_area <= 2 * bounds_.max_area) && !bounds_.region_area && !size_;
+           (bounds_.max_area == 0 || all.largest_twice_area <= 2 * bounds_.max_area) && !bounds_.region_area &&
+           bounds_.size == nullptr;
   }
 
   void look_at(std::size_t t) {
@@ -175,7 +184,7 @@ class Measurement {
     const double bound = area_bound(t);
     if (twice_area > 2 * bound)
       check_large_area(t, bound);
-    else if (size_)
+    else if (bounds_.size != nullptr)
       check_size(t, twice_area / 2);
   }
 
@@ -183,7 +192,7 @@ class Measurement {
     double bound = bounds_.max_area > 0 ? bounds_.max_area : std::numeric_limits<double>::infinity();
     if (bounds_.region_area)
       if (const double own = bounds_.region_area(t); own > 0) bound = std::min(bound, own);
-    if (size_) bound = std::min(bound, area_of_edge(size_->at_corners(t)));
+    if (bounds_.size != nullptr) bound = std::min(bound, area_of_edge(bounds_.size->at_corners(corners(t))));
     return bound;
   }
 
@@ -191,7 +200,7 @@ class Measurement {
   [[nodiscard]] static double area_of_edge(double h) { return std::numbers::sqrt3 / 4 * h * h; }
 
   void check_size(std::size_t t, double area) {
-    if (const std::optional<SizeCheck::Miss> miss = size_->find_miss(t, area))
+    if (const std::optional<SizeCheck::Miss> miss = bounds_.size->find_miss(corners(t), area))
       suspect(t, Suspect::Miss::size, miss->length, miss->at);
   }
 
@@ -208,13 +217,13 @@ class Measurement {
   }
 
   void suspect(std::size_t t, Suspect::Miss miss, double bound, const Point& at) {
-    measures_.suspects.push_back({names_.place(t), names_.numbers(t), corners(t), miss, bound, at});
+    take_({names_.place(t), names_.numbers(t), corners(t), miss, bound, at});
   }
 
   NamedMesh names_;
   const Mesh& mesh_;
   const CheckedBounds& bounds_;
-  std::optional<SizeCheck> size_;
+  std::function<void(const Suspect&)> take_;
   const DegreeBins bins_;
   std::array<std::array<std::uint64_t, 180>, 3> angles_{};  // by corner, so that counts seldom wait for each other
   Measures measures_;
@@ -239,7 +248,17 @@ void Measures::add(const Measures& later) {
   if (later.extremes.largest_twice_area > extremes.largest_twice_area)
     shapes.largest_area_triangle = other.largest_area_triangle;
   extremes.add(later.extremes);
-  suspects.insert(suspects.end(), later.suspects.begin(), later.suspects.end());
+  all_suspects = all_suspects && later.all_suspects;
+  for (const Suspect& suspect : later.suspects) add(suspect);
+  if (!all_suspects) suspects = {};
+}
+
+void Measures::add(const Suspect& suspect) {
+  if (suspects.size() == kMostSuspects) all_suspects = false;
+  if (all_suspects)
+    suspects.push_back(suspect);
+  else
+    suspects = {};
 }
 
 Quality Measures::quality() const {
@@ -252,17 +271,21 @@ Quality Measures::quality() const {
 }
 
 Measures measure(const NamedMesh& mesh, const CheckedBounds& bounds, std::size_t threads) {
-  // Neither size fields nor the search for a region are for several threads.
-  const std::size_t parts = bounds.size != nullptr || bounds.region_area ? 1 : threads;
-  std::vector<Measures> measures(parts);
-  const std::size_t blocks = (mesh.mesh().triangles.size() + Measurement::kBlock - 1) / Measurement::kBlock;
-  in_parts(blocks, parts, [&](std::size_t part, std::size_t begin, std::size_t end) {
+  std::vector<Measures> measures(threads);
+  in_parts(Measurement::blocks(mesh.mesh()), threads, [&](std::size_t part, std::size_t begin, std::size_t end) {
     Measurement measurement(mesh, bounds);
     for (std::size_t block = begin; block < end; ++block) measurement.take_block(block);
     measures[part] = measurement.finish();
   });
-  for (std::size_t part = 1; part < parts; ++part) measures[0].add(measures[part]);
+  for (std::size_t part = 1; part < threads; ++part) measures[0].add(measures[part]);
   return std::move(measures[0]);
+}
+
+void find_suspects(const NamedMesh& mesh, const CheckedBounds& bounds,
+                   const std::function<void(const Suspect&)>& take) {
+  Measurement measurement(mesh, bounds);
+  measurement.give_to(take);
+  for (std::size_t block = 0; block < Measurement::blocks(mesh.mesh()); ++block) measurement.take_block(block);
 }
 
 double angle_at(const Point& o, const Point& a, const Point& b) {
@@ -298,6 +321,15 @@ std::array<std::uint64_t, 18> Quality::angles_by_ten() const {
   std::array<std::uint64_t, 18> tens{};
   for (std::size_t d = 0; d < angles.size(); ++d) tens[d / 10] += angles[d];
   return tens;
+}
+
+void Quality::add_exceptions(const Quality& later, std::size_t max_listed) {
+  for (const ExceptionReason reason : ids_of(exceptions)) {
+    Exceptions& list = exceptions[reason];
+    list.count += later.exceptions[reason].count;
+    for (const std::string& message : later.exceptions[reason].messages)
+      if (list.messages.size() < max_listed) list.messages.push_back(message);
+  }
 }
 
 std::uint64_t Quality::exception_count() const {

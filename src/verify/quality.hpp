@@ -10,8 +10,8 @@
 
 #include "driftmesh/id_vector.hpp"
 #include "driftmesh/point.hpp"
-#include "driftmesh/size_field.hpp"
 #include "verify/extended.hpp"
+#include "verify/size_check.hpp"
 #include "verify/words.hpp"
 
 namespace driftmesh {
@@ -48,14 +48,15 @@ struct Quality {
   /// The histogram in 18 bins of ten degrees.
   [[nodiscard]] std::array<std::uint64_t, 18> angles_by_ten() const;
   [[nodiscard]] std::uint64_t exception_count() const;
+  /// Adds the exceptions among later triangles.
+  void add_exceptions(const Quality& later, std::size_t max_listed);
 };
 
 struct CheckedBounds {
   double min_angle = 0;                                     ///< degrees; 0: no bound
   double max_area = 0;                                      ///< 0: no bound
   std::function<double(std::size_t triangle)> region_area;  ///< empty, or each triangle's own bound (<= 0: none)
-  const SizeField* size = nullptr;                          ///< or target edge lengths, see SizeField
-  double size_spacing = 0;                                  ///< see SizeCheck
+  const SizeCheck* size = nullptr;                          ///< or target edge lengths
 };
 
 /// A triangle that misses a bound: a flaw unless there is an accepted reason. See Judge.
@@ -91,7 +92,9 @@ struct Measures {
   CompensatedSum twice_area;
   Extremes extremes;
   std::vector<Suspect> suspects;
+  bool all_suspects = true;  ///< false: there are too many to keep, and none are
 
+  void add(const Suspect& suspect);
   /// Adds what was measured at later triangles.
   void add(const Measures& later);
   /// What can be said about all of them; exceptions are not known.
@@ -100,8 +103,10 @@ struct Measures {
 
 /// Measures all triangles. The angle bound is circumradius / shortest edge <= 1 / (2 sin min_angle), with a relative
 /// slack of 1e-9 for rounding; triangles that seem to miss a bound in double precision are measured again in extended
-/// precision. Several threads are used if neither region_area nor size are given.
+/// precision.
 [[nodiscard]] Measures measure(const NamedMesh& mesh, const CheckedBounds& bounds, std::size_t threads);
+/// Calls take(suspect) for all triangles that miss a bound.
+void find_suspects(const NamedMesh& mesh, const CheckedBounds& bounds, const std::function<void(const Suspect&)>& take);
 
 /// The largest circumradius / shortest edge for a bound on angles; 0: no bound.
 [[nodiscard]] long double largest_ratio(double min_angle);

@@ -37,8 +37,7 @@ bool holds(const std::array<Point, 3>& t, const Point& p) {
 
 }  // namespace
 
-SizeCheck::SizeCheck(const Mesh& mesh, const SizeField& field, double spacing)
-    : mesh_(mesh), field_(field), spacing_(spacing) {
+SizeCheck::SizeCheck(const SizeField& field, double spacing) : field_(field), spacing_(spacing) {
   std::vector<Box> boxes;
   field.visit_marks([&](const Point& p) {
     marks_.push_back({p, 0});
@@ -48,20 +47,14 @@ SizeCheck::SizeCheck(const Mesh& mesh, const SizeField& field, double spacing)
   for (Miss& mark : marks_) mark.length = field.edge_length(mark.at);
 }
 
-SizeCheck::Triangle SizeCheck::corners(std::size_t triangle) const {
-  const auto& [a, b, c] = mesh_.triangles[triangle];
-  return {mesh_.points[a], mesh_.points[b], mesh_.points[c]};
-}
-
-double SizeCheck::at_corners(std::size_t triangle) const {
-  const auto [a, b, c] = corners(triangle);
+double SizeCheck::at_corners(const Triangle& triangle) const {
+  const auto& [a, b, c] = triangle;
   double h = field_.edge_length({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3});
   for (const Point& p : {a, b, c}) h = std::min(h, field_.edge_length(p));
   return h;
 }
 
-std::optional<SizeCheck::Miss> SizeCheck::find_miss(std::size_t triangle, double area) const {
-  const Triangle t = corners(triangle);
+std::optional<SizeCheck::Miss> SizeCheck::find_miss(const Triangle& t, double area) const {
   const double edge = std::sqrt(area * (4 / std::numbers::sqrt3)) * (1 - kRounding);
   if (const auto miss = at_marks(t, edge)) return miss;
   return at_samples(t, area, kTolerated * edge);

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "driftmesh/mesh.hpp"
+#include "driftmesh/point.hpp"
 #include "driftmesh/size_field.hpp"
 #include "geometry/box_tree.hpp"
 
@@ -18,27 +18,26 @@ class SizeCheck {
   /// field.
   static constexpr double kTolerated = 0.8;
 
+  using Triangle = std::array<Point, 3>;
+
   /// Besides the marks, the field is looked up at 16 points of each triangle, and at four for each square of the
-  /// spacing if it has more. 0: no spacing. `mesh` and `field` must outlive the object.
-  SizeCheck(const Mesh& mesh, const SizeField& field, double spacing);
+  /// spacing if it has more. 0: no spacing. `field` must outlive the object.
+  SizeCheck(const SizeField& field, double spacing);
 
   /// The length that is asked for at the corners and the centroid.
-  [[nodiscard]] double at_corners(std::size_t triangle) const;
+  [[nodiscard]] double at_corners(const Triangle& triangle) const;
 
   struct Miss {
     Point at;
     double length;  ///< asked for there
   };
   /// A point of a triangle with this area where too short an edge is asked for, if one is found.
-  [[nodiscard]] std::optional<Miss> find_miss(std::size_t triangle, double area) const;
+  [[nodiscard]] std::optional<Miss> find_miss(const Triangle& triangle, double area) const;
 
  private:
-  using Triangle = std::array<Point, 3>;
-  [[nodiscard]] Triangle corners(std::size_t triangle) const;
   [[nodiscard]] std::optional<Miss> at_marks(const Triangle& corners, double edge) const;
   [[nodiscard]] std::optional<Miss> at_samples(const Triangle& corners, double area, double edge) const;
 
-  const Mesh& mesh_;
   const SizeField& field_;
   double spacing_;
   std::vector<Miss> marks_;

@@ -25,6 +25,7 @@
 #include "verify/point_data_check.hpp"
 #include "verify/point_index.hpp"
 #include "verify/regions.hpp"
+#include "verify/size_check.hpp"
 #include "verify/subsegments.hpp"
 
 namespace driftmesh {
@@ -71,7 +72,8 @@ class Verification {
   }
 
   void check_pieces() {
-    bounds_ = {options_.min_angle, options_.max_area, {}, options_.size, options_.size_spacing};
+    if (options_.size != nullptr) size_.emplace(*options_.size, options_.size_spacing);
+    bounds_ = {options_.min_angle, options_.max_area, {}, size_ ? &*size_ : nullptr};
     check_all_pieces();
     if (whole_) return;
     shared_ = PieceNumbers(found_).shared();
@@ -98,13 +100,16 @@ class Verification {
 
   template <class Work>
   void for_each_piece(const Work& work) const {
-    // A size field is not for several threads.
-    in_turns(pieces_.count, options_.size != nullptr ? 1 : threads(), [&](std::size_t k) {
-      pieces_.with_piece(k, [&](const Mesh& piece) {
-        if (whole_) return work(NamedMesh(piece), k);
-        require_numbers(piece, k);
-        work(NamedMesh(piece, static_cast<std::int32_t>(k)), k);
-      });
+    in_turns(pieces_.count, threads(),
+             [&](std::size_t k) { with_piece(k, [&](const NamedMesh& piece) { work(piece, k); }); });
+  }
+
+  template <class Work>
+  void with_piece(std::size_t k, const Work& work) const {
+    pieces_.with_piece(k, [&](const Mesh& piece) {
+      if (whole_) return work(NamedMesh(piece));
+      require_numbers(piece, k);
+      work(NamedMesh(piece, static_cast<std::int32_t>(k)));
     });
   }
 
@@ -122,7 +127,6 @@ class Verification {
       used_points_ += piece.used_inside;
       subdomains.merge(piece.subdomains);
       interfaces_.add(piece.interfaces);
-      measures_.add(piece.measures);
     }
     report_.subdomains = subdomains.size();
     report_.subsegments_listed = report_.triangles == 0 || std::ranges::any_of(found_, [](const PieceReport& piece) {
@@ -196,7 +200,7 @@ class Verification {
     against.check_chains();
     against.check_euler(static_cast<std::int64_t>(report_.triangles), static_cast<std::int64_t>(used_points_),
                         static_cast<std::int64_t>(report_.boundary_edges));
-    if (has_regions_) check_regions(FacesOfParts(frame_, against.find_faces(*parts_)));
+    if (has_regions_) faces_.emplace(frame_, against.find_faces(*parts_));
     take_quality(chains);
     against.check_area(report_.area);
     report_.against_input = true;
@@ -212,42 +216,68 @@ class Verification {
 
   // ---- The pieces once more ------------------------------------------------------------------------------------
 
-  /// Now that it is known which regions the triangles of the pieces lie in, they are measured.
-  void check_regions(const FacesOfParts& faces) {
-    std::vector<Findings> findings(pieces_.count, Findings(options_.max_listed));
-    std::vector<Measures> measures(pieces_.count);
-    std::vector<char> listed(pieces_.count);
-    for_each_piece([&](const NamedMesh& piece, std::size_t k) {
-      const std::size_t triangles = piece.mesh().triangles.size();
-      if (!whole_) found_[k].parts = check_piece(piece, order()).parts;
-      const std::vector<std::int32_t> own =
-          faces.of_triangles(whole_ ? kNone : static_cast<std::int32_t>(k), triangles, *found_[k].parts);
-      found_[k].parts.reset();
-      listed[k] = piece.mesh().regions.size() == triangles;
-      if (listed[k] != 0) driftmesh::check_regions(piece, *domain_, own, findings[k]);
-      measures[k] = measure(piece, bounds_in_regions(own), threads());
-    });
-    for (std::size_t k = 0; k < pieces_.count; ++k) measures_.add(measures[k]);
-    report_.regions_listed = std::ranges::count(listed, 0) == 0;
-    if (report_.regions_listed)
-      for (const Findings& piece : findings) findings_.append(piece);
+  /// What was found in a piece on the second look.
+  struct Second {
+    Findings regions, bounds;
+    Quality exceptions;
+    bool regions_listed = true;
+  };
+
+  void take_quality(const Chains& chains) {
+    std::vector<Second> second(pieces_.count, {Findings(options_.max_listed), Findings(options_.max_listed), {}});
+    in_turns(pieces_.count, threads(), [&](std::size_t k) { look_again(k, chains, second[k]); });
+    Measures measures;
+    for (const PieceReport& piece : found_) measures.add(piece.measures);
+    report_.quality = measures.quality();
+    report_.area = report_.quality.total_area;
+    report_.regions_listed = std::ranges::all_of(second, &Second::regions_listed);
+    for (const Second& piece : second) {
+      if (report_.regions_listed) findings_.append(piece.regions);
+      findings_.append(piece.bounds);
+      report_.quality.add_exceptions(piece.exceptions, options_.max_listed);
+    }
   }
 
-  [[nodiscard]] CheckedBounds bounds_in_regions(const std::vector<std::int32_t>& faces) const {
+  /// Judges the suspects. The piece itself is needed only if there are too many of them, or regions: their triangles
+  /// are measured now that it is known which region they lie in.
+  void look_again(std::size_t k, const Chains& chains, Second& found) {
+    Judge judge(frame_.mesh, chains, options_.min_angle, options_.max_listed);
+    const auto take = [&](const Suspect& suspect) { judge.judge(suspect, found.exceptions, found.bounds); };
+    Measures& measures = found_[k].measures;
+    if (faces_ || !measures.all_suspects)
+      with_piece(k, [&](const NamedMesh& piece) {
+        const std::vector<std::int32_t> faces = faces_of(piece, k);
+        const CheckedBounds bounds = bounds_in(faces);
+        if (faces_) check_regions(piece, faces, found);
+        if (faces_) measures = measure(piece, bounds, whole_ ? threads() : 1);
+        if (!measures.all_suspects) find_suspects(piece, bounds, take);
+      });
+    for (const Suspect& suspect : measures.suspects) take(suspect);
+    measures.suspects = {};
+  }
+
+  void check_regions(const NamedMesh& piece, const std::vector<std::int32_t>& faces, Second& found) const {
+    found.regions_listed = piece.mesh().regions.size() == faces.size();
+    if (found.regions_listed) driftmesh::check_regions(piece, *domain_, faces, found.regions);
+  }
+
+  /// Of the triangles of a piece; empty if there are no regions.
+  [[nodiscard]] std::vector<std::int32_t> faces_of(const NamedMesh& piece, std::size_t k) {
+    if (!faces_) return {};
+    if (!whole_) found_[k].parts = check_piece(piece, order()).parts;
+    DisjointSets<std::int32_t> parts = std::move(*found_[k].parts);
+    found_[k].parts.reset();
+    return faces_->of_triangles(whole_ ? kNone : static_cast<std::int32_t>(k), piece.mesh().triangles.size(), parts);
+  }
+
+  [[nodiscard]] CheckedBounds bounds_in(const std::vector<std::int32_t>& faces) const {
     CheckedBounds bounds = bounds_;
-    if (options_.region_areas)
+    if (faces_ && options_.region_areas)
       bounds.region_area = [&](std::size_t t) {
         const Pslg::Region* region = faces[t] == kNone ? nullptr : domain_->region_of(faces[t]);
         return region != nullptr ? region->max_area : 0;
       };
     return bounds;
-  }
-
-  void take_quality(const Chains& chains) {
-    report_.quality = measures_.quality();
-    report_.area = report_.quality.total_area;
-    Judge judge(frame_.mesh, chains, options_.min_angle, options_.max_listed);
-    for (const Suspect& suspect : measures_.suspects) judge.judge(suspect, report_.quality, findings_);
   }
 
   /// Inside pieces: a mesh without other flaws has none, for it covers no place twice.
@@ -274,6 +304,7 @@ class Verification {
   bool whole_;  // there is one, and it is a mesh of its own
   const Pslg* input_;
   const VerifyOptions& options_;
+  std::optional<SizeCheck> size_;
   CheckedBounds bounds_;
   VerifyReport report_;
   Findings findings_;
@@ -287,13 +318,13 @@ class Verification {
   bool computable_ = true;
   std::size_t used_points_ = 0;
   Interfaces interfaces_;
-  Measures measures_;
 
   Frame frame_;
   std::optional<CornerTable> table_;  // of the frame
   std::optional<PointIndex> index_;   // of the frame's marked points, by coordinates
   std::optional<Subsegments> subsegments_;
   std::optional<DisjointSets<std::int32_t>> parts_;  // triangles that subsegments do not separate, if there are regions
+  std::optional<FacesOfParts> faces_;
 };
 
 VerifyReport verify_whole(const Mesh& mesh, const Pslg* input, const VerifyOptions& options) {

@@ -23,8 +23,8 @@ struct VerifyOptions {
   double size_spacing = 0;
   bool check_delaunay = true;  ///< false for meshes that only need to be conforming
   std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
-  /// Pieces are spread over them; of a single mesh, what involves neither a size field nor regions. The report does not
-  /// depend on their number.
+  /// Pieces are spread over them, and most of the work on a mesh in one piece. With several, `size` is asked by several
+  /// at once. The report does not depend on their number.
   std::size_t threads = 1;
 };
 

@@ -4,15 +4,18 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <random>
 #include <regex>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "damaged_grid.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "mesh/merge_pieces.hpp"
+#include "sizing/field_of_threads.hpp"
 #include "verify/number_runs.hpp"
 
 // A mesh is found to have the same flaws in one piece and in several, however it is cut up: at one extreme every vertex
@@ -240,4 +243,59 @@ TEST_CASE("runs of numbers") {
   CHECK(numbers.largest() == 20);
   CHECK(NumberRuns().largest() == -1);
   CHECK(NumberRuns().repeated().empty());
+}
+
+TEST_CASE("more suspects than are kept are found on a second look") {
+  // A strip of flat triangles, in three pieces, and two corners of the input that excuse theirs.
+  Mesh mesh;
+  constexpr std::int32_t kColumns = 20'000;
+  for (std::int32_t x = 0; x <= kColumns; ++x)
+    for (const double y : {0.0, 0.125}) mesh.points.push_back({static_cast<double>(x), y});
+  for (std::int32_t x = 0; x < kColumns; ++x) {
+    const std::int32_t a = 2 * x;
+    mesh.triangles.insert(mesh.triangles.end(), {{a, a + 2, a + 1}, {a + 1, a + 2, a + 3}});
+    mesh.edges.insert(mesh.edges.end(), {{a, a + 2, 1}, {a + 1, a + 3, 1}});
+  }
+  mesh.edges.insert(mesh.edges.end(), {{0, 1, 1}, {2 * kColumns, 2 * kColumns + 1, 1}});
+  mesh.edges.push_back({1, 2, 1});  // an angle of the input
+  mesh.point_markers.assign(mesh.points.size(), 0);
+  mesh.regions.assign(mesh.triangles.size(), 0);
+  std::mt19937 random(3);
+  for (const std::size_t size : {30'000, 100'000}) {  // of pieces: some with more suspects than are kept, or one
+    const std::vector<Mesh> pieces = cut(
+        mesh, 3, [&](std::size_t t) { return t / size; }, random);
+    for (const std::size_t threads : {1, 2}) {
+      VerifyOptions options{.min_angle = 20, .max_area = 0.0625};
+      options.threads = threads;
+      const VerifyReport report = verify_pieces(pieces, nullptr, options), whole = verify(mesh, options);
+      CHECK(report.findings.count(Flaw::small_angle) + report.quality.exception_count() == 2 * kColumns);
+      CHECK(report.findings.count(Flaw::small_angle) == whole.findings.count(Flaw::small_angle));
+      CHECK(report.quality.exception_count() == whole.quality.exception_count());
+      CHECK(report.quality.exception_count() > 0);
+      CHECK(report.findings.messages(Flaw::small_angle).size() == 5);
+      CHECK(whole.findings.messages(Flaw::small_angle).size() == 5);
+    }
+  }
+}
+
+TEST_CASE("threads ask a field of sizes at once") {
+  const Mesh mesh = GridCase().mesh;
+  struct Field final : SizeField {
+    double edge_length(const Point& p) const override { return p.x < 6 ? 1 : 3; }
+  };
+  std::vector<std::unique_ptr<const SizeField>> fields;
+  for (int t = 0; t < 3; ++t) fields.push_back(std::make_unique<Field>());
+  const FieldOfThreads field(std::move(fields));
+  std::mt19937 random(3);
+  const std::vector<Mesh> pieces = cut(
+      mesh, 4, [](std::size_t t) { return t / 60 % 4; }, random);
+  VerifyOptions options = all_messages_with(0, 0);
+  options.size = &field;
+  const VerifyReport alone = verify(mesh, options);
+  CHECK(alone.findings.count(Flaw::large_area) == 128);
+  for (const std::size_t threads : {1, 2, 3}) {
+    options.threads = threads;
+    check_same(verify(mesh, options), alone);
+    check_same(verify_pieces(pieces, nullptr, options), alone);
+  }
 }
