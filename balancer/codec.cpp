@@ -22,6 +22,7 @@ void fields(auto& archive, MessageOf<LoadReport> auto& m) {
   archive.number(m.round);
   archive.number(m.plan);
   archive.amount(m.speed);
+  archive.amount(m.doubt);
   archive.list(m.loads, kReportedLoadBytes, [](auto& a, auto& load) { fields(a, load); });
 }
 void fields(auto& archive, MessageOf<Move> auto& m) {
@@ -37,6 +38,7 @@ void fields(auto& archive, MessageOf<LoadNews> auto& m) {
   archive.amount(m.remaining);
   archive.amount(m.spare);
   archive.amount(m.speed);
+  archive.amount(m.doubt);
 }
 void fields(auto& archive, MessageOf<WorkRequest> auto& m) {
   archive.rank(m.thief);
@@ -44,6 +46,7 @@ void fields(auto& archive, MessageOf<WorkRequest> auto& m) {
   archive.amount(m.remaining);
   archive.amount(m.speed);
   archive.number(m.rivals);
+  archive.amount(m.doubt);
 }
 void fields(auto& archive, MessageOf<WorkAnswer> auto& m) {
   archive.number(m.round);

@@ -134,7 +134,7 @@ void CollectiveConduct::report(const Situation& situation, Decision& decision) {
   if (!rule_.due(situation.now, total, situation.speed, changed_)) return;
   rule_.told(situation.now, total, situation.speed);
   changed_ = false;
-  const LoadNews news = news_of(++reports_, situation.speed, situation.own);
+  const LoadNews news = news_of(++reports_, situation, situation.own);
   if (!leads()) {
     decision.messages.push_back({kLeadingRank, news});
     return;
@@ -144,7 +144,7 @@ void CollectiveConduct::report(const Situation& situation, Decision& decision) {
 }
 
 Contribution CollectiveConduct::contribution(const Situation& situation) const {
-  Contribution own{self_, {situation.speed, total_work(situation.own)}, {}, {}};
+  Contribution own{self_, {situation.speed, total_work(situation.own), situation.doubt}, {}, {}};
   for (const Promise& promise : promises_) own.state.remaining += promise.coming.work;
   own.own = states_of(self_, situation.own);
   for (const auto& [id, when] : came_) own.settled.push_back(id);

@@ -39,6 +39,7 @@ struct Situation {
   double now = 0;
   std::span<const ReportedLoad> own;
   double speed = 0;
+  double doubt = 0;  ///< of the time that this takes (see Experience)
 };
 
 /// Total work of the subdomains in `own`.
@@ -58,9 +59,10 @@ struct Situation {
 }
 
 /// The news of a rank; `number` counts them from 1. The subdomain being worked on cannot be given away.
-[[nodiscard]] inline LoadNews news_of(std::uint32_t number, double speed, std::span<const ReportedLoad> own) {
+[[nodiscard]] inline LoadNews news_of(std::uint32_t number, const Situation& situation,
+                                      std::span<const ReportedLoad> own) {
   const double total = total_work(own);
-  return {number, total, own.empty() ? 0 : total - own.front().remaining, speed};
+  return {number, total, own.empty() ? 0 : total - own.front().remaining, situation.speed, situation.doubt};
 }
 
 }  // namespace driftmesh::balancer

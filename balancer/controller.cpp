@@ -63,10 +63,10 @@ bool Controller::pressing() const {
   return collective && collective->pressing();
 }
 
-Decision Controller::think(double now, std::span<const ReportedLoad> own, double speed) {
+Decision Controller::think(double now, std::span<const ReportedLoad> own, double speed, double doubt) {
   next_look_ = now + look_interval_;
   return std::visit(Each{[&](auto& conduct) {
-                           return conduct.think({now, own, speed});
+                           return conduct.think({now, own, speed, doubt});
                          },
                          [](std::monostate) { return Decision{}; }},
                     conduct_);

@@ -24,7 +24,7 @@ void Knowledge::hear(Rank rank, const LoadReport& report, double now) {
   Heard& heard = ranks_[rank];
   if (heard.any && report.round <= heard.round) return;
   heard_ += heard.any ? 0 : 1;
-  heard = {true, report.round, now, report.speed, {}, heard.predicted};
+  heard = {true, report.round, now, report.speed, report.doubt, {}, heard.predicted};
   for (const ReportedLoad& load : report.loads) {
     const auto [known, first] = claims_.try_emplace(load.subdomain, Claim{rank, load.epoch});
     if (!first && load.epoch < known->second.epoch) continue;
@@ -80,7 +80,7 @@ LoadSnapshot Knowledge::snapshot(double now, bool with_silent) const {
   static const std::vector<SubdomainLoad> kNone;
   for (const Rank r : ids_of(ranks_)) {
     const auto coming = arriving.find(r);
-    snapshot.ranks.push_back({ranks_[r].speed, 0});
+    snapshot.ranks.push_back({ranks_[r].speed, 0, ranks_[r].doubt});
     list(snapshot, r, coming == arriving.end() ? kNone : coming->second, now);
   }
   if (with_silent)

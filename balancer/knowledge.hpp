@@ -42,6 +42,7 @@ class Knowledge {
     std::uint32_t round = 0;
     double at = 0;
     double speed = 0;
+    double doubt = 0;
     std::vector<ReportedLoad> loads;  // in the order of work
     double predicted = 0;             // by the layout, for a rank without a report
   };

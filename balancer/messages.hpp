@@ -26,6 +26,7 @@ struct LoadReport {
   std::uint32_t plan = 0;           ///< the round of the last Plan that the sender has acted on; 0: none
   double speed = 0;                 ///< triangles a second, a running average; 0: not known yet
   std::vector<ReportedLoad> loads;  ///< of its unfinished subdomains, and of recent arrivals
+  double doubt = 0;                 ///< standard deviation of the time that they take, over that time
   friend bool operator==(const LoadReport&, const LoadReport&) = default;
 };
 
@@ -42,6 +43,7 @@ struct LoadNews {
   double remaining = 0;     ///< triangles still to be made, predicted
   double spare = 0;         ///< of these, in subdomains that it could give away
   double speed = 0;         ///< triangles a second, a running average; 0: not known yet
+  double doubt = 0;         ///< standard deviation of remaining / speed, over that
   friend bool operator==(const LoadNews&, const LoadNews&) = default;
 };
 
@@ -53,6 +55,7 @@ struct WorkRequest {
   double remaining = 0;     ///< the thief's remaining work
   double speed = 0;
   std::uint32_t rivals = 0;  ///< idle ranks that will compete for the giver's work
+  double doubt = 0;          ///< as in LoadNews
   friend bool operator==(const WorkRequest&, const WorkRequest&) = default;
 };
 

@@ -32,18 +32,25 @@ struct Worth {
   double slack = 0.01;    ///< of the ideal time, given away for fewer moves
 };
 
-/// Whether planning is worthwhile at all: the possible gain exceeds both the required one and the time that planning
-/// takes, in seconds.
+/// How much later than on average the last rank would seem to finish, in seconds, if work were even and only forecasts
+/// and speeds in doubt: the expected maximum of as many normal deviates as there are ranks with work.
+[[nodiscard]] double noise_of(const LoadSnapshot& snapshot);
+
+/// What is left of an apparent gain when there is noise: that contributed to it, and will again after the moves.
+[[nodiscard]] double gain_beyond(double noise, double apparent);
+
+/// Whether planning is worthwhile at all: the possible gain, beyond noise, exceeds both the required one and the time
+/// that planning takes, in seconds.
 [[nodiscard]] bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning);
 
 /// Whether a plan may be reduced to the moves that it needs.
 enum class Kept { kNeeded, kAll };
 
-/// The worthwhile moves of `moves`, in their order. With their costs they reduce the finishing time by at least what
-/// `worth` requires; otherwise the result is empty. Dropped are invalid moves (unknown subdomain or rank, to the owner,
-/// a second move of a subdomain, a fixed one), moves of subdomains too large for one message, moves that cost more than
-/// the work they move, and, with Kept::kNeeded, moves without which the finishing time is no later, or within the slack
-/// of the ideal time; the ones with the highest cost for their work go first.
+/// The worthwhile moves of `moves`, in their order. With their costs they reduce the finishing time, beyond noise, by
+/// at least what `worth` requires; otherwise the result is empty. Dropped are invalid moves (unknown subdomain or rank,
+/// to the owner, a second move of a subdomain, a fixed one), moves of subdomains too large for one message, moves that
+/// cost more than the work they move, and, with Kept::kNeeded, moves without which the finishing time is no later, or
+/// within the slack of the ideal time; the ones with the highest cost for their work go first.
 [[nodiscard]] std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves,
                                              const MoveCost& cost, const Worth& worth = {}, Kept kept = Kept::kNeeded);
 

@@ -75,7 +75,7 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
 
 void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& decision) {
   const double now = situation.now;
-  knowledge_->hear(self_, {++reports_, plan_seen_, situation.speed, with_arrived(own)}, now);
+  knowledge_->hear(self_, {++reports_, plan_seen_, situation.speed, with_arrived(own), situation.doubt}, now);
   const bool leads = policy_->placement() == Placement::kLeader;
   if (!news_ || !pace_.due(now)) return;
   // The first plan waits a little for the speeds of all ranks.
@@ -144,7 +144,7 @@ void PlanningConduct::report(const Situation& situation, const Loads& own, Decis
   for (const auto& load : own) told_.push_back(load.subdomain);
   std::sort(told_.begin(), told_.end());
   news_ = true;  // also to this rank, if it plans
-  const LoadReport report{++reports_, plan_seen_, situation.speed, with_arrived(own)};
+  const LoadReport report{++reports_, plan_seen_, situation.speed, with_arrived(own), situation.doubt};
   arrived_.clear();
   for (const Rank rank : audience(own))
     if (rank != self_) decision.messages.push_back({rank, report});

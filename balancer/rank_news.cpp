@@ -52,7 +52,7 @@ bool RankNews::complete() const {
 
 IdVector<Rank, RankLoad> RankNews::states(double now) const {
   IdVector<Rank, RankLoad> states;
-  for (const Heard& heard : ranks_) states.push_back({heard.news.speed, heard.news.remaining});
+  for (const Heard& heard : ranks_) states.push_back({heard.news.speed, heard.news.remaining, heard.news.doubt});
   const IdVector<Rank, double> speeds = assumed_speeds(states);
   for (const Rank r : ids_of(states))
     states[r].remaining = std::max(0.0, states[r].remaining - speeds[r] * std::max(0.0, now - ranks_[r].at));

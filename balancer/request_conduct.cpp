@@ -107,8 +107,8 @@ std::vector<Move> RequestConduct::gifts(const WorkRequest& request, const Situat
   snapshot.ranks.resize(to_index(layout_->ranks));
   const double speed = situation.speed > 0 ? situation.speed : request.speed > 0 ? request.speed : 1;
   const double sharers = 1 + std::min(request.rivals, kMostRivals);
-  snapshot.ranks[request.thief] = {request.speed > 0 ? request.speed : speed, request.remaining};
-  snapshot.ranks[self_] = {sharers * speed, total_work(own)};
+  snapshot.ranks[request.thief] = {request.speed > 0 ? request.speed : speed, request.remaining, request.doubt};
+  snapshot.ranks[self_] = {sharers * speed, total_work(own), situation.doubt};
   snapshot.subdomains = states_of(self_, own);
   const std::vector<Move> moves = policy_->give(snapshot, self_, request.thief);
   snapshot.ranks[self_].speed = speed;
@@ -121,8 +121,8 @@ void RequestConduct::report(const Situation& situation, const Loads& own, Decisi
   rule_.told(situation.now, total, situation.speed);
   changed_ = false;
   if (self_ != kBroker)
-    decision.messages.push_back({kBroker, news_of(++reports_, situation.speed, own)});
-  else if (news_->hear(self_, news_of(++reports_, situation.speed, own), situation.now))
+    decision.messages.push_back({kBroker, news_of(++reports_, situation, own)});
+  else if (news_->hear(self_, news_of(++reports_, situation, own), situation.now))
     surprised_ = true;
 }
 
@@ -136,7 +136,7 @@ void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decis
   const bool low = policy_->runs_low(seconds_of(total, situation.speed));
   if (!low) refusals_ = 0;
   if (!low || asked_ || !coming_.empty() || refusals_ >= options_.refusals) return;
-  const WorkRequest request{self_, ++round_, total, situation.speed, 0};
+  const WorkRequest request{self_, ++round_, total, situation.speed, 0, situation.doubt};
   arrived_.clear();
   if (self_ != kBroker) {
     asked_ = true;
@@ -156,11 +156,11 @@ void RequestConduct::place(const WorkRequest& request, const Situation& situatio
 }
 
 bool RequestConduct::pass_on(WorkRequest request, const Situation& situation, Loads& own, Decision& decision) {
-  news_->hear(self_, news_of(++reports_, situation.speed, own), situation.now);
+  news_->hear(self_, news_of(++reports_, situation, own), situation.now);
   LoadSnapshot snapshot;
   snapshot.layout = layout_;
   snapshot.ranks = news_->states(situation.now);
-  snapshot.ranks[request.thief] = {request.speed, request.remaining};
+  snapshot.ranks[request.thief] = {request.speed, request.remaining, request.doubt};
   const IdVector<Rank, bool> able = news_->able(snapshot.ranks);
   const auto victim = policy_->victim(snapshot, request.thief, able);
   if (!victim) return false;
@@ -186,11 +186,12 @@ void RequestConduct::feed_hungry(const Situation& situation, Loads& own, Decisio
   if (!std::exchange(surprised_, false)) return;
   const std::set<Rank> hungry = hungry_;
   for (const Rank thief : hungry) {
-    const double speed = news_->states(situation.now)[thief].speed;
+    const RankLoad state = news_->states(situation.now)[thief];
     if (thief == self_)
       refusals_ = 0, hungry_.erase(thief);
-    else if (!pass_on({thief, 0, 0, speed, 0}, situation, own, decision))
-      return;
+    else if (!pass_on({thief, 0, state.remaining, state.speed, 0, state.doubt}, situation, own, decision) &&
+             state.remaining <= 0)
+      return;  // nobody has anything for the others either
   }
 }
 

@@ -89,13 +89,15 @@ const RefineCounters& Subdomain::counters() const {
   return dormant_ ? dormant_->counters : body_->refiner.counters();
 }
 
+double Subdomain::forecast() const {
+  if (dormant_) return dormant_->forecast;
+  return body_ ? body_->forecast : context_->decomposition->subdomains[id_].predicted;
+}
+
 double Subdomain::remaining() const {
   if (!active()) return 0;
-  const double forecast = dormant_ ? dormant_->forecast
-                          : body_  ? body_->forecast
-                                   : context_->decomposition->subdomains[id_].predicted;
   // Only single points remain for a subdomain that has exceeded its forecast, or has met its bounds before.
-  return std::max(forecast - static_cast<double>(triangles()), 1 + static_cast<double>(pending_.size()));
+  return std::max(forecast() - static_cast<double>(triangles()), 1 + static_cast<double>(pending_.size()));
 }
 
 std::int64_t Subdomain::triangles() const {

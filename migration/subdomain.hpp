@@ -56,6 +56,8 @@ class Subdomain {
   [[nodiscard]] bool refined() const { return refined_; }
   /// Received points not yet inserted.
   [[nodiscard]] std::size_t backlog() const { return pending_.size(); }
+  /// A forecast of its triangles when all bounds are met: the decomposition's until it has started, then its own.
+  [[nodiscard]] double forecast() const;
   /// A forecast of the triangles still to be made; 0 when it is not active.
   [[nodiscard]] double remaining() const;
   /// The current number of triangles.

@@ -22,9 +22,10 @@ struct Neighbor {
 struct Layout {
   struct Subdomain {
     double x = 0, y = 0;   ///< centroid
-    double predicted = 0;  ///< triangles that it will have
+    double predicted = 0;  ///< triangles that it will have, with as many more as its start is worth
     Rank owner{};          ///< at the start
     std::vector<Neighbor> neighbors;
+    bool on_segments = false;  ///< segments of the input bound it, or are in it
   };
   IdVector<SubdomainId, Subdomain> subdomains;
   std::int32_t ranks = 1;
@@ -54,6 +55,7 @@ struct SubdomainLoad {
 struct RankLoad {
   double speed = 0;      ///< triangles a second, measured; 0: not known
   double remaining = 0;  ///< of all its subdomains, including those that the snapshot does not list
+  double doubt = 0;      ///< standard deviation of the time for this, over that time
 };
 
 /// One of as many parts as there are ranks. Part p is sized for the speed of rank p, but may be assigned to another

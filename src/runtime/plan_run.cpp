@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "balancer/experience.hpp"
 #include "decompose/presplit.hpp"
 #include "decompose/work.hpp"
 #include "driftmesh/error.hpp"
@@ -17,6 +18,10 @@ namespace {
 /// (docs/benchmarks.md).
 constexpr double kTrianglesPerSubdomain = 20'000;
 constexpr std::int32_t kSubdomainsPerRank = 20;
+
+bool on_segments(const Decomposition& d, SubdomainId s) {
+  return std::ranges::any_of(d.roots_of(s), [&](GlobalRootId r) { return !d.roots[r].separator; });
+}
 
 }  // namespace
 
@@ -72,7 +77,12 @@ void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::Policy
   layout->ranks = ranks;
   for (const SubdomainId s : ids_of(plan.owners)) {
     const Decomposition::Subdomain& known = plan.decomposition.subdomains[s];
-    layout->subdomains.push_back({known.centroid.x, known.centroid.y, known.predicted, plan.owners[s], {}});
+    layout->subdomains.push_back({known.centroid.x,
+                                  known.centroid.y,
+                                  balancer::kWorkToStart + known.predicted,
+                                  plan.owners[s],
+                                  {},
+                                  on_segments(plan.decomposition, s)});
   }
   for (const Interface& i : interfaces(plan.decomposition)) {
     layout->subdomains[i.first].neighbors.push_back({i.second, i.length});

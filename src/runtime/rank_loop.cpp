@@ -1,5 +1,6 @@
 #include "runtime/rank_loop.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "balancer/codec.hpp"
@@ -47,8 +48,9 @@ RankLoop::~RankLoop() {
 }
 
 void RankLoop::balance_with(std::shared_ptr<const balancer::Layout> layout, balancer::Council* council) {
-  if (plan_.policy)
-    controller_.emplace(transport_.rank(), std::move(layout), plan_.policy, plan_.balancing.options, clock_, council);
+  if (!plan_.policy) return;
+  layout_ = layout;
+  controller_.emplace(transport_.rank(), std::move(layout), plan_.policy, plan_.balancing.options, clock_, council);
 }
 
 bool RankLoop::hand_over(SubdomainId id, Rank to) {
@@ -60,6 +62,7 @@ bool RankLoop::hand_over(SubdomainId id, Rank to) {
   Bytes packed = place->second.pack();
   transport_.spend(static_cast<double>(packed.size()) * costs_.packed_byte);
   agenda_.remove(id);
+  experience_.left(id);
   subdomains_.erase(place);
   if (observers_.handed_over) observers_.handed_over(*this, {id, protocol_.where(id).epoch + 1, to, packed.size()});
   protocol_.hand_off(id, to, std::move(packed));
@@ -197,8 +200,19 @@ void RankLoop::end(Shift& shift, double seconds) {
   if (observers_.after_slice) observers_.after_slice(*this, {id, seconds, said});
   seconds += transport_.now() - start;  // a slow rank may be made by waiting there
   const SliceWork& done = out.shift.done;
-  speed_.add({static_cast<double>(done.triangles), seconds, done.prepared > 0 ? out.load.remaining : 0});
+  learn(subdomain, done, seconds);
+  const double started = done.prepared > 0 ? balancer::kWorkToStart + static_cast<double>(done.prepared) : 0;
+  speed_.add({started + static_cast<double>(done.triangles), seconds, done.prepared > 0 ? out.load.remaining : 0});
   own_failure_ = false;
+}
+
+void RankLoop::learn(const Subdomain& subdomain, const SliceWork& done, double seconds) {
+  if (!controller_) return;
+  const SubdomainId id = subdomain.id();
+  experience_.worked(id, seconds, done.prepared > 0);
+  if (subdomain.refined())
+    experience_.finished(id, (*layout_)[id].on_segments, plan_.decomposition.subdomains[id].predicted,
+                         static_cast<double>(subdomain.triangles()));
 }
 
 // Calls the controller when it is due or work has just run out, but not after termination. Returns whether it did
@@ -212,7 +226,8 @@ bool RankLoop::balance(bool worked) {
   transport_.spend(static_cast<double>(own.size()) * costs_.listed);
   own_failure_ = plan_.policy->placement() != balancer::Placement::kCollective;
   balancer::Decision decision =
-      controller_->think(clock_, own, speed_.value() * static_cast<double>(1 + (crew_ != nullptr ? crew_->size() : 0)));
+      controller_->think(clock_, own, speed_.value() * static_cast<double>(1 + (crew_ != nullptr ? crew_->size() : 0)),
+                         experience_.doubt(own));
   own_failure_ = false;
   // Only what planning took: packing what it hands over does not make looking at loads more expensive.
   const double took = transport_.now() - start;
@@ -234,7 +249,12 @@ std::vector<balancer::ReportedLoad> RankLoop::loads() const {
 }
 
 balancer::ReportedLoad RankLoop::load_of(const Subdomain& s) const {
-  return {s.id(), protocol_.where(s.id()).epoch, s.remaining(), s.packed_bytes()};
+  double remaining = s.remaining();
+  if (layout_ && s.active() && !s.refined())
+    remaining =
+        std::max(1 + static_cast<double>(s.backlog()),
+                 experience_.rest((*layout_)[s.id()].on_segments, s.forecast(), static_cast<double>(s.triangles())));
+  return {s.id(), protocol_.where(s.id()).epoch, remaining, s.packed_bytes()};
 }
 
 void RankLoop::tell(SubdomainId to, std::span<const SplitPoint<GlobalRootId>> splits) {

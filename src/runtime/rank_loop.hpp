@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "balancer/controller.hpp"
+#include "balancer/experience.hpp"
 #include "balancer/speed_estimate.hpp"
 #include "migration/subdomain.hpp"
 #include "protocol/rank_protocol.hpp"
@@ -122,6 +123,7 @@ class RankLoop {
   bool work();
   [[nodiscard]] Shift& begin(SubdomainId id);
   void end(Shift& shift, double seconds);
+  void learn(const Subdomain& subdomain, const SliceWork& done, double seconds);
   bool balance(bool worked);
   void drop_work();
   [[nodiscard]] std::vector<balancer::ReportedLoad> loads() const;
@@ -158,6 +160,8 @@ class RankLoop {
   Crew* crew_ = nullptr;
   std::map<SubdomainId, Out> out_;
   std::optional<balancer::Controller> controller_;
+  std::shared_ptr<const balancer::Layout> layout_;  // if there is a controller
+  balancer::Experience experience_;
   balancer::SpeedEstimate speed_;
   bool worked_ = false;       // in the last step
   bool own_failure_ = false;  // what is thrown now concerns this rank alone, or has been thrown

@@ -26,16 +26,16 @@ class RandomMessage {
   Message any() {
     switch (below(std::variant_size_v<Message>)) {
       case 0: {
-        LoadReport report{number(), number(), amount(), {}};
+        LoadReport report{number(), number(), amount(), {}, amount()};
         for (auto n = below(5); n > 0; --n) report.loads.push_back({subdomain(), number(), amount(), random_()});
         return report;
       }
       case 1:
         return Plan{number(), moves()};
       case 2:
-        return LoadNews{number(), amount(), amount(), amount()};
+        return LoadNews{number(), amount(), amount(), amount(), amount()};
       case 3:
-        return WorkRequest{rank(), number(), amount(), amount(), number()};
+        return WorkRequest{rank(), number(), amount(), amount(), number(), amount()};
       case 4:
         return WorkAnswer{number(), moves()};
       default:

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "balancer/controller.hpp"
 #include "balancer/knowledge.hpp"
 #include "balancer/policies/policy_factory.hpp"
@@ -255,6 +257,21 @@ TEST_CASE("a refused rank stops asking and is served later") {
   const Decision late = broker.think(200.1, loads_of(0, 4, 1000), 1000);
   CHECK(!late.moves.empty());
   CHECK(sent<balancer::WorkAnswer>(late).size() == 1);
+}
+
+TEST_CASE("a rank that was refused with some work left is not taken for idle") {
+  const Layout layout = grid_layout(12, 1, 3);
+  Controller broker = controller_of(0_rank, layout, "stealing");
+  broker.receive(2_rank, balancer::LoadNews{1, 0, 0, 300}, 1);
+  broker.receive(1_rank, balancer::LoadNews{1, 25, 20, 300}, 1);
+  broker.receive(1_rank, balancer::WorkRequest{1_rank, 1, 25, 300, 0}, 1);
+  CHECK(sent<balancer::WorkAnswer>(broker.think(1, {}, 300)).size() == 1);  // nobody has any
+  broker.receive(2_rank, balancer::LoadNews{2, 3000, 2000, 300}, 1.01);
+  const auto request = sent<balancer::WorkRequest>(broker.think(1.01, {}, 300));
+  const auto of_refused =
+      std::find_if(request.begin(), request.end(), [](const auto& r) { return r.second.thief == 1_rank; });
+  REQUIRE(of_refused != request.end());
+  CHECK(of_refused->second.remaining > 0);
 }
 
 TEST_CASE("listing many subdomains does not take the time of refining them") {

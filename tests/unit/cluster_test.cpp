@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "balancer/policies/policy_factory.hpp"
 #include "cluster/simulated/simulate.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"
@@ -140,4 +141,18 @@ TEST_CASE("a slower network and costlier messages make the run longer") {
 TEST_CASE("a plan for more ranks than the cluster has is rejected") {
   const RunPlan plan = pipe_plan(5e3, 4, 12, Presplit::kOn);
   CHECK_THROWS_AS(static_cast<void>(simulate(plan, equal_ranks(3))), Error);
+}
+
+TEST_CASE("where details of the input decide, work is even on paper and balancing does no harm") {
+  const QualityBounds bounds{30, 0, {}, nullptr};
+  RunPlan plan = testing::plan_for(generate_bay({}), bounds, 4, 200, Presplit::kOff);
+  ClusterSpec cluster;
+  cluster.groups = {{"slow", 4, 100e3}};
+  const double alone = simulate(plan, cluster).makespan;
+  for (const char* const policy : {"greedy", "zoltan", "stealing"}) {
+    CAPTURE(policy);
+    plan.balancing.policy = policy;
+    prepare_balancing(plan, 4, balancer::make_policy);
+    CHECK(simulate(plan, cluster).makespan < 1.02 * alone);
+  }
 }
