@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "balancer/effort.hpp"
+
 namespace driftmesh::balancer {
 namespace {
 
@@ -73,6 +75,7 @@ void Knowledge::list(LoadSnapshot& snapshot, Rank rank, const std::vector<Subdom
 }
 
 LoadSnapshot Knowledge::snapshot(double now, bool with_silent) const {
+  note_effort("snapshot", static_cast<double>(layout_->subdomains.size()));
   LoadSnapshot snapshot;
   snapshot.layout = layout_;
   std::map<Rank, std::vector<SubdomainLoad>> arriving;

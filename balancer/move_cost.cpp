@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "balancer/effort.hpp"
 #include "protocol/messages.hpp"
 
 namespace driftmesh::balancer {
@@ -135,6 +136,7 @@ bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_p
 
 std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost,
                                const Worth& worth, Kept kept) {
+  note_effort("weigh", static_cast<double>(moves.size()));
   Selection selection(snapshot, cost);
   const double before = selection.finish();
   selection.consider(those_that_fit(snapshot, moves));

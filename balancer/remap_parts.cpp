@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "balancer/effort.hpp"
+
 namespace driftmesh::balancer {
 namespace {
 
@@ -63,6 +65,7 @@ class Matching {
 }  // namespace
 
 std::vector<Rank> remap_parts(const LoadSnapshot& snapshot, std::span<const Part> parts, double tolerance) {
+  note_effort("remap", static_cast<double>(parts.size()));
   std::map<std::pair<Part, Rank>, double> shared;  // work of a part owned by a rank
   for (std::size_t i = 0; i < parts.size(); ++i)
     shared[{parts[i], snapshot.subdomains[i].owner}] += snapshot.subdomains[i].remaining;

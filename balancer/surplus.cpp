@@ -6,6 +6,8 @@
 #include <queue>
 #include <tuple>
 
+#include "balancer/effort.hpp"
+
 namespace driftmesh::balancer {
 namespace {
 
@@ -32,7 +34,9 @@ class Dealer {
   /// Subdomains that are neighbors stay together where ranks have room for them.
   LoadSnapshot deal_together() {
     std::vector<Index> left;
-    for (const Index i : collect())
+    const std::vector<Index> pool = collect();
+    note_place(pool);
+    for (const Index i : pool)
       if (!place_within_shares(i)) left.push_back(i);
     return deal_singly(std::move(left));
   }
@@ -41,6 +45,7 @@ class Dealer {
 
  private:
   LoadSnapshot deal_singly(std::vector<Index> pool) {
+    note_place(pool);
     std::ranges::sort(pool, {}, [&](Index i) {
       const SubdomainLoad& s = snapshot_.subdomains[i];
       return std::tuple(-s.remaining, s.id);
@@ -49,11 +54,16 @@ class Dealer {
     return std::move(snapshot_);
   }
 
+  void note_place(const std::vector<Index>& pool) const {
+    note_effort("place", static_cast<double>(pool.size() * speeds_.size()));
+  }
+
   double& load(Rank rank) { return snapshot_.ranks[rank].remaining; }
   [[nodiscard]] double share(Rank rank) const { return ideal_ * speeds_[rank]; }
 
   /// The surplus of all ranks.
   std::vector<Index> collect() {
+    note_effort("deal", static_cast<double>(snapshot_.subdomains.size()));
     IdVector<Rank, std::vector<Index>> own(snapshot_.ranks.size());
     for (Index i = 0; i < snapshot_.subdomains.size(); ++i)
       if (!snapshot_.subdomains[i].fixed) own[snapshot_.subdomains[i].owner].push_back(i);

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "balancer/effort.hpp"
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
 
@@ -322,6 +323,15 @@ std::vector<Part> partition(MPI_Comm communicator, const LoadSnapshot& snapshot,
   return parts;
 }
 
+// The method in small letters.
+std::string effort_kind(const ZoltanParameters& parameters) {
+  const auto method = parameters.find("LB_METHOD");
+  std::string kind = method == parameters.end() ? "RCB" : method->second;
+  for (char& c : kind)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return kind;
+}
+
 }  // namespace
 
 const std::vector<std::string>& zoltan_parameter_names() {
@@ -387,6 +397,8 @@ bool zoltan_accepts(const std::string& name, const std::string& value) {
 
 std::vector<Part> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters) {
   if (snapshot.subdomains.empty()) return {};
+  note_effort(effort_kind(parameters).c_str(),
+              static_cast<double>(snapshot.subdomains.size()) * bisections(snapshot.ranks.size()));
   initialize_once();
   return partition(MPI_COMM_SELF, snapshot, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbors) {
     IdVector<SubdomainId, int> process_of(snapshot.layout->subdomains.size(), -1);

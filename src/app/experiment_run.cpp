@@ -7,6 +7,7 @@
 #include "app/summary.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/stopwatch.hpp"
+#include "config/costs_file.hpp"
 #include "config/value_json.hpp"
 #include "job/check.hpp"
 #include "job/prepare.hpp"
@@ -28,9 +29,14 @@ IdVector<Rank, double> measured_speeds(const ClusterRun& run, IdVector<Rank, dou
   return shares;
 }
 
+CostModel costs_of(const job::Request& request) {
+  return request.cluster.costs.empty() ? CostModel{} : config::read_costs(request.cluster.costs);
+}
+
 /// Speeds of the ranks as known before the run; for real ranks, only the ratios.
 IdVector<Rank, double> known_speeds(const job::Request& request, const RealCluster* cluster) {
-  return cluster == nullptr ? speeds_of(job::cluster_of(request), {}) : job::shares_of_time(request, cluster->ranks());
+  return cluster == nullptr ? speeds_of(job::cluster_of(request), costs_of(request))
+                            : job::shares_of_time(request, cluster->ranks());
 }
 
 job::Use use_of(const job::Request& request) {
@@ -98,7 +104,7 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   if (real) {
     run_real(run, *cluster, std::move(prepared), std::move(domain), watch);
   } else {
-    run.outcome = job::run_simulated(request, prepared, limits, run.record, watch);
+    run.outcome = job::run_simulated(request, prepared, limits, costs_of(request), run.record, watch);
     run.plan = std::move(prepared.plan);
   }
   run.record.stages.push_back({real ? "run" : "simulate", running.seconds()});

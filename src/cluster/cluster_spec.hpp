@@ -23,6 +23,7 @@ struct ClusterSpec {
   IdVector<Rank, double> drag;  ///< the fraction of its speed that each rank keeps; empty: all of it
   double latency = 50e-6;       ///< seconds from the end of sending to arrival
   double bandwidth = 1e9;       ///< bytes per second that leave a rank
+  double scale = 1;  ///< triangles that each one stands for: what depends on subdomains alone costs that much less
   double message_overhead =
       1e-6;  ///< seconds that a rank of any speed spends on each message that it sends or receives
 };

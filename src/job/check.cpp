@@ -190,6 +190,7 @@ ClusterSpec cluster_of(const Request& request) {
   for (const double speed : c.rank_speeds) cluster.groups.push_back({"", 1, speed});
   if (cluster.groups.empty()) cluster.groups = {{"all", c.ranks, c.speed}};
   cluster.drag = IdVector<Rank, double>(c.drag);
+  cluster.scale = c.scale;
   cluster.latency = c.latency;
   cluster.bandwidth = c.bandwidth;
   cluster.message_overhead = c.message_overhead;

@@ -25,6 +25,7 @@ void register_reads(const Request& request, EntryPoint entry_point, FileRegistry
   if (!request.input.file.empty()) reads(poly_files(request.input.file), "input.file");
   if (!request.sizing.background.empty()) reads(background_files(request.sizing.background), "sizing.background");
   if (!request.decomposition.file.empty()) reads({request.decomposition.file}, "decomposition.file");
+  if (!request.cluster.costs.empty()) reads({request.cluster.costs}, "cluster.costs");
 }
 
 }  // namespace driftmesh::job

@@ -396,7 +396,15 @@ Section cluster_section() {
            "Bytes per second that a rank can send, on simulated clusters", above(0), places(kMany)),
        key("cluster.message-overhead", &R::cluster, &R::Cluster::message_overhead,
            "Time a rank spends on each message it sends or receives, on simulated clusters", unit("seconds"), from(0),
-           places(kMany))}};
+           places(kMany)),
+       key("cluster.scale", &R::cluster, &R::Cluster::scale,
+           "Triangles that each one stands for, where speeds are scaled down: planning, which depends on the number of "
+           "subdomains, costs that much less than the speeds say",
+           above(0)),
+       key("cluster.costs", &R::cluster, &R::Cluster::costs,
+           "What work and planning cost, as measured by driftmesh calibrate; empty: as on the machine in "
+           "docs/benchmarks.md",
+           file())}};
 }
 
 Section output_section() {

@@ -82,6 +82,8 @@ struct Request {
     double latency = ClusterSpec{}.latency;
     double bandwidth = ClusterSpec{}.bandwidth;
     double message_overhead = ClusterSpec{}.message_overhead;
+    double scale = ClusterSpec{}.scale;
+    std::string costs;  ///< a file; empty: those of the reference machine
   } cluster;
 
   struct Run {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "balancer/codec.hpp"
+#include "balancer/effort.hpp"
 #include "driftmesh/error.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/protocol_error.hpp"
@@ -225,10 +226,12 @@ bool RankLoop::balance(bool worked) {
   const std::vector<balancer::ReportedLoad> own = loads();
   transport_.spend(static_cast<double>(own.size()) * costs_.listed);
   own_failure_ = plan_.policy->placement() != balancer::Placement::kCollective;
+  const balancer::EffortLog planning;
   balancer::Decision decision =
       controller_->think(clock_, own, speed_.value() * static_cast<double>(1 + (crew_ != nullptr ? crew_->size() : 0)),
                          experience_.doubt(own));
   own_failure_ = false;
+  transport_.spend(costs_.planning.seconds(planning.efforts()));
   // Only what planning took: packing what it hands over does not make looking at loads more expensive.
   const double took = transport_.now() - start;
   if (decision.planned) controller_->took(took);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "balancer/conduct.hpp"
+#include "balancer/effort.hpp"
 #include "balancer/parameters.hpp"
 #include "balancer/policy_list.hpp"
 #include "base/scratch_file.hpp"
@@ -63,6 +64,7 @@ struct CostModel {
   double packed_byte = 0.4e-9;  ///< of a subdomain that is packed or unpacked
   double asleep = 23e-9;        ///< a triangle of a subdomain that falls asleep
   double woken = 40e-9;         ///< and of one that wakes
+  balancer::PlanningCosts planning;
 };
 
 }  // namespace driftmesh

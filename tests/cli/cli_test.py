@@ -721,7 +721,7 @@ class Experiments(Cli):
         "corner-refinement": ["sizing.size=\"x < 0.45 && y < 0.45 ? 0.006 : 0.05\"",
                               "decomposition.subdomains-per-rank=10"],
         "policies": ["bounds.triangles-per-rank=1e3", "decomposition.subdomains-per-rank=8"],
-        "migration-stress": ["bounds.triangles=3e4", "decomposition.subdomains=[24, 120]",
+        "migration-stress": ["bounds.triangles=3e4", "cluster.scale=100", "decomposition.subdomains=[24, 120]",
                              "cluster.groups=[{ranks: 6, speed: 8e4}, {ranks: 6, speed: 1e4}]"],
         "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
     }
@@ -761,6 +761,14 @@ class Experiments(Cli):
         self.assertGreater(int(one["split_messages"]), int(some["split_messages"]))
         self.assertGreaterEqual(int(some["split_messages"]), int(all_together["split_messages"]))
         self.assertGreater(float(one["sending"]), float(all_together["sending"]))
+
+    def test_costs_are_measured_and_used(self):
+        self.succeed("calibrate", "--quick", "-o", "costs.yaml")
+        self.succeed("calibrate", "--quick")
+        self.run_config("first-run", *self.SHRUNK["first-run"], "cluster.costs=costs.yaml", folder="measured")
+        self.write("costs.yaml", "start: 1\n")
+        self.run_config("first-run", *self.SHRUNK["first-run"], "cluster.costs=costs.yaml", folder="slow")
+        self.assertGreater(float(self.table("slow")[0]["seconds"]), 1)
 
     def test_the_complete_experiment_reproduces_itself(self):
         self.run_config("first-run", *self.SHRUNK["first-run"], folder="first")

@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "balancer/effort.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "cluster/simulated/simulate.hpp"
 #include "driftmesh/error.hpp"
@@ -136,6 +137,29 @@ TEST_CASE("a slower network and costlier messages make the run longer") {
   cluster = equal_ranks(4);
   cluster.latency = 0.1;
   CHECK(simulate(plan, cluster).makespan > fast + 0.1);
+}
+
+TEST_CASE("planning keeps rank 0 from its work for as long as its costs say") {
+  RunPlan plan = pipe_plan(40e3, 4, 80, Presplit::kOn);
+  std::fill(plan.owners.begin(), plan.owners.end(), Rank{0});
+  prepare_balancing(plan, 4, [](const std::string&, const auto&) {
+    return balancer::leader_policy([](const balancer::LoadSnapshot&) {
+      balancer::note_effort("rcb", 1);
+      return std::vector<balancer::Move>{};
+    });
+  });
+  const auto planning = [&](double seconds, double scale) {
+    CostModel costs;
+    costs.planning.unit = {{"rcb", seconds}};
+    ClusterSpec cluster = equal_ranks(4);
+    cluster.scale = scale;
+    const ClusterRun run = simulate(plan, cluster, costs);
+    CHECK(run.ranks.back().times.balancing < 1e-3);
+    return run.ranks.front().times.balancing;
+  };
+  CHECK(planning(10e-3, 1) > planning(0, 1) + 9e-3);
+  CHECK(planning(10e-3, 1) == planning(10e-3, 1));
+  CHECK(planning(10e-3, 100) == doctest::Approx(planning(0.1e-3, 1)).epsilon(0.1));
 }
 
 TEST_CASE("a plan for more ranks than the cluster has is rejected") {

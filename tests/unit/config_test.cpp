@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/read_file.hpp"
+#include "config/costs_file.hpp"
 #include "config/experiment.hpp"
 #include "config/value_json.hpp"
 #include "config/words.hpp"
@@ -322,4 +323,22 @@ TEST_CASE("every shipped experiment is valid") {
     CHECK_NOTHROW(static_cast<void>(read_experiment(entry.path().string(), {})));
   }
   CHECK(files > 0);
+}
+
+TEST_CASE("costs are read as they were written, and mistakes are found") {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "costs.yaml").string();
+  const auto read = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    return read_costs(path);
+  };
+  CostModel costs;
+  costs.point = 1e-6;
+  costs.planning.unit["graph"] = 2e-6;
+  const CostModel again = read(costs_text(costs));
+  CHECK(again.point == costs.point);
+  CHECK(again.planning.unit == costs.planning.unit);
+  CHECK(read("{planning: {rcb: 1}}").planning.unit.at("rcb") == 1);
+  for (const char* wrong : {"pint: 1", "point: -1", "point: soon", "planning: {grph: 1}", "planning: 3", "[1]", "{"})
+    CHECK_THROWS_AS(static_cast<void>(read(wrong)), InputError);
 }

@@ -101,7 +101,7 @@ std::uint64_t digest_simulated(Request request, std::int32_t ranks) {
   const Prepared ready =
       prepare(request, domain, triangulated, {}, kSimulated, speeds_of(cluster_of(request), {}), Limits{}, watch);
   RunRecord record;
-  static_cast<void>(run_simulated(request, ready, Limits{}, record, watch));
+  static_cast<void>(run_simulated(request, ready, Limits{}, {}, record, watch));
   return record.digest;
 }
 

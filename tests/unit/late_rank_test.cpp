@@ -65,7 +65,9 @@ class LateRun {
       transport.spend((moment - transport.now()) * kSpeed);
       return StepResult::kBusy;
     }
-    loop = std::make_unique<RankLoop>(transport, plan_, CostModel{}, RankLoop::Observers{}, council_.get());
+    CostModel costs;
+    costs.planning.unit.clear();  // on ranks as slow as these, planning would outlast the run
+    loop = std::make_unique<RankLoop>(transport, plan_, costs, RankLoop::Observers{}, council_.get());
     return StepResult::kBusy;
   }
 

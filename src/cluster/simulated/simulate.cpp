@@ -25,6 +25,13 @@ protocol::VirtualCluster virtual_cluster(const ClusterSpec& cluster, const CostM
   return made;
 }
 
+/// What depends on subdomains, not on their triangles, is not scaled up with the triangles' costs.
+CostModel scaled(CostModel costs, double scale) {
+  costs.listed /= scale;
+  for (auto& [kind, unit] : costs.planning.unit) unit /= scale;
+  return costs;
+}
+
 void require_fit(const RunPlan& plan, std::int32_t ranks) {
   const auto most = std::max_element(plan.owners.begin(), plan.owners.end());
   if (most != plan.owners.end() && *most >= Rank{ranks})
@@ -60,8 +67,8 @@ class Simulation {
         log.arrives(loop, passage);
         count(r, loop.triangles());
       };
-      loops_.push_back(
-          std::make_unique<RankLoop>(network_.transport(r), plan, costs, std::move(watch), council_.get()));
+      loops_.push_back(std::make_unique<RankLoop>(network_.transport(r), plan, scaled(costs, cluster.scale),
+                                                  std::move(watch), council_.get()));
       log.begins(*loops_.back());
     }
   }

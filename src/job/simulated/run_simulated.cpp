@@ -8,8 +8,8 @@
 
 namespace driftmesh::job {
 
-ClusterRun run_simulated(const Request& request, const Prepared& prepared, const Limits& limits, RunRecord& record,
-                         Watch& watch) {
+ClusterRun run_simulated(const Request& request, const Prepared& prepared, const Limits& limits, const CostModel& costs,
+                         RunRecord& record, Watch& watch) {
   SimulationObservers observers;
   observers.progress = [&](std::int64_t triangles) {
     const bool by_memory = memory_is_full(limits, triangles);
@@ -19,7 +19,7 @@ ClusterRun run_simulated(const Request& request, const Prepared& prepared, const
   };
   FactsBook book(prepared.plan.decomposition);
   observers.finished = [&](const RankLoop& rank) { add_report(record, report_of(rank, prepared.plan, book)); };
-  ClusterRun outcome = simulate(prepared.plan, cluster_of(request), {}, observers);
+  ClusterRun outcome = simulate(prepared.plan, cluster_of(request), costs, observers);
   add_plan(record, prepared.plan);
   record.peak = record.peak_refining = peak_memory();
   return outcome;

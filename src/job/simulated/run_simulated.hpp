@@ -7,9 +7,10 @@
 
 namespace driftmesh::job {
 
-/// Makes the mesh on the simulated cluster of the request, in virtual time. Adds what the ranks report to `record`.
-/// Throws LimitError if all ranks together have more triangles than `limits` allow, and whatever simulate throws.
+/// Makes the mesh on the simulated cluster of the request, in virtual time, at these costs. Adds what the ranks report
+/// to `record`. Throws LimitError if all ranks together have more triangles than `limits` allow, and whatever simulate
+/// throws.
 [[nodiscard]] ClusterRun run_simulated(const Request& request, const Prepared& prepared, const Limits& limits,
-                                       RunRecord& record, Watch& watch);
+                                       const CostModel& costs, RunRecord& record, Watch& watch);
 
 }  // namespace driftmesh::job
