@@ -172,6 +172,7 @@ TEST_CASE("where details of the input decide, work is even on paper and balancin
   RunPlan plan = testing::plan_for(generate_bay({}), bounds, 4, 200, Presplit::kOff);
   ClusterSpec cluster;
   cluster.groups = {{"slow", 4, 100e3}};
+  cluster.scale = 79;  // each triangle stands for many, so that planning takes as long as on a real rank
   const double alone = simulate(plan, cluster).makespan;
   for (const char* const policy : {"greedy", "zoltan", "stealing"}) {
     CAPTURE(policy);
