@@ -5,6 +5,7 @@
 #include <optional>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 #include "balancer/effort.hpp"
 
@@ -153,8 +154,9 @@ LoadSnapshot deal_surplus(const LoadSnapshot& snapshot, double tolerance) {
   LoadSnapshot together = Dealer(snapshot, tolerance).deal_together();
   LoadSnapshot singly = Dealer(snapshot, tolerance).deal_singly();
   const double latest = finishing_time(singly) + tolerance / 2 * ideal_time(snapshot);
-  LoadSnapshot& dealt = finishing_time(together) <= latest ? together : singly;
-  return finishing_time(dealt) < finishing_time(snapshot) ? std::move(dealt) : snapshot;
+  LoadSnapshot dealt = std::move(finishing_time(together) <= latest ? together : singly);
+  if (finishing_time(dealt) < finishing_time(snapshot)) return dealt;
+  return snapshot;
 }
 
 }  // namespace driftmesh::balancer
