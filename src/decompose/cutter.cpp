@@ -73,6 +73,16 @@ void Cutter::spend_spare_parts() {
   }
 }
 
+void Cutter::divide(double work) {
+  std::vector<PieceId> heavy;
+  for (const PieceId i : ids_of(pieces_))
+    if (pieces_[i].parts == 1 && pieces_[i].work > work) heavy.push_back(i);
+  for (const PieceId piece : heavy) {
+    pieces_[piece].parts = 2;
+    if (!cut(piece, find(piece, random_bias()))) pieces_[piece].parts = 1;
+  }
+}
+
 FoundCut Cutter::find(PieceId piece, double bias) {
   const Piece& p = pieces_[piece];
   return finder_.find(p, samples_[piece], {skew_ > 0 ? 1 : p.work / p.parts / mean_, bias, skew_ > 0});

@@ -27,6 +27,9 @@ class Cutter {
   /// Returns the number of parts that could not be made.
   [[nodiscard]] std::int32_t run();
 
+  /// Cuts each finished piece of more than `work` in two, where a cut is found. This makes more pieces than parts.
+  void divide(double work);
+
  private:
   void enqueue(PieceId piece);
   void cut_all(std::span<const PieceId> pieces);

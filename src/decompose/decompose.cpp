@@ -23,10 +23,15 @@ constexpr double kFairLoad = 1.45;
 /// Samples of work.
 constexpr double kSamplesPerSubdomain = 60;
 
+double total_work(const IdVector<PieceId, Piece>& pieces) {
+  double work = 0;
+  for (const Piece& p : pieces) work += p.work;
+  return work;
+}
+
 /// Work in proportion to area becomes a number of triangles.
 void scale_work(IdVector<PieceId, Piece>& pieces, double total) {
-  double sum = 0;
-  for (const Piece& p : pieces) sum += p.work;
+  const double sum = total_work(pieces);
   for (Piece& p : pieces) p.work *= total / sum;
 }
 
@@ -83,16 +88,25 @@ Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options
   return domain;
 }
 
-/// Cuts into `finer` times as many pieces as subdomains are wanted, and groups them. Bridges leave few ways to cut a
-/// domain with many holes into a few subdomains; groups of smaller pieces have more.
-Decomposition cut_domain(Domain domain, const DecomposeOptions& options, std::int32_t finer) {
+/// Ways to cut a domain evenly, each tried if those before leave a subdomain with too much work. Groups of smaller
+/// pieces leave some choice. To divide a few heavy pieces and join light ones is fast; where bridges between many holes
+/// leave few ways to cut, the whole domain is cut into smaller pieces.
+struct Attempt {
+  std::int32_t finer = 1;  ///< as many times the pieces as subdomains are wanted
+  bool divides_heavy = false;
+};
+constexpr Attempt kAttempts[] = {{1, false}, {1, true}, {4, false}, {8, false}};
+
+Decomposition cut_domain(Domain domain, const DecomposeOptions& options, const Attempt& attempt) {
   const std::int32_t bundles = bundle_small_parts(domain.map, domain.pieces, options.subdomains);
-  const std::int32_t parts = finer * (options.subdomains - bundles);
+  const std::int32_t parts = attempt.finer * (options.subdomains - bundles);
   allot_parts(domain.map, domain.pieces, parts);
-  const std::int32_t missing = Cutter(domain.map, domain.pieces, domain.samples, options, parts).run();
+  Cutter cutter(domain.map, domain.pieces, domain.samples, options, parts);
+  const std::int32_t missing = cutter.run();
   if (missing > 0 && parts - missing + bundles < options.subdomains)
     throw Error("the domain could be cut into " + std::to_string(parts - missing + bundles) + " of " +
                 std::to_string(options.subdomains) + " subdomains; ask for fewer, or allow smaller angles");
+  if (attempt.divides_heavy) cutter.divide(kFairLoad * total_work(domain.pieces) / options.subdomains);
   return to_decomposition(domain.map, domain.pieces, group_pieces(domain.map, domain.pieces, options.subdomains),
                           options.subdomains);
 }
@@ -107,14 +121,17 @@ double largest_load(const Decomposition& d) {
 }
 
 Decomposition cut_evenly(const Domain& domain, const DecomposeOptions& options) {
-  Decomposition result = cut_domain(domain, options, 1);
-  if (options.skew > 0) return result;
-  for (const std::int32_t finer : {4, 8}) {
-    if (largest_load(result) <= kFairLoad) break;
-    Decomposition grouped = cut_domain(domain, options, finer);
-    if (largest_load(grouped) < largest_load(result)) result = std::move(grouped);
+  Decomposition best;
+  double load = kNoBound;
+  for (const Attempt& attempt : kAttempts) {
+    Decomposition found = cut_domain(domain, options, attempt);
+    const double of_found = largest_load(found);
+    if (of_found >= load) continue;
+    best = std::move(found);
+    load = of_found;
+    if (options.skew > 0 || load <= kFairLoad) break;
   }
-  return result;
+  return best;
 }
 
 }  // namespace

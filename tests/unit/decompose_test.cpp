@@ -10,6 +10,7 @@
 #include "decompose/check_decomposition.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
 #include "driftmesh/repair.hpp"
 #include "geometry/predicates.hpp"
 #include "mesh/cdt.hpp"
@@ -127,6 +128,15 @@ TEST_CASE("holes: any number of subdomains works and keeps the angle") {
     const DecompositionReport report = check_whole(decompose_into(mesh, n), mesh, static_cast<std::size_t>(n));
     CHECK(report.smallest_angle >= 60 - 1e-9);
     if (n >= 20) CHECK(report.largest_load <= 1.45);
+  }
+}
+
+TEST_CASE("a few heavy pieces are divided, and light ones are joined") {
+  const Triangulation mesh = prepared(generate_comb({}));
+  for (const int n : {11, 29}) {  // the first cuts leave 1.61 and 1.46 times the mean, and so do groups of finer cuts
+    CAPTURE(n);
+    CHECK(check_whole(decompose_into(mesh, n), mesh, static_cast<std::size_t>(n)).largest_load <
+          (n == 11 ? 1.5 : 1.45));
   }
 }
 
