@@ -71,6 +71,8 @@ void remove_outside(Triangulation& mesh, const Flood& outside) {
 std::vector<RootId> drop_unused_segments(Triangulation& mesh) {
   IdVector<SubsegmentId, Subsegment> subsegments;
   IdVector<RootId, RootSegment> roots;
+  subsegments.reserve(mesh.roots.size());
+  roots.reserve(mesh.roots.size());
   std::vector<RootId> dropped;
   for (const RootId r : ids_of(mesh.roots)) {
     RootSegment root = mesh.roots[r];

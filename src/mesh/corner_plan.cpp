@@ -32,11 +32,16 @@ constexpr double kSameLength = 0.0005;
 class Sectors {
  public:
   explicit Sectors(const Triangulation& mesh) : mesh_(mesh) {
-    for (const SegmentEnd e : first_ids<SegmentEnd>(2 * mesh.roots.size())) {
+    const std::size_t ends = 2 * mesh.roots.size();
+    next_.reserve(ends);
+    angle_.reserve(ends);
+    length_.reserve(ends);
+    for (const SegmentEnd e : first_ids<SegmentEnd>(ends)) {
       const auto& v = mesh.roots[root_of(e)].vertex;
       length_.push_back(std::sqrt(squared_distance(mesh.points[v[0]], mesh.points[v[1]])));
       next_.push_back(next_around_apex(e));
       angle_.push_back(next_.back() == kNone || next_.back() == e ? kOpen : angle_between(e, next_.back()));
+      smallest_angle_ = std::min(smallest_angle_, angle_.back());
     }
   }
 
@@ -46,6 +51,7 @@ class Sectors {
   [[nodiscard]] SegmentEnd next(SegmentEnd e) const { return next_[e]; }
   /// The angle to it in radians.
   [[nodiscard]] double angle(SegmentEnd e) const { return angle_[e]; }
+  [[nodiscard]] double smallest_angle() const { return smallest_angle_; }
   [[nodiscard]] double length(SegmentEnd e) const { return length_[e]; }
   [[nodiscard]] const Point& apex(SegmentEnd e) const { return mesh_.points[apex_vertex(e)]; }
   [[nodiscard]] const Point& tip(SegmentEnd e) const { return apex(other_end(e)); }
@@ -73,6 +79,7 @@ class Sectors {
   IdVector<SegmentEnd, SegmentEnd> next_;
   IdVector<SegmentEnd, double> angle_;
   IdVector<SegmentEnd, double> length_;
+  double smallest_angle_ = kOpen;
 };
 
 /// The angle from which on segments that meet need no protection for an angle bound in degrees, see prepare_corners.
@@ -87,6 +94,7 @@ struct Group {
 };
 
 std::vector<Group> groups_below(const Sectors& sectors, double angle) {
+  if (sectors.smallest_angle() >= angle) return {};
   DisjointSets<SegmentEnd> sets(sectors.count());
   IdVector<SegmentEnd, double> smallest(sectors.count(), kOpen);
   for (const SegmentEnd e : sectors.ends()) {
@@ -96,15 +104,16 @@ std::vector<Group> groups_below(const Sectors& sectors, double angle) {
     smallest[e] = std::min(smallest[e], sectors.angle(e));
     smallest[f] = std::min(smallest[f], sectors.angle(e));
   }
-  IdVector<SegmentEnd, Group> groups(sectors.count());
+  std::map<SegmentEnd, Group> groups;  // by their sets: most ends are in none
   for (const SegmentEnd e : sectors.ends()) {
     if (smallest[e] == kOpen) continue;
     Group& group = groups[sets.find(e)];
     group.ends.push_back(e);
     group.smallest_angle = std::min(group.smallest_angle, smallest[e]);
   }
-  std::erase_if(groups, [](const Group& g) { return g.ends.empty(); });
-  return groups;
+  std::vector<Group> in_order;
+  for (auto& [set, group] : groups) in_order.push_back(std::move(group));
+  return in_order;
 }
 
 /// Chooses circles around each apex, and turns them into cuts.
@@ -113,7 +122,6 @@ class Planner {
   Planner(const Sectors& sectors, const CornerUse& use)
       : sectors_(sectors),
         use_(use),
-        circles_(sectors.count()),
         tip_circle_(sectors.count(), kNone),
         apex_(sectors.count(), kNone),
         whole_(sectors.count(), false) {}
@@ -131,8 +139,7 @@ class Planner {
       }
     for (const Group& bundle : groups_below(sectors_, kBundled))
       if (!whole_[bundle.ends.front()]) add_tips(bundle);
-    for (const SegmentEnd e : sectors_.ends()) cut(e);
-    plan_.clusters = static_cast<std::int32_t>(groups_below(sectors_, kAcute).size());
+    for (auto& [e, circles] : circles_) cut(e, circles);
     return std::move(plan_);
   }
 
@@ -232,14 +239,15 @@ class Planner {
   }
 
   void drop_powers_near(SegmentEnd e, double radius) {
-    std::erase_if(circles_[e], [&](const Circle& c) {
+    const auto found = circles_.find(e);
+    if (found == circles_.end()) return;
+    std::erase_if(found->second, [&](const Circle& c) {
       return c.radius > 2.0 / 3 * radius && c.radius < 4.0 / 3 * radius &&
              std::exp2(std::floor(std::log2(c.radius))) == c.radius;
     });
   }
 
-  void cut(SegmentEnd e) {
-    std::vector<Circle>& circles = circles_[e];
+  void cut(SegmentEnd e, std::vector<Circle>& circles) {
     std::sort(circles.begin(), circles.end(), [](const Circle& a, const Circle& b) { return a.radius < b.radius; });
     std::int32_t inner = apex_[e];
     const Point &a = sectors_.apex(e), &b = sectors_.tip(e);
@@ -258,7 +266,7 @@ class Planner {
 
   const Sectors& sectors_;
   CornerUse use_;
-  IdVector<SegmentEnd, std::vector<Circle>> circles_;  // of each end
+  std::map<SegmentEnd, std::vector<Circle>> circles_;  // of the ends that are cut
   IdVector<SegmentEnd, std::int32_t> tip_circle_;      // of each end: the circle that the other end lies on
   IdVector<SegmentEnd, std::int32_t> apex_;  // of each end: the name of its cluster's apex, kNone if it is in none
   IdVector<SegmentEnd, bool> whole_;         // of each end: whether its cluster needs no cuts
@@ -271,7 +279,11 @@ class Planner {
 
 CornerPlan plan_corners(const Triangulation& mesh, const CornerUse& use) {
   const Sectors sectors(mesh);
-  return Planner(sectors, use).plan();
+  const auto acute = static_cast<std::int32_t>(groups_below(sectors, kAcute).size());
+  if (acute == 0) return {};  // clusters are groups of acute sectors
+  CornerPlan plan = Planner(sectors, use).plan();
+  plan.clusters = acute;
+  return plan;
 }
 
 }  // namespace driftmesh

@@ -1,6 +1,7 @@
 #include "mesh/nested_rings.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/disjoint_sets.hpp"
@@ -19,7 +20,7 @@ class Nesting {
  public:
   explicit Nesting(const Triangulation& mesh) : mesh_(mesh), area_of_(mesh.triangles.size(), kNone) {
     group_segments();
-    if (group_count() < 2) return;  // nothing lies apart from the outer boundary
+    if (rings_ < 2) return;  // nothing but the outer boundary encloses anything
     flood_areas();
     find_surroundings();
     note_enclosed();
@@ -27,7 +28,7 @@ class Nesting {
 
   [[nodiscard]] NestedRings rings() {
     NestedRings result;
-    if (group_count() < 2) return result;
+    if (rings_ < 2) return result;
     for (const GroupId g : ids_of(leftmost_))
       if (surrounding_[g] != kNone && encloses_[g] && !explained_[g]) result.unexplained.push_back(leftmost_[g]);
     for (const AreaId a : ids_of(largest_))
@@ -53,7 +54,13 @@ class Nesting {
 
   void group_segments() {
     DisjointSets<VertexId> sets(mesh_.points.size());
-    for (const RootSegment& root : mesh_.roots) sets.join(root.vertex[0], root.vertex[1]);
+    std::vector<VertexId> closed;  // a vertex of each ring
+    for (const RootSegment& root : mesh_.roots)
+      if (!sets.join(root.vertex[0], root.vertex[1])) closed.push_back(root.vertex[0]);
+    for (VertexId& v : closed) v = sets.find(v);
+    std::sort(closed.begin(), closed.end());
+    rings_ = std::unique(closed.begin(), closed.end()) - closed.begin();
+    if (rings_ < 2) return;
     IdVector<VertexId, GroupId> group_of(mesh_.points.size(), kNone);
     for (const RootSegment& root : mesh_.roots) {
       GroupId& group = group_of[sets.find(root.vertex[0])];
@@ -137,6 +144,7 @@ class Nesting {
   }
 
   const Triangulation& mesh_;
+  std::ptrdiff_t rings_ = 0;  // groups with a ring
   std::vector<GroupId> group_of_root_;
   IdVector<GroupId, VertexId> leftmost_;
   IdVector<GroupId, AreaId> surrounding_;
