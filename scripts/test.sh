@@ -68,7 +68,7 @@ formatted() {
     xargs -0 clang-format --dry-run -Werror
 }
 
-scripts/setup.sh build test hosts
+scripts/setup.sh build report test hosts
 run_preset ci
 [[ $quick == yes ]] || run_preset asan-ubsan
 say "clang-tidy"

@@ -41,7 +41,7 @@ struct RunCommand {
 
 // In the folder of the results; endings follow the name of a run.
 constexpr const char *kExperimentFile = "experiment.yaml", *kTableFile = "table.csv", *kRecordEnding = ".json",
-                     *kTraceEnding = ".trace.json", *kStatisticsEnding = ".lb-stats";
+                     *kStatisticsEnding = ".lb-stats";
 
 std::string statistics_file(std::int32_t rank) {
   return fmt::format("data.{}.json", rank);

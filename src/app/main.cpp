@@ -16,6 +16,7 @@
 #include "driftmesh/version.hpp"
 #include "job/limits.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
+#include "report/report_page.hpp"
 
 namespace {
 
@@ -35,19 +36,22 @@ std::string version_text() {
 }
 
 cli::Command commands_of_program() {
-  return {.name = "driftmesh",
-          .summary = "Quality Delaunay meshes of planar domains, on one core or on many ranks",
-          .options = {{.kind = cli::Option::Kind::kFlag,
-                       .name = "version",
-                       .help = "Print the versions of the program, its compiler and its libraries",
-                       .prints = version_text}},
-          .commands = {mesh_command(), check_command(), convert_command(), decompose_command(), generate_command(),
-                       plot_command(), run_command(), calibrate_command()},
-          .notes =
-              "For the options of a command, see: driftmesh COMMAND --help\n\n"
-              "In place of any file name, - stands for standard input or output; an extension after it selects the "
-              "format: -.msh, -.svg. Without one, meshes are .vtu, pictures .png, and domains .poly. While a file goes "
-              "to standard output, messages go to standard error."};
+  cli::Command program{
+      .name = "driftmesh",
+      .summary = "Quality Delaunay meshes of planar domains, on one core or on many ranks",
+      .options = {{.kind = cli::Option::Kind::kFlag,
+                   .name = "version",
+                   .help = "Print the versions of the program, its compiler and its libraries",
+                   .prints = version_text}},
+      .commands = {mesh_command(), check_command(), convert_command(), decompose_command(), generate_command(),
+                   plot_command(), run_command(), calibrate_command()},
+      .notes =
+          "For the options of a command, see: driftmesh COMMAND --help\n\n"
+          "In place of any file name, - stands for standard input or output; an extension after it selects the "
+          "format: -.msh, -.svg. Without one, meshes are .vtu, pictures .png, and domains .poly. While a file goes "
+          "to standard output, messages go to standard error."};
+  if (has_report_page()) program.commands.push_back(report_command());
+  return program;
 }
 
 /// Flushes all buffers.

@@ -31,7 +31,7 @@ LIBRARIES = {
     "muparser": (r"muParser.*\.h", ["sizing"]),
     "threads": (r"thread|future", None),
     "yaml": (r"yaml-cpp/.*", ["config"]),
-    "zlib": (r"zlib\.h", ["io"]),
+    "zlib": (r"zlib\.h", ["io", "report"]),
     "zoltan": (r"zoltan.*\.h", ["partition_zoltan"]),
 }
 

@@ -1,0 +1,129 @@
+// A report in a browser without a window: what it shows, and what it does when it is used.
+//   node page_test.mjs DRIFTMESH BROWSER FOLDER [PACKAGES]
+// The pictures that it leaves in FOLDER are for looking at. PACKAGES: the folder of node_modules, if not above this file.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [program, browserPath, folder, packages = "."] = process.argv.slice(2);
+const require = createRequire(resolve(packages, "package.json"));
+const { default: puppeteer } = await import(pathToFileURL(require.resolve("puppeteer-core")));
+
+const kSize = "x < 0.45 && y < 0.45 ? 0.01 : 0.05";
+const kRanks = 4, kSubdomains = 40;
+const file = (name) => join(folder, name);
+const driftmesh = (...words) => execFileSync(program, words, { stdio: ["ignore", "pipe", "inherit"], encoding: "utf8" });
+
+/** Runs of three policies, and the mesh that all of them make. */
+function makeReport() {
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  const set = { "input.generate": "rectangle-hole", "sizing.size": kSize, "decomposition.subdomains": kSubdomains,
+    "cluster.kind": "simulated", "cluster.ranks": kRanks, "cluster.speed": 1e5, "mapping.by-area": true, "balance.look": 1e-3,
+    "balance.gap": 2e-3 };
+  const words = Object.entries(set).flatMap(([key, value]) => ["--set", `${key}=${value}`]);
+  driftmesh("run", "--quiet", fileOfSweep(), ...words, "-o", file("runs"));
+  driftmesh("generate", "rectangle-hole", "-o", file("domain.poly"));
+  driftmesh("mesh", "--quiet", file("domain.poly"), "--size", kSize, "--subdomains", String(kSubdomains), "-o", file("mesh.vtu"));
+  driftmesh("report", file("runs"), "--mesh", file("mesh.vtu"), "-o", file("report.html"));
+}
+
+function fileOfSweep() {
+  const path = file("sweep.yaml");
+  writeFileSync(path, "sweep:\n  balance.policy: [none, greedy, stealing]\n");
+  return path;
+}
+
+const wait = (page, condition, ...values) => page.waitForFunction(condition, { timeout: 120000 }, ...values);
+const text = (page, selector) => page.$eval(selector, (e) => e.textContent);
+/** How many pixels of a canvas are not white. */
+const inked = (page, selector) => page.$eval(selector, (canvas) => {
+  const copy = document.createElement("canvas");
+  copy.width = canvas.width, copy.height = canvas.height;
+  const context = copy.getContext("2d");
+  context.drawImage(canvas, 0, 0);
+  const { data } = context.getImageData(0, 0, copy.width, copy.height);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 0 && data[i] + data[i + 1] + data[i + 2] < 750) ++count;
+  return count;
+});
+
+async function checkRuns(page) {
+  assert.equal((await page.$$("#runs tbody tr")).length, 3);
+  assert.match(await text(page, "#about"), /^3 runs, driftmesh \d/);
+  const records = [1, 2, 3].map((k) => JSON.parse(readFileSync(file(`runs/run-${k}.json`), "utf8")));
+  const moves = await page.$$eval("#runs tbody tr", (rows) => rows.map((r) => Number(r.cells[5].textContent.replaceAll(",", ""))));
+  assert.deepEqual(moves, records.map((r) => r.cluster.moves.length));
+  assert.ok(moves[1] > 0, "greedy moves something, or this test shows nothing");
+  for (const id of ["comparison", "timeline", "load", "angles", "areas"]) {
+    await wait(page, (chart) => document.querySelector(`#${chart} canvas`), id);
+    assert.ok((await inked(page, `#${id} canvas`)) > 500, `${id} is drawn`);
+  }
+  // By keyboard, as by mouse, a reader gets to another run.
+  await page.focus("#runs tbody tr:nth-child(2)");
+  await page.keyboard.press("Enter");
+  await wait(page, () => document.querySelector("#one-run h2").textContent === "Run run-2");
+  assert.ok((await text(page, "#facts")).includes(records[1].mesh.digest));
+  await page.click("#runs tbody tr:nth-child(3)");
+  await wait(page, () => document.querySelector("#one-run h2").textContent === "Run run-3");
+}
+
+async function checkMesh(page) {
+  const all = await inked(page, "#mesh");
+  assert.ok(all > 10000, `the mesh is drawn: ${all} pixels`);
+  // The middle of the rectangle is its hole; a place near its lower left corner is not.
+  await page.$eval("#mesh", (canvas) => canvas.scrollIntoView({ block: "center" }));
+  const { x, y, width, height } = await (await page.$("#mesh")).boundingBox();
+  await page.mouse.move(x + width / 2 - height / 3, y + height / 2 + height / 8);
+  await wait(page, () => /^triangle [\d,]+, area/.test(document.getElementById("told").textContent));
+  assert.match(await text(page, "#told"), /subdomain \d+/);
+  await page.mouse.move(x + 3, y + 3);
+  await wait(page, () => document.getElementById("told").textContent === "");
+  // Zoom by keyboard and by wheel, and back.
+  await page.focus("#mesh");
+  await page.keyboard.press("+");
+  await wait(page, () => Number(document.getElementById("mesh").dataset.zoom) > 1.4);
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.wheel({ deltaY: -400 });
+  await wait(page, () => Number(document.getElementById("mesh").dataset.zoom) > 2);
+  await page.screenshot({ path: file("zoomed.png") });
+  await page.keyboard.press("0");
+  await wait(page, () => document.getElementById("mesh").dataset.zoom === "1.000");
+}
+
+/** Other ranks have other colors at the end than at the beginning. */
+async function checkReplay(page) {
+  await page.select("#color-by", "rank over time");
+  const colors = () => page.$eval("#mesh", (canvas) => canvas.toDataURL());
+  await page.evaluate(() => new Promise(requestAnimationFrame));
+  const before = await colors();
+  await page.click("#play");
+  await wait(page, () => Number(document.getElementById("time").value) === 1);
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  assert.notEqual(await colors(), before);
+}
+
+makeReport();
+const browser = await puppeteer.launch({ executablePath: browserPath, headless: true,
+  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+try {
+  const page = await browser.newPage();
+  await page.setViewport({ width: 1280, height: 1000 });
+  const problems = [];
+  page.on("pageerror", (error) => problems.push(error.message));
+  page.on("console", (message) => ["error", "warning", "warn"].includes(message.type()) && problems.push(message.text()));
+  page.on("request", (request) => /^https?:/.test(request.url()) && problems.push(`asks for ${request.url()}`));
+  await page.goto(pathToFileURL(resolve(file("report.html"))).href);
+  await page.waitForSelector("body[data-ready=yes]", { timeout: 120000 });
+  await checkRuns(page);
+  await checkMesh(page);
+  await checkReplay(page);
+  await page.screenshot({ path: file("report.png"), fullPage: true });
+  assert.deepEqual(problems, []);
+} finally {
+  await browser.close();
+}
+console.log("the page does what it should");

@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/run_files.hpp"
+#include "base/atomic_file.hpp"
+#include "base/read_file.hpp"
+#include "cli/values.hpp"
+#include "driftmesh/error.hpp"
+#include "io/mesh_file.hpp"
+#include "report/report_page.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// More would exceed what browsers hold in one page.
+constexpr std::size_t kMostTriangles = 20'000'000;
+
+struct ReportCommand {
+  std::vector<std::string> inputs;
+  std::string mesh;
+  std::string output = "report.html";
+  ReadOptions reading;
+};
+
+bool is_record(const fs::path& path) {
+  return path.extension() == ".json" && !path.string().ends_with(kTraceEnding);
+}
+
+/// The records among the inputs: a folder stands for those in it, in the order of their names.
+std::vector<fs::path> records_of(const std::vector<std::string>& inputs) {
+  std::vector<fs::path> records;
+  for (const std::string& input : inputs) {
+    if (!fs::is_directory(input)) {
+      records.emplace_back(input);
+      continue;
+    }
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(input))
+      if (entry.is_regular_file() && is_record(entry.path())) found.push_back(entry.path());
+    if (found.empty())
+      throw InputError({input, 0}, "has no records of runs", "name a folder that `driftmesh run` has written");
+    std::sort(found.begin(), found.end());
+    records.insert(records.end(), found.begin(), found.end());
+  }
+  return records;
+}
+
+/// JSON without blanks.
+std::string compact_json(const fs::path& path) {
+  const std::string text = read_file(path.string());
+  const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+  if (json.is_discarded()) throw InputError({path.string(), 0}, "is not JSON", "name a record that --json wrote");
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+ReportedRun read_run(const fs::path& path) {
+  ReportedRun run{path.stem().string(), compact_json(path), {}};
+  if (run.record.find("\"format\":\"driftmesh ") == std::string::npos)
+    throw InputError({path.string(), 0}, "is not the record of a run", "name one that `driftmesh run` or --json wrote");
+  const fs::path trace = fs::path(path).replace_extension(kTraceEnding);
+  if (fs::exists(trace)) run.trace = compact_json(trace);
+  return run;
+}
+
+void run_report(const ReportCommand& command) {
+  if (command.inputs.empty() && command.mesh.empty())
+    throw cli::UsageError("name a run, a folder of runs, or a --mesh");
+  if (fs::path(command.output).extension() != ".html")
+    throw InputError({command.output}, "is not a page", "use a name that ends in .html");
+  FileRegistry files;
+  const std::vector<fs::path> records = records_of(command.inputs);
+  for (const fs::path& record : records) files.reads(record.string(), "RUN");
+  if (!command.mesh.empty()) register_mesh_input(files, command.mesh, "--mesh", command.reading);
+  register_output(files, command.output, "--output");
+  std::vector<ReportedRun> runs;
+  for (const fs::path& record : records) runs.push_back(read_run(record));
+  ReportedMesh mesh;
+  if (!command.mesh.empty())
+    mesh = {fs::path(command.mesh).filename().string(), read_mesh(command.mesh, command.reading)};
+  if (mesh.mesh.triangles.size() > kMostTriangles)
+    throw InputError(
+        {command.mesh, 0},
+        fmt::format("has {} triangles, and a page shows at most {}", mesh.mesh.triangles.size(), kMostTriangles),
+        "make a picture with `driftmesh plot`");
+  AtomicFile page(command.output);
+  page.write(report_page(runs, mesh));
+  page.commit();
+  fmt::print("{}: {} run{}{}\n", command.output, runs.size(), runs.size() == 1 ? "" : "s",
+             mesh.mesh.triangles.empty() ? "" : fmt::format(", {} triangles", mesh.mesh.triangles.size()));
+}
+
+}  // namespace
+
+cli::Command report_command() {
+  const auto command = std::make_shared<ReportCommand>();
+  return {
+      .name = "report",
+      .summary = "Make a page for browsers of runs and a mesh",
+      .options =
+          {{.kind = cli::Option::Kind::kPositional,
+            .name = "run",
+            .value = "RUN",
+            .help = "Records of runs (--json of mesh, or run-*.json), or folders that `driftmesh run` has written. A "
+                    "trace beside a record adds the timeline",
+            .repeats = true,
+            .completes = cli::Option::Completes::kFile,
+            .take = cli::into(command->inputs)},
+           {.name = "mesh",
+            .value = "FILE",
+            .help = std::string("A mesh to look at: ") + kMeshFiles,
+            .completes = cli::Option::Completes::kFile,
+            .take = cli::into(command->mesh)},
+           {.name = "output",
+            .letter = 'o',
+            .value = "FILE",
+            .help = "The page. It needs no network and no other file",
+            .standard = command->output,
+            .completes = cli::Option::Completes::kFile,
+            .take = cli::into(command->output)},
+           allow_outside_option(command->reading)},
+      .examples = {"driftmesh report results/ -o report.html",
+                   "driftmesh mesh bay.poly --area 5000 -o bay.vtu --json bay.json && driftmesh report bay.json --mesh "
+                   "bay.vtu"},
+      .exit_codes = "0 done, 1 error, 2 wrong usage",
+      .run = [command](cli::Call&) {
+        run_report(*command);
+        return 0;
+      }};
+}
+
+}  // namespace driftmesh::app

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "driftmesh/mesh.hpp"
+
+namespace driftmesh {
+
+/// A run as its files describe it.
+struct ReportedRun {
+  std::string name;
+  std::string record;  ///< JSON
+  std::string trace;   ///< in Chrome's format; empty if there is none
+};
+
+struct ReportedMesh {
+  std::string name;
+  Mesh mesh;
+};
+
+/// Whether this program was built with the page (it is put together by npm).
+[[nodiscard]] bool has_report_page();
+
+/// A page of HTML that shows runs, and a mesh unless it has no triangles, in a browser, without a network: scripts,
+/// styles and data are in it. Throws Error without has_report_page().
+[[nodiscard]] std::string report_page(const std::vector<ReportedRun>& runs, const ReportedMesh& mesh);
+
+}  // namespace driftmesh

@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""Reports: what goes into a page, and what is refused.
+
+usage: report_test.py DRIFTMESH [unittest options]
+"""
+
+import base64
+import json
+import re
+import struct
+import zlib
+
+from program import SQUARE, Cli, main
+
+
+def blocks(page, kind):
+    """{name: bytes} of the data in a page, of kind run or mesh."""
+    found = re.findall(rf'<script type="text/plain" data-{kind}="([^"]*)"[^>]*>([^<]*)</script>', page)
+    return {name: zlib.decompress(base64.b64decode(text, validate=True)) for name, text in found}
+
+
+class Report(Cli):
+    def setUp(self):
+        super().setUp()
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "square.poly", "--area", "0.3", "-o", "square.vtu", "--json", "square.json")
+
+    def page(self, *arguments):
+        self.succeed("report", *arguments)
+        return (self.folder / "report.html").read_text()
+
+    def test_records_and_traces_are_in_the_page(self):
+        self.write("square.trace.json", '{"traceEvents": []}')
+        runs = blocks(self.page("square.json"), "run")
+        self.assertEqual(list(runs), ["square"])
+        run = json.loads(runs["square"])
+        self.assertEqual(run["record"], json.loads((self.folder / "square.json").read_text()))
+        self.assertEqual(run["trace"], {"traceEvents": []})
+
+    def test_a_folder_stands_for_its_records_in_order(self):
+        folder = self.folder / "runs"
+        folder.mkdir()
+        record = (self.folder / "square.json").read_text()
+        for name in ("b.json", "a.json", "a.trace.json", "table.csv"):
+            (folder / name).write_text("{}" if "trace" in name else record)
+        self.assertEqual(list(blocks(self.page("runs", "square.json"), "run")), ["a", "b", "square"])
+
+    def test_the_mesh_is_in_the_page_to_seven_digits(self):
+        arrays = blocks(self.page("--mesh", "square.vtu"), "mesh")
+        record = json.loads((self.folder / "square.json").read_text())["mesh"]
+        points = struct.unpack(f"<{2 * record['vertices']}f", arrays["points"])
+        corners = struct.unpack(f"<{3 * record['triangles']}I", arrays["triangles"])
+        self.assertEqual((min(points), max(points)), (-2, 2))  # seen from the middle of the square
+        area = 0
+        for t in range(record["triangles"]):
+            (ax, ay), (bx, by), (cx, cy) = ((points[2 * c], points[2 * c + 1]) for c in corners[3 * t:3 * t + 3])
+            area += ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
+        self.assertAlmostEqual(area, 16, 4)
+
+    def test_the_page_needs_nothing_else(self):
+        page = self.page("square.json", "--mesh", "square.vtu")
+        self.assertNotRegex(page, r"""<(script|link|img)[^>]*(src|href)\s*=\s*["']?\w""")
+
+    def test_names_cannot_end_their_place_in_the_page(self):
+        (self.folder / "square.json").rename(self.folder / 'a"><b&.json')
+        self.assertEqual(list(blocks(self.page('a"><b&.json'), "run")), ["a&quot;>&lt;b&amp;"])
+
+    def test_what_is_no_run_is_refused_and_no_page_is_left(self):
+        self.write("text.json", "not JSON")
+        self.write("other.json", '{"format": "something else"}')
+        (self.folder / "empty").mkdir()
+        before = self.files()
+        self.refuse("report", "text.json", says=["text.json", "is not JSON"])
+        self.refuse("report", "other.json", says=["other.json", "is not the record of a run"])
+        self.refuse("report", "empty", says=["empty", "has no records of runs"])
+        self.refuse("report", "missing.json", says=["missing.json"])
+        self.refuse("report", "square.json", "-o", "report.pdf", says=["report.pdf", ".html"])
+        self.refuse("report", code=2, says=["name a run"])
+        self.assertEqual(self.files(), before)
+
+
+if __name__ == "__main__":
+    main()
