@@ -23,6 +23,7 @@ void fields(auto& archive, MessageOf<LoadReport> auto& m) {
   archive.number(m.plan);
   archive.amount(m.speed);
   archive.amount(m.doubt);
+  archive.amount(m.unlisted);
   archive.list(m.loads, kReportedLoadBytes, [](auto& a, auto& load) { fields(a, load); });
 }
 void fields(auto& archive, MessageOf<Move> auto& m) {

@@ -19,14 +19,14 @@ double left_of(double work, double& done) {
 
 Knowledge::Knowledge(std::shared_ptr<const Layout> layout, double patience)
     : layout_(std::move(layout)), patience_(patience), ranks_(to_index(layout_->ranks)) {
-  for (const Layout::Subdomain& s : layout_->subdomains) ranks_[s.owner].predicted += s.predicted;
+  for (const Layout::Subdomain& s : layout_->subdomains) ranks_[s.owner].unlisted += s.predicted;
 }
 
 void Knowledge::hear(Rank rank, const LoadReport& report, double now) {
   Heard& heard = ranks_[rank];
   if (heard.any && report.round <= heard.round) return;
   heard_ += heard.any ? 0 : 1;
-  heard = {true, report.round, now, report.speed, report.doubt, {}, heard.predicted};
+  heard = {true, report.round, now, report.speed, report.doubt, {}, report.unlisted};
   for (const ReportedLoad& load : report.loads) {
     const auto [known, first] = claims_.try_emplace(load.subdomain, Claim{rank, load.epoch});
     if (!first && load.epoch < known->second.epoch) continue;
@@ -60,7 +60,8 @@ Rank Knowledge::owner_of(SubdomainId id) const {
   return known == claims_.end() ? (*layout_)[id].owner : known->second.owner;
 }
 
-void Knowledge::list(LoadSnapshot& snapshot, Rank rank, const std::vector<SubdomainLoad>& arriving, double now) const {
+double Knowledge::list(LoadSnapshot& snapshot, Rank rank, const std::vector<SubdomainLoad>& arriving,
+                       double now) const {
   const Heard& heard = ranks_[rank];
   double done = heard.any ? heard.speed * std::max(0.0, now - heard.at) : 0;
   std::int32_t turn = 0;
@@ -72,31 +73,35 @@ void Knowledge::list(LoadSnapshot& snapshot, Rank rank, const std::vector<Subdom
     if (owner_of(load.subdomain) == rank && !planned_.contains(load.subdomain))
       add(load.subdomain, load.remaining, load.bytes);
   for (const SubdomainLoad& s : arriving) add(s.id, s.remaining, s.bytes);
+  return left_of(heard.unlisted, done);
+}
+
+void Knowledge::list_silent(LoadSnapshot& snapshot) const {
+  for (const SubdomainId id : ids_of(layout_->subdomains)) {
+    const Layout::Subdomain& s = (*layout_)[id];
+    if (!ranks_[s.owner].any && !planned_.contains(id) && !claims_.contains(id))
+      snapshot.subdomains.push_back({id, s.owner, s.predicted, 0, to_int(id)});
+  }
 }
 
 LoadSnapshot Knowledge::snapshot(double now, bool with_silent) const {
-  note_effort("snapshot", static_cast<double>(layout_->subdomains.size()));
   LoadSnapshot snapshot;
   snapshot.layout = layout_;
   std::map<Rank, std::vector<SubdomainLoad>> arriving;
   for (const auto& [id, planned] : planned_) arriving[planned.to].push_back(planned.load);
   static const std::vector<SubdomainLoad> kNone;
+  IdVector<Rank, double> unlisted;
   for (const Rank r : ids_of(ranks_)) {
     const auto coming = arriving.find(r);
     snapshot.ranks.push_back({ranks_[r].speed, 0, ranks_[r].doubt});
-    list(snapshot, r, coming == arriving.end() ? kNone : coming->second, now);
+    unlisted.push_back(list(snapshot, r, coming == arriving.end() ? kNone : coming->second, now));
   }
-  if (with_silent)
-    for (const SubdomainId id : ids_of(layout_->subdomains)) {
-      const Layout::Subdomain& s = (*layout_)[id];
-      if (!ranks_[s.owner].any && !planned_.contains(id) && !claims_.contains(id))
-        snapshot.subdomains.push_back({id, s.owner, s.predicted, 0, to_int(id)});
-    }
+  if (with_silent) list_silent(snapshot);
+  note_effort("snapshot", static_cast<double>(with_silent ? layout_->subdomains.size() : snapshot.subdomains.size()));
   std::ranges::sort(snapshot.subdomains, {}, &SubdomainLoad::id);
   sum_up(snapshot);
-  if (!with_silent)
-    for (const Rank r : ids_of(ranks_))
-      if (!ranks_[r].any) snapshot.ranks[r].remaining = ranks_[r].predicted;
+  for (const Rank r : ids_of(ranks_))
+    if (ranks_[r].any || !with_silent) snapshot.ranks[r].remaining += unlisted[r];
   return snapshot;
 }
 

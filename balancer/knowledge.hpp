@@ -44,7 +44,7 @@ class Knowledge {
     double speed = 0;
     double doubt = 0;
     std::vector<ReportedLoad> loads;  // in the order of work
-    double predicted = 0;             // by the layout, for a rank without a report
+    double unlisted = 0;              // other work; without a report, all that the layout predicts
   };
   struct Claim {
     Rank owner{};
@@ -57,7 +57,9 @@ class Knowledge {
     SubdomainLoad load;
   };
   void settle_planned(Rank rank, const LoadReport& report, double now);
-  void list(LoadSnapshot& snapshot, Rank rank, const std::vector<SubdomainLoad>& arriving, double now) const;
+  /// Returns what is left of its unlisted work.
+  double list(LoadSnapshot& snapshot, Rank rank, const std::vector<SubdomainLoad>& arriving, double now) const;
+  void list_silent(LoadSnapshot& snapshot) const;
 
   std::shared_ptr<const Layout> layout_;
   double patience_;

@@ -27,6 +27,7 @@ struct LoadReport {
   double speed = 0;                 ///< triangles a second, a running average; 0: not known yet
   std::vector<ReportedLoad> loads;  ///< of its unfinished subdomains, and of recent arrivals
   double doubt = 0;                 ///< standard deviation of the time that they take, over that time
+  double unlisted = 0;              ///< triangles still to be made in other subdomains
   friend bool operator==(const LoadReport&, const LoadReport&) = default;
 };
 

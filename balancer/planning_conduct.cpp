@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "balancer/partners.hpp"
+
 namespace driftmesh::balancer {
 namespace {
 
@@ -144,10 +146,14 @@ void PlanningConduct::report(const Situation& situation, const Loads& own, Decis
   for (const auto& load : own) told_.push_back(load.subdomain);
   std::sort(told_.begin(), told_.end());
   news_ = true;  // also to this rank, if it plans
-  const LoadReport report{++reports_, plan_seen_, situation.speed, with_arrived(own), situation.doubt};
-  arrived_.clear();
-  for (const Rank rank : audience(own))
-    if (rank != self_) decision.messages.push_back({rank, report});
+  const LoadReport list{++reports_, plan_seen_, situation.speed, with_arrived(own), situation.doubt};
+  const LoadReport sum{list.round, list.plan, list.speed, std::exchange(arrived_, {}), list.doubt, total};
+  const std::vector<Rank> listeners = audience(own);
+  for (const Rank rank : listeners)
+    if (rank != self_) decision.messages.push_back({rank, list});
+  if (policy_->placement() != Placement::kNeighbors) return;
+  for (const Rank rank : distant_partners(self_, layout_->ranks))
+    if (!std::ranges::binary_search(listeners, rank)) decision.messages.push_back({rank, sum});
 }
 
 // The planner of a move must learn that it was made, even if the subdomain has been finished since.

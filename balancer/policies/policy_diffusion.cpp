@@ -2,82 +2,98 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "balancer/parameters.hpp"
+#include "balancer/partners.hpp"
 #include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {
 namespace {
 
-/// For each rank, the ranks adjacent to its listed subdomains, in ascending order.
-IdVector<Rank, std::set<Rank>> touching_ranks(const LoadSnapshot& snapshot) {
-  IdVector<Rank, std::set<Rank>> touching(snapshot.ranks.size());
-  for (const SubdomainLoad& s : snapshot.subdomains)
-    for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors)
-      if (const Rank other = owner_of(snapshot, n.subdomain); other != s.owner) {
-        touching[s.owner].insert(other);
-        touching[other].insert(s.owner);
-      }
-  return touching;
-}
-
-/// One rank's part of one round of diffusion.
+/// One rank's part of one round of diffusion. It sees itself and its partners as if they were alone: those that would
+/// finish later than on average have a surplus, which goes to the others as each lacks work. Of this it makes the moves
+/// from itself.
 class Round {
  public:
   Round(const LoadSnapshot& snapshot, Rank self, double rate)
       : snapshot_(snapshot),
         self_(self),
         rate_(rate),
-        touching_(touching_ranks(snapshot)),
         speeds_(assumed_speeds(snapshot.ranks)),
-        remaining_(snapshot.ranks[self].remaining) {}
+        touching_(touching_ranks()),
+        remaining_(snapshot.ranks[self].remaining) {
+    for (const Rank r : distant_partners(self, static_cast<std::int32_t>(snapshot.ranks.size()))) group_.insert(r);
+    group_.insert(touching_.begin(), touching_.end());
+    group_.insert(self);
+    double work = 0, speed = 0;
+    for (const Rank r : group_) work += snapshot.ranks[r].remaining, speed += speeds_[r];
+    mean_time_ = work / speed;
+  }
 
   std::vector<Move> moves() {
-    for (const Rank other : touching_[self_]) send_to(other);
+    if (surplus(self_) <= 0) return {};
+    double surpluses = 0;
+    for (const Rank r : group_) surpluses += std::max(0.0, surplus(r));
+    for (const Rank taker : takers()) {
+      owed_ += rate_ * -surplus(taker) * surplus(self_) / surpluses;
+      give_to(taker);
+    }
     return moves_;
   }
 
  private:
-  [[nodiscard]] double time(Rank r) const { return snapshot_.ranks[r].remaining / speeds_[r]; }
-
-  // The flow in this round, in triangles: small enough that a rank does not become overloaded even if all its neighbors
-  // send to it.
-  [[nodiscard]] double flow(Rank from, Rank to) const {
-    const auto degree = std::max(touching_[from].size(), touching_[to].size());
-    return rate_ * std::max(0.0, time(from) - time(to)) * std::min(speeds_[from], speeds_[to]) /
-           static_cast<double>(degree + 1);
+  [[nodiscard]] std::set<Rank> touching_ranks() const {
+    std::set<Rank> touching;
+    for (const SubdomainLoad& s : snapshot_.subdomains)
+      if (s.owner == self_)
+        for (const Neighbor& n : (*snapshot_.layout)[s.id].neighbors) touching.insert(owner_of(snapshot_, n.subdomain));
+    return touching;
   }
 
-  void send_to(Rank other) {
-    const double wanted = flow(self_, other);
-    if (wanted <= 0) return;
-    double sent = 0;
-    double from_others = 0;
-    for (const Rank r : touching_[other])
-      if (r != self_) from_others += flow(r, other);
-    for (const SubdomainLoad& s : easiest_first(other)) {
-      // A flow smaller than any subdomain is rounded up if that still evens out, whatever the others send.
-      const double then = time(other) + (from_others + sent + s.remaining) / speeds_[other];
-      const bool rounded_up = sent == 0 && then < (remaining_ - s.remaining) / speeds_[self_];
-      if (sent + s.remaining > wanted && !rounded_up) continue;
-      sent += s.remaining;
+  [[nodiscard]] double time(Rank r) const { return snapshot_.ranks[r].remaining / speeds_[r]; }
+  /// Work beyond what this rank can do in the mean time of the group.
+  [[nodiscard]] double surplus(Rank r) const { return snapshot_.ranks[r].remaining - mean_time_ * speeds_[r]; }
+
+  /// Adjacent ranks come first, so that borders stay short; then those that would finish early.
+  [[nodiscard]] std::vector<Rank> takers() const {
+    std::vector<Rank> takers;
+    for (const Rank r : group_)
+      if (surplus(r) < 0) takers.push_back(r);
+    std::ranges::stable_sort(takers, {}, [&](Rank r) { return std::pair(!touching_.contains(r), time(r)); });
+    return takers;
+  }
+
+  /// Gives what is owed in whole subdomains, rounded, but never so much that `taker` would finish later than this rank.
+  void give_to(Rank taker) {
+    double given = 0;
+    for (const SubdomainLoad& s : easiest_first(taker)) {
+      const double then = time(taker) + (given + s.remaining) / speeds_[taker];
+      if (s.remaining / 2 > owed_ || then >= (remaining_ - s.remaining) / speeds_[self_]) continue;
+      given += s.remaining;
+      owed_ -= s.remaining;
       remaining_ -= s.remaining;
-      gone_.insert(s.id);
-      moves_.push_back({s.id, other});
+      taken_[s.id] = taker;
+      moves_.push_back({s.id, taker});
     }
   }
 
-  // All that is here but what is worked on now: what is light; of this what has most of its border with `other` and
+  [[nodiscard]] Rank planned_owner(SubdomainId id) const {
+    const auto taken = taken_.find(id);
+    return taken != taken_.end() ? taken->second : owner_of(snapshot_, id);
+  }
+
+  // All that is here but what is worked on now: what is light; of this what has most of its border with `taker` and
   // least with what stays.
-  [[nodiscard]] std::vector<SubdomainLoad> easiest_first(Rank other) const {
+  [[nodiscard]] std::vector<SubdomainLoad> easiest_first(Rank taker) const {
     std::map<SubdomainId, double> attachment;
     std::vector<SubdomainLoad> own;
     for (const SubdomainLoad& s : snapshot_.subdomains) {
-      if (s.owner != self_ || s.turn == 0 || s.fixed || gone_.contains(s.id)) continue;
+      if (s.owner != self_ || s.turn == 0 || s.fixed || taken_.contains(s.id)) continue;
       own.push_back(s);
       for (const Neighbor& n : (*snapshot_.layout)[s.id].neighbors) {
-        const Rank owner = owner_of(snapshot_, n.subdomain);
-        attachment[s.id] += owner == other ? n.length : owner == self_ ? -n.length : 0;
+        const Rank owner = planned_owner(n.subdomain);
+        attachment[s.id] += owner == taker ? n.length : owner == self_ ? -n.length : 0;
       }
     }
     std::sort(own.begin(), own.end(), [&](const SubdomainLoad& a, const SubdomainLoad& b) {
@@ -91,16 +107,19 @@ class Round {
   const LoadSnapshot& snapshot_;
   Rank self_;
   double rate_;
-  IdVector<Rank, std::set<Rank>> touching_;
   IdVector<Rank, double> speeds_;
+  std::set<Rank> touching_;
+  std::set<Rank> group_;  // self, and its partners
+  double mean_time_;
   double remaining_;  // here, after moves_
-  std::set<SubdomainId> gone_;
+  double owed_ = 0;   // to the takers so far, not given
+  std::map<SubdomainId, Rank> taken_;
   std::vector<Move> moves_;
 };
 
-/// Work flows from a rank to the ranks that its subdomains touch and that would finish earlier, in proportion to the
-/// difference (first-order diffusion, Cybenko 1989; for ranks of different speeds, Elsaesser, Monien and Preis 2002).
-/// Imbalances of a few subdomains remain.
+/// Work flows from ranks that would finish later than on average among their partners to those that would finish
+/// earlier. Partners are adjacent ranks, which diffusion on a mesh has (Cybenko 1989), and a few distant ones, since
+/// over neighbors alone work takes as many steps as there are ranks on its way, and small differences move nothing.
 class Diffusion final : public Policy {
  public:
   explicit Diffusion(double rate) : rate_(rate) {}

@@ -15,7 +15,7 @@ namespace driftmesh::balancer {
 enum class Placement {
   kNobody,      ///< nothing is reported, nothing moves
   kLeader,      ///< all ranks report to rank 0, which plans for all
-  kNeighbors,   ///< ranks whose subdomains touch report to each other; each plans for its own subdomains
+  kNeighbors,   ///< ranks whose subdomains touch, and a few distant ones, report to each other; each plans for its own
   kRequests,    ///< a rank that will soon be idle asks for work; rank 0 finds a rank that has plenty
   kCollective,  ///< all at once, each for its own subdomains; rank 0 knows only totals and calls the rounds
 };

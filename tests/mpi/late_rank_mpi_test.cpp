@@ -76,10 +76,8 @@ void check_mesh(const Mesh& mesh, const Pslg& input, const QualityBounds& bounds
   CHECK(mesh.triangles.size() > kTriangles / 2);
 }
 
-/// Whether the policy gives work to a rank with this start. Diffusion considers only adjacent ranks, and a rank without
-/// subdomains has none.
 bool gives(const LateCase& late) {
-  return late.policy != "none" && (late.policy != "diffusion" || late.start != Start::kNothing);
+  return late.policy != "none";
 }
 
 void check_reports(const LateCase& late, const std::vector<Bytes>& reports) {

@@ -76,8 +76,7 @@ TEST_CASE("the published cluster, three kinds of nodes with equal shares of the 
     ideal = o.ideal;
   }
   CHECK(time["none"] > 1.4 * ideal);
-  CHECK(time["diffusion"] < time["none"]);
-  for (const char* policy : {"greedy", "zoltan", "collective", "stealing"}) {
+  for (const char* policy : {"diffusion", "greedy", "zoltan", "collective", "stealing"}) {
     CAPTURE(policy);
     CHECK(time[policy] < 1.1 * ideal);
     CHECK(time["none"] - time[policy] > 0.85 * (time["none"] - ideal));

@@ -26,7 +26,7 @@ class RandomMessage {
   Message any() {
     switch (below(std::variant_size_v<Message>)) {
       case 0: {
-        LoadReport report{number(), number(), amount(), {}, amount()};
+        LoadReport report{number(), number(), amount(), {}, amount(), amount()};
         for (auto n = below(5); n > 0; --n) report.loads.push_back({subdomain(), number(), amount(), random_()});
         return report;
       }

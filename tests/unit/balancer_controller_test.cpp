@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "balancer/controller.hpp"
 #include "balancer/knowledge.hpp"
@@ -150,6 +151,31 @@ TEST_CASE("the leader plans when all have reported, and a rank follows") {
   REQUIRE(answer.size() == 1);  // the leader learns the outcome
   CHECK(answer[0].second.plan == plans[0].second.round);
   CHECK(answer[0].second.loads.size() == 3);
+}
+
+TEST_CASE("adjacent ranks are told every subdomain, distant partners only their sum") {
+  const Layout layout = grid_layout(80, 1, 16);  // five each
+  Controller c = controller_of(4_rank, layout, "diffusion");
+  const auto reports = sent<LoadReport>(c.think(0, loads_of(20, 24, 1000), 100));
+  std::set<Rank> told;
+  for (const auto& [to, report] : reports) {
+    const bool adjacent = to == 3_rank || to == 5_rank;
+    CHECK(told.insert(to).second);
+    CHECK(report.loads.size() == (adjacent ? 5u : 0u));
+    CHECK(report.unlisted == (adjacent ? 0 : 5000));
+  }
+  CHECK(told == std::set<Rank>{2_rank, 3_rank, 5_rank, 6_rank, 12_rank});
+}
+
+TEST_CASE("work that is not listed counts, and passes with time") {
+  Knowledge knowledge(std::make_shared<const Layout>(grid_layout(4, 1, 2)), 10);
+  CHECK(knowledge.snapshot(0, false).ranks[1_rank].remaining == 2000);  // by the layout
+  LoadReport report{1, 0, 100, loads_of(2, 2, 300)};
+  report.unlisted = 600;
+  knowledge.hear(1_rank, report, 0);
+  CHECK(knowledge.snapshot(0, false).ranks[1_rank].remaining == 900);
+  CHECK(knowledge.snapshot(5, false).ranks[1_rank].remaining == 400);
+  CHECK(knowledge.snapshot(9.5, false).ranks[1_rank].remaining == 0);
 }
 
 TEST_CASE("a rank without work sends none, whatever the plan") {

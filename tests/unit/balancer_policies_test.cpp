@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "balancer/partners.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "driftmesh/error.hpp"
 #include "support/id_literals.hpp"
@@ -127,7 +130,7 @@ TEST_CASE("zoltan copes with fewer subdomains than ranks, none, and one rank") {
   }
 }
 
-TEST_CASE("diffusion sends work to the neighbors that finish earlier") {
+TEST_CASE("diffusion sends work to the partners that finish earlier") {
   const auto policy = make_policy("diffusion");
   CHECK(policy->placement() == Placement::kNeighbors);
   // Three ranks in a row, the first one ten times as fast as the others.
@@ -135,12 +138,31 @@ TEST_CASE("diffusion sends work to the neighbors that finish earlier") {
   CHECK(policy->plan(s, 0_rank).empty());
   const auto moves = policy->plan(s, 1_rank);
   CHECK(!moves.empty());
-  std::set<SubdomainId> first_row;
   for (const Move& move : moves) {
     CHECK(move.destination == 0_rank);
     CHECK(find(s, move.subdomain)->owner == 1_rank);
   }
-  CHECK(policy->plan(s, 2_rank).empty());  // rank 0 is not its neighbor, and rank 1 has as much as it has
+  for (const Move& move : policy->plan(s, 2_rank)) CHECK(move.destination == 0_rank);  // all others are its partners
+}
+
+TEST_CASE("each rank is a partner of its distant partners, and all of each other over a few steps") {
+  for (const std::int32_t ranks : {1, 2, 3, 4, 16, 144, 1000}) {
+    CAPTURE(ranks);
+    std::set<Rank> reached{0_rank};
+    int steps = 0;
+    for (; reached.size() < to_index(ranks); ++steps)
+      for (const Rank r : std::set<Rank>(reached))
+        for (const Rank partner : distant_partners(r, ranks)) reached.insert(partner);
+    CHECK(steps <= 1 + 2 * std::log2(ranks));
+    for (const Rank r : first_ids<Rank>(ranks)) {
+      const std::vector<Rank> partners = distant_partners(r, ranks);
+      CHECK(static_cast<double>(partners.size()) <= 2 + std::log2(ranks));
+      for (const Rank partner : partners) {
+        CHECK(partner != r);
+        CHECK(std::ranges::count(distant_partners(partner, ranks), r) == 1);
+      }
+    }
+  }
 }
 
 TEST_CASE("repeated diffusion evens out a chain of ranks") {
@@ -155,6 +177,21 @@ TEST_CASE("repeated diffusion evens out a chain of ranks") {
   }
   CHECK(before > 3);
   CHECK(finishing_time(s) / ideal_time(s) < 1.1);
+}
+
+TEST_CASE("diffusion gets work out of the middle of a region of slow ranks in a few rounds") {
+  const auto policy = make_policy("diffusion");
+  IdVector<Rank, double> speeds(64, 1.0);
+  for (const Rank r : first_ids<Rank>(32)) speeds[r] = 3;
+  LoadSnapshot s = initial_snapshot(grid_layout(64, 30, 64), speeds);
+  CHECK(finishing_time(s) / ideal_time(s) > 1.9);
+  for (int round = 0; round < 10; ++round) {
+    std::vector<Move> moves;
+    for (const Rank r : first_ids<Rank>(64))
+      for (const Move& move : policy->plan(s, r)) moves.push_back(move);
+    s = after(s, moves);
+  }
+  CHECK(finishing_time(s) / ideal_time(s) < 1.15);
 }
 
 TEST_CASE("a rank that runs low gets work from the one that will finish last") {
