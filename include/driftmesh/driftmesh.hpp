@@ -1,6 +1,7 @@
 #pragma once
 
 // Everything that a program without MPI needs. With it: driftmesh/mpi/distributed.hpp.
+#include "driftmesh/check.hpp"
 #include "driftmesh/decomposition.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/files.hpp"

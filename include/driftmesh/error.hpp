@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace driftmesh {
 
@@ -24,8 +25,14 @@ class InputError : public Error {
  public:
   /// Message "file:line: what; next". In `what`, control characters become '?', and what is too long is cut off.
   InputError(const SourcePlace& place, const std::string& what, const std::string& next);
-  /// A complete message: several of the above, one per line.
-  explicit InputError(const std::string& message) : Error(message) {}
+  /// A complete message: several of the above, one per line, the first of them about `first`.
+  explicit InputError(const std::string& message, SourcePlace first = {}) : Error(message), place_(std::move(first)) {}
+
+  /// The place of the (first) problem. No file: it is not known, or another rank met the error.
+  [[nodiscard]] const SourcePlace& place() const { return place_; }
+
+ private:
+  SourcePlace place_;
 };
 
 /// A file could not be opened, read, written or renamed. The message names the file and the system's reason.
@@ -34,6 +41,12 @@ class FileError : public Error {
   FileError(const std::string& file, const std::string& what);
   /// A message that is complete already.
   explicit FileError(const std::string& message) : Error(message) {}
+
+  /// The file; empty: it is not known, or another rank met the error.
+  [[nodiscard]] const std::string& file() const { return file_; }
+
+ private:
+  std::string file_;
 };
 
 /// A limit that the user set or that a data structure has (triangles, memory, depth) was reached.

@@ -16,6 +16,10 @@ namespace driftmesh {
 /// FileError when a file cannot be read and InputError with up to ten messages "file:line: what; next step".
 [[nodiscard]] Pslg read_poly(const std::string& path);
 
+/// Whether the file at `path` is read as an input, by read_poly, and not as a mesh: a .poly, or a .node without an .ele
+/// next to it.
+[[nodiscard]] bool holds_input(const std::string& path);
+
 /// Writes `pslg` as .poly, numbered from pslg.first_number. Numbers are the shortest that read back to the
 /// same bits; reading the file gives an equal Pslg. The file appears only once it is complete. Throws FileError.
 void write_poly(const Pslg& pslg, const std::string& path);

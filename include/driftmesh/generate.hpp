@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "driftmesh/pslg.hpp"
 
@@ -95,5 +98,22 @@ struct BayOptions {
   std::uint64_t seed = 1;
 };
 [[nodiscard]] Pslg generate_bay(const BayOptions& options);
+
+/// The names of all inputs that can be generated: "pipe", "cylinder-flow", ...
+[[nodiscard]] std::vector<std::string> generator_names();
+
+/// A parameter of a generated input.
+struct GeneratorParameter {
+  std::string name;      ///< "outer-radius"
+  std::string standard;  ///< its default
+  std::string help;      ///< one line
+};
+/// Those of the input with this name. Throws InputError for an unknown name.
+[[nodiscard]] std::vector<GeneratorParameter> generator_parameters(const std::string& name);
+
+/// A generated input by its name and the values of some of its parameters, as in `driftmesh generate`: {{"seed", "7"}}.
+/// Throws InputError for unknown names (with the nearest known one), values that are not numbers, and parameters that
+/// the generator refuses.
+[[nodiscard]] Pslg generate(const std::string& name, const std::map<std::string, std::string>& parameters = {});
 
 }  // namespace driftmesh

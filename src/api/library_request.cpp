@@ -35,7 +35,7 @@ job::Request request_of(const MeshOptions& options) {
 std::string in_words_of_options(const std::string& message) {
   std::string text = message;
   job::Request unused;
-  visit_options({}, unused, [&](const char* key, const char* member, const auto&, const auto&) {
+  visit_options(MeshOptions{}, unused, [&](const char* key, const char* member, const auto&, const auto&) {
     const std::string own = std::string("MeshOptions::") + member;
     replace_word(text, key, own);
     const std::string option = job::find_key(key).key->option;

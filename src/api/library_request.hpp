@@ -10,9 +10,9 @@
 namespace driftmesh {
 
 /// Calls visit(key, member, value, place) for each option that the table of keys declares: its name there, its name as
-/// a member of MeshOptions, its value, and its place in a request.
-template <class Visit>
-void visit_options(const MeshOptions& o, job::Request& r, const Visit& visit) {
+/// a member of MeshOptions, its value, and its place in a request. `Options` is MeshOptions, const or not.
+template <class Options, class Visit>
+void visit_options(Options&& o, job::Request& r, const Visit& visit) {
   visit("input.holes", "holes", o.holes, r.input.holes);
   visit("input.strict", "strict", o.strict, r.input.strict);
   visit("bounds.angle", "min_angle", o.min_angle, r.bounds.angle);
@@ -24,7 +24,7 @@ void visit_options(const MeshOptions& o, job::Request& r, const Visit& visit) {
   visit("limits.max-triangles", "max_triangles", o.max_triangles, r.limits.max_triangles);
   visit("limits.max-memory", "max_memory", o.max_memory, r.limits.max_memory);
 
-  const auto& s = o.subdomains;
+  auto& s = o.subdomains;
   visit("decomposition.subdomains", "subdomains.count", s.count, r.decomposition.subdomains);
   visit("decomposition.separator-angle", "subdomains.separator_angle", s.separator_angle,
         r.decomposition.separator_angle);
@@ -40,7 +40,7 @@ void visit_options(const MeshOptions& o, job::Request& r, const Visit& visit) {
   visit("mapping.by-area", "ranks.map_by_area", o.ranks.map_by_area, r.mapping.by_area);
   visit("run.aggregation", "ranks.aggregation", o.ranks.aggregation, r.run.aggregation);
 
-  const auto& b = o.balance;
+  auto& b = o.balance;
   visit("balance.policy", "balance.policy", b.policy, r.balance.policy);
   visit("balance.parameters", "balance.parameters", b.parameters, r.balance.parameters);
   visit("balance.look", "balance.look", b.look, r.balance.look);

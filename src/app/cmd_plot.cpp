@@ -67,12 +67,6 @@ void read_box(const std::string& text, PlotOptions& plot) {
   plot.box = Box{{box[0], box[1]}, {box[2], box[3]}};
 }
 
-// A .node file without an .ele next to it contains only points.
-bool holds_input(const std::filesystem::path& path) {
-  if (path.extension() != ".node") return path.extension() == ".poly";
-  return !std::filesystem::exists(std::filesystem::path(path).replace_extension(".ele"));
-}
-
 void check_color(const PlotCommand& command, const Mesh& mesh) {
   const auto refuse = [&](const char* what) {
     throw InputError({command.input, 0}, std::string("does not list the ") + what + " of its triangles",
@@ -124,7 +118,7 @@ void run_plot(const cli::Call& call, PlotCommand& command) {
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
   if (command.plot.title.empty()) command.plot.title = title_of(command.input);
   register_files(command);
-  if (holds_input(input)) {
+  if (holds_input(command.input)) {
     const Pslg pslg = read_poly(command.input);
     check_box(command, pslg);
     return plot_pslg(pslg, command.output, command.plot);

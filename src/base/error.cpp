@@ -29,8 +29,9 @@ std::string with_system_reason(const std::string& file, const std::string& what)
 }  // namespace
 
 InputError::InputError(const SourcePlace& place, const std::string& what, const std::string& next)
-    : Error(format_place(place) + ": " + for_terminal(what) + (next.empty() ? "" : "; " + next)) {}
+    : Error(format_place(place) + ": " + for_terminal(what) + (next.empty() ? "" : "; " + next)), place_(place) {}
 
-FileError::FileError(const std::string& file, const std::string& what) : Error(with_system_reason(file, what)) {}
+FileError::FileError(const std::string& file, const std::string& what)
+    : Error(with_system_reason(file, what)), file_(file) {}
 
 }  // namespace driftmesh

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 #include <type_traits>
 
 #include "base/nearest_name.hpp"
@@ -44,20 +45,45 @@ Pslg generate_with(const std::string& name, const Parameters& parameters) {
   return make(options);
 }
 
+template <class Options>
+std::vector<GeneratorParameter> parameters_of() {
+  Options options;
+  std::vector<GeneratorParameter> parameters;
+  visit_parameters(options, [&](const char* name, const auto& value, const char* help) {
+    std::ostringstream standard;
+    standard << std::boolalpha << value;
+    parameters.push_back({name, standard.str(), help});
+  });
+  return parameters;
+}
+
 struct Generator {
   const char* name;
   Pslg (*make)(const std::string&, const Parameters&);
+  std::vector<GeneratorParameter> (*parameters)();
 };
 
-constexpr Generator kGenerators[] = {{"pipe", generate_with<PipeOptions, generate_pipe>},
-                                     {"cylinder-flow", generate_with<CylinderFlowOptions, generate_cylinder_flow>},
-                                     {"bay", generate_with<BayOptions, generate_bay>},
-                                     {"fan", generate_with<FanOptions, generate_fan>},
-                                     {"comb", generate_with<CombOptions, generate_comb>},
-                                     {"holes", generate_with<HolesOptions, generate_holes>},
-                                     {"rectangle-hole", generate_with<RectangleHoleOptions, generate_rectangle_hole>},
-                                     {"random-polygon", generate_with<RandomPolygonOptions, generate_random_polygon>},
-                                     {"random-points", generate_with<RandomPointsOptions, generate_random_points>}};
+template <class Options, Pslg (*make)(const Options&)>
+constexpr Generator generator(const char* name) {
+  return {name, generate_with<Options, make>, parameters_of<Options>};
+}
+
+constexpr Generator kGenerators[] = {generator<PipeOptions, generate_pipe>("pipe"),
+                                     generator<CylinderFlowOptions, generate_cylinder_flow>("cylinder-flow"),
+                                     generator<BayOptions, generate_bay>("bay"),
+                                     generator<FanOptions, generate_fan>("fan"),
+                                     generator<CombOptions, generate_comb>("comb"),
+                                     generator<HolesOptions, generate_holes>("holes"),
+                                     generator<RectangleHoleOptions, generate_rectangle_hole>("rectangle-hole"),
+                                     generator<RandomPolygonOptions, generate_random_polygon>("random-polygon"),
+                                     generator<RandomPointsOptions, generate_random_points>("random-points")};
+
+const Generator& find_generator(const std::string& name) {
+  for (const Generator& generator : kGenerators)
+    if (name == generator.name) return generator;
+  throw InputError("no input '" + name + "' can be generated; the nearest one is '" +
+                   nearest_name(name, generator_names()) + "'");
+}
 
 }  // namespace
 
@@ -67,11 +93,12 @@ std::vector<std::string> generator_names() {
   return names;
 }
 
+std::vector<GeneratorParameter> generator_parameters(const std::string& name) {
+  return find_generator(name).parameters();
+}
+
 Pslg generate(const std::string& name, const std::map<std::string, std::string>& parameters) {
-  for (const Generator& generator : kGenerators)
-    if (name == generator.name) return generator.make(name, parameters);
-  throw InputError("no input '" + name + "' can be generated; the nearest one is '" +
-                   nearest_name(name, generator_names()) + "'");
+  return find_generator(name).make(name, parameters);
 }
 
 }  // namespace driftmesh

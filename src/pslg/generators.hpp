@@ -1,12 +1,6 @@
 #pragma once
 
-#include <functional>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "driftmesh/generate.hpp"
-#include "driftmesh/pslg.hpp"
 
 namespace driftmesh {
 
@@ -87,12 +81,5 @@ void visit_parameters(RandomPointsOptions& o, Visit&& visit) {
   visit("segments", o.segments, "Number of segments, at most a quarter of the points");
   visit("seed", o.seed, "Different seeds make different points");
 }
-
-/// The names of all inputs that can be generated.
-[[nodiscard]] std::vector<std::string> generator_names();
-
-/// A generated input by its name and the values of some of its parameters. Throws InputError for unknown names (with
-/// the nearest known one), values that are not numbers, and parameters that the generator refuses.
-[[nodiscard]] Pslg generate(const std::string& name, const std::map<std::string, std::string>& parameters);
 
 }  // namespace driftmesh

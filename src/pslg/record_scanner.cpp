@@ -159,7 +159,10 @@ void RecordScanner::require_room(std::int32_t count, const char* what, std::int3
 
 void RecordScanner::problem(const std::string& what, const std::string& next) {
   broken_line_ = line_;
-  if (!problems_.empty()) problems_ += '\n';
+  if (problems_.empty())
+    first_problem_ = line_;
+  else
+    problems_ += '\n';
   problems_ += InputError({file_, line_}, what, next).what();
   if (++problem_count_ < kMaxProblems) return;
   problems_ += "\nand possibly more: reading stopped after " + std::to_string(kMaxProblems) + " problems";
@@ -167,12 +170,12 @@ void RecordScanner::problem(const std::string& what, const std::string& next) {
 }
 
 void RecordScanner::throw_problems() const {
-  if (!problems_.empty()) throw InputError(problems_);
+  if (!problems_.empty()) throw InputError(problems_, {file_, first_problem_});
 }
 
 void RecordScanner::fail(const std::string& what, const std::string& next) {
   problem(what, next);
-  throw InputError(problems_);
+  throw InputError(problems_, {file_, first_problem_});
 }
 
 }  // namespace driftmesh

@@ -67,6 +67,7 @@ class RecordScanner {
   const char* end_;
   std::size_t line_ = 1;
   std::size_t broken_line_ = 0;
+  std::size_t first_problem_ = 0;  // its line
   bool started_ = false;
   std::size_t problem_count_ = 0;
   std::string problems_;

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/options.hpp"
+#include "driftmesh/pslg.hpp"
+
+namespace driftmesh {
+
+/// What check() found. Angles are in degrees, areas in squared units of the coordinates.
+struct CheckReport {
+  /// One kind of flaw.
+  struct Finding {
+    std::string kind;                   ///< in words: "not Delaunay"
+    std::uint64_t count = 0;            ///< of all flaws of this kind
+    std::vector<std::string> examples;  ///< the first few: the triangle, edge or point, and what is wrong with it
+  };
+
+  bool accepted = false;          ///< whether there are no findings
+  std::vector<Finding> findings;  ///< kinds that were found
+  std::string text;               ///< the report of `driftmesh check`, in lines
+  std::string verdict;            ///< its last line: "accepted: ..." with what was checked, or "rejected: ..."
+
+  std::int64_t points = 0;
+  std::int64_t triangles = 0;
+  std::int64_t subsegments = 0;
+  double area = 0;  ///< of all triangles
+  double smallest_area = 0;
+  double largest_area = 0;
+  double smallest_angle = 0;
+  double largest_angle = 0;
+  std::array<std::uint64_t, 180> angles{};  ///< [d]: the number of angles from d up to d + 1 degrees
+  std::int64_t exceptions = 0;              ///< triangles that miss a bound for an accepted reason: small input angles
+};
+
+/// Checks a mesh, however it was made; shares no code with the mesher but the exact predicates. It must be a
+/// constrained Delaunay triangulation that meets the requirements of `options`: min_angle (20 degrees unless given
+/// otherwise, as for mesh()), max_area, region_areas and size. How to make a mesh is of no interest here, except for
+/// `threads`, by which the check is done. docs/guarantees.md says which exceptions are accepted.
+///
+/// What is wrong with the mesh is reported, never thrown. Throws Error for options that are out of range.
+[[nodiscard]] CheckReport check(const Mesh& mesh, const MeshOptions& options = {});
+
+/// Also checks the mesh against its input, which is repaired first as by mesh(), with options.holes: it must cover its
+/// domain and nothing else, and have its segments, points, markers, attributes and regions. Throws InputError for an
+/// input that cannot be repaired.
+[[nodiscard]] CheckReport check(const Mesh& mesh, const Pslg& input, const MeshOptions& options = {});
+
+}  // namespace driftmesh

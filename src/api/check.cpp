@@ -1,0 +1,94 @@
+#include "driftmesh/check.hpp"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "api/call.hpp"
+#include "api/library_request.hpp"
+#include "driftmesh/repair.hpp"
+#include "geometry/box.hpp"
+#include "job/check.hpp"
+#include "job/domain.hpp"
+#include "verify/report_text.hpp"
+#include "verify/verify.hpp"
+
+namespace driftmesh {
+namespace {
+
+/// The request for a mesh as such: how it was made does not matter.
+job::Request requirements_of(const MeshOptions& options) {
+  const MeshOptions only{.holes = options.holes,
+                         .min_angle = options.min_angle,
+                         .max_area = options.max_area,
+                         .region_areas = options.region_areas,
+                         .size_resolution = options.size_resolution};
+  job::Request request = request_of(only);
+  job::check(request, job::kOnePiece);
+  return request;
+}
+
+/// One, if there is a `size`: the caller's may not be made for more.
+std::size_t threads_for(const MeshOptions& options) {
+  if (options.threads > 0) return static_cast<std::size_t>(options.threads);
+  return options.size ? 1 : std::max(1U, std::thread::hardware_concurrency());
+}
+
+std::vector<CheckReport::Finding> findings_of(const Findings& found) {
+  std::vector<CheckReport::Finding> findings;
+  for (const Flaw flaw : first_ids<Flaw>(kFlawCount))
+    if (found.count(flaw) > 0) findings.push_back({flaw_name(flaw), found.count(flaw), found.messages(flaw)});
+  return findings;
+}
+
+CheckReport report_of(const VerifyReport& found, const VerifyOptions& asked) {
+  const Quality& quality = found.quality;
+  return {.accepted = found.accepted(),
+          .findings = findings_of(found.findings),
+          .text = report_text(found, asked),
+          .verdict = verdict_text(found, asked),
+          .points = static_cast<std::int64_t>(found.points),
+          .triangles = static_cast<std::int64_t>(found.triangles),
+          .subsegments = static_cast<std::int64_t>(found.subsegments),
+          .area = found.area,
+          .smallest_area = quality.smallest_area,
+          .largest_area = quality.largest_area,
+          .smallest_angle = quality.smallest_angle,
+          .largest_angle = quality.largest_angle,
+          .angles = quality.angles,
+          .exceptions = static_cast<std::int64_t>(quality.exception_count())};
+}
+
+/// `input`: null, or as the caller has it.
+CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions& options) {
+  const job::Request request = requirements_of(options);
+  Pslg domain;
+  if (input != nullptr) {
+    domain = *input;
+    static_cast<void>(repair(domain));
+    job::add_nested_holes(request.input.holes, domain);
+  }
+  const FunctionField size(options.size);
+  VerifyOptions asked{.min_angle = request.bounds.angle,
+                      .max_area = request.bounds.area,
+                      .region_areas = request.bounds.region_areas,
+                      .threads = threads_for(options)};
+  if (options.size) {
+    asked.size = &size;
+    asked.size_spacing =
+        job::sizing_of(request.sizing, input != nullptr ? job::box_of(domain) : Box::of(mesh.points)).spacing;
+  }
+  return report_of(input != nullptr ? verify(mesh, domain, asked) : verify(mesh, asked), asked);
+}
+
+}  // namespace
+
+CheckReport check(const Mesh& mesh, const MeshOptions& options) {
+  return with_words_of_options([&] { return check_against(mesh, nullptr, options); });
+}
+
+CheckReport check(const Mesh& mesh, const Pslg& input, const MeshOptions& options) {
+  return with_words_of_options([&] { return check_against(mesh, &input, options); });
+}
+
+}  // namespace driftmesh
