@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that the named groups need and that are missing.
-#   scripts/setup.sh [build] [report] [test] [bench] [fuzz] [hosts]        (default: build)
+#   scripts/setup.sh [build] [report] [python] [test] [bench] [fuzz] [hosts]        (default: build)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 
@@ -11,12 +11,13 @@ packages_of() {
       libmuparser-dev libyaml-cpp-dev libcairo2-dev libmetis-dev libtrilinos-zoltan-dev \
       libboost-serialization-dev libopenmpi-dev openmpi-bin zlib1g-dev ;;
     report) echo nodejs npm ;;
-    test) echo chromium doctest-dev libboost-dev libcgal-dev clang-format clang-tidy dpkg-dev file fish gmsh man-db python3 python3-yaml spin zsh ;;
+    python) echo pybind11-dev python3-dev python3-numpy ;;
+    test) echo chromium doctest-dev libboost-dev libcgal-dev clang-format clang-tidy dpkg-dev file fish gmsh man-db mypy python3 python3-yaml spin zsh ;;
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
     hosts) echo iproute2 nftables ;;
     *)
-      echo "setup.sh: unknown group '$1'; use build, report, test, bench, fuzz or hosts" >&2
+      echo "setup.sh: unknown group '$1'; use build, report, python, test, bench, fuzz or hosts" >&2
       return 2
       ;;
   esac

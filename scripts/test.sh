@@ -64,11 +64,11 @@ run_preset() {
 }
 
 formatted() {
-  find include src protocol migration balancer examples tests bench \( -name '*.cpp' -o -name '*.hpp' \) -print0 |
+  find include src protocol migration balancer python examples tests bench \( -name '*.cpp' -o -name '*.hpp' \) -print0 |
     xargs -0 clang-format --dry-run -Werror
 }
 
-scripts/setup.sh build report test hosts
+scripts/setup.sh build report python test hosts
 run_preset ci
 [[ $quick == yes ]] || run_preset asan-ubsan
 say "clang-tidy"

@@ -5,7 +5,7 @@ import pathlib
 import re
 
 # The folders of boxes, and the folders that their headers are named from.
-TOPS = ("include", "src", "protocol", "migration", "balancer")
+TOPS = ("include", "src", "protocol", "migration", "balancer", "python")
 INCLUDE_ROOTS = ("src", ".", "include")
 
 SECTIONS = ("SOURCES", "DEPENDS", "LIBS")

@@ -59,6 +59,8 @@ def main():
     texts = {}
     for box in declared_boxes(root):
         folder = str(box.folder.relative_to(root))
+        if box.sources and folder not in flags:
+            continue  # an option left it out of this build
         command = flags.get(folder, all_flags)
         for header in sorted(box.folder.glob("*.hpp")):
             texts[header] = (command, f'#include "{header}"\n' * 2)

@@ -29,6 +29,7 @@ LIBRARIES = {
     "metis": (r"metis\.h", ["decompose"]),
     "mpi": (r"mpi\.h", ["api_mpi", "partition_zoltan", "public_mpi", "transport_mpi"]),  # Zoltan's own header needs it
     "muparser": (r"muParser.*\.h", ["sizing"]),
+    "pybind11": (r"pybind11/.*", ["python"]),
     "threads": (r"thread|future", None),
     "yaml": (r"yaml-cpp/.*", ["config"]),
     "zlib": (r"zlib\.h", ["io", "report"]),

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace driftmesh::python {
+
+// The classes and functions of the module, by their files.
+void add_mesh_classes(pybind11::module_& module);
+void add_report_class(pybind11::module_& module);
+void add_functions(pybind11::module_& module);
+
+}  // namespace driftmesh::python

@@ -1,0 +1,31 @@
+"""Quality triangle meshes of planar domains.
+
+    import driftmesh
+
+    bay = driftmesh.generate("bay", seed=7)
+    mesh = driftmesh.mesh(bay, min_angle=25, max_area=5000)
+    mesh.points, mesh.triangles          # numpy arrays, not copied
+    mesh.write("bay.vtu")
+
+Lengths and areas are in the units of the input, angles in degrees.
+"""
+
+from ._errors import Cancelled, Error, FileError, InputError, InputWarning, LimitError
+from ._native import (CheckReport, Mesh, Progress, Pslg, __version__, check, generate, generator_names, mesh, option_table,
+                      read_mesh, read_poly)
+from ._native import holds_input as _holds_input
+from ._progress import ProgressLine
+
+__all__ = ["Cancelled", "CheckReport", "Error", "FileError", "InputError", "InputWarning", "LimitError", "Mesh", "Progress",
+           "ProgressLine", "Pslg", "__version__", "check", "convert", "generate", "generator_names", "mesh", "option_table",
+           "read", "read_mesh", "read_poly"]
+
+
+def read(path):
+    """Read a file: a Pslg from a .poly, or a .node without an .ele next to it, and a Mesh from all others."""
+    return read_poly(path) if _holds_input(path) else read_mesh(path)
+
+
+def convert(source, target, *, allow_outside=False):
+    """Write the mesh in the file `source` to the file `target`, in the format that its extension names."""
+    read_mesh(source, allow_outside=allow_outside).write(target)

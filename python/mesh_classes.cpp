@@ -1,0 +1,199 @@
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "arrays.hpp"
+#include "classes.hpp"
+#include "driftmesh/files.hpp"
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/options.hpp"
+#include "driftmesh/pslg.hpp"
+
+namespace driftmesh::python {
+namespace {
+
+/// Adds a read-only property that is a view: array(value, owner).
+template <class Class, class Array>
+void add_view(py::class_<Class>& to, const char* name, const char* doc, const Array& array) {
+  to.def_property_readonly(
+      name, [array](const py::object& self) { return array(self.cast<const Class&>(), self); }, doc);
+}
+
+template <class Class>
+py::array attributes_of(const Class& value, py::handle owner) {
+  const auto each = static_cast<py::ssize_t>(value.attributes_per_point);
+  return view(value.attributes.data(), {each > 0 ? static_cast<py::ssize_t>(value.points.size()) : 0, each},
+              {each * static_cast<py::ssize_t>(sizeof(double)), sizeof(double)}, owner);
+}
+
+template <class Class>
+void add_point_views(py::class_<Class>& to) {
+  add_view(to, "points", "Coordinates, shape (points, 2), in the unit of the input.",
+           [](const Class& v, py::handle self) {
+             return columns_of(v.points, v.points.empty() ? nullptr : &v.points[0].x, 2, self);
+           });
+  add_view(to, "point_markers", "Markers of the points, shape (points,), or (0,) if there are none.",
+           [](const Class& v, py::handle self) { return view(v.point_markers, self); });
+  add_view(to, "attributes", "Values at the points, shape (points, attributes), or (0, 0) if there are none.",
+           [](const Class& v, py::handle self) { return attributes_of(v, self); });
+}
+
+/// Segments or subsegments, which have members a, b and marker.
+template <class Class, class Edges>
+void add_edge_views(py::class_<Class>& to, const char* name, const char* doc, const char* markers_name,
+                    const char* markers_doc, Edges Class::*edges) {
+  add_view(to, name, doc, [edges](const Class& v, py::handle self) {
+    return columns_of(v.*edges, (v.*edges).empty() ? nullptr : &(v.*edges)[0].a, 2, self);
+  });
+  add_view(to, markers_name, markers_doc, [edges](const Class& v, py::handle self) {
+    return column_of(v.*edges, (v.*edges).empty() ? nullptr : &(v.*edges)[0].marker, self);
+  });
+}
+
+template <class Class>
+void take_point_data(Class& value, py::handle markers, py::handle attributes) {
+  if (!markers.is_none()) value.point_markers = integers_from(markers, "point_markers");
+  require_length(value.point_markers.size(), value.points.size(), "point_markers", "point");
+  if (attributes.is_none()) return;
+  Numbers table = table_from(attributes, "attributes");
+  require_length(table.rows, value.points.size(), "attributes", "point");
+  value.attributes = std::move(table.values);
+  value.attributes_per_point = value.attributes.empty() ? 0 : static_cast<std::int32_t>(table.columns);
+}
+
+/// Pairs of points with a marker each, `standard` if none are given.
+template <class Edge>
+std::vector<Edge> edges_from(py::handle pairs, py::handle markers, std::int32_t standard, const std::string& name,
+                             const std::string& markers_name, std::size_t points) {
+  if (pairs.is_none()) return {};
+  const std::vector<std::int32_t> ends = integers_from(pairs, name, 2);
+  require_indices(ends, points, name);
+  const std::vector<std::int32_t> given =
+      markers.is_none() ? std::vector<std::int32_t>{} : integers_from(markers, markers_name);
+  require_length(given.size(), ends.size() / 2, markers_name, "row of " + name);
+  std::vector<Edge> edges(ends.size() / 2);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    edges[i] = {ends[2 * i], ends[2 * i + 1], given.empty() ? standard : given[i]};
+  return edges;
+}
+
+Pslg make_pslg(py::handle points, py::handle segments, py::handle segment_markers, py::handle holes, py::handle regions,
+               py::handle point_markers, py::handle attributes) {
+  Pslg pslg;
+  pslg.points = points_from(points, "points");
+  pslg.segments =
+      edges_from<Pslg::Segment>(segments, segment_markers, 1, "segments", "segment_markers", pslg.points.size());
+  if (!holes.is_none()) pslg.holes = points_from(holes, "holes");
+  if (!regions.is_none()) {
+    const Numbers rows = numbers_from(regions, "regions", 4);
+    for (std::size_t i = 0; i < rows.rows; ++i) {
+      const double* row = &rows.values[4 * i];
+      pslg.regions.push_back({{row[0], row[1]}, row[2], row[3]});
+    }
+  }
+  take_point_data(pslg, point_markers, attributes);
+  pslg.first_number = 0;  // as Python counts, in messages too
+  return pslg;
+}
+
+Mesh make_mesh(py::handle points, py::handle triangles, py::handle edges, py::handle edge_markers,
+               py::handle point_markers, py::handle attributes, py::handle regions) {
+  Mesh mesh;
+  mesh.points = points_from(points, "points");
+  const std::vector<std::int32_t> corners = integers_from(triangles, "triangles", 3);
+  require_indices(corners, mesh.points.size(), "triangles");
+  mesh.triangles.resize(corners.size() / 3);
+  for (std::size_t i = 0; i < corners.size(); ++i) mesh.triangles[i / 3][i % 3] = corners[i];
+  mesh.edges = edges_from<Mesh::Edge>(edges, edge_markers, 0, "edges", "edge_markers", mesh.points.size());
+  take_point_data(mesh, point_markers, attributes);
+  if (!regions.is_none()) mesh.regions = numbers_from(regions, "regions").values;
+  require_length(mesh.regions.size(), mesh.triangles.size(), "regions", "triangle");
+  return mesh;
+}
+
+std::string counted(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what;
+}
+
+void add_pslg(py::module_& module) {
+  py::class_<Pslg> pslg(
+      module, "Pslg",
+      "A planar straight line graph: the points, segments, holes and regions of a domain. Its arrays are read-only.");
+  const py::object none = py::none();
+  pslg.def(py::init(&make_pslg), py::arg("points"), py::arg("segments") = none, py::kw_only(),
+           py::arg("segment_markers") = none, py::arg("holes") = none, py::arg("regions") = none,
+           py::arg("point_markers") = none, py::arg("attributes") = none, "A domain from arrays, which are copied.");
+  add_point_views(pslg);
+  add_edge_views(pslg, "segments", "Indices of the two ends of each segment, shape (segments, 2).", "segment_markers",
+                 "Markers of the segments, shape (segments,).", &Pslg::segments);
+  add_view(pslg, "holes", "A point in each hole, shape (holes, 2).", [](const Pslg& v, py::handle self) {
+    return columns_of(v.holes, v.holes.empty() ? nullptr : &v.holes[0].x, 2, self);
+  });
+  add_view(pslg, "regions",
+           "Seeds of regions, shape (regions, 4): x, y, attribute, largest area (0: no bound of its own).",
+           [](const Pslg& v, py::handle self) {
+             static_assert(sizeof(Pslg::Region) == 4 * sizeof(double));
+             return columns_of(v.regions, v.regions.empty() ? nullptr : &v.regions[0].at.x, 4, self);
+           });
+  pslg.def(
+      "write", [](const Pslg& v, const std::filesystem::path& path) { write_poly(v, path.string()); }, py::arg("path"),
+      py::call_guard<py::gil_scoped_release>(), "Write Triangle's .poly. The file appears only when it is complete.");
+  pslg.def("__repr__", [](const Pslg& v) {
+    return "<driftmesh.Pslg: " + counted(v.points.size(), "points, ") + counted(v.segments.size(), "segments, ") +
+           counted(v.holes.size(), "holes, ") + counted(v.regions.size(), "regions>");
+  });
+}
+
+void add_mesh(py::module_& module) {
+  py::class_<Mesh> mesh(module, "Mesh",
+                        "A mesh as flat arrays, which are read-only views of its memory and keep it alive.");
+  const py::object none = py::none();
+  mesh.def(py::init(&make_mesh), py::arg("points"), py::arg("triangles"), py::kw_only(), py::arg("edges") = none,
+           py::arg("edge_markers") = none, py::arg("point_markers") = none, py::arg("attributes") = none,
+           py::arg("regions") = none,
+           "A mesh from arrays, which are copied: to check it, draw it, or write it to a file.");
+  add_point_views(mesh);
+  add_view(mesh, "triangles", "Indices of the corners, counterclockwise, shape (triangles, 3).",
+           [](const Mesh& v, py::handle self) {
+             return columns_of(v.triangles, v.triangles.empty() ? nullptr : v.triangles[0].data(), 3, self);
+           });
+  add_edge_views(mesh, "edges",
+                 "Ends of the subsegments, the edges that lie on segments of the input, shape (edges, 2).",
+                 "edge_markers", "Markers of the subsegments, shape (edges,).", &Mesh::edges);
+  add_view(mesh, "regions",
+           "Attribute of each triangle's region, shape (triangles,), or (0,) if the input has no regions.",
+           [](const Mesh& v, py::handle self) { return view(v.regions, self); });
+  add_view(mesh, "numbers", "Number of each point in the whole mesh, shape (points,), or (0,) if this is no piece.",
+           [](const Mesh& v, py::handle self) { return view(v.numbers, self); });
+  add_view(mesh, "subdomains", "Subdomain in which each triangle was made, shape (triangles,), or (0,).",
+           [](const Mesh& v, py::handle self) { return view(v.subdomains, self); });
+  add_view(mesh, "ranks", "Rank that had the subdomain of each triangle, shape (triangles,), or (0,).",
+           [](const Mesh& v, py::handle self) { return view(v.ranks, self); });
+  mesh.def(
+      "write", [](const Mesh& v, const std::filesystem::path& path) { write_mesh(v, path.string()); }, py::arg("path"),
+      py::call_guard<py::gil_scoped_release>(),
+      "Write the format that the extension names: .vtu, .msh, or Triangle's .node, .ele, ... Files appear only when "
+      "complete.");
+  mesh.def("__repr__", [](const Mesh& v) {
+    return "<driftmesh.Mesh: " + counted(v.points.size(), "points, ") + counted(v.triangles.size(), "triangles, ") +
+           counted(v.edges.size(), "edges>");
+  });
+}
+
+void add_progress(py::module_& module) {
+  py::class_<Progress>(module, "Progress", "How far the work is.")
+      .def_readonly("triangles", &Progress::triangles, "Triangles made so far; on many ranks, by this one.")
+      .def_readonly("forecast", &Progress::forecast, "Triangles expected in the end.");
+}
+
+}  // namespace
+
+void add_mesh_classes(py::module_& module) {
+  add_pslg(module);
+  add_mesh(module);
+  add_progress(module);
+}
+
+}  // namespace driftmesh::python

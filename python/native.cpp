@@ -1,0 +1,14 @@
+#include <pybind11/pybind11.h>
+
+#include "classes.hpp"
+#include "driftmesh/version.hpp"
+#include "errors.hpp"
+
+PYBIND11_MODULE(_native, module) {
+  module.doc() = "The compiled part of driftmesh.";
+  module.attr("__version__") = DRIFTMESH_VERSION;
+  driftmesh::python::translate_errors();
+  driftmesh::python::add_mesh_classes(module);
+  driftmesh::python::add_report_class(module);
+  driftmesh::python::add_functions(module);
+}

@@ -1,0 +1,50 @@
+"""Reading, writing and converting."""
+
+import pathlib
+import tempfile
+import unittest
+
+import driftmesh
+import numpy as np
+
+PLATE = driftmesh.generate("rectangle-hole")
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def test_domains(self):
+        path = self.folder / "plate.poly"
+        PLATE.write(path)
+        for again in (driftmesh.read(path), driftmesh.read_poly(str(path))):
+            np.testing.assert_array_equal(again.points, PLATE.points)
+            np.testing.assert_array_equal(again.segments, PLATE.segments)
+            np.testing.assert_array_equal(again.holes, PLATE.holes)
+
+    def test_meshes(self):
+        mesh = driftmesh.mesh(PLATE, max_area=1e-3)
+        for name in ("plate.vtu", "plate.msh", "plate.1.ele"):
+            mesh.write(self.folder / name)
+            again = driftmesh.read(self.folder / name)
+            np.testing.assert_array_equal(again.points, mesh.points)
+            np.testing.assert_array_equal(again.triangles, mesh.triangles)
+            self.assertTrue(driftmesh.check(again, PLATE, max_area=1e-3), name)
+
+    def test_a_node_file_alone_is_a_domain(self):
+        driftmesh.mesh(PLATE).write(self.folder / "plate.node")
+        self.assertIsInstance(driftmesh.read(self.folder / "plate.node"), driftmesh.Mesh)
+        (self.folder / "plate.ele").unlink()
+        self.assertIsInstance(driftmesh.read(self.folder / "plate.node"), driftmesh.Pslg)
+
+    def test_convert(self):
+        mesh = driftmesh.mesh(PLATE)
+        mesh.write(self.folder / "plate.vtu")
+        driftmesh.convert(self.folder / "plate.vtu", self.folder / "plate.msh")
+        np.testing.assert_array_equal(driftmesh.read(self.folder / "plate.msh").triangles, mesh.triangles)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
