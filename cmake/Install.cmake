@@ -1,4 +1,5 @@
-# What `cmake --install` puts where, in two components: the program, and what programs that link the library need. No
+# What `cmake --install` puts where, in components: the program, what programs that link the library need,
+# and the Python package (python/CMakeLists.txt). No
 # installed file holds a path of this machine: the prefix can be moved.
 include(CMakePackageConfigHelpers)
 
@@ -69,4 +70,16 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libopenmpi-dev, libtrilinos-zol
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library of driftmesh: headers, static libraries, CMake package.
  driftmesh::driftmesh makes meshes in one process, driftmesh::distributed on the
  ranks of an MPI communicator.")
+if(DRIFTMESH_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-driftmesh)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-mpi4py)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Triangle meshes of planar domains in Python.
+ Meshes as numpy arrays, made in this process or on the ranks of an mpi4py
+ communicator, with quality bounds on angles and areas.")
+endif()
 include(CPack)

@@ -7,6 +7,9 @@ namespace driftmesh::python {
 // The classes and functions of the module, by their files.
 void add_mesh_classes(pybind11::module_& module);
 void add_report_class(pybind11::module_& module);
+void add_load_class(pybind11::module_& module);
+void add_distributed(pybind11::module_& module);
+void add_simulated(pybind11::module_& module);
 void add_functions(pybind11::module_& module);
 
 }  // namespace driftmesh::python

@@ -57,10 +57,6 @@ std::string generator_lines() {
   return lines;
 }
 
-const std::string kOptions =
-    "\n\nOptions, by keyword; lengths and areas are in units of the input. Those with a dot are entries of a\n"
-    "dictionary: subdomains={\"count\": 8}. Numbers can be texts with a unit: \"5k\", \"6G\". None is the default.\n\n";
-
 const std::string kMeshDoc =
     "mesh(input, /, **options) -> Mesh\n\n"
     "Make a mesh of the domain that a Pslg describes: constrained Delaunay, within the bounds on angles, areas and "
@@ -106,9 +102,9 @@ void add_functions(py::module_& module) {
       "read_mesh(path, *, allow_outside=False) -> Mesh\n\nRead a mesh in any format that Mesh.write writes, or the "
       "pieces "
       "of a .pvtu, which may lie outside of\nits folder only if that is allowed. Raises InputError, FileError.");
-  module.def("mesh", &make, py::arg("input"), py::pos_only(), (kMeshDoc + kOptions + option_lines()).c_str());
+  module.def("mesh", &make, py::arg("input"), py::pos_only(), (kMeshDoc + kOptionsHead + option_lines()).c_str());
   module.def("check", &check_mesh, py::arg("mesh"), py::arg("input") = py::none(), py::pos_only(),
-             (kCheckDoc + kOptions + option_lines()).c_str());
+             (kCheckDoc + kOptionsHead + option_lines()).c_str());
   module.def(
       "option_table", &option_table,
       "The options of mesh(): a dictionary for each, with name, kind, unit, default, least, most, choices, help.");

@@ -3,79 +3,17 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 #include "api/library_request.hpp"
-#include "arrays.hpp"
-#include "base/nearest_name.hpp"
 #include "job/keys.hpp"
+#include "policy.hpp"
+#include "table.hpp"
 
 namespace driftmesh::python {
 namespace {
-
-using Given = std::map<std::string, py::object>;
-
-[[noreturn]] void refuse(const std::string& name, const char* wanted, py::handle given) {
-  throw py::type_error(name + " takes " + wanted + ", not " + Py_TYPE(given.ptr())->tp_name);
-}
-
-double number_from(const std::string& name, py::handle given) {
-  const double number = PyFloat_AsDouble(given.ptr());
-  if (number != -1 || PyErr_Occurred() == nullptr) return number;
-  PyErr_Clear();
-  refuse(name, "a number", given);
-}
-
-std::int64_t integer_from(const std::string& name, py::handle given) {
-  const py::object whole = PyFloat_Check(given.ptr()) && std::floor(given.cast<double>()) == given.cast<double>()
-                               ? py::reinterpret_steal<py::object>(PyNumber_Long(given.ptr()))
-                               : py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
-  int overflow = 0;
-  const long long number = whole ? PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow) : -1;
-  PyErr_Clear();
-  if (!whole) refuse(name, "a whole number", given);
-  if (overflow != 0) throw py::value_error(name + " is out of range");
-  return number;
-}
-
-/// The values of a table by their names: policies read them as text.
-std::map<std::string, std::string> table_of(const std::string& name, py::handle given) {
-  if (!py::isinstance<py::dict>(given)) refuse(name, "a dictionary", given);
-  std::map<std::string, std::string> table;
-  for (const auto& [entry, value] : given.cast<py::dict>())
-    table[py::str(entry).cast<std::string>()] =
-        PyBool_Check(value.ptr()) ? (value.cast<bool>() ? "true" : "false") : py::str(value).cast<std::string>();
-  return table;
-}
-
-/// Stores what is given for a key in a member of the options. `place`: that of the key in `request`.
-template <class Member>
-void take(const std::string& name, const job::Key& key, py::handle given, Member& member, job::Request& request,
-          const Member& place) {
-  if constexpr (std::is_same_v<Member, std::map<std::string, std::string>>) {
-    member = table_of(name, given);
-  } else if constexpr (std::is_same_v<Member, std::vector<double>>) {
-    member = numbers_from(given, name).values;
-  } else if (py::isinstance<py::str>(given)) {  // as in a file: a choice, or a number with a unit such as 6G
-    key.store(request, job::read_value(key, given.cast<std::string>()));
-    member = place;
-  } else if constexpr (std::is_same_v<Member, bool>) {
-    if (!PyBool_Check(given.ptr())) refuse(name, "True or False", given);
-    member = given.cast<bool>();
-  } else if constexpr (std::is_integral_v<Member>) {
-    const std::int64_t number = integer_from(name, given);
-    if (!std::in_range<Member>(number)) job::check_range(key, static_cast<double>(number));
-    member = static_cast<Member>(number);
-  } else if constexpr (std::is_floating_point_v<Member>) {
-    member = number_from(name, given);
-  } else {
-    refuse(name, "a name", given);
-  }
-}
 
 /// "subdomains" of "subdomains.count"; empty if there is none.
 std::string section_of(const std::string& name) {
@@ -84,7 +22,7 @@ std::string section_of(const std::string& name) {
 }
 
 /// The options that are functions, which no table of keys can hold.
-constexpr const char* kCallables[] = {"warning", "size", "progress"};
+constexpr const char* kCallables[] = {"warning", "size", "progress", "balance.own"};
 
 std::vector<std::string> names_of_options() {
   std::vector<std::string> names(std::begin(kCallables), std::end(kCallables));
@@ -94,28 +32,20 @@ std::vector<std::string> names_of_options() {
   return names;
 }
 
-/// The arguments by the full names of their options. None is as if it were not given.
-Given flattened(const py::kwargs& arguments) {
-  const std::vector<std::string> names = names_of_options();
+/// The arguments by the full names of their options.
+Given flattened(const py::kwargs& arguments, const std::vector<std::string>& names) {
   Given given;
-  for (const auto& [key, value] : arguments) {
-    const auto name = key.cast<std::string>();
+  for (const auto& [name, value] : entries_of(arguments)) {
     const bool is_section =
-        std::any_of(names.begin(), names.end(), [&](const auto& n) { return section_of(n) == name; });
-    if (is_section && !py::isinstance<py::dict>(value)) refuse(name, "a dictionary of options", value);
-    if (!is_section) given[name] = py::reinterpret_borrow<py::object>(value);
-    if (is_section)
-      for (const auto& [entry, inner] : value.template cast<py::dict>())
-        given[name + "." + py::str(entry).template cast<std::string>()] = py::reinterpret_borrow<py::object>(inner);
+        std::any_of(names.begin(), names.end(), [&n = name](const auto& option) { return section_of(option) == n; });
+    if (!is_section) {
+      given[name] = value;
+      continue;
+    }
+    if (!py::isinstance<py::dict>(value)) refuse(name, "a dictionary of options", value);
+    for (const auto& [entry, inner] : entries_of(value)) given[name + "." + entry] = inner;
   }
-  std::erase_if(given, [](const auto& entry) { return entry.second.is_none(); });
   return given;
-}
-
-/// The value given by this name, which is thereby taken; None without one.
-py::object taken(Given& given, const std::string& name) {
-  const auto found = given.extract(name);
-  return found.empty() ? py::none() : std::move(found.mapped());
 }
 
 py::object callable(Given& given, const std::string& name) {
@@ -168,25 +98,22 @@ constexpr const char* kCallableLines =
     "        p.forecast expected; returning False ends the work with Cancelled. True: a line in the terminal or "
     "notebook.\n"
     "    warning (callable): warning(text) is called for what the author of the input may not have meant; by default,\n"
-    "        Python's warnings.warn with InputWarning.\n";
+    "        Python's warnings.warn with InputWarning.\n"
+    "    balance.own (object or callable): a policy, see simulate().\n";
 
 }  // namespace
 
 Options::Options(const py::kwargs& arguments) {
-  Given given = flattened(arguments);
+  const std::vector<std::string> names = names_of_options();
+  Given given = flattened(arguments, names);
   job::Request request;
   with_words_of_options([&] {
     visit_options(values_, request, [&](const char* key, const char* name, auto& member, const auto& place) {
-      if (const py::object value = taken(given, name); !value.is_none())
-        take(name, *job::find_key(key).key, value, member, request, place);
+      take_if_given(given, name, key, member, request, place);
     });
   });
   take_callables(given);
-  if (!given.empty()) {
-    const std::string& unknown = given.begin()->first;
-    throw py::type_error("there is no option '" + unknown + "'; the nearest one is '" +
-                         nearest_name(unknown, names_of_options()) + "'");
-  }
+  refuse_rest(given, names);
 }
 
 void Options::take_callables(Given& given) {
@@ -198,6 +125,8 @@ void Options::take_callables(Given& given) {
     values_.size = [this](const Point& p) {
       return callbacks_.ask([&] { return number_from("what size returns", size_(p.x, p.y)); });
     };
+  if (const py::object own = taken(given, "balance.own"); !own.is_none())
+    values_.balance.own = policy_from(own, callbacks_);
   values_.progress = [this](const Progress& now) { return callbacks_.goes_on(progress_, now); };
   values_.warning = [this](const std::string& text) { callbacks_.ask([&] { warning_(text); }); };
 }

@@ -2,11 +2,11 @@
 
 #include <pybind11/pybind11.h>
 
-#include <map>
 #include <string>
 
 #include "callbacks.hpp"
 #include "driftmesh/options.hpp"
+#include "table.hpp"
 
 namespace driftmesh::python {
 
@@ -24,7 +24,7 @@ class Options {
   [[nodiscard]] Callbacks& callbacks() { return callbacks_; }
 
  private:
-  void take_callables(std::map<std::string, py::object>& given);
+  void take_callables(Given& given);
 
   MeshOptions values_;
   py::object size_, progress_, warning_;
@@ -49,7 +49,10 @@ auto with_options(const py::kwargs& given, const Work& work) {
 /// and help.
 [[nodiscard]] py::list option_table();
 
-/// All options as lines of documentation.
+/// All options as lines of documentation, and what comes before them.
+inline constexpr const char* kOptionsHead =
+    "\n\nOptions, by keyword; lengths and areas are in units of the input. Those with a dot are entries of a\n"
+    "dictionary: subdomains={\"count\": 8}. Numbers can be texts with a unit: \"5k\", \"6G\". None is the default.\n\n";
 [[nodiscard]] std::string option_lines();
 
 }  // namespace driftmesh::python

@@ -11,8 +11,8 @@ packages_of() {
       libmuparser-dev libyaml-cpp-dev libcairo2-dev libmetis-dev libtrilinos-zoltan-dev \
       libboost-serialization-dev libopenmpi-dev openmpi-bin zlib1g-dev ;;
     report) echo nodejs npm ;;
-    python) echo pybind11-dev python3-dev python3-numpy ;;
-    test) echo chromium doctest-dev libboost-dev libcgal-dev clang-format clang-tidy dpkg-dev file fish gmsh man-db mypy python3 python3-yaml spin zsh ;;
+    python) echo pybind11-dev python3-dev python3-mpi4py python3-numpy ;;
+    test) echo chromium doctest-dev libboost-dev libcgal-dev clang-format clang-tidy dpkg-dev file fish gmsh man-db mypy python3 python3-pip python3-scipy python3-venv python3-yaml spin zsh ;;
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
     hosts) echo iproute2 nftables ;;

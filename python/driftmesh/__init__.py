@@ -11,14 +11,15 @@ Lengths and areas are in the units of the input, angles in degrees.
 """
 
 from ._errors import Cancelled, Error, FileError, InputError, InputWarning, LimitError
-from ._native import (CheckReport, Mesh, Progress, Pslg, __version__, check, generate, generator_names, mesh, option_table,
-                      read_mesh, read_poly)
+from ._native import (CheckReport, DistributedPiece, Load, Mesh, Progress, Pslg, SimulatedRun, __version__, check, generate,
+                      generator_names, mesh, mesh_distributed, option_table, read_mesh, read_poly, simulate, write_distributed)
 from ._native import holds_input as _holds_input
 from ._progress import ProgressLine
 
-__all__ = ["Cancelled", "CheckReport", "Error", "FileError", "InputError", "InputWarning", "LimitError", "Mesh", "Progress",
-           "ProgressLine", "Pslg", "__version__", "check", "convert", "generate", "generator_names", "mesh", "option_table",
-           "read", "read_mesh", "read_poly"]
+__all__ = ["Cancelled", "CheckReport", "DistributedPiece", "Error", "FileError", "InputError", "InputWarning", "LimitError",
+           "Load", "Mesh", "Progress", "ProgressLine", "Pslg", "SimulatedRun", "__version__", "check", "convert", "generate",
+           "generator_names", "mesh", "mesh_distributed", "option_table", "read", "read_mesh", "read_poly", "simulate",
+           "write_distributed"]
 
 
 def read(path):

@@ -46,14 +46,14 @@ std::int32_t Call::threads() const {
   return only_this_one ? 1 : job::threads_of(request_);
 }
 
-void Call::check(job::Place place) const {
-  if (options_.balance.own && place != job::kRanks)
+void Call::check(job::Place place, const job::Request& request) const {
+  if (options_.balance.own && (place & job::kMany) == 0)
     throw Error("MeshOptions::balance.own is for many ranks, but this process is alone; remove it");
   if (options_.balance.own && options_.balance.policy != MeshOptions{}.balance.policy)
     throw Error("MeshOptions::balance.own is given along with the name of another policy; remove one");
   if (options_.subdomains.given && options_.subdomains.count != 0)
     throw Error("MeshOptions::subdomains.count cannot be combined with a given decomposition; remove one");
-  job::check(request_, place, given_.policies);
+  job::check(request, place, given_.policies);
 }
 
 job::Order Call::order(job::Domain domain, const job::Triangulated& triangulated, job::Place place, std::int32_t ranks,

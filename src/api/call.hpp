@@ -58,7 +58,9 @@ class Call {
   /// The number of threads for that.
   [[nodiscard]] std::int32_t threads() const;
   /// Throws Error for options that are out of range or have no meaning at this place.
-  void check(job::Place place) const;
+  void check(job::Place place) const { check(place, request_); }
+  /// The same for a request that says more than the options do.
+  void check(job::Place place, const job::Request& request) const;
   /// Throws what reading the input throws.
   [[nodiscard]] job::Domain read_domain() { return job::read_domain(request_, given_, watch_); }
   /// The domain, triangulated to be cut, prepared for this number of ranks. Throws like the job.

@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-from command import run
+from command import ENVIRONMENT, run
 
 BUILD, VERSION = sys.argv[1:3]
 
@@ -44,6 +44,18 @@ class Packages(unittest.TestCase):
         for package in self.field("libdriftmesh-dev", "Depends").split(", "):
             run("dpkg", "-s", package)  # there is such a package: it is what this was built with
         self.assertFalse((root / "usr/bin").exists())
+
+    def test_python(self):
+        if not next(self.folder.glob("python3-driftmesh_*"), None):
+            self.skipTest("the Python package was not built")
+        root = self.folder / "python"
+        run("dpkg", "-x", self.package("python3-driftmesh"), root)
+        for package in ("libopenmpi3", "python3-numpy", "python3 (>= 3."):
+            self.assertIn(package, self.field("python3-driftmesh", "Depends"))
+        self.assertFalse((root / "usr/bin").exists())
+        said = run("/usr/bin/python3", "-c", "import driftmesh; print(driftmesh.__version__, driftmesh.__file__)",
+                   env=ENVIRONMENT | {"PYTHONPATH": f"{root}/usr/lib/python3/dist-packages"})
+        self.assertEqual(said.split(), [VERSION, f"{root}/usr/lib/python3/dist-packages/driftmesh/__init__.py"])
 
 
 if __name__ == "__main__":

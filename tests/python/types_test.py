@@ -36,13 +36,13 @@ class Stubs(unittest.TestCase):
         self.assertEqual(set(driftmesh.__all__) - set(self.declared), {"__version__"})
 
     def test_members(self):
-        for name in ("CheckReport", "Mesh", "Progress", "Pslg"):
+        for name in ("CheckReport", "DistributedPiece", "Load", "Mesh", "Progress", "Pslg", "SimulatedRun"):
             has = {member for member, value in vars(getattr(driftmesh, name)).items() if not member.startswith("_")}
             declares = {node.name for node in self.declared[name].body if not node.name.startswith("_")}
             self.assertEqual(declares, has, name)
 
     def test_options(self):
-        for name in ("mesh", "check"):
+        for name in ("mesh", "check", "mesh_distributed", "simulate"):
             keywords = {argument.arg for argument in self.declared[name].args.kwonlyargs}
             for option in driftmesh.option_table():
                 section, _, member = option["name"].rpartition(".")

@@ -27,7 +27,7 @@ LIBRARIES = {
     "fmt": (r"fmt/.*", None),
     "json": (r"nlohmann/.*", None),
     "metis": (r"metis\.h", ["decompose"]),
-    "mpi": (r"mpi\.h", ["api_mpi", "partition_zoltan", "public_mpi", "transport_mpi"]),  # Zoltan's own header needs it
+    "mpi": (r"mpi\.h", ["api_mpi", "partition_zoltan", "public_mpi", "python", "transport_mpi"]),  # Zoltan's own header needs it
     "muparser": (r"muParser.*\.h", ["sizing"]),
     "pybind11": (r"pybind11/.*", ["python"]),
     "threads": (r"thread|future", None),

@@ -1,0 +1,87 @@
+#include "driftmesh/mpi/distributed.hpp"
+
+#include <mpi.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+
+#include "arrays.hpp"
+#include "classes.hpp"
+#include "options.hpp"
+
+namespace driftmesh::python {
+namespace {
+
+/// That of an mpi4py communicator. MPI itself is initialized then.
+MPI_Comm communicator_from(const py::object& given) {
+  const py::module_ mpi4py = py::module_::import("mpi4py.MPI");
+  if (!py::isinstance(given, mpi4py.attr("Comm")))
+    throw py::type_error(std::string("the communicator is one of mpi4py, not ") + Py_TYPE(given.ptr())->tp_name);
+  return MPI_Comm_f2c(given.attr("py2f")().cast<MPI_Fint>());
+}
+
+DistributedPiece make_piece(const py::object& given, const Pslg* input, const py::kwargs& options) {
+  MPI_Comm communicator = communicator_from(given);
+  const Pslg none;  // the input is that of rank 0
+  return with_options(options, [&](const MeshOptions& values) {
+    return mesh_distributed(communicator, input != nullptr ? *input : none, values);
+  });
+}
+
+void write_pieces(const py::object& given, const DistributedPiece& piece, const std::filesystem::path& path) {
+  MPI_Comm communicator = communicator_from(given);
+  const py::gil_scoped_release unlocked;
+  write_distributed(communicator, piece, path.string());
+}
+
+/// For each neighbor the shared points: a view.
+py::dict shared_points(const py::object& self) {
+  py::dict shared;
+  for (const DistributedPiece::Neighbor& n : self.cast<const DistributedPiece&>().neighbors)
+    shared[py::int_(to_int(n.rank))] = view(n.shared, self);
+  return shared;
+}
+
+}  // namespace
+
+void add_distributed(py::module_& module) {
+  py::options options;
+  options.disable_function_signatures();
+  py::class_<DistributedPiece>(module, "DistributedPiece", "One rank's part of a distributed mesh.")
+      .def_property_readonly(
+          "rank", [](const DistributedPiece& p) { return to_int(p.rank); }, "The rank that has it.")
+      .def_readonly("ranks", &DistributedPiece::ranks, "Number of all ranks.")
+      .def_readonly("mesh", &DistributedPiece::mesh,
+                    "The subdomains of this rank joined into one Mesh, with `numbers` and `subdomains`.")
+      .def_property_readonly(
+          "owners",
+          [](const py::object& self) {
+            const auto& owners = self.cast<const DistributedPiece&>().owners;
+            static_assert(sizeof(Rank) == sizeof(std::int32_t));
+            return column_of(owners, reinterpret_cast<const std::int32_t*>(owners.data()), self);
+          },
+          "Rank that owns each point, one of those that have it, shape (points,).")
+      .def_property_readonly("neighbors", &shared_points,
+                             "For each rank with shared points, the indices of these points, in the same order on both "
+                             "sides: a dictionary of arrays of shape (shared points,).")
+      .def_readonly("has_regions", &DistributedPiece::has_regions, "Whether the whole mesh has regions.")
+      .def_readonly("total_points", &DistributedPiece::total_points, "Points of the whole mesh, each counted once.")
+      .def_readonly("total_triangles", &DistributedPiece::total_triangles, "Triangles of the whole mesh.");
+  module.def(
+      "mesh_distributed", &make_piece, py::arg("communicator"), py::arg("input"), py::pos_only(),
+      ("mesh_distributed(communicator, input, /, **options) -> DistributedPiece\n\n"
+       "Make a mesh on all ranks of an mpi4py communicator, each of which gets its piece. Collective.\n\n"
+       "Input and options are those of rank 0, and input may be None elsewhere, but every rank gives its own\n"
+       "`size` and `balance[\"own\"]`, which must behave the same everywhere, and its own `progress`. Errors are\n"
+       "those of mesh(), raised on all ranks: an exception of a callable on one rank is an Error on the others." +
+       std::string(kOptionsHead) + option_lines())
+          .c_str());
+  module.def(
+      "write_distributed", &write_pieces, py::arg("communicator"), py::arg("piece"), py::arg("path"),
+      "write_distributed(communicator, piece, path)\n\n"
+      "Write the pieces of all ranks. Collective. A .pvtu is written in parallel, one file for each rank; for other\n"
+      "formats the mesh is gathered on rank 0. Raises InputError and FileError, on all ranks if one cannot write.");
+}
+
+}  // namespace driftmesh::python

@@ -1,0 +1,89 @@
+#include "driftmesh/simulated.hpp"
+
+#include <pybind11/stl.h>
+
+#include "api/simulated/cluster_request.hpp"
+#include "arrays.hpp"
+#include "classes.hpp"
+#include "options.hpp"
+#include "table.hpp"
+
+namespace driftmesh::python {
+namespace {
+
+SimulatedCluster cluster_from(const py::dict& given) {
+  SimulatedCluster cluster;
+  job::Request request;
+  Given entries = entries_of(given);
+  with_words_of_options([&] {
+    visit_cluster(cluster, request, [&](const char* key, const char* name, auto& member, const auto& place) {
+      take_if_given(entries, name, key, member, request, place);
+    });
+  });
+  std::vector<std::string> names;
+  visit_cluster(cluster, request,
+                [&](const char*, const char* name, const auto&, const auto&) { names.emplace_back(name); });
+  refuse_rest(entries, names);
+  return cluster;
+}
+
+SimulatedRun run(const Pslg& input, const py::dict& cluster, const py::kwargs& options) {
+  const SimulatedCluster simulated = cluster_from(cluster);
+  return with_options(options, [&](const MeshOptions& values) { return simulate(input, values, simulated); });
+}
+
+py::array ranks_view(const std::vector<Rank>& ranks, py::handle owner) {
+  return column_of(ranks, reinterpret_cast<const std::int32_t*>(ranks.data()), owner);
+}
+
+}  // namespace
+
+void add_simulated(py::module_& module) {
+  using Times = SimulatedRun::RankTimes;
+  using Move = SimulatedRun::Move;
+  py::class_<SimulatedRun> run_class(module, "SimulatedRun",
+                                     "Results of a run on a simulated cluster, in virtual seconds.");
+  py::class_<Move>(run_class, "Move", "A subdomain that moved from one rank to another.")
+      .def_property_readonly("subdomain", [](const Move& m) { return to_int(m.subdomain); })
+      .def_property_readonly("source", [](const Move& m) { return to_int(m.from); })
+      .def_property_readonly("target", [](const Move& m) { return to_int(m.to); })
+      .def_readonly("left", &Move::left, "When it was sent.")
+      .def_readonly("arrived", &Move::arrived, "When it was unpacked.")
+      .def_readonly("bytes", &Move::bytes);
+  py::class_<Times>(run_class, "RankTimes", "How a rank spent its time.")
+      .def_readonly("computing", &Times::computing)
+      .def_readonly("sending", &Times::sending)
+      .def_readonly("polling", &Times::polling)
+      .def_readonly("balancing", &Times::balancing)
+      .def_readonly("idle", &Times::idle);
+  run_class.def_readonly("seconds", &SimulatedRun::seconds, "Until the last rank knows that all work is done.")
+      .def_readonly("ideal_seconds", &SimulatedRun::ideal_seconds, "If every rank had computed from start to end.")
+      .def_readonly("triangles", &SimulatedRun::triangles)
+      .def_readonly("messages", &SimulatedRun::messages)
+      .def_readonly("message_bytes", &SimulatedRun::message_bytes)
+      .def_readonly("moves", &SimulatedRun::moves, "In order of departure.")
+      .def_readonly("ranks", &SimulatedRun::ranks, "The times of each rank.")
+      .def_property_readonly(
+          "speeds", [](const py::object& self) { return view(self.cast<const SimulatedRun&>().speeds, self); },
+          "Triangles per second of each rank.")
+      .def_property_readonly(
+          "owners_before",
+          [](const py::object& self) { return ranks_view(self.cast<const SimulatedRun&>().owners_before, self); },
+          "Rank of each subdomain at the start.")
+      .def_property_readonly(
+          "owners_after",
+          [](const py::object& self) { return ranks_view(self.cast<const SimulatedRun&>().owners_after, self); },
+          "Rank of each subdomain in the end.");
+  py::options options;
+  options.disable_function_signatures();
+  module.def(
+      "simulate", &run, py::arg("input"), py::pos_only(), py::arg("cluster"),
+      "simulate(input, /, cluster, **options) -> SimulatedRun\n\n"
+      "Make a mesh on a simulated cluster: meshes and messages are real, time is not. The same arguments give the\n"
+      "same result on every machine. Takes the options of mesh_distributed(); balance[\"own\"] is a policy in Python:\n"
+      "an object with a method plan(load), or a function, that returns pairs of a subdomain and its new rank.\n\n"
+      "cluster is a dictionary: {\"ranks\": 8}, or {\"rank_speeds\": [1e6, 2e6]} in triangles per second; also speed,\n"
+      "latency and message_overhead in seconds, bandwidth in bytes per second, and scale.");
+}
+
+}  // namespace driftmesh::python

@@ -1,0 +1,115 @@
+"""Meshes on the ranks that mpiexec has started. Every rank runs every test."""
+
+import pathlib
+import tempfile
+import unittest
+
+import driftmesh
+import numpy as np
+from mpi4py import MPI
+
+WORLD = MPI.COMM_WORLD
+PIPE = driftmesh.generate("pipe")
+FIRST = WORLD.rank == 0
+OPTIONS = {"max_area": 50.0, "subdomains": {"count": 12}}
+
+
+def piece_of(**options):
+    return driftmesh.mesh_distributed(WORLD, PIPE if FIRST else None, **(OPTIONS | options))
+
+
+class Pieces(unittest.TestCase):
+    def test_pieces_are_the_mesh(self):
+        piece = piece_of()
+        self.assertEqual((piece.rank, piece.ranks), (WORLD.rank, WORLD.size))
+        mesh = piece.mesh
+        self.assertEqual(WORLD.allreduce(len(mesh.triangles)), piece.total_triangles)
+        self.assertEqual(WORLD.allreduce(int((piece.owners == piece.rank).sum())), piece.total_points)
+        self.assertEqual(len(mesh.subdomains), len(mesh.triangles))
+        whole = np.full((piece.total_points, 2), np.nan)
+        for numbers, points in WORLD.allgather((mesh.numbers, mesh.points)):
+            known = ~np.isnan(whole[numbers, 0])
+            np.testing.assert_array_equal(whole[numbers][known], points[known])
+            whole[numbers] = points
+        self.assertFalse(np.isnan(whole).any())
+        triangles = np.concatenate(WORLD.allgather(mesh.numbers[mesh.triangles]))
+        alone = driftmesh.mesh(PIPE, **OPTIONS)
+        self.assertEqual((len(triangles), len(whole)), (len(alone.triangles), len(alone.points)))
+
+    def test_shared_points_are_in_the_same_order(self):
+        piece = piece_of()
+        self.assertEqual(sorted(piece.neighbors), [r for r in range(WORLD.size) if r != WORLD.rank])
+        for rank, shared in piece.neighbors.items():
+            mine = piece.mesh.numbers[shared]
+            theirs = WORLD.sendrecv(mine, dest=rank, source=rank)
+            np.testing.assert_array_equal(mine, theirs)
+
+    def test_a_view_outlives_its_piece(self):
+        points = piece_of().mesh.points
+        shared = list(piece_of().neighbors.values())
+        copies = points.copy(), [s.copy() for s in shared]
+        others = [piece_of() for _ in range(3)]
+        np.testing.assert_array_equal(points, copies[0])
+        for view, copy in zip(shared, copies[1]):
+            np.testing.assert_array_equal(view, copy)
+        self.assertEqual(len(others), 3)
+
+    def test_write(self):
+        with tempfile.TemporaryDirectory() as own:
+            folder = pathlib.Path(WORLD.bcast(own))
+            for name in ("pipe.pvtu", "pipe.msh"):
+                piece = piece_of()
+                driftmesh.write_distributed(WORLD, piece, folder / name)
+                if FIRST:
+                    self.assertTrue(driftmesh.check(driftmesh.read(folder / name), PIPE, max_area=50), name)
+                WORLD.barrier()
+            with self.assertRaises(driftmesh.FileError):
+                driftmesh.write_distributed(WORLD, piece, folder / "no" / "pipe.pvtu")
+            WORLD.barrier()
+
+    def test_part_of_the_ranks(self):
+        mine = WORLD.Split(WORLD.rank % 2)
+        piece = driftmesh.mesh_distributed(mine, PIPE, max_area=100.0)
+        self.assertEqual(piece.ranks, mine.size)
+        mine.Free()
+
+
+class Callables(unittest.TestCase):
+    def test_size(self):
+        piece = piece_of(max_area=0, size=lambda x, y: 8 + abs(x) / 20, size_resolution=50)
+        self.assertGreater(piece.total_triangles, 2000)
+
+    def test_exception_on_one_rank(self):
+        """It comes back as it is there, and as an error on the others."""
+        last = WORLD.size - 1
+
+        def size(x, y):
+            if WORLD.rank == last:
+                raise LookupError("on purpose")
+            return 8.0
+
+        with self.assertRaises(LookupError if WORLD.rank == last else driftmesh.Error) as caught:
+            piece_of(max_area=0, size=size, size_resolution=20)
+        self.assertIn("on purpose", str(caught.exception))
+        self.assertGreater(piece_of().total_triangles, 0)
+
+    def test_cancelled_by_one_rank(self):
+        with self.assertRaises(driftmesh.Cancelled):
+            piece_of(max_area=0.01, progress=lambda p: WORLD.rank != 0)
+
+    def test_policy(self):
+        policy = (lambda load: []) if WORLD.size > 1 else None
+        piece = piece_of(balance={"own": policy, "look": 1e-4, "gap": 1e-4})
+        self.assertEqual(piece.total_triangles, piece_of().total_triangles)
+
+    def test_errors(self):
+        with self.assertRaisesRegex(driftmesh.Error, "min_angle is 50"):
+            piece_of(min_angle=50)
+        with self.assertRaises(driftmesh.InputError):
+            driftmesh.mesh_distributed(WORLD, driftmesh.Pslg([(0, 0), (1, 1), (2, 2)]), max_area=1)
+        with self.assertRaisesRegex(TypeError, "mpi4py"):
+            driftmesh.mesh_distributed(3, PIPE)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2 if FIRST else 0)
