@@ -28,7 +28,10 @@ class VirtualNetwork::Endpoint final : public Transport {
   std::optional<Received> poll() override { return network_.poll(rank_); }
   void idle() override {}
   [[nodiscard]] double now() const override { return network_.clock(rank_); }
-  void spend(double seconds) override { network_.ranks_[rank_].clock += seconds / network_.cluster_.speeds[rank_]; }
+  void spend(double seconds) override {
+    double& clock = network_.ranks_[rank_].clock;
+    clock = network_.cluster_.schedules[rank_].end_of(clock, seconds / network_.cluster_.speeds[rank_]);
+  }
 
  private:
   VirtualNetwork& network_;
@@ -38,6 +41,9 @@ class VirtualNetwork::Endpoint final : public Transport {
 VirtualNetwork::VirtualNetwork(VirtualCluster cluster) : cluster_(std::move(cluster)), ranks_(cluster_.speeds.size()) {
   for (const double speed : cluster_.speeds) require_positive(speed, "a rank's speed");
   require_positive(cluster_.step_overhead, "the time of a step");
+  if (cluster_.schedules.empty()) cluster_.schedules.resize(ranks_.size());
+  if (cluster_.schedules.size() != ranks_.size())
+    throw Error("virtual cluster: speeds must change for all ranks or none");
   if (!cluster_.link) cluster_.link = [](Rank, Rank) { return Link{}; };
   for (const Rank r : ids_of(ranks_)) ranks_[r].endpoint = std::make_unique<Endpoint>(*this, r);
 }
@@ -54,9 +60,11 @@ double VirtualNetwork::makespan() const {
   return latest;
 }
 
-double VirtualNetwork::wake_time(const RankState& rank) const {
-  if (!rank.idle) return rank.clock;
-  return rank.inbox.empty() ? kNever : std::max(rank.clock, rank.inbox.front().arrival);
+/// When a rank can go on: it must be there.
+double VirtualNetwork::wake_time(Rank rank) const {
+  const RankState& me = ranks_[rank];
+  if (me.idle && me.inbox.empty()) return kNever;
+  return cluster_.schedules[rank].present_from(me.idle ? std::max(me.clock, me.inbox.front().arrival) : me.clock);
 }
 
 void VirtualNetwork::send(Rank source, Rank destination, Bytes bytes) {
@@ -72,13 +80,13 @@ void VirtualNetwork::send(Rank source, Rank destination, Bytes bytes) {
     from.line_free = std::max(from.line_free, from.clock) + static_cast<double>(bytes.size()) / link.bandwidth;
     arrival = from.line_free + link.latency;
   }
-  const double before = wake_time(to);
+  const double before = wake_time(destination);
   bytes_ += bytes.size();
   to.inbox.push_back({arrival, serial_++, {source, std::move(bytes)}});
   std::push_heap(to.inbox.begin(), to.inbox.end(), std::greater<>());
   if (to.idle && !to.finished) {
     agenda_.erase({before, destination});
-    agenda_.insert({wake_time(to), destination});
+    agenda_.insert({wake_time(destination), destination});
   }
 }
 
@@ -95,7 +103,7 @@ std::optional<Received> VirtualNetwork::poll(Rank rank) {
 RunResult VirtualNetwork::run(IdSpan<Rank, const RankStep> steps) {
   agenda_.clear();
   std::size_t going = ranks_.size();
-  for (const Rank r : ids_of(ranks_)) agenda_.insert({ranks_[r].clock, r});
+  for (const Rank r : ids_of(ranks_)) agenda_.insert({wake_time(r), r});
   std::uint64_t taken = 0;
   while (going > 0) {
     if (agenda_.empty() || agenda_.begin()->first == kNever) return {RunEnd::kStalled, taken};
@@ -114,7 +122,7 @@ RunResult VirtualNetwork::run(IdSpan<Rank, const RankStep> steps) {
     if (me.finished)
       --going;
     else
-      agenda_.insert({wake_time(me), rank});
+      agenda_.insert({wake_time(rank), rank});
   }
   return {RunEnd::kFinished, taken};
 }

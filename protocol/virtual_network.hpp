@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "protocol/rank_step.hpp"
+#include "protocol/speed_schedule.hpp"
 #include "protocol/transport.hpp"
 
 namespace driftmesh::protocol {
@@ -22,6 +23,7 @@ struct Link {
 /// pays the overhead again.
 struct VirtualCluster {
   IdVector<Rank, double> speeds;                 ///< of each rank, relative to the reference machine
+  IdVector<Rank, SpeedSchedule> schedules{};     ///< how they change over time; empty: not at all
   std::function<Link(Rank from, Rank to)> link;  ///< Link{} between all, if empty; a rank reaches itself in no time
   double message_overhead = 1e-6;                ///< seconds of a rank's time for each message sent and each received
   double step_overhead = 1e-6;                   ///< seconds that the shortest step takes; above 0
@@ -67,7 +69,7 @@ class VirtualNetwork {
     bool finished = false;
     std::vector<Parcel> inbox;  // a heap, the earliest arrival first
   };
-  [[nodiscard]] double wake_time(const RankState& rank) const;
+  [[nodiscard]] double wake_time(Rank rank) const;
   void send(Rank source, Rank destination, Bytes bytes);
   std::optional<Received> poll(Rank rank);
 

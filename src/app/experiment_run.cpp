@@ -107,6 +107,8 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
     run.outcome = job::run_simulated(request, prepared, limits, costs_of(request), run.record, watch);
     run.plan = std::move(prepared.plan);
   }
+  run.ideal = real ? ideal_seconds(run.outcome, run.speeds)
+                   : ideal_seconds(run.outcome, run.speeds, schedules_of(job::cluster_of(request)));
   run.record.stages.push_back({real ? "run" : "simulate", running.seconds()});
   run.record.seconds = preparing.seconds();
   run.record.seconds_refine = run.outcome.makespan;
@@ -159,7 +161,7 @@ std::string experiment_record(const ExperimentRun& run) {
   record["swept"] = swept;
   record["repetition"] = run.repetition;
   record["cluster"] = {{"seconds", run.outcome.makespan},
-                       {"ideal_seconds", ideal_seconds(run.outcome, run.speeds)},
+                       {"ideal_seconds", run.ideal},
                        {"speeds", run.speeds},
                        {"messages", run.outcome.messages()},
                        {"message_bytes", run.outcome.message_bytes()},

@@ -23,6 +23,7 @@ struct ExperimentRun {
   RunPlan plan;                   ///< without a size field
   IdVector<Rank, double> speeds;  ///< of the ranks, in triangles per second; for real ranks, measured in this run
   ClusterRun outcome;
+  double ideal = 0;  ///< seconds, if every rank computed from start to end
   job::RunRecord record;
 };
 

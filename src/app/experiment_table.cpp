@@ -121,7 +121,7 @@ void ExperimentTable::add(const ExperimentRun& run) {
   row.subdomains = run.outcome.owners.size();
   row.triangles = run.outcome.triangles();
   row.seconds = run.outcome.makespan;
-  row.ideal_seconds = ideal_seconds(run.outcome, run.speeds);
+  row.ideal_seconds = run.ideal;
   row.rate = static_cast<double>(row.triangles) / row.seconds;
   const double for_speed = row.rate / std::accumulate(run.speeds.begin(), run.speeds.end(), 0.0);
   row.cutting = run.outcome.cutting;

@@ -31,4 +31,23 @@ double ideal_seconds(const ClusterRun& run, const IdVector<Rank, double>& speeds
   return work / std::accumulate(speeds.begin(), speeds.end(), 0.0);
 }
 
+double ideal_seconds(const ClusterRun& run, const IdVector<Rank, double>& speeds,
+                     const IdVector<Rank, protocol::SpeedSchedule>& schedules) {
+  double work = 0;
+  for (const LoadSample& s : run.samples)
+    if (s.worked > 0)
+      work += speeds[s.rank] * (schedules[s.rank].done_by(s.time) - schedules[s.rank].done_by(s.time - s.worked));
+  const auto done_by = [&](double time) {
+    double done = 0;
+    for (const Rank r : ids_of(speeds)) done += speeds[r] * schedules[r].done_by(time);
+    return done;
+  };
+  double early = 0, late = run.makespan;
+  for (int halvings = 0; halvings < 60; ++halvings) {
+    const double middle = early + (late - early) / 2;
+    (done_by(middle) < work ? early : late) = middle;
+  }
+  return late;
+}
+
 }  // namespace driftmesh

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "driftmesh/ids.hpp"
+#include "protocol/speed_schedule.hpp"
 #include "runtime/rank_outcome.hpp"
 
 namespace driftmesh {
@@ -52,5 +53,8 @@ struct ClusterRun {
 /// The time in seconds that the work of `run` would take if every rank computed from start to end: the sum of computing
 /// times weighted by speed over the sum of speeds.
 [[nodiscard]] double ideal_seconds(const ClusterRun& run, const IdVector<Rank, double>& speeds);
+/// The same where speeds change over time: when all ranks together have had the time for it.
+[[nodiscard]] double ideal_seconds(const ClusterRun& run, const IdVector<Rank, double>& speeds,
+                                   const IdVector<Rank, protocol::SpeedSchedule>& schedules);
 
 }  // namespace driftmesh

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "driftmesh/error.hpp"
 
@@ -44,6 +45,22 @@ IdVector<Rank, double> speeds_of(const ClusterSpec& cluster, const CostModel& co
     speeds[r] *= cluster.drag[r];
   }
   return speeds;
+}
+
+IdVector<Rank, protocol::SpeedSchedule> schedules_of(const ClusterSpec& cluster) {
+  const std::int32_t ranks = ranks_of(cluster);
+  IdVector<Rank, std::vector<protocol::SpeedChange>> changes(to_index(ranks));
+  for (const RankChange& change : cluster.changes) {
+    if (change.rank < 0 || change.ranks < 1 || change.rank > ranks - change.ranks)
+      throw Error("the speeds of ranks " + std::to_string(change.rank) + " to " +
+                  std::to_string(static_cast<std::int64_t>(change.rank) + change.ranks - 1) +
+                  " are to change, but the cluster has " + std::to_string(ranks) + " ranks");
+    for (std::int32_t r = change.rank; r < change.rank + change.ranks; ++r)
+      changes[Rank{r}].push_back({change.at, change.factor});
+  }
+  IdVector<Rank, protocol::SpeedSchedule> schedules;
+  for (std::vector<protocol::SpeedChange>& of_rank : changes) schedules.emplace_back(std::move(of_rank));
+  return schedules;
 }
 
 IdVector<Rank, std::size_t> groups_of(const ClusterSpec& cluster) {

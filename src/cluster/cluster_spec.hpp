@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/speed_schedule.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh {
@@ -16,13 +17,22 @@ struct RankGroup {
   double speed = 0;  ///< triangles per second that each of them refines; 0: reference_speed
 };
 
+/// From a moment on, some ranks have another speed.
+struct RankChange {
+  std::int32_t rank = 0;   ///< the first of them
+  std::int32_t ranks = 1;  ///< their number
+  double at = 0;           ///< seconds since the start of refinement
+  double factor = 1;       ///< of the speed that they have otherwise; 0: they are not there
+};
+
 /// A cluster to simulate. Ranks are numbered consecutively through the groups. Every rank has its own link to all
 /// others.
 struct ClusterSpec {
   std::vector<RankGroup> groups;
-  IdVector<Rank, double> drag;  ///< the fraction of its speed that each rank keeps; empty: all of it
-  double latency = 50e-6;       ///< seconds from the end of sending to arrival
-  double bandwidth = 1e9;       ///< bytes per second that leave a rank
+  std::vector<RankChange> changes;  ///< of speeds, those of a rank in the order of time
+  IdVector<Rank, double> drag;      ///< the fraction of its speed that each rank keeps; empty: all of it
+  double latency = 50e-6;           ///< seconds from the end of sending to arrival
+  double bandwidth = 1e9;           ///< bytes per second that leave a rank
   double scale = 1;  ///< triangles that each one stands for: what depends on subdomains alone costs that much less
   double message_overhead =
       1e-6;  ///< seconds that a rank of any speed spends on each message that it sends or receives
@@ -42,6 +52,8 @@ struct ClusterSpec {
 /// The speed of each rank in triangles per second. Throws Error for a cluster without ranks, a group without ranks,
 /// negative speeds, and drag that is not positive or given for another number of ranks.
 [[nodiscard]] IdVector<Rank, double> speeds_of(const ClusterSpec& cluster, const CostModel& costs);
+/// How the speed of each rank changes. Throws Error for ranks that the cluster lacks, and as SpeedSchedule does.
+[[nodiscard]] IdVector<Rank, protocol::SpeedSchedule> schedules_of(const ClusterSpec& cluster);
 /// The group of each rank.
 [[nodiscard]] IdVector<Rank, std::size_t> groups_of(const ClusterSpec& cluster);
 

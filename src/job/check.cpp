@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "base/nearest_name.hpp"
+#include "driftmesh/error.hpp"
 #include "job/keys.hpp"
 #include "pslg/generators.hpp"
 
@@ -119,6 +121,12 @@ void check_cluster(const Request& request) {
           "cannot be combined with cluster.ranks, cluster.speed or cluster.groups", "remove one of them");
   require(!c.groups.empty() || !c.rank_speeds.empty() || c.ranks > 0, "cluster.ranks", "is 0",
           "give the number of ranks, cluster.groups, or cluster.rank-speeds");
+  try {
+    static_cast<void>(schedules_of(cluster_of(request)));
+  } catch (const Error& error) {
+    throw KeyError("cluster.changes", std::string("is wrong: ") + error.what(),
+                   "list the changes of each rank in the order of time");
+  }
 }
 
 }  // namespace
@@ -189,6 +197,7 @@ ClusterSpec cluster_of(const Request& request) {
   cluster.groups = c.groups;
   for (const double speed : c.rank_speeds) cluster.groups.push_back({"", 1, speed});
   if (cluster.groups.empty()) cluster.groups = {{"all", c.ranks, c.speed}};
+  cluster.changes = c.changes;
   cluster.drag = IdVector<Rank, double>(c.drag);
   cluster.scale = c.scale;
   cluster.latency = c.latency;

@@ -190,6 +190,39 @@ Key groups_key() {
   return made;
 }
 
+Key changes_key() {
+  Key made;
+  made.name = "cluster.changes";
+  made.help =
+      "Changes of speeds during a run, on simulated clusters, such as {rank: 0, at: 5, factor: 0.25}; 0 for ranks that "
+      "are not there until a later change";
+  made.kind = Kind::kList;
+  made.standard = std::vector<Record>();
+  made.places = kSimulated;
+  made.entry_points = kAsSection;
+  made.fields.resize(4);
+  describe(made.fields[0], "rank", &RankChange::rank, "The first rank that changes", in(0, kMaxRanks - 1));
+  describe(made.fields[1], "ranks", &RankChange::ranks, "Number of ranks that change", in(1, kMaxRanks));
+  describe(made.fields[2], "at", &RankChange::at, "Since the start of refinement", unit("seconds"), from(0));
+  describe(made.fields[3], "factor", &RankChange::factor, "Of the speed that the ranks have without changes", from(0));
+  made.store = [](R& r, const Value& value) {
+    r.cluster.changes.clear();
+    for (const Record& c : value.as<std::vector<Record>>())
+      r.cluster.changes.push_back({member_of<std::int32_t>(c[0].second), member_of<std::int32_t>(c[1].second),
+                                   member_of<double>(c[2].second), member_of<double>(c[3].second)});
+  };
+  made.load = [](const R& r) {
+    std::vector<Record> list;
+    for (const RankChange& c : r.cluster.changes)
+      list.push_back({{"rank", value_of(c.rank)},
+                      {"ranks", value_of(c.ranks)},
+                      {"at", value_of(c.at)},
+                      {"factor", value_of(c.factor)}});
+    return Value(list);
+  };
+  return made;
+}
+
 // ---- The declarations ------------------------------------------------------------------------------------------
 
 /// Keys under one heading of the help, with the places and entry points that apply unless a key names its own.
@@ -387,6 +420,7 @@ Section cluster_section() {
        key("cluster.rank-speeds", &R::cluster, &R::Cluster::rank_speeds,
            "Triangles per second of each rank, instead of cluster.ranks, cluster.speed and cluster.groups",
            unit("triangles/s"), above(0)),
+       changes_key(),
        key("cluster.drag", &R::cluster, &R::Cluster::drag,
            "Fraction of its speed that each rank keeps, real or simulated, such as 1,0.5; empty: all of it",
            in(0.01, 1), option("drag", "F,F,..."), places(kMany), entry_points(kMesh | kExperiment)),

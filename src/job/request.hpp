@@ -78,6 +78,7 @@ struct Request {
     double speed = 0;  ///< 0: that of the reference machine
     std::vector<RankGroup> groups;
     std::vector<double> rank_speeds;
+    std::vector<RankChange> changes;
     std::vector<double> drag;
     double latency = ClusterSpec{}.latency;
     double bandwidth = ClusterSpec{}.bandwidth;

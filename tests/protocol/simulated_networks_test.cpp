@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <random>
 
 #include "protocol/adversarial_network.hpp"
 #include "protocol/delaying_transport.hpp"
@@ -194,6 +195,54 @@ TEST_CASE("virtual time follows from the cluster's parameters") {
   CHECK(network.makespan() == network.clock(1_rank));
   CHECK(network.bytes() == 1'000'000);
   CHECK_THROWS_AS(VirtualNetwork({.speeds = {1, 0}, .link = {}}), Error);
+}
+
+TEST_CASE("work takes as long as the speed at each time says") {
+  const SpeedSchedule schedule({{2, 0.5}, {4, 0}, {10, 2}});
+  CHECK(schedule.end_of(0, 1) == 1);
+  CHECK(schedule.end_of(0, 2) == 2);
+  CHECK(schedule.end_of(1, 1.5) == 3);
+  CHECK(schedule.end_of(1, 3) == 10.5);  // 1 s at full speed, 2 at half, 6 without the rank, and then twice as fast
+  CHECK(schedule.end_of(5, 1) == 10.5);
+  CHECK(schedule.end_of(20, 1) == 20.5);
+  CHECK(schedule.done_by(3) == 2.5);
+  CHECK(schedule.done_by(9) == 3);
+  CHECK(schedule.done_by(11) == 5);
+  CHECK(schedule.present_from(3) == 3);
+  CHECK(schedule.present_from(4) == 10);
+  std::mt19937_64 random(std::random_device{}());
+  for (int i = 0; i < 1000; ++i) {  // end_of is the inverse of done_by
+    const double start = std::uniform_real_distribution<double>(0, 12)(random);
+    const double seconds = std::uniform_real_distribution<double>(0.001, 9)(random);
+    const double end = schedule.end_of(start, seconds);
+    REQUIRE(schedule.done_by(end) - schedule.done_by(start) == doctest::Approx(seconds));
+  }
+  CHECK_THROWS_AS(SpeedSchedule({{1, 0}}), Error);
+  CHECK_THROWS_AS(SpeedSchedule({{2, 1}, {1, 1}}), Error);
+  CHECK_THROWS_AS(SpeedSchedule({{-1, 1}}), Error);
+  CHECK_THROWS_AS(SpeedSchedule({{1, -1}}), Error);
+}
+
+TEST_CASE("a rank that joins late gets its messages then") {
+  VirtualCluster cluster{.speeds = {1, 1}, .link = [](Rank, Rank) { return Link{0.5, 1e9}; }};
+  cluster.schedules = {SpeedSchedule(), SpeedSchedule({{0, 0}, {5, 1}})};
+  VirtualNetwork network(cluster);
+  double first_step = -1;
+  const IdVector<Rank, RankStep> steps{[&] {
+                                         network.transport(0_rank).send(1_rank, Bytes(1));
+                                         return StepResult::kFinished;
+                                       },
+                                       [&] {
+                                         if (first_step < 0) first_step = network.clock(1_rank);
+                                         if (!network.transport(1_rank).poll()) return StepResult::kIdle;
+                                         network.transport(1_rank).spend(1);
+                                         return StepResult::kFinished;
+                                       }};
+  CHECK(network.run(steps).end == RunEnd::kFinished);
+  CHECK(first_step == 5);
+  CHECK(network.clock(1_rank) == doctest::Approx(6));
+  cluster.schedules.resize(1);
+  CHECK_THROWS_AS(VirtualNetwork{cluster}, Error);
 }
 
 TEST_CASE("equal ranks with equal work finish together, whatever their number") {

@@ -52,6 +52,24 @@ TEST_CASE("speeds and groups follow the numbers of the ranks") {
   CHECK_THROWS_AS(static_cast<void>(speeds_of(cluster, costs)), Error);
 }
 
+TEST_CASE("a run takes as long as changing speeds say, and the ideal follows them") {
+  const RunPlan plan = pipe_plan(60e3, 2, 20, Presplit::kOn);
+  ClusterSpec cluster = equal_ranks(2);
+  const CostModel costs;
+  const ClusterRun steady = simulate(plan, cluster, costs);
+  cluster.changes = {{.rank = 0, .ranks = 2, .at = steady.makespan / 2, .factor = 0.25}};
+  const ClusterRun slowed = simulate(plan, cluster, costs);
+  CHECK(slowed.makespan == doctest::Approx(2.5 * steady.makespan).epsilon(0.01));  // half, and half at a quarter
+  const IdVector<Rank, double> speeds = speeds_of(cluster, costs);
+  const double ideal = ideal_seconds(slowed, speeds, schedules_of(cluster));
+  CHECK(ideal <= slowed.makespan);
+  CHECK(ideal == doctest::Approx(2.5 * ideal_seconds(steady, speeds)).epsilon(0.02));
+  CHECK(ideal_seconds(steady, speeds, schedules_of(equal_ranks(2))) ==
+        doctest::Approx(ideal_seconds(steady, speeds)).epsilon(1e-6));
+  cluster.changes = {{.rank = 1, .ranks = 2, .at = 0, .factor = 1}};
+  CHECK_THROWS_AS(static_cast<void>(schedules_of(cluster)), Error);
+}
+
 TEST_CASE("a simulated run is reproducible, and its results are consistent") {
   const RunPlan plan = pipe_plan(60e3, 6, 60, Presplit::kOff);
   std::int64_t triangles = 0, last_progress = 0;
