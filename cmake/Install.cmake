@@ -15,7 +15,7 @@ install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT progr
 # ---- The library ----
 install(DIRECTORY include/driftmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.hpp")
-foreach(name IN ITEMS driftmesh distributed)
+foreach(name IN ITEMS driftmesh distributed pictures)
   install(TARGETS driftmesh_${name}_product EXPORT driftmesh-${name}
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
@@ -66,7 +66,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdriftmesh-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libboost-serialization-dev, libfmt-dev, libmetis-dev, libmuparser-dev, zlib1g-dev")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libopenmpi-dev, libtrilinos-zoltan-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libcairo2-dev, libopenmpi-dev, libtrilinos-zoltan-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library of driftmesh: headers, static libraries, CMake package.
  driftmesh::driftmesh makes meshes in one process, driftmesh::distributed on the
  ranks of an MPI communicator.")

@@ -1,7 +1,8 @@
-# What is built for others: two library files, each assembled from boxes, and their names for those who link them.
+# What is built for others: library files, each assembled from boxes, and their names for those who link them.
 #
 #   driftmesh::driftmesh     meshes in this process; neither its headers nor its link line know of MPI
 #   driftmesh::distributed   meshes on the ranks of a communicator or in simulation; brings driftmesh::driftmesh with it
+#   driftmesh::pictures      pictures of inputs and meshes; brings driftmesh::driftmesh with it
 
 # The named boxes and all that they depend on.
 function(driftmesh_closure OUT)
@@ -53,5 +54,8 @@ endfunction()
 driftmesh_closure(boxes api)
 driftmesh_closure(boxes_of_ranks api_mpi api_simulated)
 list(REMOVE_ITEM boxes_of_ranks ${boxes})
+driftmesh_closure(boxes_of_pictures picture)
+list(REMOVE_ITEM boxes_of_pictures ${boxes})
 driftmesh_product(driftmesh driftmesh BOXES ${boxes})
 driftmesh_product(distributed driftmesh_distributed BOXES ${boxes_of_ranks} LINKS driftmesh::driftmesh MPI::MPI_CXX)
+driftmesh_product(pictures driftmesh_pictures BOXES ${boxes_of_pictures} LINKS driftmesh::driftmesh)

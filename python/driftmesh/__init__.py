@@ -10,15 +10,18 @@
 Lengths and areas are in the units of the input, angles in degrees.
 """
 
+import pathlib as _pathlib
+import tempfile as _tempfile
+
 from ._errors import Cancelled, Error, FileError, InputError, InputWarning, LimitError
 from ._native import (CheckReport, DistributedPiece, Load, Mesh, Progress, Pslg, SimulatedRun, __version__, check, generate,
-                      generator_names, mesh, mesh_distributed, option_table, read_mesh, read_poly, simulate, write_distributed)
+                      generator_names, mesh, mesh_distributed, option_table, plot, read_mesh, read_poly, simulate, write_distributed)
 from ._native import holds_input as _holds_input
 from ._progress import ProgressLine
 
 __all__ = ["Cancelled", "CheckReport", "DistributedPiece", "Error", "FileError", "InputError", "InputWarning", "LimitError",
            "Load", "Mesh", "Progress", "ProgressLine", "Pslg", "SimulatedRun", "__version__", "check", "convert", "generate",
-           "generator_names", "mesh", "mesh_distributed", "option_table", "read", "read_mesh", "read_poly", "simulate",
+           "generator_names", "mesh", "mesh_distributed", "option_table", "plot", "read", "read_mesh", "read_poly", "simulate",
            "write_distributed"]
 
 
@@ -30,3 +33,14 @@ def read(path):
 def convert(source, target, *, allow_outside=False):
     """Write the mesh in the file `source` to the file `target`, in the format that its extension names."""
     read_mesh(source, allow_outside=allow_outside).write(target)
+
+
+def _picture(what):
+    """PNG, for notebooks."""
+    with _tempfile.TemporaryDirectory() as folder:
+        path = _pathlib.Path(folder) / "picture.png"
+        plot(what, path, width=800)
+        return path.read_bytes()
+
+
+Mesh._repr_png_ = Pslg._repr_png_ = _picture

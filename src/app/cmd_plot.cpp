@@ -1,11 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/commands.hpp"
@@ -15,22 +12,13 @@
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "picture/plot.hpp"
-#include "picture/plot_values.hpp"
 #include "pslg/poly_file.hpp"
 
 namespace driftmesh::app {
 namespace {
 
 template <class Value>
-using Names = std::vector<std::pair<std::string, Value>>;
-
-const Names<PlotColor> kColors = {{"angle", PlotColor::angle},   {"area", PlotColor::area},
-                                  {"region", PlotColor::region}, {"subdomain", PlotColor::subdomain},
-                                  {"rank", PlotColor::rank},     {"none", PlotColor::none}};
-const Names<PlotEdges> kEdges = {{"auto", PlotEdges::automatic}, {"on", PlotEdges::on}, {"off", PlotEdges::off}};
-
-template <class Value>
-std::vector<std::string> words_of(const Names<Value>& names) {
+std::vector<std::string> words_of(const PlotNames<Value>& names) {
   std::vector<std::string> words;
   for (const auto& [word, value] : names) words.push_back(word);
   return words;
@@ -38,7 +26,7 @@ std::vector<std::string> words_of(const Names<Value>& names) {
 
 /// Stores the value with the given name.
 template <class Value>
-cli::Take into(Value& to, const Names<Value>& names) {
+cli::Take into(Value& to, const PlotNames<Value>& names) {
   return [&](const std::string& text) {
     for (const auto& [word, value] : names)
       if (word == text) to = value;
@@ -64,39 +52,7 @@ void read_box(const std::string& text, PlotOptions& plot) {
   cli::into(box)(text);
   if (box.size() != 4 || !(box[0] < box[2] && box[1] < box[3]))
     throw cli::UsageError("is '" + text + "'; write x0,y0,x1,y1 with x0 < x1 and y0 < y1");
-  plot.box = Box{{box[0], box[1]}, {box[2], box[3]}};
-}
-
-void check_color(const PlotCommand& command, const Mesh& mesh) {
-  const auto refuse = [&](const char* what) {
-    throw InputError({command.input, 0}, std::string("does not list the ") + what + " of its triangles",
-                     "only .pvtu, .vtu and .msh files of distributed meshes do; choose another --color");
-  };
-  if (command.plot.color == PlotColor::subdomain && mesh.subdomains.empty()) refuse("subdomain");
-  if (command.plot.color == PlotColor::rank && mesh.ranks.empty()) refuse("rank");
-}
-
-/// Throws InputError if the box would make an empty picture. `shows`: whether there is anything in it.
-void check_box(const PlotCommand& command, const std::vector<Point>& points, bool shows) {
-  if (shows || points.empty()) return;
-  const Box extent = Box::of(points);
-  throw InputError(
-      {command.input, 0},
-      fmt::format("has nothing in the --box given: it extends from ({:.10g}, {:.10g}) to ({:.10g}, {:.10g})",
-                  extent.low.x, extent.low.y, extent.high.x, extent.high.y),
-      "choose a part of that");
-}
-
-void check_box(const PlotCommand& command, const Pslg& pslg) {
-  if (command.plot.box) check_box(command, pslg.points, command.plot.box->overlaps(Box::of(pslg.points)));
-}
-
-void check_box(const PlotCommand& command, const Mesh& mesh) {
-  if (!command.plot.box) return;
-  bool shows_any = false;
-  for (std::size_t t = 0; t < mesh.triangles.size() && !shows_any; ++t)
-    shows_any = is_shown(mesh, t, *command.plot.box);
-  check_box(command, mesh.points, shows_any);
+  plot.box = PlotBox{{box[0], box[1]}, {box[2], box[3]}};
 }
 
 std::string title_of(const std::string& input) {
@@ -117,16 +73,12 @@ void run_plot(const cli::Call& call, PlotCommand& command) {
   const std::filesystem::path input(command.input);
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
   if (command.plot.title.empty()) command.plot.title = title_of(command.input);
+  command.plot.name = command.input;
   register_files(command);
-  if (holds_input(command.input)) {
-    const Pslg pslg = read_poly(command.input);
-    check_box(command, pslg);
-    return plot_pslg(pslg, command.output, command.plot);
-  }
-  const Mesh mesh = read_mesh(command.input, command.reading);
-  check_box(command, mesh);
-  check_color(command, mesh);
-  plot_mesh(mesh, command.output, command.plot);
+  if (holds_input(command.input))
+    plot(read_poly(command.input), command.output, command.plot);
+  else
+    plot(read_mesh(command.input, command.reading), command.output, command.plot);
 }
 
 std::vector<cli::Option> plot_options(PlotCommand& command) {
@@ -150,15 +102,15 @@ std::vector<cli::Option> plot_options(PlotCommand& command) {
       {.name = "color",
        .value = "WHAT",
        .help = "Quantity that the colors of triangles show",
-       .standard = kColors.front().first,
-       .choices = words_of(kColors),
-       .take = into(command.plot.color, kColors)},
+       .standard = plot_colors().front().first,
+       .choices = words_of(plot_colors()),
+       .take = into(command.plot.color, plot_colors())},
       {.name = "edges",
        .value = "WHEN",
        .help = "Draw the edges of triangles: on, off or auto (if they are long enough to be seen)",
-       .standard = kEdges.front().first,
-       .choices = words_of(kEdges),
-       .take = into(command.plot.edges, kEdges)},
+       .standard = plot_edges().front().first,
+       .choices = words_of(plot_edges()),
+       .take = into(command.plot.edges, plot_edges())},
       {.name = "width",
        .value = "PIXELS",
        .help = "Width in pixels; the height follows",

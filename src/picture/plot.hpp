@@ -1,51 +1,32 @@
 #pragma once
 
-#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "driftmesh/mesh.hpp"
+#include "driftmesh/plot.hpp"
 #include "driftmesh/pslg.hpp"
 #include "geometry/box.hpp"
 
 namespace driftmesh {
 
-/// The quantity that a triangle's color shows.
-enum class PlotColor {
-  angle,      ///< its smallest angle, 0 to 60 degrees
-  area,       ///< its area, on a logarithmic scale
-  region,     ///< its region attribute
-  subdomain,  ///< the subdomain that it was made in, if the mesh lists it
-  rank,       ///< the rank that made it, if the mesh lists it
-  none        ///< nothing: one light color for all
-};
+/// Values of an option by their names, the default first.
+template <class Value>
+using PlotNames = std::vector<std::pair<std::string, Value>>;
+[[nodiscard]] const PlotNames<PlotColor>& plot_colors();
+[[nodiscard]] const PlotNames<PlotEdges>& plot_edges();
 
-enum class PlotEdges {
-  automatic,  ///< drawn where they are long enough to be seen; none in a density image
-  on,         ///< always drawn, however small; slow for millions of lines
-  off
-};
-
-struct PlotOptions {
-  int width = 1600;  ///< pixels (points in PDF)
-  int height = 0;    ///< 0: chosen to fit what is shown
-  PlotColor color = PlotColor::angle;
-  PlotEdges edges = PlotEdges::automatic;
-  std::optional<Box> box{};  ///< the part of the plane to show; absent: everything
-  std::string title{};
-  std::string subtitle{};  ///< instead of the numbers of triangles and points and the angles
-  bool counts = true;      ///< of triangles, in the legend of regions, subdomains and ranks
-  bool legend = true;      ///< false where colors merely distinguish neighbors
-};
+/// What is to be shown of something that fills `whole`.
+[[nodiscard]] inline Box shown_box(const PlotOptions& options, const Box& whole) {
+  return options.box ? Box{options.box->low, options.box->high} : whole;
+}
 
 /// Whether `path` can name a picture: it ends in .png, .svg or .pdf, or is "-" (PNG to standard output).
 [[nodiscard]] bool is_picture_name(const std::string& path);
 
-/// Draws the mesh as .png, .svg or .pdf, by the extension of `path`. Triangles of less than about two pixels on average
-/// are not drawn one by one: each pixel then shows the worst angle, or the mean of the logarithms of the areas, of the
-/// triangles in it. Errors: InputError for an unknown extension or an impossible size, FileError.
+// plot() without its checks of colors and boxes: a picture may be empty.
 void plot_mesh(const Mesh& mesh, const std::string& path, const PlotOptions& options);
-
-/// Draws segments by marker, points (if there are not too many), holes as crosses and regions with their labels.
 void plot_pslg(const Pslg& pslg, const std::string& path, const PlotOptions& options);
 
 }  // namespace driftmesh

@@ -40,8 +40,7 @@ class MeshPlot {
   MeshPlot(const Mesh& mesh, const std::string& path, const PlotOptions& options)
       : mesh_(mesh),
         options_(options),
-        frame_(options.box ? *options.box : with_margin(box_of(mesh)), options.width, options.height,
-               has_legend(options)),
+        frame_(shown_box(options, with_margin(box_of(mesh))), options.width, options.height, has_legend(options)),
         canvas_(path, frame_.width(), frame_.height()),
         summary_(summarize(mesh, frame_.shown())),
         values_(plot_values(mesh, options.color, frame_.shown(), options.counts)) {

@@ -69,7 +69,7 @@ class PslgPlot {
       : pslg_(pslg),
         options_(options),
         colors_(color_markers()),
-        frame_(options.box ? *options.box : box_of(pslg), options.width, options.height, colors_.size() > 1),
+        frame_(shown_box(options, box_of(pslg)), options.width, options.height, colors_.size() > 1),
         canvas_(path, frame_.width(), frame_.height()) {}
 
   void draw() {

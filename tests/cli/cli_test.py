@@ -166,7 +166,7 @@ class Pipeline(Cli):
         for option in "--output", "--title":
             self.refuse("plot", "square.msh", option, "", code=2, says=[option, "is empty"])
         for input in "square.msh", "square.poly":
-            self.refuse("plot", input, "-o", "b.png", "--box", "5,5,6,6", says=[input, "--box", "from (0, 0) to (4, 4)"])
+            self.refuse("plot", input, "-o", "b.png", "--box", "5,5,6,6", says=[input, "box", "from (0, 0) to (4, 4)"])
         self.assertEqual(self.files(), before)
 
     def test_options_may_stand_before_the_input(self):

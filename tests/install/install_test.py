@@ -70,6 +70,23 @@ class Installed(unittest.TestCase):
         self.assertIn("on 2 ranks", said)
         self.assertNotRegex(run("ldd", build / "laplace"), "cairo|yaml")
 
+    def test_pictures(self):
+        source = self.scratch / "pictures"
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
+            "find_package(driftmesh REQUIRED COMPONENTS pictures)\nadd_executable(p p.cpp)\n"
+            "target_link_libraries(p PRIVATE driftmesh::pictures)\n")
+        (source / "p.cpp").write_text(
+            "#include <driftmesh/generate.hpp>\n#include <driftmesh/mesher.hpp>\n#include <driftmesh/plot.hpp>\n"
+            'int main() { driftmesh::plot(driftmesh::mesh(driftmesh::generate("fan")), "fan.png"); }\n')
+        run("cmake", "-G", GENERATOR, "-S", source, "-B", source / "build", f"-DCMAKE_CXX_COMPILER={COMPILER}",
+            f"-DCMAKE_PREFIX_PATH={self.prefix}", f"-DCMAKE_CXX_FLAGS={WARNINGS}")
+        run("cmake", "--build", source / "build")
+        run("./p", cwd=source / "build")
+        self.assertTrue((source / "build" / "fan.png").read_bytes().startswith(b"\x89PNG"))
+        self.assertNotRegex(run("ldd", source / "build" / "p"), "libmpi|zoltan|yaml")
+
     def test_all_examples_at_once(self):
         self.build(".")
 

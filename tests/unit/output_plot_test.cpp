@@ -240,9 +240,9 @@ TEST_CASE("empty meshes and boxes beside the mesh can be drawn") {
   for (PlotColor color : {PlotColor::angle, PlotColor::area, PlotColor::region, PlotColor::none}) {
     plot_mesh({}, path, {.width = 300, .color = color});
     plot_mesh(one_point, path, {.width = 300, .color = color});
-    plot_mesh(square_with_hole(), path, {.width = 300, .color = color, .box = Box{{10, 10}, {11, 20}}});
+    plot_mesh(square_with_hole(), path, {.width = 300, .color = color, .box = PlotBox{{10, 10}, {11, 20}}});
     plot_mesh(square_with_hole(), path,
-              {.width = 300, .color = color, .box = Box{{0.5, 0.5}, {0.5 + 1e-9, 0.5 + 1e-9}}});
+              {.width = 300, .color = color, .box = PlotBox{{0.5, 0.5}, {0.5 + 1e-9, 0.5 + 1e-9}}});
   }
   plot_pslg({}, path, {.width = 300});
   CHECK(Picture(path).width() == 300);

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/point.hpp"
+#include "driftmesh/pslg.hpp"
+
+// Pictures, by a library of their own: driftmesh::pictures.
+namespace driftmesh {
+
+/// The quantity that a triangle's color shows.
+enum class PlotColor {
+  angle,      ///< its smallest angle, 0 to 60 degrees
+  area,       ///< its area, on a logarithmic scale
+  region,     ///< its region attribute
+  subdomain,  ///< the subdomain that it was made in, if the mesh lists it
+  rank,       ///< the rank that made it, if the mesh lists it
+  none        ///< nothing: one light color for all
+};
+
+enum class PlotEdges {
+  automatic,  ///< drawn where they are long enough to be seen; none in a density image
+  on,         ///< always drawn, however small; slow for millions of lines
+  off
+};
+
+/// A part of the plane: low.x < high.x and low.y < high.y.
+struct PlotBox {
+  Point low{};
+  Point high{};
+};
+
+struct PlotOptions {
+  std::string name = "the input";  ///< of what is drawn, for messages
+  int width = 1600;                ///< pixels (points in PDF)
+  int height = 0;                  ///< 0: chosen to fit what is shown
+  PlotColor color = PlotColor::angle;
+  PlotEdges edges = PlotEdges::automatic;
+  std::optional<PlotBox> box{};  ///< the part of the plane to show; absent: everything
+  std::string title{};
+  std::string subtitle{};  ///< instead of the numbers of triangles and points and the angles
+  bool counts = true;      ///< of triangles, in the legend of regions, subdomains and ranks
+  bool legend = true;      ///< false where colors merely distinguish neighbors
+};
+
+/// Draws the mesh as .png, .svg or .pdf, by the extension of `path`; "-" is PNG to standard output. Triangles of less
+/// than about two pixels on average are not drawn one by one: each pixel then shows the worst angle, or the mean of the
+/// logarithms of the areas, of the triangles in it. Throws InputError for an unknown extension or an impossible size,
+/// for a box with nothing in it, and for a color that shows what the mesh does not list; FileError.
+void plot(const Mesh& mesh, const std::string& path, const PlotOptions& options = {});
+
+/// Draws segments by marker, points (if there are not too many), holes as crosses and regions with their labels. Throws
+/// likewise.
+void plot(const Pslg& input, const std::string& path, const PlotOptions& options = {});
+
+}  // namespace driftmesh
