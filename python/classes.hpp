@@ -10,6 +10,7 @@ void add_report_class(pybind11::module_& module);
 void add_load_class(pybind11::module_& module);
 void add_distributed(pybind11::module_& module);
 void add_simulated(pybind11::module_& module);
+void add_size_class(pybind11::module_& module);
 void add_plot(pybind11::module_& module);
 void add_functions(pybind11::module_& module);
 

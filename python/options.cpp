@@ -10,6 +10,7 @@
 #include "api/library_request.hpp"
 #include "job/keys.hpp"
 #include "policy.hpp"
+#include "size_class.hpp"
 #include "table.hpp"
 
 namespace driftmesh::python {
@@ -121,7 +122,9 @@ void Options::take_callables(Given& given) {
   progress_ = progress_from(given);
   warning_ = callable(given, "warning");
   if (warning_.is_none()) warning_ = py::module_::import("driftmesh._errors").attr("warn");
-  if (!size_.is_none())
+  if (py::isinstance<FieldObject>(size_))
+    values_.size = [field = size_.cast<const FieldObject&>().field](const Point& p) { return field->edge_length(p); };
+  else if (!size_.is_none())
     values_.size = [this](const Point& p) {
       return callbacks_.ask([&] { return number_from("what size returns", size_(p.x, p.y)); });
     };

@@ -14,4 +14,5 @@
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/repair.hpp"
 #include "driftmesh/size_field.hpp"
+#include "driftmesh/size_on_mesh.hpp"
 #include "driftmesh/version.hpp"

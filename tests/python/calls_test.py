@@ -28,6 +28,28 @@ class Size(unittest.TestCase):
         self.assertGreater(len(mesh.triangles), 2 * len(driftmesh.mesh(PLATE).triangles))
         self.assertTrue(driftmesh.check(mesh, PLATE, size=size, size_resolution=100))
 
+    def test_on_a_mesh(self):
+        coarse = driftmesh.mesh(PLATE, max_area=1e-2)
+        x, y = coarse.points.T
+        size = driftmesh.size_on_mesh(coarse, 0.02 + 0.1 * np.hypot(x - 1, y - 0.5))
+        self.assertAlmostEqual(size(*coarse.points[7]), 0.02 + 0.1 * np.hypot(x[7] - 1, y[7] - 0.5), places=12)
+        mesh = driftmesh.mesh(PLATE, size=size)
+        self.assertTrue(driftmesh.check(mesh, PLATE, size=size))
+        self.assertLess(abs(len(driftmesh.mesh(PLATE, size=lambda x, y: 0.02 + 0.1 * np.hypot(x - 1, y - 0.5),
+                                               size_resolution=50).triangles) - len(mesh.triangles)), len(mesh.triangles) / 10)
+        graded = driftmesh.size_on_mesh(coarse, np.where(x < 0.1, 0.01, 1.0), gradation=0.1)
+        self.assertLess(graded(1, 0.1), 0.2)
+        threads = [driftmesh.mesh(PLATE, size=size, threads=n, subdomains={"count": 40}).triangles for n in (1, 3)]
+        np.testing.assert_array_equal(*threads)
+
+    def test_errors_on_a_mesh(self):
+        mesh = driftmesh.mesh(PLATE)
+        for lengths in (np.ones(3), np.zeros(len(mesh.points)), np.full(len(mesh.points), np.nan)):
+            with self.assertRaises(driftmesh.Error):
+                driftmesh.size_on_mesh(mesh, lengths)
+        with self.assertRaisesRegex(driftmesh.Error, "gradation"):
+            driftmesh.size_on_mesh(mesh, np.ones(len(mesh.points)), gradation=-1)
+
     def test_grid_of_values_is_as_fine_as_asked(self):
         points = []
         driftmesh.mesh(PLATE, size=lambda x, y: points.append((x, y)) or 1.0, size_resolution=10)

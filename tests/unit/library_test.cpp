@@ -338,3 +338,24 @@ TEST_CASE("errors tell their file and line") {
     CHECK(error.file() == missing);
   }
 }
+
+TEST_CASE("sizes on a mesh are linear on its triangles, and graded if asked for") {
+  const Mesh coarse = mesh(plate(), {.max_area = 1e-2});
+  std::vector<double> lengths;
+  for (const Point& p : coarse.points) lengths.push_back(0.02 + 0.05 * p.x);
+  const auto size = size_on_mesh(coarse, lengths);
+  CHECK(size->edge_length({0.3, 0.2}) == doctest::Approx(0.035));
+  const MeshOptions options{.size = std::ref(*size)};
+  CHECK(check(mesh(plate(), options), plate(), options).accepted);
+
+  std::vector<double> steep(coarse.points.size(), 1);
+  steep.front() = 0.01;
+  const Point& at = coarse.points.front();
+  CHECK(size_on_mesh(coarse, steep, 0.1)->edge_length({1 + (1 - at.x) / 2, 0.1}) < 0.4);
+  for (const double length : {0.0, -1.0, std::nan("")}) {
+    steep.front() = length;
+    CHECK(error_of([&] { static_cast<void>(size_on_mesh(coarse, steep)); }) != "nothing");
+  }
+  steep.pop_back();
+  CHECK(error_of([&] { static_cast<void>(size_on_mesh(coarse, steep)); }).find("one for each") != std::string::npos);
+}
