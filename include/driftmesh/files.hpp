@@ -27,6 +27,7 @@ void write_poly(const Pslg& pslg, const std::string& path);
 /// Optional content of a mesh file.
 struct WriteOptions {
   std::vector<Point> holes{};  ///< a point in each hole, for Triangle's .poly; other formats need none
+  bool ascii = false;          ///< .msh as text, for programs that read no binary one
 };
 
 /// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, or Triangle's .node, .ele, .poly,

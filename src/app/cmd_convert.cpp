@@ -13,13 +13,14 @@ struct ConvertOptions {
   std::string input;
   std::string output;
   ReadOptions reading;
+  WriteOptions writing;
 };
 
 void run_convert(const ConvertOptions& options) {
   FileRegistry files;
   register_mesh_input(files, options.input, "INPUT", options.reading);
   register_mesh_output(files, options.output, "OUTPUT");
-  write_mesh(read_mesh(options.input, options.reading), options.output);
+  write_mesh(read_mesh(options.input, options.reading), options.output, options.writing);
 }
 
 }  // namespace
@@ -42,6 +43,10 @@ cli::Command convert_command() {
                        .required = true,
                        .completes = cli::Option::Completes::kFile,
                        .take = cli::into(options->output)},
+                      {.kind = cli::Option::Kind::kFlag,
+                       .name = "ascii",
+                       .help = "Write .msh as text, for programs that read no binary one (deal.II)",
+                       .take = cli::into(options->writing.ascii)},
                       allow_outside_option(options->reading)},
           .examples = {"driftmesh convert bay.vtu bay.msh"},
           .exit_codes = "0 done, 1 error, 2 wrong usage",

@@ -115,7 +115,7 @@ void write_whole(const Request& request, Mesh& mesh, const std::vector<Point>& h
   mesh.ranks = {};
   timed(notes, "write", [&] {
     for (const std::string& output : request.output.meshes)
-      if (!is_in_pieces(output)) write_mesh(mesh, output, {holes});
+      if (!is_in_pieces(output)) write_mesh(mesh, output, {holes, request.output.ascii});
   });
   if (!request.output.picture.empty()) timed(notes, "plot", [&] { draw(request, mesh); });
 }
@@ -296,7 +296,7 @@ void report(job::Team& team, job::RankRun& run, RunNotes& notes) {
 
 void write_pieces(const Request& request, const DistributedPiece& piece, ExchangeRunner& ranks,
                   const std::vector<Point>& holes, RunNotes& notes) {
-  timed(notes, "write", [&] { write_distributed(ranks, piece, request.output.meshes, {holes}); });
+  timed(notes, "write", [&] { write_distributed(ranks, piece, request.output.meshes, {holes, request.output.ascii}); });
   if (!request.output.picture.empty())
     timed(notes, "plot", [&] {
       GatherPieces gathering(piece);

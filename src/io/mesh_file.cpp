@@ -47,7 +47,7 @@ void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& o
     case Format::kPvtu:
       throw InputError({path, 0}, "is for a mesh in pieces", "this mesh is in one piece; write a .vtu");
     case Format::kMsh:
-      return write_msh(mesh, path);
+      return write_msh(mesh, path, options.ascii);
     case Format::kTriangle:
       return write_triangle_format(mesh, without_extension(path), options.holes);
   }

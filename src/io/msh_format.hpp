@@ -7,12 +7,12 @@
 
 namespace driftmesh {
 
-/// Gmsh's format 4.1, binary. One curve entity and physical group for each marker of the constrained edges ("marker
-/// 5"), one surface entity and physical group for each region ("region 2"; "domain" for a mesh without regions). A
-/// group's tag is the value itself if that is a positive integer, otherwise one from 1000000 on, which is that of 0
-/// (see group_tags); its name holds the exact value. Point attributes are $NodeData; point markers are in a section of
-/// our own, which other readers skip.
-void write_msh(const Mesh& mesh, const std::string& path);
+/// Gmsh's format 4.1, binary or ASCII. One curve entity and physical group for each marker of the constrained edges
+/// ("marker 5"), one surface entity and physical group for each region ("region 2"; "domain" for a mesh without
+/// regions). A group's tag is the value itself if that is a positive integer, otherwise one from 1000000 on, which is
+/// that of 0 (see group_tags); its name holds the exact value. Point attributes are $NodeData; point markers are in a
+/// section of our own, which other readers skip.
+void write_msh(const Mesh& mesh, const std::string& path, bool ascii = false);
 
 /// Reads format 4.1, ASCII or binary, as written by write_msh or Gmsh: points, triangles and lines of first order, in
 /// the order of their tags. Markers and regions come from the names of the physical groups if write_msh wrote them,

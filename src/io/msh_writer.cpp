@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "base/narrow.hpp"
 #include "driftmesh/id_vector.hpp"
@@ -15,26 +17,67 @@
 namespace driftmesh {
 namespace {
 
-// Element types of the format, and the binary records of its sections.
+// Element types of the format.
 constexpr std::int32_t kLineType = 1;
 constexpr std::int32_t kTriangleType = 2;
 
-// The items of each group in sequence, in their original order: items[first[g]] to items[first[g + 1] - 1].
-struct Grouping {
-  Grouping(const std::vector<std::int32_t>& group_of_item, std::size_t groups) : first(groups + 1, 0) {
-    for (std::int32_t group : group_of_item) ++first[group + 1];
-    for (std::size_t g = 0; g < groups; ++g) first[g + 1] += first[g];
-    items.resize(group_of_item.size());
-    std::vector<std::size_t> next(first.begin(), first.end() - 1);
-    for (std::size_t i = 0; i < group_of_item.size(); ++i)
-      items[next[group_of_item[i]]++] = static_cast<std::int32_t>(i);
+/// What the format is made of: numbers as raw bytes, or as text with a line for each record.
+class MshOutput {
+ public:
+  MshOutput(const std::string& path, bool ascii) : sink_(path), ascii_(ascii) {}
+
+  void integer(std::int32_t value) { number(value); }
+  void size(std::size_t value) { number(std::uint64_t{value}); }
+  void real(double value) { number(value); }
+  void end_record() {
+    if (ascii_ && std::exchange(within_, false)) sink_.character('\n');
   }
-  [[nodiscard]] std::span<const std::int32_t> of(std::size_t group) const {
-    return std::span(items).subspan(first[group], first[group + 1] - first[group]);
+
+  /// Text in both forms.
+  [[nodiscard]] FileSink& text() { return sink_; }
+  void begin(std::string_view name) {
+    sink_.character('$');
+    sink_.text(name);
+    sink_.character('\n');
   }
-  std::vector<std::size_t> first;
-  std::vector<std::int32_t> items;
+  void end(std::string_view name) {
+    end_record();
+    if (!ascii_) sink_.character('\n');
+    sink_.text("$End");
+    sink_.text(name);
+    sink_.character('\n');
+  }
+  [[nodiscard]] bool ascii() const { return ascii_; }
+  void commit() { sink_.commit(); }
+
+ private:
+  template <class Number>
+  void number(Number value) {
+    if (!ascii_) return sink_.raw(value);
+    if (std::exchange(within_, true)) sink_.character(' ');
+    sink_.number(value);
+  }
+
+  FileSink sink_;
+  bool ascii_;
+  bool within_ = false;  // a record
 };
+
+/// Calls block(first, end) for each run of items on one entity. Blocks that follow the order of the mesh number nodes
+/// and elements as they stand in the file, which is what readers take values on them for.
+template <class Block>
+void for_each_run(const std::vector<std::int32_t>& entities, const Block& block) {
+  for (std::size_t first = 0, end = 0; first < entities.size(); first = end) {
+    while (end < entities.size() && entities[end] == entities[first]) ++end;
+    block(first, end);
+  }
+}
+
+std::size_t count_runs(const std::vector<std::int32_t>& entities) {
+  std::size_t runs = 0;
+  for_each_run(entities, [&](std::size_t, std::size_t) { ++runs; });
+  return runs;
+}
 
 // Numbers distinct values from 0 in the order of their first occurrence. Values are equal if their bits are.
 class DistinctValues {
@@ -146,26 +189,11 @@ struct Classification {
   }
 };
 
-// The text of a section header or of its end.
-void section(FileSink& sink, std::string_view name) {
-  sink.character('$');
-  sink.text(name);
-  sink.character('\n');
-}
-
-void end_of_binary_section(FileSink& sink, std::string_view name) {
-  sink.character('\n');
-  section(sink, name);
-}
-
-void write_size(FileSink& sink, std::size_t value) {
-  sink.raw(std::uint64_t{value});
-}
-
-void write_format(FileSink& sink) {
-  sink.text("$MeshFormat\n4.1 1 8\n");
-  sink.raw(std::int32_t{1});
-  sink.text("\n$EndMeshFormat\n");
+void write_format(MshOutput& out) {
+  out.begin("MeshFormat");
+  out.text().text(out.ascii() ? "4.1 0 8\n" : "4.1 1 8\n");
+  if (!out.ascii()) out.integer(1);  // shows the byte order
+  out.end("MeshFormat");
 }
 
 void write_group_names(FileSink& sink, const std::vector<Entity>& entities, int dimension) {
@@ -180,130 +208,150 @@ void write_group_names(FileSink& sink, const std::vector<Entity>& entities, int 
 }
 
 void write_physical_names(FileSink& sink, const Classification& classes) {
-  section(sink, "PhysicalNames");
+  sink.text("$PhysicalNames\n");
   sink.number(classes.curves.size() + classes.surfaces.size());
   sink.character('\n');
   write_group_names(sink, classes.curves, 1);
   write_group_names(sink, classes.surfaces, 2);
-  section(sink, "EndPhysicalNames");
+  sink.text("$EndPhysicalNames\n");
 }
 
-void write_entity(FileSink& sink, const Entity& entity, const Box& box) {
-  sink.raw(entity.tag);
-  sink.raw(std::array<double, 6>{box.min_x, box.min_y, 0, box.max_x, box.max_y, 0});
-  write_size(sink, 1);
-  sink.raw(entity.tag);  // the physical group has the tag of its entity
+void write_entity(MshOutput& out, const Entity& entity, const Box& box) {
+  out.integer(entity.tag);
+  for (const double bound : {box.min_x, box.min_y, 0.0, box.max_x, box.max_y, 0.0}) out.real(bound);
+  out.size(1);
+  out.integer(entity.tag);  // the physical group has the tag of its entity
 }
 
-void write_entities(FileSink& sink, const Classification& classes) {
-  section(sink, "Entities");
+void write_entities(MshOutput& out, const Classification& classes) {
+  out.begin("Entities");
   for (std::size_t count : {std::size_t{0}, classes.curves.size(), classes.surfaces.size(), std::size_t{0}})
-    write_size(sink, count);
+    out.size(count);
+  out.end_record();
   for (const Entity& curve : classes.curves) {
-    write_entity(sink, curve, curve.box);
-    write_size(sink, 0);  // bounding points: the curve is a set of edges and may have any number of ends
+    write_entity(out, curve, curve.box);
+    out.size(0);  // bounding points: the curve is a set of edges and may have any number of ends
+    out.end_record();
   }
   for (std::size_t s = 0; s < classes.surfaces.size(); ++s) {
     const Entity& surface = classes.surfaces[s];
-    write_entity(sink, surface, surface.box.min_x <= surface.box.max_x ? surface.box : Box{0, 0, 0, 0});
-    write_size(sink, classes.boundaries[s].size());
-    for (std::int32_t curve : classes.boundaries[s]) sink.raw(classes.curves[curve].tag);
+    write_entity(out, surface, surface.box.min_x <= surface.box.max_x ? surface.box : Box{0, 0, 0, 0});
+    out.size(classes.boundaries[s].size());
+    for (std::int32_t curve : classes.boundaries[s]) out.integer(classes.curves[curve].tag);
+    out.end_record();
   }
-  end_of_binary_section(sink, "EndEntities");
+  out.end("Entities");
 }
 
-std::size_t count_used(const Grouping& grouping) {
-  std::size_t used = 0;
-  for (std::size_t g = 0; g + 1 < grouping.first.size(); ++g) used += grouping.of(g).empty() ? 0 : 1;
-  return used;
+void write_section_counts(MshOutput& out, std::size_t blocks, std::size_t items) {
+  out.size(blocks);
+  out.size(items);
+  out.size(items == 0 ? 0 : 1);  // smallest and largest tag
+  out.size(items);
+  out.end_record();
 }
 
-void write_section_counts(FileSink& sink, std::size_t blocks, std::size_t items) {
-  write_size(sink, blocks);
-  write_size(sink, items);
-  write_size(sink, items == 0 ? 0 : 1);  // smallest and largest tag
-  write_size(sink, items);
+void write_block_header(MshOutput& out, int dimension, const Entity& entity, std::int32_t type, std::size_t count) {
+  out.integer(dimension);
+  out.integer(entity.tag);
+  out.integer(type);
+  out.size(count);
+  out.end_record();
 }
 
-void write_nodes(FileSink& sink, const Mesh& mesh, const Classification& classes) {
-  section(sink, "Nodes");
-  const Grouping grouping(classes.entity_of_node, classes.curves.size() + classes.surfaces.size());
-  write_section_counts(sink, count_used(grouping), mesh.points.size());
-  for (std::size_t g = 0; g + 1 < grouping.first.size(); ++g) {
-    const auto nodes = grouping.of(g);
-    if (nodes.empty()) continue;
+void write_nodes(MshOutput& out, const Mesh& mesh, const Classification& classes) {
+  out.begin("Nodes");
+  write_section_counts(out, count_runs(classes.entity_of_node), mesh.points.size());
+  for_each_run(classes.entity_of_node, [&](std::size_t first, std::size_t end) {
+    const std::size_t g = to_index(classes.entity_of_node[first]);
     const bool is_curve = g < classes.curves.size();
     const Entity& entity = is_curve ? classes.curves[g] : classes.surfaces[g - classes.curves.size()];
-    sink.raw(std::array<std::int32_t, 3>{is_curve ? 1 : 2, entity.tag, 0});
-    write_size(sink, nodes.size());
-    for (std::int32_t node : nodes) write_size(sink, to_index(node) + 1);
-    for (std::int32_t node : nodes) sink.raw(std::array<double, 3>{mesh.points[node].x, mesh.points[node].y, 0});
-  }
-  end_of_binary_section(sink, "EndNodes");
-}
-
-void write_block_header(FileSink& sink, int dimension, const Entity& entity, std::int32_t type, std::size_t count) {
-  sink.raw(std::array<std::int32_t, 3>{dimension, entity.tag, type});
-  write_size(sink, count);
-}
-
-void write_elements(FileSink& sink, const Mesh& mesh, const Classification& classes) {
-  section(sink, "Elements");
-  const Grouping edges(classes.curve_of_edge, classes.curves.size());
-  const Grouping triangles(classes.surface_of_triangle, classes.surfaces.size());
-  write_section_counts(sink, count_used(edges) + count_used(triangles), mesh.edges.size() + mesh.triangles.size());
-  for (std::size_t c = 0; c < classes.curves.size(); ++c) {
-    write_block_header(sink, 1, classes.curves[c], kLineType, edges.of(c).size());
-    for (std::int32_t e : edges.of(c))
-      sink.raw(
-          std::array<std::uint64_t, 3>{to_index(e) + 1, to_index(mesh.edges[e].a) + 1, to_index(mesh.edges[e].b) + 1});
-  }
-  for (std::size_t s = 0; s < classes.surfaces.size(); ++s) {
-    if (triangles.of(s).empty()) continue;
-    write_block_header(sink, 2, classes.surfaces[s], kTriangleType, triangles.of(s).size());
-    for (std::int32_t t : triangles.of(s)) {
-      const auto& [a, b, c] = mesh.triangles[t];
-      sink.raw(std::array<std::uint64_t, 4>{mesh.edges.size() + to_index(t) + 1, to_index(a) + 1, to_index(b) + 1,
-                                            to_index(c) + 1});
+    write_block_header(out, is_curve ? 1 : 2, entity, 0, end - first);  // 0: without parameters on the entity
+    for (std::size_t v = first; v < end; ++v) {
+      out.size(v + 1);
+      out.end_record();
     }
-  }
-  end_of_binary_section(sink, "EndElements");
+    for (std::size_t v = first; v < end; ++v) {
+      for (const double coordinate : {mesh.points[v].x, mesh.points[v].y, 0.0}) out.real(coordinate);
+      out.end_record();
+    }
+  });
+  out.end("Nodes");
 }
 
-void write_attribute(FileSink& sink, const Mesh& mesh, std::size_t k) {
-  section(sink, "NodeData");
-  sink.text("1\n\"attribute ");
-  sink.number(k + 1);
-  sink.text("\"\n1\n0\n3\n0\n1\n");  // time 0; step 0, one component, and the number of nodes:
-  sink.number(mesh.points.size());
-  sink.character('\n');
+void write_element(MshOutput& out, std::size_t tag, std::initializer_list<std::int32_t> nodes) {
+  out.size(tag);
+  for (const std::int32_t node : nodes) out.size(to_index(node) + 1);
+  out.end_record();
+}
+
+void write_elements(MshOutput& out, const Mesh& mesh, const Classification& classes) {
+  out.begin("Elements");
+  write_section_counts(out, count_runs(classes.surface_of_triangle) + count_runs(classes.curve_of_edge),
+                       mesh.triangles.size() + mesh.edges.size());
+  for_each_run(classes.surface_of_triangle, [&](std::size_t first, std::size_t end) {
+    write_block_header(out, 2, classes.surfaces[classes.surface_of_triangle[first]], kTriangleType, end - first);
+    for (std::size_t t = first; t < end; ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      write_element(out, t + 1, {a, b, c});
+    }
+  });
+  for_each_run(classes.curve_of_edge, [&](std::size_t first, std::size_t end) {
+    write_block_header(out, 1, classes.curves[classes.curve_of_edge[first]], kLineType, end - first);
+    for (std::size_t e = first; e < end; ++e)
+      write_element(out, mesh.triangles.size() + e + 1, {mesh.edges[e].a, mesh.edges[e].b});
+  });
+  out.end("Elements");
+}
+
+/// The header of a view with one value for each of `count` nodes or elements.
+void begin_view(MshOutput& out, std::string_view section, std::string_view name, std::size_t count) {
+  out.begin(section);
+  out.text().text("1\n\"");
+  out.text().text(name);
+  out.text().text("\"\n1\n0\n3\n0\n1\n");  // time 0; step 0, one component, and the number of values:
+  out.text().number(count);
+  out.text().character('\n');
+}
+
+void write_value(MshOutput& out, std::size_t tag, double value) {
+  out.integer(static_cast<std::int32_t>(tag));
+  out.real(value);
+  out.end_record();
+}
+
+void write_attribute(MshOutput& out, const Mesh& mesh, std::size_t k) {
+  begin_view(out, "NodeData", "attribute " + std::to_string(k + 1), mesh.points.size());
   const std::size_t per_point = mesh.attributes_per_point;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    sink.raw(static_cast<std::int32_t>(v + 1));
-    sink.raw(mesh.attributes[v * per_point + k]);
-  }
-  end_of_binary_section(sink, "EndNodeData");
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) write_value(out, v + 1, mesh.attributes[v * per_point + k]);
+  out.end("NodeData");
 }
 
-// Where the triangles were made, as a view of them: physical groups would change what solvers load.
-void write_triangle_data(FileSink& sink, const Mesh& mesh, std::string_view name,
-                         const std::vector<std::int32_t>& values) {
-  section(sink, "ElementData");
-  sink.text("1\n\"");
-  sink.text(name);
-  sink.text("\"\n1\n0\n3\n0\n1\n");  // as above
-  sink.number(values.size());
-  sink.character('\n');
-  for (std::size_t t = 0; t < values.size(); ++t) {
-    sink.raw(static_cast<std::int32_t>(mesh.edges.size() + t + 1));
-    sink.raw(static_cast<double>(values[t]));
+/// Where the triangles were made, as a view: physical groups would change what solvers load. Lines have the values of
+/// an adjacent triangle, since there are readers that want one for every element.
+void write_element_data(MshOutput& out, std::string_view name, const std::vector<std::int32_t>& of_triangles,
+                        const std::vector<std::array<std::int32_t, 2>>& at_edges) {
+  begin_view(out, "ElementData", name, of_triangles.size() + at_edges.size());
+  std::size_t tag = 0;
+  for (const std::int32_t value : of_triangles) write_value(out, ++tag, value);
+  for (const auto& [left, right] : at_edges) {
+    const std::int32_t triangle = left >= 0 ? left : right;
+    write_value(out, ++tag, triangle >= 0 ? of_triangles[triangle] : 0);
   }
-  end_of_binary_section(sink, "EndElementData");
+  out.end("ElementData");
+}
+
+void write_views(MshOutput& out, const Mesh& mesh) {
+  for (std::int32_t k = 0; k < mesh.attributes_per_point; ++k) write_attribute(out, mesh, k);
+  if (mesh.subdomains.empty() && mesh.ranks.empty()) return;
+  const auto at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
+  if (!mesh.subdomains.empty()) write_element_data(out, kSubdomainView, mesh.subdomains, at_edges);
+  if (!mesh.ranks.empty()) write_element_data(out, kRankView, mesh.ranks, at_edges);
 }
 
 // As text even in a binary file: readers that do not know the section look for its end line by line.
 void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& markers) {
-  section(sink, "DriftmeshPointMarkers");
+  sink.text("$DriftmeshPointMarkers\n");
   sink.number(markers.size() - std::count(markers.begin(), markers.end(), 0));
   sink.character('\n');
   for (std::size_t v = 0; v < markers.size(); ++v) {
@@ -313,25 +361,23 @@ void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& marker
     sink.number(markers[v]);
     sink.character('\n');
   }
-  section(sink, "EndDriftmeshPointMarkers");
+  sink.text("$EndDriftmeshPointMarkers\n");
 }
 
 }  // namespace
 
-void write_msh(const Mesh& mesh, const std::string& path) {
+void write_msh(const Mesh& mesh, const std::string& path, bool ascii) {
   (void)narrow<std::int32_t>(mesh.edges.size() + mesh.triangles.size(), "elements of a .msh file");
-  FileSink sink(path);
+  MshOutput out(path, ascii);
   const Classification classes(mesh);
-  write_format(sink);
-  write_physical_names(sink, classes);
-  write_entities(sink, classes);
-  write_nodes(sink, mesh, classes);
-  write_elements(sink, mesh, classes);
-  for (std::int32_t k = 0; k < mesh.attributes_per_point; ++k) write_attribute(sink, mesh, k);
-  if (!mesh.subdomains.empty()) write_triangle_data(sink, mesh, kSubdomainView, mesh.subdomains);
-  if (!mesh.ranks.empty()) write_triangle_data(sink, mesh, kRankView, mesh.ranks);
-  if (!mesh.point_markers.empty()) write_point_markers(sink, mesh.point_markers);
-  sink.commit();
+  write_format(out);
+  write_physical_names(out.text(), classes);
+  write_entities(out, classes);
+  write_nodes(out, mesh, classes);
+  write_elements(out, mesh, classes);
+  write_views(out, mesh);
+  if (!mesh.point_markers.empty()) write_point_markers(out.text(), mesh.point_markers);
+  out.commit();
 }
 
 }  // namespace driftmesh

@@ -450,6 +450,8 @@ Section output_section() {
                "rank), .msh (Gmsh 4.1), or .node, .ele, .poly, .edge, .neigh (each writes all of Triangle's files); - "
                "is standard output",
                option('o', "output", "FILE")),
+           key("output.ascii", &R::output, &R::Output::ascii,
+               "Write .msh as text, for programs that read no binary one (deal.II)", option("ascii")),
            key("output.picture", &R::output, &R::Output::picture,
                "Picture of the mesh: .png, .svg or .pdf (see also driftmesh plot --help)", output_file(),
                option("plot", "FILE")),

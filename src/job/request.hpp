@@ -110,6 +110,7 @@ struct Request {
 
   struct Output {
     std::vector<std::string> meshes;
+    bool ascii = false;
     std::string picture;
     std::string record;
     bool quiet = false;

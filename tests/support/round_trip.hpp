@@ -27,7 +27,7 @@ inline Mesh in_subdomains(Mesh mesh, const std::string& extension) {
 
 /// Writes random meshes with and without each of their parts to a file with this extension (".vtu"), and checks that
 /// they read back unchanged.
-inline void check_random_meshes_read_back(const std::string& extension) {
+inline void check_random_meshes_read_back(const std::string& extension, const WriteOptions& options = {}) {
   const TemporaryFolder folder;
   const std::string path = folder.path() / ("mesh" + extension);
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
@@ -36,7 +36,7 @@ inline void check_random_meshes_read_back(const std::string& extension) {
     const RandomMesh random(seed, 1 + static_cast<std::int32_t>(seed % 9), 1 + static_cast<std::int32_t>(seed % 7),
                             parts, seed % 2 == 0 ? 1e-3 : 1e6);
     const Mesh mesh = seed % 4 == 1 ? in_subdomains(random.mesh(), extension) : random.mesh();
-    write_mesh(mesh, path);
+    write_mesh(mesh, path, options);
     check_same_mesh(read_mesh(path), mesh);
   }
 }

@@ -97,6 +97,34 @@ TEST_CASE("a .msh reads back as the mesh that was written") {
   check_random_meshes_read_back(".msh");
 }
 
+TEST_CASE("an ASCII .msh reads back as the mesh that was written") {
+  check_random_meshes_read_back(".msh", {.ascii = true});
+}
+
+// meshio takes values on nodes and elements in the order of the file and insists on these numbers.
+TEST_CASE(
+    "nodes and elements of a .msh are numbered from 1 as they stand in the file, and views have a value for each") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  Mesh mesh;
+  mesh.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.edges = {{2, 3, 5}, {0, 1, 4}, {3, 0, 5}};
+  mesh.regions = {2, 1};
+  mesh.subdomains = {7, 8};
+  write_mesh(mesh, path, {.ascii = true});
+  const std::string text = file_bytes(path);
+  CHECK(text.find("$Elements\n5 5 1 5\n"
+                  "2 2 2 1\n1 1 2 3\n"
+                  "2 1 2 1\n2 1 3 4\n"
+                  "1 5 1 1\n3 3 4\n"
+                  "1 4 1 1\n4 1 2\n"
+                  "1 5 1 1\n5 4 1\n"
+                  "$EndElements\n") != std::string::npos);
+  CHECK(text.find("\n5\n1 7\n2 8\n3 8\n4 7\n5 8\n$EndElementData\n") != std::string::npos);
+  check_same_mesh(read_mesh(path), mesh);
+}
+
 TEST_CASE("an empty mesh and points alone survive in .msh") {
   check_meshes_without_triangles_read_back(".msh");
 }
