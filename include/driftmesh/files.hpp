@@ -30,10 +30,10 @@ struct WriteOptions {
   bool ascii = false;          ///< .msh as text, for programs that read no binary one
 };
 
-/// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, or Triangle's .node, .ele, .poly,
-/// .edge, .neigh (any of these names the whole set); to standard output for "-" (as .vtu), "-.vtu" and "-.msh".
-/// Files appear under their names only when complete. docs/file-formats.md says what each format holds. Errors:
-/// InputError for an unknown extension, FileError.
+/// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, .h5 (with an .xdmf beside it), or
+/// Triangle's .node, .ele, .poly, .edge, .neigh (any of these names the whole set); to standard output for "-" (as
+/// .vtu), "-.vtu" and "-.msh". Files appear under their names only when complete. docs/file-formats.md says what each
+/// format holds. Errors: InputError for an unknown extension, FileError.
 void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
 /// What reading a mesh may do.

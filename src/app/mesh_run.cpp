@@ -72,6 +72,11 @@ bool writes_whole(const Request::Output& wanted) {
   return !wanted.picture.empty() || !std::ranges::all_of(wanted.meshes, is_in_pieces);
 }
 
+/// Whether rank 0 needs all of it.
+bool gathers(const Request::Output& wanted) {
+  return !wanted.picture.empty() || !std::ranges::all_of(wanted.meshes, is_written_by_all);
+}
+
 /// Of the mesh and its picture, but not the record.
 std::vector<std::string> files_written(const Request& request, std::int32_t ranks) {
   std::vector<std::string> files;
@@ -171,7 +176,7 @@ job::Use use_in_subdomains(const Request& request, bool in_one_process) {
           .sleeps = request.run.sleep || !request.run.scratch.empty(),
           .stores = !request.run.scratch.empty(),
           .writes = writes(request.output),
-          .gathers = writes_whole(request.output) && !in_one_process};
+          .gathers = gathers(request.output) && !in_one_process};
 }
 
 void check_capacity(const Request& request, const job::Prepared& prepared, const job::Use& use,
@@ -179,8 +184,9 @@ void check_capacity(const Request& request, const job::Prepared& prepared, const
   double subdomain = 0;
   for (const Decomposition::Subdomain& s : prepared.plan.decomposition.subdomains)
     subdomain = std::max(subdomain, s.predicted);
-  const double file =
-      writes_whole(request.output) ? prepared.forecast : prepared.forecast * use.at_once / processes.all;
+  const double file = (processes.all == 1 ? writes_whole : gathers)(request.output)
+                          ? prepared.forecast
+                          : prepared.forecast * use.at_once / processes.all;
   job::check_capacity(subdomain, writes(request.output) ? file : 0, use.by);
 }
 

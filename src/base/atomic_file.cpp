@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <tuple>
@@ -92,12 +93,19 @@ void AtomicFile::write(const void* bytes, std::size_t count) {
   size_ += count;
 }
 
+const std::string& AtomicFile::name_meanwhile() const {
+  if (temporary_.empty()) throw InputError({path_}, "is no regular file, which this format needs", "name another file");
+  return temporary_;
+}
+
 void AtomicFile::commit() {
   errno = 0;
   std::FILE* const stream = stream_;
   stream_ = nullptr;
   if (std::fclose(stream) != 0) fail("cannot write");
   if (temporary_.empty()) return;
+  std::error_code unknown;  // others may have written it by name
+  size_ = std::max<std::uint64_t>(size_, std::filesystem::file_size(temporary_, unknown));
   StagedFiles alone;
   StagedFiles::File staged{{path_, size_}, target_, std::exchange(temporary_, {}), std::move(noted_), {}};
   alone.take(std::move(staged));

@@ -30,6 +30,8 @@ class AtomicFile {
   void write(std::string_view text) { write(text.data(), text.size()); }
   /// Bytes written so far.
   [[nodiscard]] std::uint64_t size() const { return size_; }
+  /// Its name until commit(), for those who write it by name. Throws InputError unless it will be a regular file.
+  [[nodiscard]] const std::string& name_meanwhile() const;
   /// Flushes, closes and renames, or stages. Nothing may be written afterward.
   void commit();
 

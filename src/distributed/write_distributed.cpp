@@ -1,16 +1,15 @@
 #include "distributed/write_distributed.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <functional>
 #include <optional>
 #include <utility>
 
 #include "base/bytes.hpp"
-#include "base/failure.hpp"
 #include "base/in_parts.hpp"
 #include "base/staged_files.hpp"
-#include "driftmesh/error.hpp"
+#include "distributed/rank_status.hpp"
+#include "distributed/write_together.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/merge_pieces.hpp"
 
@@ -50,34 +49,6 @@ Mesh unpack(const Mail& mail) {
     reader.array(mesh.ranks);
   });
   return mesh;
-}
-
-/// The outcome of a rank's work, shared with all ranks.
-std::vector<Mail> status_to_all(std::int32_t ranks, const std::function<void()>& work) {
-  Failure failure;
-  try {
-    work();
-  } catch (const std::exception&) {
-    failure = failure_of(std::current_exception());
-  }
-  ByteWriter status;
-  failure.write(status);
-  std::vector<Mail> mail;
-  for (const Rank to : first_ids<Rank>(ranks)) mail.push_back({to, status.bytes()});
-  return mail;
-}
-
-void throw_first_failure(const std::vector<Mail>& statuses) {
-  for (const Mail& mail : statuses) {
-    Failure failure;
-    read_mail(mail, [&](ByteReader& reader) { failure = Failure::read(reader); });
-    if (failure.kind != Failure::Kind::kNothing) raise(met_by(mail.rank, std::move(failure)));
-  }
-}
-
-/// The same for every piece, whatever this one happens to hold.
-VtuArrays arrays_of_pieces(const DistributedPiece& piece) {
-  return {true, piece.mesh.attributes_per_point, true, true, piece.has_regions, true, true};
 }
 
 }  // namespace
@@ -180,6 +151,11 @@ void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, std
     if (is_in_pieces(path)) {
       WritePieces pieces(piece, path);
       ranks.run(pieces);
+      continue;
+    }
+    if (is_written_by_all(path)) {
+      WriteTogether together(piece, path);
+      ranks.run(together);
       continue;
     }
     if (!gathered) ranks.run(gathered.emplace(piece));

@@ -4,6 +4,7 @@
 
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
+#include "io/hdf5_format.hpp"
 #include "io/msh_format.hpp"
 #include "io/pvtu_format.hpp"
 #include "io/triangle_format.hpp"
@@ -12,7 +13,7 @@
 namespace driftmesh {
 namespace {
 
-enum class Format { kTriangle, kVtu, kPvtu, kMsh };
+enum class Format { kTriangle, kVtu, kPvtu, kMsh, kHdf5 };
 
 Format named_format(const std::string& path) {
   if (names_no_format(path)) return Format::kVtu;
@@ -20,6 +21,7 @@ Format named_format(const std::string& path) {
   if (extension == ".vtu") return Format::kVtu;
   if (extension == ".pvtu") return Format::kPvtu;
   if (extension == ".msh") return Format::kMsh;
+  if (extension == ".h5") return Format::kHdf5;
   for (const char* of_triangle : {".node", ".ele", ".poly", ".edge", ".neigh"})
     if (extension == of_triangle) return Format::kTriangle;
   throw InputError({path, 0}, extension.empty() ? "has no extension" : "has an unknown extension '" + extension + "'",
@@ -28,7 +30,7 @@ Format named_format(const std::string& path) {
 
 Format format_of(const std::string& path) {
   const Format format = named_format(path);
-  if (is_standard_stream(path) && (format == Format::kTriangle || format == Format::kPvtu))
+  if (is_standard_stream(path) && (format == Format::kTriangle || format == Format::kPvtu || format == Format::kHdf5))
     throw InputError({path, 0}, "means several files, but a standard stream is only one",
                      "use - with the extension of a single file, as in -.vtu, or name a file");
   return format;
@@ -48,6 +50,8 @@ void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& o
       throw InputError({path, 0}, "is for a mesh in pieces", "this mesh is in one piece; write a .vtu");
     case Format::kMsh:
       return write_msh(mesh, path, options.ascii);
+    case Format::kHdf5:
+      return write_hdf5(mesh, path);
     case Format::kTriangle:
       return write_triangle_format(mesh, without_extension(path), options.holes);
   }
@@ -61,6 +65,8 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) {
       return read_pvtu(path, options);
     case Format::kMsh:
       return read_msh(path);
+    case Format::kHdf5:
+      return read_hdf5(path);
     case Format::kTriangle:
       return read_triangle_format(without_extension(path));
   }
@@ -71,13 +77,19 @@ bool is_in_pieces(const std::string& path) {
   return format_of(path) == Format::kPvtu;
 }
 
+bool is_written_by_all(const std::string& path) {
+  return is_in_pieces(path) || format_of(path) == Format::kHdf5;
+}
+
 std::vector<std::string> mesh_files(const std::string& path) {
+  if (format_of(path) == Format::kHdf5) return {path, xdmf_path(path)};
   if (format_of(path) != Format::kTriangle) return {path};
   const std::string stem = without_extension(path);
   return {stem + ".node", stem + ".ele", stem + ".poly", stem + ".edge", stem + ".neigh"};
 }
 
 std::vector<std::string> files_to_read(const std::string& path, const ReadOptions& options) {
+  if (format_of(path) == Format::kHdf5) return {path};
   std::vector<std::string> files = mesh_files(path);
   if (is_in_pieces(path))
     for (const std::string& piece : read_pvtu_header(path, options).pieces) files.push_back(piece);

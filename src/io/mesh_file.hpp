@@ -12,10 +12,12 @@
 namespace driftmesh {
 
 /// The files that hold a mesh, for messages and help: "the mesh: " + kMeshFiles.
-inline constexpr const char* kMeshFiles = ".vtu, .pvtu, .msh, or any file of Triangle's .node/.ele set";
+inline constexpr const char* kMeshFiles = ".vtu, .pvtu, .msh, .h5, or any file of Triangle's .node/.ele set";
 
 /// Whether the extension is that of a mesh in pieces: .pvtu. Error: InputError for an unknown extension.
 [[nodiscard]] bool is_in_pieces(const std::string& path);
+/// Whether ranks write it together, so that none of them has the whole mesh: .pvtu and .h5. Error: as is_in_pieces.
+[[nodiscard]] bool is_written_by_all(const std::string& path);
 /// The pieces of a mesh, not merged, with the numbers of their points, to be read one by one. Errors: as read_mesh.
 class PieceFiles {
  public:

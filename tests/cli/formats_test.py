@@ -21,7 +21,7 @@ DOMAINS = {
 }
 OPTIONS = {"bay": ["--resolution", "1000"], "comb": ["--slits", "9"], "holes": ["--columns", "4", "--rows", "3"]}
 PARTS = ([], ["-n", "1"], ["-n", "5"], ["-n", "24"])
-OUTPUTS = ("m.vtu", "m.msh", "t.ele")
+OUTPUTS = ("m.vtu", "m.msh", "m.h5", "t.ele")
 
 # Two regions beside a third part without one, a hole, an inner segment with marker 0, attributes and markers of points.
 REGIONS = """14 2 2 1

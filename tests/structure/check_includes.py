@@ -25,6 +25,7 @@ LIBRARIES = {
     "cairo": (r"cairo.*\.h", ["picture"]),
     "cli11": (r"CLI/.*", ["cli"]),
     "fmt": (r"fmt/.*", None),
+    "hdf5": (r"hdf5\.h", ["io"]),
     "json": (r"nlohmann/.*", None),
     "metis": (r"metis\.h", ["decompose"]),
     "mpi": (r"mpi\.h", ["api_mpi", "partition_zoltan", "public_mpi", "python", "transport_mpi"]),  # Zoltan's own header needs it

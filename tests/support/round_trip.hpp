@@ -17,7 +17,7 @@ inline Mesh in_subdomains(Mesh mesh, const std::string& extension) {
   if (extension == ".vtu")
     for (std::size_t v = 0; v < mesh.points.size(); ++v)
       mesh.numbers.push_back((std::int64_t{1} << 40) - 3 * static_cast<std::int64_t>(v));
-  if (extension == ".vtu" || extension == ".msh")
+  if (extension == ".vtu" || extension == ".msh" || extension == ".h5")
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       mesh.subdomains.push_back(static_cast<std::int32_t>(t * t % 7));
       mesh.ranks.push_back(mesh.subdomains.back() % 3);

@@ -6,6 +6,7 @@
 
 #include "base/bytes.hpp"
 #include "distributed/write_distributed.hpp"
+#include "distributed/write_together.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"
 #include "io/pvtu_format.hpp"
@@ -304,6 +305,33 @@ TEST_CASE("an empty rank writes a piece with the same arrays") {
   CHECK(read_pieces(path)[1].points.empty());
   CHECK(verify_pieces(read_pieces(path), &c.input, {}).accepted());
   CHECK(file_bytes(folder.path() / "plate_1.vtu").find("Name=\"subdomain\"") != std::string::npos);
+}
+
+TEST_CASE("ranks write one .h5 together, whichever holds what, and even if one holds nothing") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "plate.h5";
+  const DistributedCase c = plate(9);
+  for (const std::int32_t holders : {1, 2, 3}) {  // of three ranks
+    const auto pieces = c.pieces(3, random_owners(c.parts.size(), holders, 5));
+    std::vector<std::unique_ptr<WriteTogether>> writers;
+    IdVector<Rank, Exchange*> exchanges;
+    for (const DistributedPiece& piece : pieces) writers.push_back(std::make_unique<WriteTogether>(piece, path));
+    for (const auto& writer : writers) exchanges.push_back(writer.get());
+    CHECK(write_all(exchanges) == std::vector<std::string>(3));
+    CHECK(files_in(folder.path()) == std::vector<std::string>{"plate.h5", "plate.xdmf"});
+    MergeFaults faults;
+    Mesh whole = merge_pieces(meshes_of(pieces), faults);
+    check_same_mesh(read_mesh(path), whole);
+  }
+}
+
+TEST_CASE("if rank 0 cannot make the .h5, every rank says why") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "none" / "plate.h5";
+  const DistributedCase c = plate(9);
+  const auto pieces = c.pieces(3, random_owners(c.parts.size(), 3, 5));
+  WriteTogether one(pieces[0_rank], path), two(pieces[1_rank], path), three(pieces[2_rank], path);
+  for (const std::string& message : write_all({&one, &two, &three})) CHECK(mentions(message, {"rank 0: ", "plate.h5"}));
 }
 
 TEST_CASE("if one rank cannot write, no file appears and every rank says why") {

@@ -1,0 +1,176 @@
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "base/narrow.hpp"
+#include "base/read_file.hpp"
+#include "driftmesh/error.hpp"
+#include "io/hdf5_format.hpp"
+#include "io/hdf5_handle.hpp"
+#include "io/read_checks.hpp"
+#include "mesh/merge_pieces.hpp"
+
+namespace driftmesh {
+namespace {
+
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::string& path)
+      : path_(path),
+        bytes_(std::filesystem::file_size(path)),
+        file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
+    if (!file_.is_open()) fail("is not an HDF5 file, or is damaged", "was it written completely?");
+  }
+
+  Mesh read() {
+    read_points();
+    read_cells();
+    read_data();
+    return std::move(mesh_);
+  }
+
+ private:
+  template <class T>
+  struct Array {
+    std::vector<T> values;
+    std::size_t columns = 1;
+  };
+
+  [[noreturn]] void fail(const std::string& what, const std::string& next = kDamaged) const {
+    throw InputError({path_, 0}, what, next);
+  }
+
+  [[nodiscard]] bool has(const std::string& array) const {
+    for (std::size_t end = array.find('/', 1);; end = array.find('/', end + 1)) {
+      if (H5Lexists(file_.id(), array.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+      if (end == std::string::npos) return true;
+    }
+  }
+
+  /// With any number of columns if `columns` is 0. An array of one dimension has one.
+  template <class T>
+  Array<T> array(const std::string& name, std::uint64_t rows, std::uint64_t columns) const {
+    const Hdf5Handle set(has(name) ? H5Dopen(file_.id(), name.c_str(), H5P_DEFAULT) : -1, H5Dclose);
+    if (!set.is_open()) fail("has no array " + name, "driftmesh reads the .h5 files that it writes");
+    const std::array<hsize_t, 2> extent = extent_of(set, name);
+    if (extent[0] != rows || (columns != 0 && extent[1] != columns))
+      fail("has an array " + name + " of " + std::to_string(extent[0]) + " x " + std::to_string(extent[1]) +
+           " values, not " + std::to_string(rows) + " x " + (columns == 0 ? "any" : std::to_string(columns)));
+    Array<T> result{std::vector<T>(extent[0] * extent[1]), extent[1]};
+    if (!result.values.empty() &&
+        H5Dread(set.id(), hdf5_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, result.values.data()) < 0)
+      fail("has an array " + name + " that cannot be read");
+    return result;
+  }
+
+  /// Rows and columns, for which there are bytes in the file.
+  [[nodiscard]] std::array<hsize_t, 2> extent_of(const Hdf5Handle& set, const std::string& name) const {
+    const Hdf5Handle space(H5Dget_space(set.id()), H5Sclose);
+    const Hdf5Handle type(H5Dget_type(set.id()), H5Tclose);
+    std::array<hsize_t, 2> extent{0, 1};
+    const int dimensions = H5Sget_simple_extent_ndims(space.id());
+    const H5T_class_t kind = H5Tget_class(type.id());
+    if (dimensions < 1 || dimensions > 2 || (kind != H5T_INTEGER && kind != H5T_FLOAT))
+      fail("has an array " + name + " that is no table of numbers");
+    H5Sget_simple_extent_dims(space.id(), extent.data(), nullptr);
+    const std::uint64_t most = bytes_ / H5Tget_size(type.id());
+    const haddr_t place = H5Dget_offset(set.id());
+    if (extent[0] == 0 || extent[1] == 0) return extent;
+    if (place == HADDR_UNDEF)
+      fail("has a compressed or chunked array " + name, "h5repack -l CONTI -f NONE FILE NEW.h5 changes that");
+    if (extent[0] > most / extent[1] || place > bytes_ ||
+        extent[0] * extent[1] * H5Tget_size(type.id()) > bytes_ - place)
+      fail("ends before the array " + name + " does");
+    return extent;
+  }
+
+  [[nodiscard]] std::uint64_t rows_of(const std::string& name) const {
+    const Hdf5Handle set(has(name) ? H5Dopen(file_.id(), name.c_str(), H5P_DEFAULT) : -1, H5Dclose);
+    if (!set.is_open()) fail("has no array " + name, "driftmesh reads the .h5 files that it writes");
+    return extent_of(set, name)[0];
+  }
+
+  void read_points() {
+    const std::string name = "/geometry/vertices";
+    const std::uint64_t rows = rows_of(name);
+    (void)narrow<std::int32_t>(rows, "points");
+    const Array<double> vertices = array<double>(name, rows, 2);
+    mesh_.points.resize(rows);
+    for (std::size_t v = 0; v < rows; ++v) mesh_.points[v] = {vertices.values[2 * v], vertices.values[2 * v + 1]};
+  }
+
+  /// A point that does not exist becomes one that check_read_mesh refuses.
+  [[nodiscard]] static std::int32_t index(std::int64_t row) {
+    return std::in_range<std::int32_t>(row) ? static_cast<std::int32_t>(row) : -1;
+  }
+
+  void read_cells() {
+    const std::uint64_t triangles = rows_of("/viz/topology/cells");
+    const std::uint64_t lines = rows_of("/viz/topology/facets");
+    (void)narrow<std::int32_t>(triangles + lines, "cells");
+    const Array<std::int64_t> cells = array<std::int64_t>("/viz/topology/cells", triangles, 3);
+    for (std::size_t t = 0; t < triangles; ++t)
+      mesh_.triangles.push_back(
+          {index(cells.values[3 * t]), index(cells.values[3 * t + 1]), index(cells.values[3 * t + 2])});
+    const Array<std::int64_t> facets = array<std::int64_t>("/viz/topology/facets", lines, 2);
+    const Array<std::int32_t> markers = array<std::int32_t>("/tags/facets", lines, 1);
+    for (std::size_t e = 0; e < lines; ++e)
+      mesh_.edges.push_back({index(facets.values[2 * e]), index(facets.values[2 * e + 1]), markers.values[e]});
+  }
+
+  void read_data() {
+    const std::string on_points = "/VTKHDF/PointData/", on_cells = "/VTKHDF/CellData/";
+    const std::size_t points = mesh_.points.size();
+    if (has(on_points + "marker")) mesh_.point_markers = array<std::int32_t>(on_points + "marker", points, 1).values;
+    if (has(on_points + "global_number"))
+      mesh_.numbers = array<std::int64_t>(on_points + "global_number", points, 1).values;
+    if (has(on_points + "attribute")) {
+      Array<double> attributes = array<double>(on_points + "attribute", points, 0);
+      mesh_.attributes_per_point = narrow<std::int32_t>(attributes.columns, "attributes");
+      mesh_.attributes = std::move(attributes.values);
+    }
+    of_triangles(on_cells + "region", mesh_.regions);
+    of_triangles(on_cells + "subdomain", mesh_.subdomains);
+    of_triangles(on_cells + "rank", mesh_.ranks);
+  }
+
+  /// The values on lines, which come last, say nothing new.
+  template <class T>
+  void of_triangles(const std::string& name, std::vector<T>& values) const {
+    if (!has(name)) return;
+    values = array<T>(name, mesh_.triangles.size() + mesh_.edges.size(), 1).values;
+    values.resize(mesh_.triangles.size());
+  }
+
+  const std::string& path_;
+  std::uint64_t bytes_;
+  Hdf5Handle file_;
+  Mesh mesh_;
+};
+
+/// In the order of the numbers, where ranks wrote the file.
+Mesh in_order(Mesh mesh, const std::string& path) {
+  if (mesh.numbers.empty()) return mesh;
+  MergeFaults faults;
+  try {
+    const std::array<const Mesh*, 1> one{&mesh};
+    mesh = merge_pieces(one, faults);
+  } catch (const Error& error) {
+    throw InputError({path, 0}, error.what(), kDamaged);
+  }
+  if (faults.count != 0) throw InputError({path, 0}, faults.first[0], kDamaged);
+  return mesh;
+}
+
+}  // namespace
+
+Mesh read_hdf5(const std::string& path) {
+  const QuietHdf5 quiet;
+  if (!std::filesystem::is_regular_file(path)) (void)read_file(path);  // says why not
+  Mesh mesh = Hdf5Reader(path).read();
+  check_read_mesh(mesh, path);
+  return in_order(std::move(mesh), path);
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,60 @@
+#include <filesystem>
+
+#include "io/file_sink.hpp"
+#include "io/hdf5_format.hpp"
+#include "io/xml_text.hpp"
+
+namespace driftmesh {
+namespace {
+
+/// What a reader of XDMF is told about a .h5 file. The facets are a grid of their own, on the same points: dolfinx
+/// looks for their tags there.
+class XdmfText {
+ public:
+  XdmfText(const std::string& path, const Hdf5Shape& shape)
+      : file_(escaped(std::filesystem::path(path).filename().string())), shape_(shape) {}
+
+  std::string text() {
+    text_ = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n";
+    grid("mesh", "Triangle", "cells", 3, shape_.triangles);
+    if (shape_.lines > 0) grid("facets", "PolyLine", "facets", 2, shape_.lines);
+    return text_ + "</Domain>\n</Xdmf>\n";
+  }
+
+ private:
+  void grid(const std::string& name, const std::string& type, const std::string& array, int corners,
+            std::uint64_t count) {
+    text_ += "<Grid Name=\"" + name + "\" GridType=\"Uniform\">\n<Topology TopologyType=\"" + type +
+             "\" NumberOfElements=\"" + std::to_string(count) + "\" NodesPerElement=\"" + std::to_string(corners) +
+             "\">";
+    item("/viz/topology/" + array, std::to_string(count) + ' ' + std::to_string(corners), "Int", 8);
+    text_ += "</Topology>\n<Geometry GeometryType=\"XY\">";
+    item("/geometry/vertices", std::to_string(shape_.points) + " 2", "Float", 8);
+    text_ += "</Geometry>\n<Attribute Name=\"" + name + "\" AttributeType=\"Scalar\" Center=\"Cell\">";
+    item("/tags/" + array, std::to_string(count), "Int", 4);
+    text_ += "</Attribute>\n</Grid>\n";
+  }
+
+  void item(const std::string& array, const std::string& extent, const char* type, int bytes) {
+    text_ += "<DataItem Dimensions=\"" + extent + "\" NumberType=\"" + type + "\" Precision=\"" +
+             std::to_string(bytes) + "\" Format=\"HDF\">" + file_ + ':' + array + "</DataItem>";
+  }
+
+  std::string file_;
+  const Hdf5Shape& shape_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string xdmf_path(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".xdmf").string();
+}
+
+void write_xdmf(const std::string& path, const Hdf5Shape& shape) {
+  FileSink sink(xdmf_path(path));
+  sink.text(XdmfText(path, shape).text());
+  sink.commit();
+}
+
+}  // namespace driftmesh
