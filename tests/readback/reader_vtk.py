@@ -1,0 +1,29 @@
+import sys
+
+from answer import answer, area, counts, import_or_say
+
+vtk = import_or_say("vtk")
+from vtk.util.numpy_support import vtk_to_numpy
+
+READERS = {"vtu": "vtkXMLUnstructuredGridReader", "pvtu": "vtkXMLPUnstructuredGridReader", "h5": "vtkHDFReader"}
+reader = getattr(vtk, READERS[sys.argv[1].split(".")[-1]])()
+reader.SetFileName(sys.argv[1])
+reader.Update()
+grid = reader.GetOutput()
+points = vtk_to_numpy(grid.GetPoints().GetData())
+types = vtk_to_numpy(grid.GetCellTypesArray())
+is_triangle = types == 5
+triangles = vtk_to_numpy(grid.GetCells().GetConnectivityArray())[: 3 * is_triangle.sum()].reshape(-1, 3)
+if sys.argv[1].endswith(".pvtu"):  # pieces follow each other, each with its lines
+    import numpy
+    corners, offsets = (vtk_to_numpy(a) for a in (grid.GetCells().GetConnectivityArray(), grid.GetCells().GetOffsetsArray()))
+    triangles = corners[offsets[:-1][is_triangle][:, None] + numpy.arange(3)]
+cells = {name: vtk_to_numpy(grid.GetCellData().GetArray(name)) for name in ("region", "marker")}
+markers = cells["marker"][~is_triangle]
+if sys.argv[1].endswith(".pvtu"):  # a subsegment between pieces is in both
+    import numpy
+    numbers = vtk_to_numpy(grid.GetPointData().GetArray("global_number"))
+    ends = numpy.sort(numbers[corners[offsets[:-1][~is_triangle][:, None] + numpy.arange(2)]], axis=1)
+    markers = markers[numpy.unique(ends, axis=0, return_index=True)[1]]
+answer(vtk.vtkVersion().GetVTKVersion(), points=len(points), triangles=int(is_triangle.sum()),
+       area=area(points, triangles), regions=counts(cells["region"][is_triangle]), markers=counts(markers))
