@@ -59,8 +59,8 @@ bool Controller::due(double now) const {
 }
 
 bool Controller::pressing() const {
-  const auto* const collective = std::get_if<CollectiveConduct>(&conduct_);
-  return collective && collective->pressing();
+  return std::visit(Each{[](const auto& conduct) { return conduct.pressing(); }, [](std::monostate) { return false; }},
+                    conduct_);
 }
 
 Decision Controller::think(double now, std::span<const ReportedLoad> own, double speed, double doubt) {

@@ -39,7 +39,7 @@ class Controller {
   /// Whether think() has something to do. Cheap.
   [[nodiscard]] bool due(double now) const;
 
-  /// Whether all others may be waiting for this rank, so that it should think() before it continues to work.
+  /// Whether others may be waiting for this rank, so that it should think() before it continues to work.
   [[nodiscard]] bool pressing() const;
 
   /// `own`: the unfinished subdomains here, in the order in which they will be worked on, as far as known. `speed`:

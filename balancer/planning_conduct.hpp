@@ -23,6 +23,7 @@ class PlanningConduct {
   void receive(Rank source, Message advice, double now);
   void arrived(SubdomainId id, protocol::Epoch epoch) { arrived_.push_back({id, epoch, 0, 0}); }
   [[nodiscard]] bool waiting() const { return !advised_.empty(); }
+  [[nodiscard]] bool pressing() const { return waiting(); }
   [[nodiscard]] Decision think(const Situation& situation);
   void took(double seconds) { pace_.took(seconds); }
 

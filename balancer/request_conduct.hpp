@@ -25,6 +25,7 @@ class RequestConduct {
   void receive(Rank source, Message advice, double now);
   void arrived(SubdomainId id);
   [[nodiscard]] bool waiting() const { return asked_ || !requests_.empty(); }
+  [[nodiscard]] bool pressing() const { return !requests_.empty(); }
   /// Work is on its way here.
   [[nodiscard]] bool expects_work() const { return !coming_.empty(); }
   [[nodiscard]] Decision think(const Situation& situation);

@@ -58,9 +58,10 @@ class WorkingRank {
     const bool heard = poll();
     const bool ran_out = std::exchange(worked_, false) && agenda().empty();
     if (ran_out || controller_.due(transport_.now())) balance();
+    send();
     const bool worked = worked_ = work();
     if (!worked) protocol_.rest(!controller_.waiting());
-    for (const auto& o : protocol_.take_outgoing()) transport_.send(o.destination, protocol::encode(o.message));
+    send();
     if (protocol_.finished()) return protocol::StepResult::kFinished;
     return heard || worked ? protocol::StepResult::kBusy : protocol::StepResult::kIdle;
   }
@@ -74,6 +75,10 @@ class WorkingRank {
     IdVector<SubdomainId, Rank> owners;
     for (const auto& s : layout.subdomains) owners.push_back(s.owner);
     return owners;
+  }
+
+  void send() {
+    for (const auto& o : protocol_.take_outgoing()) transport_.send(o.destination, protocol::encode(o.message));
   }
 
   bool poll() {

@@ -112,3 +112,33 @@ TEST_CASE("every policy gives a slow rank less work and leaves the mesh unchange
     }
   }
 }
+
+TEST_CASE("a rank that is asked for work gives some before its next slice, however long that is") {
+  RunPlan plan = plan_of(ell(), {20, 1e-4, {}, nullptr}, 2, 40, Presplit::kOn);
+  plan.work.slice = 1'000'000;
+  for (Rank& owner : plan.owners) owner = Rank{0};
+  plan.balancing.policy = "stealing";
+  prepare_balancing(plan, 2, balancer::make_policy);
+  protocol::VirtualNetwork network({IdVector<Rank, double>(2, 1.0), {}, 1e-6, 1e-6});
+  CostModel slow;
+  slow.point *= 100;
+  SimulatedRanks run(network, 2, plan, slow);
+  std::vector<double> ends;  // of slices of rank 0
+  double arrival = 0;        // of the first subdomain at rank 1
+  const IdVector<Rank, protocol::RankStep> steps{[&] {
+                                                   const auto result = run.steps[Rank{0}]();
+                                                   ends.push_back(network.transport(Rank{0}).now());
+                                                   return result;
+                                                 },
+                                                 [&] {
+                                                   const auto result = run.steps[Rank{1}]();
+                                                   if (arrival == 0 && !run.loops[Rank{1}]->subdomains().empty())
+                                                     arrival = network.transport(Rank{1}).now();
+                                                   return result;
+                                                 }};
+  REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);
+  check_mesh(plan, run.subdomains());
+  REQUIRE(ends.size() > 2);
+  CHECK(arrival > ends[0]);
+  CHECK(arrival < ends[1]);
+}
