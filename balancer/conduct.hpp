@@ -23,6 +23,8 @@ struct ControllerOptions {
   MoveCost cost;
   Worth worth;
 
+  /// From asking for work to having it, in seconds: a look at the load, the way to rank 0, to the giver and back.
+  [[nodiscard]] double time_to_get_work() const { return look + 3 * cost.latency; }
   /// How long to wait for a planned move, in seconds.
   [[nodiscard]] double patience() const { return 3 * interval; }
 };

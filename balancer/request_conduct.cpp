@@ -133,7 +133,8 @@ void RequestConduct::forget_promises(double now) {
 
 void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decision) {
   const double total = total_work(own);
-  const bool low = policy_->runs_low(seconds_of(total, situation.speed));
+  const double next = own.empty() ? 0 : total - own.front().remaining;
+  const bool low = policy_->runs_low(seconds_of(next, situation.speed) - options_.time_to_get_work());
   if (!low) refusals_ = 0;
   if (!low || asked_ || !coming_.empty() || refusals_ >= options_.refusals) return;
   const WorkRequest request{self_, ++round_, total, situation.speed, 0, situation.doubt};

@@ -5,9 +5,9 @@
 namespace driftmesh::balancer {
 namespace {
 
-/// A rank whose work will be done within `low_water` seconds asks for more. It gets some from the rank that would
-/// finish last, which gives work as long as the thief would finish it earlier than the giver. (Work stealing as in
-/// PREMA's load balancing library, Barker et al. 2004, weighted by speed.)
+/// A rank that is about to work on its last subdomain asks for more, or `low_water` seconds before that. It gets some
+/// from the rank that would finish last, which gives work as long as the thief would finish it earlier than the giver.
+/// (Work stealing as in PREMA's load balancing library, Barker et al. 2004, weighted by speed.)
 class Stealing final : public Policy {
  public:
   explicit Stealing(double low_water) : low_water_(low_water) {}
@@ -56,7 +56,7 @@ class Stealing final : public Policy {
 }  // namespace
 
 std::unique_ptr<Policy> make_stealing(Parameters& parameters) {
-  return std::make_unique<Stealing>(parameters.number("low-water", 0.1, 1e-6, 1e6));
+  return std::make_unique<Stealing>(parameters.number("low-water", 0, 0, 1e6));
 }
 
 }  // namespace driftmesh::balancer

@@ -55,7 +55,8 @@ class Policy {
   /// kCollective: how the parts are assigned. Again, the result may depend only on the loads of ranks.
   [[nodiscard]] virtual Dealing dealing(const LoadSnapshot& own) const;
 
-  /// kRequests: whether a rank with this many seconds of work left should ask for more.
+  /// kRequests: whether a rank should ask for more that has this many seconds of work after the subdomain at hand,
+  /// less those that it takes to get some.
   [[nodiscard]] virtual bool runs_low(double seconds) const;
   /// kRequests: the rank from which `thief` should get work, if any. `able` tells for each rank whether it has work to
   /// give. The snapshot lists no subdomains.

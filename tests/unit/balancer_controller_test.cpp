@@ -194,6 +194,17 @@ TEST_CASE("a rank without work sends none, whatever the plan") {
   }
 }
 
+TEST_CASE("a rank asks for work when it begins its last subdomain, however long that takes, or a little earlier") {
+  const Layout layout = grid_layout(12, 1, 3);
+  const auto asks = [&](const Loads& own) {
+    Controller c = controller_of(1_rank, layout, "stealing");
+    return !sent<balancer::WorkRequest>(c.think(0, own, 1000)).empty();
+  };
+  CHECK(asks(loads_of(4, 4, 1e6)));
+  CHECK(!asks(loads_of(4, 5, 100)));  // a tenth of a second each
+  CHECK(asks(loads_of(4, 5, 5)));
+}
+
 TEST_CASE("a rank that runs low sends a request and waits for the answer") {
   const Layout layout = grid_layout(12, 1, 3);
   Controller broker = controller_of(0_rank, layout, "stealing"), thief = controller_of(1_rank, layout, "stealing"),

@@ -47,7 +47,7 @@ TEST_CASE("wrong names, parameters and values are errors that suggest what was m
   CHECK(error_of("greedy", {{"tolerance", "nan"}}) ==
         "policy greedy: tolerance: 'nan' cannot be used; it must be a number from 0 to 10");
   CHECK(error_of("stealing", {{"low-water", "-1"}}) ==
-        "policy stealing: low-water: '-1' cannot be used; it must be a number from 1e-06 to 1e+06");
+        "policy stealing: low-water: '-1' cannot be used; it must be a number from 0 to 1e+06");
   CHECK(error_of("zoltan", {{"method", "hypergraf"}}) ==
         "policy zoltan: method: 'hypergraf' cannot be used; the nearest choice is 'hypergraph'");
   CHECK(error_of("zoltan", {{"polish", "yes"}}) ==
