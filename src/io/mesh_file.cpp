@@ -7,13 +7,14 @@
 #include "io/hdf5_format.hpp"
 #include "io/msh_format.hpp"
 #include "io/pvtu_format.hpp"
+#include "io/su2_format.hpp"
 #include "io/triangle_format.hpp"
 #include "io/vtu_format.hpp"
 
 namespace driftmesh {
 namespace {
 
-enum class Format { kTriangle, kVtu, kPvtu, kMsh, kHdf5 };
+enum class Format { kTriangle, kVtu, kPvtu, kMsh, kHdf5, kSu2 };
 
 Format named_format(const std::string& path) {
   if (names_no_format(path)) return Format::kVtu;
@@ -21,6 +22,7 @@ Format named_format(const std::string& path) {
   if (extension == ".vtu") return Format::kVtu;
   if (extension == ".pvtu") return Format::kPvtu;
   if (extension == ".msh") return Format::kMsh;
+  if (extension == ".su2") return Format::kSu2;
   if (extension == ".h5") return Format::kHdf5;
   for (const char* of_triangle : {".node", ".ele", ".poly", ".edge", ".neigh"})
     if (extension == of_triangle) return Format::kTriangle;
@@ -52,6 +54,8 @@ void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& o
       return write_msh(mesh, path, options.ascii);
     case Format::kHdf5:
       return write_hdf5(mesh, path);
+    case Format::kSu2:
+      return write_su2(mesh, path);
     case Format::kTriangle:
       return write_triangle_format(mesh, without_extension(path), options.holes);
   }
@@ -67,6 +71,9 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) {
       return read_msh(path);
     case Format::kHdf5:
       return read_hdf5(path);
+    case Format::kSu2:
+      throw InputError({path, 0}, "is in a format that is written, but not read",
+                       std::string("keep the mesh in one of ") + kMeshFiles);
     case Format::kTriangle:
       return read_triangle_format(without_extension(path));
   }

@@ -447,7 +447,8 @@ Section output_section() {
           kMesh,
           {key("output.meshes", &R::output, &R::Output::meshes,
                "Mesh file; its extension selects the format: .vtu (ParaView), .pvtu (the same in pieces, one per "
-               "rank), .msh (Gmsh 4.1), .h5 (HDF5 with an .xdmf beside it, for solvers), or .node, .ele, .poly, .edge, "
+               "rank), .msh (Gmsh 4.1), .h5 (HDF5 with an .xdmf beside it, for solvers), .su2, or .node, .ele, .poly, "
+               ".edge, "
                ".neigh (each writes all of Triangle's files); - "
                "is standard output",
                option('o', "output", "FILE")),

@@ -44,6 +44,8 @@ INPUT = """8 2 1 1
 2 1.5 0.5 20 0
 """
 
+INSIDE = ("0", "9")  # markers of segments inside the domain
+
 # Reader, its version's module, file, ranks that read, and what it can tell. "one": by one process; "ranks": by three.
 ALL = ("points", "triangles", "area", "regions", "markers")
 GRID = ("points", "triangles", "area")
@@ -52,6 +54,7 @@ CASES = [
     ("vtk", "one.h5", 1, ALL), ("vtk", "ranks.h5", 1, ALL),
     ("meshio", "one.vtu", 1, ALL), ("meshio", "one.msh", 1, ALL), ("meshio", "ranks.msh", 1, ALL),
     ("meshio", "text.msh", 1, ALL),
+    ("meshio", "one.su2", 1, (*GRID, "boundary")),
     ("gmsh", "ranks.msh", 1, ALL), ("gmsh", "text.msh", 1, ALL),
     ("petsc", "ranks.msh", 1, ALL), ("petsc", "text.msh", 1, ALL),
     *[("petsc", file, ranks, GRID) for file in ("one.h5", "ranks.h5") for ranks in (1, 2, 3)],
@@ -72,7 +75,7 @@ def run(*words, folder):
 def write_meshes(program, mpirun, folder):
     (folder / "in.poly").write_text(INPUT)
     words = [program, "mesh", "in.poly", "-n", "6", "--area", "0.002", "--quiet"]
-    run(*words, "-o", "one.vtu", "-o", "one.msh", "-o", "one.h5", folder=folder)
+    run(*words, "-o", "one.vtu", "-o", "one.msh", "-o", "one.h5", "-o", "one.su2", folder=folder)
     run(program, "convert", "one.vtu", "text.msh", "--ascii", folder=folder)
     run(mpirun, "-n", 3, *words, "-o", "ranks.pvtu", "-o", "ranks.msh", "-o", "ranks.h5", folder=folder)
 
@@ -92,7 +95,8 @@ def facts_of_text(program, folder):
     for _, _, _, marker in (row for row in rows("plain.poly")[2:] if len(row) == 4):
         if marker != -1000000:
             markers[str(int(marker))] = markers.get(str(int(marker)), 0) + 1
-    return {"points": len(points), "triangles": len(triangles), "area": area, "regions": regions, "markers": markers}
+    return {"points": len(points), "triangles": len(triangles), "area": area, "regions": regions, "markers": markers,
+            "boundary": {marker: count for marker, count in markers.items() if marker not in INSIDE}}
 
 
 def answer_of(reader, file, ranks, mpirun, folder):

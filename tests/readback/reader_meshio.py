@@ -14,6 +14,8 @@ facts = {"points": len(mesh.points), "triangles": len(triangles), "area": area(m
 if sys.argv[1].endswith(".vtu"):
     facts["regions"] = counts(mesh.get_cell_data("region", "triangle"))
     facts["markers"] = counts(mesh.get_cell_data("marker", "line"))
+elif sys.argv[1].endswith(".su2"):
+    facts["boundary"] = counts(mesh.get_cell_data("su2:tag", "line"))
 elif sys.argv[1].endswith(".msh"):
     value_of = {(dimension, tag): name.split()[1] for name, (tag, dimension) in mesh.field_data.items()}
     for fact, kind, dimension in (("regions", "triangle", 2), ("markers", "line", 1)):
