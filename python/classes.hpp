@@ -11,6 +11,7 @@ void add_load_class(pybind11::module_& module);
 void add_distributed(pybind11::module_& module);
 void add_simulated(pybind11::module_& module);
 void add_size_class(pybind11::module_& module);
+void add_decomposition_class(pybind11::module_& module);
 void add_plot(pybind11::module_& module);
 void add_functions(pybind11::module_& module);
 

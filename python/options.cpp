@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "api/library_request.hpp"
+#include "decomposition_class.hpp"
 #include "job/keys.hpp"
 #include "policy.hpp"
 #include "size_class.hpp"
@@ -22,8 +23,8 @@ std::string section_of(const std::string& name) {
   return dot == std::string::npos ? "" : name.substr(0, dot);
 }
 
-/// The options that are functions, which no table of keys can hold.
-constexpr const char* kCallables[] = {"warning", "size", "progress", "balance.own"};
+/// The options that are functions or objects, which no table of keys can hold.
+constexpr const char* kCallables[] = {"warning", "size", "progress", "subdomains.given", "balance.own"};
 
 std::vector<std::string> names_of_options() {
   std::vector<std::string> names(std::begin(kCallables), std::end(kCallables));
@@ -100,6 +101,7 @@ constexpr const char* kCallableLines =
     "notebook.\n"
     "    warning (callable): warning(text) is called for what the author of the input may not have meant; by default,\n"
     "        Python's warnings.warn with InputWarning.\n"
+    "    subdomains.given (Decomposition): from cut_domain(), instead of a number of subdomains.\n"
     "    balance.own (object or callable): a policy, see simulate().\n";
 
 }  // namespace
@@ -128,6 +130,10 @@ void Options::take_callables(Given& given) {
     values_.size = [this](const Point& p) {
       return callbacks_.ask([&] { return number_from("what size returns", size_(p.x, p.y)); });
     };
+  if (const py::object cut = taken(given, "subdomains.given"); py::isinstance<CutDomain>(cut))
+    values_.subdomains.given = cut.cast<const CutDomain&>().decomposition;
+  else if (!cut.is_none())
+    refuse("subdomains.given", "a Decomposition", cut);
   if (const py::object own = taken(given, "balance.own"); !own.is_none())
     values_.balance.own = policy_from(own, callbacks_);
   values_.progress = [this](const Progress& now) { return callbacks_.goes_on(progress_, now); };

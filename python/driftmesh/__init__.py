@@ -14,16 +14,17 @@ import pathlib as _pathlib
 import tempfile as _tempfile
 
 from ._errors import Cancelled, Error, FileError, InputError, InputWarning, LimitError
-from ._native import (CheckReport, DistributedPiece, Load, Mesh, Progress, Pslg, SimulatedRun, SizeField, __version__, check, generate,
-                      generator_names, mesh, mesh_distributed, option_table, plot, read_mesh, read_poly, simulate,
-                      size_on_mesh, write_distributed)
+from ._native import (CheckReport, Decomposition, DistributedPiece, Load, Mesh, Progress, Pslg, SimulatedRun, SizeField,
+                      __version__, check, cut_domain, generate, generator_names, mesh, mesh_distributed, option_table,
+                      plot, read_decomposition, read_mesh, read_poly, simulate, size_on_mesh, write_distributed)
 from ._native import holds_input as _holds_input
 from ._progress import ProgressLine
 
-__all__ = ["Cancelled", "CheckReport", "DistributedPiece", "Error", "FileError", "InputError", "InputWarning", "LimitError",
-           "Load", "Mesh", "Progress", "ProgressLine", "Pslg", "SimulatedRun", "SizeField", "__version__", "check", "convert", "generate",
-           "generator_names", "mesh", "mesh_distributed", "option_table", "plot", "read", "read_mesh", "read_poly", "simulate", "size_on_mesh",
-           "write_distributed"]
+__all__ = ["Cancelled", "CheckReport", "Decomposition", "DistributedPiece", "Error", "FileError", "InputError",
+           "InputWarning", "LimitError", "Load", "Mesh", "Progress", "ProgressLine", "Pslg", "SimulatedRun",
+           "SizeField", "__version__", "check", "convert", "cut_domain", "generate", "generator_names", "mesh",
+           "mesh_distributed", "option_table", "plot", "read", "read_decomposition", "read_mesh", "read_poly",
+           "simulate", "size_on_mesh", "write_distributed"]
 
 
 def read(path):

@@ -12,7 +12,7 @@ from driftmesh import option_table
 # What tables of keys cannot hold: functions, and objects of the package.
 CALLABLES = {"warning": "Callable[[str], object]", "size": "Callable[[float, float], float]",
              "progress": "Callable[[Progress], bool | None] | bool",
-             "balance.own": "Policy | Plan"}
+             "subdomains.given": "Decomposition", "balance.own": "Policy | Plan"}
 
 
 def kind_of(option):

@@ -39,6 +39,19 @@ class Files(unittest.TestCase):
         (self.folder / "plate.ele").unlink()
         self.assertIsInstance(driftmesh.read(self.folder / "plate.node"), driftmesh.Pslg)
 
+    def test_decompositions(self):
+        cut = driftmesh.cut_domain(PLATE, 2, max_area=1e-3, subdomains={"count": 6})
+        self.assertEqual(len(cut), 6)
+        cut.write(PLATE, self.folder / "plate.cut")
+        again = driftmesh.read_decomposition(self.folder / "plate.cut", PLATE)
+        one, other = (driftmesh.mesh(PLATE, max_area=1e-3, subdomains={"given": given}) for given in (cut, again))
+        self.assertEqual(set(one.subdomains), set(range(6)))
+        np.testing.assert_array_equal(one.triangles, other.triangles)
+        with self.assertRaises(driftmesh.InputError):
+            driftmesh.read_decomposition(self.folder / "plate.cut", driftmesh.generate("fan"))
+        with self.assertRaisesRegex(TypeError, "Decomposition"):
+            driftmesh.mesh(PLATE, subdomains={"given": 6})
+
     def test_convert(self):
         mesh = driftmesh.mesh(PLATE)
         mesh.write(self.folder / "plate.vtu")
