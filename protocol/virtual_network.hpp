@@ -23,11 +23,11 @@ struct Link {
 /// pays the overhead again.
 struct VirtualCluster {
   IdVector<Rank, double> speeds;                 ///< of each rank, relative to the reference machine
-  IdVector<Rank, SpeedSchedule> schedules{};     ///< how they change over time; empty: not at all
   std::function<Link(Rank from, Rank to)> link;  ///< Link{} between all, if empty; a rank reaches itself in no time
   double message_overhead = 1e-6;                ///< seconds of a rank's time for each message sent and each received
   double step_overhead = 1e-6;                   ///< seconds that the shortest step takes; above 0
   std::uint64_t step_limit = UINT64_MAX;
+  IdVector<Rank, SpeedSchedule> schedules{};  ///< how speeds change over time; empty: not at all
 };
 
 /// Ranks in one process and on one thread, each with a clock of its own that advances by what it spends and by waiting.

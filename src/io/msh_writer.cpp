@@ -135,6 +135,7 @@ struct Classification {
   std::vector<std::int32_t> surface_of_triangle;
   std::vector<std::int32_t> entity_of_node;           // curves, then surfaces
   std::vector<std::vector<std::int32_t>> boundaries;  // the curves at each surface
+  std::vector<std::array<std::int32_t, 2>> at_edges;  // triangles
 
  private:
   void classify_edges(const Mesh& mesh) {
@@ -179,7 +180,7 @@ struct Classification {
   void find_boundaries(const Mesh& mesh) {
     boundaries.resize(surfaces.size());
     std::set<std::pair<std::int32_t, std::int32_t>> seen;
-    const auto at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
+    at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
     for (std::size_t e = 0; e < at_edges.size(); ++e)
       for (std::int32_t triangle : at_edges[e]) {
         if (triangle < 0) continue;
@@ -341,12 +342,10 @@ void write_element_data(MshOutput& out, std::string_view name, const std::vector
   out.end("ElementData");
 }
 
-void write_views(MshOutput& out, const Mesh& mesh) {
+void write_views(MshOutput& out, const Mesh& mesh, const Classification& classes) {
   for (std::int32_t k = 0; k < mesh.attributes_per_point; ++k) write_attribute(out, mesh, k);
-  if (mesh.subdomains.empty() && mesh.ranks.empty()) return;
-  const auto at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
-  if (!mesh.subdomains.empty()) write_element_data(out, kSubdomainView, mesh.subdomains, at_edges);
-  if (!mesh.ranks.empty()) write_element_data(out, kRankView, mesh.ranks, at_edges);
+  if (!mesh.subdomains.empty()) write_element_data(out, kSubdomainView, mesh.subdomains, classes.at_edges);
+  if (!mesh.ranks.empty()) write_element_data(out, kRankView, mesh.ranks, classes.at_edges);
 }
 
 // As text even in a binary file: readers that do not know the section look for its end line by line.
@@ -375,7 +374,7 @@ void write_msh(const Mesh& mesh, const std::string& path, bool ascii) {
   write_entities(out, classes);
   write_nodes(out, mesh, classes);
   write_elements(out, mesh, classes);
-  write_views(out, mesh);
+  write_views(out, mesh, classes);
   if (!mesh.point_markers.empty()) write_point_markers(out.text(), mesh.point_markers);
   out.commit();
 }
