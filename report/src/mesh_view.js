@@ -74,7 +74,8 @@ void main() {
   vec3 change = fwidth(corner);
   vec3 near = smoothstep(vec3(0), change, corner);
   float edge = 1.0 - min(near.x, min(near.y, near.z));
-  float large = smoothstep(0.08, 0.25, 1.0 - max(change.x, max(change.y, change.z)) * 5.0);
+  float height = 1.0 / max(change.x, max(change.y, change.z));  // the triangle's least one, in pixels
+  float large = smoothstep(4.0, 16.0, height);
   made = vec4(mix(color.rgb, vec3(0.1), edge * large * 0.8), 1);
 }`;
 

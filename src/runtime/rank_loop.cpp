@@ -87,7 +87,8 @@ protocol::StepResult RankLoop::step() {
   charge(&RankTimes::idle);
   const bool heard = poll();
   charge(agenda_.empty() && !heard ? &RankTimes::idle : &RankTimes::polling);
-  const bool came_first = controller_ && controller_->pressing() && balance(worked_) && send();
+  const bool came_first = controller_ && controller_->pressing() && balance(worked_);
+  if (came_first && send()) charge(&RankTimes::sending);  // what it calls for goes out at once
   const bool worked = work();
   if (!worked && !heard && !out_.empty()) crew_->wait();
   charge(worked || !out_.empty() ? &RankTimes::computing : &RankTimes::idle);

@@ -723,6 +723,7 @@ class Experiments(Cli):
         "policies": ["bounds.triangles-per-rank=1e3", "decomposition.subdomains-per-rank=8"],
         "migration-stress": ["bounds.triangles=3e4", "cluster.scale=100", "decomposition.subdomains=[24, 120]",
                              "cluster.groups=[{ranks: 6, speed: 8e4}, {ranks: 6, speed: 1e4}]"],
+        "changing-speeds": ["bounds.triangles=1e4", "decomposition.subdomains-per-rank=4"],
         "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
     }
 
