@@ -108,7 +108,7 @@ async function checkReplay(page) {
 
 makeReport();
 const browser = await puppeteer.launch({ executablePath: browserPath, headless: true,
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
+  args: ["--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
 try {
   const page = await browser.newPage();
   await page.setViewport({ width: 1280, height: 1000 });
