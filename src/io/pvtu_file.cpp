@@ -6,13 +6,13 @@
 
 #include "base/file_identity.hpp"
 #include "base/read_file.hpp"
+#include "base/xml_text.hpp"
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/mesh_file.hpp"
 #include "io/pvtu_format.hpp"
 #include "io/read_checks.hpp"
 #include "io/xml_scanner.hpp"
-#include "io/xml_text.hpp"
 #include "mesh/merge_pieces.hpp"
 
 namespace driftmesh {

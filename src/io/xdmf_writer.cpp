@@ -1,8 +1,8 @@
 #include <filesystem>
 
+#include "base/xml_text.hpp"
 #include "io/file_sink.hpp"
 #include "io/hdf5_format.hpp"
-#include "io/xml_text.hpp"
 
 namespace driftmesh {
 namespace {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "base/xml_text.hpp"
 #include "driftmesh/error.hpp"
 #include "report/packed_text.hpp"
 
@@ -20,22 +21,6 @@ constexpr std::string_view kPlaceOfData = "<!-- data -->";
 
 std::string_view page() {
   return {driftmesh_report_page, static_cast<std::size_t>(driftmesh_report_page_end - driftmesh_report_page)};
-}
-
-/// For an attribute of HTML.
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '"')
-      safe += "&quot;";
-    else if (c == '<')
-      safe += "&lt;";
-    else
-      safe += c;
-  }
-  return safe;
 }
 
 void add_block(std::string& to, const std::string& attributes, const void* bytes, std::size_t count) {

@@ -1,4 +1,4 @@
-#include "io/xml_text.hpp"
+#include "base/xml_text.hpp"
 
 #include <string_view>
 #include <utility>
