@@ -33,7 +33,6 @@ class PlanningConduct {
   [[nodiscard]] bool plans() const { return knowledge_.has_value(); }
   void follow_advice(const Situation& situation, Loads& own, Decision& decision);
   void plan(const Situation& situation, Loads& own, Decision& decision);
-  [[nodiscard]] std::vector<Move> best_plan(const LoadSnapshot& snapshot) const;
   [[nodiscard]] std::vector<Move> worthwhile_plan(const LoadSnapshot& snapshot) const;
   void advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own, Decision& decision);
   void report(const Situation& situation, const Loads& own, Decision& decision);
