@@ -9,7 +9,7 @@
 
 namespace driftmesh::protocol {
 
-SpeedSchedule::SpeedSchedule(std::vector<SpeedChange> changes) {
+SpeedSchedule::SpeedSchedule(const std::vector<SpeedChange>& changes) {
   for (const SpeedChange& change : changes) {
     if (!(change.at >= 0) || !std::isfinite(change.at) || !(change.factor >= 0) || !std::isfinite(change.factor))
       throw Error("speeds change at finite times from 0 on, to finite factors from 0 on, not at " +

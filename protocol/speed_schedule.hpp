@@ -16,7 +16,7 @@ class SpeedSchedule {
   SpeedSchedule() = default;
   /// Throws Error unless times ascend from 0 on, factors are finite and not negative, and the last one is above 0, so
   /// that all work ends.
-  explicit SpeedSchedule(std::vector<SpeedChange> changes);
+  explicit SpeedSchedule(const std::vector<SpeedChange>& changes);
 
   /// When work that begins at `start` is done, if it takes `seconds` at full speed.
   [[nodiscard]] double end_of(double start, double seconds) const;

@@ -27,7 +27,8 @@ sources() {
   python3 -c '
 import json, re, sys
 for entry in json.load(open(sys.argv[1])):
-    if re.search(r"-o \S*CMakeFiles/(dm_|driftmesh\.dir)", entry["command"]): print(entry["file"])' "$database"
+    if re.search(r"-o \S*CMakeFiles/(dm_|driftmesh\.dir)", entry["command"]) and not entry["file"].endswith(".S"):
+        print(entry["file"])' "$database"
 }
 
 result=0

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "driftmesh/error.hpp"
 
@@ -59,7 +58,7 @@ IdVector<Rank, protocol::SpeedSchedule> schedules_of(const ClusterSpec& cluster)
       changes[Rank{r}].push_back({change.at, change.factor});
   }
   IdVector<Rank, protocol::SpeedSchedule> schedules;
-  for (std::vector<protocol::SpeedChange>& of_rank : changes) schedules.emplace_back(std::move(of_rank));
+  for (const std::vector<protocol::SpeedChange>& of_rank : changes) schedules.emplace_back(of_rank);
   return schedules;
 }
 
