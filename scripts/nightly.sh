@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# The tests of threads under the thread sanitizer, 100,000 mutated files, read under the other sanitizers by
-# driftmesh-mutants, and a million adversarial schedules of real meshing with driftmesh-sim, on all cores: prints the failing
-# seeds, and totals. The exit code is 0 if none fails.
+# The tests of threads under the thread sanitizer, the property tests with new seeds, 100,000 mutated files, read under the
+# other sanitizers by driftmesh-mutants, and a million adversarial schedules of real meshing with driftmesh-sim, on all
+# cores: prints the failing seeds, and totals. The exit code is 0 if none fails.
 #   scripts/nightly.sh [--mutants FIRST..LAST] [--seeds FIRST..LAST]      which mutants, and which schedules; 0..0: none
+#                      [--properties N]                                   so many runs of the property tests (20; 0: none)
 #                      [--no-threads]                                     without the thread sanitizer
 #                      [--mutants-program PATH] [--program PATH]          without a build first
 set -euo pipefail
@@ -15,11 +16,17 @@ mutants=1..100000
 program=
 mutants_program=
 threads=yes
+properties=20
 while [[ $# -gt 0 ]]; do
   case "$1" in
     --seeds | --mutants)
       [[ ${2-} =~ ^([0-9]+)\.\.([0-9]+)$ ]] || { echo "nightly.sh: $1 must be FIRST..LAST, such as 1..5000" >&2; exit 2; }
       if [[ $1 == --mutants ]]; then mutants=$2; else first=${BASH_REMATCH[1]} last=${BASH_REMATCH[2]}; fi
+      shift
+      ;;
+    --properties)
+      [[ ${2-} =~ ^[0-9]+$ ]] || { echo "nightly.sh: --properties must be a number of runs" >&2; exit 2; }
+      properties=$2
       shift
       ;;
     --no-threads) threads=no ;;
@@ -32,7 +39,7 @@ while [[ $# -gt 0 ]]; do
       shift
       ;;
     -h | --help)
-      sed -n '2,7s/^# \{0,1\}//p' "$0"
+      sed -n '2,8s/^# \{0,1\}//p' "$0"
       exit 0
       ;;
     *)
@@ -49,6 +56,11 @@ if [[ $threads == yes ]]; then
   say "Threads under the thread sanitizer"
   # Without random addresses, which some kernels spread beyond what the sanitizer expects.
   DRIFTMESH_CASES=300 setarch -R ctest --preset tsan || result=1
+fi
+if [[ $properties -gt 0 ]]; then
+  cmake --preset release -Wno-dev && cmake --build --preset release -j "$jobs"
+  say "Property tests with new seeds, $properties runs of each"
+  DRIFTMESH_SEED=random ctest --preset release -L property -j "$jobs" --repeat "until-fail:$properties" || result=1
 fi
 if [[ $mutants != 0..0 ]]; then
   if [[ -z $mutants_program ]]; then
