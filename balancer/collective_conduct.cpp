@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "balancer/deliberation.hpp"
+
 namespace driftmesh::balancer {
 
 CollectiveConduct::CollectiveConduct(Rank self, std::shared_ptr<const Layout> layout, const ControllerOptions& options,
@@ -121,6 +123,13 @@ void CollectiveConduct::decide(const Situation& situation, Decision& decision) {
   for (; early_ > 0 && !promises_.empty(); --early_) keep_promise();
   early_ = 0;
   changed_ = changed_ || !decision.moves.empty() || decided.coming.count > 0;
+  if (is_logged()) {
+    Deliberation plan{.subject = Deliberation::Subject::kPlan,
+                      .verdict = decided.any_moves ? Verdict::kDone : Verdict::kSmallSaving};
+    for (const Move& move : decision.moves)
+      plan.moves.push_back({move.subdomain, self_, move.destination, Verdict::kDone});
+    if (leads() || !plan.moves.empty()) note(std::move(plan));
+  }
   if (!leads()) return;
   news_->assume(decided.states, situation.now);
   pace_.planned(situation.now, decided.any_moves);

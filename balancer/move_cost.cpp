@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "balancer/deliberation.hpp"
 #include "balancer/effort.hpp"
 #include "protocol/messages.hpp"
 
@@ -30,22 +31,23 @@ class Selection {
   }
 
   void consider(std::span<const Move> moves) {
-    for (const Move& move : moves) consider(move);
+    for (const Move& move : moves) static_cast<void>(consider(move));
   }
 
-  void consider(const Move& move) {
+  Verdict consider(const Move& move) {
     const SubdomainLoad* const s = find(snapshot_, move.subdomain);
-    const bool possible =
-        s && !s->fixed && speeds_.has(move.destination) && move.destination != s->owner && !taken_twice(move.subdomain);
-    if (!possible) return;
+    if (!s || !speeds_.has(move.destination) || move.destination == s->owner) return Verdict::kInvalid;
+    if (s->fixed) return Verdict::kFixed;
+    if (taken_twice(move.subdomain)) return Verdict::kInvalid;
     const double giver_speed = speeds_[s->owner], taker_speed = speeds_[move.destination];
     const double giving = cost_.for_giver(s->bytes, giver_speed), taking = cost_.for_taker(s->bytes, taker_speed);
     const double saved = s->remaining / giver_speed - giving;
     const double received = s->remaining / taker_speed + taking;
-    if (saved <= 0) return;
+    if (saved <= 0) return Verdict::kCostsMore;
     candidates_.push_back({move, s->owner, saved, received, (giving + taking) / s->remaining, true});
     times_[s->owner] -= saved;
     times_[move.destination] += received;
+    return Verdict::kDone;
   }
 
   [[nodiscard]] double finish() const { return times_.empty() ? 0 : *std::max_element(times_.begin(), times_.end()); }
@@ -74,6 +76,13 @@ class Selection {
     return moves;
   }
 
+  [[nodiscard]] std::vector<JudgedMove> judged() const {
+    std::vector<JudgedMove> moves;
+    for (const Candidate& c : candidates_)
+      moves.push_back({c.move.subdomain, c.from, c.move.destination, c.kept ? Verdict::kDone : Verdict::kNeedless});
+    return moves;
+  }
+
  private:
   bool taken_twice(SubdomainId id) {
     const auto place = std::lower_bound(taken_.begin(), taken_.end(), id);
@@ -90,14 +99,18 @@ class Selection {
   std::vector<SubdomainId> taken_;  // ascending
 };
 
-// Only subdomains that fit in one message.
-std::vector<Move> those_that_fit(const LoadSnapshot& snapshot, std::span<const Move> moves) {
-  std::vector<Move> fit;
-  std::copy_if(moves.begin(), moves.end(), std::back_inserter(fit), [&](const Move& move) {
+/// Considers only subdomains that fit in one message; returns the moves that are out of the question, and why.
+std::vector<JudgedMove> consider_those_that_fit(Selection& selection, const LoadSnapshot& snapshot,
+                                                std::span<const Move> moves) {
+  std::vector<JudgedMove> out;
+  for (const Move& move : moves) {
     const SubdomainLoad* const s = find(snapshot, move.subdomain);
-    return s && s->bytes <= protocol::kMostPackedBytes;
-  });
-  return fit;
+    const bool fits = s == nullptr || s->bytes <= protocol::kMostPackedBytes;
+    const Verdict verdict = fits ? selection.consider(move) : Verdict::kTooLarge;
+    if (verdict != Verdict::kDone)
+      out.push_back({move.subdomain, s == nullptr ? move.destination : s->owner, move.destination, verdict});
+  }
+  return out;
 }
 
 }  // namespace
@@ -129,9 +142,20 @@ double gain_beyond(double noise, double apparent) {
 }
 
 bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning) {
-  const double last = finishing_time(snapshot);
-  const double gain = gain_beyond(noise_of(snapshot), last - ideal_time(snapshot));
-  return gain > worth.gain * last && gain > worth.seconds && gain > cost_of_planning;
+  const double last = finishing_time(snapshot), ideal = ideal_time(snapshot), noise = noise_of(snapshot);
+  const double gain = gain_beyond(noise, last - ideal);
+  const Verdict verdict = gain <= 0                                            ? Verdict::kEven
+                          : gain <= worth.gain * last || gain <= worth.seconds ? Verdict::kSmallGain
+                          : gain <= cost_of_planning                           ? Verdict::kCostlyPlanning
+                                                                               : Verdict::kDone;
+  if (is_logged())
+    note({.verdict = verdict,
+          .finish = last,
+          .ideal = ideal,
+          .noise = noise,
+          .saves = gain,
+          .loads = known_loads(snapshot)});
+  return verdict == Verdict::kDone;
 }
 
 std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost,
@@ -139,12 +163,19 @@ std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Mov
   note_effort("weigh", static_cast<double>(moves.size()));
   Selection selection(snapshot, cost);
   const double before = selection.finish();
-  selection.consider(those_that_fit(snapshot, moves));
+  const std::vector<JudgedMove> out = consider_those_that_fit(selection, snapshot, moves);
   if (kept == Kept::kNeeded)
     selection.drop_needless(std::max(selection.finish(), ideal_time(snapshot) * (1 + worth.slack)));
   const double saved = gain_beyond(noise_of(snapshot), before - selection.finish());
-  if (saved <= 0 || saved < worth.gain * before || saved < worth.seconds) return {};
-  return selection.kept();
+  const Verdict verdict = moves.empty()                                                        ? Verdict::kNoMoves
+                          : saved <= 0 || saved < worth.gain * before || saved < worth.seconds ? Verdict::kSmallSaving
+                                                                                               : Verdict::kDone;
+  if (is_logged()) {
+    Deliberation plan{.subject = Deliberation::Subject::kPlan, .verdict = verdict, .saves = saved, .moves = out};
+    for (const JudgedMove& move : selection.judged()) plan.moves.push_back(move);
+    note(std::move(plan));
+  }
+  return verdict == Verdict::kDone ? selection.kept() : std::vector<Move>{};
 }
 
 IdVector<Rank, double> finishing_times(const LoadSnapshot& snapshot, std::span<const Move> moves,

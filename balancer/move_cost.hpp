@@ -40,7 +40,7 @@ struct Worth {
 [[nodiscard]] double gain_beyond(double noise, double apparent);
 
 /// Whether planning is worthwhile at all: the possible gain, beyond noise, exceeds both the required one and the time
-/// that planning takes, in seconds.
+/// that planning takes, in seconds. It and worth_moving() note what they find (see Deliberation).
 [[nodiscard]] bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning);
 
 /// Whether a plan may be reduced to the moves that it needs.

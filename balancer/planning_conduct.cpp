@@ -62,17 +62,24 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
   for (const Plan& plan : std::exchange(advised_, {})) {
     plan_seen_ = std::max(plan_seen_, plan.round);
     acted_ = true;
+    Deliberation followed{.subject = Deliberation::Subject::kAdvice};
     for (const Move& move : plan.moves) {
-      const auto load =
-          std::find_if(own.begin(), own.end(), [&](const auto& l) { return l.subdomain == move.subdomain; });
-      if (load == own.end() || move.destination == self_) continue;
-      if (situation.speed > 0 &&
-          load->remaining / situation.speed <= options_.cost.for_giver(load->bytes, situation.speed))
-        continue;
-      decision.moves.push_back({move.subdomain, move.destination});
-      own.erase(load);
+      const Verdict verdict = judge(move, situation, own);
+      followed.moves.push_back({move.subdomain, self_, move.destination, verdict});
+      if (verdict == Verdict::kDone && remove(own, move.subdomain)) decision.moves.push_back(move);
     }
+    note(std::move(followed));
   }
+}
+
+/// Whether a move that is advised still makes sense.
+Verdict PlanningConduct::judge(const Move& move, const Situation& situation, const Loads& own) const {
+  const auto load = std::ranges::find(own, move.subdomain, &ReportedLoad::subdomain);
+  if (load == own.end()) return Verdict::kGone;
+  if (move.destination == self_) return Verdict::kInvalid;
+  const bool nearly_done =
+      situation.speed > 0 && load->remaining / situation.speed <= options_.cost.for_giver(load->bytes, situation.speed);
+  return nearly_done ? Verdict::kCostsMore : Verdict::kDone;
 }
 
 void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& decision) {
@@ -114,7 +121,9 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot)
   const auto finish = [&](const std::vector<Move>& moves) {
     return std::ranges::max(finishing_times(snapshot, moves, options_.cost));
   };
-  return finish(whole) <= finish(few) + options_.worth.gain * ideal_time(snapshot) ? whole : few;
+  const bool takes_whole = finish(whole) <= finish(few) + options_.worth.gain * ideal_time(snapshot);
+  overrule(takes_whole ? 0 : 1);
+  return takes_whole ? whole : few;
 }
 
 void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own,

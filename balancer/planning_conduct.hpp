@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "balancer/conduct.hpp"
+#include "balancer/deliberation.hpp"
 #include "balancer/knowledge.hpp"
 #include "balancer/planning_pace.hpp"
 #include "balancer/report_rule.hpp"
@@ -32,6 +33,7 @@ class PlanningConduct {
 
   [[nodiscard]] bool plans() const { return knowledge_.has_value(); }
   void follow_advice(const Situation& situation, Loads& own, Decision& decision);
+  [[nodiscard]] Verdict judge(const Move& move, const Situation& situation, const Loads& own) const;
   void plan(const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] std::vector<Move> worthwhile_plan(const LoadSnapshot& snapshot) const;
   void advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own, Decision& decision);

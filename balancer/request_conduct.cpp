@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "balancer/deliberation.hpp"
+
 namespace driftmesh::balancer {
 namespace {
 
@@ -164,6 +166,11 @@ bool RequestConduct::pass_on(WorkRequest request, const Situation& situation, Lo
   snapshot.ranks[request.thief] = {request.speed, request.remaining, request.doubt};
   const IdVector<Rank, bool> able = news_->able(snapshot.ranks);
   const auto victim = policy_->victim(snapshot, request.thief, able);
+  if (is_logged())
+    note({.subject = Deliberation::Subject::kRequest,
+          .verdict = victim ? Verdict::kDone : Verdict::kNoGiver,
+          .thief = request.thief,
+          .giver = victim.value_or(request.thief)});
   if (!victim) return false;
   request.rivals = rivals(snapshot.ranks, able);
   hungry_.erase(request.thief);

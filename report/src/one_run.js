@@ -1,6 +1,6 @@
 import { draw } from "./charts.js";
 import { element, number, section } from "./elements.js";
-import { busyIntervals, loadOverTime, movesOf, secondsOf } from "./runs.js";
+import { busyIntervals, loadOverTime, movesOf, plansOf, secondsOf } from "./runs.js";
 
 const facts = (record) => {
   const { input = {}, mesh = {}, work = {}, parts = {}, cluster } = record;
@@ -24,8 +24,10 @@ const rankAxis = { title: "rank", type: "ordinal", axis: { labelOverlap: true, t
 function timeline(record, trace) {
   const busy = busyIntervals(trace);
   const moves = movesOf(record);
+  const plans = plansOf(trace);
   const ranks = new Set(busy.map((b) => b.rank));
-  const made = section("Timeline", "Blue: the rank refines. Orange: a subdomain moves, from the rank that it leaves to the one that gets it.");
+  const made = section("Timeline", "Blue: the rank refines. Orange: a subdomain moves, from the rank that it leaves to the one that gets it."
+    + (plans.length > 0 ? " Triangles: a plan is made or followed; crosses: one is rejected." : ""));
   const place = element("div", { class: "chart", id: "timeline" });
   made.append(place);
   const seconds = (field) => ({ field, type: "quantitative", title: "seconds" });
@@ -33,7 +35,10 @@ function timeline(record, trace) {
     { data: { values: busy }, mark: { type: "rect", color: "#0072b2", tooltip: { content: "data" } },
       encoding: { y: { field: "rank", ...rankAxis }, x: seconds("start"), x2: { field: "stop" } } },
     ...(moves.length === 0 ? [] : [{ data: { values: moves }, mark: { type: "rule", color: "#e69f00", opacity: 0.7, tooltip: { content: "data" } },
-      encoding: { y: { field: "from", ...rankAxis }, y2: { field: "to" }, x: seconds("left"), x2: { field: "arrived" } } }])] });
+      encoding: { y: { field: "from", ...rankAxis }, y2: { field: "to" }, x: seconds("left"), x2: { field: "arrived" } } }]),
+    ...(plans.length === 0 ? [] : [{ data: { values: plans }, mark: { type: "point", color: "#000000", size: 40, tooltip: { content: "data" } },
+      encoding: { y: { field: "rank", ...rankAxis }, x: seconds("time"), shape: { field: "plan", type: "nominal",
+        legend: null, scale: { domain: ["made", "rejected"], range: ["triangle-up", "cross"] } } } }])] });
   return made;
 }
 

@@ -57,6 +57,14 @@ export function busyIntervals(trace) {
   return intervals.map((i) => ({ ...i, start: i.start / 1e6, stop: i.stop / 1e6 }));
 }
 
+/** Plans and rejections with their moments: {rank, time, what, plan, moves}. A look that finds the load even is none. */
+export function plansOf(trace) {
+  return (trace?.traceEvents ?? []).filter((e) => e.ph === "i" && e.cat === "balance" && /^(plan|advice):/.test(e.name))
+    .map(({ tid, ts, name, args }) => ({ rank: tid, time: ts / 1e6, what: name,
+      plan: args.verdict === "done" ? "made" : "rejected", moves: args.moves.filter((m) => m.verdict === "done").length }))
+    .filter(({ what }) => what !== "plan: no moves");
+}
+
 /** What is left to do on the ranks over time: {time, least, mean, most} at `samples` times. */
 export function loadOverTime(trace, samples = 200) {
   const byRank = new Map();

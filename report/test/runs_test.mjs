@@ -19,6 +19,16 @@ test("slices join where the gap between them cannot be seen, on one rank", () =>
   assert.deepEqual(runs.busyIntervals(null), []);
 });
 
+test("plans are told from looks, and what was made from what was rejected", () => {
+  const noted = (name, verdict, moves) => ({ ph: "i", cat: "balance", name: `${name}: ${verdict}`, tid: 3, ts: 5e5, args: { verdict, moves } });
+  const moves = [{ verdict: "done" }, { verdict: "needless" }];
+  const trace = { traceEvents: [slice(0, 0, 1, 1), noted("load", "even"), noted("plan", "no moves", []), noted("plan", "done", moves),
+    noted("plan", "small saving", moves), noted("advice", "done", moves)] };
+  assert.deepEqual(runs.plansOf(trace).map((p) => [p.rank, p.time, p.plan, p.moves]),
+    [[3, 0.5, "made", 1], [3, 0.5, "rejected", 1], [3, 0.5, "made", 1]]);
+  assert.deepEqual(runs.plansOf(null), []);
+});
+
 test("what is left over time is that of each rank's last slice", () => {
   const trace = { traceEvents: [slice(0, 0, 50, 10), slice(0, 50, 50, 0), slice(1, 0, 100, 4)] };
   const load = runs.loadOverTime(trace, 2);

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "app/chrome_trace.hpp"
 #include "app/commands.hpp"
+#include "app/decision_log.hpp"
 #include "app/experiment_pictures.hpp"
 #include "app/experiment_run.hpp"
 #include "app/experiment_table.hpp"
@@ -41,7 +43,7 @@ struct RunCommand {
 
 // In the folder of the results; endings follow the name of a run.
 constexpr const char *kExperimentFile = "experiment.yaml", *kTableFile = "table.csv", *kRecordEnding = ".json",
-                     *kStatisticsEnding = ".lb-stats";
+                     *kDecisionsEnding = ".decisions.jsonl", *kStatisticsEnding = ".lb-stats";
 
 std::string statistics_file(std::int32_t rank) {
   return fmt::format("data.{}.json", rank);
@@ -126,6 +128,7 @@ class Runner {
     for (std::size_t i = 0; i < runs(); ++i) {
       const std::string name = name_of(i);
       writes(name + kRecordEnding);
+      writes(name + kDecisionsEnding);
       writes(name + kTraceEnding);
       for (const std::string& picture : pictures_of_run(name)) writes(picture);
       for (std::int32_t r = 0; r < ranks_of_statistics(point_of(i).request); ++r)
@@ -157,9 +160,10 @@ class Runner {
     make_run(run, cluster_, view_);
     StagedFiles files;
     write_file(folder_ / (name + kRecordEnding), experiment_record(run));
+    write_file(folder_ / (name + kDecisionsEnding), decision_lines(run.outcome));
     if (run.request.pictures) {
       draw_run(run, folder_.string());
-      write_file(folder_ / (name + kTraceEnding), chrome_trace(run));
+      write_file(folder_ / (name + kTraceEnding), chrome_trace(run.outcome));
     }
     if (run.request.lb_phases > 0) write_lb_statistics(run, folder_ / (name + kStatisticsEnding));
     table_.add(run);

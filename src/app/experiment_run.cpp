@@ -115,43 +115,6 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   run.plan.bounds.size = nullptr;
 }
 
-std::string chrome_trace(const ExperimentRun& run) {
-  constexpr double kMicro = 1e6;
-  Json events = Json::array();
-  for (std::size_t r = 0; r < run.outcome.ranks.size(); ++r)
-    events.push_back({{"ph", "M"},
-                      {"name", "thread_name"},
-                      {"pid", 0},
-                      {"tid", r},
-                      {"args", {{"name", "rank " + std::to_string(r)}}}});
-  for (const LoadSample& s : run.outcome.samples)
-    if (s.worked > 0)
-      events.push_back({{"ph", "X"},
-                        {"name", "refine"},
-                        {"pid", 0},
-                        {"tid", s.rank},
-                        {"ts", kMicro * (s.time - s.worked)},
-                        {"dur", kMicro * s.worked},
-                        {"args", {{"triangles", s.triangles}, {"to_be_made", s.remaining}}}});
-  // A move is two events, which need a duration to be visible, and an arrow between them.
-  for (std::size_t i = 0; i < run.outcome.moves.size(); ++i) {
-    const MoveRecord& m = run.outcome.moves[i];
-    const std::string name = "subdomain " + to_string(m.subdomain);
-    for (const bool leaves : {true, false}) {
-      const Json at = {{"pid", 0}, {"tid", leaves ? m.from : m.to}, {"ts", kMicro * (leaves ? m.left : m.arrived)}};
-      Json moment = {{"ph", "X"}, {"name", name + (leaves ? " leaves" : " arrives")}, {"dur", 1}};
-      moment["args"] = {{"bytes", m.bytes}};
-      Json arrow = {{"ph", leaves ? "s" : "f"}, {"name", "move"}, {"cat", "move"}, {"id", i}};
-      if (!leaves) arrow["bp"] = "e";
-      moment.update(at);
-      arrow.update(at);
-      events.push_back(std::move(moment));
-      events.push_back(std::move(arrow));
-    }
-  }
-  return json_text(Json({{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}}), -1);
-}
-
 std::string experiment_record(const ExperimentRun& run) {
   Json record = Json::parse(summary_json(run.record));
   Json swept = Json::object();

@@ -31,9 +31,6 @@ struct ExperimentRun {
 /// in virtual time.
 void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch);
 
-/// The slices of work of all ranks and the moves between them, as a Chrome trace, which https://ui.perfetto.dev opens.
-[[nodiscard]] std::string chrome_trace(const ExperimentRun& run);
-
 /// Everything about a run, for programs: the record of `driftmesh mesh --json` with the experiment and its outcome.
 [[nodiscard]] std::string experiment_record(const ExperimentRun& run);
 

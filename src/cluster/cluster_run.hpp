@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "balancer/deliberation.hpp"
 #include "driftmesh/ids.hpp"
 #include "protocol/speed_schedule.hpp"
 #include "runtime/rank_outcome.hpp"
@@ -40,10 +41,11 @@ struct ClusterRun {
   double makespan = 0;  ///< seconds from the start until the last rank knows that all work is done
   double cutting = 0;   ///< seconds before the start, in which rank 0 cuts the domain; only known of simulated clusters
   IdVector<Rank, RankOutcome> ranks;
-  std::vector<MoveRecord> moves;       ///< in order of departure
-  std::vector<LoadSample> samples;     ///< in the order of time
-  std::vector<SplitRecord> splits;     ///< in the order of time
-  IdVector<SubdomainId, Rank> owners;  ///< at the end
+  std::vector<MoveRecord> moves;                      ///< in order of departure
+  std::vector<LoadSample> samples;                    ///< in the order of time
+  std::vector<SplitRecord> splits;                    ///< in the order of time
+  std::vector<balancer::Deliberation> deliberations;  ///< in the order of time
+  IdVector<SubdomainId, Rank> owners;                 ///< at the end
 
   [[nodiscard]] std::int64_t triangles() const;
   [[nodiscard]] std::uint64_t messages() const;       ///< of all ranks, termination included

@@ -12,6 +12,26 @@ double remaining_on(const RankLoop& loop) {
   return remaining;
 }
 
+void write_deliberation(ByteWriter& writer, const balancer::Deliberation& d) {
+  writer.value(d.subject);
+  writer.value(d.verdict);
+  for (const double value : {d.time, d.finish, d.ideal, d.noise, d.saves}) writer.value(value);
+  for (const Rank rank : {d.rank, d.thief, d.giver}) writer.value(rank);
+  writer.array(d.loads);
+  writer.array(d.moves);
+}
+
+balancer::Deliberation read_deliberation(ByteReader& reader) {
+  balancer::Deliberation d;
+  reader.value(d.subject);
+  reader.value(d.verdict);
+  for (double* value : {&d.time, &d.finish, &d.ideal, &d.noise, &d.saves}) reader.value(*value);
+  for (Rank* rank : {&d.rank, &d.thief, &d.giver}) reader.value(*rank);
+  reader.array(d.loads);
+  reader.array(d.moves);
+  return d;
+}
+
 template <class Record>
 void sort_by_time(std::vector<Record>& records, double Record::*time) {
   std::stable_sort(records.begin(), records.end(), [=](const Record& a, const Record& b) { return a.*time < b.*time; });
@@ -49,6 +69,14 @@ void RankLog::arrives(const RankLoop& loop, const RankLoop::Passage& passage) {
   sample(loop, 0, kNoSubdomain);
 }
 
+void RankLog::deliberated(std::vector<balancer::Deliberation> considered) {
+  for (balancer::Deliberation& d : considered) {
+    d.time = now();
+    d.rank = transport_->rank();
+    deliberations_.push_back(std::move(d));
+  }
+}
+
 void RankLog::ends(const RankLoop& loop) {
   end_ = now();
   outcome_ = loop.outcome();
@@ -60,6 +88,8 @@ void RankLog::write(ByteWriter& writer) const {
   writer.value(outcome_);
   writer.array(samples_);
   writer.array(splits_);
+  writer.number(std::uint64_t{deliberations_.size()});
+  for (const balancer::Deliberation& d : deliberations_) write_deliberation(writer, d);
   writer.array(departures_);
   writer.array(arrivals_);
   writer.array(held_);
@@ -71,6 +101,8 @@ RankLog RankLog::read(ByteReader& reader) {
   reader.value(log.outcome_);
   reader.array(log.samples_);
   reader.array(log.splits_);
+  for (auto left = reader.number<std::uint64_t>(); left > 0; --left)
+    log.deliberations_.push_back(read_deliberation(reader));
   reader.array(log.departures_);
   reader.array(log.arrivals_);
   reader.array(log.held_);
@@ -86,6 +118,7 @@ ClusterRun RankLog::join(const IdVector<Rank, RankLog>& logs) {
     run.ranks.push_back(log.outcome_);
     run.samples.insert(run.samples.end(), log.samples_.begin(), log.samples_.end());
     run.splits.insert(run.splits.end(), log.splits_.begin(), log.splits_.end());
+    run.deliberations.insert(run.deliberations.end(), log.deliberations_.begin(), log.deliberations_.end());
     for (const Passage& arrival : log.arrivals_) arrived[{arrival.subdomain, arrival.epoch}] = arrival.time;
     subdomains += log.held_.size();
   }
@@ -98,6 +131,7 @@ ClusterRun RankLog::join(const IdVector<Rank, RankLog>& logs) {
   sort_by_time(run.moves, &MoveRecord::left);
   sort_by_time(run.samples, &LoadSample::time);
   sort_by_time(run.splits, &SplitRecord::time);
+  sort_by_time(run.deliberations, &balancer::Deliberation::time);
   return run;
 }
 

@@ -25,6 +25,7 @@ class RankLog {
   void worked(const RankLoop& loop, const RankLoop::Slice& slice, double seconds);
   void departs(const RankLoop& loop, const RankLoop::Passage& passage);
   void arrives(const RankLoop& loop, const RankLoop::Passage& passage);
+  void deliberated(std::vector<balancer::Deliberation> considered);
   void ends(const RankLoop& loop);
 
   void write(ByteWriter& writer) const;
@@ -51,6 +52,7 @@ class RankLog {
   RankOutcome outcome_;
   std::vector<LoadSample> samples_;
   std::vector<SplitRecord> splits_;
+  std::vector<balancer::Deliberation> deliberations_;
   std::vector<Passage> departures_, arrivals_;
   std::vector<SubdomainId> held_;             // at the end
   std::map<SubdomainId, std::int32_t> told_;  // points by neighbor, of the slice that is being written

@@ -114,6 +114,9 @@ RankLoop::Observers RankRun::observers(const RankHooks& hooks) {
     log_->departs(loop, passage);
   };
   observers.settled = [this](const RankLoop& loop, const RankLoop::Passage& passage) { log_->arrives(loop, passage); };
+  observers.deliberated = [this](std::vector<balancer::Deliberation> considered) {
+    log_->deliberated(std::move(considered));
+  };
   return observers;
 }
 

@@ -228,10 +228,13 @@ bool RankLoop::balance(bool worked) {
   transport_.spend(static_cast<double>(own.size()) * costs_.listed);
   own_failure_ = plan_.policy->placement() != balancer::Placement::kCollective;
   const balancer::EffortLog planning;
+  std::optional<balancer::DeliberationLog> considered;
+  if (observers_.deliberated) considered.emplace();
   balancer::Decision decision =
       controller_->think(clock_, own, speed_.value() * static_cast<double>(1 + (crew_ != nullptr ? crew_->size() : 0)),
                          experience_.doubt(own));
   own_failure_ = false;
+  if (considered) observers_.deliberated(considered->take());
   transport_.spend(costs_.planning.seconds(planning.efforts()));
   // Only what planning took: packing what it hands over does not make looking at loads more expensive.
   const double took = transport_.now() - start;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "balancer/controller.hpp"
+#include "balancer/deliberation.hpp"
 #include "balancer/experience.hpp"
 #include "balancer/speed_estimate.hpp"
 #include "migration/subdomain.hpp"
@@ -56,6 +57,8 @@ class RankLoop {
     std::function<void(const std::string&)> stalled;
     std::function<void(const RankLoop&, const Passage&)> handed_over;
     std::function<void(const RankLoop&, const Passage&)> settled;
+    /// What the balancer considered, and why it did what it did; without time and rank.
+    std::function<void(std::vector<balancer::Deliberation>)> deliberated;
   };
 
   /// One round of a run in rounds (threads/refinement_in_rounds.hpp): the loop continues with subdomains of earlier

@@ -806,11 +806,36 @@ class Experiments(Cli):
         trace = json.loads((self.folder / "results" / "run-1.trace.json").read_text())["traceEvents"]
         self.assertEqual(sum(event["ph"] == "s" for event in trace), len(moves))
         self.assertEqual(sum(event["ph"] == "f" for event in trace), len(moves))
+        self.assertTrue(any(event["ph"] == "i" and event["name"] == "plan: done" for event in trace))
         worked = sum(event["dur"] for event in trace if event["name"] == "refine")
         computing = sum(rank["seconds"]["computing"] for rank in record["parts"]["ranks"])
         self.assertAlmostEqual(worked / 1e6, computing, delta=0.01 * computing)
         for picture in ("moves", "owners-after"):
             self.assertTrue((self.folder / "results" / f"run-1-{picture}.png").exists())
+
+    def test_decisions_explain_each_move(self):
+        for policy in ("greedy", "zoltan", "diffusion", "stealing"):
+            self.run_config("two-speeds", "bounds.triangles-per-rank=2e5", f"balance.policy={policy}", folder=policy)
+            record = json.loads((self.folder / policy / "run-1.json").read_text())
+            lines = [json.loads(line) for line in (self.folder / policy / "run-1.decisions.jsonl").read_text().splitlines()]
+            self.assertEqual([line["time"] for line in lines], sorted(line["time"] for line in lines))
+            moved = [line for line in lines if line["what"] == "move"]
+            self.assertEqual([(m["subdomain"], m["rank"], m["to"], m["time"], m["arrived"]) for m in moved],
+                             [(m["subdomain"], m["from"], m["to"], m["left"], m["arrived"]) for m in record["cluster"]["moves"]])
+            self.assertGreater(len(moved), 0)
+            planned = set()  # what plans that were made wanted to move
+            for line in lines:
+                if line["what"] == "plan" and line["verdict"] == "done":
+                    planned |= {(m["subdomain"], m["from"], m["to"]) for m in line["moves"] if m["verdict"] == "done"}
+                elif line["what"] == "advice":
+                    for m in line["moves"]:
+                        self.assertIn((m["subdomain"], m["from"], m["to"]), planned)
+                elif line["what"] == "move":
+                    self.assertIn((line["subdomain"], line["rank"], line["to"]), planned)
+                elif line["what"] == "load":
+                    self.assertGreaterEqual(line["finish"], line["ideal"])
+                elif line["what"] == "request" and line["verdict"] == "done":
+                    self.assertNotEqual(line["thief"], line["giver"])
 
     def run_on_ranks(self, ranks, *settings, folder="results"):
         arguments = [word for setting in ("cluster.kind=real", *settings) for word in ("--set", setting)]

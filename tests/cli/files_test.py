@@ -112,7 +112,8 @@ class NothingReadIsOverwritten(Files):
         self.write("e.yaml", experiment)
         os.rename(self.folder / "square.poly", self.folder / "table.csv")
         self.write("square.node", BACKGROUND_NODES)
-        for name in ("table.csv", "run-1.json", "run-1-time.png", "run-1.trace.json", "run-1.lb-stats/data.1.json"):
+        for name in ("table.csv", "run-1.json", "run-1-time.png", "run-1.decisions.jsonl", "run-1.trace.json",
+                     "run-1.lb-stats/data.1.json"):
             (self.folder / "run-1.lb-stats").mkdir(exist_ok=True)
             self.write(name, SQUARE)
             self.refuse_and_touch_nothing("run", "e.yaml", "-o", ".", "--set", f"input.file={name}",

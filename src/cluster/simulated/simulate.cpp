@@ -68,6 +68,9 @@ class Simulation {
         log.arrives(loop, passage);
         count(r, loop.triangles());
       };
+      watch.deliberated = [&log](std::vector<balancer::Deliberation> considered) {
+        log.deliberated(std::move(considered));
+      };
       loops_.push_back(std::make_unique<RankLoop>(network_.transport(r), plan, scaled(costs, cluster.scale),
                                                   std::move(watch), council_.get()));
       log.begins(*loops_.back());
