@@ -36,7 +36,7 @@ function timeline(record, trace) {
       encoding: { y: { field: "rank", ...rankAxis }, x: seconds("start"), x2: { field: "stop" } } },
     ...(moves.length === 0 ? [] : [{ data: { values: moves }, mark: { type: "rule", color: "#e69f00", opacity: 0.7, tooltip: { content: "data" } },
       encoding: { y: { field: "from", ...rankAxis }, y2: { field: "to" }, x: seconds("left"), x2: { field: "arrived" } } }]),
-    ...(plans.length === 0 ? [] : [{ data: { values: plans }, mark: { type: "point", color: "#000000", size: 40, tooltip: { content: "data" } },
+    ...(plans.length === 0 ? [] : [{ data: { values: plans }, mark: { type: "point", fill: "#ffffff", stroke: "#000000", size: 40, tooltip: { content: "data" } },
       encoding: { y: { field: "rank", ...rankAxis }, x: seconds("time"), shape: { field: "plan", type: "nominal",
         legend: null, scale: { domain: ["made", "rejected"], range: ["triangle-up", "cross"] } } } }])] });
   return made;
