@@ -24,6 +24,7 @@ void fields(auto& archive, MessageOf<LoadReport> auto& m) {
   archive.amount(m.speed);
   archive.amount(m.doubt);
   archive.amount(m.unlisted);
+  archive.amount(m.free_memory);
   archive.list(m.loads, kReportedLoadBytes, [](auto& a, auto& load) { fields(a, load); });
 }
 void fields(auto& archive, MessageOf<Move> auto& m) {
@@ -40,6 +41,7 @@ void fields(auto& archive, MessageOf<LoadNews> auto& m) {
   archive.amount(m.spare);
   archive.amount(m.speed);
   archive.amount(m.doubt);
+  archive.amount(m.free_memory);
 }
 void fields(auto& archive, MessageOf<WorkRequest> auto& m) {
   archive.rank(m.thief);
@@ -48,6 +50,7 @@ void fields(auto& archive, MessageOf<WorkRequest> auto& m) {
   archive.amount(m.speed);
   archive.number(m.rivals);
   archive.amount(m.doubt);
+  archive.amount(m.free_memory);
 }
 void fields(auto& archive, MessageOf<WorkAnswer> auto& m) {
   archive.number(m.round);

@@ -153,8 +153,11 @@ void CollectiveConduct::report(const Situation& situation, Decision& decision) {
 }
 
 Contribution CollectiveConduct::contribution(const Situation& situation) const {
-  Contribution own{self_, {situation.speed, total_work(situation.own), situation.doubt}, {}, {}};
-  for (const Promise& promise : promises_) own.state.remaining += promise.coming.work;
+  Contribution own{self_, {situation.speed, total_work(situation.own), situation.doubt, situation.free_memory}, {}, {}};
+  for (const Promise& promise : promises_) {
+    own.state.remaining += promise.coming.work;
+    own.state.free_memory -= promise.coming.work;
+  }
   own.own = states_of(self_, situation.own);
   for (const auto& [id, when] : came_) own.settled.push_back(id);
   return own;

@@ -41,7 +41,8 @@ struct Situation {
   double now = 0;
   std::span<const ReportedLoad> own;
   double speed = 0;
-  double doubt = 0;  ///< of the time that this takes (see Experience)
+  double doubt = 0;                   ///< of the time that this takes (see Experience)
+  double free_memory = kAmpleMemory;  ///< as in RankLoad
 };
 
 /// Total work of the subdomains in `own`.
@@ -64,7 +65,8 @@ struct Situation {
 [[nodiscard]] inline LoadNews news_of(std::uint32_t number, const Situation& situation,
                                       std::span<const ReportedLoad> own) {
   const double total = total_work(own);
-  return {number, total, own.empty() ? 0 : total - own.front().remaining, situation.speed, situation.doubt};
+  return {number,          total,           own.empty() ? 0 : total - own.front().remaining,
+          situation.speed, situation.doubt, situation.free_memory};
 }
 
 }  // namespace driftmesh::balancer

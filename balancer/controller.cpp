@@ -63,10 +63,11 @@ bool Controller::pressing() const {
                     conduct_);
 }
 
-Decision Controller::think(double now, std::span<const ReportedLoad> own, double speed, double doubt) {
+Decision Controller::think(double now, std::span<const ReportedLoad> own, double speed, double doubt,
+                           double free_memory) {
   next_look_ = now + look_interval_;
   return std::visit(Each{[&](auto& conduct) {
-                           return conduct.think({now, own, speed, doubt});
+                           return conduct.think({now, own, speed, doubt, free_memory});
                          },
                          [](std::monostate) { return Decision{}; }},
                     conduct_);

@@ -43,8 +43,9 @@ class Controller {
   [[nodiscard]] bool pressing() const;
 
   /// `own`: the unfinished subdomains here, in the order in which they will be worked on, as far as known. `speed`:
-  /// triangles per second, 0 if unknown.
-  [[nodiscard]] Decision think(double now, std::span<const ReportedLoad> own, double speed, double doubt = 0);
+  /// triangles per second, 0 if unknown. `free_memory`: as in RankLoad.
+  [[nodiscard]] Decision think(double now, std::span<const ReportedLoad> own, double speed, double doubt = 0,
+                               double free_memory = kAmpleMemory);
 
   /// Whether a request of this rank is unanswered, received advice is unhandled, or a joint plan is in progress.
   [[nodiscard]] bool waiting() const;

@@ -29,6 +29,8 @@ const char* name_of(Verdict verdict) {
       return "fixed";
     case Verdict::kTooLarge:
       return "too large";
+    case Verdict::kNoMemory:
+      return "no memory";
     case Verdict::kCostsMore:
       return "costs more than its work";
     case Verdict::kNeedless:

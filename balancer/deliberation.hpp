@@ -22,6 +22,7 @@ enum class Verdict : std::int32_t {
   kInvalid,         ///< no such subdomain or rank, its owner, or its second move
   kFixed,           ///< it is on its way, has just moved, or is nearly finished
   kTooLarge,        ///< for one message
+  kNoMemory,        ///< for it where it would go
   kCostsMore,       ///< to move it takes longer than to finish it
   kNeedless,        ///< all finish as early without it
   kGone,            ///< it is no longer there, or finished

@@ -45,6 +45,13 @@ std::vector<Offer> by_number(std::span<const Offer> offers) {
   return sorted;
 }
 
+/// Whether each rank has memory for all that comes to it.
+bool fits_in_memory(const IdVector<Rank, RankLoad>& states, std::span<const Transfer> transfers) {
+  IdVector<Rank, double> coming(states.size(), 0);
+  for (const Transfer& t : transfers) coming[t.to] += memory_for({.remaining = t.work, .bytes = t.bytes});
+  return std::ranges::all_of(ids_of(states), [&](Rank r) { return coming[r] <= states[r].free_memory; });
+}
+
 /// The bundles without the offers; empty bundles stay.
 std::vector<Bundle> without(std::span<const Bundle> bundles, const std::vector<Offer>& offers) {
   std::map<std::pair<Rank, Part>, std::size_t> place;
@@ -205,10 +212,11 @@ JointPlan weigh(const IdVector<Rank, RankLoad>& states, std::span<const Transfer
   const double now = finishing_time(before);
   const IdVector<Rank, double> times = finishing_times(before, moves, cost);
   const double saved = now - *std::max_element(times.begin(), times.end());
-  plan.worth = saved > 0 && saved >= worth.gain * now && saved >= worth.seconds;
+  plan.worth = saved > 0 && saved >= worth.gain * now && saved >= worth.seconds && fits_in_memory(states, transfers);
   if (!plan.worth) return plan;
   for (const Transfer& t : transfers) {
     plan.states[t.from].remaining -= t.work;
+    plan.states[t.to].free_memory -= t.work;
     plan.states[t.to].remaining += t.work;
     plan.coming[t.to].work += t.work;
     plan.coming[t.to].count += t.count;

@@ -26,7 +26,7 @@ void Knowledge::hear(Rank rank, const LoadReport& report, double now) {
   Heard& heard = ranks_[rank];
   if (heard.any && report.round <= heard.round) return;
   heard_ += heard.any ? 0 : 1;
-  heard = {true, report.round, now, report.speed, report.doubt, {}, report.unlisted};
+  heard = {true, report.round, now, report.speed, report.doubt, {}, report.unlisted, report.free_memory};
   for (const ReportedLoad& load : report.loads) {
     const auto [known, first] = claims_.try_emplace(load.subdomain, Claim{rank, load.epoch});
     if (!first && load.epoch < known->second.epoch) continue;
@@ -91,11 +91,15 @@ LoadSnapshot Knowledge::snapshot(double now, bool with_silent) const {
   for (const auto& [id, planned] : planned_) arriving[planned.to].push_back(planned.load);
   static const std::vector<SubdomainLoad> kNone;
   IdVector<Rank, double> unlisted;
+  const bool short_of_memory = std::ranges::any_of(ranks_, [](const Heard& h) { return h.free_memory < kAmpleMemory; });
   for (const Rank r : ids_of(ranks_)) {
     const auto coming = arriving.find(r);
-    snapshot.ranks.push_back({ranks_[r].speed, 0, ranks_[r].doubt});
+    const double free_memory = ranks_[r].any || !short_of_memory ? ranks_[r].free_memory : 0;
+    snapshot.ranks.push_back({ranks_[r].speed, 0, ranks_[r].doubt, free_memory});
     unlisted.push_back(list(snapshot, r, coming == arriving.end() ? kNone : coming->second, now));
   }
+  for (const auto& [rank, loads] : arriving)
+    for (const SubdomainLoad& s : loads) snapshot.ranks[rank].free_memory -= memory_for(s);
   if (with_silent) list_silent(snapshot);
   note_effort("snapshot", static_cast<double>(with_silent ? layout_->subdomains.size() : snapshot.subdomains.size()));
   std::ranges::sort(snapshot.subdomains, {}, &SubdomainLoad::id);

@@ -43,8 +43,9 @@ class Knowledge {
     double at = 0;
     double speed = 0;
     double doubt = 0;
-    std::vector<ReportedLoad> loads;  // in the order of work
-    double unlisted = 0;              // other work; without a report, all that the layout predicts
+    std::vector<ReportedLoad> loads;    // in the order of work
+    double unlisted = 0;                // other work; without a report, all that the layout predicts
+    double free_memory = kAmpleMemory;  // without a report, nothing where others are short of it
   };
   struct Claim {
     Rank owner{};

@@ -19,6 +19,11 @@ auto* find_in(States& states, SubdomainId id) {
 
 }  // namespace
 
+double memory_for(const SubdomainLoad& s) {
+  constexpr double kPackedTriangle = 40;  // bytes, at least
+  return s.remaining + static_cast<double>(s.bytes) / kPackedTriangle;
+}
+
 bool leaves_before(const SubdomainLoad& a, const SubdomainLoad& b) {
   return std::tuple(weight_class(a), -a.turn, -a.remaining, a.id) <
          std::tuple(weight_class(b), -b.turn, -b.remaining, b.id);

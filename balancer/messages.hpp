@@ -22,12 +22,13 @@ struct ReportedLoad {
 
 /// The sender's load and speed.
 struct LoadReport {
-  std::uint32_t round = 0;          ///< of the sender's reports, from 1; older ones are ignored
-  std::uint32_t plan = 0;           ///< the round of the last Plan that the sender has acted on; 0: none
-  double speed = 0;                 ///< triangles a second, a running average; 0: not known yet
-  std::vector<ReportedLoad> loads;  ///< of its unfinished subdomains, and of recent arrivals
-  double doubt = 0;                 ///< standard deviation of the time that they take, over that time
-  double unlisted = 0;              ///< triangles still to be made in other subdomains
+  std::uint32_t round = 0;            ///< of the sender's reports, from 1; older ones are ignored
+  std::uint32_t plan = 0;             ///< the round of the last Plan that the sender has acted on; 0: none
+  double speed = 0;                   ///< triangles a second, a running average; 0: not known yet
+  std::vector<ReportedLoad> loads;    ///< of its unfinished subdomains, and of recent arrivals
+  double doubt = 0;                   ///< standard deviation of the time that they take, over that time
+  double unlisted = 0;                ///< triangles still to be made in other subdomains
+  double free_memory = kAmpleMemory;  ///< as in RankLoad
   friend bool operator==(const LoadReport&, const LoadReport&) = default;
 };
 
@@ -40,11 +41,12 @@ struct Plan {
 
 /// The sender's total load.
 struct LoadNews {
-  std::uint32_t round = 0;  ///< of the sender's news, from 1; older ones are ignored
-  double remaining = 0;     ///< triangles still to be made, predicted
-  double spare = 0;         ///< of these, in subdomains that it could give away
-  double speed = 0;         ///< triangles a second, a running average; 0: not known yet
-  double doubt = 0;         ///< standard deviation of remaining / speed, over that
+  std::uint32_t round = 0;            ///< of the sender's news, from 1; older ones are ignored
+  double remaining = 0;               ///< triangles still to be made, predicted
+  double spare = 0;                   ///< of these, in subdomains that it could give away
+  double speed = 0;                   ///< triangles a second, a running average; 0: not known yet
+  double doubt = 0;                   ///< standard deviation of remaining / speed, over that
+  double free_memory = kAmpleMemory;  ///< as in RankLoad
   friend bool operator==(const LoadNews&, const LoadNews&) = default;
 };
 
@@ -55,8 +57,9 @@ struct WorkRequest {
   std::uint32_t round = 0;  ///< of the thief's requests, from 1; 0: the thief has not asked, and waits for nothing
   double remaining = 0;     ///< the thief's remaining work
   double speed = 0;
-  std::uint32_t rivals = 0;  ///< idle ranks that will compete for the giver's work
-  double doubt = 0;          ///< as in LoadNews
+  std::uint32_t rivals = 0;           ///< idle ranks that will compete for the giver's work
+  double doubt = 0;                   ///< as in LoadNews
+  double free_memory = kAmpleMemory;  ///< as in RankLoad
   friend bool operator==(const WorkRequest&, const WorkRequest&) = default;
 };
 

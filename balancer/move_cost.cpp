@@ -27,7 +27,10 @@ class Selection {
  public:
   Selection(const LoadSnapshot& snapshot, const MoveCost& cost)
       : snapshot_(snapshot), cost_(cost), speeds_(assumed_speeds(snapshot.ranks)) {
-    for (const Rank r : ids_of(speeds_)) times_.push_back(snapshot.ranks[r].remaining / speeds_[r]);
+    for (const Rank r : ids_of(speeds_)) {
+      times_.push_back(snapshot.ranks[r].remaining / speeds_[r]);
+      free_memory_.push_back(snapshot.ranks[r].free_memory);
+    }
   }
 
   void consider(std::span<const Move> moves) {
@@ -44,9 +47,11 @@ class Selection {
     const double saved = s->remaining / giver_speed - giving;
     const double received = s->remaining / taker_speed + taking;
     if (saved <= 0) return Verdict::kCostsMore;
+    if (memory_for(*s) > free_memory_[move.destination]) return Verdict::kNoMemory;
     candidates_.push_back({move, s->owner, saved, received, (giving + taking) / s->remaining, true});
     times_[s->owner] -= saved;
     times_[move.destination] += received;
+    free_memory_[move.destination] -= memory_for(*s);
     return Verdict::kDone;
   }
 
@@ -94,7 +99,8 @@ class Selection {
   const LoadSnapshot& snapshot_;
   const MoveCost& cost_;
   IdVector<Rank, double> speeds_;
-  IdVector<Rank, double> times_;  // finishing times with the remaining moves
+  IdVector<Rank, double> times_;        // finishing times with the remaining moves
+  IdVector<Rank, double> free_memory_;  // what leaves may do so after something else has come
   std::vector<Candidate> candidates_;
   std::vector<SubdomainId> taken_;  // ascending
 };

@@ -48,9 +48,10 @@ enum class Kept { kNeeded, kAll };
 
 /// The worthwhile moves of `moves`, in their order. With their costs they reduce the finishing time, beyond noise, by
 /// at least what `worth` requires; otherwise the result is empty. Dropped are invalid moves (unknown subdomain or rank,
-/// to the owner, a second move of a subdomain, a fixed one), moves of subdomains too large for one message, moves that
-/// cost more than the work they move, and, with Kept::kNeeded, moves without which the finishing time is no later, or
-/// within the slack of the ideal time; the ones with the highest cost for their work go first.
+/// to the owner, a second move of a subdomain, a fixed one), moves of subdomains too large for one message, moves to
+/// ranks without memory for them, moves that cost more than the work they move, and, with Kept::kNeeded, moves without
+/// which the finishing time is no later, or within the slack of the ideal time; the ones with the highest cost for
+/// their work go first.
 [[nodiscard]] std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves,
                                              const MoveCost& cost, const Worth& worth = {}, Kept kept = Kept::kNeeded);
 

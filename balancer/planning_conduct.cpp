@@ -19,6 +19,16 @@ LoadSnapshot between(LoadSnapshot snapshot, Rank self, std::span<const Move> mov
   return snapshot;
 }
 
+/// Divides the free memory of each rank among those that may give it work without knowing of each other: its distant
+/// partners, and about as many ranks as a rank touches.
+void divide_memory(LoadSnapshot& snapshot, Rank self) {
+  constexpr std::size_t kTouching = 6;
+  const auto ranks = static_cast<std::int32_t>(snapshot.ranks.size());
+  const std::size_t givers = std::min(snapshot.ranks.size() - 1, distant_partners(self, ranks).size() + kTouching);
+  for (RankLoad& rank : snapshot.ranks)
+    if (rank.free_memory < kAmpleMemory) rank.free_memory /= static_cast<double>(givers);
+}
+
 // False if it is not there.
 bool remove(std::vector<ReportedLoad>& own, SubdomainId id) {
   return std::erase_if(own, [&](const auto& load) { return load.subdomain == id; }) > 0;
@@ -84,7 +94,9 @@ Verdict PlanningConduct::judge(const Move& move, const Situation& situation, con
 
 void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& decision) {
   const double now = situation.now;
-  knowledge_->hear(self_, {++reports_, plan_seen_, situation.speed, with_arrived(own), situation.doubt}, now);
+  knowledge_->hear(
+      self_, {++reports_, plan_seen_, situation.speed, with_arrived(own), situation.doubt, 0, situation.free_memory},
+      now);
   const bool leads = policy_->placement() == Placement::kLeader;
   if (!news_ || !pace_.due(now)) return;
   // The first plan waits a little for the speeds of all ranks.
@@ -94,6 +106,7 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   decision.planned = true;
   LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
   if (leads && !may_gain(snapshot, options_.worth, pace_.cost_of_planning())) return;
+  if (!leads) divide_memory(snapshot, self_);
   std::erase_if(moved_, [&](const auto& move) { return now - move.second > options_.interval; });
   price_moves(snapshot, options_.cost);
   for (SubdomainLoad& s : snapshot.subdomains)
@@ -155,8 +168,10 @@ void PlanningConduct::report(const Situation& situation, const Loads& own, Decis
   for (const auto& load : own) told_.push_back(load.subdomain);
   std::sort(told_.begin(), told_.end());
   news_ = true;  // also to this rank, if it plans
-  const LoadReport list{++reports_, plan_seen_, situation.speed, with_arrived(own), situation.doubt};
-  const LoadReport sum{list.round, list.plan, list.speed, std::exchange(arrived_, {}), list.doubt, total};
+  const LoadReport list{++reports_,      plan_seen_, situation.speed,      with_arrived(own),
+                        situation.doubt, 0,          situation.free_memory};
+  const LoadReport sum{list.round, list.plan, list.speed,      std::exchange(arrived_, {}),
+                       list.doubt, total,     list.free_memory};
   const std::vector<Rank> listeners = audience(own);
   for (const Rank rank : listeners)
     if (rank != self_) decision.messages.push_back({rank, list});

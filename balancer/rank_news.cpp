@@ -32,6 +32,7 @@ void RankNews::expect(Rank from, Rank to, double work, double now) {
     Heard& heard = ranks_[rank];
     heard.news.remaining = std::max(0.0, current[rank].remaining + amount);
     heard.news.spare = std::clamp(heard.news.spare + std::min(0.0, amount), 0.0, heard.news.remaining);
+    if (heard.news.free_memory < kAmpleMemory) heard.news.free_memory = std::max(0.0, heard.news.free_memory - amount);
     heard.at = now;
   };
   change(from, -work);
@@ -42,6 +43,7 @@ void RankNews::assume(const IdVector<Rank, RankLoad>& states, double now) {
   for (const Rank r : ids_of(ranks_)) {
     ranks_[r].news.speed = states[r].speed;
     ranks_[r].news.remaining = states[r].remaining;
+    ranks_[r].news.free_memory = states[r].free_memory;
     ranks_[r].at = now;
   }
 }
@@ -52,7 +54,10 @@ bool RankNews::complete() const {
 
 IdVector<Rank, RankLoad> RankNews::states(double now) const {
   IdVector<Rank, RankLoad> states;
-  for (const Heard& heard : ranks_) states.push_back({heard.news.speed, heard.news.remaining, heard.news.doubt});
+  for (const Heard& heard : ranks_) {
+    const LoadNews& news = heard.news;
+    states.push_back({news.speed, news.remaining, news.doubt, news.free_memory});
+  }
   const IdVector<Rank, double> speeds = assumed_speeds(states);
   for (const Rank r : ids_of(states))
     states[r].remaining = std::max(0.0, states[r].remaining - speeds[r] * std::max(0.0, now - ranks_[r].at));

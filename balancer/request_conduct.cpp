@@ -109,7 +109,8 @@ std::vector<Move> RequestConduct::gifts(const WorkRequest& request, const Situat
   snapshot.ranks.resize(to_index(layout_->ranks));
   const double speed = situation.speed > 0 ? situation.speed : request.speed > 0 ? request.speed : 1;
   const double sharers = 1 + std::min(request.rivals, kMostRivals);
-  snapshot.ranks[request.thief] = {request.speed > 0 ? request.speed : speed, request.remaining, request.doubt};
+  snapshot.ranks[request.thief] = {request.speed > 0 ? request.speed : speed, request.remaining, request.doubt,
+                                   request.free_memory};
   snapshot.ranks[self_] = {sharers * speed, total_work(own), situation.doubt};
   snapshot.subdomains = states_of(self_, own);
   const std::vector<Move> moves = policy_->give(snapshot, self_, request.thief);
@@ -138,8 +139,8 @@ void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decis
   const double next = own.empty() ? 0 : total - own.front().remaining;
   const bool low = policy_->runs_low(seconds_of(next, situation.speed) - options_.time_to_get_work());
   if (!low) refusals_ = 0;
-  if (!low || asked_ || !coming_.empty() || refusals_ >= options_.refusals) return;
-  const WorkRequest request{self_, ++round_, total, situation.speed, 0, situation.doubt};
+  if (!low || asked_ || !coming_.empty() || refusals_ >= options_.refusals || situation.free_memory <= 0) return;
+  const WorkRequest request{self_, ++round_, total, situation.speed, 0, situation.doubt, situation.free_memory};
   arrived_.clear();
   if (self_ != kBroker) {
     asked_ = true;
@@ -163,7 +164,7 @@ bool RequestConduct::pass_on(WorkRequest request, const Situation& situation, Lo
   LoadSnapshot snapshot;
   snapshot.layout = layout_;
   snapshot.ranks = news_->states(situation.now);
-  snapshot.ranks[request.thief] = {request.speed, request.remaining, request.doubt};
+  snapshot.ranks[request.thief] = {request.speed, request.remaining, request.doubt, request.free_memory};
   const IdVector<Rank, bool> able = news_->able(snapshot.ranks);
   const auto victim = policy_->victim(snapshot, request.thief, able);
   if (is_logged())
@@ -197,7 +198,8 @@ void RequestConduct::feed_hungry(const Situation& situation, Loads& own, Decisio
     const RankLoad state = news_->states(situation.now)[thief];
     if (thief == self_)
       refusals_ = 0, hungry_.erase(thief);
-    else if (!pass_on({thief, 0, state.remaining, state.speed, 0, state.doubt}, situation, own, decision) &&
+    else if (!pass_on({thief, 0, state.remaining, state.speed, 0, state.doubt, state.free_memory}, situation, own,
+                      decision) &&
              state.remaining <= 0)
       return;  // nobody has anything for the others either
   }

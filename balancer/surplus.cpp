@@ -107,11 +107,18 @@ class Dealer {
   }
 
   void give(Index i, Rank taker) {
+    if (taker != snapshot_.subdomains[i].owner)
+      snapshot_.ranks[taker].free_memory -= memory_for(snapshot_.subdomains[i]);
     snapshot_.subdomains[i].owner = taker;
     load(taker) += snapshot_.subdomains[i].remaining;
   }
 
-  [[nodiscard]] bool has_room(Rank r, const SubdomainLoad& s) { return load(r) + s.remaining <= share(r); }
+  [[nodiscard]] bool has_memory(Rank r, const SubdomainLoad& s) const {
+    return r == s.owner || memory_for(s) <= snapshot_.ranks[r].free_memory;
+  }
+  [[nodiscard]] bool has_room(Rank r, const SubdomainLoad& s) {
+    return load(r) + s.remaining <= share(r) && has_memory(r, s);
+  }
 
   /// To the rank with the longest border that has room for it in its share, or to the one with most room.
   bool place_within_shares(Index i) {
@@ -137,7 +144,7 @@ class Dealer {
     double earliest = (load(best) + s.remaining) / speeds_[best];
     for (const Rank r : ids_of(speeds_)) {
       const double finished = (load(r) + s.remaining) / speeds_[r];
-      if (finished < earliest) best = r, earliest = finished;
+      if (finished < earliest && has_memory(r, s)) best = r, earliest = finished;
     }
     give(i, best);
   }

@@ -110,6 +110,8 @@ void add_load_class(py::module_& module) {
   add_of_subdomains<bool>(load, "fixed", &SubdomainLoad::fixed, "Whether it stays where it is, whatever is planned.");
   add_of_ranks(load, "rank_remaining", &RankLoad::remaining, "Triangles that each rank has still to make.");
   add_of_ranks(load, "rank_doubts", &RankLoad::doubt, "Relative standard deviation of the time for that.");
+  add_of_ranks(load, "rank_free_memory", &RankLoad::free_memory,
+               "Triangles for which each rank has memory besides those that it has and will make.");
   load.def_property_readonly(
       "rank_speeds", [](const py::object& self) { return view(self.cast<const Load&>().speeds, self); },
       "Triangles per second of each rank, as measured; the mean of the others where it is not known.");

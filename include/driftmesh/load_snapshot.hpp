@@ -49,13 +49,20 @@ struct SubdomainLoad {
   return s.bytes >> 16;
 }
 
+/// The triangles for which a rank that takes it needs memory: those that it has and will have.
+[[nodiscard]] double memory_for(const SubdomainLoad& s);
+
 /// Whether `a` should leave its rank before `b`: lighter ones first, then those whose turn comes last.
 [[nodiscard]] bool leaves_before(const SubdomainLoad& a, const SubdomainLoad& b);
 
+/// More triangles than any rank has memory for, and no less when some are taken off: it is not known to be short of it.
+inline constexpr double kAmpleMemory = 1e300;
+
 struct RankLoad {
-  double speed = 0;      ///< triangles a second, measured; 0: not known
-  double remaining = 0;  ///< of all its subdomains, including those that the snapshot does not list
-  double doubt = 0;      ///< standard deviation of the time for this, over that time
+  double speed = 0;                   ///< triangles a second, measured; 0: not known
+  double remaining = 0;               ///< of all its subdomains, including those that the snapshot does not list
+  double doubt = 0;                   ///< standard deviation of the time for this, over that time
+  double free_memory = kAmpleMemory;  ///< triangles that it has memory for besides those that it has and will make
 };
 
 /// One of as many parts as there are ranks. Part p is sized for the speed of rank p, but may be assigned to another

@@ -31,6 +31,7 @@ struct ClusterSpec {
   std::vector<RankGroup> groups;
   std::vector<RankChange> changes;  ///< of speeds, those of a rank in the order of time
   IdVector<Rank, double> drag;      ///< the fraction of its speed that each rank keeps; empty: all of it
+  double memory = 0;                ///< triangles for which each rank has memory; 0: any number
   double latency = 50e-6;           ///< seconds from the end of sending to arrival
   double bandwidth = 1e9;           ///< bytes per second that leave a rank
   double scale = 1;  ///< triangles that each one stands for: what depends on subdomains alone costs that much less

@@ -202,6 +202,7 @@ ClusterSpec cluster_of(const Request& request) {
   cluster.scale = c.scale;
   cluster.latency = c.latency;
   cluster.bandwidth = c.bandwidth;
+  cluster.memory = c.memory;
   cluster.message_overhead = c.message_overhead;
   return cluster;
 }

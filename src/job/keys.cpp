@@ -424,6 +424,10 @@ Section cluster_section() {
        key("cluster.drag", &R::cluster, &R::Cluster::drag,
            "Fraction of its speed that each rank keeps, real or simulated, such as 1,0.5; empty: all of it",
            in(0.01, 1), option("drag", "F,F,..."), places(kMany), entry_points(kMesh | kExperiment)),
+       key("cluster.memory", &R::cluster, &R::Cluster::memory,
+           "Triangles for which each rank of a simulated cluster has memory: it takes no work beyond that, and more stop "
+           "the run; 0: any number",
+           unit("triangles"), from(0)),
        key("cluster.latency", &R::cluster, &R::Cluster::latency,
            "Time from the end of sending to arrival, on simulated clusters", unit("seconds"), from(0), places(kMany)),
        key("cluster.bandwidth", &R::cluster, &R::Cluster::bandwidth,

@@ -90,6 +90,7 @@ Limits find_limits(const Request::Limits& asked, const Pslg& pslg, const Use& us
   Limits limits{.by = use.by,
                 .triangles = most_triangles(asked, use),
                 .memory = static_cast<std::uint64_t>(asked.max_memory),
+                .bytes_refined = bytes_refined(use),
                 .bytes_finishing = bytes_finishing(pslg, use)};
   const std::uint64_t present = present_memory();
   if (limits.memory == 0)
@@ -97,7 +98,7 @@ Limits find_limits(const Request::Limits& asked, const Pslg& pslg, const Use& us
       limits.memory = present + free / 10 * 9 / static_cast<std::uint64_t>(processes.on_machine);
   if (limits.memory == 0) return limits;
   const std::uint64_t room = limits.memory > present ? limits.memory - present : 0;
-  const std::uint64_t each = bytes_refined(use) + limits.bytes_finishing;
+  const std::uint64_t each = limits.bytes_refined + limits.bytes_finishing;
   std::uint64_t triangles = room / each * static_cast<std::uint64_t>(processes.all);
   if (use.gathers) triangles = std::min(triangles, room / (2 * bytes_of_arrays(pslg, use)));
   limits.in_memory = static_cast<std::int64_t>(std::min<std::uint64_t>(triangles, INT64_MAX));
@@ -114,6 +115,16 @@ bool memory_is_full(const Limits& limits, std::int64_t triangles) {
   const std::uint64_t needed = static_cast<std::uint64_t>(triangles) * limits.bytes_finishing;
   const std::uint64_t until_next_look = std::max(kLeastSlack, limits.memory / kSlack / 2);
   return present_memory() + needed > limits.memory || needed + until_next_look > room_under_cap();
+}
+
+double room_for(const Limits& limits, std::int64_t triangles) {
+  constexpr double kMapped = 1.25;  // bytes mapped for each one in use: arrays have capacity to grow
+  if (limits.memory == 0) return INFINITY;
+  const double memory = static_cast<double>(limits.memory), present = static_cast<double>(present_memory());
+  const double unused = std::min(memory - present, static_cast<double>(room_under_cap()) / kMapped) - 0.1 * memory;
+  const auto finishing = static_cast<double>(limits.bytes_finishing);
+  return (unused - static_cast<double>(triangles) * finishing) /
+         (static_cast<double>(limits.bytes_refined) + finishing);
 }
 
 void check_forecast(const Limits& limits, double forecast, bool may_keep,

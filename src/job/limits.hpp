@@ -32,6 +32,7 @@ struct Limits {
   std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop at this number
   std::uint64_t memory = 0;                              ///< bytes that a process may have; 0: unknown
   std::int64_t in_memory = INT64_MAX;                    ///< the triangles for which that should suffice
+  std::uint64_t bytes_refined = 0;                       ///< per triangle, once it is refined
   std::uint64_t bytes_finishing = 0;  ///< per triangle, what a process takes after refinement before it frees anything
 
   /// Whether memory is expected to run out first.
@@ -60,6 +61,10 @@ void cap_memory(const Request::Limits& asked);
 
 /// Whether a process that has made this many triangles cannot make more, if it is to finish them within its memory.
 [[nodiscard]] bool memory_is_full(const Limits& limits, std::int64_t triangles);
+
+/// For how many more triangles a process that has made this many has memory, with a tenth of it left over: more than
+/// that it should not take from others.
+[[nodiscard]] double room_for(const Limits& limits, std::int64_t triangles);
 
 /// Exit code of a program stopped by a limit.
 inline constexpr int kStoppedByLimit = 3;

@@ -67,6 +67,7 @@ void RankRun::run_loop(const RankHooks& hooks) {
     crew_ = std::make_unique<ThreadCrew>(to_index(order_.plan.work.threads - 1));
     loop_->hire(*crew_);
   }
+  loop_->limit_memory([this] { return room_for(limits_, loop_->triangles()); });
   if (log_) log_->begins(*loop_);
   protocol::run_rank(transport, [&] {
     if (hooks.before_step) hooks.before_step(*loop_);

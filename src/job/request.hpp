@@ -82,6 +82,7 @@ struct Request {
     std::vector<double> drag;
     double latency = ClusterSpec{}.latency;
     double bandwidth = ClusterSpec{}.bandwidth;
+    double memory = ClusterSpec{}.memory;
     double message_overhead = ClusterSpec{}.message_overhead;
     double scale = ClusterSpec{}.scale;
     std::string costs;  ///< a file; empty: those of the reference machine

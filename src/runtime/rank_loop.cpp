@@ -232,7 +232,7 @@ bool RankLoop::balance(bool worked) {
   if (observers_.deliberated) considered.emplace();
   balancer::Decision decision =
       controller_->think(clock_, own, speed_.value() * static_cast<double>(1 + (crew_ != nullptr ? crew_->size() : 0)),
-                         experience_.doubt(own));
+                         experience_.doubt(own), free_memory(own));
   own_failure_ = false;
   if (considered) observers_.deliberated(considered->take());
   transport_.spend(costs_.planning.seconds(planning.efforts()));
@@ -262,6 +262,15 @@ balancer::ReportedLoad RankLoop::load_of(const Subdomain& s) const {
         std::max(1 + static_cast<double>(s.backlog()),
                  experience_.rest((*layout_)[s.id()].on_segments, s.forecast(), static_cast<double>(s.triangles())));
   return {s.id(), protocol_.where(s.id()).epoch, remaining, s.packed_bytes()};
+}
+
+// Triangles, besides those here and those that they will become.
+double RankLoop::free_memory(std::span<const balancer::ReportedLoad> own) const {
+  double room = balancer::kAmpleMemory;
+  if (plan_.max_triangles < INT64_MAX) room = static_cast<double>(plan_.max_triangles - triangles_);
+  if (room_) room = std::min(room, room_());
+  constexpr double kForecast = 1.05;  // they may be off by this
+  return room < balancer::kAmpleMemory ? std::max(0.0, room - kForecast * balancer::total_work(own)) : room;
 }
 
 void RankLoop::tell(SubdomainId to, std::span<const SplitPoint<GlobalRootId>> splits) {

@@ -85,6 +85,10 @@ class RankLoop {
   /// fit for several threads.
   void hire(Crew& crew) { crew_ = &crew; }
 
+  /// Lets the balancer know for how many more triangles this rank has memory, whenever it balances. By default only
+  /// those of the plan's limit count.
+  void limit_memory(std::function<double()> room) { room_ = std::move(room); }
+
   /// Moves subdomain `id` to rank `to`, with all points it has received. Only between steps, and not once this rank has
   /// nothing to do: then it must not make work for others (docs/protocol.md, rule 6). Returns false, and does nothing,
   /// if the subdomain is not here, is finished, would stay, is worked on by the crew, or is too large for one message.
@@ -131,6 +135,7 @@ class RankLoop {
   void drop_work();
   [[nodiscard]] std::vector<balancer::ReportedLoad> loads() const;
   [[nodiscard]] balancer::ReportedLoad load_of(const Subdomain& s) const;
+  [[nodiscard]] double free_memory(std::span<const balancer::ReportedLoad> own) const;
   void tell(SubdomainId to, std::span<const SplitPoint<GlobalRootId>> splits);
   void tell_across(SubdomainId from, const SplitPoint<GlobalRootId>& split);
   bool send();
@@ -162,6 +167,7 @@ class RankLoop {
   Agenda agenda_;
   Crew* crew_ = nullptr;
   std::map<SubdomainId, Out> out_;
+  std::function<double()> room_;
   std::optional<balancer::Controller> controller_;
   std::shared_ptr<const balancer::Layout> layout_;  // if there is a controller
   balancer::Experience experience_;

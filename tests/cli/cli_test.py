@@ -724,6 +724,8 @@ class Experiments(Cli):
         "migration-stress": ["bounds.triangles=3e4", "cluster.scale=100", "decomposition.subdomains=[24, 120]",
                              "cluster.groups=[{ranks: 6, speed: 8e4}, {ranks: 6, speed: 1e4}]"],
         "changing-speeds": ["bounds.triangles=1e4", "decomposition.subdomains-per-rank=4"],
+        "short-memory": ["bounds.triangles=1e5", "decomposition.subdomains-per-rank=20",
+                         "cluster.memory=[0, 24e3]"],
         "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
     }
 
@@ -812,6 +814,18 @@ class Experiments(Cli):
         self.assertAlmostEqual(worked / 1e6, computing, delta=0.01 * computing)
         for picture in ("moves", "owners-after"):
             self.assertTrue((self.folder / "results" / f"run-1-{picture}.png").exists())
+
+    def test_ranks_take_no_work_beyond_their_memory(self):
+        self.run_config("short-memory", *self.SHRUNK["short-memory"])
+        for row in self.table():
+            with self.subTest(memory=row["cluster.memory"], policy=row["balance.policy"]):
+                record = json.loads((self.folder / "results" / f"{row['run']}.json").read_text())
+                most = max(rank["triangles"] for rank in record["parts"]["ranks"])
+                if row["balance.policy"] != "none":
+                    self.assertGreater(int(row["hand_offs"]), 0)
+                    self.assertEqual(most > 24e3, row["cluster.memory"] == "0", most)
+        self.refuse("run", self.CONFIGS / "short-memory.yaml", "-o", "none", "--set", "bounds.triangles=1e5", "--quiet",
+                    "--set", "cluster.memory=1e4", code=3, says=["cluster.memory"])
 
     def test_decisions_explain_each_move(self):
         for policy in ("greedy", "zoltan", "diffusion", "stealing"):

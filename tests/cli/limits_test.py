@@ -85,6 +85,12 @@ class Ceiling(program.Cli):
             self.hold(limit, "-n", "300", "--area", "3e-5", "--balance", "stealing", "--mapping", "block",
                       "--map-by-area", "--drag", "1,0.02", ranks=2)
 
+    def test_a_fast_rank_takes_no_more_than_it_has_memory_for(self):
+        """Five million triangles in all, of which it would take all but a tenth if it could."""
+        for policy in ("stealing", "greedy", "diffusion"):
+            self.assertTrue(self.hold(200, "-n", "64", "--triangles", "5M", "--balance", policy, "--drag", "1,0.2",
+                                      ranks=2))
+
     def test_what_only_fits_asleep_sleeps(self):
         """Asleep, a triangle takes a quarter of the memory, so the forecast does not refuse what then succeeds."""
         self.assertTrue(self.hold(60, "-n", "200", "--area", "1.5e-5", "--sleep"))

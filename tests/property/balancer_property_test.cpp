@@ -103,6 +103,37 @@ TEST_CASE("plans are valid and repeatable, and their worthwhile part finishes no
   CHECK(gained > 0);
 }
 
+TEST_CASE("no plan is made beyond the memory of a rank") {
+  auto random = testing::seeded_generator("memory");
+  const auto policies = planners();
+  int moved = 0, refused = 0;
+  for (std::int64_t i = 0; testing::more_cases(i, 200, moved > 20 && refused > 20); ++i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 one(seed);
+    LoadSnapshot snapshot = random_snapshot(one);
+    for (RankLoad& rank : snapshot.ranks)
+      rank.free_memory = ideal_time(snapshot) * std::uniform_real_distribution<double>(0, 2)(one);
+    for (const auto& [name, policy] : policies) {
+      CAPTURE(name);
+      const auto plan = plan_of_all(*policy, snapshot);
+      const auto worth = worth_moving(snapshot, plan, {});
+      IdVector<Rank, double> coming(snapshot.ranks.size(), 0);
+      for (const Move& move : worth) coming[move.destination] += memory_for(*find(snapshot, move.subdomain));
+      for (const Rank r : ids_of(coming)) REQUIRE(coming[r] <= snapshot.ranks[r].free_memory * (1 + 1e-12));
+      moved += !worth.empty();
+      IdVector<Rank, double> wanted(snapshot.ranks.size(), 0);
+      for (const Move& move : plan) wanted[move.destination] += memory_for(*find(snapshot, move.subdomain));
+      for (const Rank r : ids_of(wanted)) refused += wanted[r] > snapshot.ranks[r].free_memory;
+      // Greedy deals what it moves to ranks that have memory for it, so nothing is refused.
+      if (name == "greedy")
+        for (const Rank r : ids_of(wanted)) REQUIRE(wanted[r] <= snapshot.ranks[r].free_memory * (1 + 1e-12));
+    }
+  }
+  CHECK(moved > 20);
+  CHECK(refused > 20);
+}
+
 TEST_CASE("greedy plans take at most three times as long as mapping everything again, largest first") {
   // A rank keeps at most its share of the ideal time, and what is assigned can be bounded as for list scheduling: with
   // o the best possible time, the last subdomain assigned and all before it run within o on ranks fast enough for them,

@@ -75,6 +75,7 @@ class Policies(unittest.TestCase):
             self.assertEqual({len(getattr(load, name)) for name in ("owners", "remaining", "bytes", "turns", "costs", "fixed")},
                              {count})
             self.assertTrue((np.diff(load.subdomains) > 0).all() and set(load.owners) <= {0, 1, 2, 3})
+            self.assertTrue((load.rank_free_memory >= 1e300).all())
             self.assertEqual((load.rank_remaining.shape, load.rank_speeds.shape, load.rank_doubts.shape), ((4,), (4,), (4,)))
             self.assertGreater(load.rank_speeds.min(), 0)
             self.assertFalse(load.remaining.flags.writeable)

@@ -60,6 +60,7 @@ TEST_CASE("each move of a plan has its verdict") {
   s.subdomains[2].bytes = protocol::kMostPackedBytes + 1;
   s.subdomains[3].bytes = 100'000'000;  // 1.5 s to pack, for 1 s of work
   sum_up(s);
+  s.ranks[1_rank].free_memory = 2.5e6;
   const Deliberation plan = judged(s, {{0_sub, 1_rank},
                                        {1_sub, 1_rank},
                                        {2_sub, 1_rank},
@@ -67,7 +68,8 @@ TEST_CASE("each move of a plan has its verdict") {
                                        {99_sub, 1_rank},
                                        {4_sub, 0_rank},
                                        {0_sub, 1_rank},
-                                       {5_sub, 1_rank}});
+                                       {5_sub, 1_rank},
+                                       {4_sub, 1_rank}});
   CHECK(plan.subject == Deliberation::Subject::kPlan);
   CHECK(plan.verdict == Verdict::kDone);
   CHECK(plan.saves > 0);
@@ -82,8 +84,8 @@ TEST_CASE("each move of a plan has its verdict") {
   CHECK(verdicts_of(2_sub) == std::vector{Verdict::kTooLarge});
   CHECK(verdicts_of(3_sub) == std::vector{Verdict::kCostsMore});
   CHECK(verdicts_of(99_sub) == std::vector{Verdict::kInvalid});
-  CHECK(verdicts_of(4_sub) == std::vector{Verdict::kInvalid});
   CHECK(verdicts_of(5_sub) == std::vector{Verdict::kDone});
+  CHECK(verdicts_of(4_sub) == std::vector{Verdict::kInvalid, Verdict::kNoMemory});  // for two, but not for three
 }
 
 TEST_CASE("a plan that saves nothing, or has no moves, says so") {

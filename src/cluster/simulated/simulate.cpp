@@ -48,6 +48,7 @@ class Simulation {
       : network_(virtual_cluster(cluster, costs)),
         council_(balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options)),
         cutting_(cutting_seconds(costs, plan.owners.size())),
+        memory_(cluster.memory > 0 ? cluster.memory : balancer::kAmpleMemory),
         observers_(observers) {
     const std::int32_t ranks = ranks_of(cluster);
     require_fit(plan, ranks);
@@ -73,6 +74,8 @@ class Simulation {
       };
       loops_.push_back(std::make_unique<RankLoop>(network_.transport(r), plan, scaled(costs, cluster.scale),
                                                   std::move(watch), council_.get()));
+      if (memory_ < balancer::kAmpleMemory)
+        loops_.back()->limit_memory([this, r] { return memory_ - static_cast<double>(loops_[r]->triangles()); });
       log.begins(*loops_.back());
     }
   }
@@ -94,6 +97,9 @@ class Simulation {
  private:
   /// Reports the triangles of all ranks together, now that rank `r` has this many.
   void count(Rank r, std::int64_t triangles) {
+    if (static_cast<double>(triangles) > memory_)
+      throw LimitError("rank " + to_string(r) +
+                       " has more triangles than cluster.memory allows; allow more, or have more ranks");
     triangles_ += triangles - std::exchange(of_rank_[r], triangles);
     if (observers_.progress) observers_.progress(triangles_);
   }
@@ -108,6 +114,7 @@ class Simulation {
   protocol::VirtualNetwork network_;
   std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   double cutting_;                              // seconds, on rank 0
+  double memory_;                               // of each rank, in triangles
   const SimulationObservers& observers_;
   IdVector<Rank, std::int64_t> of_rank_;  // triangles of each rank, as last reported
   std::int64_t triangles_ = 0;
