@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -61,6 +62,18 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) throw FileError(folder.string(), "cannot be created: " + error.message());
 }
 
+/// Removes what an earlier experiment left in its folder, so that no record there belongs to another experiment than
+/// the table. A folder without an experiment is not touched.
+void remove_earlier_results(const std::filesystem::path& folder) {
+  static const std::regex of_a_run(R"(run-\d+(\.json|\.decisions\.jsonl|\.trace\.json|\.lb-stats|-[a-z-]+\.png))");
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder / kExperimentFile, ignored)) return;
+  std::vector<std::filesystem::path> stale{folder / kTableFile, folder / kSweepPicture};
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (std::regex_match(entry.path().filename().string(), of_a_run)) stale.push_back(entry.path());
+  for (const auto& path : stale) std::filesystem::remove_all(path, ignored);
+}
+
 void write_lb_statistics(const ExperimentRun& run, const std::filesystem::path& folder) {
   make_folder(folder);
   std::int32_t rank = 0;
@@ -96,6 +109,7 @@ class Runner {
   void go() {
     register_files();
     make_folder(folder_);
+    remove_earlier_results(folder_);
     write_file(folder_ / kExperimentFile, config::experiment_text(file_));
     for (std::size_t i = 0; i < runs(); ++i) {
       progress_.begin(fmt::format("run {} of {}", i + 1, runs()));

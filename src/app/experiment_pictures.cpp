@@ -144,8 +144,7 @@ void draw_sweep(const ExperimentTable& table, const std::string& title, const st
   std::stable_sort(efficiency.points.begin(), efficiency.points.end(), by_x);
   std::stable_sort(communication.points.begin(), communication.points.end(), by_x);
   LineChart chart;
-  chart.text = {title, "triangles per second relative to cluster speed and first run",
-                table.rows().front().swept[0].first, ""};
+  chart.text = {title, "ideal time over time", table.rows().front().swept[0].first, ""};
   chart.logarithmic_x =
       efficiency.points.front().x > 0 && efficiency.points.back().x >= 10 * efficiency.points.front().x;
   chart.curves = {std::move(efficiency), std::move(communication)};

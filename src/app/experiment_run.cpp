@@ -7,6 +7,7 @@
 #include "app/summary.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/stopwatch.hpp"
+#include "cluster/hindsight.hpp"
 #include "config/costs_file.hpp"
 #include "config/value_json.hpp"
 #include "job/check.hpp"
@@ -107,8 +108,11 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
     run.outcome = job::run_simulated(request, prepared, limits, costs_of(request), run.record, watch);
     run.plan = std::move(prepared.plan);
   }
-  run.ideal = real ? ideal_seconds(run.outcome, run.speeds)
-                   : ideal_seconds(run.outcome, run.speeds, schedules_of(job::cluster_of(request)));
+  IdVector<Rank, protocol::SpeedSchedule> schedules;
+  if (!request.cluster.changes.empty()) schedules = schedules_of(job::cluster_of(request));
+  run.ideal =
+      schedules.empty() ? ideal_seconds(run.outcome, run.speeds) : ideal_seconds(run.outcome, run.speeds, schedules);
+  run.oracle = oracle_seconds(work_done(run.outcome, run.speeds, schedules), run.speeds, schedules);
   run.record.stages.push_back({real ? "run" : "simulate", running.seconds()});
   run.record.seconds = preparing.seconds();
   run.record.seconds_refine = run.outcome.makespan;
@@ -123,15 +127,11 @@ std::string experiment_record(const ExperimentRun& run) {
   record["experiment"] = config::json_of(run.request, job::kExperiment);
   record["swept"] = swept;
   record["repetition"] = run.repetition;
-  record["cluster"] = {{"seconds", run.outcome.makespan},
-                       {"ideal_seconds", run.ideal},
-                       {"speeds", run.speeds},
-                       {"messages", run.outcome.messages()},
-                       {"message_bytes", run.outcome.message_bytes()},
-                       {"owners_before", run.plan.owners},
-                       {"owners_after", run.outcome.owners},
-                       {"moves", moves_json(run.outcome)},
-                       {"load", load_json(run.outcome)}};
+  record["cluster"] = {{"seconds", run.outcome.makespan},    {"ideal_seconds", run.ideal},
+                       {"oracle_seconds", run.oracle},       {"speeds", run.speeds},
+                       {"messages", run.outcome.messages()}, {"message_bytes", run.outcome.message_bytes()},
+                       {"owners_before", run.plan.owners},   {"owners_after", run.outcome.owners},
+                       {"moves", moves_json(run.outcome)},   {"load", load_json(run.outcome)}};
   return json_text(record, 1);
 }
 

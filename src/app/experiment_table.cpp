@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include "base/words.hpp"
 #include "job/value.hpp"
@@ -38,26 +38,23 @@ bool same_but_policy(const Row& a, const Row& b) {
   });
 }
 
-Cells swept_cells(const Row& row, bool repeated) {
-  Cells cells(row.swept.begin(), row.swept.end());
-  if (repeated) cells.emplace_back("repetition", std::to_string(row.repetition));
-  return cells;
-}
-
 Cells all_cells(const Row& row, std::optional<double> recovered) {
   Cells cells{{"run", row.run}};
-  for (auto& cell : swept_cells(row, true)) cells.push_back(std::move(cell));
+  cells.insert(cells.end(), row.swept.begin(), row.swept.end());
+  cells.emplace_back("repetition", std::to_string(row.repetition));
   const auto add = [&](const char* name, const auto& value) { cells.emplace_back(name, fmt::format("{}", value)); };
   add("ranks", row.ranks);
   add("subdomains", row.subdomains);
   add("triangles", row.triangles);
   add("seconds", row.seconds);
   add("ideal_seconds", row.ideal_seconds);
+  add("oracle_seconds", row.oracle_seconds);
   add("triangles_per_second", row.rate);
   add("efficiency", row.efficiency);
   add("cutting_seconds", row.cutting);
   add("efficiency_with_cutting", row.efficiency_with_cutting);
   cells.emplace_back("recovered", recovered ? fmt::format("{}", *recovered) : "");
+  add("regret", regret(row));
   add("computing", row.times.computing);
   add("sending", row.times.sending);
   add("polling", row.times.polling);
@@ -72,19 +69,20 @@ Cells all_cells(const Row& row, std::optional<double> recovered) {
   return cells;
 }
 
-/// `recovered`: its text, if the table has this column.
-Cells telling_cells(const Row& row, bool repeated, const std::optional<std::string>& recovered) {
-  Cells cells = swept_cells(row, repeated);
-  const bool ranks_swept =
-      std::any_of(row.swept.begin(), row.swept.end(), [](const auto& s) { return s.first == "cluster.ranks"; });
+/// `saved`: the text of what is recovered, if the table has this column.
+Cells telling_cells(const Row& row, bool repeated, const std::optional<std::string>& saved) {
+  Cells cells(row.swept.begin(), row.swept.end());
   const auto add = [&](const char* name, std::string value) { cells.emplace_back(name, std::move(value)); };
   const auto percent = [&](const char* name, double share) { add(name, fmt::format("{:.2f}", 100 * share)); };
-  if (!ranks_swept) add("ranks", grouped(static_cast<std::int64_t>(row.ranks)));
+  if (std::ranges::none_of(row.swept, [](const auto& s) { return s.first == "cluster.ranks"; }))
+    add("ranks", grouped(static_cast<std::int64_t>(row.ranks)));
   add("triangles", grouped(row.triangles));
   add("seconds", fmt::format("{:.4g}", row.seconds));
+  if (repeated) add("+-", fmt::format("{:.2g}", row.spread));
   add("million/s", fmt::format("{:.4g}", 1e-6 * row.rate));
   add("efficiency", fmt::format("{:.3f}", row.efficiency));
-  if (recovered) add("recovered %", *recovered);
+  if (saved) add("recovered %", *saved);
+  add("regret %", fmt::format("{:.1f}", 100 * regret(row)));
   percent("computing %", row.times.computing);
   percent("sending %", row.times.sending);
   percent("polling %", row.times.polling);
@@ -94,6 +92,22 @@ Cells telling_cells(const Row& row, bool repeated, const std::optional<std::stri
   add("in messages", grouped(row.split_messages));
   add("moved", grouped(row.hand_offs));
   return cells;
+}
+
+/// Takes the columns that are the same in all of several rows out of them, but for the first ones and the time.
+Cells take_common(std::vector<Cells>& rows, std::size_t first) {
+  Cells common;
+  for (std::size_t i = rows.size() < 2 ? rows.front().size() : first; i < rows.front().size();) {
+    const auto cell = rows.front()[i];
+    const bool same = std::ranges::all_of(rows, [&](const Cells& row) { return row[i] == cell; });
+    if (!same || cell.first == "seconds") {
+      ++i;
+      continue;
+    }
+    common.push_back(cell);
+    for (Cells& row : rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return common;
 }
 
 std::string csv_quoted(const std::string& text) {
@@ -107,6 +121,23 @@ std::string line_of(const std::vector<std::string>& cells, const std::vector<std
   std::string line = "|";
   for (std::size_t i = 0; i < cells.size(); ++i) line += fmt::format(" {:>{}} |", cells[i], widths[i]);
   return line + "\n";
+}
+
+std::string markdown_of(const std::vector<Cells>& rows) {
+  std::vector<std::vector<std::string>> lines(1);
+  for (const auto& [column, value] : rows.front()) lines[0].push_back(column);
+  for (const Cells& row : rows) {
+    lines.emplace_back();
+    for (const auto& [column, value] : row) lines.back().push_back(value);
+  }
+  std::vector<std::size_t> widths(lines[0].size(), 0);
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  std::string text = line_of(lines[0], widths) + "|";
+  for (const std::size_t width : widths) text += std::string(width + 1, '-') + ":|";
+  text += "\n";
+  for (std::size_t i = 1; i < lines.size(); ++i) text += line_of(lines[i], widths);
+  return text;
 }
 
 }  // namespace
@@ -123,15 +154,10 @@ void ExperimentTable::add(const ExperimentRun& run) {
   row.seconds = run.outcome.makespan;
   row.ideal_seconds = run.ideal;
   row.rate = static_cast<double>(row.triangles) / row.seconds;
-  const double for_speed = row.rate / std::accumulate(run.speeds.begin(), run.speeds.end(), 0.0);
+  row.oracle_seconds = run.oracle;
+  row.efficiency = row.ideal_seconds / row.seconds;
   row.cutting = run.outcome.cutting;
-  const double with_cutting = for_speed * row.seconds / (row.seconds + row.cutting);
-  if (rows_.empty()) {
-    first_rate_ = for_speed;
-    first_rate_with_cutting_ = with_cutting;
-  }
-  row.efficiency = for_speed / first_rate_;
-  row.efficiency_with_cutting = with_cutting / first_rate_with_cutting_;
+  row.efficiency_with_cutting = row.ideal_seconds / (row.seconds + row.cutting);
   row.times = shares_of(run.outcome);
   for (const RankOutcome& rank : run.outcome.ranks) {
     row.splits += rank.counters.splits_sent;
@@ -144,22 +170,41 @@ void ExperimentTable::add(const ExperimentRun& run) {
   rows_.push_back(std::move(row));
 }
 
-std::optional<double> ExperimentTable::recovered(const Row& row) const {
-  if (row.policy == "none") return {};
-  const auto without = std::find_if(rows_.begin(), rows_.end(), [&](const Row& other) {
+double regret(const Row& row) {
+  return row.oracle_seconds > 0 ? row.seconds / row.oracle_seconds - 1 : 0;
+}
+
+std::optional<double> recovered(const Row& row, std::span<const Row> rows) {
+  if (row.policy == "none" || row.hand_offs == 0) return {};
+  const auto without = std::ranges::find_if(rows, [&](const Row& other) {
     return other.policy == "none" && other.repetition == row.repetition && same_but_policy(other, row);
   });
-  if (without == rows_.end()) return {};
-  const double possible = without->seconds - without->ideal_seconds;
-  if (!(possible > 0)) return {};
-  return (without->seconds - row.seconds) / possible;
+  if (without == rows.end()) return {};
+  const double saved = without->seconds - row.seconds, possible = without->seconds - without->ideal_seconds;
+  if (!(possible > 0) || std::abs(saved) < without->spread + row.spread) return {};
+  return saved / possible;
+}
+
+std::vector<Row> medians_of(std::span<const Row> rows) {
+  std::vector<Row> medians;
+  for (auto first = rows.begin(); first != rows.end();) {
+    const auto end = std::find_if(first, rows.end(), [&](const Row& row) { return row.swept != first->swept; });
+    std::vector<Row> repeated(first, end);
+    std::ranges::sort(repeated, {}, &Row::seconds);
+    Row median = repeated[repeated.size() / 2];
+    median.spread = (repeated.back().seconds - repeated.front().seconds) / 2;
+    median.repetition = 0;
+    medians.push_back(std::move(median));
+    first = end;
+  }
+  return medians;
 }
 
 std::string ExperimentTable::csv() const {
   std::string text;
   for (const Row& row : rows_) {
     std::vector<std::string> columns, values;
-    for (const auto& [column, value] : all_cells(row, recovered(row))) {
+    for (const auto& [column, value] : all_cells(row, recovered(row, rows_))) {
       columns.push_back(csv_quoted(column));
       values.push_back(csv_quoted(value));
     }
@@ -170,34 +215,21 @@ std::string ExperimentTable::csv() const {
 }
 
 std::string ExperimentTable::markdown() const {
-  const bool repeated = std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.repetition > 0; });
-  const bool saved =
-      std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) { return recovered(row).has_value(); });
-  std::vector<std::vector<std::string>> lines;
-  for (const Row& row : rows_) {
+  if (rows_.empty()) return "";
+  const std::vector<Row> medians = medians_of(rows_);
+  const bool repeated = medians.size() < rows_.size();
+  const bool saved = std::ranges::any_of(medians, [&](const Row& row) { return recovered(row, medians).has_value(); });
+  std::vector<Cells> rows;
+  for (const Row& row : medians) {
     std::optional<std::string> share;
-    if (saved) share = recovered(row) ? fmt::format("{:.1f}", 100 * *recovered(row)) : "";
-    const Cells cells = telling_cells(row, repeated, share);
-    if (lines.empty()) lines.resize(1);
-    lines.emplace_back();
-    for (const auto& [column, value] : cells) {
-      if (lines.size() == 2) lines[0].push_back(column);
-      lines.back().push_back(value);
-    }
+    if (saved) share = recovered(row, medians) ? fmt::format("{:.1f}", 100 * *recovered(row, medians)) : "";
+    rows.push_back(telling_cells(row, repeated, share));
   }
-  if (lines.empty()) return "";
-  std::vector<std::size_t> widths(lines[0].size(), 0);
-  for (const auto& line : lines)
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  std::string text;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    text += line_of(lines[i], widths);
-    if (i > 0) continue;
-    text += "|";
-    for (const std::size_t width : widths) text += std::string(width + 1, '-') + ":|";
-    text += "\n";
-  }
-  return text;
+  const Cells common = take_common(rows, medians.front().swept.size());
+  std::string text = markdown_of(rows);
+  std::string rest;
+  for (const auto& [column, value] : common) rest += fmt::format("{}{} {}", rest.empty() ? "" : ", ", column, value);
+  return rest.empty() ? text : text + "\nThe same in all: " + rest + "\n";
 }
 
 }  // namespace driftmesh::app

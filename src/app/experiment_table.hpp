@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ class ExperimentTable {
 
   /// All figures, comma-separated; the first line names the columns (see docs/experiments.md).
   [[nodiscard]] std::string csv() const;
-  /// The most important figures in Markdown, aligned, one line per run.
+  /// The most important figures in Markdown, aligned: a line for each point of the sweep, with the repetition whose
+  /// time is the median. Columns that are the same everywhere stand below the table.
   [[nodiscard]] std::string markdown() const;
 
   struct Row {
@@ -29,23 +31,31 @@ class ExperimentTable {
     double seconds = 0;
     double ideal_seconds = 0;            ///< if every rank computed from start to end
     double rate = 0;                     ///< triangles per second
-    double efficiency = 0;               ///< rate relative to the cluster's speed, normalized by the first run
+    double oracle_seconds = 0;           ///< with the best mapping of whole subdomains
+    double efficiency = 0;               ///< ideal time over time
     double cutting = 0;                  ///< seconds before these, in which rank 0 cuts the domain
-    double efficiency_with_cutting = 0;  ///< the same of both times together
+    double efficiency_with_cutting = 0;  ///< ideal time over both times together
+    double spread = 0;                   ///< half the range of seconds over repetitions
     RankTimes times;                     ///< of all ranks together, as fractions of ranks x seconds
     std::int64_t splits = 0, split_messages = 0, hand_offs = 0, hand_off_bytes = 0;
     std::uint64_t messages = 0, message_bytes = 0;
   };
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 
-  /// Of the time that perfect balance would save in the same run without balancing, the fraction that this run saves.
-  /// Empty if there is no such run, or nothing to save.
-  [[nodiscard]] std::optional<double> recovered(const Row& row) const;
-
  private:
   std::vector<Row> rows_;
-  double first_rate_ = 0;  // relative to the cluster's speed
-  double first_rate_with_cutting_ = 0;
 };
+
+/// How much later than an oracle the run ended, as a fraction of the oracle's time.
+[[nodiscard]] double regret(const ExperimentTable::Row& row);
+
+/// Of the time that perfect balance would save in the same run without balancing, the fraction that this run saves.
+/// Empty if `rows` have no such run, if nothing is to be saved, and where noise explains the difference: nothing moved,
+/// or the times differ by no more than they do between repetitions.
+[[nodiscard]] std::optional<double> recovered(const ExperimentTable::Row& row,
+                                              std::span<const ExperimentTable::Row> rows);
+
+/// The median repetition of each point of the sweep.
+[[nodiscard]] std::vector<ExperimentTable::Row> medians_of(std::span<const ExperimentTable::Row> rows);
 
 }  // namespace driftmesh::app

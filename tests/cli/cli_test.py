@@ -965,6 +965,20 @@ class Experiments(Cli):
             self.assertGreater(float(stealing["recovered"]), 0.5)
         self.assertNotIn("recovered", self.run_config("first-run", *self.SHRUNK["first-run"]))
 
+    def test_a_rerun_leaves_nothing_of_an_earlier_one(self):
+        self.run_config("first-run", *self.SHRUNK["first-run"], "repetitions=3", pictures=True)
+        folder = self.folder / "results"
+        (folder / "notes.txt").write_text("mine")
+        (folder / "run-1.txt").write_text("mine")
+        self.assertTrue((folder / "run-3-time.png").exists())
+        self.run_config("first-run", *self.SHRUNK["first-run"])
+        self.assertEqual({path.name for path in folder.iterdir()},
+                         {"experiment.yaml", "table.csv", "run-1.json", "run-1.decisions.jsonl", "notes.txt", "run-1.txt"})
+        (folder / "experiment.yaml").unlink()
+        (folder / "run-7.json").write_text("{}")  # of somebody else
+        self.run_config("first-run", *self.SHRUNK["first-run"])
+        self.assertTrue((folder / "run-7.json").exists())
+
     def test_the_stress_moves_subdomains_that_are_being_refined(self):
         self.run_config("migration-stress", *self.SHRUNK["migration-stress"], "decomposition.subdomains=24",
                         "balance.policy=[zoltan, greedy]")
