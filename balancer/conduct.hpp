@@ -14,12 +14,13 @@ namespace driftmesh::balancer {
 inline constexpr Rank kLeadingRank{0};
 
 struct ControllerOptions {
-  double look = 1e-2;      ///< seconds between checks of the rank's own load
-  double gap = 0.02;       ///< shortest time in seconds between reports of a rank, and between plans
-  double interval = 1;     ///< longest time in seconds between reports of a rank with work
-  double change = 0.1;     ///< a forecast that is off by this fraction is reported (see ReportRule)
-  int refusals = 8;        ///< after this many in a row a rank stops asking for work until it is given some
-  double overhead = 0.01;  ///< fraction of the time that planning may take
+  double look = 1e-2;              ///< seconds between checks of the rank's own load
+  double gap = 0.02;               ///< shortest time in seconds between reports of a rank, and between plans
+  double interval = 1;             ///< longest time in seconds between reports of a rank with work
+  double change = 0.1;             ///< a forecast that is off by this fraction is reported (see ReportRule)
+  int refusals = 8;                ///< after this many in a row a rank stops asking for work until it is given some
+  double overhead = 0.01;          ///< fraction of the time that planning may take
+  double reference_speed = 7.9e6;  ///< triangles a second of a rank that plans as fast as Policy::planning_seconds says
   MoveCost cost;
   Worth worth;
 

@@ -211,7 +211,7 @@ JointPlan weigh(const IdVector<Rank, RankLoad>& states, std::span<const Transfer
   }
   const double now = finishing_time(before);
   const IdVector<Rank, double> times = finishing_times(before, moves, cost);
-  const double saved = now - *std::max_element(times.begin(), times.end());
+  const double saved = gain_beyond(noise_of(before), now - *std::max_element(times.begin(), times.end()));
   plan.worth = saved > 0 && saved >= worth.gain * now && saved >= worth.seconds && fits_in_memory(states, transfers);
   if (!plan.worth) return plan;
   for (const Transfer& t : transfers) {

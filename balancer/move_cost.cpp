@@ -147,6 +147,10 @@ double gain_beyond(double noise, double apparent) {
   return apparent > noise ? std::max(0.0, std::sqrt(apparent * apparent - noise * noise) - noise) : 0;
 }
 
+double possible_gain(const LoadSnapshot& snapshot) {
+  return gain_beyond(noise_of(snapshot), finishing_time(snapshot) - ideal_time(snapshot));
+}
+
 bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning) {
   const double last = finishing_time(snapshot), ideal = ideal_time(snapshot), noise = noise_of(snapshot);
   const double gain = gain_beyond(noise, last - ideal);

@@ -39,6 +39,9 @@ struct Worth {
 /// What is left of an apparent gain when there is noise: that contributed to it, and will again after the moves.
 [[nodiscard]] double gain_beyond(double noise, double apparent);
 
+/// How much earlier the last rank would finish if work were even, in seconds, beyond noise.
+[[nodiscard]] double possible_gain(const LoadSnapshot& snapshot);
+
 /// Whether planning is worthwhile at all: the possible gain, beyond noise, exceeds both the required one and the time
 /// that planning takes, in seconds. It and worth_moving() note what they find (see Deliberation).
 [[nodiscard]] bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning);

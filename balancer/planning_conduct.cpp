@@ -111,7 +111,7 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   price_moves(snapshot, options_.cost);
   for (SubdomainLoad& s : snapshot.subdomains)
     s.fixed = s.fixed || knowledge_->in_motion(s.id) || moved_.contains(s.id);
-  const std::vector<Move> moves = worthwhile_plan(snapshot);
+  const std::vector<Move> moves = worthwhile_plan(snapshot, situation);
   pace_.planned(now, !moves.empty());
   if (moves.empty()) return;
   advise(moves, snapshot, own, decision);
@@ -119,16 +119,20 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   for (const Move& move : moves) moved_[move.subdomain] = now;
 }
 
-/// The plan of the policy as far as it is worth its moves. If the policy offers single moves as well, the plan is kept
-/// as a whole, since what makes it better than those would be lost in parts, or not at all.
-std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot) const {
-  const std::vector<Move> plan = policy_->plan(snapshot, self_);
+/// The plan of the policy as far as it is worth its moves. If the policy offers single moves as well, a plan is asked
+/// for only where it may pay off, and kept as a whole, since what makes it better than those would be lost in parts, or
+/// not at all.
+std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation) {
   const bool leads = policy_->placement() == Placement::kLeader;
   const auto needed = [&](const std::vector<Move>& moves) {
     return worth_moving(leads ? snapshot : between(snapshot, self_, moves), moves, options_.cost, options_.worth);
   };
   const auto single = leads ? policy_->touch_up(snapshot) : std::nullopt;
+  if (single && !affords_whole(snapshot, situation)) return needed(*single);
+  const std::vector<Move> plan = policy_->plan(snapshot, self_);
   if (!single) return needed(plan);
+  planned_whole_ = true;
+  whole_at_ = situation.now;
   std::vector<Move> whole = worth_moving(snapshot, plan, options_.cost, options_.worth, Kept::kAll);
   std::vector<Move> few = needed(*single);
   const auto finish = [&](const std::vector<Move>& moves) {
@@ -137,6 +141,19 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot)
   const bool takes_whole = finish(whole) <= finish(few) + options_.worth.gain * ideal_time(snapshot);
   overrule(takes_whole ? 0 : 1);
   return takes_whole ? whole : few;
+}
+
+/// Not if the rest of the run would gain less than planning takes; until the first plan, that is an expectation.
+bool PlanningConduct::affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const {
+  const double slower = situation.speed > 0 ? options_.reference_speed / situation.speed : 1;
+  const double expected = whole_cost_ > 0 ? whole_cost_ : slower * policy_->planning_seconds(snapshot);
+  return situation.now >= next_whole_ && possible_gain(snapshot) > expected;
+}
+
+void PlanningConduct::took(double seconds) {
+  if (!std::exchange(planned_whole_, false)) return pace_.took(seconds);
+  whole_cost_ = seconds;
+  next_whole_ = whole_at_ + seconds / options_.overhead;
 }
 
 void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own,

@@ -26,7 +26,7 @@ class PlanningConduct {
   [[nodiscard]] bool waiting() const { return !advised_.empty(); }
   [[nodiscard]] bool pressing() const { return waiting(); }
   [[nodiscard]] Decision think(const Situation& situation);
-  void took(double seconds) { pace_.took(seconds); }
+  void took(double seconds);
 
  private:
   using Loads = std::vector<ReportedLoad>;
@@ -35,7 +35,8 @@ class PlanningConduct {
   void follow_advice(const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] Verdict judge(const Move& move, const Situation& situation, const Loads& own) const;
   void plan(const Situation& situation, Loads& own, Decision& decision);
-  [[nodiscard]] std::vector<Move> worthwhile_plan(const LoadSnapshot& snapshot) const;
+  [[nodiscard]] std::vector<Move> worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation);
+  [[nodiscard]] bool affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const;
   void advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own, Decision& decision);
   void report(const Situation& situation, const Loads& own, Decision& decision);
   [[nodiscard]] Loads with_arrived(Loads own) const;
@@ -60,6 +61,9 @@ class PlanningConduct {
   bool news_ = false;  // since the last plan
   double start_;
   PlanningPace pace_;
+  // Where single moves are had for less, whole plans have a pace of their own:
+  bool planned_whole_ = false;  // at the last think()
+  double whole_at_ = 0, whole_cost_ = 0, next_whole_ = 0;
   std::uint32_t plans_ = 0;
   std::map<SubdomainId, double> moved_;  // when its last move was planned: it is left alone for a while
 };

@@ -25,6 +25,10 @@ std::optional<std::vector<Move>> Policy::touch_up(const LoadSnapshot&) const {
   return std::nullopt;
 }
 
+double Policy::planning_seconds(const LoadSnapshot&) const {
+  return 0;
+}
+
 std::optional<ZoltanParameters> Policy::partitioning(const LoadSnapshot&) const {
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 #include <memory>
 #include <utility>
 
+#include "balancer/effort.hpp"
 #include "balancer/parameters.hpp"
 #include "balancer/remap_parts.hpp"
 #include "balancer/surplus.hpp"
@@ -66,6 +67,10 @@ class ZoltanPolicy final : public Policy {
 
   [[nodiscard]] std::optional<std::vector<Move>> touch_up(const LoadSnapshot& snapshot) const override {
     return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
+  }
+
+  [[nodiscard]] double planning_seconds(const LoadSnapshot& snapshot) const override {
+    return wants_touch_up_alone(snapshot) ? 0 : PlanningCosts{}.seconds(effort_of_parts(snapshot, parameters_));
   }
 
   [[nodiscard]] std::optional<ZoltanParameters> partitioning(const LoadSnapshot& own) const override {

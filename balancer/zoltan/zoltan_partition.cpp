@@ -395,10 +395,14 @@ bool zoltan_accepts(const std::string& name, const std::string& value) {
   return Zoltan(MPI_COMM_SELF).set(name, value);
 }
 
+Efforts effort_of_parts(const LoadSnapshot& snapshot, const ZoltanParameters& parameters) {
+  return {
+      {effort_kind(parameters), static_cast<double>(snapshot.subdomains.size()) * bisections(snapshot.ranks.size())}};
+}
+
 std::vector<Part> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanParameters& parameters) {
   if (snapshot.subdomains.empty()) return {};
-  note_effort(effort_kind(parameters).c_str(),
-              static_cast<double>(snapshot.subdomains.size()) * bisections(snapshot.ranks.size()));
+  for (const auto& [kind, units] : effort_of_parts(snapshot, parameters)) note_effort(kind.c_str(), units);
   initialize_once();
   return partition(MPI_COMM_SELF, snapshot, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbors) {
     IdVector<SubdomainId, int> process_of(snapshot.layout->subdomains.size(), -1);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "balancer/effort.hpp"
 #include "driftmesh/load_snapshot.hpp"
 #include "driftmesh/policy.hpp"
 
@@ -14,6 +15,9 @@ namespace driftmesh::balancer {
 
 /// Whether Zoltan accepts this parameter value. It checks some values only when it partitions.
 [[nodiscard]] bool zoltan_accepts(const std::string& name, const std::string& value);
+
+/// The effort of zoltan_partition, which notes it.
+[[nodiscard]] Efforts effort_of_parts(const LoadSnapshot& snapshot, const ZoltanParameters& parameters);
 
 /// The part, 0 .. ranks - 1, of each listed subdomain: the remaining work of the parts is in proportion to the speeds
 /// of the ranks. Runs within this process; the same arguments give the same parts. Parts may be empty. Initializes MPI

@@ -48,6 +48,10 @@ class Policy {
   /// default) plan() is reduced to those moves that do.
   [[nodiscard]] virtual std::optional<std::vector<Move>> touch_up(const LoadSnapshot& snapshot) const;
 
+  /// kLeader: how long plan() takes, in seconds on the machine in docs/benchmarks.md. It is asked only if more than
+  /// that can be gained; otherwise touch_up() alone is. 0, the default: it is always asked.
+  [[nodiscard]] virtual double planning_seconds(const LoadSnapshot& snapshot) const;
+
   /// kCollective: parameters with which Zoltan divides the subdomains into parts, one per rank in proportion to its
   /// speed. Without any, each subdomain stays in the part of its owner. A rank knows the loads of all ranks, but lists
   /// only its own subdomains; so the result may depend only on the loads of ranks, and is the same on all of them.

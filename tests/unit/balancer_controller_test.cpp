@@ -153,6 +153,63 @@ TEST_CASE("the leader plans when all have reported, and a rank follows") {
   CHECK(answer[0].second.loads.size() == 3);
 }
 
+namespace {
+
+/// Plans of which each takes as long as it says, and single moves instead.
+class SlowPlans final : public Policy {
+ public:
+  struct Asked {
+    int plans = 0, touch_ups = 0;
+  };
+  SlowPlans(double seconds, Asked& asked) : seconds_(seconds), asked_(asked) {}
+  [[nodiscard]] Placement placement() const override { return Placement::kLeader; }
+  [[nodiscard]] std::vector<Move> plan(const LoadSnapshot&, Rank) const override {
+    ++asked_.plans;
+    return {};
+  }
+  [[nodiscard]] std::optional<std::vector<Move>> touch_up(const LoadSnapshot&) const override {
+    ++asked_.touch_ups;
+    return std::vector<Move>{};
+  }
+  [[nodiscard]] double planning_seconds(const LoadSnapshot&) const override { return seconds_; }
+
+ private:
+  double seconds_;
+  Asked& asked_;
+};
+
+/// What a policy is asked in ten looks, a second apart, at a rank with all the work and one with none: 10 s can be
+/// gained.
+SlowPlans::Asked asked_in_ten_looks(double expected, double taken) {
+  SlowPlans::Asked asked;
+  ControllerOptions options;
+  options.reference_speed = 100;  // that of these ranks
+  Controller leader(0_rank, std::make_shared<Layout>(grid_layout(4, 1, 2)),
+                    std::make_shared<SlowPlans>(expected, asked), options, 0);
+  for (int i = 1; i <= 10; ++i) {
+    leader.receive(1_rank, LoadReport{static_cast<std::uint32_t>(i), 0, 100, {}}, i);
+    const int plans = asked.plans;
+    if (leader.think(i, loads_of(0, 1, 1000), 100).planned) leader.took(asked.plans > plans ? taken : 1e-6);
+  }
+  return asked;
+}
+
+}  // namespace
+
+TEST_CASE("a plan that would take longer than it gains is not made, and single moves are") {
+  const SlowPlans::Asked cheap = asked_in_ten_looks(1e-3, 1e-3);
+  CHECK(cheap.plans == 10);
+  const SlowPlans::Asked costly = asked_in_ten_looks(11, 11);
+  CHECK(costly.plans == 0);
+  CHECK(costly.touch_ups == 10);
+  const SlowPlans::Asked unexpected = asked_in_ten_looks(1e-3, 11);  // it is known after the first
+  CHECK(unexpected.plans == 1);
+  CHECK(unexpected.touch_ups == 10);
+  const SlowPlans::Asked seldom = asked_in_ten_looks(0.04, 0.04);  // a hundredth of the time, so every fourth second
+  CHECK(seldom.plans == 3);
+  CHECK(seldom.touch_ups == 10);
+}
+
 TEST_CASE("adjacent ranks are told every subdomain, distant partners only their sum") {
   const Layout layout = grid_layout(80, 1, 16);  // five each
   Controller c = controller_of(4_rank, layout, "diffusion");
