@@ -708,8 +708,13 @@ class Experiments(Cli):
     # Settings that make each of them small.
     SHRUNK = {
         "first-run": ["bounds.triangles=2e4"],
-        "aggregation": ["bounds.triangles-per-rank=2e3", "decomposition.subdomains-per-rank=10", "cluster.ranks=4",
-                        "run.aggregation=[1, 16, 1024]"],
+        "paper/table-1": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
+        "paper/table-2": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
+        "paper/fig-7": ["bounds.triangles-per-rank=2e3", "decomposition.subdomains-per-rank=10", "cluster.ranks=4",
+                        "mapping.method=graph", "run.aggregation=[1, 16, 1024]"],
+        "paper/fig-10": ["bounds.triangles-per-rank=300", "decomposition.subdomains-per-rank=2",
+                         "cluster.groups=[[{ranks: 2, speed: 1100}], [{ranks: 64, speed: 1100}, {ranks: 16, speed: 920}]]"],
+        "paper/fig-11": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
         "sciclone-144": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
         "published-pipe": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
         "published-flow": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
@@ -739,7 +744,7 @@ class Experiments(Cli):
             return list(csv.DictReader(file))
 
     def test_every_shipped_experiment(self):
-        shipped = {path.stem for path in self.CONFIGS.glob("*.yaml")}
+        shipped = {path.relative_to(self.CONFIGS).with_suffix("").as_posix() for path in self.CONFIGS.rglob("*.yaml")}
         self.assertEqual(shipped, set(self.SHRUNK))
         for name in sorted(shipped):
             with self.subTest(config=name):
@@ -758,7 +763,7 @@ class Experiments(Cli):
                     self.assertIn(str(number), row["run"])
 
     def test_aggregation_saves_messages(self):
-        self.run_config("aggregation", *self.SHRUNK["aggregation"])
+        self.run_config("paper/fig-7", *self.SHRUNK["paper/fig-7"])
         one, some, all_together = self.table()
         self.assertEqual(one["splits"], one["split_messages"])
         self.assertGreater(int(one["split_messages"]), int(some["split_messages"]))

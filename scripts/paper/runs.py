@@ -1,0 +1,39 @@
+"""The runs of an experiment, as driftmesh run has written them."""
+
+import csv
+import json
+
+import published
+
+
+class Run:
+    """A row of table.csv, with its record."""
+
+    def __init__(self, folder, row):
+        self.row = row
+        self.record = json.loads((folder / f"{row['run']}.json").read_text())
+        self.model = self.value("input.generate")
+        self.ranks = int(row["ranks"])
+        self.seconds = float(row["seconds"])
+
+    def value(self, key):
+        return self.record["request"][key]
+
+    def scale(self):
+        """What seconds of PCDM's ranks must be multiplied with to stand for 10 million triangles a rank."""
+        stands_for = published.PCDM_SPEED / self.record["cluster"]["speeds"][0]
+        return 10e6 / (self.value("bounds.triangles-per-rank") * stands_for)
+
+    def total(self, key):
+        return sum(rank[key] for rank in self.record["parts"]["ranks"])
+
+    def spent(self, kinds, ranks=None):
+        """Seconds of each rank on any of these kinds of work."""
+        of_all = self.record["parts"]["ranks"]
+        chosen = of_all if ranks is None else [of_all[i] for i in ranks if i < len(of_all)]
+        return [sum(rank["seconds"][kind] for kind in kinds) for rank in chosen]
+
+
+def read_runs(folder):
+    with open(folder / "table.csv", newline="") as file:
+        return [Run(folder, row) for row in csv.DictReader(file)]

@@ -1,0 +1,25 @@
+"""A table of a few columns, as Markdown and as CSV."""
+
+import csv
+
+
+class Table:
+    def __init__(self, name, title, columns, notes):
+        self.name, self.title, self.columns, self.notes = name, title, columns, notes
+        self.rows = []
+
+    def add(self, *cells):
+        if len(cells) != len(self.columns):
+            raise ValueError(f"{self.name}: {len(cells)} cells for {len(self.columns)} columns: {cells}")
+        self.rows.append([cell if isinstance(cell, str) else f"{cell:,}" for cell in cells])
+
+    def markdown(self):
+        lines = [self.columns, ["---"] * len(self.columns), *self.rows]
+        return "\n".join([f"## {self.title}", "", *(f"| {' | '.join(line)} |" for line in lines), "", self.notes, ""])
+
+    def write(self, folder):
+        (folder / f"{self.name}.md").write_text(self.markdown())
+        with open(folder / f"{self.name}.csv", "w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(self.columns)
+            writer.writerows([cell.replace(",", "") for cell in row] for row in self.rows)
