@@ -1,5 +1,7 @@
-// Quality of decompositions: time, angles, balance, and length of separators relative to that of compact subdomains.
-//   driftmesh_bench_decompose [-n N]... [FILE.poly ...]      (default: -n 400 -n 4000, and generated inputs)
+// Quality of decompositions: time, angles, balance, interfaces, and length of separators, absolute and relative to that
+// of the border and to that of compact subdomains.
+//   driftmesh_bench_decompose [--separator-angle A] [-n N]... [FILE.poly ...]
+//   (default: -n 400 -n 4000, and generated inputs)
 
 #include <algorithm>
 #include <cmath>
@@ -36,15 +38,19 @@ double time_decompose(const Triangulation& mesh, const DecomposeOptions& options
   return times[2];
 }
 
-void print_row(const std::string& name, const Triangulation& mesh, int n) {
-  DecomposeOptions options;
-  options.subdomains = n;
+void print_header() {
+  std::printf("%-20s %6s %8s %6s %8s %8s %10s %10s %10s %9s\n", "input", "N", "seconds", "angle", "max/mean",
+              "min/mean", "length", "/border", "/expected", "interfaces");
+}
+
+void print_row(const std::string& name, const Triangulation& mesh, const DecomposeOptions& options) {
   Decomposition d;
   const double seconds = time_decompose(mesh, options, d);
   const DecompositionReport r = check_decomposition(d);
-  const double expected = 2.06 * std::sqrt(r.area * n) - r.border_length / 2;
-  std::printf("%-20s %6d %8.3f %8.1f %8.2f %8.2f %10.3f %10.3f %s\n", name.c_str(), n, seconds, r.smallest_angle,
-              r.largest_load, r.smallest_load, r.separator_length / r.border_length, r.separator_length / expected,
+  const double expected = 2.06 * std::sqrt(r.area * options.subdomains) - r.border_length / 2;
+  std::printf("%-20s %6d %8.4f %6.2f %8.3f %8.3f %10.6g %10.4f %10.4f %9zu %s\n", name.c_str(), options.subdomains,
+              seconds, r.smallest_angle, r.largest_load, r.smallest_load, r.separator_length,
+              r.separator_length / r.border_length, r.separator_length / expected, interfaces(d).size(),
               r.valid() ? "valid" : r.problems[0].c_str());
 }
 
@@ -53,14 +59,16 @@ void print_row(const std::string& name, const Triangulation& mesh, int n) {
 int main(int argc, char** argv) {
   std::vector<int> counts;
   std::vector<std::string> files;
+  DecomposeOptions options;
   for (int i = 1; i < argc; ++i)
     if (std::strcmp(argv[i], "-n") == 0 && i + 1 < argc)
       counts.push_back(std::atoi(argv[++i]));
+    else if (std::strcmp(argv[i], "--separator-angle") == 0 && i + 1 < argc)
+      options.min_angle = std::atof(argv[++i]);
     else
       files.emplace_back(argv[i]);
   if (counts.empty()) counts = {400, 4000};
-  std::printf("%-20s %6s %8s %8s %8s %8s %10s %10s\n", "input", "N", "seconds", "angle", "max/mean", "min/mean",
-              "sep/border", "expected");
+  print_header();
   std::vector<std::pair<std::string, Pslg>> inputs;
   try {
     for (const std::string& file : files) inputs.emplace_back(file.substr(file.find_last_of('/') + 1), read_poly(file));
@@ -72,7 +80,10 @@ int main(int argc, char** argv) {
       repair(pslg, name);
       Triangulation mesh = triangulate(pslg);
       prepare_corners(mesh);
-      for (const int n : counts) print_row(name, mesh, n);
+      for (const int n : counts) {
+        options.subdomains = n;
+        print_row(name, mesh, options);
+      }
     }
   } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -12,6 +12,10 @@ namespace {
 /// The length of a compact subdomain's border over the square root of its area, as measured for good decompositions.
 constexpr double kPerimeter = 4.1;
 
+/// What it is worth, in the border of a subdomain, that a separator ends where one on the other side of a wall does:
+/// there are four neighbors around the place then, and one interface less than around two places.
+constexpr double kCrossing = 0.02;
+
 /// The total border length of the `parts` subdomains that a piece will be cut into: compact ones, or slices if the
 /// piece is long and thin.
 double expected_border(double area, double length, std::int32_t parts) {
@@ -34,7 +38,7 @@ std::int32_t nearest_parts(double share, std::int32_t n) {
 }
 
 struct Sides {
-  const double *squared_length, *border, *area, *share;
+  const double *squared_length, *border, *area, *share, *opposite;
 };
 
 DRIFTMESH_WIDE void set_costs(const Sides& sides, std::size_t count, const Outline& outline, const CutGoal& goal,
@@ -42,7 +46,7 @@ DRIFTMESH_WIDE void set_costs(const Sides& sides, std::size_t count, const Outli
   const std::int32_t n = goal.parts;
   const double load = goal.load, bias = goal.bias, whole_area = outline.area, whole_length = outline.length;
   const double unit = kPerimeter * std::sqrt(whole_area * n);
-  const auto [squared_length, border, area, shares] = sides;
+  const auto [squared_length, border, area, shares, opposite] = sides;
   for (std::size_t k = 0; k < count; ++k) {
     const double share = shares[k];
     // the share of the parts that corresponds to this share of the work
@@ -54,7 +58,7 @@ DRIFTMESH_WIDE void set_costs(const Sides& sides, std::size_t count, const Outli
     const double depth = 1 - 2.0 * std::min(between, rest) / n;
     parts[k] = between;
     const double sum = (expected + 0.3 * length) / unit + imbalance_cost(load * fair * n / between) +
-                       imbalance_cost(load * (1 - fair) * n / rest) + 0.1 * depth * depth;
+                       imbalance_cost(load * (1 - fair) * n / rest) + 0.1 * depth * depth - kCrossing / n * opposite[k];
     cost[k] = share > 0 && share < 1 && sum < CutCandidates::kNever
                   ? sum
                   : CutCandidates::kNever;  // not a number if the area is below 0
@@ -65,11 +69,12 @@ DRIFTMESH_WIDE void set_costs(const Sides& sides, std::size_t count, const Outli
 
 void CutCandidates::measure(const Outline& outline) {
   const std::size_t count = pairs_.size();
-  for (auto* column : {&length_, &border_, &area_, &share_, &cost_}) column->resize(count);
+  for (auto* column : {&length_, &border_, &area_, &share_, &opposite_, &cost_}) column->resize(count);
   parts_.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     const Outline::Station &a = outline.stations[pairs_[k].first], &b = outline.stations[pairs_[k].second];
     length_[k] = squared_distance(a.at, b.at);
+    opposite_[k] = static_cast<double>(a.opposite + b.opposite);
     border_[k] = b.length - a.length;
     area_[k] = outline.twice_area_between(a, b) / 2;
   }
@@ -81,8 +86,8 @@ void CutCandidates::rank(const Outline& outline, const CutGoal& goal) {
     share_[k] = outline.samples.empty()
                     ? area_[k] / outline.area
                     : outline.sampled_share(outline.stations[pairs_[k].first], outline.stations[pairs_[k].second]);
-  set_costs({length_.data(), border_.data(), area_.data(), share_.data()}, pairs_.size(), outline, goal, parts_.data(),
-            cost_.data());
+  set_costs({length_.data(), border_.data(), area_.data(), share_.data(), opposite_.data()}, pairs_.size(), outline,
+            goal, parts_.data(), cost_.data());
 }
 
 std::size_t CutCandidates::cheapest() const {

@@ -67,6 +67,7 @@ class CutCandidates {
 
   std::vector<Pair> pairs_;
   std::vector<double> length_, border_, area_, share_;  // border and area of the side between the stations
+  std::vector<double> opposite_;                        // ends at stations that are opposite to others
   std::vector<std::int32_t> parts_;
   std::vector<double> cost_;
   std::vector<std::uint32_t> heap_;

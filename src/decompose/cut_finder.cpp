@@ -15,7 +15,7 @@ struct Effort {
   double clearance;
 };
 /// No cut makes an angle below half the requested one: below 30 degrees, refinement could split its two sides in turns.
-constexpr Effort kEfforts[] = {{1, 1.0 / 11, 64, 0.2},     {1, 1.0 / 25, 128, 0.2},    {1, 1.0 / 60, 300, 0.1},
+constexpr Effort kEfforts[] = {{1, 1.0 / 9, 64, 0.2},      {1, 1.0 / 25, 128, 0.2},    {1, 1.0 / 60, 300, 0.1},
                                {0.9, 1.0 / 60, 300, 0.1},  {0.75, 1.0 / 60, 300, 0.1}, {0.6, 1.0 / 60, 300, 0.05},
                                {0.5, 1.0 / 100, 400, 0.02}};
 /// If a cut leaves a finished subdomain with more work than this, relative to the mean, the next effort is tried,

@@ -10,6 +10,7 @@
 #include "decompose/cutter.hpp"
 #include "decompose/pieces.hpp"
 #include "decompose/presplit.hpp"
+#include "decompose/smoothing.hpp"
 #include "decompose/to_decomposition.hpp"
 #include "decompose/work_samples.hpp"
 #include "driftmesh/error.hpp"
@@ -97,6 +98,11 @@ struct Attempt {
 };
 constexpr Attempt kAttempts[] = {{1, false}, {1, true}, {4, false}, {8, false}};
 
+/// Not what is uneven on purpose, or where work is sampled: it does not follow from the area that a subdomain gains.
+bool may_smooth(const Domain& domain, const DecomposeOptions& options) {
+  return options.skew == 0 && std::ranges::all_of(domain.samples, &WorkSamples::empty);
+}
+
 Decomposition cut_domain(Domain domain, const DecomposeOptions& options, const Attempt& attempt) {
   const std::int32_t bundles = bundle_small_parts(domain.map, domain.pieces, options.subdomains);
   const std::int32_t parts = attempt.finer * (options.subdomains - bundles);
@@ -107,8 +113,10 @@ Decomposition cut_domain(Domain domain, const DecomposeOptions& options, const A
     throw Error("the domain could be cut into " + std::to_string(parts - missing + bundles) + " of " +
                 std::to_string(options.subdomains) + " subdomains; ask for fewer, or allow smaller angles");
   if (attempt.divides_heavy) cutter.divide(kFairLoad * total_work(domain.pieces) / options.subdomains);
-  return to_decomposition(domain.map, domain.pieces, group_pieces(domain.map, domain.pieces, options.subdomains),
-                          options.subdomains);
+  const auto group_of = group_pieces(domain.map, domain.pieces, options.subdomains);
+  if (may_smooth(domain, options))
+    smooth(domain.map, domain.pieces, group_of, options.subdomains, options.min_angle * std::numbers::pi / 180);
+  return to_decomposition(domain.map, domain.pieces, group_of, options.subdomains);
 }
 
 double largest_load(const Decomposition& d) {

@@ -20,6 +20,11 @@ Point rotated(const Point& d, double cosine, double sine) {
   return {d.x * cosine - d.y * sine, d.x * sine + d.y * cosine};
 }
 
+bool are_opposite(const Point& u, const Point& v) {
+  constexpr double kNearly = -0.9999;
+  return u.x * v.x + u.y * v.y < kNearly;
+}
+
 /// Counterclockwise from `forward` to `backward`: the angle inside the piece, in (0, 2 pi].
 double interior_angle(const Point& forward, const Point& backward) {
   const double angle =
@@ -160,13 +165,14 @@ void place_stations(const PlanarMap& map, double spacing, double angle, Outline&
     corner.at = a;
     corner.side = from.side;
     corner.corner = true;
+    corner.opposite = map.origin[map.start(from.side)] == kNone && are_opposite(forward, backward);
     corner.length = length;
     corner.twice_area = twice_area;
     sectors.set(corner, forward, backward, interior_angle(forward, backward));
     stations.push_back(corner);
     backward = {-forward.x, -forward.y};
     Outline::Station place = corner;
-    place.corner = false;
+    place.corner = place.opposite = false;
     if (parts > 1) sectors.set(place, forward, backward, std::numbers::pi);
     for (int k = 1; k < parts; ++k) {
       const double t = static_cast<double>(k) / parts;

@@ -21,6 +21,7 @@ struct Outline {
     Point at;
     SideId side;  ///< starts here, or contains the place
     bool corner;
+    bool opposite;  ///< whether this is the end of a separator on the other side of a straight wall
     /// A separator may leave between these two directions (counterclockwise from first to last), so that it makes at
     /// least the requested angle with the border on both sides.
     Point first, last;

@@ -57,4 +57,13 @@ SideId PlanarMap::connect(SideId u, SideId v, Kind kind) {
   return h;
 }
 
+void PlanarMap::contract(SideId h) {
+  const SideId back = twin(h);
+  const MapVertexId kept = start(h), gone = end(h);
+  for (SideId s = side(h).next; s != back; s = side(twin(s)).next) side(s).origin = kept;
+  link(side(h).previous, side(h).next);
+  link(side(back).previous, side(back).next);
+  side(h) = side(back) = {gone, kNone, kNone, 0};
+}
+
 }  // namespace driftmesh

@@ -64,6 +64,9 @@ class PlanarMap {
   /// with one side of the new wall; two loops become one. Returns the side from u's corner to v's, which now precedes
   /// v.
   SideId connect(SideId u, SideId v, Kind kind);
+  /// Shrinks the wall of `h`, with the domain on both sides, to the point where `h` starts. Nothing is at
+  /// its other end from then on but the wall itself, which is in no loop.
+  void contract(SideId h);
 };
 
 }  // namespace driftmesh

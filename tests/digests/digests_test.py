@@ -19,7 +19,7 @@ INPUT = HERE / "input"
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                    OMPI_MCA_rmaps_base_oversubscribe="1", ASAN_OPTIONS="detect_leaks=0")
 
-PARTS = ["cylinder.poly", "--area", "0.01", "-n", "40"]
+PARTS = ["cylinder.poly", "--area", "0.01", "-n", "44"]
 # name: (ranks, or 0 without mpirun, the options of driftmesh mesh)
 MESHES = {
     "pipe": (0, ["pipe.poly", "--area", "1"]),
