@@ -14,6 +14,7 @@ namespace driftmesh::app {
 [[nodiscard]] cli::Command decompose_command();
 [[nodiscard]] cli::Command generate_command();
 [[nodiscard]] cli::Command plot_command();
+[[nodiscard]] cli::Command replay_command();
 [[nodiscard]] cli::Command report_command();
 [[nodiscard]] cli::Command run_command();
 /// These refer to the whole program, which must outlive them.

@@ -14,6 +14,7 @@
 #include "job/prepare.hpp"
 #include "job/rank_report.hpp"
 #include "job/simulated/run_simulated.hpp"
+#include "runtime/plan_run.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -81,6 +82,27 @@ Json moves_json(const ClusterRun& outcome) {
   return moves;
 }
 
+/// What balancing sees of the subdomains, for `driftmesh replay`.
+Json subdomains_json(const ExperimentRun& run) {
+  Json x = Json::array(), y = Json::array(), forecast = Json::array(), neighbors = Json::array(),
+       borders = Json::array();
+  const auto layout = layout_of(run.plan, static_cast<std::int32_t>(run.speeds.size()));
+  for (const auto& s : layout->subdomains) {
+    x.push_back(s.x);
+    y.push_back(s.y);
+    forecast.push_back(std::round(s.predicted));
+    Json next = Json::array(), lengths = Json::array();
+    for (const balancer::Neighbor& n : s.neighbors) {
+      next.push_back(n.subdomain);
+      lengths.push_back(n.length);
+    }
+    neighbors.push_back(std::move(next));
+    borders.push_back(std::move(lengths));
+  }
+  return {
+      {"x", x}, {"y", y}, {"forecast", forecast}, {"work", run.work}, {"neighbors", neighbors}, {"borders", borders}};
+}
+
 }  // namespace
 
 void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
@@ -112,7 +134,8 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   if (!request.cluster.changes.empty()) schedules = schedules_of(job::cluster_of(request));
   run.ideal =
       schedules.empty() ? ideal_seconds(run.outcome, run.speeds) : ideal_seconds(run.outcome, run.speeds, schedules);
-  run.oracle = oracle_seconds(work_done(run.outcome, run.speeds, schedules), run.speeds, schedules);
+  run.work = work_done(run.outcome, run.speeds, schedules);
+  run.oracle = oracle_seconds(run.work, run.speeds, schedules);
   run.record.stages.push_back({real ? "run" : "simulate", running.seconds()});
   run.record.seconds = preparing.seconds();
   run.record.seconds_refine = run.outcome.makespan;
@@ -131,7 +154,8 @@ std::string experiment_record(const ExperimentRun& run) {
                        {"oracle_seconds", run.oracle},       {"speeds", run.speeds},
                        {"messages", run.outcome.messages()}, {"message_bytes", run.outcome.message_bytes()},
                        {"owners_before", run.plan.owners},   {"owners_after", run.outcome.owners},
-                       {"moves", moves_json(run.outcome)},   {"load", load_json(run.outcome)}};
+                       {"moves", moves_json(run.outcome)},   {"load", load_json(run.outcome)},
+                       {"subdomains", subdomains_json(run)}};
   return json_text(record, 1);
 }
 

@@ -23,8 +23,9 @@ struct ExperimentRun {
   RunPlan plan;                   ///< without a size field
   IdVector<Rank, double> speeds;  ///< of the ranks, in triangles per second; for real ranks, measured in this run
   ClusterRun outcome;
-  double ideal = 0;   ///< seconds, if every rank computed from start to end
-  double oracle = 0;  ///< seconds, with the best mapping of whole subdomains (see oracle_seconds)
+  IdVector<SubdomainId, double> work;  ///< on each, in triangles (see work_done)
+  double ideal = 0;                    ///< seconds, if every rank computed from start to end
+  double oracle = 0;                   ///< seconds, with the best mapping of whole subdomains (see oracle_seconds)
   job::RunRecord record;
 };
 

@@ -73,7 +73,11 @@ void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::Policy
   auto policy = policies(plan.balancing.policy, plan.balancing.parameters);
   if (policy->placement() == balancer::Placement::kNobody) return;
   plan.policy = std::move(policy);
-  const auto layout = std::make_shared<balancer::Layout>();
+  plan.layout = layout_of(plan, ranks);
+}
+
+std::shared_ptr<const balancer::Layout> layout_of(const RunPlan& plan, std::int32_t ranks) {
+  auto layout = std::make_shared<balancer::Layout>();
   layout->ranks = ranks;
   for (const SubdomainId s : ids_of(plan.owners)) {
     const Decomposition::Subdomain& known = plan.decomposition.subdomains[s];
@@ -88,7 +92,7 @@ void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::Policy
     layout->subdomains[i.first].neighbors.push_back({i.second, i.length});
     layout->subdomains[i.second].neighbors.push_back({i.first, i.length});
   }
-  plan.layout = layout;
+  return layout;
 }
 
 }  // namespace driftmesh

@@ -36,6 +36,9 @@ struct PlanOptions {
 /// The forecast number of triangles of all ranks, or of the subdomains that one has at the start.
 [[nodiscard]] double forecast_of(const RunPlan& plan, std::optional<Rank> rank = {});
 
+/// What a balancer on this number of ranks knows of the plan.
+[[nodiscard]] std::shared_ptr<const balancer::Layout> layout_of(const RunPlan& plan, std::int32_t ranks);
+
 /// Makes the plan's layout and policy from its other members. Throws what `policies` throws.
 void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::PolicyMaker& policies);
 

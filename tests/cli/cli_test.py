@@ -832,6 +832,52 @@ class Experiments(Cli):
         self.refuse("run", self.CONFIGS / "short-memory.yaml", "-o", "none", "--set", "bounds.triangles=1e5", "--quiet",
                     "--set", "cluster.memory=1e4", code=3, says=["cluster.memory"])
 
+    def test_a_recorded_run_is_replayed_with_other_policies(self):
+        self.run_config("changing-speeds", "bounds.triangles=2e5", "decomposition.subdomains-per-rank=20",
+                        "cluster.speed=1e4", "cluster.scale=790", "balance.policy=[none, greedy]")
+        record = self.folder / "results" / "run-1.json"
+        said = self.succeed("replay", record)
+        rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in said.splitlines()]
+        self.assertEqual(rows[0], ["policy", "seconds", "efficiency", "regret %", "moved"])
+        seconds = {row[0]: float(row[1]) for row in rows[2:]}
+        self.assertEqual(list(seconds), ["recorded: none", "none", "zoltan", "diffusion", "stealing", "greedy"])
+        none, greedy = (float(row["seconds"]) for row in self.table())
+        self.assertAlmostEqual(seconds["recorded: none"], none, delta=1e-3 * none)
+        self.assertAlmostEqual(seconds["none"], none, delta=0.05 * none)
+        self.assertAlmostEqual(seconds["greedy"], greedy, delta=0.2 * greedy)
+        self.assertLess(seconds["greedy"], 0.7 * none)
+        again = self.succeed("replay", record, "--policy", "zoltan", "--parameter", "zoltan.method=rcb", "--policy", "none")
+        self.assertEqual(len(again.splitlines()), 5)
+        self.refuse("replay", record, "--policy", "greed", says=["greed", "greedy"])
+        self.refuse("replay", record, "--policy", "greedy", "--parameter", "greedy.tolerance=-1", says=["tolerance"])
+        self.refuse("replay", record, "--policy", "greedy", "--parameter", "tolerance", code=2, says=["NAME=VALUE"])
+
+    def test_what_cannot_be_replayed_is_refused(self):
+        self.run_config("first-run", *self.SHRUNK["first-run"])
+        good = (self.folder / "results" / "run-1.json").read_text()
+        (self.folder / "bad.json").write_text(good[:100])
+        self.refuse("replay", "bad.json", says=["bad.json", "is not JSON"])
+        self.refuse("replay", "missing.json", says=["missing.json"])
+        (self.folder / "bad.json").write_text("[1]")
+        self.refuse("replay", "bad.json", says=["bad.json", "not the record of an experiment's run"])
+        for place, value, words in ((("cluster", "subdomains"), None, "has no /cluster/subdomains"),
+                                    (("cluster", "owners_before"), [7] * 1000, "another number of /cluster/subdomains/forecast"),
+                                    (("cluster", "speeds"), [0, 0], "ranks without speed"),
+                                    (("experiment", "balance.look"), "soon", "another kind of /experiment/balance.look")):
+            record = json.loads(good)
+            if value is None:
+                del record[place[0]][place[1]]
+            else:
+                record[place[0]][place[1]] = value
+            (self.folder / "bad.json").write_text(json.dumps(record))
+            self.refuse("replay", "bad.json", says=["bad.json", words])
+        for field, value, words in (("neighbors", 99999, "neighbor that is not there"), ("work", -1, "invalid number")):
+            record = json.loads(good)
+            first = record["cluster"]["subdomains"][field]
+            first[0] = [value] * len(first[0]) if field == "neighbors" else value
+            (self.folder / "bad.json").write_text(json.dumps(record))
+            self.refuse("replay", "bad.json", says=["bad.json", words])
+
     def test_decisions_explain_each_move(self):
         for policy in ("greedy", "zoltan", "diffusion", "stealing"):
             self.run_config("two-speeds", "bounds.triangles-per-rank=2e5", f"balance.policy={policy}", folder=policy)

@@ -1,0 +1,123 @@
+#include "cluster/replay/working_rank.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "balancer/codec.hpp"
+#include "balancer/effort.hpp"
+#include "protocol/codec.hpp"
+
+namespace driftmesh {
+namespace {
+
+IdVector<SubdomainId, Rank> owners_of(const balancer::Layout& layout) {
+  IdVector<SubdomainId, Rank> owners;
+  for (const auto& s : layout.subdomains) owners.push_back(s.owner);
+  return owners;
+}
+
+}  // namespace
+
+double CountedWork::remaining() const {
+  return done >= work ? 0 : std::max(1.0, forecast - done);
+}
+
+std::uint64_t CountedWork::bytes() const {
+  return 40 + static_cast<std::uint64_t>(16 * done);
+}
+
+WorkingRank::WorkingRank(protocol::Transport& transport, std::shared_ptr<const balancer::Layout> layout,
+                         const IdVector<SubdomainId, CountedWork>& work, std::shared_ptr<const balancer::Policy> policy,
+                         const balancer::ControllerOptions& balancing, balancer::Council* council,
+                         const Options& options)
+    : transport_(transport),
+      protocol_(transport.rank(), transport.ranks(), owners_of(*layout)),
+      limits_{transport.ranks(), static_cast<std::int32_t>(work.size()), 1},
+      controller_(transport.rank(), layout, std::move(policy), balancing, transport.now(), council),
+      options_(options) {
+  for (const SubdomainId i : ids_of(work))
+    if ((*layout)[i].owner == transport.rank()) jobs_[i] = work[i];
+}
+
+protocol::StepResult WorkingRank::step() {
+  const bool heard = poll();
+  const bool ran_out = std::exchange(worked_, false) && agenda().empty();
+  if (ran_out || controller_.due(transport_.now())) balance();
+  send();
+  const bool worked = worked_ = work();
+  if (!worked) protocol_.rest(!controller_.waiting());
+  send();
+  if (protocol_.finished()) return protocol::StepResult::kFinished;
+  return heard || worked ? protocol::StepResult::kBusy : protocol::StepResult::kIdle;
+}
+
+void WorkingRank::send() {
+  for (const auto& o : protocol_.take_outgoing()) transport_.send(o.destination, protocol::encode(o.message));
+}
+
+bool WorkingRank::poll() {
+  bool heard = false;
+  while (const auto received = transport_.poll()) {
+    heard = true;
+    auto delivery = protocol_.receive(received->source, protocol::decode(received->source, received->bytes, limits_));
+    if (delivery.arrival) {
+      CountedWork job;
+      std::memcpy(&job, delivery.arrival->packed.data(), sizeof job);
+      jobs_[delivery.arrival->subdomain] = job;
+      controller_.arrived(delivery.arrival->subdomain, delivery.arrival->epoch, transport_.now());
+    }
+    if (delivery.advice)
+      controller_.receive(received->source, balancer::decode(received->source, *delivery.advice, limits_),
+                          transport_.now());
+  }
+  return heard;
+}
+
+// Work already begun comes first, as in the loop of a real rank.
+std::vector<SubdomainId> WorkingRank::agenda() const {
+  std::vector<SubdomainId> order;
+  for (const auto& [id, job] : jobs_)
+    if (job.remaining() > 0) order.push_back(id);
+  std::stable_partition(order.begin(), order.end(), [&](SubdomainId id) { return jobs_.at(id).done > 0; });
+  return order;
+}
+
+void WorkingRank::balance() {
+  std::vector<balancer::ReportedLoad> own;
+  for (const SubdomainId id : agenda())
+    own.push_back({id, protocol_.where(id).epoch, jobs_.at(id).remaining(), jobs_.at(id).bytes()});
+  const balancer::EffortLog planning;
+  const double start = transport_.now();
+  auto decision =
+      controller_.think(transport_.now(), own, options_.given_speed > 0 ? options_.given_speed : speed_.value());
+  transport_.spend(balancer::PlanningCosts{}.seconds(planning.efforts()) * options_.planning_speed);
+  if (decision.planned) controller_.took(options_.planning_speed > 0 ? transport_.now() - start : 1e-3);
+  for (auto& message : decision.messages) protocol_.advise(message.destination, balancer::encode(message.message));
+  for (const auto& move : decision.moves) hand_over(move);
+}
+
+void WorkingRank::hand_over(const balancer::Move& move) {
+  const auto node = jobs_.extract(move.subdomain);
+  Bytes packed(std::max<std::size_t>(sizeof(CountedWork), node.mapped().bytes()));
+  std::memcpy(packed.data(), &node.mapped(), sizeof(CountedWork));
+  protocol_.hand_off(move.subdomain, move.destination, std::move(packed));
+  ++counts_.moves;
+  ++counts_.moves_of[move.subdomain];
+}
+
+bool WorkingRank::work() {
+  const auto order = agenda();
+  if (order.empty()) return false;
+  CountedWork& job = jobs_.at(order.front());
+  const double amount = std::min(options_.slice, job.work - job.done);
+  const double before = transport_.now();
+  transport_.spend(amount);  // speeds of the network are triangles a second
+  job.done += amount;
+  counts_.done += amount;
+  speed_.add({amount, transport_.now() - before});
+  last_work = transport_.now();
+  return true;
+}
+
+}  // namespace driftmesh
