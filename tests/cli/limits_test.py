@@ -66,7 +66,7 @@ class Ceiling(program.Cli):
             self.hold(limit, "-n", "3000", "--area", "3e-5", "-o", "a.ele")
 
     def test_many_tiny_subdomains_on_ranks(self):
-        self.assertFalse(self.hold(60, "-n", "30000", ranks=2))
+        self.assertFalse(self.hold(60, "-n", "40000", ranks=2))
         self.assertTrue(self.hold(200, "-n", "10000", ranks=2))
 
     def test_finished_subdomains_are_small(self):

@@ -15,16 +15,16 @@ using namespace driftmesh::sim;
 
 namespace {
 
-// A broken rule must be found within this number of seeds, by the oracle responsible for it.
+// A broken rule must be found within this number of seeds by the oracle responsible for it, whatever other oracles
+// find in other seeds.
 void must_be_caught(const protocol::Rules& rules, std::uint64_t seeds, std::string_view as,
                     const AdversarialRun::Wrap& wrap = {}) {
   Domains domains;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const Scenario scenario = Scenario::from_seed(seed);
     const std::string failure = AdversarialRun(scenario, domains[scenario.domain], wrap, rules).run().failure();
-    if (failure.empty()) continue;
+    if (failure.empty() || failure.find(as) == std::string::npos) continue;
     MESSAGE("caught at seed ", seed, ": ", failure);
-    CHECK(failure.find(as) != std::string::npos);
     return;
   }
   FAIL("not caught within ", seeds, " seeds");
