@@ -116,11 +116,11 @@ class Smoother {
     return best;
   }
 
-  /// Of each point where separators meet that is not the input's, a side that starts there.
+  /// Of each point where interfaces meet that is not the input's, a side that starts there.
   [[nodiscard]] IdVector<MapVertexId, SideId> movable_ends() const {
     IdVector<MapVertexId, SideId> sides(map_.points.size(), kNone);
     for (const SideId h : ids_of(map_.sides))
-      if (is_separator(h) && map_.origin[map_.start(h)] == kNone) sides[map_.start(h)] = h;
+      if (is_interface(h) && map_.origin[map_.start(h)] == kNone) sides[map_.start(h)] = h;
     return sides;
   }
 
