@@ -186,17 +186,17 @@ TEST_CASE("mutation: an existing point is inserted again") {
   must_be_caught(protocol::sound_rules(), 50, "both sides of each edge", tampering(insert_again));
 }
 
-// Ranks may stop for good, or go on asking whether all is done: where it is lost decides.
 TEST_CASE("mutation: a message is lost") {
-  must_be_caught(protocol::sound_rules(), 50, "", [](protocol::Transport& transport, const FindLoop&) {
-    return std::make_unique<LosingTransport>(transport);
-  });
+  must_be_caught(
+      protocol::sound_rules(), 50, "termination in time: too late",
+      [](protocol::Transport& transport, const FindLoop&) { return std::make_unique<LosingTransport>(transport); });
 }
 
 TEST_CASE("mutation: a subdomain that returns to a rank is dropped") {
-  must_be_caught(protocol::sound_rules(), 50, "", [](protocol::Transport& transport, const FindLoop&) {
-    return std::make_unique<UnwelcomingTransport>(transport, limits_of(transport));
-  });
+  must_be_caught(protocol::sound_rules(), 50, "termination in time: too late",
+                 [](protocol::Transport& transport, const FindLoop&) {
+                   return std::make_unique<UnwelcomingTransport>(transport, limits_of(transport));
+                 });
 }
 
 TEST_CASE("mutation: the packed form omits pending points") {
