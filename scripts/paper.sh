@@ -46,6 +46,8 @@ experiment() {
   if [[ $small == yes ]]; then
     settings=(--set pictures=false)
     for setting in "$@"; do settings+=(--set "$setting"); done
+  elif [[ $file == scaled-speedup ]]; then
+    settings=(--set 'cluster.ranks=[1, 2, 4, 8, 16, 32, 64, 144, 256, 512]') # with 1,024 it takes 6 GB
   fi
   say "$name"
   rm -rf "${folder:?}/$name"
@@ -58,6 +60,7 @@ experiment() {
 few=(bounds.triangles-per-rank=2e3 decomposition.subdomains=600)
 experiment table-1 paper/table-1 "${few[@]}"
 experiment table-2 paper/table-2 "${few[@]}"
+experiment table-3 paper/table-3 input.generate=pipe "${few[@]}"
 experiment fig-7 paper/fig-7 bounds.triangles-per-rank=2e4 decomposition.subdomains-per-rank=25 'run.aggregation=[1, 16, 512]'
 experiment fig-10 paper/fig-10 bounds.triangles-per-rank=1e3 decomposition.subdomains-per-rank=5
 experiment fig-10-modern scaled-speedup bounds.triangles-per-rank=3e3 'cluster.ranks=[1, 8, 64]'

@@ -103,6 +103,15 @@ void check_parts(const Request& request) {
           "cannot be combined with mapping.speeds", "remove one of them");
 }
 
+void check_method(const Request& request) {
+  if (request.run.method != Method::kDecoupled) return;
+  require(request.run.presplit != Presplit::kOff, "run.presplit",
+          "is off, but the decoupled method splits interfaces beforehand", "remove it, or use the coupled method");
+  require(request.sizing.expression.empty() && request.sizing.background.empty(), "run.method",
+          "is decoupled, which needs the same bound on size everywhere, but lengths vary",
+          "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
+}
+
 void check_scratch(const Request& request) {
   if (request.run.scratch.empty()) return;
   require(request.decomposition.subdomains != 1, "run.scratch", "is for subdomains, but one piece is asked for",
@@ -144,6 +153,7 @@ void check(const Request& request, Place place, const balancer::PolicyMaker& pol
   check_sizes(request.bounds, request.sizing);
   check_policy(request, policies);
   check_parts(request);
+  check_method(request);
   check_scratch(request);
   if (place == kSimulated) {
     check_cluster(request);

@@ -316,6 +316,7 @@ Section parts_section() {
   const Names<MappingMethod> mappings = {
       {MappingMethod::kGraph, "graph"}, {MappingMethod::kBlock, "block"}, {MappingMethod::kRoundRobin, "round-robin"}};
   const Names<Presplit> presplits = {{Presplit::kAuto, "auto"}, {Presplit::kOn, "on"}, {Presplit::kOff, "off"}};
+  const Names<Method> methods = {{Method::kCoupled, "coupled"}, {Method::kDecoupled, "decoupled"}};
   const Names<WorkOrder> orders = {
       {WorkOrder::kGiven, "given"}, {WorkOrder::kLargest, "largest"}, {WorkOrder::kBacklog, "backlog"}};
   return {
@@ -354,6 +355,10 @@ Section parts_section() {
        key("mapping.by-area", &R::mapping, &R::Mapping::by_area,
            "Map by area instead of expected work: an uneven start, for experiments", option("map-by-area"),
            places(kMany)),
+       choice("run.method", &R::run, &R::Run::method, methods,
+              "How subdomains agree on the points between them: coupled (they tell each other), or decoupled (all are "
+              "made beforehand, and a run that needs more fails)",
+              option("method", "METHOD"), entry_points(kMesh | kExperiment)),
        choice(
            "run.presplit", &R::run, &R::Run::presplit, presplits,
            "Split interfaces to size before refinement: on, off (the full protocol), or auto (on if there is a bound "
@@ -425,7 +430,8 @@ Section cluster_section() {
            "Fraction of its speed that each rank keeps, real or simulated, such as 1,0.5; empty: all of it",
            in(0.01, 1), option("drag", "F,F,..."), places(kMany), entry_points(kMesh | kExperiment)),
        key("cluster.memory", &R::cluster, &R::Cluster::memory,
-           "Triangles for which each rank of a simulated cluster has memory: it takes no work beyond that, and more stop "
+           "Triangles for which each rank of a simulated cluster has memory: it takes no work beyond that, and more "
+           "stop "
            "the run; 0: any number",
            unit("triangles"), from(0)),
        key("cluster.latency", &R::cluster, &R::Cluster::latency,

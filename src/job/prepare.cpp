@@ -48,6 +48,9 @@ void check_presplit(const Request& request, const QualityBounds& bounds) {
   if (request.run.presplit == Presplit::kOn && !bounds_size(bounds))
     throw KeyError("run.presplit", "is on, but nothing says how long the pieces of interfaces may be",
                    "give bounds.area, bounds.triangles or sizing.size, or remove it");
+  if (request.run.method == Method::kDecoupled && !bounds_size(bounds))
+    throw KeyError("run.method", "is decoupled, but nothing says how long the pieces of interfaces may be",
+                   "give bounds.area or bounds.triangles, or use the coupled method");
 }
 
 /// The number of ranks for which the number of subdomains is chosen. Not that of threads, on which no mesh depends:
@@ -97,6 +100,7 @@ PlanOptions plan_options(const Request& request, Place place, const IdVector<Ran
   options.work.slice = request.run.slice;
   options.work.order = request.run.order;
   options.work.sleep = request.run.sleep;
+  options.work.decoupled = request.run.method == Method::kDecoupled;
   if (place == kRanks) options.work.threads = std::max(1, request.run.threads);
   options.balancing = balancing_of(request, place, speeds.size());
   return options;

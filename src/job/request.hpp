@@ -22,6 +22,12 @@ enum class ClusterKind {
   kReal,       ///< the processes that mpirun has started
 };
 
+/// How subdomains agree on the points between them.
+enum class Method {
+  kCoupled,    ///< they tell each other what they insert
+  kDecoupled,  ///< all points are made beforehand; a run that needs more fails
+};
+
 /// All settings of a mesh, from a command line, a YAML file, or a program that uses the library. keys.cpp declares each
 /// member once: its name, unit, range, default, help, and where it applies. Members are grouped as the sections of a
 /// file are. Nothing here is checked yet (see check.hpp).
@@ -89,6 +95,7 @@ struct Request {
   } cluster;
 
   struct Run {
+    Method method = Method::kCoupled;
     Presplit presplit = Presplit::kAuto;
     std::int64_t aggregation = protocol::Aggregator::kDefaultThreshold;
     WorkOrder order = WorkOrder::kGiven;

@@ -1,15 +1,31 @@
 #include "runtime/rank_loop.hpp"
 
 #include <algorithm>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "balancer/codec.hpp"
 #include "balancer/effort.hpp"
 #include "driftmesh/error.hpp"
+#include "geometry/midpoint.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/protocol_error.hpp"
 
 namespace driftmesh {
+namespace {
+
+std::string needs_neighbor(const Decomposition& d, SubdomainId id, GlobalRootId border) {
+  const Point m = midpoint(d.points[d.roots[border].a], d.points[d.roots[border].b]);
+  std::ostringstream message;
+  message << "the decoupled method does not suffice: subdomain " << to_string(id)
+          << " needs another point on its border near (" << m.x << ", " << m.y
+          << "), of which its neighbor would not know, since details there are finer than the bound "
+          << "on size; ask for more triangles, a smaller angle or fewer subdomains, or use the coupled method";
+  return message.str();
+}
+
+}  // namespace
 
 RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, IdSpan<SubdomainId, const Rank> owners,
                    Observers observers, const protocol::Rules& rules)
@@ -73,7 +89,7 @@ bool RankLoop::hand_over(SubdomainId id, Rank to) {
 void RankLoop::abandon() {
   if (abandoned_) return;
   drop_work();
-  protocol_.abandon();
+  if (!alone()) protocol_.abandon();
 }
 
 void RankLoop::drop_work() {
@@ -93,11 +109,11 @@ protocol::StepResult RankLoop::step() {
   if (!worked && !heard && !out_.empty()) crew_->wait();
   charge(worked || !out_.empty() ? &RankTimes::computing : &RankTimes::idle);
   const bool balanced = balance(worked) || came_first;
-  if (out_.empty() && rules_.rests(worked)) protocol_.rest(!controller_ || !controller_->waiting());
+  if (out_.empty() && !alone() && rules_.rests(worked)) protocol_.rest(!controller_ || !controller_->waiting());
   const bool sent = send();
   charge(sent || worked ? &RankTimes::sending : &RankTimes::idle);
   watch(heard || worked || balanced || sent || !out_.empty());
-  if (protocol_.finished()) return protocol::StepResult::kFinished;
+  if (protocol_.finished() || (alone() && !at_work())) return protocol::StepResult::kFinished;
   return heard || worked || !out_.empty() ? protocol::StepResult::kBusy : protocol::StepResult::kIdle;
 }
 
@@ -197,6 +213,7 @@ void RankLoop::end(Shift& shift, double seconds) {
   reschedule(subdomain);
   const auto& said = out.shift.said;
   interface_splits_ += static_cast<std::int64_t>(said.size());
+  if (plan_.work.decoupled && !said.empty()) throw Error(needs_neighbor(plan_.decomposition, id, said.front().root));
   for (const SplitPoint<GlobalRootId>& split : said) tell_across(id, split);
   const double start = transport_.now();
   if (observers_.after_slice) observers_.after_slice(*this, {id, seconds, said});

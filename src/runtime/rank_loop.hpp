@@ -142,6 +142,8 @@ class RankLoop {
   void charge(double RankTimes::*kind);
   void watch(bool moved);
   [[nodiscard]] bool waits() const;
+  /// Whether this rank has nothing to do with the others: it ends with its own work.
+  [[nodiscard]] bool alone() const { return plan_.work.decoupled && !controller_; }
 
   /// A subdomain that is worked on: what it is told must wait, and its load is that at the beginning.
   struct Out {

@@ -33,6 +33,8 @@ struct WorkSettings {
   /// Insertions between polls of the transport: some milliseconds, and most subdomains in one go.
   std::int64_t slice = 16384;
   WorkOrder order = WorkOrder::kGiven;
+  /// Presplit interfaces get no more points: nobody tells anybody anything, and a subdomain that needs one is an error.
+  bool decoupled = false;
   bool sleep = false;        ///< compress finished subdomains to a quarter of their memory until a neighbor needs them
   std::int32_t threads = 1;  ///< of each rank, where ranks are real
 };

@@ -381,11 +381,14 @@ class Errors(Cli):
         self.write("square.poly", SQUARE)
         for options, place in ((["--balance", "zoltan"], "mpirun"), (["--speeds", "1,2,3"], "mpirun"),
                                (["--balance-with", "foo=1"], "mpirun"), (["--sleep"], "--subdomains"),
-                               (["--slice", "10"], "--subdomains"), (["--presplit", "off"], "--subdomains")):
+                               (["--slice", "10"], "--subdomains"), (["--presplit", "off"], "--subdomains"),
+                               (["--method", "decoupled"], "--subdomains")):
             with self.subTest(options=options):
                 self.refuse("mesh", "square.poly", *options, "-o", "x.vtu", code=2, says=[options[0], place])
         self.refuse("mesh", "--generate-with", "x=1", code=2, says=["--generate-with needs a model", "--generate;"])
-        for options in (["--balance", "zoltan"], ["--aggregation", "3"], ["--keep-incomplete"], ["--presplit", "on"]):
+        for options in (["--balance", "zoltan"], ["--aggregation", "3"], ["--keep-incomplete"], ["--presplit", "on"],
+                        ["--method", "decoupled"], ["--method", "decoupled", "--size", "0.1"],
+                        ["--presplit", "off", "--method", "decoupled", "--area", "0.1"]):
             with self.subTest(options=options):
                 self.refuse("mesh", "square.poly", "-n", "4", *options, code=2, says=[options[0]])
         self.refuse("decompose", "square.poly", "-n", "4", "--split-skew", "5", code=2, says=["--split-skew", "at most 1"])
@@ -637,6 +640,24 @@ class Mesh(Cli):
             for mesh in "holes.pvtu", "holes.msh":
                 self.succeed("check", mesh, "holes.poly", "--area", "0.01", "--angle", "20")
 
+    def test_the_decoupled_method_sends_nothing_or_fails(self):
+        self.succeed("generate", "bay", "--resolution", "1000", "-o", "bay.poly")
+        method = ["--method", "decoupled", "-n", "30", "--json", "run.json"]
+        result = self.on_ranks(3, "mesh", "bay.poly", "--triangles", "1e6", *method, "-o", "bay.pvtu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        run = json.loads((self.folder / "run.json").read_text())
+        self.assertEqual(sum(r["splits_sent"] for r in run["parts"]["ranks"]), 0)
+        self.succeed("check", "bay.pvtu", "bay.poly", "--angle", "20")
+        self.succeed("mesh", "bay.poly", "--triangles", "1e6", *method)
+        self.assertEqual(json.loads((self.folder / "run.json").read_text())["mesh"]["digest"], run["mesh"]["digest"])
+        before = self.files()
+        result = self.on_ranks(3, "mesh", "bay.poly", "--triangles", "5e3", "--angle", "33", *method, "-o", "coarse.pvtu")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("needs another point on its border near (", result.stderr)
+        self.refuse("mesh", "bay.poly", "--triangles", "5e3", "--angle", "33", *method, "-o", "coarse.vtu",
+                    says=["use the coupled method"])
+        self.assertEqual(self.files(), before)
+
     def test_errors_on_many_ranks_are_printed_once(self):
         for arguments, code, message in ((["mesh", "nothing.poly"], 1, "nothing.poly: cannot open"),
                                          (["mesh", "--such"], 2, "unknown option --such"),
@@ -710,6 +731,7 @@ class Experiments(Cli):
         "first-run": ["bounds.triangles=2e4"],
         "paper/table-1": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
         "paper/table-2": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
+        "paper/table-3": ["input.generate=pipe", "bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
         "paper/fig-7": ["bounds.triangles-per-rank=2e3", "decomposition.subdomains-per-rank=10", "cluster.ranks=4",
                         "mapping.method=graph", "run.aggregation=[1, 16, 1024]"],
         "paper/fig-10": ["bounds.triangles-per-rank=300", "decomposition.subdomains-per-rank=2",

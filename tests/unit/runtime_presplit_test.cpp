@@ -25,6 +25,40 @@ TEST_CASE("with presplit interfaces a uniform bound needs no SPLIT, and the mesh
     }
 }
 
+TEST_CASE("decoupled ranks send nothing, and make the same mesh") {
+  std::uint64_t digest = 0;
+  for (const bool decoupled : {false, true})
+    for (const std::int32_t ranks : {2, 3}) {
+      RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, ranks, 20, Presplit::kAuto);
+      plan.work.decoupled = decoupled;
+      protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(1));
+      SimulatedRanks run(network, ranks, plan);
+      REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
+      for (const auto& loop : run.loops) CHECK((loop->outcome().messages == 0) == decoupled);
+      if (digest == 0) digest = digest_of(run.subdomains());
+      CHECK(digest_of(run.subdomains()) == digest);
+    }
+}
+
+TEST_CASE("a decoupled subdomain that needs a point on an interface is an error, and no other rank is told") {
+  RunPlan plan = plan_of(ell(), {30, 0, {}, nullptr}, 2, 20, Presplit::kAuto);  // nothing is presplit
+  plan.work.decoupled = true;
+  protocol::AdversarialNetwork network(2, protocol::Adversary::from_seed(1));
+  SimulatedRanks run(network, 2, plan);
+  std::string said;
+  for (const auto& loop : run.loops) try {
+      while (loop->step() != protocol::StepResult::kFinished) {
+      }
+    } catch (const Error& error) {
+      said = error.what();
+      REQUIRE(loop->can_abandon());
+      loop->abandon();
+      CHECK(loop->step() == protocol::StepResult::kFinished);
+    }
+  CHECK(said.find("needs another point on its border near (") != std::string::npos);
+  for (const auto& loop : run.loops) CHECK(loop->outcome().messages == 0);
+}
+
 TEST_CASE("the size bound does not split presplit interfaces whose pieces are as long as allowed") {
   // The equilateral triangle of area 1 has edges of length 2 / 3^(1/4) = 1.51967...: just below it, and just above.
   for (const double length : {1.5196, 1.5198, 1.52})
