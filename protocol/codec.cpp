@@ -41,7 +41,7 @@ void fields(auto& archive, MessageOf<Token> auto& m) {
   archive.flag(m.black);
 }
 void fields(auto& archive, MessageOf<Terminate> auto& m) {
-  archive.number(m.pass);
+  archive.number(m.round);
   archive.number(m.work);
   archive.number(m.control);
 }

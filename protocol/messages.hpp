@@ -64,21 +64,33 @@ struct Abandon {
   friend bool operator==(const Abandon&, const Abandon&) = default;
 };
 
-// ---- Detection of termination; each of these travels along the ring of ranks ------------------------------
+// ---- Detection of termination: questions of rank 0 down the tree of ranks, and the sums of answers up -----------
 
-/// Safra's token (EWD998).
+/// Whether the work is over, after Safra (EWD998). Down the tree it is the question, with count 0 and white.
 struct Token {
+  static constexpr const char* kName = "token";
   std::uint64_t round = 0;  ///< the probes of rank 0, from 1
-  std::int64_t count = 0;   ///< SPLITs and hand-offs sent less handled, over the ranks visited
-  bool black = false;       ///< whether a visited rank has handled any since the last visit
+  std::int64_t count = 0;   ///< SPLITs and hand-offs sent less handled, over the ranks that answered
+  bool black = false;       ///< whether one of them has handled any since its last answer
+  Token& operator+=(const Token& other) {
+    count += other.count;
+    black = black || other.black;
+    return *this;
+  }
   friend bool operator==(const Token&, const Token&) = default;
 };
 
-/// The work is over; only control traffic may still be in transit.
+/// The work is over; only control traffic may still be in transit. Down the tree both sums are 0.
 struct Terminate {
-  std::uint64_t pass = 0;    ///< around the ring, from 1
-  std::int64_t work = 0;     ///< sent less handled over the ranks visited: an audit, 0 at the end of a pass
-  std::int64_t control = 0;  ///< control messages sent less received over the ranks visited
+  static constexpr const char* kName = "termination pass";
+  std::uint64_t round = 0;   ///< the passes of rank 0, from 1
+  std::int64_t work = 0;     ///< sent less handled over the ranks that answered: an audit, 0 at the end of a pass
+  std::int64_t control = 0;  ///< control messages sent less received over the ranks that answered
+  Terminate& operator+=(const Terminate& other) {
+    work += other.work;
+    control += other.control;
+    return *this;
+  }
   friend bool operator==(const Terminate&, const Terminate&) = default;
 };
 

@@ -161,6 +161,12 @@ void RankProtocol::take(Rank, Advice&& advice, Delivery& delivery) {
   if (phase() == Termination::Phase::kWorking) delivery.advice = std::move(advice);
 }
 
+// A rank at work passes the question on at once: the ranks below need not wait for it.
+void RankProtocol::take(Rank source, Token&& token, Delivery&) {
+  termination_.receive(source, token);
+  termination_.advance(false, outgoing_);
+}
+
 void RankProtocol::refuse_work_after_the_end(Rank source) const {
   if (phase() != Termination::Phase::kWorking)
     throw ProtocolError(source, "work arrives after termination: it was declared too early");
@@ -170,7 +176,7 @@ void RankProtocol::rest(bool program_is_passive) {
   if (rules_->flushes_when_idle())
     for (Outgoing& batch : aggregator_.flush()) send_batch(std::move(batch));
   const bool passive = rules_->passive(program_is_passive, aggregator_.empty(), held_.empty());
-  while (auto message = termination_.advance(passive)) outgoing_.push_back(std::move(*message));
+  termination_.advance(passive, outgoing_);
 }
 
 }  // namespace driftmesh::protocol

@@ -99,7 +99,7 @@ class RankProtocol {
   void take(Rank source, LocationUpdate&& update, Delivery& delivery);
   void take(Rank source, Advice&& advice, Delivery& delivery);
   void take(Rank source, Abandon&& abandon, Delivery& delivery);
-  void take(Rank source, Token&& token, Delivery&) { termination_.receive(source, token); }
+  void take(Rank source, Token&& token, Delivery&);
   void take(Rank source, Terminate&& terminate, Delivery&) { termination_.receive(source, terminate); }
   void take(Rank source, Finish&& finish, Delivery&) { termination_.receive(source, finish); }
   void take_group(Rank source, SplitGroup&& group, Delivery& delivery);

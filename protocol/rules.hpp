@@ -35,7 +35,7 @@ class Rules {
   }
   /// An idle rank does not keep others waiting for SPLITs that it has aggregated.
   [[nodiscard]] virtual bool flushes_when_idle() const { return true; }
-  /// A rank passes the token only when nothing that it holds could become work.
+  /// A rank answers a probe only when nothing that it holds could become work.
   [[nodiscard]] virtual bool passive(bool program_is_passive, bool aggregator_empty, bool nothing_held) const {
     return program_is_passive && aggregator_empty && nothing_held;
   }

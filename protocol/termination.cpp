@@ -6,11 +6,6 @@
 #include "protocol/protocol_error.hpp"
 
 namespace driftmesh::protocol {
-namespace {
-
-constexpr Rank kFirst{0};  // of the ring: it starts the probes and the passes
-
-}  // namespace
 
 void Termination::work_sent(std::int64_t count) {
   if (resting_)
@@ -25,20 +20,12 @@ void Termination::work_handled(std::int64_t count) {
   resting_ = false;
 }
 
-// Rank 0 awaits the token of the round that it started; any other rank that of the round after its last.
 void Termination::receive(Rank source, const Token& token) {
-  const std::uint64_t due = self_ == kFirst ? round_ : round_ + 1;
-  if (token.round > due) throw ProtocolError(source, "token of round " + std::to_string(token.round) + " is not due");
-  if (phase_ == Phase::kWorking && token.round == due && due != 0) token_ = token;
+  probe_.receive(source, token);
 }
 
 void Termination::receive(Rank source, const Terminate& terminate) {
-  const std::uint64_t due = self_ == kFirst ? pass_ : pass_ + 1;
-  if (terminate.pass > due)
-    throw ProtocolError(source, "termination pass " + std::to_string(terminate.pass) + " is not due");
-  if (phase_ == Phase::kFinished || terminate.pass != due) return;
-  phase_ = Phase::kDraining;
-  terminate_ = terminate;
+  if (pass_.receive(source, terminate)) phase_ = Phase::kDraining;
 }
 
 void Termination::receive(Rank source, const Finish&) {
@@ -46,23 +33,12 @@ void Termination::receive(Rank source, const Finish&) {
   if (phase_ == Phase::kDraining) finish_due_ = true;
 }
 
-std::optional<Outgoing> Termination::advance(bool passive) {
+void Termination::advance(bool passive, std::vector<Outgoing>& out) {
   if (passive) resting_ = true;
-  if (ranks_ == 1) {
-    advance_alone(passive);
-    return std::nullopt;
-  }
-  switch (phase_) {
-    case Phase::kWorking:
-      if (!passive) return std::nullopt;
-      return self_ == kFirst ? probe() : pass_token();
-    case Phase::kDraining:
-      if (finish_due_) return finish();
-      return self_ == kFirst ? fence() : pass_terminate();
-    case Phase::kFinished:
-      break;
-  }
-  return std::nullopt;
+  if (alone_) return advance_alone(passive);
+  probe_.relay(out);
+  if (phase_ == Phase::kWorking && passive) answer_probe(out);
+  if (phase_ == Phase::kDraining) answer_pass(out);
 }
 
 // A single rank need not ask others: it sends only to itself.
@@ -71,56 +47,55 @@ void Termination::advance_alone(bool passive) {
   if (phase_ == Phase::kDraining && control_ == 0) phase_ = Phase::kFinished;
 }
 
-// Rank 0: evaluates the returned token, and sends the next one, or Terminate.
-std::optional<Outgoing> Termination::probe() {
-  if (round_ != 0 && !token_) return std::nullopt;  // it is in transit
-  if (token_ && !token_->black && !black_ && token_->count + work_ == 0) {
-    phase_ = Phase::kDraining;
-    return fence();
+// What this rank adds to a probe; it turns white.
+Token Termination::own_token() {
+  return {probe_.round(), work_, std::exchange(black_, false)};
+}
+
+void Termination::answer_probe(std::vector<Outgoing>& out) {
+  if (!probe_.place().is_root()) {
+    if (probe_.due()) probe_.answer(own_token(), out);
+    return;
   }
-  token_.reset();
-  black_ = false;
-  return Outgoing{next(), Token{++round_, 0, false}};
-}
-
-std::optional<Outgoing> Termination::pass_token() {
-  if (!token_) return std::nullopt;
-  Token token = *std::exchange(token_, std::nullopt);
-  token.count += work_;
-  token.black = token.black || black_;
-  black_ = false;
-  round_ = token.round;
-  return Outgoing{next(), token};
-}
-
-// Rank 0: evaluates the returned pass, and sends the next one, or Finish.
-std::optional<Outgoing> Termination::fence() {
-  if (pass_ != 0 && !terminate_) return std::nullopt;  // it is in transit
-  if (terminate_) {
-    if (terminate_->work != 0)
-      throw ProtocolError(Rank{ranks_ - 1}, "after termination " + std::to_string(terminate_->work) +
-                                                " SPLITs or hand-offs are sent and not handled: termination was wrong");
-    if (terminate_->control == 0) return finish();
+  if (probe_.due()) {
+    const Token all = probe_.close(own_token());
+    if (!all.black && all.count == 0) {
+      phase_ = Phase::kDraining;
+      return;
+    }
   }
-  terminate_.reset();
-  return Outgoing{next(), Terminate{++pass_, work_, control_}};
+  if (probe_.asked()) return;  // the probe is on its way
+  probe_.ask();
+  black_ = false;
+  probe_.relay(out);
 }
 
-std::optional<Outgoing> Termination::pass_terminate() {
-  if (!terminate_) return std::nullopt;
-  Terminate terminate = *std::exchange(terminate_, std::nullopt);
-  terminate.work += work_;
-  terminate.control += control_;
-  pass_ = terminate.pass;
-  return Outgoing{next(), terminate};
+// When every rank has stopped sending control messages, a sum of 0 says that all have arrived.
+void Termination::answer_pass(std::vector<Outgoing>& out) {
+  if (finish_due_) return finish(out);
+  pass_.relay(out);
+  const Terminate own{pass_.round(), work_, control_};
+  if (!pass_.place().is_root()) {
+    if (pass_.due()) pass_.answer(own, out);
+    return;
+  }
+  if (pass_.due()) {
+    const Terminate all = pass_.close(own);
+    if (all.work != 0)
+      throw Error("after termination " + std::to_string(all.work) +
+                  " SPLITs or hand-offs are sent and not handled: termination was wrong");
+    if (all.control == 0) return finish(out);
+  }
+  if (pass_.asked()) return;  // the pass is on its way
+  pass_.ask();
+  pass_.relay(out);
 }
 
-// The last rank of the ring has no successor to inform.
-std::optional<Outgoing> Termination::finish() {
+void Termination::finish(std::vector<Outgoing>& out) {
   phase_ = Phase::kFinished;
   finish_due_ = false;
-  if (next() == kFirst) return std::nullopt;
-  return Outgoing{next(), Finish{}};
+  const TreePlace& place = pass_.place();
+  for (std::size_t i = 0; i < place.children(); ++i) out.push_back({place.child(i), Finish{}});
 }
 
 }  // namespace driftmesh::protocol

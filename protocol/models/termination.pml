@@ -4,10 +4,11 @@
  *
  * What is left out: which subdomain a message is for. Whether a rank handles, forwards or holds back a message, and
  * when it releases one, is left to chance, which allows more than the directory does. Work and control messages may
- * overtake each other without limit. The token moves in no time: a delay of it changes nothing, because a rank that
- * does not look at it yet is the same.
+ * overtake each other without limit. Questions reach all ranks in no time, and answers are added up in no time: a delay
+ * changes nothing, because a rank that does not look at a question yet is the same, and so is one that answers later.
  *
- * MUTATION selects a wrong rule; each must violate an assertion (1, 2, 4, 5, 6, 7, 8) or the formula `found` (3).
+ * SHAPE is the tree of the three ranks: 0 a star (0 above 1 and 2), 1 a chain (0 above 1 above 2). MUTATION selects a
+ * wrong rule; each must violate an assertion (1, 2, 4 to 9) or the formula `found` (3).
  */
 #ifndef N
 #define N 3
@@ -20,6 +21,9 @@
 #endif
 #ifndef CONTROL
 #define CONTROL 1   /* control messages in all */
+#endif
+#ifndef SHAPE
+#define SHAPE 0
 #endif
 #ifndef MUTATION
 #define MUTATION 0
@@ -71,6 +75,18 @@
 #define COLOUR_AFTER_FORWARDING(i) black[i]
 #endif
 
+/* The ranks below a rank have answered. */
+#if SHAPE == 0
+#define BELOW_ANSWERED(i) (i != 0 || (answered[1] && answered[2]))
+#else
+#define BELOW_ANSWERED(i) (i == 2 || answered[i + 1])
+#endif
+#if MUTATION == 9   /* rank 0 does not wait for the last answer */
+#define DUE(i) (BELOW_ANSWERED(i) || (i == 0 && answered[1]))
+#else
+#define DUE(i) BELOW_ANSWERED(i)
+#endif
+
 #define PASSIVE(i) (IDLE(i) && AGGREGATOR_EMPTY(i) && NOTHING_HELD(i))
 
 bool busy[N];
@@ -82,18 +98,19 @@ byte forwards_left = FORWARDS;
 
 short count[N];         /* sent less handled */
 bool black[N];
-byte token_at;          /* rank 0 owns the token at the start */
-short token_count;
-bool token_black = true;
+bool probing;           /* a question of rank 0 is out */
+bool answered[N];       /* the question that is out */
+short token_count;      /* sum of the answers */
+bool token_black;
 
 byte control_wire[N];
 byte control_left = CONTROL;
 short control[N];       /* sent less received */
 bool draining[N];       /* knows that the work is over */
-short pass_control;     /* of the Terminate that is at token_at */
-byte finished;          /* ranks that have passed Finish on */
+short pass_control;     /* sum of the answers to Terminate */
+bool finish;            /* rank 0 has sent Finish */
+byte finished;          /* ranks that have seen it */
 
-#define NEXT(i) ((i + 1) % N)
 #define QUIET (!busy[0] && !busy[1] && !busy[2] && \
                aggregated[0] + aggregated[1] + aggregated[2] + wire[0] + wire[1] + wire[2] + \
                held[0] + held[1] + held[2] == 0)
@@ -135,38 +152,41 @@ end:
   :: atomic { control_left > 0 && !draining[me] ->
        any_other(me, other); control_left--; control[me]++; control_wire[other]++; other = 0 }
   :: atomic { control_wire[me] > 0 -> control_wire[me]--; control[me]-- }
-  /* The token. */
-  :: atomic { token_at == me && me != 0 && !draining[0] && PASSIVE(me) ->
+  /* A probe: rank 0 asks, the others answer, rank 0 concludes. */
+  :: atomic { me == 0 && !probing && !draining[0] && PASSIVE(0) ->
+       black[0] = false; token_count = 0; token_black = false; probing = true }
+  :: atomic { me != 0 && probing && !draining[0] && !answered[me] && DUE(me) && PASSIVE(me) ->
        token_count = token_count + count[me];
        token_black = token_black || black[me];
        black[me] = false;
-       token_at = NEXT(me) }
-  :: atomic { token_at == me && me == 0 && !draining[0] && PASSIVE(0) ->
+       answered[me] = true }
+  :: atomic { me == 0 && probing && !draining[0] && DUE(0) && PASSIVE(0) ->
+       answered[1] = false; answered[2] = false;
        if
        :: !token_black && RANK_0_WHITE && token_count + count[0] == 0 ->
             assert(QUIET);
-            draining[0] = true;
-            pass_control = control[0]
-       :: else -> black[0] = false
+            draining[0] = true
+       :: else -> probing = false
        fi;
-       token_count = 0;
-       token_black = false;
-       token_at = 1 }
-  /* The fence: passes around the ring until no control message is under way, then Finish. */
-  :: atomic { token_at == me && me != 0 && draining[0] && finished == 0 ->
+       token_count = 0; token_black = false; black[0] = false }
+  /* The fence: passes down and up the tree until no control message is under way, then Finish. */
+  :: atomic { me != 0 && draining[0] && !finish && !answered[me] ->
        assert(QUIET);
        draining[me] = true;
-       pass_control = pass_control + control[me];
-       token_at = NEXT(me) }
-  :: atomic { token_at == 0 && me == 0 && draining[0] && finished == 0 ->
        if
-       :: pass_control == 0 -> assert(CONTROL_QUIET); finished = 1
-       :: else -> pass_control = control[0]
+       :: BELOW_ANSWERED(me) -> pass_control = pass_control + control[me]; answered[me] = true
+       :: else
+       fi }
+  :: atomic { me == 0 && draining[0] && !finish && BELOW_ANSWERED(0) ->
+       answered[1] = false; answered[2] = false;
+       if
+       :: pass_control + control[0] == 0 -> assert(CONTROL_QUIET); finish = true; finished++
+       :: else
        fi;
-       token_at = 1 }
-  :: atomic { token_at == me && me != 0 && finished == me ->
-       assert(QUIET && CONTROL_QUIET); finished++; token_at = NEXT(me) }
-  :: finished > me -> break
+       pass_control = 0 }
+  :: atomic { me != 0 && finish ->
+       assert(QUIET && CONTROL_QUIET); finished++; break }
+  :: me == 0 && finish -> break
   od
 }
 

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <utility>
+#include <vector>
+
 #include "protocol/protocol_error.hpp"
 #include "support/id_literals.hpp"
 
@@ -11,23 +14,52 @@ using Phase = Termination::Phase;
 
 namespace {
 
+std::vector<Outgoing> advance(Termination& rank, bool passive) {
+  std::vector<Outgoing> out;
+  rank.advance(passive, out);
+  return out;
+}
+
+// The only message that a rank sends, which must be a T.
+template <class T>
+T only(Termination& rank, bool passive = true) {
+  const auto out = advance(rank, passive);
+  REQUIRE(out.size() == 1);
+  return std::get<T>(out.front().message);
+}
+
+void deliver(IdVector<Rank, Termination>& ranks, Rank source, const Outgoing& sent) {
+  auto& to = ranks[sent.destination];
+  if (const auto* token = std::get_if<Token>(&sent.message)) to.receive(source, *token);
+  if (const auto* terminate = std::get_if<Terminate>(&sent.message)) to.receive(source, *terminate);
+  if (const auto* finish = std::get_if<Finish>(&sent.message)) to.receive(source, *finish);
+}
+
 // Lets every rank advance, all passive, and carries what they send, until nothing moves. Returns the messages carried.
 int settle(IdVector<Rank, Termination>& ranks) {
   int carried = 0;
   for (bool moved = true; moved;) {
     moved = false;
-    for (const Rank source : ids_of(ranks)) {
-      const auto sent = ranks[source].advance(true);
-      if (!sent) continue;
-      moved = true;
-      REQUIRE(++carried < 10000);
-      auto& to = ranks[sent->destination];
-      if (const auto* token = std::get_if<Token>(&sent->message)) to.receive(source, *token);
-      if (const auto* terminate = std::get_if<Terminate>(&sent->message)) to.receive(source, *terminate);
-      if (const auto* finish = std::get_if<Finish>(&sent->message)) to.receive(source, *finish);
-    }
+    for (const Rank source : ids_of(ranks))
+      for (const Outgoing& sent : advance(ranks[source], true)) {
+        moved = true;
+        REQUIRE(++carried < 100000);
+        deliver(ranks, source, sent);
+      }
   }
   return carried;
+}
+
+// The steps of time, each the latency of a message, until all passive ranks have finished.
+int latencies(IdVector<Rank, Termination>& ranks) {
+  for (int steps = 0;; ++steps) {
+    REQUIRE(steps < 1000);
+    std::vector<std::pair<Rank, Outgoing>> in_transit;
+    for (const Rank source : ids_of(ranks))
+      for (Outgoing& sent : advance(ranks[source], true)) in_transit.emplace_back(source, std::move(sent));
+    if (in_transit.empty()) return steps;
+    for (const auto& [source, sent] : in_transit) deliver(ranks, source, sent);
+  }
 }
 
 IdVector<Rank, Termination> make(std::int32_t ranks) {
@@ -39,11 +71,19 @@ IdVector<Rank, Termination> make(std::int32_t ranks) {
 }  // namespace
 
 TEST_CASE("ranks without any work finish after one probe, one pass and one farewell") {
-  for (std::int32_t ranks = 1; ranks <= 9; ++ranks) {
+  for (const std::int32_t ranks : {1, 2, 3, 8, 9, 10, 17, 73, 74, 600}) {
     CAPTURE(ranks);
     auto all = make(ranks);
-    CHECK(settle(all) == (ranks == 1 ? 0 : 3 * ranks - 1));
+    CHECK(settle(all) == 5 * (ranks - 1));
     for (const auto& rank : all) CHECK(rank.phase() == Phase::kFinished);
+  }
+}
+
+TEST_CASE("the end takes latencies in proportion to the height of the tree") {
+  for (const auto& [ranks, height] : {std::pair(2, 1), {9, 1}, {10, 2}, {32, 2}, {73, 2}, {144, 3}, {4096, 4}}) {
+    CAPTURE(ranks);
+    auto all = make(ranks);
+    CHECK(latencies(all) == 5 * height);
   }
 }
 
@@ -59,17 +99,17 @@ TEST_CASE("the end of work is detected within two more probes") {
 TEST_CASE("no termination while a message is under way or a rank is busy") {
   auto all = make(3);
   all[2_rank].work_sent(1);
-  CHECK(!all[0_rank].advance(false));
+  CHECK(advance(all[0_rank], false).empty());
   for (int round = 0; round < 5; ++round) {
-    Message message = all[0_rank].advance(true).value().message;
-    for (const auto& [from, to] : {std::pair(0_rank, 1_rank), {1_rank, 2_rank}, {2_rank, 0_rank}}) {
-      auto& rank = all[to];
-      rank.receive(from, std::get<Token>(message));
-      if (to == 0_rank) break;
-      CHECK(!rank.advance(false));
-      message = rank.advance(true).value().message;
+    for (const Outgoing& question : advance(all[0_rank], true)) deliver(all, 0_rank, question);
+    for (const Rank r : {2_rank, 1_rank}) {
+      CHECK(advance(all[r], false).empty());
+      CHECK(advance(all[0_rank], true).empty());
+      const auto token = only<Token>(all[r]);
+      CHECK(token.count == (r == 2_rank ? 1 : 0));
+      all[0_rank].receive(r, token);
     }
-    CHECK(std::get<Token>(message).count == 1);
+    CHECK(advance(all[0_rank], false).empty());
   }
   CHECK(all[0_rank].phase() == Phase::kWorking);
   all[0_rank].work_handled(1);
@@ -77,34 +117,51 @@ TEST_CASE("no termination while a message is under way or a rank is busy") {
   CHECK(all[0_rank].phase() == Phase::kFinished);
 }
 
+TEST_CASE("a rank at work passes a question on, and answers when the ranks below have") {
+  auto all = make(11);  // 9 and 10 are below 1
+  for (const Outgoing& question : advance(all[0_rank], true)) deliver(all, 0_rank, question);
+  const auto asked = advance(all[1_rank], false);
+  REQUIRE(asked.size() == 2);
+  for (const Outgoing& question : asked) deliver(all, 1_rank, question);
+  all[9_rank].work_sent(3);
+  all[10_rank].work_handled(1);
+  const auto nine = only<Token>(all[9_rank]);
+  all[1_rank].receive(9_rank, nine);
+  all[1_rank].receive(9_rank, nine);  // a copy is not a second answer
+  CHECK(advance(all[1_rank], true).empty());
+  all[1_rank].receive(10_rank, only<Token>(all[10_rank]));
+  CHECK(advance(all[1_rank], false).empty());
+  CHECK(only<Token>(all[1_rank]) == Token{1, 2, true});
+}
+
 TEST_CASE("a single rank waits for messages to itself") {
   Termination rank(0_rank, 1);
   rank.work_sent(2);
   rank.control_sent();
-  CHECK(!rank.advance(true));
+  CHECK(advance(rank, true).empty());
   CHECK(rank.phase() == Phase::kWorking);
   rank.work_handled(2);
-  CHECK(!rank.advance(false));
+  CHECK(advance(rank, false).empty());
   CHECK(rank.phase() == Phase::kWorking);
-  CHECK(!rank.advance(true));
+  CHECK(advance(rank, true).empty());
   CHECK(rank.phase() == Phase::kDraining);
   rank.control_received();
-  CHECK(!rank.advance(true));
+  CHECK(advance(rank, true).empty());
   CHECK(rank.phase() == Phase::kFinished);
 }
 
 TEST_CASE("the fence waits for control messages under way") {
   auto all = make(2);
   all[1_rank].control_sent();
-  Token token = std::get<Token>(all[0_rank].advance(true)->message);
+  Token token = only<Token>(all[0_rank]);
   all[1_rank].receive(0_rank, token);
-  all[0_rank].receive(1_rank, std::get<Token>(all[1_rank].advance(true)->message));
+  all[0_rank].receive(1_rank, only<Token>(all[1_rank]));
   for (std::uint64_t pass = 1; pass <= 5; ++pass) {
-    const auto terminate = std::get<Terminate>(all[0_rank].advance(true)->message);
-    CHECK(terminate.pass == pass);
+    const auto terminate = only<Terminate>(all[0_rank]);
+    CHECK(terminate.round == pass);
     CHECK(all[0_rank].phase() == Phase::kDraining);
     all[1_rank].receive(0_rank, terminate);
-    const auto back = std::get<Terminate>(all[1_rank].advance(true)->message);
+    const auto back = only<Terminate>(all[1_rank]);
     CHECK(back.control == 1);
     all[0_rank].receive(1_rank, back);
     all[0_rank].receive(1_rank, back);
@@ -116,36 +173,38 @@ TEST_CASE("the fence waits for control messages under way") {
 
 TEST_CASE("copies of detection messages change nothing, impossible ones are errors") {
   auto all = make(3);
-  const auto token = std::get<Token>(all[0_rank].advance(true)->message);
+  CHECK(advance(all[0_rank], true).size() == 2);
+  const Token token{1, 0, false};
   all[1_rank].receive(0_rank, token);
   all[1_rank].receive(0_rank, token);
-  CHECK(all[1_rank].advance(true));
+  CHECK(only<Token>(all[1_rank]) == token);
   all[1_rank].receive(0_rank, token);
-  CHECK(!all[1_rank].advance(true));
+  CHECK(advance(all[1_rank], true).empty());
   CHECK_THROWS_AS(all[1_rank].receive(0_rank, Token{3, 0, false}), ProtocolError);
+  CHECK_THROWS_AS(all[1_rank].receive(2_rank, Token{2, 0, false}), ProtocolError);
+  CHECK_THROWS_AS(all[0_rank].receive(2_rank, Token{2, 0, false}), ProtocolError);
   CHECK_THROWS_AS(all[1_rank].receive(0_rank, Finish{}), ProtocolError);
   CHECK_THROWS_AS(all[0_rank].receive(2_rank, Terminate{1, 0, 0}), ProtocolError);
 }
 
 TEST_CASE("the audit detects premature termination") {
   auto all = make(2);
-  Token token = std::get<Token>(all[0_rank].advance(true)->message);
+  Token token = only<Token>(all[0_rank]);
   all[1_rank].receive(0_rank, token);
-  all[0_rank].receive(1_rank, std::get<Token>(all[1_rank].advance(true)->message));
-  all[1_rank].receive(0_rank, std::get<Terminate>(all[0_rank].advance(true)->message));
-  auto back = std::get<Terminate>(all[1_rank].advance(true)->message);
+  all[0_rank].receive(1_rank, only<Token>(all[1_rank]));
+  all[1_rank].receive(0_rank, only<Terminate>(all[0_rank]));
+  auto back = only<Terminate>(all[1_rank]);
   back.work = 1;
   all[0_rank].receive(1_rank, back);
-  CHECK_THROWS_WITH_AS(all[0_rank].advance(true),
-                       "message from rank 1: after termination 1 SPLITs or hand-offs are sent and not handled: "
-                       "termination was wrong",
-                       ProtocolError);
+  CHECK_THROWS_WITH_AS(advance(all[0_rank], true),
+                       "after termination 1 SPLITs or hand-offs are sent and not handled: termination was wrong",
+                       Error);
 }
 
 TEST_CASE("a passive rank must not send work") {
   Termination rank(1_rank, 2);
   rank.work_sent(1);
-  CHECK(!rank.advance(true));
+  CHECK(advance(rank, true).empty());
   CHECK_THROWS_AS(rank.work_sent(1), Error);
   rank.work_handled(1);
   rank.work_sent(1);

@@ -10,7 +10,7 @@ struct AdversaryEffects {
   std::int64_t by_chance = 0;     ///< subdomains moved
   std::int64_t returns = 0;       ///< of one subdomain to the rank that it had just come from
   std::int64_t rotations = 0;     ///< a rank's whole work went to the next rank before the rank polled
-  std::int64_t behind_token = 0;  ///< work given to a rank that the token had visited, by the rank that held it
+  std::int64_t behind_token = 0;  ///< work given away by a rank that had not answered a probe
   std::int64_t by_policy = 0;     ///< subdomains moved by decision of a balancer
 
   std::int64_t hand_offs_ahead = 0;     ///< arrived before SPLITs for the same subdomain that were sent earlier

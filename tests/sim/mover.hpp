@@ -73,13 +73,13 @@ class Mover {
     if (!all.empty()) ++effects_.rotations;
   }
 
-  // The case that Safra's colors are for: the token will not visit that rank again.
+  // The case that Safra's colors are for: another rank may have answered the probe that this one holds up.
   void follow_token(RankLoop& loop, Rank rank) {
-    if (rank == Rank{0} || !loop.protocol().termination().has_token()) return;
+    if (!loop.protocol().termination().has_token()) return;
     const auto all = active(loop);
     if (all.empty()) return;
-    const auto to = static_cast<Rank>(below(static_cast<std::uint64_t>(to_int(rank))));
-    if (hand_over(loop, all[below(all.size())], to)) ++effects_.behind_token;
+    const Rank to = any_rank();
+    if (to != rank && hand_over(loop, all[below(all.size())], to)) ++effects_.behind_token;
   }
 
   std::uint64_t below(std::uint64_t n) { return random_() % n; }

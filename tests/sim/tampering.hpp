@@ -151,9 +151,10 @@ class RecoloringTransport final : public protocol::TransportLayer {
       : TransportLayer(inner), black_(black), forwarded_(std::move(forwarded)) {}
 
   void send(Rank destination, Bytes bytes) override {
-    if (rank() != Rank{0} && is<protocol::Token>(bytes)) {
+    if (destination < rank() && is<protocol::Token>(bytes)) {
       auto token = std::get<protocol::Token>(protocol::decode(rank(), bytes, {}));
       if (forwarded_() != std::exchange(known_, forwarded_())) token.black = came_black_ || black_;
+      came_black_ = false;
       bytes = protocol::encode(token);
     }
     TransportLayer::send(destination, std::move(bytes));
@@ -161,15 +162,15 @@ class RecoloringTransport final : public protocol::TransportLayer {
   std::optional<protocol::Received> poll() override {
     auto received = TransportLayer::poll();
     if (received && is<protocol::Token>(received->bytes))
-      came_black_ = std::get<protocol::Token>(protocol::decode(received->source, received->bytes, {})).black;
+      came_black_ |= std::get<protocol::Token>(protocol::decode(received->source, received->bytes, {})).black;
     return received;
   }
 
  private:
   bool black_;
   Forwarded forwarded_;
-  std::int64_t known_ = 0;   // forwarded when the last token was passed on
-  bool came_black_ = false;  // the token that is here
+  std::int64_t known_ = 0;   // forwarded at its last answer
+  bool came_black_ = false;  // a token from below
 };
 
 }  // namespace driftmesh::sim

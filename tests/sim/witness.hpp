@@ -41,10 +41,13 @@ class Witness {
   Witness(std::int32_t ranks, std::size_t subdomains, std::function<bool()> work_is_over)
       : ranks_(to_index(ranks)), moves_(subdomains), work_is_over_(std::move(work_is_over)) {}
 
-  /// `rank` sends; `counters` are those of its protocol at that moment.
-  void sent(Rank rank, const Bytes& bytes, const protocol::ProtocolCounters& counters) {
+  /// `rank` sends to `destination`; `counters` are those of its protocol at that moment.
+  void sent(Rank rank, Rank destination, const Bytes& bytes, const protocol::ProtocolCounters& counters) {
     ++clock_;
-    if (is<protocol::Token>(bytes)) return token_passed(rank, decoded<protocol::Token>(bytes), counters);
+    if (is<protocol::Token>(bytes)) {
+      if (destination < rank) token_passed(rank, decoded<protocol::Token>(bytes), counters);
+      return;
+    }
     if (is<protocol::HandOff>(bytes)) {
       const SubdomainId s = decoded<protocol::HandOff>(bytes).subdomain;
       ++moves_.at(s);
@@ -55,11 +58,11 @@ class Witness {
     }
   }
 
-  /// `rank` receives; `holds` says whether a subdomain is there.
-  void received(Rank rank, const Bytes& bytes, const std::function<bool(SubdomainId)>& holds) {
+  /// `rank` receives from `source`; `holds` says whether a subdomain is there.
+  void received(Rank source, Rank rank, const Bytes& bytes, const std::function<bool(SubdomainId)>& holds) {
     if (is<protocol::Token>(bytes)) {
       const auto token = decoded<protocol::Token>(bytes);
-      ranks_[rank].tokens[token.round] = token;
+      ranks_[rank].tokens[token.round][source] = token;  // once: there may be copies
     } else if (is<protocol::HandOff>(bytes)) {
       arrived(decoded<protocol::HandOff>(bytes).subdomain);
     } else if (is<protocol::SplitBatch>(bytes)) {
@@ -74,7 +77,7 @@ class Witness {
   }
 
   [[nodiscard]] const AdversaryEffects& effects() const { return effects_; }
-  /// The problem of a token that a rank passed on, or "".
+  /// The problem of a token that a rank answered with, or "".
   [[nodiscard]] const std::string& token_problem() const { return token_problem_; }
   /// The problem of the route of a SPLIT, or "".
   [[nodiscard]] const std::string& hops_problem() const { return hops_problem_; }
@@ -83,8 +86,8 @@ class Witness {
   // A group of SPLITs on one leg of its route. Each point is announced once, so no other group begins with it.
   using Leg = std::tuple<SubdomainId, GlobalRootId, dyadic::Path, std::uint32_t>;
   struct OfRank {
-    std::map<std::uint64_t, protocol::Token> tokens;  // received, by round
-    std::int64_t handled = 0;                         // when the last one was passed on
+    std::map<std::uint64_t, std::map<Rank, protocol::Token>> tokens;  // received, by round; a question adds nothing
+    std::int64_t handled = 0;                                         // at its last answer
     std::map<std::tuple<SubdomainId, Rank, protocol::Epoch>, int> locations;
   };
 
@@ -100,9 +103,9 @@ class Witness {
 
   // Rules 2, 3 and 4: a rank adds its own count, and blackens the token if it has handled anything since the last one.
   void token_passed(Rank rank, const protocol::Token& token, const protocol::ProtocolCounters& counters) {
-    if (rank == Rank{0}) return;
     OfRank& known = ranks_[rank];
-    const protocol::Token& came = known.tokens.at(token.round);
+    protocol::Token came;
+    for (const auto& [source, below] : known.tokens.at(token.round)) came += below;
     const std::int64_t handled = counters.splits_handled + counters.arrivals;
     const bool has_handled = std::exchange(known.handled, handled) != handled;
     const bool black = came.black || has_handled;
@@ -169,12 +172,12 @@ class WitnessedTransport final : public protocol::TransportLayer {
       : TransportLayer(inner), witness_(witness), holds_(std::move(holds)), counters_(std::move(counters)) {}
 
   void send(Rank destination, Bytes bytes) override {
-    witness_.sent(rank(), bytes, counters_());
+    witness_.sent(rank(), destination, bytes, counters_());
     TransportLayer::send(destination, std::move(bytes));
   }
   std::optional<protocol::Received> poll() override {
     auto received = TransportLayer::poll();
-    if (received) witness_.received(rank(), received->bytes, holds_);
+    if (received) witness_.received(received->source, rank(), received->bytes, holds_);
     return received;
   }
   [[nodiscard]] double now() const override { return TransportLayer::now() + spent_; }
