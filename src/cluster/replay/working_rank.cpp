@@ -27,7 +27,7 @@ std::uint64_t CountedWork::bytes() const {
   return 40 + static_cast<std::uint64_t>(16 * done);
 }
 
-WorkingRank::WorkingRank(protocol::Transport& transport, std::shared_ptr<const balancer::Layout> layout,
+WorkingRank::WorkingRank(protocol::Transport& transport, const std::shared_ptr<const balancer::Layout>& layout,
                          const IdVector<SubdomainId, CountedWork>& work, std::shared_ptr<const balancer::Policy> policy,
                          const balancer::ControllerOptions& balancing, balancer::Council* council,
                          const Options& options)

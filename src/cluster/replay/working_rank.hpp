@@ -37,7 +37,7 @@ class WorkingRank {
     double planning_speed = 0;  ///< triangles a second of the machine whose planning costs are charged; 0: none are
   };
 
-  WorkingRank(protocol::Transport& transport, std::shared_ptr<const balancer::Layout> layout,
+  WorkingRank(protocol::Transport& transport, const std::shared_ptr<const balancer::Layout>& layout,
               const IdVector<SubdomainId, CountedWork>& work, std::shared_ptr<const balancer::Policy> policy,
               const balancer::ControllerOptions& balancing, balancer::Council* council, const Options& options);
 
