@@ -262,9 +262,10 @@ class CorpusMaker {
                "input:\n  generate: bay\n  parameters: {resolution: 300}\nbounds:\n  angle: 25\n  area: 5k\nsizing:\n"
                "  gradation: 0.25\n  max: 1e3\ndecomposition:\n  subdomains: 12\n  skew: 0.5\nrun:\n  sleep: true\n"
                "  order: largest\nseed: 7\n"}});
-    const Files configs = files_in(DRIFTMESH_SOURCE_DIR "/configs");
+    Files configs = files_in(DRIFTMESH_SOURCE_DIR "/configs");
+    configs.merge(files_in(DRIFTMESH_SOURCE_DIR "/configs/paper"));
     for (const char* const name :  // those that generate no large domain, as reading does, too
-         {"aggregation.yaml", "corner-refinement.yaml", "migration-stress.yaml", "policies.yaml", "two-ranks.yaml"})
+         {"fig-7.yaml", "corner-refinement.yaml", "migration-stress.yaml", "policies.yaml", "two-ranks.yaml"})
       add(name, Reading::kExperiment, name, Files{{name, configs.at(name)}});
   }
 
@@ -289,6 +290,7 @@ void write_files(const Files& files, const std::string& folder) {
 Files files_in(const std::string& folder) {
   Files files;
   for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_directory()) continue;
     std::ifstream stream(entry.path(), std::ios::binary);
     files[entry.path().filename().string()] = {std::istreambuf_iterator<char>(stream), {}};
   }

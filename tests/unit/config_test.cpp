@@ -317,7 +317,8 @@ TEST_CASE("settings of one mesh name keys in full or by their options") {
 
 TEST_CASE("every shipped experiment is valid") {
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(DRIFTMESH_SOURCE_DIR "/configs")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(DRIFTMESH_SOURCE_DIR "/configs")) {
+    if (entry.is_directory()) continue;
     CAPTURE(entry.path().string());
     ++files;
     CHECK_NOTHROW(static_cast<void>(read_experiment(entry.path().string(), {})));
