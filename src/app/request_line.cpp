@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "job/keys.hpp"
@@ -87,9 +88,12 @@ std::string in_words_of_options(std::string text) {
   constexpr const char* kOfNames = "abcdefghijklmnopqrstuvwxyz.-";
   for (const Key& key : job::keys()) {
     const std::string option = key.name == "input.file" ? "INPUT" : "--" + key.option;
-    for (std::size_t at = 0; !key.option.empty() && (at = text.find(key.name, at)) != std::string::npos; ++at) {
+    for (std::size_t at = 0; !key.option.empty() && (at = text.find(key.name, at)) != std::string::npos;) {
       const std::size_t end = std::min(text.size(), text.find_first_not_of(kOfNames, at));
-      if (text.substr(at, end - at) == key.name) text.replace(at, key.name.size(), option);
+      const bool begins = at == 0 || std::string_view(kOfNames).find(text[at - 1]) == std::string_view::npos;
+      const bool whole = begins && text.substr(at, end - at) == key.name;
+      if (whole) text.replace(at, key.name.size(), option);
+      at += whole ? option.size() : 1;
     }
   }
   return text;

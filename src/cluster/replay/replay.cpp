@@ -10,7 +10,7 @@
 
 namespace driftmesh {
 
-ReplayedRun replay(const RecordedRun& run, std::shared_ptr<const balancer::Policy> policy) {
+ReplayedRun replay(const RecordedRun& run, const std::shared_ptr<const balancer::Policy>& policy) {
   protocol::VirtualCluster cluster{
       .speeds = run.speeds,
       .link = [link = protocol::Link{run.latency, run.bandwidth}](Rank, Rank) { return link; },

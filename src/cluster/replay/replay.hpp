@@ -31,6 +31,6 @@ struct ReplayedRun {
 /// The recorded work anew, in virtual time, with another policy: real controllers and messages, charged planning, no
 /// meshing. Subdomains do not depend on each other, and take what they took in the recorded run wherever they are.
 /// Throws Error if the ranks get stuck.
-[[nodiscard]] ReplayedRun replay(const RecordedRun& run, std::shared_ptr<const balancer::Policy> policy);
+[[nodiscard]] ReplayedRun replay(const RecordedRun& run, const std::shared_ptr<const balancer::Policy>& policy);
 
 }  // namespace driftmesh
