@@ -19,9 +19,9 @@ namespace driftmesh::testing {
 #endif
 }
 
-/// A generator that prints its seed. Without the environment variable DRIFTMESH_SEED the seed is always the same, so that
-/// a test judges the change before it and not luck; a number repeats what failed, and `random` draws a new seed, as
-/// scripts/nightly.sh does for many runs.
+/// A generator that prints its seed. Without the environment variable DRIFTMESH_SEED the seed is always the same, so
+/// that a test judges the change before it and not luck; a number repeats what failed, and `random` draws a new seed,
+/// as scripts/nightly.sh does for many runs.
 [[nodiscard]] inline std::mt19937_64 seeded_generator(const char* test) {
   const char* wanted = std::getenv("DRIFTMESH_SEED");
   std::uint64_t seed = 1;
