@@ -902,7 +902,8 @@ class Experiments(Cli):
 
     def test_decisions_explain_each_move(self):
         for policy in ("greedy", "zoltan", "diffusion", "stealing"):
-            self.run_config("two-speeds", "bounds.triangles-per-rank=2e5", f"balance.policy={policy}", folder=policy)
+            self.run_config("two-speeds", "bounds.triangles-per-rank=5e4", "cluster.scale=20",
+                            "cluster.groups=[{ranks: 4, speed: 4e5}, {ranks: 4, speed: 2e5}]", f"balance.policy={policy}", folder=policy)
             record = json.loads((self.folder / policy / "run-1.json").read_text())
             lines = [json.loads(line) for line in (self.folder / policy / "run-1.decisions.jsonl").read_text().splitlines()]
             self.assertEqual([line["time"] for line in lines], sorted(line["time"] for line in lines))
