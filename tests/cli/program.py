@@ -45,7 +45,7 @@ class Cli(unittest.TestCase):
 
     def run_program(self, *arguments):
         in_subdomains = {"-n", "--decomposition"}.intersection(arguments)
-        starts_mpi = arguments and (arguments[0] in ("run", "calibrate") or arguments[0] == "mesh" and in_subdomains)
+        starts_mpi = arguments and (arguments[0] in ("run", "replay", "calibrate") or arguments[0] == "mesh" and in_subdomains)
         return subprocess.run([PATH, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
                               errors="replace", timeout=MESHER_SECONDS, check=False,
                               env=RANKS_ENVIRONMENT if starts_mpi else None)
