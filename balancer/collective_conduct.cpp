@@ -62,7 +62,7 @@ void CollectiveConduct::keep_promise() {
 
 Decision CollectiveConduct::think(const Situation& situation) {
   Decision decision;
-  forget_old(situation.now);
+  forget_old(situation);
   // The decision changes what is here; it is reported at the next look.
   if (stage_ == Stage::kStarted) {
     decide(situation, decision);
@@ -164,8 +164,11 @@ Contribution CollectiveConduct::contribution(const Situation& situation) const {
 }
 
 // Do not wait forever for what a giver could not hand over after all.
-void CollectiveConduct::forget_old(double now) {
-  std::erase_if(came_, [&](const auto& entry) { return now - entry.second > options_.interval; });
+void CollectiveConduct::forget_old(const Situation& situation) {
+  const double now = situation.now;
+  const double left = situation.speed > 0 ? total_work(situation.own) / situation.speed : options_.interval;
+  const double rest = options_.rest_after_move(left);
+  std::erase_if(came_, [&](const auto& entry) { return now - entry.second > rest; });
   while (!promises_.empty() && now > promises_.front().when + options_.patience()) promises_.pop_front();
 }
 

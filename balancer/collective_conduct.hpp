@@ -53,7 +53,7 @@ class CollectiveConduct {
   [[nodiscard]] Contribution contribution(const Situation& situation) const;
   void keep_promise();
   [[nodiscard]] bool expects_work() const { return !promises_.empty(); }
-  void forget_old(double now);
+  void forget_old(const Situation& situation);
 
   Rank self_;
   std::shared_ptr<const Layout> layout_;

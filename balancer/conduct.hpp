@@ -26,6 +26,8 @@ struct ControllerOptions {
 
   /// From asking for work to having it, in seconds: a look at the load, the way to rank 0, to the giver and back.
   [[nodiscard]] double time_to_get_work() const { return look + 3 * cost.latency; }
+  /// How long a subdomain stays where it has come to, in seconds, if so much time is left.
+  [[nodiscard]] double rest_after_move(double left) const { return std::min(interval, left / 20); }
   /// How long to wait for a planned move, in seconds.
   [[nodiscard]] double patience() const { return 3 * interval; }
 };

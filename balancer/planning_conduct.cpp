@@ -107,7 +107,8 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
   if (leads && !may_gain(snapshot, options_.worth, pace_.cost_of_planning())) return;
   if (!leads) divide_memory(snapshot, self_);
-  std::erase_if(moved_, [&](const auto& move) { return now - move.second > options_.interval; });
+  const double rest = options_.rest_after_move(finishing_time(snapshot));
+  std::erase_if(moved_, [&](const auto& move) { return now - move.second > rest; });
   price_moves(snapshot, options_.cost);
   for (SubdomainLoad& s : snapshot.subdomains)
     s.fixed = s.fixed || knowledge_->in_motion(s.id) || moved_.contains(s.id);
@@ -138,7 +139,10 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot,
   const auto finish = [&](const std::vector<Move>& moves) {
     return std::ranges::max(finishing_times(snapshot, moves, options_.cost));
   };
-  const bool takes_whole = finish(whole) <= finish(few) + options_.worth.gain * ideal_time(snapshot);
+  const double notable = options_.worth.gain * ideal_time(snapshot), later = finish(whole) - finish(few);
+  const bool has_few_moves =
+      static_cast<double>(whole.size()) <= policy_->most_moves() * static_cast<double>(few.size());
+  const bool takes_whole = later < -notable || (later <= notable && has_few_moves);
   overrule(takes_whole ? 0 : 1);
   return takes_whole ? whole : few;
 }

@@ -1,5 +1,6 @@
 #include "driftmesh/policy.hpp"
 
+#include <limits>
 #include <utility>
 
 namespace driftmesh::balancer {
@@ -27,6 +28,10 @@ std::optional<std::vector<Move>> Policy::touch_up(const LoadSnapshot&) const {
 
 double Policy::planning_seconds(const LoadSnapshot&) const {
   return 0;
+}
+
+double Policy::most_moves() const {
+  return std::numeric_limits<double>::infinity();
 }
 
 std::optional<ZoltanParameters> Policy::partitioning(const LoadSnapshot&) const {

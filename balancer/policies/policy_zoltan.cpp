@@ -42,8 +42,13 @@ void take_back_needless(const LoadSnapshot& from, LoadSnapshot& planned, double 
 /// parts.
 class ZoltanPolicy final : public Policy {
  public:
-  ZoltanPolicy(ZoltanParameters parameters, Placement placement, double touch_up, const Dealing& dealing)
-      : parameters_(std::move(parameters)), placement_(placement), touch_up_(touch_up), dealing_(dealing) {}
+  ZoltanPolicy(ZoltanParameters parameters, Placement placement, double touch_up, const Dealing& dealing,
+               double most_moves)
+      : parameters_(std::move(parameters)),
+        placement_(placement),
+        touch_up_(touch_up),
+        dealing_(dealing),
+        most_moves_(most_moves) {}
 
   [[nodiscard]] Placement placement() const override { return placement_; }
   // A touch-up only deals single subdomains.
@@ -73,6 +78,8 @@ class ZoltanPolicy final : public Policy {
     return wants_touch_up_alone(snapshot) ? 0 : PlanningCosts{}.seconds(effort_of_parts(snapshot, parameters_));
   }
 
+  [[nodiscard]] double most_moves() const override { return most_moves_; }
+
   [[nodiscard]] std::optional<ZoltanParameters> partitioning(const LoadSnapshot& own) const override {
     return wants_touch_up_alone(own) ? std::nullopt : std::optional(parameters_);
   }
@@ -97,6 +104,7 @@ class ZoltanPolicy final : public Policy {
   Placement placement_;
   double touch_up_;  // of the ideal time
   Dealing dealing_;
+  double most_moves_;
 };
 
 std::string upper_case(std::string text) {
@@ -128,8 +136,9 @@ std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
   dealing.polish = parameters.flag("polish", dealing.polish);
   dealing.tolerance = parameters.number("tolerance", dealing.tolerance, 0, 10);
   const double touch_up = parameters.number("touch-up", 0.1, 0, 10);
+  const double most_moves = parameters.number("most-moves", 2, 0, 1e9);
   return std::make_unique<ZoltanPolicy>(std::move(all), collective ? Placement::kCollective : Placement::kLeader,
-                                        touch_up, dealing);
+                                        touch_up, dealing, most_moves);
 }
 
 }  // namespace driftmesh::balancer

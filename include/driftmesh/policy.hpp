@@ -52,6 +52,10 @@ class Policy {
   /// that can be gained; otherwise touch_up() alone is. 0, the default: it is always asked.
   [[nodiscard]] virtual double planning_seconds(const LoadSnapshot& snapshot) const;
 
+  /// kLeader: how many times as many moves as touch_up() plan() may have and still be made where both finish about as
+  /// early. The default, infinity, does not count moves.
+  [[nodiscard]] virtual double most_moves() const;
+
   /// kCollective: parameters with which Zoltan divides the subdomains into parts, one per rank in proportion to its
   /// speed. Without any, each subdomain stays in the part of its owner. A rank knows the loads of all ranks, but lists
   /// only its own subdomains; so the result may depend only on the loads of ranks, and is the same on all of them.

@@ -210,6 +210,45 @@ TEST_CASE("a plan that would take longer than it gains is not made, and single m
   CHECK(seldom.touch_ups == 10);
 }
 
+namespace {
+
+/// A whole plan and single moves, both as given.
+class TwoPlans final : public Policy {
+ public:
+  TwoPlans(std::vector<Move> whole, std::vector<Move> single, double most_moves)
+      : whole_(std::move(whole)), single_(std::move(single)), most_moves_(most_moves) {}
+  [[nodiscard]] Placement placement() const override { return Placement::kLeader; }
+  [[nodiscard]] std::vector<Move> plan(const LoadSnapshot&, Rank) const override { return whole_; }
+  [[nodiscard]] std::optional<std::vector<Move>> touch_up(const LoadSnapshot&) const override { return single_; }
+  [[nodiscard]] double most_moves() const override { return most_moves_; }
+
+ private:
+  std::vector<Move> whole_, single_;
+  double most_moves_;
+};
+
+/// How many moves a leader with eight subdomains makes or advises when the other rank has four.
+std::size_t moves_made(const std::vector<Move>& whole, const std::vector<Move>& single, double most_moves) {
+  Controller leader(0_rank, std::make_shared<Layout>(grid_layout(12, 1, 2)),
+                    std::make_shared<TwoPlans>(whole, single, most_moves), {}, 0);
+  leader.receive(1_rank, LoadReport{1, 0, 100, loads_of(8, 11, 1000)}, 1);
+  const Decision decision = leader.think(1, loads_of(0, 7, 1000), 100);
+  std::size_t moves = decision.moves.size();
+  for (const auto& [to, plan] : sent<balancer::Plan>(decision)) moves += plan.moves.size();
+  return moves;
+}
+
+}  // namespace
+
+TEST_CASE("a whole plan with many more moves than single ones is made only where it finishes earlier") {
+  const std::vector<Move> six{{0_sub, 1_rank}, {1_sub, 1_rank}, {2_sub, 1_rank},
+                              {3_sub, 1_rank}, {8_sub, 0_rank}, {9_sub, 0_rank}};
+  const std::vector<Move> two{{6_sub, 1_rank}, {7_sub, 1_rank}}, one{{7_sub, 1_rank}};
+  CHECK(moves_made(six, two, 3) == 6);
+  CHECK(moves_made(six, two, 2) == 2);
+  CHECK(moves_made(six, one, 2) == 6);  // by a ninth
+}
+
 TEST_CASE("adjacent ranks are told every subdomain, distant partners only their sum") {
   const Layout layout = grid_layout(80, 1, 16);  // five each
   Controller c = controller_of(4_rank, layout, "diffusion");
