@@ -51,6 +51,20 @@ Mesh unpack(const Mail& mail) {
   return mesh;
 }
 
+VtuArrays arrays_of_series(const DistributedPiece& piece) {
+  VtuArrays arrays = arrays_of_pieces(piece);
+  arrays.ghosts = piece.ranks > 1;
+  return arrays;
+}
+
+/// A point that several pieces have is a duplicate in all but that of its owner.
+std::unique_ptr<FileSink> prepare_piece(const DistributedPiece& piece, const std::string& path) {
+  std::vector<std::uint8_t> ghosts;
+  if (piece.ranks > 1)
+    for (const Rank owner : piece.owners) ghosts.push_back(owner == piece.rank ? 0 : kDuplicatePoint);
+  return prepare_vtu(piece.mesh, arrays_of_series(piece), pvtu_piece_path(path, to_int(piece.rank)), ghosts);
+}
+
 }  // namespace
 
 std::vector<Mail> GatherPieces::send(int round) {
@@ -95,10 +109,9 @@ std::vector<Mail> WritePieces::send(int round) {
 }
 
 void WritePieces::write_or_commit(int round) {
-  if (round == 0)
-    file_ = prepare_vtu(piece_.mesh, arrays_of_pieces(piece_), pvtu_piece_path(path_, to_int(piece_.rank)));
+  if (round == 0) file_ = prepare_piece(piece_, path_);
   if (round == 1) file_->commit();
-  if (round == 2 && piece_.rank == kWriter) write_pvtu(path_, piece_.ranks, arrays_of_pieces(piece_));
+  if (round == 2 && piece_.rank == kWriter) write_pvtu(path_, piece_.ranks, arrays_of_series(piece_));
 }
 
 std::vector<Rank> WritePieces::senders(int) const {
@@ -119,8 +132,8 @@ void write_series(const std::string& path, std::int32_t pieces, std::size_t thre
     in_parts(made.size(), made.size(), [&](std::size_t i, std::size_t, std::size_t) {
       const Rank k{first + static_cast<std::int32_t>(i)};
       const DistributedPiece piece = make(k);
-      if (k == Rank{0}) arrays = arrays_of_pieces(piece);
-      made[i] = prepare_vtu(piece.mesh, arrays_of_pieces(piece), pvtu_piece_path(path, to_int(k)));
+      if (k == Rank{0}) arrays = arrays_of_series(piece);
+      made[i] = prepare_piece(piece, path);
     });
     for (const auto& file : made) file->commit();
   }

@@ -13,7 +13,7 @@ constexpr Rank kMaker{0};  // of the file
 }  // namespace
 
 VtuArrays arrays_of_pieces(const DistributedPiece& piece) {
-  return {true, piece.mesh.attributes_per_point, true, true, piece.has_regions, true, true};
+  return {true, piece.mesh.attributes_per_point, true, true, piece.has_regions, true, true, false};
 }
 
 WriteTogether::WriteTogether(const DistributedPiece& piece, std::string path)

@@ -21,6 +21,7 @@ struct VtuArrays {
   bool regions = false;
   bool subdomains = false;
   bool ranks = false;
+  bool ghosts = false;  ///< on points
 };
 /// The arrays for which the mesh has values.
 [[nodiscard]] VtuArrays arrays_of(const Mesh& mesh);
@@ -28,12 +29,14 @@ struct VtuArrays {
 /// Calls visit(a null pointer of the type, name, components) for each array on points, in the order of the file.
 template <class Visit>
 void for_each_point_array(const VtuArrays& arrays, const Visit& visit) {
+  constexpr const std::uint8_t* kUInt8 = nullptr;
   constexpr const std::int32_t* kInt32 = nullptr;
   constexpr const std::int64_t* kInt64 = nullptr;
   constexpr const double* kFloat64 = nullptr;
   if (arrays.point_markers) visit(kInt32, "marker", 1);
   if (arrays.attributes > 0) visit(kFloat64, "attribute", arrays.attributes);
   if (arrays.numbers) visit(kInt64, "global_number", 1);
+  if (arrays.ghosts) visit(kUInt8, "vtkGhostType", 1);
 }
 /// The same, visit(pointer, name), for arrays on cells.
 template <class Visit>
@@ -59,8 +62,13 @@ template <class T>
 /// Point data "marker", "attribute" and "global_number"; cell data "marker" (0 on triangles), "region", "subdomain" and
 /// "rank" (on a line, those of an adjacent triangle); each only if the mesh has it.
 void write_vtu(const Mesh& mesh, const std::string& path);
-/// The same with the given arrays. The file is complete, but appears under its name only on commit().
-[[nodiscard]] std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path);
+/// What VTK calls a point that another piece of the mesh counts, and so leaves out of sums and counts.
+inline constexpr std::uint8_t kDuplicatePoint = 1;
+
+/// The same with the given arrays. `ghosts`: with VtuArrays::ghosts, for each point 0 or kDuplicatePoint. The file is
+/// complete, but appears under its name only on commit().
+[[nodiscard]] std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path,
+                                                    const std::vector<std::uint8_t>& ghosts = {});
 
 /// An array that a .pvtu declares for each of its pieces.
 struct DeclaredArray {

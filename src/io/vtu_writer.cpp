@@ -90,10 +90,12 @@ void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts) 
   file.header("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _");
 }
 
-void write_point_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays) {
+void write_point_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays,
+                      const std::vector<std::uint8_t>& ghosts) {
   if (arrays.point_markers) file.array(mesh.point_markers);
   if (arrays.attributes > 0) file.array(mesh.attributes);
   if (arrays.numbers) file.array(mesh.numbers);
+  if (arrays.ghosts) file.array(ghosts);
 }
 
 // A line has the value of an adjacent triangle, so that coloring by region does not show the lines in a color of their
@@ -151,9 +153,10 @@ void write_grid(VtuFile& file, const Mesh& mesh, const Counts& counts) {
 }
 
 template <class Offset>
-void write_all(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const Counts& counts) {
+void write_all(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const std::vector<std::uint8_t>& ghosts,
+               const Counts& counts) {
   write_header<Offset>(file, arrays, counts);
-  write_point_data(file, mesh, arrays);
+  write_point_data(file, mesh, arrays, ghosts);
   write_cell_data(file, mesh, arrays, counts);
   write_grid<Offset>(file, mesh, counts);
   file.header("\n  </AppendedData>\n</VTKFile>\n");
@@ -163,17 +166,18 @@ void write_all(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const C
 
 VtuArrays arrays_of(const Mesh& mesh) {
   return {!mesh.point_markers.empty(), mesh.attributes_per_point, !mesh.numbers.empty(), !mesh.edges.empty(),
-          !mesh.regions.empty(),       !mesh.subdomains.empty(),  !mesh.ranks.empty()};
+          !mesh.regions.empty(),       !mesh.subdomains.empty(),  !mesh.ranks.empty(),   false};
 }
 
-std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path) {
+std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path,
+                                      const std::vector<std::uint8_t>& ghosts) {
   auto sink = std::make_unique<FileSink>(path);
   VtuFile file(*sink);
   const Counts counts(mesh);
   if (std::in_range<std::int32_t>(counts.connectivity))
-    write_all<std::int32_t>(file, mesh, arrays, counts);
+    write_all<std::int32_t>(file, mesh, arrays, ghosts, counts);
   else
-    write_all<std::int64_t>(file, mesh, arrays, counts);
+    write_all<std::int64_t>(file, mesh, arrays, ghosts, counts);
   return sink;
 }
 

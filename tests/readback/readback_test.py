@@ -50,7 +50,7 @@ INSIDE = ("0", "9")  # markers of segments inside the domain
 ALL = ("points", "triangles", "area", "regions", "markers")
 GRID = ("points", "triangles", "area")
 CASES = [
-    ("vtk", "one.vtu", 1, ALL), ("vtk", "ranks.pvtu", 1, ("triangles", "area", "regions", "markers")),
+    ("vtk", "one.vtu", 1, ALL), ("vtk", "ranks.pvtu", 1, ALL),
     ("vtk", "one.h5", 1, ALL), ("vtk", "ranks.h5", 1, ALL),
     ("meshio", "one.vtu", 1, ALL), ("meshio", "one.msh", 1, ALL), ("meshio", "ranks.msh", 1, ALL),
     ("meshio", "text.msh", 1, ALL),

@@ -25,5 +25,7 @@ if sys.argv[1].endswith(".pvtu"):  # a subsegment between pieces is in both
     numbers = vtk_to_numpy(grid.GetPointData().GetArray("global_number"))
     ends = numpy.sort(numbers[corners[offsets[:-1][~is_triangle][:, None] + numpy.arange(2)]], axis=1)
     markers = markers[numpy.unique(ends, axis=0, return_index=True)[1]]
-answer(vtk.vtkVersion().GetVTKVersion(), points=len(points), triangles=int(is_triangle.sum()),
+ghosts = grid.GetPointGhostArray()  # without those that another piece counts
+count = len(points) if ghosts is None else int((vtk_to_numpy(ghosts) & 1 == 0).sum())
+answer(vtk.vtkVersion().GetVTKVersion(), points=count, triangles=int(is_triangle.sum()),
        area=area(points, triangles), regions=counts(cells["region"][is_triangle]), markers=counts(markers))

@@ -287,7 +287,7 @@ TEST_CASE("a .pvtu lists the arrays of its pieces, in their order") {
     return found;
   };
   CHECK(arrays(whole) == arrays(piece));
-  CHECK(arrays(whole).size() == 6);
+  CHECK(arrays(whole).size() == 7);
   CHECK(whole.find("<Piece Source=\"a &amp; b_2.vtu\"/>") != std::string::npos);
   CHECK(piece.find("GlobalIds=\"global_number\"") != std::string::npos);
 }
