@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,14 +27,15 @@ void write_poly(const Pslg& pslg, const std::string& path);
 
 /// Optional content of a mesh file.
 struct WriteOptions {
-  std::vector<Point> holes{};  ///< a point in each hole, for Triangle's .poly; other formats need none
-  bool ascii = false;          ///< .msh as text, for programs that read no binary one
+  std::vector<Point> holes{};                 ///< a point in each hole, for Triangle's .poly; other formats need none
+  bool ascii = false;                         ///< .msh as text, for programs that read no binary one
+  std::vector<std::int32_t> open_boundary{};  ///< markers of edges that are open sea, for .14, .grd and .gr3
 };
 
 /// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, .h5 (with an .xdmf beside it), .su2,
-/// or Triangle's .node, .ele, .poly, .edge, .neigh (any of these names the whole set); to standard output for "-" (as
-/// .vtu), "-.vtu" and "-.msh". Files appear under their names only when complete. docs/file-formats.md says what each
-/// format holds. Errors: InputError for an unknown extension, FileError.
+/// .14, .grd or .gr3 (ADCIRC, SCHISM), or Triangle's .node, .ele, .poly, .edge, .neigh (any of these names the whole
+/// set); to standard output for "-" (as .vtu), "-.vtu" and "-.msh". Files appear under their names only when complete.
+/// docs/file-formats.md says what each format holds. Errors: InputError for an unknown extension, FileError.
 void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
 /// What reading a mesh may do.

@@ -114,13 +114,18 @@ void write_in_pieces(const Request& request, const Write& write) {
     if (is_in_pieces(output)) write(output);
 }
 
+WriteOptions writing_of(const Request& request, const std::vector<Point>& holes) {
+  const std::vector<double>& open = request.output.open_boundary;
+  return {holes, request.output.ascii, {open.begin(), open.end()}};
+}
+
 /// Writes the other formats, and draws.
 void write_whole(const Request& request, Mesh& mesh, const std::vector<Point>& holes, RunNotes& notes) {
   mesh.numbers = {};
   mesh.ranks = {};
   timed(notes, "write", [&] {
     for (const std::string& output : request.output.meshes)
-      if (!is_in_pieces(output)) write_mesh(mesh, output, {holes, request.output.ascii});
+      if (!is_in_pieces(output)) write_mesh(mesh, output, writing_of(request, holes));
   });
   if (!request.output.picture.empty()) timed(notes, "plot", [&] { draw(request, mesh); });
 }
@@ -302,7 +307,7 @@ void report(job::Team& team, job::RankRun& run, RunNotes& notes) {
 
 void write_pieces(const Request& request, const DistributedPiece& piece, ExchangeRunner& ranks,
                   const std::vector<Point>& holes, RunNotes& notes) {
-  timed(notes, "write", [&] { write_distributed(ranks, piece, request.output.meshes, {holes, request.output.ascii}); });
+  timed(notes, "write", [&] { write_distributed(ranks, piece, request.output.meshes, writing_of(request, holes)); });
   if (!request.output.picture.empty())
     timed(notes, "plot", [&] {
       GatherPieces gathering(piece);

@@ -4,6 +4,7 @@
 
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
+#include "io/fort14_format.hpp"
 #include "io/hdf5_format.hpp"
 #include "io/msh_format.hpp"
 #include "io/pvtu_format.hpp"
@@ -14,7 +15,7 @@
 namespace driftmesh {
 namespace {
 
-enum class Format { kTriangle, kVtu, kPvtu, kMsh, kHdf5, kSu2 };
+enum class Format { kTriangle, kVtu, kPvtu, kMsh, kHdf5, kSu2, kFort14 };
 
 Format named_format(const std::string& path) {
   if (names_no_format(path)) return Format::kVtu;
@@ -24,6 +25,8 @@ Format named_format(const std::string& path) {
   if (extension == ".msh") return Format::kMsh;
   if (extension == ".su2") return Format::kSu2;
   if (extension == ".h5") return Format::kHdf5;
+  for (const char* of_fort14 : {".14", ".grd", ".gr3"})
+    if (extension == of_fort14) return Format::kFort14;
   for (const char* of_triangle : {".node", ".ele", ".poly", ".edge", ".neigh"})
     if (extension == of_triangle) return Format::kTriangle;
   throw InputError({path, 0}, extension.empty() ? "has no extension" : "has an unknown extension '" + extension + "'",
@@ -56,6 +59,8 @@ void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& o
       return write_hdf5(mesh, path);
     case Format::kSu2:
       return write_su2(mesh, path);
+    case Format::kFort14:
+      return write_fort14(mesh, path, options.open_boundary);
     case Format::kTriangle:
       return write_triangle_format(mesh, without_extension(path), options.holes);
   }
@@ -74,6 +79,8 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) {
     case Format::kSu2:
       throw InputError({path, 0}, "is in a format that is written, but not read",
                        std::string("keep the mesh in one of ") + kMeshFiles);
+    case Format::kFort14:
+      return read_fort14(path);
     case Format::kTriangle:
       return read_triangle_format(without_extension(path));
   }

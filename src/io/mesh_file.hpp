@@ -12,7 +12,8 @@
 namespace driftmesh {
 
 /// The files that hold a mesh, for messages and help: "the mesh: " + kMeshFiles.
-inline constexpr const char* kMeshFiles = ".vtu, .pvtu, .msh, .h5, or any file of Triangle's .node/.ele set";
+inline constexpr const char* kMeshFiles =
+    ".vtu, .pvtu, .msh, .h5, .14, .grd, .gr3, or any file of Triangle's .node/.ele set";
 
 /// Whether the extension is that of a mesh in pieces: .pvtu. Error: InputError for an unknown extension.
 [[nodiscard]] bool is_in_pieces(const std::string& path);

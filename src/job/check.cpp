@@ -1,6 +1,7 @@
 #include "job/check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -112,6 +113,11 @@ void check_method(const Request& request) {
           "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
 }
 
+void check_output(const Request::Output& output) {
+  require(std::ranges::all_of(output.open_boundary, [](double marker) { return marker == std::floor(marker); }),
+          "output.open-boundary", "has a marker that is no whole number", "markers of segments are whole numbers");
+}
+
 void check_scratch(const Request& request) {
   if (request.run.scratch.empty()) return;
   require(request.decomposition.subdomains != 1, "run.scratch", "is for subdomains, but one piece is asked for",
@@ -155,6 +161,7 @@ void check(const Request& request, Place place, const balancer::PolicyMaker& pol
   check_parts(request);
   check_method(request);
   check_scratch(request);
+  check_output(request.output);
   if (place == kSimulated) {
     check_cluster(request);
     check_ranks(request, place, ranks_of(cluster_of(request)));

@@ -457,13 +457,15 @@ Section output_section() {
           kMesh,
           {key("output.meshes", &R::output, &R::Output::meshes,
                "Mesh file; its extension selects the format: .vtu (ParaView), .pvtu (the same in pieces, one per "
-               "rank), .msh (Gmsh 4.1), .h5 (HDF5 with an .xdmf beside it, for solvers), .su2, or .node, .ele, .poly, "
-               ".edge, "
-               ".neigh (each writes all of Triangle's files); - "
+               "rank), .msh (Gmsh 4.1), .h5 (HDF5 with an .xdmf beside it, for solvers), .su2, .14 or .grd (ADCIRC), "
+               ".gr3 (SCHISM), or .node, .ele, .poly, .edge, .neigh (each writes all of Triangle's files); - "
                "is standard output",
                option('o', "output", "FILE")),
            key("output.ascii", &R::output, &R::Output::ascii,
                "Write .msh as text, for programs that read no binary one (deal.II)", option("ascii")),
+           key("output.open-boundary", &R::output, &R::Output::open_boundary,
+               "Markers of the segments that are open sea, in .14, .grd and .gr3; other segments are land",
+               in(INT32_MIN, INT32_MAX), option("open-boundary", "MARKERS")),
            key("output.picture", &R::output, &R::Output::picture,
                "Picture of the mesh: .png, .svg or .pdf (see also driftmesh plot --help)", output_file(),
                option("plot", "FILE")),

@@ -119,6 +119,7 @@ struct Request {
   struct Output {
     std::vector<std::string> meshes;
     bool ascii = false;
+    std::vector<double> open_boundary;  ///< markers
     std::string picture;
     std::string record;
     bool quiet = false;

@@ -63,6 +63,29 @@ REGIONS = """14 2 2 1
 """
 
 
+SQUARE_WITH_HOLE = """8 2 0 0
+1 0 0
+2 1 0
+3 1 1
+4 0 1
+5 0.4 0.4
+6 0.6 0.4
+7 0.6 0.6
+8 0.4 0.6
+8 1
+1 1 2 1
+2 2 3 2
+3 3 4 3
+4 4 1 4
+5 5 6 5
+6 6 7 5
+7 7 8 5
+8 8 5 5
+1
+1 0.5 0.5
+"""
+
+
 def digest_of(said):
     return re.search(r"^digest +([0-9a-f]{16})$", said, re.MULTILINE).group(1)
 
@@ -100,6 +123,23 @@ class Formats(Cli):
                 self.succeed("check", name, "in.poly", "--area", "0.1")
             for path in self.folder.glob("m*"):
                 path.unlink()
+
+    def test_a_grid_of_adcirc_has_open_land_and_island_boundaries(self):
+        self.write("in.poly", SQUARE_WITH_HOLE)
+        self.succeed("mesh", "in.poly", "--area", "0.01", "--open-boundary", "4,2", "-o", "fort.14", "-o", "m.vtu")
+        said = self.succeed("check", "fort.14")
+        self.assertEqual(digest_of(said), digest_of(self.succeed("check", "m.vtu")))
+        # Sides 4 and 2 of the square, each a string, and the other two between them; the hole is an island.
+        lines = (self.folder / "fort.14").read_text().splitlines()
+        self.assertIn("2 = number of open boundaries", lines)
+        self.assertIn("3 = number of land boundaries", lines)
+        self.assertEqual(sum(" 1 = number of nodes of this island" in line for line in lines), 1)
+        self.succeed("convert", "m.vtu", "hgrid.gr3", "--open-boundary", "2,4")
+        self.assertEqual((self.folder / "hgrid.gr3").read_text(), (self.folder / "fort.14").read_text())
+        self.succeed("convert", "hgrid.gr3", "again.vtu")
+        self.assertIn(" on the boundary", self.succeed("check", "again.vtu"))
+        self.refuse("convert", "m.vtu", "x.14", "--open-boundary", "2,sea", code=2, says=["--open-boundary", "sea"])
+        self.refuse("mesh", "in.poly", "-o", "x.14", "--open-boundary", "2.5", says=["open-boundary", "whole number"])
 
     def test_separators_are_constraints_in_triangles_files_and_nothing_else(self):
         self.write("in.poly", REGIONS)

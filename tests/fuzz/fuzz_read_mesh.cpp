@@ -1,4 +1,4 @@
-// Bytes to the readers of VTU, PVTU and .msh: what is accepted must be a mesh whose indices and lengths fit.
+// Bytes to the readers of VTU, PVTU, .msh and .14: what is accepted must be a mesh whose indices and lengths fit.
 
 #include <cstddef>
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "driftmesh/error.hpp"
+#include "io/fort14_format.hpp"
 #include "io/msh_format.hpp"
 #include "io/pvtu_format.hpp"
 #include "io/vtu_format.hpp"
@@ -47,6 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   parse_and_check([](const auto& file, auto text) { return parse_vtu(file, text); }, bytes);
   parse_and_check(parse_msh, bytes);
+  parse_and_check(parse_fort14, bytes);
   try {
     (void)parse_pvtu("fuzz", bytes);
   } catch (const Error&) {
