@@ -31,7 +31,7 @@ set(driftmesh_lib_cairo PkgConfig::CAIRO)
 set(driftmesh_lib_cli11 CLI11::CLI11)
 set(driftmesh_lib_fmt fmt::fmt)
 set(driftmesh_lib_hdf5 HDF5Serial::hdf5)
-set(driftmesh_lib_json nlohmann_json::nlohmann_json)
+set(driftmesh_lib_json $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)  # only headers: nobody who links us needs it
 set(driftmesh_lib_metis METIS::metis)
 set(driftmesh_lib_mpi MPI::MPI_CXX)
 set(driftmesh_lib_muparser muparser::muparser)

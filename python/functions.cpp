@@ -92,6 +92,11 @@ void add_functions(py::module_& module) {
   module.def(
       "holds_input", [](const Path& path) { return holds_input(path.string()); }, py::arg("path"));
   module.def(
+      "read_input", [](const Path& path) { return read_input(path.string()).pslg; }, py::arg("path"), Unlocked(),
+      "read_input(path) -> Pslg\n\nRead a domain: GeoJSON (projected to meters), Triangle's .poly, or the points of a "
+      ".node. "
+      "Raises InputError with file and line.");
+  module.def(
       "read_poly", [](const Path& path) { return read_poly(path.string()); }, py::arg("path"), Unlocked(),
       "read_poly(path) -> Pslg\n\nRead Triangle's .poly, or the points of a .node. Raises InputError with file and "
       "line, FileError.");

@@ -17,8 +17,19 @@ namespace driftmesh {
 /// FileError when a file cannot be read and InputError with up to ten messages "file:line: what; next step".
 [[nodiscard]] Pslg read_poly(const std::string& path);
 
-/// Whether the file at `path` is read as an input, by read_poly, and not as a mesh: a .poly, or a .node without an .ele
-/// next to it.
+/// A domain from a file.
+struct InputFile {
+  Pslg pslg;
+  std::string projection;  ///< of coordinates that the file has in degrees, "UTM zone 18N"; empty: as they are
+};
+
+/// Reads a domain: GeoJSON (.geojson, .json), or what read_poly reads. Polygons of GeoJSON are the domain and their
+/// holes are holes; lines and points are constraints; properties have markers and regions (docs/file-formats.md).
+/// Longitudes and latitudes become meters in the UTM zone of their middle. Errors: as read_poly.
+[[nodiscard]] InputFile read_input(const std::string& path);
+
+/// Whether the file at `path` is read as an input, by read_input, and not as a mesh: GeoJSON, a .poly, or a .node
+/// without an .ele next to it.
 [[nodiscard]] bool holds_input(const std::string& path);
 
 /// Writes `pslg` as .poly, numbered from pslg.first_number. Numbers are the shortest that read back to the

@@ -16,20 +16,20 @@ import tempfile as _tempfile
 from ._errors import Cancelled, Error, FileError, InputError, InputWarning, LimitError
 from ._native import (CheckReport, Decomposition, DistributedPiece, Load, Mesh, Progress, Pslg, SimulatedRun, SizeField,
                       __version__, check, cut_domain, generate, generator_names, mesh, mesh_distributed, option_table,
-                      plot, read_decomposition, read_mesh, read_poly, simulate, size_on_mesh, write_distributed)
+                      plot, read_decomposition, read_input, read_mesh, read_poly, simulate, size_on_mesh, write_distributed)
 from ._native import holds_input as _holds_input
 from ._progress import ProgressLine
 
 __all__ = ["Cancelled", "CheckReport", "Decomposition", "DistributedPiece", "Error", "FileError", "InputError",
            "InputWarning", "LimitError", "Load", "Mesh", "Progress", "ProgressLine", "Pslg", "SimulatedRun",
            "SizeField", "__version__", "check", "convert", "cut_domain", "generate", "generator_names", "mesh",
-           "mesh_distributed", "option_table", "plot", "read", "read_decomposition", "read_mesh", "read_poly",
+           "mesh_distributed", "option_table", "plot", "read", "read_decomposition", "read_input", "read_mesh", "read_poly",
            "simulate", "size_on_mesh", "write_distributed"]
 
 
 def read(path):
     """Read a file: a Pslg from a .poly, or a .node without an .ele next to it, and a Mesh from all others."""
-    return read_poly(path) if _holds_input(path) else read_mesh(path)
+    return read_input(path) if _holds_input(path) else read_mesh(path)
 
 
 def convert(source, target, *, allow_outside=False):

@@ -18,13 +18,13 @@
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/files.hpp"
 #include "driftmesh/repair.hpp"
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
 #include "job/memory.hpp"
 #include "mesh/digest.hpp"
-#include "pslg/poly_file.hpp"
 #include "sizing/field_of_threads.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
@@ -48,7 +48,7 @@ struct CheckOptions {
 
 std::optional<Pslg> read_and_repair(const CheckOptions& options, HoleRule holes) {
   if (options.input.empty()) return std::nullopt;
-  Pslg input = read_poly(options.input);
+  Pslg input = read_input(options.input).pslg;
   const RepairReport repairs = repair(input, options.input);
   if (!options.quiet) print(repairs.summary());
   job::add_nested_holes(holes, input);

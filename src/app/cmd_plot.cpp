@@ -10,9 +10,9 @@
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
+#include "geojson/read_input.hpp"
 #include "io/mesh_file.hpp"
 #include "picture/plot.hpp"
-#include "pslg/poly_file.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -62,7 +62,7 @@ std::string title_of(const std::string& input) {
 void register_files(const PlotCommand& command) {
   FileRegistry files;
   if (holds_input(command.input))
-    for (const std::string& file : poly_files(command.input)) files.reads(file, "INPUT");
+    for (const std::string& file : input_files(command.input)) files.reads(file, "INPUT");
   else
     register_mesh_input(files, command.input, "INPUT", command.reading);
   register_picture(files, command.output, "--output");
@@ -76,7 +76,7 @@ void run_plot(const cli::Call& call, PlotCommand& command) {
   command.plot.name = command.input;
   register_files(command);
   if (holds_input(command.input))
-    plot(read_poly(command.input), command.output, command.plot);
+    plot(read_input(command.input).pslg, command.output, command.plot);
   else
     plot(read_mesh(command.input, command.reading), command.output, command.plot);
 }

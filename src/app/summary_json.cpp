@@ -16,6 +16,7 @@ constexpr int kVersion = 1;
 Json input_json(const RunRecord& run) {
   const RepairReport& r = run.repairs;
   return {{"file", run.input_file},
+          {"projection", run.projection},
           {"points", run.input_points},
           {"segments", run.input_segments},
           {"holes", run.input_holes},

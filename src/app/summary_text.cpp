@@ -31,6 +31,7 @@ void add_input(const RunRecord& run, Text out) {
   fmt::format_to(out, "input        {}: {}, {}, {}, {}\n", run.input_file, counted(run.input_points, "point"),
                  counted(run.input_segments, "segment"), counted(run.input_holes, "hole"),
                  counted(run.input_regions, "region"));
+  if (!run.projection.empty()) fmt::format_to(out, "             in meters, {}\n", run.projection);
   if (const std::int64_t n = repair_count(run.repairs); n > 0)
     fmt::format_to(out, "             after {}\n", counted(n, "repair"));
   const char* label = "warnings";

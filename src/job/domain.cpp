@@ -4,26 +4,29 @@
 #include <utility>
 #include <vector>
 
+#include "driftmesh/files.hpp"
 #include "driftmesh/repair.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/nested_rings.hpp"
 #include "pslg/generators.hpp"
-#include "pslg/poly_file.hpp"
 #include "sizing/sampled_field.hpp"
 
 namespace driftmesh::job {
 namespace {
 
-Pslg raw_input(const Request::Input& input, const Given& given) {
-  if (given.input != nullptr) return *given.input;
-  return input.generator.empty() ? read_poly(input.file) : generate(input.generator, input.parameters);
+InputFile raw_input(const Request::Input& input, const Given& given) {
+  if (given.input != nullptr) return {*given.input, {}};
+  if (input.generator.empty()) return read_input(input.file);
+  return {generate(input.generator, input.parameters), {}};
 }
 
 }  // namespace
 
 Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   Domain domain;
-  domain.pslg = timed(watch, "read", [&] { return raw_input(request.input, given); });
+  InputFile input = timed(watch, "read", [&] { return raw_input(request.input, given); });
+  domain.pslg = std::move(input.pslg);
+  domain.projection = std::move(input.projection);
   domain.repairs = timed(watch, "repair", [&] { return repair(domain.pslg, input_name(request)); });
   const std::vector<std::string> warnings = std::exchange(domain.repairs.warnings, {});
   watch.repaired(domain.repairs);

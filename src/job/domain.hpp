@@ -24,7 +24,8 @@ struct Given {
 
 /// The domain to be meshed.
 struct Domain {
-  Pslg pslg;  ///< repaired
+  Pslg pslg;               ///< repaired
+  std::string projection;  ///< see InputFile
   RepairReport repairs;
   std::unique_ptr<const SizeField> size;       ///< null: none is asked for
   const BackgroundMesh* background = nullptr;  ///< of the size field

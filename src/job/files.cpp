@@ -4,8 +4,8 @@
 #include <cctype>
 #include <vector>
 
+#include "geojson/read_input.hpp"
 #include "job/keys.hpp"
-#include "pslg/poly_file.hpp"
 #include "sizing/make_size_field.hpp"
 
 namespace driftmesh::job {
@@ -22,7 +22,7 @@ void register_reads(const Request& request, EntryPoint entry_point, FileRegistry
   const auto reads = [&](const std::vector<std::string>& paths, const char* key) {
     for (const std::string& path : paths) files.reads(path, called(key, entry_point));
   };
-  if (!request.input.file.empty()) reads(poly_files(request.input.file), "input.file");
+  if (!request.input.file.empty()) reads(input_files(request.input.file), "input.file");
   if (!request.sizing.background.empty()) reads(background_files(request.sizing.background), "sizing.background");
   if (!request.decomposition.file.empty()) reads({request.decomposition.file}, "decomposition.file");
   if (!request.cluster.costs.empty()) reads({request.cluster.costs}, "cluster.costs");

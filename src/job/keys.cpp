@@ -239,7 +239,7 @@ Section input_section() {
           kAnywhere,
           kMesh | kExperiment,
           {key("input.file", &R::input, &R::Input::file,
-               "The domain: Triangle's .poly (with its .node next to it), or .node", file(), option("input"),
+               "The domain: GeoJSON, Triangle's .poly (with its .node next to it), or .node", file(), option("input"),
                entry_points(kMesh | kDecompose | kExperiment)),
            key("input.generate", &R::input, &R::Input::generator,
                "Generate the domain instead of reading a file (see driftmesh generate --help)",

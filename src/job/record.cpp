@@ -30,6 +30,7 @@ std::int64_t count_of(std::size_t size) {
 void record_domain(RunRecord& run, const Request& request, const Domain& domain) {
   run.request = request;
   run.input_file = input_name(request);
+  run.projection = domain.projection;
   run.input_points = count_of(domain.pslg.points.size());
   run.input_segments = count_of(domain.pslg.segments.size());
   run.input_holes = count_of(domain.pslg.holes.size());

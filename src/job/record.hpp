@@ -19,6 +19,7 @@ struct RunRecord : MeshFacts {
   Request request;
   std::string command;  ///< a command line that makes the same mesh
   std::string input_file;
+  std::string projection;                                                                 ///< see InputFile
   std::int64_t input_points = 0, input_segments = 0, input_holes = 0, input_regions = 0;  ///< after repair
   RepairReport repairs;                                                                   ///< without its warnings
   std::vector<std::string> warnings;                                                      ///< about the input

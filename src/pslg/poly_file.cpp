@@ -128,12 +128,6 @@ Pslg parse_poly(const std::string& file, std::string_view text) {
   return pslg;
 }
 
-bool holds_input(const std::string& path) {
-  const std::filesystem::path name(path);
-  if (name.extension() != ".node") return name.extension() == ".poly";
-  return !std::filesystem::exists(std::filesystem::path(path).replace_extension(".ele"));
-}
-
 Pslg read_poly(const std::string& path) {
   const std::string text = read_file(path);
   refuse_other_files(path, text);

@@ -5,7 +5,10 @@ usage: formats_test.py DRIFTMESH [unittest options]
 """
 
 import itertools
+import json
+import math
 import os
+import pathlib
 import re
 import shutil
 
@@ -139,7 +142,7 @@ class Formats(Cli):
         self.succeed("convert", "hgrid.gr3", "again.vtu")
         self.assertIn(" on the boundary", self.succeed("check", "again.vtu"))
         self.refuse("convert", "m.vtu", "x.14", "--open-boundary", "2,sea", code=2, says=["--open-boundary", "sea"])
-        self.refuse("mesh", "in.poly", "-o", "x.14", "--open-boundary", "2.5", says=["open-boundary", "whole number"])
+        self.refuse("mesh", "in.poly", "-o", "x.14", "--open-boundary", "2.5", code=2, says=["open-boundary", "whole number"])
 
     def test_separators_are_constraints_in_triangles_files_and_nothing_else(self):
         self.write("in.poly", REGIONS)
@@ -161,6 +164,40 @@ class Formats(Cli):
         self.succeed("mesh", "in.poly", "-o", "m.vtu")
         self.refuse("mesh", "in.poly", "-o", "t.ele", says=["t.poly", "-1000000", "separators"])
         self.assertEqual(self.files(), ["in.poly", "m.vtu"])
+
+
+class Coast(Cli):
+    def test_a_coast_in_degrees_is_meshed_checked_drawn_and_cut(self):
+        shutil.copy(pathlib.Path(__file__).resolve().parents[2] / "examples" / "coast" / "bay.geojson", self.folder)
+        said = self.succeed("mesh", "bay.geojson", "--area", "1M", "--open-boundary", "3", "-o", "m.vtu", "-o", "fort.14",
+                            "--json", "m.json")
+        self.assertIn("in meters, UTM zone 18N", said)
+        self.assertIn("10 holes", said)
+        self.assertEqual(json.loads((self.folder / "m.json").read_text())["input"]["projection"], "UTM zone 18N")
+        self.assertIn("accepted", self.succeed("check", "m.vtu", "bay.geojson", "--area", "1M"))
+        self.succeed("plot", "bay.geojson", "-o", "bay.png")
+        self.assertIn("Subdomains", self.succeed("decompose", "bay.geojson", "-n", "5"))
+        grid = (self.folder / "fort.14").read_text()
+        self.assertIn("\n1 = number of open boundaries\n", grid)
+        self.assertEqual(grid.count("of this island"), 10)
+        # The area of the domain, from the degrees alone: the trapezoids between parallels of a sphere of the right
+        # radius there are good to a percent.
+        rings = [feature["geometry"]["coordinates"] for feature in
+                 json.loads((self.folder / "bay.geojson").read_text())["features"]][1]
+        area = 0
+        for ring in rings:
+            for (x, y), (u, v) in zip(ring, ring[1:]):
+                area -= (u - x) * (v + y - 74.6) / 2
+        area *= 110_970 * 111_320 * math.cos(math.radians(37.3))
+        found = float(re.search(r"([0-9.]+) in total", said).group(1))
+        self.assertLess(abs(found / area - 1), 0.01)
+
+    def test_what_is_wrong_is_said_with_the_place(self):
+        self.write("a.geojson", '{"type": "Polygon",\n"coordinates": [[[0, 0], [1, 0]')
+        self.refuse("mesh", "a.geojson", "-o", "x.vtu", says=["a.geojson:2: is not valid JSON"])
+        self.write("b.geojson", '{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 0]]]}')
+        self.refuse("mesh", "b.geojson", "-o", "x.vtu", says=["b.geojson: feature 1 has a ring of fewer than three"])
+        self.assertEqual(self.files(), ["a.geojson", "b.geojson"])
 
 
 class NoDomains(Cli):

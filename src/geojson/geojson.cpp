@@ -1,0 +1,173 @@
+#include "geojson/geojson.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "driftmesh/error.hpp"
+
+namespace driftmesh {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kDeepest = 16;  // collections within collections
+constexpr const char* kFormat = "RFC 7946 describes the format";
+
+Json parse_json(const std::string& file, std::string_view text) {
+  try {
+    return Json::parse(text.begin(), text.end());
+  } catch (const Json::parse_error& error) {
+    const std::string_view before = text.substr(0, std::min<std::size_t>(error.byte, text.size()));
+    const auto line = 1 + static_cast<std::size_t>(std::ranges::count(before, '\n'));
+    throw InputError({file, line}, "is not valid JSON here", "it was not written completely, or is damaged");
+  } catch (const Json::out_of_range&) {
+    throw InputError({file, 0}, "has a number beyond the range of double precision", "correct it");
+  }
+}
+
+class FeatureReader {
+ public:
+  explicit FeatureReader(const std::string& file) : file_(file) {}
+
+  GeoFeatures read(const Json& root) {
+    found_.in_degrees = is_in_degrees(root);
+    const std::string type = type_of(root);
+    if (type == "FeatureCollection")
+      for (const Json& feature : array_in(root, "features")) read_feature(feature);
+    else if (type == "Feature")
+      read_feature(root);
+    else
+      ++feature_, read_geometry(root, Json::object(), 0);
+    if (found_.polygons.empty() && found_.lines.empty() && found_.points.empty())
+      throw InputError({file_, 0}, "has no geometry", "there is nothing to mesh");
+    return std::move(found_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what, const char* next = kFormat) const {
+    throw InputError({file_, 0}, (feature_ > 0 ? "feature " + std::to_string(feature_) + " " : "") + what, next);
+  }
+
+  /// GeoJSON of 2008 could name another system; names of the default one vary.
+  static bool is_in_degrees(const Json& root) {
+    const auto name = Json::json_pointer("/crs/properties/name");
+    if (!root.is_object() || !root.contains(name) || !root[name].is_string()) return true;
+    const auto& text = root[name].get_ref<const std::string&>();
+    return text.find("CRS84") != std::string::npos || text.ends_with(":4326");
+  }
+
+  [[nodiscard]] std::string type_of(const Json& object) const {
+    const auto type = object.is_object() ? object.find("type") : object.end();
+    if (!object.is_object() || type == object.end() || !type->is_string()) fail("has no type");
+    return type->get<std::string>();
+  }
+
+  [[nodiscard]] const Json& array_in(const Json& object, const char* name) const {
+    const auto found = object.find(name);
+    if (found == object.end() || !found->is_array()) fail("has no array \"" + std::string(name) + "\"");
+    return *found;
+  }
+
+  void read_feature(const Json& feature) {
+    ++feature_;
+    if (type_of(feature) != "Feature") fail("has type \"" + type_of(feature) + "\" instead of \"Feature\"");
+    const auto geometry = feature.find("geometry"), properties = feature.find("properties");
+    if (geometry == feature.end() || geometry->is_null()) return;  // a feature without a place
+    read_geometry(*geometry, properties != feature.end() && properties->is_object() ? *properties : Json::object(), 0);
+  }
+
+  void read_geometry(const Json& geometry, const Json& properties, int depth) {
+    const std::string type = type_of(geometry);
+    if (type == "GeometryCollection") {
+      if (depth == kDeepest) fail("has collections that are nested too deeply");
+      for (const Json& part : array_in(geometry, "geometries")) read_geometry(part, properties, depth + 1);
+      return;
+    }
+    const Json& c = array_in(geometry, "coordinates");
+    const auto each = [&](const auto& read) {
+      for (const Json& part : c) read(part);
+    };
+    if (type == "Polygon") return add_polygon(c, properties);
+    if (type == "MultiPolygon") return each([&](const Json& part) { add_polygon(part, properties); });
+    if (type == "LineString") return add_line(c, properties);
+    if (type == "MultiLineString") return each([&](const Json& part) { add_line(part, properties); });
+    if (type == "Point") return found_.points.push_back(position(c));
+    if (type == "MultiPoint") return each([&](const Json& part) { found_.points.push_back(position(part)); });
+    fail("has a geometry of unknown type \"" + type + "\"");
+  }
+
+  void add_polygon(const Json& rings, const Json& properties) {
+    if (!rings.is_array()) fail("has a polygon that is no array of rings");
+    if (rings.empty()) return;
+    GeoFeatures::Polygon polygon{feature_, {}, marker_in(properties), region_in(properties)};
+    for (const Json& positions : rings) {
+      PolygonRing ring = positions_in(positions);
+      if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+      if (ring.size() < 3) fail("has a ring of fewer than three different corners", "remove it");
+      polygon.rings.push_back(std::move(ring));
+    }
+    found_.polygons.push_back(std::move(polygon));
+  }
+
+  void add_line(const Json& positions, const Json& properties) {
+    GeoFeatures::Line line{positions_in(positions), marker_in(properties).value_or(0)};
+    if (line.points.size() < 2) fail("has a line of fewer than two different points", "remove it");
+    found_.lines.push_back(std::move(line));
+  }
+
+  /// Without repetitions.
+  [[nodiscard]] std::vector<Point> positions_in(const Json& positions) const {
+    if (!positions.is_array()) fail("has something else in place of an array of positions");
+    std::vector<Point> points;
+    for (const Json& p : positions)
+      if (const Point next = position(p); points.empty() || points.back() != next) points.push_back(next);
+    return points;
+  }
+
+  [[nodiscard]] Point position(const Json& p) const {
+    if (!p.is_array() || p.size() < 2 || !p[0].is_number() || !p[1].is_number())
+      fail("has a position that is no array of two numbers");
+    return {p[0].get<double>(), p[1].get<double>()};
+  }
+
+  [[nodiscard]] std::optional<double> number_in(const Json& properties, const char* name) const {
+    const auto found = properties.find(name);
+    if (found == properties.end() || found->is_null()) return std::nullopt;
+    if (!found->is_number()) fail("has a \"" + std::string(name) + "\" that is no number", "correct or remove it");
+    return found->get<double>();
+  }
+
+  [[nodiscard]] std::optional<std::int32_t> marker_in(const Json& properties) const {
+    if (const auto marker = number_in(properties, "marker")) {
+      if (*marker != std::floor(*marker) || std::abs(*marker) > INT32_MAX)
+        fail("has a \"marker\" that is no whole number of 32 bits", "markers of segments are whole numbers");
+      return static_cast<std::int32_t>(*marker);
+    }
+    const auto boundary = properties.find("boundary");
+    if (boundary == properties.end() || boundary->is_null()) return std::nullopt;
+    for (const auto& [name, marker] : {std::pair{"land", kGeoLand}, {"island", kGeoIsland}, {"open", kGeoOpen}})
+      if (*boundary == name) return marker;
+    fail("has a \"boundary\" of an unknown kind", "kinds are \"land\", \"island\" and \"open\"");
+  }
+
+  [[nodiscard]] std::optional<GeoFeatures::Region> region_in(const Json& properties) const {
+    const auto attribute = number_in(properties, "region"), max_area = number_in(properties, "max_area");
+    if (!attribute && !max_area) return std::nullopt;
+    if (max_area && *max_area <= 0) fail("has a \"max_area\" that is not positive", "correct or remove it");
+    return GeoFeatures::Region{attribute.value_or(0), max_area.value_or(0)};
+  }
+
+  const std::string& file_;
+  std::size_t feature_ = 0;  // the one at hand; 0: none
+  GeoFeatures found_;
+};
+
+}  // namespace
+
+GeoFeatures parse_geojson(const std::string& file, std::string_view text) {
+  return FeatureReader(file).read(parse_json(file, text));
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,41 @@
+#include "geojson/read_input.hpp"
+
+#include <filesystem>
+
+#include "base/read_file.hpp"
+#include "geojson/geojson.hpp"
+#include "geojson/rings_to_pslg.hpp"
+#include "pslg/poly_file.hpp"
+
+namespace driftmesh {
+
+bool is_geojson(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".geojson" || extension == ".json";
+}
+
+bool holds_input(const std::string& path) {
+  const std::filesystem::path name(path);
+  if (name.extension() != ".node") return name.extension() == ".poly" || is_geojson(path);
+  return !std::filesystem::exists(std::filesystem::path(path).replace_extension(".ele"));
+}
+
+InputFile parse_geojson_input(const std::string& file, std::string_view text) {
+  GeoFeatures features = parse_geojson(file, text);
+  InputFile input;
+  if (features.in_degrees) input.projection = project(features, file);
+  input.pslg = to_pslg(features, file);
+  return input;
+}
+
+InputFile read_input(const std::string& path) {
+  if (is_geojson(path)) return parse_geojson_input(path, read_file(path));
+  return {read_poly(path), {}};
+}
+
+std::vector<std::string> input_files(const std::string& path) {
+  if (is_geojson(path)) return {path};
+  return poly_files(path);
+}
+
+}  // namespace driftmesh

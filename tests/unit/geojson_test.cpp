@@ -1,0 +1,255 @@
+#include "geojson/geojson.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "driftmesh/error.hpp"
+#include "geojson/interior_point.hpp"
+#include "geojson/read_input.hpp"
+#include "geojson/rings_to_pslg.hpp"
+#include "geojson/transverse_mercator.hpp"
+#include "property/cases.hpp"
+
+using namespace driftmesh;
+
+namespace {
+
+/// The arc of a meridian of WGS 84 from the equator, by Simpson's rule on its radius of curvature.
+double meridian_arc(double latitude) {
+  constexpr double a = 6'378'137, f = 1 / 298.257223563, e2 = f * (2 - f);
+  const auto radius = [&](double phi) { return a * (1 - e2) / std::pow(1 - e2 * std::pow(std::sin(phi), 2), 1.5); };
+  constexpr int n = 2000;
+  const double h = latitude * std::numbers::pi / 180 / n;
+  double sum = radius(0) + radius(n * h);
+  for (int i = 1; i < n; ++i) sum += (i % 2 == 0 ? 2 : 4) * radius(i * h);
+  return sum * h / 3;
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    static_cast<void>(parse_geojson_input("coast.geojson", text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string polygon(const std::string& rings, const std::string& properties = "{}") {
+  return R"({"type": "Feature", "properties": )" + properties + R"(, "geometry": {"type": "Polygon", "coordinates": )" +
+         rings + "}}";
+}
+std::string planar(const std::string& features) {
+  return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32618"}}, "features": [)" +
+         features + "]}";
+}
+
+const std::string kSquare = "[[0,0],[10,0],[10,10],[0,10],[0,0]]";
+const std::string kHole = "[[2,2],[2,8],[8,8],[8,2],[2,2]]";
+const std::string kIsland = "[[4,4],[6,4],[6,6],[4,6],[4,4]]";
+
+}  // namespace
+
+TEST_CASE("zones are six degrees wide") {
+  CHECK(utm_zone_of(-76, 38).name() == "UTM zone 18N");
+  CHECK(utm_zone_of(-180, 1).number == 1);
+  CHECK(utm_zone_of(179.999, 1).number == 60);
+  CHECK(utm_zone_of(180, 1).number == 1);
+  CHECK(utm_zone_of(0, -0.1).name() == "UTM zone 31S");
+  CHECK(utm_zone_of(-0.1, 0).name() == "UTM zone 30N");
+  CHECK(UtmZone{31, true}.central_meridian() == 3);
+}
+
+TEST_CASE("on the central meridian northings are arcs of the meridian, scaled") {
+  for (const double latitude : {-79.0, -33.0, -1e-6, 0.0, 1.0, 38.0, 60.0, 83.9}) {
+    CAPTURE(latitude);
+    const UtmZone zone{18, latitude >= 0};
+    const Point p = utm(-75, latitude, zone);
+    CHECK(p.x == doctest::Approx(500'000).epsilon(1e-14));
+    CHECK(std::abs(p.y - (zone.north ? 0 : 1e7) - 0.9996 * meridian_arc(latitude)) < 1e-6);
+  }
+}
+
+// The map is conformal and fixed by its central meridian: that defines it.
+TEST_CASE("the projection is conformal on the ellipsoid, and symmetric") {
+  constexpr double a = 6'378'137, f = 1 / 298.257223563, e2 = f * (2 - f), radians = std::numbers::pi / 180;
+  auto random = testing::seeded_generator("utm");
+  std::uniform_real_distribution<double> off(-20, 20), latitudes(-80, 84);
+  for (int round = 0; round < 500; ++round) {
+    const double latitude = latitudes(random), away = off(random);
+    CAPTURE(latitude);
+    CAPTURE(away);
+    const UtmZone zone{31, true};
+    const auto at = [&](double east, double north) { return utm(3 + away + east, latitude + north, zone); };
+    constexpr double h = 1e-3;
+    const double s = std::sin(latitude * radians), w = std::sqrt(1 - e2 * s * s);
+    const double per_east = a * std::cos(latitude * radians) / w * radians,
+                 per_north = a * (1 - e2) / (w * w * w) * radians;
+    const auto along = [&](double east, double north) {
+      const Point p = at(east, north), q = at(-east, -north);
+      return Point{(p.x - q.x) / 2, (p.y - q.y) / 2};
+    };
+    const Point e = along(h, 0), n = along(0, h);
+    const double scale_east = std::hypot(e.x, e.y) / (h * per_east),
+                 scale_north = std::hypot(n.x, n.y) / (h * per_north);
+    CHECK(scale_east == doctest::Approx(scale_north).epsilon(1e-6));
+    CHECK(std::abs(e.x * n.x + e.y * n.y) < 1e-6 * std::hypot(e.x, e.y) * std::hypot(n.x, n.y));
+    CHECK(e.x * n.y - e.y * n.x > 0);
+    const Point mirrored = utm(3 - away, latitude, zone);
+    CHECK(at(0, 0).x - 500'000 == doctest::Approx(500'000 - mirrored.x).epsilon(1e-12));
+    CHECK(at(0, 0).y == doctest::Approx(mirrored.y).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("polygons, holes and islands in them become a domain with seeds and markers") {
+  const auto [pslg, projection] = parse_geojson_input(
+      "x.json", planar(polygon("[" + kSquare + "," + kHole + "]", R"({"region": 7, "max_area": 0.5})") + "," +
+                       polygon("[" + kIsland + "]", R"({"marker": 9})")));
+  CHECK(projection.empty());
+  CHECK(pslg.points.size() == 12);
+  CHECK(pslg.segments.size() == 12);
+  CHECK(std::ranges::count(pslg.segments, 1, &Pslg::Segment::marker) == 4);
+  CHECK(std::ranges::count(pslg.segments, 2, &Pslg::Segment::marker) == 4);
+  CHECK(std::ranges::count(pslg.segments, 9, &Pslg::Segment::marker) == 4);
+  const auto is_in = [](Point p, double low, double high) {
+    return p.x > low && p.x < high && p.y > low && p.y < high;
+  };
+  REQUIRE(pslg.holes.size() == 1);
+  CHECK(is_in(pslg.holes[0], 2, 8));
+  CHECK(!is_in(pslg.holes[0], 4, 6));
+  REQUIRE(pslg.regions.size() == 1);
+  CHECK(is_in(pslg.regions[0].at, 0, 10));
+  CHECK(!is_in(pslg.regions[0].at, 2, 8));
+  CHECK(pslg.regions[0].attribute == 7);
+  CHECK(pslg.regions[0].max_area == 0.5);
+}
+
+TEST_CASE("a hole that another polygon fills is none, and borders of both are there once") {
+  const Pslg pslg = parse_geojson_input(
+                        "x.json", planar(polygon("[" + kSquare + "," + kHole + "]") + "," + polygon("[" + kHole + "]")))
+                        .pslg;
+  CHECK(pslg.segments.size() == 8);
+  CHECK(pslg.holes.empty());
+}
+
+TEST_CASE("lines give their markers to the coast that they follow, and are constraints elsewhere") {
+  const Pslg pslg =
+      parse_geojson_input(
+          "x.json",
+          planar(
+              polygon("[" + kSquare + "]") +
+              R"(, {"type": "Feature", "properties": {"boundary": "open"}, "geometry": {"type": "LineString", "coordinates": [[10,10],[10,0]]}})" +
+              R"(, {"type": "Feature", "properties": null, "geometry": {"type": "MultiLineString", "coordinates": [[[1,1],[5,5, 3]]]}})" +
+              R"(, {"type": "Feature", "properties": {"other": 1}, "geometry": {"type": "Point", "coordinates": [2,7]}})"))
+          .pslg;
+  CHECK(pslg.points.size() == 7);
+  CHECK(pslg.segments.size() == 5);
+  CHECK(std::ranges::count(pslg.segments, 3, &Pslg::Segment::marker) == 1);
+  CHECK(std::ranges::count(pslg.segments, 0, &Pslg::Segment::marker) == 1);
+}
+
+TEST_CASE("degrees become meters in the zone of their middle") {
+  const auto [pslg, projection] =
+      parse_geojson_input("x.geojson", polygon("[[[-76,37],[-75.5,37],[-75.5,38],[-76,37]]]"));
+  CHECK(projection == "UTM zone 18N");
+  REQUIRE(pslg.points.size() == 3);
+  CHECK(pslg.points[0] == utm(-76, 37, {18, true}));
+  CHECK(message_of(polygon("[" + kSquare.substr(0, kSquare.size() - 1) + ",[500000,1]]]"))
+            .find("no longitude and latitude") != std::string::npos);
+  CHECK(message_of(polygon("[[[0,80],[1,80],[1,85],[0,80]]]")).find("beyond 84 degrees") != std::string::npos);
+  CHECK(message_of(polygon("[[[-179,0],[179,0],[179,1],[-179,0]]]")).find("antimeridian") != std::string::npos);
+}
+
+TEST_CASE("interior points lie inside, exactly, whatever the polygon") {
+  auto random = testing::seeded_generator("interior points");
+  std::uniform_real_distribution<double> unit(0, 1);
+  int found = 0;
+  for (int round = 0; round < 1000; ++round) {
+    // A star around the origin, thin or not, and holes in the same shape.
+    const auto star = [&](double scale, int corners, double squeeze) {
+      PolygonRing ring;
+      for (int i = 0; i < corners; ++i) {
+        const double angle = 2 * std::numbers::pi * i / corners, r = scale * (0.2 + 0.8 * unit(random));
+        ring.push_back({r * std::cos(angle), squeeze * r * std::sin(angle)});
+      }
+      return ring;
+    };
+    const double squeeze = std::pow(10, -6 * unit(random));
+    const PolygonRing outer = star(1, 3 + round % 40, squeeze), inner = star(0.15, 3 + round % 7, squeeze);
+    const std::array<const PolygonRing*, 2> rings{&outer, &inner};
+    for (const std::size_t count : {1u, 2u}) {
+      const auto part = std::span<const PolygonRing* const>(rings).first(count);
+      const auto p = interior_point(part);
+      REQUIRE(p);
+      ++found;
+      CHECK(is_inside(std::span(rings).first(1), *p));
+      if (count == 2) CHECK(!is_inside(std::span(rings).last(1), *p));
+    }
+    // Where lines of both directions agree about a place, so must the test.
+    const Point q{2 * unit(random) - 1, squeeze * (2 * unit(random) - 1)};
+    PolygonRing turned;
+    for (const Point c : outer) turned.push_back({c.y, c.x});
+    const std::array<const PolygonRing*, 1> other{&turned};
+    CHECK(is_inside(std::span(rings).first(1), q) == is_inside(other, {q.y, q.x}));
+  }
+  CHECK(found == 2000);
+  const PolygonRing flat{{0, 0}, {1, 0}, {2, 0}};
+  const std::array<const PolygonRing*, 1> none{&flat};
+  CHECK(!interior_point(none));
+}
+
+TEST_CASE("what is wrong is named, with the line or the feature") {
+  CHECK(message_of("{\"type\":\n\"Feature\",\n,}").starts_with("coast.geojson:3: is not valid JSON"));
+  CHECK(message_of("").starts_with("coast.geojson:1: is not valid JSON"));
+  CHECK(message_of("[1, 2]").find("has no type") != std::string::npos);
+  CHECK(message_of(planar("")).find("no geometry") != std::string::npos);
+  const auto second = [](const std::string& feature) {
+    return message_of(planar(polygon("[" + kSquare + "]") + "," + feature));
+  };
+  CHECK(second("7").find("feature 2 has no type") != std::string::npos);
+  CHECK(second(polygon("[[[0,0],[1,1],[0,0]]]")).find("feature 2 has a ring of fewer than three") != std::string::npos);
+  CHECK(second(polygon("[[[0,0],[1,\"1\"],[0,1]]]")).find("no array of two numbers") != std::string::npos);
+  CHECK(second(polygon("[" + kHole + "]", R"({"marker": 1.5})")).find("no whole number") != std::string::npos);
+  CHECK(second(polygon("[" + kHole + "]", R"({"marker": 1e300})")).find("no whole number") != std::string::npos);
+  CHECK(second(polygon("[" + kHole + "]", R"({"boundary": "sea"})")).find("unknown kind") != std::string::npos);
+  CHECK(second(polygon("[" + kHole + "]", R"({"max_area": 0})")).find("not positive") != std::string::npos);
+  CHECK(second(polygon("[" + kHole + ",[[3,3],[4,3],[5,3],[3,3]]]")).find("a hole without room") != std::string::npos);
+  CHECK(second(R"({"type": "Feature", "geometry": {"type": "Circle", "coordinates": []}})").find("unknown type") !=
+        std::string::npos);
+  std::string deep = R"({"type": "Point", "coordinates": [0, 0]})";
+  for (int i = 0; i < 20; ++i) deep = R"({"type": "GeometryCollection", "geometries": [)" + deep + "]}";
+  CHECK(message_of(deep).find("nested too deeply") != std::string::npos);
+  CHECK(message_of("{\"type\": \"Point\", \"coordinates\": [1e999, 0]}") != "accepted");
+  CHECK(message_of(std::string(100'000, '[')) != "accepted");
+}
+
+TEST_CASE("files with random edits are read, or refused with an InputError") {
+  const std::string whole = planar(polygon("[" + kSquare + "," + kHole + "]", R"({"marker": 3, "region": 1})") + "," +
+                                   polygon("[" + kIsland + "]", R"({"boundary": "land"})"));
+  auto random = testing::seeded_generator("geojson edits");
+  int accepted = 0;
+  for (int round = 0; round < 5000; ++round) {
+    std::string text = whole;
+    for (std::uint64_t edits = 1 + random() % 3; edits > 0; --edits) {
+      const std::size_t at = random() % text.size();
+      switch (random() % 3) {
+        case 0:
+          text.erase(at, 1 + random() % 4);
+          break;
+        case 1:
+          text.insert(at, 1, "0123456789-.,[]{}\"eE"[random() % 20]);
+          break;
+        default:
+          text[at] = static_cast<char>(random());
+      }
+      if (text.empty()) break;
+    }
+    accepted += message_of(text) == "accepted" ? 1 : 0;
+  }
+  CHECK(accepted > 100);
+  CHECK(accepted < 4900);
+}
