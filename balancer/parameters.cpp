@@ -1,5 +1,3 @@
-#include "balancer/parameters.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <sstream>
@@ -7,6 +5,7 @@
 
 #include "base/nearest_name.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/policy_parameters.hpp"
 
 namespace driftmesh::balancer {
 namespace {

@@ -4,9 +4,9 @@
 #include <set>
 #include <utility>
 
-#include "balancer/parameters.hpp"
 #include "balancer/partners.hpp"
 #include "driftmesh/policy.hpp"
+#include "driftmesh/policy_parameters.hpp"
 
 namespace driftmesh::balancer {
 namespace {

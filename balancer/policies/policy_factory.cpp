@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "balancer/policies/policy_library.hpp"
 #include "balancer/policy_list.hpp"
 #include "balancer/stealing/policy_stealing.hpp"
 #include "base/nearest_name.hpp"
@@ -27,6 +28,7 @@ constexpr Entry kPolicies[] = {DRIFTMESH_POLICIES(ENTRY)};
 }  // namespace
 
 std::unique_ptr<Policy> make_policy(const std::string& name, const Parameters::Values& values) {
+  if (is_policy_library(name)) return make_policy_of_library(name, values);
   const auto* const entry =
       std::find_if(std::begin(kPolicies), std::end(kPolicies), [&](const Entry& known) { return name == known.name; });
   if (entry == std::end(kPolicies))

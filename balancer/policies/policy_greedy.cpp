@@ -1,8 +1,8 @@
 #include <memory>
 
-#include "balancer/parameters.hpp"
 #include "balancer/surplus.hpp"
 #include "driftmesh/policy.hpp"
+#include "driftmesh/policy_parameters.hpp"
 
 namespace driftmesh::balancer {
 namespace {

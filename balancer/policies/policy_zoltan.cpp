@@ -2,11 +2,11 @@
 #include <utility>
 
 #include "balancer/effort.hpp"
-#include "balancer/parameters.hpp"
 #include "balancer/remap_parts.hpp"
 #include "balancer/surplus.hpp"
 #include "balancer/zoltan/zoltan_partition.hpp"
 #include "driftmesh/policy.hpp"
+#include "driftmesh/policy_parameters.hpp"
 
 namespace driftmesh::balancer {
 namespace {

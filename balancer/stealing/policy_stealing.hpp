@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "balancer/parameters.hpp"
 #include "driftmesh/policy.hpp"
+#include "driftmesh/policy_parameters.hpp"
 
 namespace driftmesh::balancer {
 

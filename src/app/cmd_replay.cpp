@@ -26,12 +26,8 @@ balancer::Parameters::Values parameters_for(const std::string& policy, const std
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos)
       throw cli::UsageError("--parameter '" + setting + "' has no value; give NAME=VALUE");
-    std::string name = setting.substr(0, equals);
-    if (const std::size_t dot = name.find('.'); dot != std::string::npos) {
-      if (name.substr(0, dot) != policy) continue;
-      name = name.substr(dot + 1);
-    }
-    values[name] = setting.substr(equals + 1);
+    const auto [named, name] = balancer::split_parameter(setting.substr(0, equals));
+    if (named.empty() || named == balancer::short_name(policy)) values[name] = setting.substr(equals + 1);
   }
   return values;
 }
@@ -53,7 +49,8 @@ void replay_run(const ReplayCommand& command) {
   table += line_of("recorded: " + record.policy, record.seconds, record, record.moves);
   for (std::size_t i = 0; i < policies.size(); ++i) {
     const ReplayedRun replayed = replay(record.run, made[i]);
-    table += line_of(policies[i], replayed.seconds, record, static_cast<std::size_t>(replayed.moves));
+    table +=
+        line_of(balancer::short_name(policies[i]), replayed.seconds, record, static_cast<std::size_t>(replayed.moves));
   }
   print(table);
 }
@@ -73,7 +70,7 @@ cli::Command replay_command() {
                        .take = cli::into(command->record)},
                       {.name = "policy",
                        .value = "NAME",
-                       .help = "A policy to balance with; may be given several times",
+                       .help = "A policy to balance with, or a file .so; may be given several times",
                        .standard = "all of them",
                        .repeats = true,
                        .take = cli::into(command->policies)},

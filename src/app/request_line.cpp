@@ -131,6 +131,7 @@ std::vector<cli::Option> key_options(job::EntryPoint entry_point, GivenKeys& giv
     option.repeats = key.kind == Kind::kOutputs || key.kind == Kind::kTable;
     option.completes = completes(key);
     option.choices = key.choices;
+    option.or_file = key.or_file;
     option.take = [&given, &key](const std::string& text) {
       try {
         static_cast<void>(given_value(key, text, key.standard));

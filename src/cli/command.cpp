@@ -21,7 +21,8 @@ bool Call::has(const std::string& option) const {
 void Call::give(const Option& option, const std::string& value) {
   if (!option.repeats && has(option.name)) throw UsageError("is given twice");
   const auto& choices = option.choices;
-  if (!choices.empty() && std::find(choices.begin(), choices.end(), value) == choices.end())
+  const bool is_file = !option.or_file.empty() && value.ends_with(option.or_file);
+  if (!choices.empty() && !is_file && std::find(choices.begin(), choices.end(), value) == choices.end())
     throw UsageError("is '" + value + "'; it must be " + listed(choices) + did_you_mean(value, choices));
   if (option.take) option.take(value);
   given.push_back({&option, value});

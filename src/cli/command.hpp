@@ -33,6 +33,7 @@ struct Option {
   bool repeats = false;    ///< may be given several times
   Completes completes = Completes::kNothing;
   std::vector<std::string> choices{};  ///< the only valid values; empty: `take` decides
+  std::string or_file{};               ///< besides choices, a file with this extension; empty: none
   /// Stores a value, "" for a flag. Throws a UsageError that continues the option's name: "is 5; it must be ...".
   std::function<void(const std::string&)> take{};
   std::function<std::string()> prints{};  ///< for a flag that prints this text instead of running the command

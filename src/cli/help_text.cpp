@@ -113,6 +113,7 @@ std::string description(const Option& option) {
   const bool names_all = std::all_of(option.choices.begin(), option.choices.end(),
                                      [&](const std::string& choice) { return text.find(choice) != std::string::npos; });
   if (!names_all) text += (text.find(':') == std::string::npos ? ": " : "; one of ") + listed(option.choices);
+  if (!option.or_file.empty()) text += ", or a file " + option.or_file;
   if (option.repeats && option.kind != Option::Kind::kPositional) text += "; can be given several times";
   if (!option.standard.empty()) text += " [" + option.standard + "]";
   return text;

@@ -92,7 +92,9 @@ class Values {
       case Kind::kFile:
         return origin_.resolved(text(key, node));
       default:
-        return single(key, node);
+        const Value one = single(key, node);
+        const auto* const name = std::get_if<std::string>(&one);
+        return name != nullptr && job::names_file(key, *name) ? Value(origin_.resolved(*name)) : one;
     }
   }
 

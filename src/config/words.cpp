@@ -49,6 +49,13 @@ Json number_schema(const KeyInfo& key) {
   return {{"anyOf", {number, {{"type", "string"}, {"pattern", "^[-+0-9.eE]+[kKmMgGtT]?i?[bB]?$"}}}}};
 }
 
+Json choice_schema(const KeyInfo& key) {
+  Json choice = {{"enum", key.choices}};
+  if (is_empty(key.standard)) choice["enum"].push_back("");
+  if (key.or_file.empty()) return choice;
+  return {{"anyOf", {choice, {{"type", "string"}, {"pattern", "\\" + key.or_file + "$"}}}}};
+}
+
 Json schema_of(const KeyInfo& key) {
   Json schema = {{"description", help_of(key)}};
   switch (key.kind) {
@@ -58,8 +65,7 @@ Json schema_of(const KeyInfo& key) {
       schema["type"] = "string";
       break;
     case Kind::kChoice:
-      schema["enum"] = key.choices;
-      if (is_empty(key.standard)) schema["enum"].push_back("");
+      schema.update(choice_schema(key));
       break;
     case Kind::kFlag:
       schema["type"] = "boolean";
@@ -93,6 +99,7 @@ std::string values_words(const KeyInfo& key) {
                                            "true/false", "",     "table", "list",  "numbers"};
   std::string words = kWords[static_cast<int>(key.kind)];
   for (const std::string& choice : key.choices) words += (words.empty() ? "" : ", ") + choice;
+  if (!key.or_file.empty()) words += ", or a file " + key.or_file;
   if (std::isfinite(key.least)) words += (key.above ? " above " : " from ") + job::shortest_text(key.least);
   if (std::isfinite(key.most)) words += " to " + job::shortest_text(key.most);
   return words;
@@ -105,9 +112,9 @@ std::string row(const std::string& name, const KeyInfo& key) {
 
 /// The value in a form that does not depend on the folder of the file it is written to.
 Value from_anywhere(const KeyInfo& key, const Value& value) {
-  if (key.kind != Kind::kFile || is_standard_stream(value.as<std::string>()) || value.as<std::string>().empty())
-    return value;
-  return std::filesystem::absolute(value.as<std::string>()).string();
+  const auto* const text = std::get_if<std::string>(&value);
+  if (text == nullptr || !job::names_file(key, *text) || is_standard_stream(*text)) return value;
+  return std::filesystem::absolute(*text).string();
 }
 
 bool in_experiments(const KeyInfo& key) {

@@ -192,13 +192,14 @@ void check_ranks(const Request& request, Place place, std::int32_t ranks) {
 std::map<std::string, std::string> parameters_of_policy(const Request& request) {
   std::map<std::string, std::string> parameters;
   const std::vector<std::string> policies = balancer::policy_names();
-  for (const auto& [name, value] : request.balance.parameters) {
-    const std::size_t dot = name.find('.');
-    const std::string policy = dot == std::string::npos ? request.balance.policy : name.substr(0, dot);
-    if (std::find(policies.begin(), policies.end(), policy) == policies.end())
+  const std::string own = balancer::short_name(request.balance.policy);
+  for (const auto& [setting, value] : request.balance.parameters) {
+    const auto [named, name] = balancer::split_parameter(setting);
+    const std::string& policy = named.empty() ? own : named;
+    if (!balancer::is_policy_library(policy) && std::find(policies.begin(), policies.end(), policy) == policies.end())
       throw KeyError("balance.parameters", "names a policy '" + policy + "' that does not exist",
                      "the nearest one is '" + nearest_name(policy, policies) + "'");
-    if (policy == request.balance.policy) parameters[dot == std::string::npos ? name : name.substr(dot + 1)] = value;
+    if (policy == own) parameters[name] = value;
   }
   return parameters;
 }

@@ -59,6 +59,7 @@ struct KeyInfo {
   bool above = false;                ///< must be greater than `least`, not equal
   std::string why_not_more;          ///< the reason for the limit `most`, or empty
   std::vector<std::string> choices;  ///< kChoice
+  std::string or_file;               ///< kChoice: the extension of a file that may be named instead, or empty
   std::vector<KeyInfo> fields;       ///< kList
 
   Places places = kAnywhere;            ///< where it applies; elsewhere it is rejected

@@ -86,6 +86,9 @@ auto one_of(std::vector<std::string> choices) {
     key.choices = choices;
   };
 }
+auto or_file(const char* extension) {
+  return [=](KeyInfo& key) { key.or_file = extension; };
+}
 auto option(const char* name, const char* value_name = "") {
   return [=](KeyInfo& key) { key.option = name, key.value_name = value_name; };
 }
@@ -392,7 +395,7 @@ Section balance_section() {
       kMany,
       kMeshers,
       {key("balance.policy", &R::balance, &R::Balance::policy, "The policy that plans moves (docs/balancing.md)",
-           one_of(balancer::policy_names()), option("balance", "POLICY")),
+           one_of(balancer::policy_names()), or_file(balancer::kPolicyLibrary), option("balance", "POLICY")),
        key("balance.parameters", &R::balance, &R::Balance::parameters,
            "A parameter of the policy, such as method=graph; in a sweep over policies, of one of them: "
            "zoltan.method=graph",
@@ -564,6 +567,11 @@ void check_range(const KeyInfo& key, double value) {
          "it must be at most " + shortest_text(key.most) + (key.why_not_more.empty() ? "" : ": " + key.why_not_more));
 }
 
+bool names_file(const KeyInfo& key, const std::string& text) {
+  if (key.kind == Kind::kFile) return !text.empty();
+  return !key.or_file.empty() && text.ends_with(key.or_file);
+}
+
 Value read_value(const KeyInfo& key, const std::string& text) {
   switch (key.kind) {
     case Kind::kText:
@@ -579,6 +587,7 @@ Value read_value(const KeyInfo& key, const std::string& text) {
     case Kind::kNumbers:
       return number(key, text);
     case Kind::kChoice:
+      if (names_file(key, text)) return text;
       if (key.standard != Value(text) && std::find(key.choices.begin(), key.choices.end(), text) == key.choices.end())
         fail(key, "is '" + text + "'", "the nearest valid value is '" + nearest_name(text, key.choices) + "'");
       return text;

@@ -25,6 +25,9 @@ struct KeyPath {
 /// The name of a key, section or option of these entry points that was probably meant.
 [[nodiscard]] std::string nearest_key(const std::string& name, EntryPoints entry_point);
 
+/// Whether this value of the key is the name of a file that is read.
+[[nodiscard]] bool names_file(const KeyInfo& key, const std::string& text);
+
 /// Reads the text of a value, for keys with a single value: kText, kFile, kOutput, kNumber, kInteger, kFlag or kChoice;
 /// for a kNumbers key, reads one of its numbers, as double. Throws KeyError for an invalid value.
 [[nodiscard]] Value read_value(const KeyInfo& key, const std::string& text);

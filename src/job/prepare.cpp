@@ -4,13 +4,13 @@
 #include <string>
 #include <utility>
 
-#include "balancer/parameters.hpp"
 #include "balancer/stealing/policy_stealing.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
 #include "decompose/presplit.hpp"
 #include "decompose/same_input.hpp"
 #include "decompose/same_segments.hpp"
+#include "driftmesh/policy_parameters.hpp"
 #include "job/key.hpp"
 #include "runtime/plan_run.hpp"
 

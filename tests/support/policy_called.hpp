@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "balancer/parameters.hpp"
+#include "driftmesh/policy_parameters.hpp"
 
 namespace driftmesh::testing {
 
