@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "balancer/effort.hpp"
+
 namespace driftmesh::balancer {
 namespace {
 
@@ -18,6 +20,7 @@ class Stealing final : public Policy {
 
   [[nodiscard]] std::optional<Rank> victim(const LoadSnapshot& snapshot, Rank thief,
                                            const IdVector<Rank, bool>& able) const override {
+    note_effort("place", static_cast<double>(snapshot.ranks.size()));
     const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
     const auto finish = [&](Rank r) { return snapshot.ranks[r].remaining / speeds[r]; };
     double latest = finish(thief);

@@ -100,6 +100,9 @@ void check_parts(const Request& request) {
           "cannot be combined with decomposition.subdomains", "remove one of them");
   require(d.file.empty() || (d.subdomains == 0 && d.subdomains_per_rank == 0), "decomposition.file",
           "has a number of subdomains, but another one is given", "remove one of them");
+  const Request::Mapping& m = request.mapping;
+  require(m.file.empty() || (m.method == Request::Mapping{}.method && m.speeds.empty() && !m.by_speed && !m.by_area),
+          "mapping.file", "replaces the mapping, but settings of one are given", "remove them or mapping.file");
   require(request.mapping.speeds.empty() || !request.mapping.by_speed, "mapping.by-speed",
           "cannot be combined with mapping.speeds", "remove one of them");
 }

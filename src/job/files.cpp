@@ -6,6 +6,7 @@
 
 #include "geojson/read_input.hpp"
 #include "job/keys.hpp"
+#include "mapping/mapping_file.hpp"
 #include "sizing/make_size_field.hpp"
 
 namespace driftmesh::job {
@@ -25,6 +26,7 @@ void register_reads(const Request& request, EntryPoint entry_point, FileRegistry
   if (!request.input.file.empty()) reads(input_files(request.input.file), "input.file");
   if (!request.sizing.background.empty()) reads(background_files(request.sizing.background), "sizing.background");
   if (!request.decomposition.file.empty()) reads({request.decomposition.file}, "decomposition.file");
+  if (!request.mapping.file.empty()) reads(mapping_files(request.mapping.file), "mapping.file");
   if (!request.cluster.costs.empty()) reads({request.cluster.costs}, "cluster.costs");
 }
 

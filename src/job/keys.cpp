@@ -358,6 +358,11 @@ Section parts_section() {
        key("mapping.by-area", &R::mapping, &R::Mapping::by_area,
            "Map by area instead of expected work: an uneven start, for experiments", option("map-by-area"),
            places(kMany)),
+       key("mapping.file", &R::mapping, &R::Mapping::file,
+           "Take the mapping from load balancing statistics of DARMA vt, as written by lb-statistics or by LBAF: the "
+           "file "
+           "of rank 0 (data.0.json)",
+           file(), option("mapping-file", "FILE"), places(kMany), entry_points(kMesh | kExperiment)),
        choice("run.method", &R::run, &R::Run::method, methods,
               "How subdomains agree on the points between them: coupled (they tell each other), or decoupled (all are "
               "made beforehand, and a run that needs more fails)",

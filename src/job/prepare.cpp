@@ -12,6 +12,7 @@
 #include "decompose/same_segments.hpp"
 #include "driftmesh/policy_parameters.hpp"
 #include "job/key.hpp"
+#include "mapping/mapping_file.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh::job {
@@ -128,8 +129,11 @@ Prepared prepare(const Request& request, const Domain& domain, const Triangulate
   Decomposition decomposition =
       decomposition_of(request, domain, given, triangulated, ranks_to_suit(place, speeds.size()), watch);
   prepared.plan = timed(watch, "map", [&] {
-    return plan_run(std::move(decomposition), triangulated.bounds, plan_options(request, place, speeds),
-                    policies_of(given, place, speeds.size()));
+    PlanOptions options = plan_options(request, place, speeds);
+    if (!request.mapping.file.empty())
+      options.owners =
+          read_mapping(request.mapping.file, static_cast<std::int32_t>(decomposition.size()), options.mapping.ranks);
+    return plan_run(std::move(decomposition), triangulated.bounds, options, policies_of(given, place, speeds.size()));
   });
   prepared.forecast = forecast_of(prepared.plan);
   return prepared;

@@ -76,6 +76,7 @@ struct Request {
     bool by_speed = false;
     bool by_area = false;
     std::vector<double> speeds;  ///< of each rank, relative; empty: all equal
+    std::string file;            ///< instead of all these
   } mapping;
 
   struct Cluster {

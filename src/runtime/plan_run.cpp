@@ -56,7 +56,7 @@ RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const
   if (options.work.slice < 1) throw Error("a slice must be at least one insertion");
   const bool sized = bounds_size(bounds);
   RunPlan plan;
-  plan.owners = map_subdomains(decomposition, options.mapping);
+  plan.owners = options.owners.empty() ? map_subdomains(decomposition, options.mapping) : options.owners;
   plan.decomposition = std::move(decomposition);
   plan.bounds = bounds;
   plan.presplit = options.presplit != Presplit::kOff && sized;

@@ -15,6 +15,7 @@ namespace driftmesh {
 
 struct PlanOptions {
   MappingOptions mapping;               ///< mapping.ranks: of the run
+  Assignment owners;                    ///< replaces what `mapping` would make; empty: it does not
   Presplit presplit = Presplit::kAuto;  ///< kOn is for bounds that limit the size of triangles
   WorkSettings work;
   Balancing balancing;

@@ -11,6 +11,7 @@ import os
 import pathlib
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import time
@@ -1092,6 +1093,41 @@ class Experiments(Cli):
             self.assertEqual(sorted(movable), [[s] for s in range(subdomains)])
             ids = [task["entity"]["id"] for file in files for task in file["phases"][number]["tasks"]]
             self.assertEqual(len(ids), len(set(ids)))
+
+    def test_a_mapping_comes_from_statistics_that_others_changed(self):
+        settings = ["bounds.triangles=3e3", "decomposition.subdomains=40", "cluster.ranks=3", "balance.policy=none"]
+        self.run_config("first-run", *settings, "lb-statistics=2", folder="before")
+        owners = {}
+        files = [json.loads((self.folder / "before" / "run-1.lb-stats" / f"data.{rank}.json").read_text()) for rank in range(3)]
+        (self.folder / "after").mkdir()
+        for with_index in True, False:
+            for rank, file in enumerate(files):
+                for task in file["phases"][-1]["tasks"]:
+                    if not task["entity"]["migratable"]:
+                        continue
+                    number = (task["entity"]["id"] >> 18) - 1
+                    task["node"] = owners[number] = number * 7 % 3
+                    if not with_index:
+                        task["entity"].pop("index", None)
+                (self.folder / "after" / f"data.{rank}.json").write_text(json.dumps(file))
+            name = f"mapped-{with_index}"
+            self.run_config("first-run", *settings, "mapping.file=after/data.0.json", folder=name)
+            record = json.loads((self.folder / name / "run-1.json").read_text())
+            self.assertEqual(record["cluster"]["owners_before"], [owners[s] for s in range(40)])
+        config = self.CONFIGS / "first-run.yaml"
+        refused = lambda *more, says: self.refuse("run", config, "-o", "x", "--set", "mapping.file=after/data.0.json",
+                                                  *(word for setting in [*settings, *more] for word in ("--set", setting)),
+                                                  says=says)
+        refused("decomposition.subdomains=41", says=["maps no rank to subdomain 40"])
+        refused("decomposition.subdomains=39", says=["names subdomain 39, but there are 39"])
+        refused("cluster.ranks=2", says=["names rank 2, but there are 2"])
+        refused("mapping.method=block", says=["mapping.file", "replaces the mapping"])
+        (self.folder / "after" / "data.1.json").write_text('{"phases": [{"id": 0, "tasks": [{}]}]}')
+        refused(says=["data.1.json: has a task without an entity"])
+        (self.folder / "after" / "data.1.json").write_text("{")
+        refused(says=["data.1.json: has no phases"])
+        shutil.copy(self.folder / "after" / "data.0.json", self.folder / "after" / "data.1.json")
+        refused(says=["twice"])
 
     def check_lb_entity(self, entity):
         known = {"collection_id", "home", "id", "index", "migratable", "type", "objgroup_id", "seq_id"}
