@@ -40,7 +40,7 @@ if [[ -z $program ]]; then
 fi
 
 # experiment NAME FILE SMALL...: runs it into FOLDER/NAME; SMALL are settings that make it tiny.
-experiment() {
+run_experiment() {
   local name=$1 file=$2 settings=()
   shift 2
   if [[ $small == yes ]]; then
@@ -49,13 +49,26 @@ experiment() {
   elif [[ $file == scaled-speedup ]]; then
     settings=(--set 'cluster.ranks=[1, 2, 4, 8, 16, 32, 64, 144, 256, 512]') # with 1,024 it takes 6 GB
   fi
-  say "$name"
   rm -rf "${folder:?}/$name"
   "$program" run "$configs/$file.yaml" -o "$folder/$name" --quiet "${settings[@]}"
   if "$program" help report >/dev/null 2>&1; then
     "$program" report "$folder/$name" -o "$folder/report-$name.html"
   fi
+  say "$name: done in $SECONDS s"
 }
+
+# Simulated time does not depend on what else runs here: two experiments at a time, as many as there is memory for.
+running=0
+experiment() {
+  ((running < (jobs < 2 ? 1 : 2))) || one_more_done
+  run_experiment "$@" &
+  ((++running))
+}
+one_more_done() {
+  wait -n
+  ((running--)) || true
+}
+trap 'kill $(jobs -p) 2>/dev/null || true' EXIT
 
 few=(bounds.triangles-per-rank=2e3 decomposition.subdomains=600)
 experiment table-1 paper/table-1 "${few[@]}"
@@ -68,6 +81,8 @@ experiment fig-11 paper/fig-11 "${few[@]}"
 for model in pipe flow chesapeake; do
   experiment "published-$model" "published-$model" "${few[@]}" 'balance.policy=[none, greedy]'
 done
+
+while ((running > 0)); do one_more_done; done
 
 say "This machine"
 if [[ $small == yes ]]; then work=(1e5 1) caution=(small); else work=(2e6 3) caution=(); fi

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that the named groups need and that are missing.
-#   scripts/setup.sh [build] [report] [python] [test] [readers] [bench] [fuzz] [hosts]        (default: build)
+#   scripts/setup.sh [build] [report] [python] [test] [readers] [bench] [fuzz] [hosts] [site]        (default: build)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 
@@ -17,8 +17,9 @@ packages_of() {
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
     hosts) echo iproute2 nftables ;;
+    site) echo mkdocs ;;
     *)
-      echo "setup.sh: unknown group '$1'; use build, report, python, test, readers, bench, fuzz or hosts" >&2
+      echo "setup.sh: unknown group '$1'; use build, report, python, test, readers, bench, fuzz, hosts or site" >&2
       return 2
       ;;
   esac
