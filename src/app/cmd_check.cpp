@@ -119,7 +119,8 @@ VerifyReport read_and_verify(CheckOptions& options, const job::Request& request)
   const std::optional<Pslg> input = read_and_repair(options, request.input.holes);
   const bool sized =
       !request.sizing.expression.empty() || !request.sizing.background.empty() || request.sizing.longest > 0;
-  const SizingOptions sizes = job::sizing_of(request.sizing, input ? job::box_of(*input) : sized ? mesh.box() : Box{});
+  SizingOptions sizes = job::sizing_of(request.sizing, input ? job::box_of(*input) : sized ? mesh.box() : Box{});
+  sizes.input = input ? &*input : nullptr;
   options.verify.threads = options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   options.size = size_for_threads(sizes, options.verify.threads);
   options.verify.size = options.size.get();

@@ -60,6 +60,7 @@ cli::Command mesh_command() {
           .examples = {"driftmesh mesh bay.poly --area 5000 -o bay.vtu --plot bay.png",
                        "driftmesh mesh bay.poly --angle 30 -o bay.msh -o bay.ele",
                        "driftmesh mesh bay.poly --size \"20 + 0.1*abs(x)\" --json run.json",
+                       "driftmesh mesh bay.poly --size \"20 + 0.1*distance(1)\" --size-max 500 -o bay.vtu",
                        "mpirun -n 4 driftmesh mesh bay.poly --area 50 -o bay.pvtu"},
           .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",
           .run = [command](cli::Call&) { return run(*command); }};

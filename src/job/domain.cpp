@@ -59,7 +59,8 @@ void warn(const Request& request, std::span<const std::string> warnings, Watch& 
 }
 
 SizeSource size_of(const Request::Sizing& sizing, const SizeField* given, const Pslg& pslg) {
-  const SizingOptions options = sizing_of(sizing, box_of(pslg));
+  SizingOptions options = sizing_of(sizing, box_of(pslg));
+  options.input = &pslg;
   if (given == nullptr) return make_size(options);
   return {std::make_unique<SampledField>(*given, SampledField::Grid{options.domain.low, options.spacing})};
 }

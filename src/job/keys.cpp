@@ -281,8 +281,10 @@ Section triangle_section() {
            "Whether the area bounds of the input's regions apply", option("no-region-areas"),
            option_help("Ignore the area bounds of the input's regions")),
        key("sizing.size", &R::sizing, &R::Sizing::expression,
-           "Target edge length as a function of x and y: \"0.1 + 0.02*sqrt(x^2 + y^2)\"", option("size", "EXPR"),
-           entry_points(kAll & ~kLibrary)),
+           "Target edge length as a function of x, y and the distance to the nearest segment with one of some markers: "
+           "\"0.1 + 0.02*sqrt(x^2 + y^2)\", \"5 + 0.1*distance(1, 2)\"; distance() is that to the nearest of all "
+           "segments",
+           option("size", "EXPR"), entry_points(kAll & ~kLibrary)),
        key("sizing.background", &R::sizing, &R::Sizing::background,
            "Target edge lengths from a background mesh: FILE.node and FILE.ele, with the length as the first attribute "
            "of each point, or FILE.area with an area bound for each triangle",

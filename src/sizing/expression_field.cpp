@@ -9,9 +9,12 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "base/mix.hpp"
 #include "driftmesh/error.hpp"
+#include "sizing/distance_calls.hpp"
 #include "sizing/expression_range.hpp"
 #include "sizing/least_search.hpp"
 
@@ -22,10 +25,13 @@ struct ExpressionField::Parser {
   mu::Parser expression;
   double x = 0;
   double y = 0;
+  ExpressionRange::Distances distances;
+  std::vector<double> distance_values;
 
   double value_at(const Point& p) {
     x = p.x;
     y = p.y;
+    for (std::size_t k = 0; k < distances.size(); ++k) distance_values[k] = distances[k]->at(p);
     return expression.Eval();
   }
 };
@@ -54,7 +60,7 @@ std::string bare_message(const mu::ParserError& error) {
   std::string what = bare_message(error);
   if (error.GetPos() >= 0)
     what = "column " + std::to_string(std::min<std::size_t>(error.GetPos(), expression.size()) + 1) + ": " + what;
-  fail(expression, what, "it may use x, y, pi, e, numbers, + - * / ^ and functions such as sqrt, min, exp");
+  fail(expression, what, "it may use x, y, pi, e, numbers, + - * / ^, distance() and functions such as sqrt, min, exp");
 }
 
 std::string printed(double value) {
@@ -74,6 +80,37 @@ void refuse_assignment(const std::string& expression) {
            "give the value alone, and compare with \"==\"");
     i += comparison ? 1 : 0;
   }
+}
+
+/// "1, 2, 5", only the first of them if there are very many.
+std::string list_of(const std::set<std::int32_t>& markers) {
+  constexpr std::size_t kMost = 20;
+  std::string list;
+  std::size_t listed = 0;
+  for (const std::int32_t marker : markers) {
+    if (listed == kMost) return list + " and " + std::to_string(markers.size() - kMost) + " more";
+    list += (listed++ == 0 ? "" : ", ") + std::to_string(marker);
+  }
+  return list;
+}
+
+/// What the calls of distance in an expression measure.
+ExpressionRange::Distances distances_of(const std::string& expression, const DistanceCalls& calls, const Pslg* input) {
+  ExpressionRange::Distances distances;
+  if (calls.markers.empty()) return distances;
+  std::set<std::int32_t> known;
+  if (input != nullptr)
+    for (const Pslg::Segment& s : input->segments) known.insert(s.marker);
+  if (known.empty())
+    fail(expression, "there are no segments that distance could measure to", "give an input that has segments");
+  for (const std::vector<std::int32_t>& markers : calls.markers) {
+    for (const std::int32_t marker : markers)
+      if (!known.contains(marker))
+        fail(expression, "no segment has the marker " + std::to_string(marker),
+             "the markers of segments are " + list_of(known));
+    distances.push_back(std::make_shared<SegmentDistance>(*input, markers));
+  }
+  return distances;
 }
 
 constexpr double kRounding = 1e-9;  // relative
@@ -107,10 +144,13 @@ struct ExpressionField::Bounds {
   LeastSearch search;
 };
 
-ExpressionField::ExpressionField(const std::string& expression, double shortest, double spacing)
+ExpressionField::ExpressionField(const std::string& expression, double shortest, double spacing, const Pslg* input)
     : parser_(std::make_unique<Parser>()), shortest_(shortest) {
   refuse_assignment(expression);
+  const DistanceCalls calls = take_distance_calls(expression);
   parser_->text = expression;
+  parser_->distances = distances_of(expression, calls, input);
+  parser_->distance_values.resize(parser_->distances.size());
   mu::Parser& parser = parser_->expression;
   try {
     parser.DefineVar("x", &parser_->x);
@@ -118,14 +158,16 @@ ExpressionField::ExpressionField(const std::string& expression, double shortest,
     parser.DefineConst("pi", std::numbers::pi);
     parser.DefineConst("e", std::numbers::e);
     parser.DefineFun("hypot", static_cast<double (*)(double, double)>(std::hypot));
-    parser.SetExpr(expression);
+    for (std::size_t k = 0; k < parser_->distances.size(); ++k)
+      parser.DefineVar(DistanceCalls::name_of(k), &parser_->distance_values[k]);
+    parser.SetExpr(calls.expression);
     int values = 0;
     parser.Eval(values);
     if (values != 1) fail(expression, "has " + std::to_string(values) + " values", "give a single length");
   } catch (const mu::ParserError& error) {
     fail(error, expression);
   }
-  const std::optional<ExpressionRange> range = ExpressionRange::of(expression);
+  const std::optional<ExpressionRange> range = ExpressionRange::of(calls.expression, parser_->distances);
   if (!range || !agree(*range, [this](const Point& p) { return parser_->value_at(p); })) return;
   const auto bound = [=](const Box& box) { return std::max(range->over(box).low, shortest); };
   bounds_ = std::make_unique<Bounds>(Bounds{*range, LeastSearch(bound, spacing)});

@@ -9,12 +9,15 @@
 #include <string_view>
 #include <utility>
 
+#include "sizing/distance_calls.hpp"
+
 namespace driftmesh {
 
 enum class ExpressionRange::Op : std::uint8_t {
   kX,  // no operands
   kY,
   kConstant,
+  kDistance,  // its number is the step's constant
   kNegative,  // one
   kSquare,
   kSin,
@@ -158,6 +161,10 @@ Interval ExpressionRange::apply(Op op, const Interval* v) {
   return result;
 }
 
+const SegmentDistance& ExpressionRange::distance_of(const Step& step) const {
+  return *distances_[static_cast<std::size_t>(step.constant.low)];
+}
+
 Interval ExpressionRange::over(const Box& box) const {
   std::array<Interval, kDeepest> stack;
   std::size_t size = 0;
@@ -172,6 +179,9 @@ Interval ExpressionRange::over(const Box& box) const {
         break;
       case Op::kConstant:
         stack[size] = step.constant;
+        break;
+      case Op::kDistance:
+        stack[size] = distance_of(step).over(box);
         break;
       default:
         stack[size] = apply(step.op, &stack[size]);
@@ -278,6 +288,9 @@ double ExpressionRange::at(const Point& p) const {
       case Op::kConstant:
         stack[size] = step.constant.low;
         break;
+      case Op::kDistance:
+        stack[size] = distance_of(step).at(p);
+        break;
       default:
         stack[size] = apply(step.op, &stack[size]);
     }
@@ -290,7 +303,9 @@ double ExpressionRange::at(const Point& p) const {
 /// to powers, which like ?: group from the right.
 class ExpressionCompiler {
  public:
-  explicit ExpressionCompiler(std::string_view text) : rest_(text) {}
+  ExpressionCompiler(std::string_view text, ExpressionRange::Distances distances) : rest_(text) {
+    range_.distances_ = std::move(distances);
+  }
 
   std::optional<ExpressionRange> compile() {
     read_choice();
@@ -311,6 +326,7 @@ class ExpressionCompiler {
     range_.steps_.push_back({op, constant});
   }
   void emit_constant(double value) { emit(Op::kConstant, {value, value}); }
+  void emit_distance(std::size_t k) { emit(Op::kDistance, {static_cast<double>(k), static_cast<double>(k)}); }
   void emit_power() {
     const ExpressionRange::Step& exponent = range_.steps_.back();
     if (!known_ || exponent.op != Op::kConstant || exponent.constant.low != 2) return emit(Op::kPower);
@@ -436,6 +452,8 @@ class ExpressionCompiler {
     if (name == "y") return emit(Op::kY);
     if (name == "pi" || name == "_pi") return emit_constant(std::numbers::pi);
     if (name == "e" || name == "_e") return emit_constant(std::numbers::e);
+    for (std::size_t k = 0; k < range_.distances_.size(); ++k)
+      if (name == DistanceCalls::name_of(k)) return emit_distance(k);
     read_call(name);
   }
 
@@ -485,8 +503,8 @@ class ExpressionCompiler {
   bool known_ = true;
 };
 
-std::optional<ExpressionRange> ExpressionRange::of(const std::string& expression) {
-  return ExpressionCompiler(expression).compile();
+std::optional<ExpressionRange> ExpressionRange::of(const std::string& expression, Distances distances) {
+  return ExpressionCompiler(expression, std::move(distances)).compile();
 }
 
 }  // namespace driftmesh

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/pslg.hpp"
 #include "driftmesh/size_field.hpp"
 #include "geometry/box.hpp"
 #include "sizing/background_mesh.hpp"
@@ -27,6 +28,9 @@ struct SizingOptions {
   double spacing = std::numeric_limits<double>::infinity();
   /// The domain.
   Box domain{};
+  /// With the segments that distance() in the expression measures to; null: none. Not owned, and needed only while the
+  /// field is made.
+  const Pslg* input = nullptr;
 };
 
 /// A size field, and the background mesh in it if there is one.

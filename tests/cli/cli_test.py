@@ -34,6 +34,28 @@ KINDS = {
 
 
 UNIT_SQUARE = "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n"
+# A square of side 4 around a square hole of side 1: markers 1 and 2.
+ISLAND = """8 2 0 0
+1 0 0
+2 4 0
+3 4 4
+4 0 4
+5 1 1
+6 2 1
+7 2 2
+8 1 2
+8 1
+1 1 2 1
+2 2 3 1
+3 3 4 1
+4 4 1 1
+5 5 6 2
+6 6 7 2
+7 7 8 2
+8 8 5 2
+1
+1 1.5 1.5
+"""
 
 
 class Pipeline(Cli):
@@ -80,6 +102,35 @@ class Pipeline(Cli):
                 rejected = self.run_program("check", "coarse.vtu", "unit.poly", *options)
                 self.assertEqual(rejected.returncode, 1, rejected.stdout)
                 self.assertIn("is asked for at (", rejected.stdout)
+
+    def test_sizes_that_depend_on_the_distance_to_a_boundary(self):
+        self.write("island.poly", ISLAND)
+        size = ["--size", "0.05 + 0.3 * distance(2)"]
+        self.succeed("mesh", "island.poly", *size, "--size-max", "0.4", "--subdomains", "1", "-o", "one.vtu")
+        threads = ["mesh", "island.poly", *size, "-n", "6", "-o", "threads.vtu", "--json", "run.json"]
+        self.assertIn("6 subdomains on 2 threads", self.succeed(*threads, "--threads", "2"))
+        run = json.loads((self.folder / "run.json").read_text())
+        self.succeed("mesh", "island.poly", "--size", "0.05 + 0.3 * hypot(max(1-x, x-2, 0), max(1-y, y-2, 0))", "-n", "6",
+                     "-o", "formula.vtu", "--json", "formula.json")
+        formula = json.loads((self.folder / "formula.json").read_text())
+        self.assertEqual(run["mesh"]["triangles"], formula["mesh"]["triangles"])
+        self.assertAlmostEqual(run["work"]["forecast_triangles"], formula["work"]["forecast_triangles"], places=3)
+        self.assertLess(abs(run["work"]["forecast_triangles"] / run["mesh"]["triangles"] - 1), 0.3)
+        result = self.on_ranks(2, "mesh", "island.poly", *size, "-n", "6", "-o", "ranks.pvtu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.write("run.yaml", f"input: island.poly\nsize: {size[1]}\noutput: [yaml.vtu]\n")
+        self.succeed("mesh", "--config", "run.yaml")
+        for mesh in "one.vtu", "threads.vtu", "ranks.pvtu", "yaml.vtu":
+            with self.subTest(mesh=mesh):
+                self.assertIn("accepted", self.succeed("check", mesh, "island.poly", *size, "--angle", "20"))
+                rejected = self.run_program("check", mesh, "island.poly", "--size", "0.03 + 0.1 * distance(2)")
+                self.assertEqual(rejected.returncode, 1, rejected.stdout)
+        self.succeed("mesh", "island.poly", *size, "--gradation", "0.2", "-o", "graded.vtu")
+        self.assertIn("accepted", self.succeed("check", "graded.vtu", "island.poly", *size, "--gradation", "0.2"))
+        self.refuse("mesh", "island.poly", "--size", "1 + distance(3)", "-o", "none.vtu",
+                    says=["no segment has the marker 3", "1, 2"])
+        self.refuse("mesh", "island.poly", "--size", "1 + distance(x)", says=["column 14", "whole numbers"])
+        self.refuse("check", "one.vtu", *size, code=2, says=["no segments", "give an input"])
 
     def test_a_line_of_tiny_sizes_is_met_or_stopped_by_a_limit(self):
         self.write("unit.poly", UNIT_SQUARE)
