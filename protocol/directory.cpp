@@ -6,11 +6,10 @@
 
 namespace driftmesh::protocol {
 
-Directory::Directory(Rank self, IdSpan<SubdomainId, const Rank> owners) : self_(self) {
-  for (const Rank owner : owners) {
-    records_.push_back({owner, 0});
-    held_.push_back(owner == self);
-  }
+Directory::Record Directory::record_of(SubdomainId s) const {
+  const auto known = records_.find(s);
+  if (known != records_.end()) return known->second;
+  return {{owners_[s], 0}, owners_[s] == self_};
 }
 
 Directory::Route Directory::route(SubdomainId s, Epoch epoch) const {
@@ -23,14 +22,14 @@ Location Directory::depart(SubdomainId s, Rank destination) {
   if (!holds(s))
     throw Error("rank " + to_string(self_) + " cannot give away subdomain " + to_string(s) +
                 ", which it does not hold");
-  held_[s] = false;
-  return records_[s] = {destination, where(s).epoch + 1};
+  const Location next{destination, where(s).epoch + 1};
+  records_[s] = {next, false};
+  return next;
 }
 
 bool Directory::arrive(SubdomainId s, Epoch epoch) {
   if (route(s, epoch) != Route::kHold || where(s).epoch > epoch) return false;
-  held_[s] = true;
-  records_[s] = {self_, epoch};
+  records_[s] = {{self_, epoch}, true};
   return true;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <vector>
+#include <cstddef>
+#include <map>
 
 #include "driftmesh/ids.hpp"
 #include "protocol/epoch.hpp"
@@ -15,7 +16,8 @@ struct Location {
 };
 
 /// One rank's knowledge of where every subdomain is. It only moves forward: a record of a higher epoch replaces one of
-/// a lower, never the reverse.
+/// a lower, never the reverse. A rank has records of the subdomains that have moved as far as it knows, which are few;
+/// the others are where they were at the start, which all ranks of one process can share.
 ///
 /// What to do with a message for a subdomain that says epoch m, and so was sent to the owner of epoch m:
 ///   here      this rank holds the subdomain;
@@ -29,16 +31,16 @@ class Directory {
  public:
   enum class Route { kHere, kHold, kForward };
 
-  /// `owners[s]` is the owner of subdomain s in epoch 0.
-  Directory(Rank self, IdSpan<SubdomainId, const Rank> owners);
+  /// `owners[s]` is the owner of subdomain s in epoch 0. They must outlive the directory.
+  Directory(Rank self, IdSpan<SubdomainId, const Rank> owners) : self_(self), owners_(owners) {}
 
-  [[nodiscard]] std::size_t subdomains() const { return records_.size(); }
-  [[nodiscard]] Location where(SubdomainId s) const { return records_.at(s); }
-  [[nodiscard]] bool holds(SubdomainId s) const { return held_.at(s); }
+  [[nodiscard]] std::size_t subdomains() const { return owners_.size(); }
+  [[nodiscard]] Location where(SubdomainId s) const { return record_of(s).location; }
+  [[nodiscard]] bool holds(SubdomainId s) const { return record_of(s).held; }
   [[nodiscard]] Route route(SubdomainId s, Epoch epoch) const;
 
   /// Sets a record without checking whether it is newer; RankProtocol checks that.
-  void set(SubdomainId s, const Location& location) { records_.at(s) = location; }
+  void set(SubdomainId s, const Location& location) { records_[s] = {location, holds(s)}; }
   /// Gives up a subdomain held here; returns its next location. Throws Error if it is not held here.
   Location depart(SubdomainId s, Rank destination);
   /// Takes over a subdomain that was handed to this rank. Returns false and changes nothing if that is impossible: the
@@ -46,9 +48,15 @@ class Directory {
   [[nodiscard]] bool arrive(SubdomainId s, Epoch epoch);
 
  private:
+  struct Record {
+    Location location;
+    bool held = false;
+  };
+  [[nodiscard]] Record record_of(SubdomainId s) const;
+
   Rank self_;
-  IdVector<SubdomainId, Location> records_;
-  IdVector<SubdomainId, bool> held_;
+  IdSpan<SubdomainId, const Rank> owners_;
+  std::map<SubdomainId, Record> records_;
 };
 
 }  // namespace driftmesh::protocol

@@ -41,8 +41,7 @@ struct ProtocolCounters {
 /// transport, no clock and no mesh.
 class RankProtocol {
  public:
-  /// `owners[s]` is the rank of subdomain s at the start, equal on all ranks.
-  /// `rules` must outlive the object.
+  /// `owners[s]` is the rank of subdomain s at the start, equal on all ranks. They and `rules` must outlive the object.
   RankProtocol(Rank self, std::int32_t ranks, IdSpan<SubdomainId, const Rank> owners,
                std::size_t aggregation = Aggregator::kDefaultThreshold, const Rules& rules = sound_rules());
 

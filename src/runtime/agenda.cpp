@@ -6,15 +6,16 @@ namespace driftmesh {
 
 void Agenda::put(const Item& item) {
   remove(item.id);
-  if (!place_.has(item.id)) place_.resize(to_index(item.id) + 1);
-  place_[item.id] = place_of(item);
-  queue_.insert(*place_[item.id]);
+  const Place place = place_of(item);
+  place_.emplace(item.id, place);
+  queue_.insert(place);
 }
 
 void Agenda::remove(SubdomainId id) {
-  if (!place_.has(id) || !place_[id]) return;
-  queue_.erase(*place_[id]);
-  place_[id].reset();
+  const auto known = place_.find(id);
+  if (known == place_.end()) return;
+  queue_.erase(known->second);
+  place_.erase(known);
 }
 
 std::optional<SubdomainId> Agenda::first() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -54,7 +55,7 @@ class Agenda {
 
   WorkOrder order_;
   std::set<Place> queue_;
-  IdVector<SubdomainId, std::optional<Place>> place_;
+  std::map<SubdomainId, Place> place_;  // of those in the queue
 };
 
 }  // namespace driftmesh

@@ -52,6 +52,7 @@ RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, const Co
 RankLoop::RankLoop(protocol::Transport& transport, Round round, const RunPlan& plan, Observers observers)
     : RankLoop(transport, plan, round.owners, std::move(observers), protocol::sound_rules()) {
   in_rounds_ = true;
+  round_owners_ = std::move(round.owners);  // they stay where the protocol sees them
   context_ = round.context;
   balance_with(std::move(round.layout), nullptr);
   for (auto& [id, subdomain] : round.subdomains) put(std::move(subdomain));

@@ -163,6 +163,7 @@ class RankLoop {
   CostModel costs_;
   Observers observers_;
   const protocol::Rules& rules_;
+  IdVector<SubdomainId, Rank> round_owners_;  // those of the round; otherwise the plan's count
   protocol::RankProtocol protocol_;
   protocol::WireLimits limits_;
   std::map<SubdomainId, Subdomain> subdomains_;

@@ -795,6 +795,8 @@ class Experiments(Cli):
         "published-chesapeake": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
         "modern-1024": ["bounds.triangles-per-rank=30", "decomposition.subdomains-per-rank=2",
                         "balance.policy=[none, greedy]"],
+        "grand-4096": ["bounds.triangles-per-rank=30", "decomposition.subdomains-per-rank=2",
+                       "balance.policy=[none, stealing]"],
         "two-ranks": ["bounds.triangles=2e4"],
         "two-speeds": ["bounds.triangles-per-rank=5e3"],
         "corner-refinement": ["sizing.size=\"x < 0.45 && y < 0.45 ? 0.006 : 0.05\"",

@@ -122,7 +122,8 @@ TEST_CASE("forwarding reaches the owner, epochs rise along the way, and hops are
     const auto any_rank = [&] { return static_cast<Rank>(random() % static_cast<std::uint64_t>(ranks)); };
     IdVector<Rank, Directory> directories;
     std::vector<Rank> history{any_rank()};
-    for (const Rank r : first_ids<Rank>(ranks)) directories.emplace_back(r, IdVector<SubdomainId, Rank>(history));
+    const IdVector<SubdomainId, Rank> owners(history);
+    for (const Rank r : first_ids<Rank>(ranks)) directories.emplace_back(r, owners);
     for (auto moves = random() % 12; moves > 0; --moves) {
       const Rank from = history.back(), to = any_rank();
       if (to == from) continue;

@@ -32,7 +32,8 @@ WorkingRank::WorkingRank(protocol::Transport& transport, const std::shared_ptr<c
                          const balancer::ControllerOptions& balancing, balancer::Council* council,
                          const Options& options)
     : transport_(transport),
-      protocol_(transport.rank(), transport.ranks(), owners_of(*layout)),
+      owners_(owners_of(*layout)),
+      protocol_(transport.rank(), transport.ranks(), owners_),
       limits_{transport.ranks(), static_cast<std::int32_t>(work.size()), 1},
       controller_(transport.rank(), layout, std::move(policy), balancing, transport.now(), council),
       options_(options) {

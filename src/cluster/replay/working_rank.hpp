@@ -56,6 +56,7 @@ class WorkingRank {
   bool work();
 
   protocol::Transport& transport_;
+  IdVector<SubdomainId, Rank> owners_;  // at the start
   protocol::RankProtocol protocol_;
   protocol::WireLimits limits_;
   balancer::Controller controller_;
