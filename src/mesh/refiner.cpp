@@ -279,6 +279,14 @@ bool Refiner::step_skinny() {
   return true;
 }
 
+std::optional<Point> Refiner::wanted(TriangleId t) const {
+  const Shape s = shape_of(t);
+  const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
+  if (is_large(t, s.twice_area)) return circumcenter(a, b, c);
+  if (!is_skinny(s) || cause_of(mesh_, t) != ExceptionCause::kUnexplained) return std::nullopt;
+  return off_center_of_triangle(a, b, c, off_center_factor_);
+}
+
 // ---- Insertion ----
 
 VertexId Refiner::add_vertex(const Point& p, VertexOrigin origin) {
@@ -305,6 +313,10 @@ inline Refiner::Progress Refiner::improve(TriangleId t, const Point& p) {
     default:
       return Progress::kStuck;
   }
+}
+
+bool Refiner::insert(TriangleId t, const Point& p) {
+  return improve(t, p) == Progress::kChanged;
 }
 
 /// Deletes the free vertices opposite to a segment that see it under more than 90 degrees.
@@ -364,6 +376,10 @@ bool Refiner::add_split_point(RootId root, dyadic::Path path) {
 
 void Refiner::note_fresh() {
   const int n = cavity_.fresh_count();
+  if (touched_ != nullptr) [[unlikely]] {
+    for (int i = 0; i < n; ++i) touched_->push_back(cavity_.fresh_triangle(i));
+    return;
+  }
   for (int i = 0; i < n; ++i) {
     if (state_.sweep.will_visit(cavity_.fresh_triangle(i))) continue;
     const Cavity::Fresh f = cavity_.fresh(i);
@@ -373,6 +389,7 @@ void Refiner::note_fresh() {
 
 /// Queues a triangle that needs work, unless the sweep will come to it anyway.
 inline void Refiner::note(TriangleId t, const Shape& s) {
+  if (touched_ != nullptr) return touched_->push_back(t);
   if (state_.sweep.will_visit(t)) return;
   if (is_large(t, s.twice_area))
     state_.sweep.visit_again(t);

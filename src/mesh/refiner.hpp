@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,17 @@ class Refiner {
   [[nodiscard]] std::vector<SplitPoint<RootId>> take_split_points() { return std::exchange(state_.made, {}); }
 
   [[nodiscard]] const RefineCounters& counters() const { return state_.counters; }
+
+  // Instead of refine(), for methods that have an order of their own:
+
+  /// From now on, triangles that change are appended to `touched` (some more than once, some dead by then), and this
+  /// refiner queues none of them. `touched` outlives it.
+  void tell_changes(std::vector<TriangleId>& touched) { touched_ = &touched; }
+  /// A point that would improve triangle t; nothing if it meets the bounds, or exceptions.hpp explains it.
+  [[nodiscard]] std::optional<Point> wanted(TriangleId t) const;
+  /// Inserts p, a point in the circumdisk of triangle t, or splits the segment that it encroaches upon. False if
+  /// neither is possible.
+  bool insert(TriangleId t, const Point& p);
 
   [[nodiscard]] const RefinerState& state() const { return state_; }
   /// Continues from a state. Throws Error like the other constructor, and if the state has a fault.
@@ -111,6 +123,7 @@ class Refiner {
   std::vector<double> twice_area_bounds_;  // by region label
   double twice_area_of_least_ = 0;         // of the size field
   std::vector<TriangleId> changed_;
+  std::vector<TriangleId>* touched_ = nullptr;  // see tell_changes
   RefinerState state_;
 };
 

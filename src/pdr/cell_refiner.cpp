@@ -1,0 +1,133 @@
+#include "pdr/cell_refiner.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <utility>
+
+#include "driftmesh/error.hpp"
+
+namespace driftmesh::pdr {
+
+CellRefiner::CellRefiner(Triangulation& mesh, const QualityBounds& bounds, const Lattice& lattice)
+    : mesh_(mesh), lattice_(lattice), refiner_(mesh, bounds) {
+  refiner_.tell_changes(touched_);
+  for (const TriangleId t : ids_of(mesh.triangles)) touched_.push_back(t);
+  keep_incident();
+}
+
+Cell CellRefiner::cell_of(TriangleId t) const {
+  const auto leftmost = [](const Point& a, const Point& b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); };
+  return lattice_.cell_of(std::min({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)}, leftmost));
+}
+
+/// Notes a triangle for each corner of those that changed.
+void CellRefiner::keep_incident() {
+  if (incident_.size() < mesh_.points.size()) incident_.resize(mesh_.points.size(), kNone);
+  for (const TriangleId t : touched_)
+    if (mesh_.triangles[t].alive())
+      for (const VertexId v : mesh_.triangles[t].vertex) incident_[v] = t;
+}
+
+// ---- Refining ----
+
+std::vector<CellRefiner::Changes> CellRefiner::refine(Rank rank, int color) {
+  std::map<Cell, std::vector<TriangleId>> work;
+  for (const TriangleId t : ids_of(mesh_.triangles)) {
+    if (!mesh_.triangles[t].alive()) continue;
+    const Cell cell = cell_of(t);
+    if (Lattice::color_of(cell) == color && lattice_.owner_of(cell) == rank && refiner_.wanted(t))
+      work[cell].push_back(t);
+  }
+  std::vector<Changes> all;
+  for (auto& [cell, triangles] : work)
+    if (Changes changes = refine_cell(cell, std::move(triangles)); !changes.list.empty())
+      all.push_back(std::move(changes));
+  return all;
+}
+
+CellRefiner::Changes CellRefiner::refine_cell(Cell cell, std::vector<TriangleId> work) {
+  Changes changes{cell, {}};
+  std::deque<TriangleId> queue(work.begin(), work.end());
+  for (; !queue.empty(); queue.pop_front()) {
+    const TriangleId t = queue.front();
+    if (!mesh_.triangles[t].alive() || cell_of(t) != cell) continue;
+    const auto p = refiner_.wanted(t);
+    if (!p) continue;
+    const Change free{kNone, 0, *p, mesh_.corner(t, 0), mesh_.corner(t, 1)};
+    touched_.clear();
+    if (!refiner_.insert(t, *p)) continue;
+    check_reach(cell);
+    const auto splits = refiner_.take_split_points();
+    if (splits.empty()) changes.list.push_back(free);
+    for (const auto& split : splits) changes.list.push_back({split.root, split.path, {}, {}, {}});
+    keep_incident();
+    queue.insert(queue.end(), touched_.begin(), touched_.end());
+    if (!splits.empty()) queue.push_back(t);  // it may still be there
+  }
+  return changes;
+}
+
+void CellRefiner::check_reach(Cell cell) const {
+  for (const TriangleId t : touched_)
+    if (mesh_.triangles[t].alive())
+      for (const VertexId v : mesh_.triangles[t].vertex)
+        if (!lattice_.is_near(cell, mesh_.points[v]))
+          throw Error(
+              "the cells of the lattice are too small: a change reaches beyond half a cell; use another method");
+}
+
+// ---- Repeating ----
+
+void CellRefiner::repeat(std::span<const Change> changes) {
+  VertexAt vertex_at = find_vertices(changes);
+  for (const Change& change : changes) repeat(change, vertex_at);
+  static_cast<void>(refiner_.take_split_points());
+}
+
+/// The vertices from which changes start, as far as there are any yet.
+CellRefiner::VertexAt CellRefiner::find_vertices(std::span<const Change> changes) const {
+  VertexAt found;
+  for (const Change& change : changes)
+    if (change.root == kNone) found.emplace(change.from, kNone);
+  if (found.empty()) return found;
+  for (const VertexId v : ids_of(mesh_.points))
+    if (mesh_.origin[v] != kDeleted)
+      if (const auto at = found.find(mesh_.points[v]); at != found.end()) at->second = v;
+  return found;
+}
+
+/// Far from this rank's block its mesh is coarser than the sender's, and a change may not fit; there it does not
+/// matter.
+void CellRefiner::repeat(const Change& change, VertexAt& vertex_at) {
+  touched_.clear();
+  if (change.root != kNone) {
+    static_cast<void>(refiner_.add_split_point(change.root, change.path));
+  } else {
+    const VertexId from = vertex_at.at(change.from);
+    if (from == kNone || mesh_.origin[from] == kDeleted || mesh_.points[from] != change.from) return;
+    static_cast<void>(refiner_.insert(left_of(from, change.to), change.point));
+  }
+  keep_incident();
+  for (const TriangleId t : touched_)
+    if (mesh_.triangles[t].alive())
+      for (const VertexId v : mesh_.triangles[t].vertex)
+        if (const auto at = vertex_at.find(mesh_.points[v]); at != vertex_at.end()) at->second = v;
+}
+
+/// The triangle on the left of the edge between two vertices; if there is no such edge, any at the first.
+TriangleId CellRefiner::left_of(VertexId from, const Point& to) const {
+  const TriangleId start = incident_[from];
+  for (const bool clockwise : {false, true})
+    for (TriangleId t = start;;) {
+      const auto& v = mesh_.triangles[t].vertex;
+      const int i = v[0] == from ? 0 : v[1] == from ? 1 : 2;
+      if (mesh_.points[v[next(i)]] == to) return t;
+      const HalfEdge h = mesh_.across(half_edge(t, clockwise ? previous(i) : next(i)));
+      if (h == kNone || triangle_of(h) == start) break;
+      t = triangle_of(h);
+    }
+  return start;
+}
+
+}  // namespace driftmesh::pdr

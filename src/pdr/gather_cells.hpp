@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "distributed/exchange.hpp"
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/pslg.hpp"
+#include "mesh/triangulation.hpp"
+#include "pdr/cell_refiner.hpp"
+
+namespace driftmesh::pdr {
+
+/// The triangles of a rank's own cells, as to_piece() has them. Input points come first, used or not.
+[[nodiscard]] Mesh own_triangles(const Triangulation& mesh, const Pslg& pslg, const CellRefiner& cells,
+                                 const Lattice& lattice, Rank rank);
+
+/// Gathers what the ranks have on rank 0, and makes one mesh of it.
+class GatherCells : public Exchange {
+ public:
+  /// `own` is this rank's mesh; its points are those of all ranks where `inputs` have been counted.
+  GatherCells(Rank rank, std::int32_t ranks, Mesh own) : rank_(rank), ranks_(ranks), own_(std::move(own)) {}
+
+  [[nodiscard]] int rounds() const override { return 1; }
+  [[nodiscard]] std::vector<Mail> send(int round) override;
+  [[nodiscard]] std::vector<Rank> senders(int round) const override;
+  /// Throws Error if the pieces do not fit together: then refinement has made a mistake.
+  void receive(int round, std::vector<Mail> mail) override;
+
+  /// On rank 0, after the exchange: the whole mesh.
+  [[nodiscard]] Mesh& whole() { return whole_; }
+
+ private:
+  Rank rank_;
+  std::int32_t ranks_;
+  Mesh own_, whole_;
+};
+
+}  // namespace driftmesh::pdr

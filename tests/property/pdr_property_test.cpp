@@ -1,0 +1,168 @@
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <random>
+
+#include "driftmesh/repair.hpp"
+#include "geometry/triangle_geometry.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+#include "oracles/meshing.hpp"
+#include "oracles/random_pslg.hpp"
+#include "pdr/gather_cells.hpp"
+#include "pdr/lattice_refinement.hpp"
+#include "pdr/start.hpp"
+#include "property/cases.hpp"
+#include "protocol/adversarial_network.hpp"
+#include "verify/report_text.hpp"
+#include "verify/verify.hpp"
+
+// Partially coupled refinement: a lattice whose cells of one color do not meet, and one mesh of all ranks.
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+
+namespace {
+
+struct Case {
+  Pslg input;
+  Triangulation mesh;
+  QualityBounds bounds;
+};
+
+Case random_case(std::uint64_t seed) {
+  Case c;
+  c.input = oracles::make_random_pslg(seed, oracles::make_random_shape(seed)).input;
+  repair(c.input);
+  c.mesh = triangulate(c.input);
+  c.bounds.min_angle = 20;
+  prepare_corners(c.mesh, {c.bounds.min_angle, false});
+  double area = 0;
+  for (const TriangleId t : ids_of(c.mesh.triangles))
+    if (c.mesh.triangles[t].alive()) area += signed_area(c.mesh.corner(t, 0), c.mesh.corner(t, 1), c.mesh.corner(t, 2));
+  c.bounds.max_area = area / 20'000;
+  return c;
+}
+
+/// The ranks of a case, without any network.
+struct Ranks {
+  struct One {
+    Triangulation mesh;
+    pdr::Lattice lattice;
+    pdr::LatticeRefinement refinement;
+
+    One(const Case& c, Rank rank, std::int32_t ranks)
+        : mesh(c.mesh), lattice(pdr::start(mesh, c.bounds, ranks)), refinement(rank, ranks, mesh, c.bounds, lattice) {}
+  };
+
+  IdVector<Rank, std::unique_ptr<One>> all;
+
+  Ranks(const Case& c, std::int32_t ranks) {
+    for (const Rank r : first_ids<Rank>(ranks)) all.push_back(std::make_unique<One>(c, r, ranks));
+  }
+
+  [[nodiscard]] Mesh whole(const Case& c) const {
+    const auto ranks = static_cast<std::int32_t>(all.size());
+    std::vector<std::unique_ptr<pdr::GatherCells>> gathering;
+    IdVector<Rank, Exchange*> exchanges;
+    for (const Rank r : ids_of(all)) {
+      const One& one = *all[r];
+      gathering.push_back(std::make_unique<pdr::GatherCells>(
+          r, ranks, pdr::own_triangles(one.mesh, c.input, one.refinement.cells(), one.lattice, r)));
+      exchanges.push_back(gathering.back().get());
+    }
+    exchange_directly(exchanges);
+    return std::move(gathering.front()->whole());
+  }
+};
+
+void refine_directly(const Ranks& ranks) {
+  IdVector<Rank, Exchange*> exchanges;
+  for (const auto& one : ranks.all) exchanges.push_back(&one->refinement);
+  exchange_directly(exchanges);
+}
+
+void check_mesh(const Case& c, const Mesh& mesh) {
+  VerifyOptions options;
+  options.min_angle = c.bounds.min_angle;
+  options.max_area = c.bounds.max_area;
+  options.region_areas = false;
+  const VerifyReport report = verify(mesh, c.input, options);
+  const std::string text = verdict_text(report, options) + "\n" + report_text(report, options);
+  INFO(text);
+  CHECK(report.accepted());
+}
+
+bool same_mesh(const Mesh& a, const Mesh& b) {
+  return a.points == b.points && a.triangles == b.triangles && a.edges == b.edges;
+}
+
+}  // namespace
+
+TEST_CASE("cells of one color keep apart, and ranks agree who follows whom") {
+  std::mt19937_64 random = seeded_generator("lattice");
+  for (std::int64_t i = 0; i < case_count(200); ++i) {
+    const auto ranks = static_cast<std::int32_t>(1 + random() % 12);
+    const pdr::Lattice lattice({0, 0}, {1.0 + random() % 20, 1.0 + random() % 20}, 1, ranks);
+    CAPTURE(lattice.columns());
+    CAPTURE(lattice.rows());
+    CAPTURE(ranks);
+    for (std::int32_t k = 0; k < lattice.columns() * lattice.rows(); ++k) {
+      const pdr::Cell a{k % lattice.columns(), k / lattice.columns()};
+      CHECK(lattice.cell_of({a.column + 0.5, a.row + 0.5}) == a);
+      CHECK(to_int(lattice.owner_of(a)) < ranks);
+      for (std::int32_t j = 0; j < lattice.columns() * lattice.rows(); ++j) {
+        const pdr::Cell b{j % lattice.columns(), j / lattice.columns()};
+        const std::int32_t apart = std::max(std::abs(a.column - b.column), std::abs(a.row - b.row));
+        if (a != b && pdr::Lattice::color_of(a) == pdr::Lattice::color_of(b)) CHECK(apart >= 2);
+        const Rank other = lattice.owner_of(b);
+        if (other == lattice.owner_of(a) || apart > pdr::Lattice::kReach) continue;
+        CHECK(std::ranges::count(lattice.followers_of(a), other) == 1);
+        CHECK(std::ranges::count(lattice.neighbors_of(lattice.owner_of(a)), other) == 1);
+        CHECK(std::ranges::count(lattice.neighbors_of(other), lattice.owner_of(a)) == 1);
+      }
+    }
+  }
+}
+
+TEST_CASE("random domains on any number of ranks make one mesh that meets the bounds") {
+  std::int64_t told = 0;
+  const auto cases = static_cast<std::uint64_t>(case_count(20));
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    CAPTURE(seed);
+    const Case c = random_case(seed);
+    CAPTURE(oracles::poly_text(c.input));
+    for (const std::int32_t ranks : {1, 2, 4}) {
+      CAPTURE(ranks);
+      const Ranks all(c, ranks);
+      refine_directly(all);
+      check_mesh(c, all.whole(c));
+      for (const auto& one : all.all) told += one->refinement.traffic().points;
+    }
+  }
+  MESSAGE(told << " points told");
+  CHECK(told > 0);
+}
+
+TEST_CASE("an adversarial network does not change the mesh") {
+  std::uint64_t reordered = 0;
+  const auto cases = static_cast<std::uint64_t>(case_count(20));
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    CAPTURE(seed);
+    const Case c = random_case(seed % 5 + 1);
+    const auto count = static_cast<std::int32_t>(2 + seed % 3);
+    const Ranks all(c, count), undisturbed(c, count);
+    protocol::AdversarialNetwork network(count, protocol::Adversary::from_seed(seed));
+    IdVector<Rank, ExchangeRunner> runners;
+    for (const Rank r : first_ids<Rank>(count)) runners.emplace_back(network.transport(r));
+    IdVector<Rank, protocol::RankStep> steps;
+    for (const Rank r : ids_of(all.all)) steps.push_back([&, r] { return runners[r].step(all.all[r]->refinement); });
+    REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);
+    refine_directly(undisturbed);
+    const Mesh mesh = all.whole(c);
+    check_mesh(c, mesh);
+    CHECK(same_mesh(mesh, undisturbed.whole(c)));
+    reordered += network.counters().reordered;
+  }
+  CHECK(reordered > 0);
+}
