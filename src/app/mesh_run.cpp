@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/lattice_run.hpp"
 #include "app/run_files.hpp"
 #include "app/run_notes.hpp"
 #include "balancer/policies/policy_factory.hpp"
@@ -39,6 +40,7 @@
 #include "mesh/interpolate_attributes.hpp"
 #include "mesh/to_piece.hpp"
 #include "picture/plot.hpp"
+#include "runtime/plan_bytes.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -328,8 +330,58 @@ void assemble_and_write(const Request& request, job::Team& team, std::optional<j
   channel->close();
 }
 
+/// The domain and its bounds on all ranks, as rank 0 finds them.
+std::pair<Pslg, QualityBounds> share_domain(const Told& told, job::Team& team, RunNotes& notes) {
+  const Request& request = told.request;
+  Pslg pslg;
+  ByteWriter area;
+  job::agree(team, [&] {
+    if (!team.leads()) return;
+    job::check_ranks(request, job::kRanks, team.ranks());
+    register_files(told, team.ranks());
+    job::Domain domain = job::read_domain(request, {}, notes);
+    job::record_domain(notes.run, request, domain);
+    const job::Triangulated found = job::triangulate_domain(request, domain, team.ranks(), job::Cut::kNever, notes);
+    if (!(found.bounds.max_area > 0))
+      throw job::KeyError("run.method", "is pdr, but nothing bounds the size of triangles",
+                          "give bounds.area or bounds.triangles, or use the coupled method");
+    const job::Use use{.writes = writes(request.output), .gathers = true};
+    job::check_forecast(job::find_limits(request.limits, domain.pslg, use, job::processes_of(team)), found.forecast,
+                        false, [&] { return find_narrow_place(found.mesh); });
+    notes.run.forecast = found.forecast;
+    area.number(found.bounds.max_area);
+    pslg = std::move(domain.pslg);
+  });
+  pslg = pslg_from_bytes(team.broadcast(team.leads() ? pslg_to_bytes(pslg) : Bytes()));
+  const Bytes bytes = team.broadcast(area.take());
+  const double bound = ByteReader(bytes).number<double>();
+  const QualityBounds bounds = bounds_of(
+      pslg, {.min_angle = request.bounds.angle, .max_area = bound, .region_areas = request.bounds.region_areas});
+  notes.run.max_area = bound;
+  return {std::move(pslg), bounds};
+}
+
+void mesh_by_lattice(const Told& told, job::Team& team) {
+  const Request& request = told.request;
+  RunNotes notes(request, "mpirun -n " + std::to_string(team.ranks()) + " " + told.command, !team.leads());
+  const auto [pslg, bounds] = share_domain(told, team, notes);
+  Mesh mesh = mesh_on_lattice(team, pslg, bounds, notes);
+  StagedFiles files;
+  job::agree(team, [&] {
+    if (team.leads() && writes(request.output)) write_whole(request, mesh, pslg.holes, notes);
+  });
+  const auto listed = job::staged_by_all(team, files);
+  if (writes(request.output)) notes.note_files(files_written(request, 1), listed);
+  job::agree(team, [&] {
+    if (team.leads()) notes.finish();
+  });
+  job::commit(team, files);
+  if (team.leads()) notes.show();
+}
+
 void mesh_on_team(const Told& told, job::Team& team) {
   const Request& request = told.request;
+  if (request.run.method == job::Method::kPdr) return mesh_by_lattice(told, team);
   const std::string start = team.alone() ? "" : "mpirun -n " + std::to_string(team.ranks()) + " ";
   RunNotes notes(request, start + told.command, !team.leads());
   std::optional<job::Order> order = job::share(

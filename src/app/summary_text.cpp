@@ -137,6 +137,12 @@ void add_ranks(const RunRecord& run, Text out) {
     sum.held += r.counters.held;
   }
   const std::int32_t threads = run.on_threads ? 1 : run.request.run.threads;
+  if (run.request.run.method == job::Method::kPdr) {
+    fmt::format_to(out, "parts        none: cells on {}, {} sent between them in {}\n",
+                   counted(static_cast<std::int64_t>(run.ranks.size()), "rank"), counted(sum.splits_sent, "point"),
+                   counted(sum.batches_sent, "message"));
+    return add_rank_table(run, out);
+  }
   fmt::format_to(out, "parts        {} on {}{}; interfaces {} before refinement\n",
                  counted(run.subdomains, "subdomain"),
                  counted(static_cast<std::int64_t>(run.ranks.size()), rank_word(run)),

@@ -116,6 +116,32 @@ void check_method(const Request& request) {
           "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
 }
 
+/// What partially coupled refinement does without.
+void check_pdr(const Request& request, Place place) {
+  if (request.run.method != Method::kPdr) return;
+  require(place == kRanks, "run.method", "is pdr, which needs ranks of MPI", "start it with mpirun");
+  require(request.sizing.expression.empty() && request.sizing.background.empty() && request.sizing.longest == 0,
+          "run.method", "is pdr, which needs the same bound on size everywhere, but lengths vary",
+          "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
+  require(request.bounds.angle > 0, "run.method", "is pdr, which needs a bound on angles", "give bounds.angle");
+  const Request standard;
+  const bool parts = request.decomposition.subdomains != 0 || request.decomposition.subdomains_per_rank != 0 ||
+                     !request.decomposition.file.empty() || !request.mapping.file.empty() ||
+                     request.mapping.method != standard.mapping.method || request.mapping.by_area ||
+                     request.mapping.by_speed || !request.mapping.speeds.empty();
+  require(!parts, "run.method", "is pdr, which has no subdomains to cut or map", "remove what sets them");
+  require(request.run.presplit == standard.run.presplit, "run.presplit",
+          "has no meaning with pdr: it has no interfaces", "remove it");
+  require(request.balance.policy == standard.balance.policy, "balance.policy", "has nothing to move with pdr",
+          "remove it");
+  require(request.run.threads <= 1 && !request.run.sleep && request.run.scratch.empty(), "run.method",
+          "is pdr, whose ranks have one thread and one mesh in memory",
+          "remove run.threads, run.sleep and run.scratch");
+  const auto whole = [](const std::string& mesh) { return !mesh.ends_with(".pvtu"); };
+  require(std::ranges::all_of(request.output.meshes, whole), "output.meshes",
+          "asks for pieces, but pdr gathers the mesh", "write one file");
+}
+
 void check_output(const Request::Output& output) {
   require(std::ranges::all_of(output.open_boundary, [](double marker) { return marker == std::floor(marker); }),
           "output.open-boundary", "has a marker that is no whole number", "markers of segments are whole numbers");
@@ -163,6 +189,7 @@ void check(const Request& request, Place place, const balancer::PolicyMaker& pol
   check_policy(request, policies);
   check_parts(request);
   check_method(request);
+  check_pdr(request, place);
   check_scratch(request);
   check_output(request.output);
   if (place == kSimulated) {

@@ -321,7 +321,8 @@ Section parts_section() {
   const Names<MappingMethod> mappings = {
       {MappingMethod::kGraph, "graph"}, {MappingMethod::kBlock, "block"}, {MappingMethod::kRoundRobin, "round-robin"}};
   const Names<Presplit> presplits = {{Presplit::kAuto, "auto"}, {Presplit::kOn, "on"}, {Presplit::kOff, "off"}};
-  const Names<Method> methods = {{Method::kCoupled, "coupled"}, {Method::kDecoupled, "decoupled"}};
+  const Names<Method> methods = {
+      {Method::kCoupled, "coupled"}, {Method::kDecoupled, "decoupled"}, {Method::kPdr, "pdr"}};
   const Names<WorkOrder> orders = {
       {WorkOrder::kGiven, "given"}, {WorkOrder::kLargest, "largest"}, {WorkOrder::kBacklog, "backlog"}};
   return {
@@ -365,10 +366,12 @@ Section parts_section() {
            "file "
            "of rank 0 (data.0.json)",
            file(), option("mapping-file", "FILE"), places(kMany), entry_points(kMesh | kExperiment)),
-       choice("run.method", &R::run, &R::Run::method, methods,
-              "How subdomains agree on the points between them: coupled (they tell each other), or decoupled (all are "
-              "made beforehand, and a run that needs more fails)",
-              option("method", "METHOD"), entry_points(kMesh | kExperiment)),
+       choice(
+           "run.method", &R::run, &R::Run::method, methods,
+           "How subdomains agree on the points between them: coupled (they tell each other), decoupled (all "
+           "are made beforehand, and a run that needs more fails), or pdr (no subdomains: ranks refine the cells of a "
+           "lattice)",
+           option("method", "METHOD"), entry_points(kMesh | kExperiment)),
        choice(
            "run.presplit", &R::run, &R::Run::presplit, presplits,
            "Split interfaces to size before refinement: on, off (the full protocol), or auto (on if there is a bound "

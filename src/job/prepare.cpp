@@ -45,6 +45,11 @@ Decomposition decomposition_of(const Request& request, const Domain& domain, con
   return timed(watch, "decompose", [&] { return cut(request, triangulated, ranks); });
 }
 
+void check_has_subdomains(const Request& request) {
+  if (request.run.method == Method::kPdr)
+    throw KeyError("run.method", "is pdr, which experiments do not have", "use driftmesh mesh");
+}
+
 void check_presplit(const Request& request, const QualityBounds& bounds) {
   if (request.run.presplit == Presplit::kOn && !bounds_size(bounds))
     throw KeyError("run.presplit", "is on, but nothing says how long the pieces of interfaces may be",
@@ -124,6 +129,7 @@ Prepared prepare(const Request& request, const Domain& domain, const Triangulate
                  Place place, const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch) {
   Prepared prepared;
   prepared.acute_corners = triangulated.acute_corners;
+  check_has_subdomains(request);
   check_presplit(request, triangulated.bounds);
   check_forecast(limits, triangulated.forecast, false, [&] { return find_narrow_place(triangulated.mesh); });
   Decomposition decomposition =

@@ -26,6 +26,7 @@ enum class ClusterKind {
 enum class Method {
   kCoupled,    ///< they tell each other what they insert
   kDecoupled,  ///< all points are made beforehand; a run that needs more fails
+  kPdr,        ///< there are none between subdomains: ranks refine one mesh, cell by cell
 };
 
 /// All settings of a mesh, from a command line, a YAML file, or a program that uses the library. keys.cpp declares each

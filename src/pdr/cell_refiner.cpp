@@ -32,6 +32,7 @@ void CellRefiner::keep_incident() {
 // ---- Refining ----
 
 std::vector<CellRefiner::Changes> CellRefiner::refine(Rank rank, int color) {
+  const RefineCounters before = refiner_.counters();
   std::map<Cell, std::vector<TriangleId>> work;
   for (const TriangleId t : ids_of(mesh_.triangles)) {
     if (!mesh_.triangles[t].alive()) continue;
@@ -43,6 +44,9 @@ std::vector<CellRefiner::Changes> CellRefiner::refine(Rank rank, int color) {
   for (auto& [cell, triangles] : work)
     if (Changes changes = refine_cell(cell, std::move(triangles)); !changes.list.empty())
       all.push_back(std::move(changes));
+  for (const auto count : {&RefineCounters::free_points, &RefineCounters::segment_points,
+                           &RefineCounters::deleted_points, &RefineCounters::encroaching, &RefineCounters::given_up})
+    own_.*count += refiner_.counters().*count - before.*count;
   return all;
 }
 

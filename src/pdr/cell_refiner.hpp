@@ -41,7 +41,8 @@ class CellRefiner {
   /// Repeats changes that another rank has made to cells, in their order.
   void repeat(std::span<const Change> changes);
 
-  [[nodiscard]] const RefineCounters& counters() const { return refiner_.counters(); }
+  /// Of what this rank has refined, without what it has repeated.
+  [[nodiscard]] const RefineCounters& counters() const { return own_; }
 
  private:
   using VertexAt = std::unordered_map<Point, VertexId, PointHash>;
@@ -56,6 +57,7 @@ class CellRefiner {
   Triangulation& mesh_;
   const Lattice& lattice_;
   Refiner refiner_;
+  RefineCounters own_;
   std::vector<TriangleId> touched_;
   GrowingArray<TriangleId, VertexId> incident_;  ///< a triangle at each vertex
 };

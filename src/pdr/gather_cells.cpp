@@ -143,6 +143,11 @@ Mesh own_triangles(const Triangulation& mesh, const Pslg& pslg, const CellRefine
   return piece;
 }
 
+void keep_own_triangles(Triangulation& mesh, const CellRefiner& cells, const Lattice& lattice, Rank rank) {
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive() && lattice.owner_of(cells.cell_of(t)) != rank) mesh.remove_triangle(t);
+}
+
 std::vector<Mail> GatherCells::send(int /*round*/) {
   if (rank_ == Rank{0}) return {};
   ByteWriter writer;

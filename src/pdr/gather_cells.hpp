@@ -14,10 +14,13 @@ namespace driftmesh::pdr {
 [[nodiscard]] Mesh own_triangles(const Triangulation& mesh, const Pslg& pslg, const CellRefiner& cells,
                                  const Lattice& lattice, Rank rank);
 
+/// Removes the triangles of other ranks' cells. What is left can be measured, not refined.
+void keep_own_triangles(Triangulation& mesh, const CellRefiner& cells, const Lattice& lattice, Rank rank);
+
 /// Gathers what the ranks have on rank 0, and makes one mesh of it.
 class GatherCells : public Exchange {
  public:
-  /// `own` is this rank's mesh; its points are those of all ranks where `inputs` have been counted.
+  /// `own`: this rank's own_triangles.
   GatherCells(Rank rank, std::int32_t ranks, Mesh own) : rank_(rank), ranks_(ranks), own_(std::move(own)) {}
 
   [[nodiscard]] int rounds() const override { return 1; }

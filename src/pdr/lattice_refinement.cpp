@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "driftmesh/error.hpp"
+#include "base/stopwatch.hpp"
 
 namespace driftmesh::pdr {
 namespace {
@@ -51,6 +51,7 @@ LatticeRefinement::LatticeRefinement(Rank rank, std::int32_t ranks, Triangulatio
       neighbors_(lattice.neighbors_of(rank)) {}
 
 std::vector<Mail> LatticeRefinement::send(int round) {
+  const Stopwatch computing;
   std::map<Rank, std::vector<const Change*>> told;
   for (const Rank r : senders(round)) told[r];
   const auto all = refiner_.refine(rank_, round % Lattice::kColors);
@@ -69,6 +70,7 @@ std::vector<Mail> LatticeRefinement::send(int round) {
     traffic_.bytes += static_cast<std::int64_t>(mail.back().bytes.size());
     traffic_.points += static_cast<std::int64_t>(changes.size());
   }
+  traffic_.seconds_computing += computing.seconds();
   return mail;
 }
 
@@ -81,6 +83,7 @@ std::vector<Rank> LatticeRefinement::senders(int round) const {
 }
 
 void LatticeRefinement::receive(int round, std::vector<Mail> mail) {
+  const Stopwatch computing;
   std::vector<Change> changes;
   bool others_changed = false;
   for (const Mail& one : mail)
@@ -90,6 +93,7 @@ void LatticeRefinement::receive(int round, std::vector<Mail> mail) {
       for (std::uint64_t i = 0; i < count; ++i) changes.push_back(read_change(reader));
     });
   refiner_.repeat(changes);
+  traffic_.seconds_computing += computing.seconds();
   if (!ends_turn(round)) return;
   if (changed_ || others_changed) rounds_ += Lattice::kColors;
   changed_ = false;

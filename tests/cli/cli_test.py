@@ -710,6 +710,22 @@ class Mesh(Cli):
                     says=["use the coupled method"])
         self.assertEqual(self.files(), before)
 
+    def test_partially_coupled_refinement_makes_one_mesh_on_any_number_of_ranks(self):
+        self.succeed("generate", "pipe", "-o", "pipe.poly")
+        mesh = ["mesh", "pipe.poly", "--triangles", "5e4", "--method", "pdr", "--json", "run.json", "-o", "pipe.vtu"]
+        for ranks in 1, 2, 4:
+            result = self.on_ranks(ranks, *mesh)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            run = json.loads((self.folder / "run.json").read_text())
+            self.assertEqual(len(run["parts"]["ranks"]), ranks)
+            self.assertEqual(sum(r["triangles"] for r in run["parts"]["ranks"]), run["mesh"]["triangles"])
+            self.assertEqual(sum(r["splits_sent"] for r in run["parts"]["ranks"]) > 0, ranks > 1)
+            self.succeed("check", "pipe.vtu", "pipe.poly", "--angle", "20", "--area", str(run["mesh"]["largest_area"]))
+        for options in (["--size", "0.1"], ["-n", "8"], ["--balance", "greedy"], ["--threads", "2"]):
+            with self.subTest(options=options):
+                self.assertEqual(self.on_ranks(2, *mesh, *options).returncode, 2)
+        self.refuse(*mesh, "-n", "4", code=2, says=["--method", "mpirun"])
+
     def test_errors_on_many_ranks_are_printed_once(self):
         for arguments, code, message in ((["mesh", "nothing.poly"], 1, "nothing.poly: cannot open"),
                                          (["mesh", "--such"], 2, "unknown option --such"),
