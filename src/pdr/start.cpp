@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "driftmesh/error.hpp"
+#include "geometry/box.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/refiner.hpp"
 
@@ -21,20 +22,11 @@ constexpr double kSquaredRadiusPerArea = 3;
 /// The start is coarser than the bound: otherwise, nothing would be left to do at once.
 constexpr double kCoarsest = 2;
 
-struct Box {
-  Point low{kNoBound, kNoBound}, high{-kNoBound, -kNoBound};
-  [[nodiscard]] double area() const { return (high.x - low.x) * (high.y - low.y); }
-};
-
 Box box_of(const Triangulation& mesh) {
   Box box;
   for (const Triangle& t : mesh.triangles) {
     if (!t.alive()) continue;
-    for (const VertexId v : t.vertex) {
-      const Point& p = mesh.points[v];
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-    }
+    for (const VertexId v : t.vertex) box.extend(mesh.points[v]);
   }
   return box;
 }
@@ -56,7 +48,7 @@ Lattice start(Triangulation& mesh, const QualityBounds& bounds, std::int32_t ran
   if (!(bounds.max_area > 0) || bounds.size != nullptr || !(bounds.min_angle > 0))
     throw Error("partially coupled refinement needs one bound on area everywhere, and one on angles");
   const Box box = box_of(mesh);
-  const double side = std::sqrt(box.area() / (kCellsPerRank * ranks));
+  const double side = std::sqrt((box.high.x - box.low.x) * (box.high.y - box.low.y) / (kCellsPerRank * ranks));
   const double radius = side / kSidePerRadius;
   QualityBounds coarse = bounds;
   coarse.max_area = std::max(kCoarsest * bounds.max_area, radius * radius / kSquaredRadiusPerArea);
