@@ -143,7 +143,7 @@ TEST_CASE("nothing moves back and forth in a balanced run") {
       const Outcome o = run_jobs(cluster, layout, jobs, policy);
       CHECK(o.complete);
       CHECK(o.moves <= 80);  // a tenth
-      CHECK(o.most_moves_of_one <= 3);
+      CHECK(o.most_moves_of_one <= 4);
       CHECK(o.time < 1.1 * o.ideal);
     }
   }
