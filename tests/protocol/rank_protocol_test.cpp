@@ -13,9 +13,9 @@ namespace {
 
 // Three ranks; subdomain s starts on rank s. Messages are carried by hand.
 struct Ranks {
+  const IdVector<SubdomainId, Rank> owners{0_rank, 1_rank, 2_rank};
   IdVector<Rank, RankProtocol> all;
   Ranks() {
-    const IdVector<SubdomainId, Rank> owners{0_rank, 1_rank, 2_rank};
     for (const Rank r : first_ids<Rank>(3)) all.emplace_back(r, 3, owners, 4);
   }
   RankProtocol& operator[](Rank r) { return all[r]; }
