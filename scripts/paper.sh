@@ -74,6 +74,7 @@ few=(bounds.triangles-per-rank=2e3 decomposition.subdomains=600)
 experiment table-1 paper/table-1 "${few[@]}"
 experiment table-2 paper/table-2 "${few[@]}"
 experiment table-3 paper/table-3 input.generate=pipe "${few[@]}"
+experiment table-3-pdr paper/table-3-pdr input.generate=pipe bounds.triangles-per-rank=5e3 cluster.ranks=16
 experiment fig-7 paper/fig-7 bounds.triangles-per-rank=2e4 decomposition.subdomains-per-rank=25 'run.aggregation=[1, 16, 512]'
 experiment fig-10 paper/fig-10 bounds.triangles-per-rank=1e3 decomposition.subdomains-per-rank=5
 experiment fig-10-modern scaled-speedup bounds.triangles-per-rank=3e3 'cluster.ranks=[1, 8, 64]'

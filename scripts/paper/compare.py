@@ -64,6 +64,10 @@ class Costs:
         return {count: (run["decomposition"], run["triangulation"], self.factor * run["rest"])
                 for count, run in found.items()}
 
+    def methods(self, model):
+        """{method: what two ranks did}"""
+        return {name.removeprefix("method "): run for name, run in self.models[model].items() if name.startswith("method ")}
+
 
 def table_1(folder, costs):
     table = Table("table-1", "Table I: sequential and parallel time, seconds",
@@ -115,13 +119,15 @@ def table_2(folder):
 def table_3(folder):
     spent = [f"{kind}: {what}" for kind in ("computation", "communication") for what in ("min", "mean", "max")]
     table = Table("table-3", "Table III: other methods on 64 ranks, seconds per million triangles of the mesh",
-                  ["model", "method", *spent, "triangles", "points sent", "messages", "time"],
+                  ["model", "method", *spent, "idle: mean", "triangles", "points sent", "messages", "time"],
                   "PCDM is the run of Table II, presplit is the same protocol on interfaces that were split beforehand, decoupled "
-                  "has no protocol. Messages contain those that detect the end; time is that of all ranks, in seconds.")
+                  "has no protocol. Messages contain those that detect the end; time is that of all ranks, in seconds. PDR's "
+                  "computation contains the start that each rank makes, and what it repeats of others' work.")
     for name, paper in published.TABLE_3.items():
         table.add("pipe", f"published: {name}", *map(str, paper["computation"]), *map(str, paper["communication"]), "", "",
-                  "", "")
+                  "", "", "")
     runs = [("PCDM", run) for run in read_runs(folder / "table-2")]
+    runs += [("PDR", run) for run in read_runs(folder / "table-3-pdr")]
     runs += [("presplit" if run.value("run.method") == "coupled" else "decoupled", run)
              for run in read_runs(folder / "table-3")]
     for model in published.MODELS:
@@ -129,9 +135,25 @@ def table_3(folder):
             if run.model != model:
                 continue
             factor = run.scale() / (10 * run.ranks)
-            computing, telling = ([factor * s for s in run.spent(kinds)] for kinds in (["computing"], COMMUNICATING))
-            table.add(model, method, *spread(computing, 3), *spread(telling, 7), run.record["mesh"]["triangles"],
+            computing, telling, idle = ([factor * s for s in run.spent(kinds)]
+                                        for kinds in (["computing"], COMMUNICATING, ["idle"]))
+            table.add(model, method, *spread(computing, 3), *spread(telling, 7), f"{statistics.mean(idle):.3f}", run.record["mesh"]["triangles"],
                       run.total("splits_sent"), run.record["cluster"]["messages"], f"{run.seconds * run.scale():.2f}")
+    return table
+
+
+def table_3_real(costs):
+    table = Table("table-3-real", "Table III on two real ranks of this machine",
+                  ["model", "method", "time", "computation: max", "idle: mean", "triangles", "points sent", "messages"],
+                  "Refinement in seconds, without decomposition and assembly; PDR's time contains its start. A row without "
+                  "figures: the decoupled method needed points that no neighbor had.")
+    for model in published.MODELS:
+        for method, found in costs.methods(model).items():
+            if not found:
+                table.add(model, method, *[""] * 6)
+                continue
+            table.add(model, method, *(f"{found[key]:.3f}" for key in ("seconds", "computing", "idle")),
+                      *(round(found[key]) for key in ("triangles", "points", "messages")))
     return table
 
 
@@ -246,7 +268,8 @@ def replayed(folder):
 def main():
     folder = pathlib.Path(sys.argv[1])
     costs = Costs(json.loads((folder / "measured.json").read_text()))
-    tables = [table_1(folder, costs), table_1_real(costs), table_2(folder), table_3(folder), figure_7(folder),
+    tables = [table_1(folder, costs), table_1_real(costs), table_2(folder), table_3(folder), table_3_real(costs),
+              figure_7(folder),
               figure_10(folder, costs), figure_10_modern(folder, costs), figure_11(folder), replayed(folder)]
     for table in tables:
         table.write(folder)

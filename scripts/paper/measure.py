@@ -75,6 +75,30 @@ class Model:
         return {"triangulation": stages["triangulate"], "decomposition": stages["decompose"]}
 
 
+    def method(self, words):
+        """Refinement on two real ranks: its time, that of each rank, and what they tell each other. Nothing if the decoupled
+        method needs points that no neighbor has (docs/paper.md)."""
+        try:
+            record = self.record("-".join(["method", *words]).replace("--", ""),
+                                 ["--threads", "1", "--method", *words], 2 * self.triangles, ["mpirun", "-n", "2"])
+        except subprocess.CalledProcessError:
+            if words[0] == "decoupled":
+                return {}
+            raise
+        ranks = record["parts"]["ranks"]
+        stages = record["work"]["seconds_by_stage"]
+        return {"seconds": stages["refine"] + stages.get("start", 0),
+                "computing": max(rank["seconds"]["computing"] for rank in ranks),
+                "idle": statistics.mean(rank["seconds"]["idle"] for rank in ranks),
+                "points": sum(rank["splits_sent"] for rank in ranks), "messages": sum(rank["split_messages_sent"] for rank in ranks),
+                "triangles": record["mesh"]["triangles"]}
+
+    def methods(self):
+        parts = ["-n", str(max(40, 2 * self.triangles // TRIANGLES_IN_CACHE))]
+        return {"PCDM": ["coupled", "--presplit", "off", *parts], "presplit": ["coupled", *parts],
+                "decoupled": ["decoupled", *parts], "PDR": ["pdr"]}
+
+
 def medians(runs):
     return {key: statistics.median(run[key] for run in runs) for key in runs[0]}
 
@@ -85,6 +109,7 @@ def measure(model, repetitions):
     if shutil.which("triangle"):
         actions["triangle"] = model.triangle
     actions |= {f"ranks {count}": lambda count=count: model.ranks(count) for count in RANKS}
+    actions |= {f"method {name}": lambda words=words: model.method(words) for name, words in model.methods().items()}
     runs = {name: [] for name in actions}
     for _ in range(repetitions):
         for name, action in actions.items():

@@ -114,6 +114,7 @@ std::optional<double> number_of(const std::string& text) {
 void draw_run(const ExperimentRun& run, const std::string& folder) {
   const std::string stem = folder + "/" + run.name;
   draw_times(run, stem + kTimePicture);
+  if (run.plan.owners.empty()) return;  // a method without subdomains
   draw_load(run, stem + kLoadPicture);
   plot_owners(run.plan.decomposition, run.plan.owners, stem + kBeforePicture,
               run.request.name + ": subdomains by rank, at the start");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/json_text.hpp"
+#include "app/lattice_run.hpp"
 #include "app/summary.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/stopwatch.hpp"
@@ -14,6 +15,7 @@
 #include "job/prepare.hpp"
 #include "job/rank_report.hpp"
 #include "job/simulated/run_simulated.hpp"
+#include "job/triangulated.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh::app {
@@ -45,6 +47,21 @@ job::Use use_of(const job::Request& request) {
   return {.by = job::kExperiment, .in_subdomains = true, .sleeps = request.run.sleep};
 }
 
+/// Empty if none does.
+IdVector<Rank, protocol::SpeedSchedule> changing_speeds(const job::Request& request) {
+  if (request.cluster.changes.empty()) return {};
+  return schedules_of(job::cluster_of(request));
+}
+
+double ideal_of(const ExperimentRun& run, const IdVector<Rank, protocol::SpeedSchedule>& schedules) {
+  return schedules.empty() ? ideal_seconds(run.outcome, run.speeds) : ideal_seconds(run.outcome, run.speeds, schedules);
+}
+
+void end_preparation(ExperimentRun& run, const Stopwatch& since, job::Watch& watch) {
+  run.record.warnings = watch.take_warnings();
+  run.record.stages.push_back({"prepare", since.seconds()});
+}
+
 void run_real(ExperimentRun& run, RealCluster& cluster, job::Prepared&& prepared, job::Domain&& domain,
               job::Watch& watch) {
   run.plan = prepared.plan;
@@ -52,6 +69,45 @@ void run_real(ExperimentRun& run, RealCluster& cluster, job::Prepared&& prepared
                              run.speeds, use_of(run.request)},
                             run.record, watch);
   run.speeds = measured_speeds(run.outcome, run.speeds);
+}
+
+/// `since`: the run began.
+void run_in_subdomains(ExperimentRun& run, RealCluster* cluster, job::Domain&& domain, const job::Limits& limits,
+                       const Stopwatch& since, job::Watch& watch) {
+  const job::Request& request = run.request;
+  const bool real = cluster != nullptr;
+  const auto ranks = static_cast<std::int32_t>(run.speeds.size());
+  job::Prepared prepared = job::prepare(
+      request, domain, job::triangulate_domain(request, domain, ranks, job::Cut::kAlways, watch),
+      {.policies = balancer::make_policy}, real ? job::kRanks : job::kSimulated, run.speeds, limits, watch);
+  job::add_prepared(run.record, prepared);
+  end_preparation(run, since, watch);
+  const Stopwatch running;
+  if (real) {
+    run_real(run, *cluster, std::move(prepared), std::move(domain), watch);
+  } else {
+    run.outcome = job::run_simulated(request, prepared, limits, costs_of(request), run.record, watch);
+    run.plan = std::move(prepared.plan);
+  }
+  const auto schedules = changing_speeds(request);
+  run.ideal = ideal_of(run, schedules);
+  run.work = work_done(run.outcome, run.speeds, schedules);
+  run.oracle = oracle_seconds(run.work, run.speeds, schedules);
+  run.record.stages.push_back({real ? "run" : "simulate", running.seconds()});
+  run.plan.bounds.size = nullptr;
+}
+
+/// There is nothing to map better: the ideal is that of the oracle, too.
+void run_on_lattice(ExperimentRun& run, const job::Domain& domain, const job::Limits& limits, const Stopwatch& since,
+                    job::Watch& watch) {
+  const job::Request& request = run.request;
+  job::Triangulated triangulated =
+      job::triangulate_domain(request, domain, static_cast<std::int32_t>(run.speeds.size()), job::Cut::kNever, watch);
+  end_preparation(run, since, watch);
+  const Stopwatch running;
+  run.outcome = simulate_on_lattice(request, std::move(triangulated), limits, costs_of(request), run.record, watch);
+  run.oracle = run.ideal = ideal_of(run, changing_speeds(request));
+  run.record.stages.push_back({"simulate", running.seconds()});
 }
 
 /// The remaining work of all ranks together over time.
@@ -116,30 +172,12 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   job::record_domain(run.record, request, domain);
   const job::Limits limits =
       job::find_limits(request.limits, domain.pslg, use_of(request), real ? cluster->processes() : job::Processes{});
-  const auto ranks = static_cast<std::int32_t>(run.speeds.size());
-  job::Prepared prepared = job::prepare(
-      request, domain, job::triangulate_domain(request, domain, ranks, job::Cut::kAlways, watch),
-      {.policies = balancer::make_policy}, real ? job::kRanks : job::kSimulated, run.speeds, limits, watch);
-  job::add_prepared(run.record, prepared);
-  run.record.warnings = watch.take_warnings();
-  run.record.stages.push_back({"prepare", preparing.seconds()});
-  const Stopwatch running;
-  if (real) {
-    run_real(run, *cluster, std::move(prepared), std::move(domain), watch);
-  } else {
-    run.outcome = job::run_simulated(request, prepared, limits, costs_of(request), run.record, watch);
-    run.plan = std::move(prepared.plan);
-  }
-  IdVector<Rank, protocol::SpeedSchedule> schedules;
-  if (!request.cluster.changes.empty()) schedules = schedules_of(job::cluster_of(request));
-  run.ideal =
-      schedules.empty() ? ideal_seconds(run.outcome, run.speeds) : ideal_seconds(run.outcome, run.speeds, schedules);
-  run.work = work_done(run.outcome, run.speeds, schedules);
-  run.oracle = oracle_seconds(run.work, run.speeds, schedules);
-  run.record.stages.push_back({real ? "run" : "simulate", running.seconds()});
+  if (!real && request.run.method == job::Method::kPdr)
+    run_on_lattice(run, domain, limits, preparing, watch);
+  else
+    run_in_subdomains(run, cluster, std::move(domain), limits, preparing, watch);
   run.record.seconds = preparing.seconds();
   run.record.seconds_refine = run.outcome.makespan;
-  run.plan.bounds.size = nullptr;
 }
 
 std::string experiment_record(const ExperimentRun& run) {

@@ -1,16 +1,22 @@
 #include "app/lattice_run.hpp"
 
+#include <functional>
 #include <memory>
 #include <utility>
 
 #include "base/stopwatch.hpp"
+#include "distributed/observed_exchange.hpp"
+#include "driftmesh/error.hpp"
+#include "job/check.hpp"
 #include "job/memory.hpp"
 #include "job/rank_report.hpp"
+#include "job/simulated/run_simulated.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/interpolate_attributes.hpp"
 #include "pdr/gather_cells.hpp"
-#include "pdr/lattice_refinement.hpp"
+#include "pdr/part.hpp"
+#include "pdr/simulated/simulate.hpp"
 #include "pdr/start.hpp"
 
 namespace driftmesh::app {
@@ -18,32 +24,27 @@ namespace {
 
 using job::timed;
 
-/// One rank's mesh and its part in the refinement.
-struct LatticePart {
-  Triangulation mesh;
-  pdr::Lattice lattice;
-  pdr::LatticeRefinement refinement;
-
-  LatticePart(const job::Team& team, Triangulation&& triangulated, const QualityBounds& bounds)
-      : mesh(std::move(triangulated)),
-        lattice(pdr::start(mesh, bounds, team.ranks())),
-        refinement(team.rank(), team.ranks(), mesh, bounds, lattice) {}
-};
-
-job::RankReport lattice_report(const LatticePart& part, const QualityBounds& bounds, double seconds) {
+/// `part` has only the triangles of its own cells.
+job::RankReport report_of(const pdr::Part& part, const QualityBounds& bounds, const RankOutcome& outcome) {
   job::RankReport report;
   job::add_part(report.facts, part.mesh, bounds, true);
   job::add_counters(report.facts, part.refinement.cells().counters());
-  const auto& traffic = part.refinement.traffic();
+  static_cast<RankOutcome&>(report.rank) = outcome;
   report.rank.triangles = report.facts.triangles;
-  report.rank.times.computing = traffic.seconds_computing;
-  report.rank.times.idle = seconds - traffic.seconds_computing;
-  report.rank.counters.splits_sent = traffic.points;
-  report.rank.counters.batches_sent = traffic.messages;
-  report.rank.messages = static_cast<std::uint64_t>(traffic.messages);
-  report.rank.message_bytes = static_cast<std::uint64_t>(traffic.bytes);
-  report.rank.peak = job::peak_memory();
   return report;
+}
+
+/// Of a real rank that refined for `seconds`, and waited when it did not compute.
+RankOutcome outcome_of(const pdr::Part& part, double computing, double seconds) {
+  RankOutcome outcome;
+  outcome.times.computing = computing;
+  outcome.times.idle = seconds - computing;
+  const auto& traffic = part.refinement.traffic();
+  outcome.counters.splits_sent = traffic.points;
+  outcome.counters.batches_sent = traffic.messages;
+  outcome.messages = static_cast<std::uint64_t>(traffic.messages);
+  outcome.message_bytes = static_cast<std::uint64_t>(traffic.bytes);
+  return outcome;
 }
 
 void gather_reports(job::Team& team, const job::RankReport& own, job::RunRecord& run) {
@@ -64,11 +65,19 @@ Mesh mesh_on_lattice(job::Team& team, const Pslg& pslg, const QualityBounds& bou
     ExchangeRunner ranks(channel->transport());
     Triangulation mesh = triangulate(pslg);
     notes.run.acute_corners = prepare_corners(mesh, {bounds.min_angle, false});
-    const auto part =
-        timed(notes, "start", [&] { return std::make_unique<LatticePart>(team, std::move(mesh), bounds); });
+    const auto part = timed(notes, "start", [&] {
+      const pdr::Lattice lattice = pdr::start(mesh, bounds, team.ranks());
+      return std::make_unique<pdr::Part>(team.rank(), team.ranks(), std::move(mesh), lattice, bounds);
+    });
+    double computing = 0;
+    ObservedExchange refinement(part->refinement, [&](const std::function<void()>& act) {
+      const Stopwatch working;
+      act();
+      computing += working.seconds();
+    });
     const Stopwatch refining;
-    timed(notes, "refine", [&] { ranks.run(part->refinement); });
-    const double seconds = refining.seconds();
+    timed(notes, "refine", [&] { ranks.run(refinement); });
+    const RankOutcome outcome = outcome_of(*part, computing, refining.seconds());
     timed(notes, "assemble", [&] {
       pdr::GatherCells gathering(
           team.rank(), team.ranks(),
@@ -78,12 +87,43 @@ Mesh mesh_on_lattice(job::Team& team, const Pslg& pslg, const QualityBounds& bou
       if (team.leads()) interpolate_attributes(pslg, whole);
     });
     pdr::keep_own_triangles(part->mesh, part->refinement.cells(), part->lattice, team.rank());
-    gather_reports(team, lattice_report(*part, bounds, seconds), notes.run);
+    job::RankReport report = report_of(*part, bounds, outcome);
+    report.rank.peak = job::peak_memory();
+    gather_reports(team, report, notes.run);
   });
   channel->close();
   notes.run.vertices = static_cast<std::int64_t>(whole.points.size());
   notes.run.subsegments = static_cast<std::int64_t>(whole.edges.size());
   return whole;
+}
+
+void require_area_bound(const QualityBounds& bounds) {
+  if (!(bounds.max_area > 0))
+    throw job::KeyError("run.method", "is pdr, but nothing bounds the size of triangles",
+                        "give bounds.area or bounds.triangles, or use the coupled method");
+}
+
+ClusterRun simulate_on_lattice(const job::Request& request, job::Triangulated&& triangulated, const job::Limits& limits,
+                               const CostModel& costs, job::RunRecord& record, job::Watch& watch) {
+  const QualityBounds& bounds = triangulated.bounds;
+  require_area_bound(bounds);
+  record.acute_corners = triangulated.acute_corners;
+  record.forecast = triangulated.forecast;
+  record.max_area = bounds.max_area;
+  pdr::SimulationObservers observers;
+  observers.progress = job::progress_within(limits, triangulated.forecast, watch);
+  std::int64_t vertices = 0, subsegments = 0;
+  observers.finished = [&](const pdr::Part& part, Rank rank, const RankOutcome& outcome) {
+    job::add_report(record, report_of(part, bounds, outcome));
+    const pdr::OwnCounts own = pdr::count_own(part.mesh, part.lattice, rank);
+    vertices += own.vertices;
+    subsegments += own.subsegments;
+  };
+  ClusterRun run = pdr::simulate(std::move(triangulated.mesh), bounds, job::cluster_of(request), costs, observers);
+  record.vertices = vertices;
+  record.subsegments = subsegments;
+  record.peak = record.peak_refining = job::peak_memory();
+  return run;
 }
 
 }  // namespace driftmesh::app

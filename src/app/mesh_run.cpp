@@ -342,9 +342,7 @@ std::pair<Pslg, QualityBounds> share_domain(const Told& told, job::Team& team, R
     job::Domain domain = job::read_domain(request, {}, notes);
     job::record_domain(notes.run, request, domain);
     const job::Triangulated found = job::triangulate_domain(request, domain, team.ranks(), job::Cut::kNever, notes);
-    if (!(found.bounds.max_area > 0))
-      throw job::KeyError("run.method", "is pdr, but nothing bounds the size of triangles",
-                          "give bounds.area or bounds.triangles, or use the coupled method");
+    require_area_bound(found.bounds);
     const job::Use use{.writes = writes(request.output), .gathers = true};
     job::check_forecast(job::find_limits(request.limits, domain.pslg, use, job::processes_of(team)), found.forecast,
                         false, [&] { return find_narrow_place(found.mesh); });

@@ -119,7 +119,8 @@ void check_method(const Request& request) {
 /// What partially coupled refinement does without.
 void check_pdr(const Request& request, Place place) {
   if (request.run.method != Method::kPdr) return;
-  require(place == kRanks, "run.method", "is pdr, which needs ranks of MPI", "start it with mpirun");
+  require(place == kRanks || place == kSimulated, "run.method", "is pdr, which needs ranks of MPI",
+          "start it with mpirun");
   require(request.sizing.expression.empty() && request.sizing.background.empty() && request.sizing.longest == 0,
           "run.method", "is pdr, which needs the same bound on size everywhere, but lengths vary",
           "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");

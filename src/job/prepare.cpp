@@ -47,7 +47,8 @@ Decomposition decomposition_of(const Request& request, const Domain& domain, con
 
 void check_has_subdomains(const Request& request) {
   if (request.run.method == Method::kPdr)
-    throw KeyError("run.method", "is pdr, which experiments do not have", "use driftmesh mesh");
+    throw KeyError("run.method", "is pdr, which experiments have on simulated ranks only",
+                   "use driftmesh mesh under mpirun, or cluster.kind simulated");
 }
 
 void check_presplit(const Request& request, const QualityBounds& bounds) {

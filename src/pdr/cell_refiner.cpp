@@ -13,7 +13,7 @@ CellRefiner::CellRefiner(Triangulation& mesh, const QualityBounds& bounds, const
     : mesh_(mesh), lattice_(lattice), refiner_(mesh, bounds) {
   refiner_.tell_changes(touched_);
   for (const TriangleId t : ids_of(mesh.triangles)) touched_.push_back(t);
-  keep_incident();
+  note_touched();
 }
 
 Cell CellRefiner::cell_of(TriangleId t) const {
@@ -21,25 +21,35 @@ Cell CellRefiner::cell_of(TriangleId t) const {
   return lattice_.cell_of(std::min({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)}, leftmost));
 }
 
-/// Notes a triangle for each corner of those that changed.
-void CellRefiner::keep_incident() {
+/// Notes a triangle for each corner of those that changed, and that somebody must look at them.
+void CellRefiner::note_touched() {
   if (incident_.size() < mesh_.points.size()) incident_.resize(mesh_.points.size(), kNone);
   for (const TriangleId t : touched_)
     if (mesh_.triangles[t].alive())
       for (const VertexId v : mesh_.triangles[t].vertex) incident_[v] = t;
+  changed_.insert(changed_.end(), touched_.begin(), touched_.end());
 }
 
 // ---- Refining ----
 
+/// So that a turn takes time for what has changed, not for the whole mesh.
+void CellRefiner::sort_changed(Rank rank) {
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  for (const TriangleId t : changed_)
+    if (mesh_.triangles[t].alive() && refiner_.wanted(t))
+      if (const Cell cell = cell_of(t); lattice_.owner_of(cell) == rank) unseen_[Lattice::color_of(cell)].push_back(t);
+  changed_.clear();
+}
+
 std::vector<CellRefiner::Changes> CellRefiner::refine(Rank rank, int color) {
   const RefineCounters before = refiner_.counters();
+  sort_changed(rank);
   std::map<Cell, std::vector<TriangleId>> work;
-  for (const TriangleId t : ids_of(mesh_.triangles)) {
-    if (!mesh_.triangles[t].alive()) continue;
-    const Cell cell = cell_of(t);
-    if (Lattice::color_of(cell) == color && lattice_.owner_of(cell) == rank && refiner_.wanted(t))
-      work[cell].push_back(t);
-  }
+  for (const TriangleId t : std::exchange(unseen_[color], {}))
+    if (mesh_.triangles[t].alive())
+      if (const Cell cell = cell_of(t); Lattice::color_of(cell) == color && lattice_.owner_of(cell) == rank)
+        work[cell].push_back(t);
   std::vector<Changes> all;
   for (auto& [cell, triangles] : work)
     if (Changes changes = refine_cell(cell, std::move(triangles)); !changes.list.empty())
@@ -65,7 +75,7 @@ CellRefiner::Changes CellRefiner::refine_cell(Cell cell, std::vector<TriangleId>
     const auto splits = refiner_.take_split_points();
     if (splits.empty()) changes.list.push_back(free);
     for (const auto& split : splits) changes.list.push_back({split.root, split.path, {}, {}, {}});
-    keep_incident();
+    note_touched();
     queue.insert(queue.end(), touched_.begin(), touched_.end());
     if (!splits.empty()) queue.push_back(t);  // it may still be there
   }
@@ -112,7 +122,7 @@ void CellRefiner::repeat(const Change& change, VertexAt& vertex_at) {
     if (from == kNone || mesh_.origin[from] == kDeleted || mesh_.points[from] != change.from) return;
     static_cast<void>(refiner_.insert(left_of(from, change.to), change.point));
   }
-  keep_incident();
+  note_touched();
   for (const TriangleId t : touched_)
     if (mesh_.triangles[t].alive())
       for (const VertexId v : mesh_.triangles[t].vertex)

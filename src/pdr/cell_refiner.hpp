@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -43,23 +44,28 @@ class CellRefiner {
 
   /// Of what this rank has refined, without what it has repeated.
   [[nodiscard]] const RefineCounters& counters() const { return own_; }
+  /// Of both.
+  [[nodiscard]] const RefineCounters& all_counters() const { return refiner_.counters(); }
 
  private:
   using VertexAt = std::unordered_map<Point, VertexId, PointHash>;
 
+  void sort_changed(Rank rank);
   [[nodiscard]] Changes refine_cell(Cell cell, std::vector<TriangleId> work);
   void check_reach(Cell cell) const;
   [[nodiscard]] VertexAt find_vertices(std::span<const Change> changes) const;
   void repeat(const Change& change, VertexAt& vertex_at);
   [[nodiscard]] TriangleId left_of(VertexId from, const Point& to) const;
-  void keep_incident();
+  void note_touched();
 
   Triangulation& mesh_;
   const Lattice& lattice_;
   Refiner refiner_;
   RefineCounters own_;
   std::vector<TriangleId> touched_;
-  GrowingArray<TriangleId, VertexId> incident_;  ///< a triangle at each vertex
+  std::vector<TriangleId> changed_;                               ///< since they were last sorted by color; may repeat
+  std::array<std::vector<TriangleId>, Lattice::kColors> unseen_;  ///< those that a color has to look at
+  GrowingArray<TriangleId, VertexId> incident_;                   ///< a triangle at each vertex
 };
 
 }  // namespace driftmesh::pdr

@@ -4,8 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "base/stopwatch.hpp"
-
 namespace driftmesh::pdr {
 namespace {
 
@@ -51,7 +49,6 @@ LatticeRefinement::LatticeRefinement(Rank rank, std::int32_t ranks, Triangulatio
       neighbors_(lattice.neighbors_of(rank)) {}
 
 std::vector<Mail> LatticeRefinement::send(int round) {
-  const Stopwatch computing;
   std::map<Rank, std::vector<const Change*>> told;
   for (const Rank r : senders(round)) told[r];
   const auto all = refiner_.refine(rank_, round % Lattice::kColors);
@@ -70,7 +67,6 @@ std::vector<Mail> LatticeRefinement::send(int round) {
     traffic_.bytes += static_cast<std::int64_t>(mail.back().bytes.size());
     traffic_.points += static_cast<std::int64_t>(changes.size());
   }
-  traffic_.seconds_computing += computing.seconds();
   return mail;
 }
 
@@ -83,7 +79,6 @@ std::vector<Rank> LatticeRefinement::senders(int round) const {
 }
 
 void LatticeRefinement::receive(int round, std::vector<Mail> mail) {
-  const Stopwatch computing;
   std::vector<Change> changes;
   bool others_changed = false;
   for (const Mail& one : mail)
@@ -93,7 +88,6 @@ void LatticeRefinement::receive(int round, std::vector<Mail> mail) {
       for (std::uint64_t i = 0; i < count; ++i) changes.push_back(read_change(reader));
     });
   refiner_.repeat(changes);
-  traffic_.seconds_computing += computing.seconds();
   if (!ends_turn(round)) return;
   if (changed_ || others_changed) rounds_ += Lattice::kColors;
   changed_ = false;

@@ -23,12 +23,11 @@ class LatticeRefinement : public Exchange {
   [[nodiscard]] std::vector<Rank> senders(int round) const override;
   void receive(int round, std::vector<Mail> mail) override;
 
-  /// What this rank has told others so far, and how long it took to find that out and to follow them.
+  /// What this rank has told others so far.
   struct Traffic {
     std::int64_t messages = 0;
     std::int64_t bytes = 0;
     std::int64_t points = 0;
-    double seconds_computing = 0;
   };
   [[nodiscard]] const Traffic& traffic() const { return traffic_; }
   [[nodiscard]] const CellRefiner& cells() const { return refiner_; }

@@ -800,6 +800,7 @@ class Experiments(Cli):
         "paper/table-1": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
         "paper/table-2": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
         "paper/table-3": ["input.generate=pipe", "bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
+        "paper/table-3-pdr": ["input.generate=pipe", "bounds.triangles-per-rank=3e3", "cluster.ranks=8"],
         "paper/fig-7": ["bounds.triangles-per-rank=2e3", "decomposition.subdomains-per-rank=10", "cluster.ranks=4",
                         "mapping.method=graph", "run.aggregation=[1, 16, 1024]"],
         "paper/fig-10": ["bounds.triangles-per-rank=300", "decomposition.subdomains-per-rank=2",

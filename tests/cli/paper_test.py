@@ -27,6 +27,11 @@ class Paper(Cli):
         self.assertEqual({row["model"] for row in self.rows("table-1")}, {"pipe", "cylinder-flow", "bay"})
         self.assertEqual(len(self.rows("table-2")), 6)
         self.assertEqual({row["messages"] for row in self.rows("table-3") if row["method"] == "decoupled"}, {"0"})
+        self.assertEqual({row["method"] for row in self.rows("table-3") if row["model"] == "pipe"},
+                         {"published: PCDM", "published: PDR", "PCDM", "PDR", "presplit", "decoupled"})
+        for row in self.rows("table-3-real"):
+            if row["method"] != "presplit":
+                self.assertEqual(int(row["points sent"] or 0) > 0, row["method"] in ("PCDM", "PDR"), row)
         self.assertEqual(len(self.rows("fig-10")), 12)
         self.assertEqual(len(self.rows("fig-11")), 9)
         self.assertEqual({row["policy"] for row in self.rows("replay")}, {"none", "greedy"})
@@ -36,7 +41,7 @@ class Paper(Cli):
             self.assertGreater(int(some[f"{mapping}messages"]), int(most[f"{mapping}messages"]))
         text = (self.folder / "paper" / "paper.md").read_text()
         self.assertIn("--small", text)
-        for name in ("table-1", "table-1-real", "table-2", "table-3", "fig-7", "fig-10", "fig-10-modern", "fig-11", "replay"):
+        for name in ("table-1", "table-1-real", "table-2", "table-3", "table-3-real", "fig-7", "fig-10", "fig-10-modern", "fig-11", "replay"):
             self.assertIn((self.folder / "paper" / f"{name}.md").read_text(), text)
         for name in ("fig-7", "fig-10", "fig-10-modern"):
             self.assertTrue((self.folder / "paper" / f"{name}.svg").read_text().endswith("</svg>\n"))

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <memory>
 #include <random>
 
@@ -7,13 +8,16 @@
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
+#include "mesh/digest.hpp"
 #include "oracles/meshing.hpp"
 #include "oracles/random_pslg.hpp"
 #include "pdr/gather_cells.hpp"
-#include "pdr/lattice_refinement.hpp"
+#include "pdr/part.hpp"
+#include "pdr/simulated/simulate.hpp"
 #include "pdr/start.hpp"
 #include "property/cases.hpp"
 #include "protocol/adversarial_network.hpp"
+#include "support/id_literals.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -46,19 +50,13 @@ Case random_case(std::uint64_t seed) {
 
 /// The ranks of a case, without any network.
 struct Ranks {
-  struct One {
-    Triangulation mesh;
-    pdr::Lattice lattice;
-    pdr::LatticeRefinement refinement;
-
-    One(const Case& c, Rank rank, std::int32_t ranks)
-        : mesh(c.mesh), lattice(pdr::start(mesh, c.bounds, ranks)), refinement(rank, ranks, mesh, c.bounds, lattice) {}
-  };
-
-  IdVector<Rank, std::unique_ptr<One>> all;
+  IdVector<Rank, std::unique_ptr<pdr::Part>> all;
 
   Ranks(const Case& c, std::int32_t ranks) {
-    for (const Rank r : first_ids<Rank>(ranks)) all.push_back(std::make_unique<One>(c, r, ranks));
+    Triangulation mesh = c.mesh;
+    const pdr::Lattice lattice = pdr::start(mesh, c.bounds, ranks);
+    for (const Rank r : first_ids<Rank>(ranks))
+      all.push_back(std::make_unique<pdr::Part>(r, ranks, mesh, lattice, c.bounds));
   }
 
   [[nodiscard]] Mesh whole(const Case& c) const {
@@ -66,7 +64,7 @@ struct Ranks {
     std::vector<std::unique_ptr<pdr::GatherCells>> gathering;
     IdVector<Rank, Exchange*> exchanges;
     for (const Rank r : ids_of(all)) {
-      const One& one = *all[r];
+      const pdr::Part& one = *all[r];
       gathering.push_back(std::make_unique<pdr::GatherCells>(
           r, ranks, pdr::own_triangles(one.mesh, c.input, one.refinement.cells(), one.lattice, r)));
       exchanges.push_back(gathering.back().get());
@@ -165,4 +163,53 @@ TEST_CASE("an adversarial network does not change the mesh") {
     reordered += network.counters().reordered;
   }
   CHECK(reordered > 0);
+}
+
+TEST_CASE("simulated ranks make the same mesh, and time passes for all that they insert") {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    CAPTURE(seed);
+    const Case c = random_case(seed);
+    constexpr std::int32_t kRanks = 4;
+    const Ranks direct(c, kRanks);
+    refine_directly(direct);
+    const Mesh mesh = direct.whole(c);
+
+    ClusterSpec cluster;
+    cluster.groups = {{"fast", 3, 0}, {"slow", 1, reference_speed({}) / 8}};
+    std::uint64_t digest = 0, expected = 0;
+    std::int64_t vertices = 0, subsegments = 0, most = 0;
+    pdr::SimulationObservers observers;
+    observers.progress = [&](std::int64_t triangles) { most = std::max(most, triangles); };
+    observers.finished = [&](pdr::Part& part, Rank rank, const RankOutcome& outcome) {
+      digest += mesh_digest(part.mesh);
+      CHECK(outcome.triangles == static_cast<std::int64_t>(part.mesh.live_triangles()));
+      const pdr::OwnCounts own = pdr::count_own(part.mesh, part.lattice, rank);
+      vertices += own.vertices;
+      subsegments += own.subsegments;
+    };
+    const ClusterRun run = pdr::simulate(c.mesh, c.bounds, cluster, {}, observers);
+    for (const Rank r : ids_of(direct.all)) {
+      pdr::Part& part = *direct.all[r];
+      pdr::keep_own_triangles(part.mesh, part.refinement.cells(), part.lattice, r);
+      expected += mesh_digest(part.mesh);
+    }
+    CHECK(digest == expected);
+    CHECK(run.triangles() == static_cast<std::int64_t>(mesh.triangles.size()));
+    CHECK(vertices == static_cast<std::int64_t>(mesh.points.size()));
+    CHECK(subsegments == static_cast<std::int64_t>(mesh.edges.size()));
+    CHECK(most > run.triangles() / 2);
+    const CostModel costs;
+    for (const Rank r : ids_of(run.ranks)) {
+      const RankOutcome& rank = run.ranks[r];
+      const auto& counters = direct.all[r]->refinement.cells().all_counters();
+      const auto inserted = static_cast<double>(counters.free_points + counters.segment_points);
+      const double slowness = r == 3_rank ? 8 : 1;
+      CHECK(rank.times.computing > slowness * costs.point * inserted);  // and the start
+      CHECK(rank.times.total() <= run.makespan * (1 + 1e-9));
+      CHECK(rank.times.idle >= 0);
+      CHECK(rank.messages == static_cast<std::uint64_t>(rank.counters.batches_sent));
+      CHECK(rank.counters.splits_sent == direct.all[r]->refinement.traffic().points);
+    }
+    CHECK(run.ranks[0_rank].times.idle > run.ranks[3_rank].times.idle);
+  }
 }

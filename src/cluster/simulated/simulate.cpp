@@ -8,23 +8,13 @@
 #include "balancer/council.hpp"
 #include "balancer/simulated/simulated_council.hpp"
 #include "cluster/rank_log.hpp"
+#include "cluster/simulated/virtual_cluster.hpp"
 #include "driftmesh/error.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime/rank_loop.hpp"
 
 namespace driftmesh {
 namespace {
-
-protocol::VirtualCluster virtual_cluster(const ClusterSpec& cluster, const CostModel& costs) {
-  protocol::VirtualCluster made;
-  made.speeds = speeds_of(cluster, costs);
-  for (double& speed : made.speeds) speed /= reference_speed(costs);
-  made.schedules = schedules_of(cluster);
-  const protocol::Link link{cluster.latency, cluster.bandwidth};
-  made.link = [link](Rank, Rank) { return link; };
-  made.message_overhead = cluster.message_overhead;
-  return made;
-}
 
 /// What depends on subdomains, not on their triangles, is not scaled up with the triangles' costs.
 CostModel scaled(CostModel costs, double scale) {
