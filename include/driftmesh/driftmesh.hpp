@@ -13,6 +13,7 @@
 #include "driftmesh/policy.hpp"
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/repair.hpp"
+#include "driftmesh/simplify.hpp"
 #include "driftmesh/size_field.hpp"
 #include "driftmesh/size_on_mesh.hpp"
 #include "driftmesh/version.hpp"

@@ -56,6 +56,7 @@ enum class MappingMethod {
 /// Lengths and areas are in the units of the input, angles in degrees, times in seconds, memory in bytes.
 struct MeshOptions {
   // ---- The domain ----
+  double simplify = 0;  ///< by how much lines may move for fewer points (see simplify.hpp); 0: not at all
   HoleRule holes = HoleRule::kPoints;
   bool strict = false;  ///< whether warnings are errors: an InputError is thrown
   /// Called for each thing that the author of the input may not have meant, with its place: segments outside the

@@ -18,7 +18,8 @@ namespace {
 
 /// The request for a mesh as such: how it was made does not matter.
 job::Request requirements_of(const MeshOptions& options) {
-  const MeshOptions only{.holes = options.holes,
+  const MeshOptions only{.simplify = options.simplify,
+                         .holes = options.holes,
                          .min_angle = options.min_angle,
                          .max_area = options.max_area,
                          .region_areas = options.region_areas,
@@ -66,6 +67,7 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
   if (input != nullptr) {
     domain = *input;
     static_cast<void>(repair(domain));
+    static_cast<void>(job::simplify_domain(request.input, job::input_name(request), domain));
     job::add_nested_holes(request.input.holes, domain);
   }
   const FunctionField size(options.size);

@@ -46,12 +46,13 @@ struct CheckOptions {
   ReadOptions reading;
 };
 
-std::optional<Pslg> read_and_repair(const CheckOptions& options, HoleRule holes) {
+std::optional<Pslg> read_and_repair(const CheckOptions& options, const job::Request::Input& asked) {
   if (options.input.empty()) return std::nullopt;
   Pslg input = read_input(options.input).pslg;
   const RepairReport repairs = repair(input, options.input);
   if (!options.quiet) print(repairs.summary());
-  job::add_nested_holes(holes, input);
+  static_cast<void>(job::simplify_domain(asked, options.input, input));
+  job::add_nested_holes(asked.holes, input);
   return input;
 }
 
@@ -116,7 +117,7 @@ std::unique_ptr<const SizeField> size_for_threads(const SizingOptions& sizes, st
 
 VerifyReport read_and_verify(CheckOptions& options, const job::Request& request) {
   CheckedMesh mesh(options.mesh, options.reading);
-  const std::optional<Pslg> input = read_and_repair(options, request.input.holes);
+  const std::optional<Pslg> input = read_and_repair(options, request.input);
   const bool sized =
       !request.sizing.expression.empty() || !request.sizing.background.empty() || request.sizing.longest > 0;
   SizingOptions sizes = job::sizing_of(request.sizing, input ? job::box_of(*input) : sized ? mesh.box() : Box{});

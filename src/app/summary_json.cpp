@@ -32,6 +32,7 @@ Json input_json(const RunRecord& run) {
             {"crossings", r.crossings.count},
             {"overlaps", r.overlaps.count},
             {"marker_conflicts", r.marker_conflicts.count}}},
+          {"simplified", {{"points", run.simplified.points}, {"rings", run.simplified.rings}}},
           {"warnings", run.warnings}};
 }
 

@@ -34,6 +34,9 @@ void add_input(const RunRecord& run, Text out) {
   if (!run.projection.empty()) fmt::format_to(out, "             in meters, {}\n", run.projection);
   if (const std::int64_t n = repair_count(run.repairs); n > 0)
     fmt::format_to(out, "             after {}\n", counted(n, "repair"));
+  if (run.request.input.simplify > 0)
+    fmt::format_to(out, "             simplified by up to {:g}: without {} and {}\n", run.request.input.simplify,
+                   counted(run.simplified.points, "point"), counted(run.simplified.rings, "small ring"));
   const char* label = "warnings";
   for (const std::string& warning : run.warnings) {
     fmt::format_to(out, "{:<12} {}\n", label, warning);

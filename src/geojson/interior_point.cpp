@@ -2,23 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
-
-#include "geometry/predicates.hpp"
+#include <vector>
 
 namespace driftmesh {
 namespace {
 
 constexpr std::size_t kLines = 8;
-
-template <class Visit>
-void for_each_edge(std::span<const PolygonRing* const> rings, const Visit& visit) {
-  for (const PolygonRing* ring : rings)
-    for (std::size_t i = 0; i < ring->size(); ++i) visit((*ring)[i], (*ring)[i + 1 == ring->size() ? 0 : i + 1]);
-}
-
-bool spans(Point a, Point b, double y) {
-  return (a.y <= y) != (b.y <= y);
-}
 
 /// Between two neighboring values, far apart.
 struct Gap {
@@ -43,7 +32,7 @@ std::vector<Gap> heights(const PolygonRing& ring) {
 Gap widest_inside(std::span<const PolygonRing* const> rings, double y) {
   std::vector<double> crossings;
   for_each_edge(rings, [&](Point a, Point b) {
-    if (spans(a, b, y)) crossings.push_back(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)));
+    if (spans_height(a, b, y)) crossings.push_back(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)));
   });
   std::ranges::sort(crossings);
   Gap widest;
@@ -54,14 +43,6 @@ Gap widest_inside(std::span<const PolygonRing* const> rings, double y) {
 }
 
 }  // namespace
-
-bool is_inside(std::span<const PolygonRing* const> rings, Point p) {
-  bool inside = false;
-  for_each_edge(rings, [&](Point a, Point b) {
-    if (spans(a, b, p.y) && (orient2d(a, b, p) > 0) == (b.y > a.y)) inside = !inside;
-  });
-  return inside;
-}
 
 std::optional<Point> interior_point(std::span<const PolygonRing* const> rings) {
   std::optional<Point> best;

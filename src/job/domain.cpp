@@ -20,6 +20,13 @@ InputFile raw_input(const Request::Input& input, const Given& given) {
   return {generate(input.generator, input.parameters), {}};
 }
 
+/// What simplification left of the repaired points; `left`: their indices.
+void keep_original_points(RepairReport& repairs, const std::vector<std::int32_t>& left) {
+  std::vector<std::int32_t> original;
+  for (const std::int32_t point : left) original.push_back(repairs.original_point[point]);
+  repairs.original_point = std::move(original);
+}
+
 }  // namespace
 
 Domain read_domain(const Request& request, const Given& given, Watch& watch) {
@@ -31,11 +38,20 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   const std::vector<std::string> warnings = std::exchange(domain.repairs.warnings, {});
   watch.repaired(domain.repairs);
   warn(request, warnings, watch);
+  if (request.input.simplify > 0) {
+    domain.simplified =
+        timed(watch, "simplify", [&] { return simplify_domain(request.input, input_name(request), domain.pslg); });
+    keep_original_points(domain.repairs, std::exchange(domain.simplified.original_point, {}));
+  }
   add_nested_holes(request.input.holes, domain.pslg);
   SizeSource source = timed(watch, "size", [&] { return size_of(request.sizing, given.size, domain.pslg); });
   domain.size = std::move(source.field);
   domain.background = source.background;
   return domain;
+}
+
+SimplifyReport simplify_domain(const Request::Input& asked, const std::string& name, Pslg& pslg) {
+  return asked.simplify > 0 ? simplify(pslg, asked.simplify, name) : SimplifyReport{};
 }
 
 void add_nested_holes(HoleRule rule, Pslg& pslg) {

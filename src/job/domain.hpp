@@ -8,6 +8,7 @@
 #include "decompose/decomposition.hpp"
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/repair.hpp"
+#include "driftmesh/simplify.hpp"
 #include "job/request.hpp"
 #include "job/watch.hpp"
 #include "sizing/make_size_field.hpp"
@@ -27,13 +28,17 @@ struct Domain {
   Pslg pslg;               ///< repaired
   std::string projection;  ///< see InputFile
   RepairReport repairs;
+  SimplifyReport simplified;                   ///< without its points
   std::unique_ptr<const SizeField> size;       ///< null: none is asked for
   const BackgroundMesh* background = nullptr;  ///< of the size field
 };
 
-/// Reads or generates the domain, repairs it, applies the rule for holes, and makes the size field. Throws InputError,
-/// FileError.
+/// Reads or generates the domain, repairs and simplifies it, applies the rule for holes, and makes the size field.
+/// Throws InputError, FileError.
 [[nodiscard]] Domain read_domain(const Request& request, const Given& given, Watch& watch);
+
+/// Simplifies a repaired input if the request asks for it. Throws InputError if nothing would be left.
+SimplifyReport simplify_domain(const Request::Input& asked, const std::string& name, Pslg& pslg);
 
 /// Adds hole points to a repaired input where the rule makes holes of its rings.
 void add_nested_holes(HoleRule rule, Pslg& pslg);

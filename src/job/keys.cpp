@@ -238,25 +238,30 @@ struct Section {
 
 Section input_section() {
   const Names<HoleRule> hole_rules = {{HoleRule::kPoints, "points"}, {HoleRule::kNested, "nested"}};
-  return {"Input",
-          kAnywhere,
-          kMesh | kExperiment,
-          {key("input.file", &R::input, &R::Input::file,
-               "The domain: GeoJSON, Triangle's .poly (with its .node next to it), or .node", file(), option("input"),
-               entry_points(kMesh | kDecompose | kExperiment)),
-           key("input.generate", &R::input, &R::Input::generator,
-               "Generate the domain instead of reading a file (see driftmesh generate --help)",
-               option("generate", "KIND"), one_of(generator_names())),
-           key("input.parameters", &R::input, &R::Input::parameters,
-               "A parameter of the generated domain, such as resolution=300", option("generate-with", "NAME=VALUE")),
-           choice("input.holes", &R::input, &R::Input::holes, hole_rules,
-                  "What is a hole: points (areas with a hole point of the input), or nested (also every second ring of "
-                  "segments from the outside in, unless it has a region point)",
-                  option("holes", "RULE"), entry_points(kMeshers | kDecompose | kCheck)),
-           key("input.strict", &R::input, &R::Input::strict,
-               "Whether warnings about the input are errors: segments outside the domain, regions that are not "
-               "separated, rings that are neither holes nor regions",
-               option("strict"), entry_points(kMeshers | kDecompose))}};
+  return {
+      "Input",
+      kAnywhere,
+      kMesh | kExperiment,
+      {key("input.file", &R::input, &R::Input::file,
+           "The domain: GeoJSON, Triangle's .poly (with its .node next to it), or .node", file(), option("input"),
+           entry_points(kMesh | kDecompose | kExperiment)),
+       key("input.generate", &R::input, &R::Input::generator,
+           "Generate the domain instead of reading a file (see driftmesh generate --help)", option("generate", "KIND"),
+           one_of(generator_names())),
+       key("input.parameters", &R::input, &R::Input::parameters,
+           "A parameter of the generated domain, such as resolution=300", option("generate-with", "NAME=VALUE")),
+       key("input.simplify", &R::input, &R::Input::simplify,
+           "Remove points of lines where these then move by at most this length, and rings that fit into a square with "
+           "this side; lines never cross. 0: keep all",
+           from(0), option("simplify", "LENGTH"), entry_points(kMeshers | kDecompose | kCheck)),
+       choice("input.holes", &R::input, &R::Input::holes, hole_rules,
+              "What is a hole: points (areas with a hole point of the input), or nested (also every second ring of "
+              "segments from the outside in, unless it has a region point)",
+              option("holes", "RULE"), entry_points(kMeshers | kDecompose | kCheck)),
+       key("input.strict", &R::input, &R::Input::strict,
+           "Whether warnings about the input are errors: segments outside the domain, regions that are not "
+           "separated, rings that are neither holes nor regions",
+           option("strict"), entry_points(kMeshers | kDecompose))}};
 }
 
 Section triangle_section() {

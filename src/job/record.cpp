@@ -36,6 +36,7 @@ void record_domain(RunRecord& run, const Request& request, const Domain& domain)
   run.input_holes = count_of(domain.pslg.holes.size());
   run.input_regions = count_of(domain.pslg.regions.size());
   run.repairs = domain.repairs;
+  run.simplified = domain.simplified;
   run.min_angle = request.bounds.angle;
   run.sizing = sizing_words(request.sizing);
 }

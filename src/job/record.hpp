@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "driftmesh/repair.hpp"
+#include "driftmesh/simplify.hpp"
 #include "job/domain.hpp"
 #include "job/mesh_facts.hpp"
 #include "job/request.hpp"
@@ -22,6 +23,7 @@ struct RunRecord : MeshFacts {
   std::string projection;                                                                 ///< see InputFile
   std::int64_t input_points = 0, input_segments = 0, input_holes = 0, input_regions = 0;  ///< after repair
   RepairReport repairs;                                                                   ///< without its warnings
+  SimplifyReport simplified;                                                              ///< without its points
   std::vector<std::string> warnings;                                                      ///< about the input
 
   double min_angle = 0;

@@ -37,6 +37,7 @@ struct Request {
     std::string file;
     std::string generator;
     std::map<std::string, std::string> parameters;  ///< of the generator
+    double simplify = 0;                            ///< by how much lines may move; 0: nothing is simplified
     HoleRule holes = HoleRule::kPoints;
     bool strict = false;  ///< warnings about the input are errors
   } input;

@@ -9,6 +9,7 @@
 #include "driftmesh/error.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/segment_geometry.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {
@@ -20,18 +21,6 @@ void require_corners(const std::vector<BackgroundMesh::Triangle>& triangles, std
       if (to_index(corner) >= point_count)
         throw Error("background mesh: triangle " + std::to_string(t) + " (counted from 0) has the corner " +
                     std::to_string(corner) + ", but there are " + std::to_string(point_count) + " points");
-}
-
-/// How far along the segment ab, 0 to 1, its point nearest to p lies.
-double nearest_on_segment(const Point& p, const Point& a, const Point& b) {
-  const double ex = b.x - a.x, ey = b.y - a.y;
-  const double t = ((p.x - a.x) * ex + (p.y - a.y) * ey) / (ex * ex + ey * ey);
-  return std::clamp(t, 0.0, 1.0);
-}
-
-double squared_distance_to_segment(const Point& p, const Point& a, const Point& b) {
-  const double t = nearest_on_segment(p, a, b);
-  return squared_distance(p, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
 }
 
 /// The middle of the part of ab that is in the triangle; nothing if there is no such part.

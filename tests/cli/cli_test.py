@@ -710,6 +710,24 @@ class Mesh(Cli):
                     says=["use the coupled method"])
         self.assertEqual(self.files(), before)
 
+    def test_outlines_can_be_simplified(self):
+        self.succeed("generate", "bay", "--resolution", "200", "-o", "bay.poly")
+        less = ["--simplify", "500"]
+        said = self.succeed("mesh", "bay.poly", *less, "--triangles", "1e4", "--json", "run.json", "-o", "bay.vtu")
+        run = json.loads((self.folder / "run.json").read_text())["input"]
+        points = int((self.folder / "bay.poly").read_text().split()[0])
+        self.assertLess(4 * run["points"], points)
+        self.assertGreater(run["simplified"]["points"], points / 2)
+        self.assertIn(f"simplified by up to 500: without {run['simplified']['points']:,} points", said)
+        self.succeed("check", "bay.vtu", "bay.poly", *less)
+        self.assertIn("input point missing", self.run_program("check", "bay.vtu", "bay.poly").stdout)
+        self.succeed("decompose", "bay.poly", *less, "-n", "8", "--triangles", "1e4", "-o", "bay.parts")
+        result = self.on_ranks(2, "mesh", "bay.poly", *less, "--decomposition", "bay.parts", "--triangles", "1e4", "-o", "parts.vtu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.succeed("check", "parts.vtu", "bay.poly", *less)
+        self.refuse("mesh", "--generate", "pipe", "--simplify", "1e6", says=["pipe: all of it fits", "give a smaller length"])
+        self.refuse("mesh", "bay.poly", "--simplify", "-1", code=2, says=["--simplify", "at least 0"])
+
     def test_partially_coupled_refinement_makes_one_mesh_on_any_number_of_ranks(self):
         self.succeed("generate", "pipe", "-o", "pipe.poly")
         mesh = ["mesh", "pipe.poly", "--triangles", "5e4", "--method", "pdr", "--json", "run.json", "-o", "pipe.vtu"]

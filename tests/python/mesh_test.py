@@ -62,6 +62,13 @@ class Options(unittest.TestCase):
         with self.assertWarns(driftmesh.InputWarning):
             self.assertAlmostEqual(areas(driftmesh.mesh(domain)).sum(), 9)
 
+    def test_simplified(self):
+        domain = driftmesh.generate("bay", resolution=400)
+        mesh = driftmesh.mesh(domain, simplify=1000)
+        self.assertLess(len(mesh.points), len(driftmesh.mesh(domain).points) / 2)
+        self.assertTrue(driftmesh.check(mesh, domain, simplify=1000))
+        self.assertFalse(driftmesh.check(mesh, domain))
+
     def test_every_option_of_the_table_is_taken(self):
         """With its own default, which changes nothing."""
         expected = driftmesh.mesh(PLATE).points

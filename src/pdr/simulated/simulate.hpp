@@ -22,8 +22,8 @@ struct SimulationObservers {
 /// Refines `mesh`, triangulated and with its corners prepared, on simulated ranks within this process. The meshes are
 /// really made; only time is simulated. A point costs costs.point on each rank that inserts it: at the start, which
 /// every rank makes for itself, in its own cells, and where it repeats what others did. Where triangles stand for many
-/// (cluster.scale), the start far from a rank's cells costs that much less: the same lattice would do for all of them. Throws Error as start and
-/// CellRefiner::refine do, and whatever the observers throw.
+/// (cluster.scale), the start far from a rank's cells costs that much less: the same lattice would do for all of them.
+/// Throws Error as start and CellRefiner::refine do, and whatever the observers throw.
 [[nodiscard]] ClusterRun simulate(Triangulation mesh, const QualityBounds& bounds, const ClusterSpec& cluster,
                                   const CostModel& costs = {}, const SimulationObservers& observers = {});
 
