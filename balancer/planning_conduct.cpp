@@ -34,6 +34,13 @@ bool remove(std::vector<ReportedLoad>& own, SubdomainId id) {
   return std::erase_if(own, [&](const auto& load) { return load.subdomain == id; }) > 0;
 }
 
+/// Once a rank has no work, whatever it is given saves time: doubts about the work of others must not keep it idle.
+void be_sure_of_idle_ranks(LoadSnapshot& snapshot) {
+  const auto idle = [](const RankLoad& rank) { return rank.remaining <= 0; };
+  if (std::ranges::none_of(snapshot.ranks, idle)) return;
+  for (RankLoad& rank : snapshot.ranks) rank.doubt = 0;
+}
+
 }  // namespace
 
 PlanningConduct::PlanningConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
@@ -77,6 +84,7 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
       const Verdict verdict = judge(move, situation, own);
       followed.moves.push_back({move.subdomain, self_, move.destination, verdict});
       if (verdict == Verdict::kDone && remove(own, move.subdomain)) decision.moves.push_back(move);
+      if (verdict == Verdict::kGone) mentioned_.push_back({.subdomain = move.subdomain});
     }
     note(std::move(followed));
   }
@@ -95,7 +103,7 @@ Verdict PlanningConduct::judge(const Move& move, const Situation& situation, con
 void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& decision) {
   const double now = situation.now;
   knowledge_->hear(
-      self_, {++reports_, plan_seen_, situation.speed, with_arrived(own), situation.doubt, 0, situation.free_memory},
+      self_, {++reports_, plan_seen_, situation.speed, with_mentioned(own), situation.doubt, 0, situation.free_memory},
       now);
   const bool leads = policy_->placement() == Placement::kLeader;
   if (!news_ || !pace_.due(now)) return;
@@ -105,6 +113,7 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   pace_.looked(now);
   decision.planned = true;
   LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
+  if (leads) be_sure_of_idle_ranks(snapshot);
   if (leads && !may_gain(snapshot, options_.worth, pace_.cost_of_planning())) return;
   if (!leads) divide_memory(snapshot, self_);
   const double rest = options_.rest_after_move(finishing_time(snapshot));
@@ -180,7 +189,7 @@ void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& sn
 
 void PlanningConduct::report(const Situation& situation, const Loads& own, Decision& decision) {
   const auto is_new = [&](const auto& load) { return !std::binary_search(told_.begin(), told_.end(), load.subdomain); };
-  const bool changed = acted_ || !arrived_.empty() || std::any_of(own.begin(), own.end(), is_new);
+  const bool changed = acted_ || !mentioned_.empty() || std::any_of(own.begin(), own.end(), is_new);
   const double total = total_work(own);
   if (!rule_.due(situation.now, total, situation.speed, changed)) return;
   rule_.told(situation.now, total, situation.speed);
@@ -189,9 +198,9 @@ void PlanningConduct::report(const Situation& situation, const Loads& own, Decis
   for (const auto& load : own) told_.push_back(load.subdomain);
   std::sort(told_.begin(), told_.end());
   news_ = true;  // also to this rank, if it plans
-  const LoadReport list{++reports_,      plan_seen_, situation.speed,      with_arrived(own),
+  const LoadReport list{++reports_,      plan_seen_, situation.speed,      with_mentioned(own),
                         situation.doubt, 0,          situation.free_memory};
-  const LoadReport sum{list.round, list.plan, list.speed,      std::exchange(arrived_, {}),
+  const LoadReport sum{list.round, list.plan, list.speed,      std::exchange(mentioned_, {}),
                        list.doubt, total,     list.free_memory};
   const std::vector<Rank> listeners = audience(own);
   for (const Rank rank : listeners)
@@ -201,9 +210,10 @@ void PlanningConduct::report(const Situation& situation, const Loads& own, Decis
     if (!std::ranges::binary_search(listeners, rank)) decision.messages.push_back({rank, sum});
 }
 
-// The planner of a move must learn that it was made, even if the subdomain has been finished since.
-PlanningConduct::Loads PlanningConduct::with_arrived(Loads own) const {
-  for (const ReportedLoad& load : arrived_)
+// The planner of a move must learn that it was made, even if the subdomain has been finished since, and that it was not
+// made because the subdomain was finished before: otherwise it counts on that work for the destination.
+PlanningConduct::Loads PlanningConduct::with_mentioned(Loads own) const {
+  for (const ReportedLoad& load : mentioned_)
     if (std::none_of(own.begin(), own.end(), [&](const auto& l) { return l.subdomain == load.subdomain; }))
       own.push_back(load);
   return own;

@@ -22,7 +22,7 @@ class PlanningConduct {
                   const ControllerOptions& options, double now);
 
   void receive(Rank source, Message advice, double now);
-  void arrived(SubdomainId id, protocol::Epoch epoch) { arrived_.push_back({id, epoch, 0, 0}); }
+  void arrived(SubdomainId id, protocol::Epoch epoch) { mentioned_.push_back({id, epoch, 0, 0}); }
   [[nodiscard]] bool waiting() const { return !advised_.empty(); }
   [[nodiscard]] bool pressing() const { return waiting(); }
   [[nodiscard]] Decision think(const Situation& situation);
@@ -39,7 +39,7 @@ class PlanningConduct {
   [[nodiscard]] bool affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const;
   void advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own, Decision& decision);
   void report(const Situation& situation, const Loads& own, Decision& decision);
-  [[nodiscard]] Loads with_arrived(Loads own) const;
+  [[nodiscard]] Loads with_mentioned(Loads own) const;
   [[nodiscard]] std::vector<Rank> audience(const Loads& own);
 
   Rank self_;
@@ -50,8 +50,8 @@ class PlanningConduct {
   ReportRule rule_;
   std::uint32_t reports_ = 0;
   std::vector<SubdomainId> told_;  // ascending; of the last report, minus what was handed over since
-  Loads arrived_;                  // since the last report, as if finished
-  bool acted_ = false;             // on a plan, since the last report
+  Loads mentioned_;     // in the next report, as if finished: what arrived, and what was gone before it could move
+  bool acted_ = false;  // on a plan, since the last report
   std::uint32_t plan_seen_ = 0;
   std::vector<Plan> advised_;  // not yet handled
   std::vector<Rank> audience_;

@@ -352,7 +352,12 @@ Section parts_section() {
            "0: equal work. Above: deliberately uneven subdomains, for experiments; each cut gives one side up to "
            "1 + S times its fair share",
            in(0, kMaxSkew), option("split-skew", "S"), entry_points(kMeshers | kDecompose)),
-       key("seed", &R::seed, "Random seed for uneven subdomains; each repetition of an experiment adds one", from(0),
+       key("decomposition.forecast-error", &R::decomposition, &R::Decomposition::forecast_error,
+           "To study balancing: multiplies the forecast of each subdomain's work by a random factor between 1/F and F, "
+           "until work on the subdomain begins",
+           in(1, 1e6), places(kMany), entry_points(kExperiment)),
+       key("seed", &R::seed,
+           "Random seed for uneven subdomains and wrong forecasts; each repetition of an experiment adds one", from(0),
            option("seed", "N"), entry_points(kMeshers | kDecompose)),
        choice("mapping.method", &R::mapping, &R::Mapping::method, mappings,
               "Initial mapping of subdomains to ranks: graph (equal work, short interfaces), block or round-robin",

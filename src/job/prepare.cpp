@@ -1,10 +1,13 @@
 #include "job/prepare.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 
 #include "balancer/stealing/policy_stealing.hpp"
+#include "base/mix.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
 #include "decompose/presplit.hpp"
@@ -43,6 +46,15 @@ Decomposition decomposition_of(const Request& request, const Domain& domain, con
   if (!file.empty())
     return timed(watch, "load", [&] { return read_decomposition_of(file, domain.pslg, triangulated.mesh); });
   return timed(watch, "decompose", [&] { return cut(request, triangulated, ranks); });
+}
+
+/// Multiplies each forecast by a random factor between 1 / most and most, all magnitudes as likely.
+void disturb_forecasts(Decomposition& decomposition, double most, std::uint64_t seed) {
+  for (const SubdomainId s : ids_of(decomposition.subdomains)) {
+    const std::uint64_t bits = mix(mix(seed + kMixStep) + kMixStep * (to_index(s) + 1));
+    const double chance = static_cast<double>(bits >> 11) * 0x1p-53;
+    decomposition.subdomains[s].predicted *= std::pow(most, 2 * chance - 1);
+  }
 }
 
 void check_has_subdomains(const Request& request) {
@@ -135,6 +147,8 @@ Prepared prepare(const Request& request, const Domain& domain, const Triangulate
   check_forecast(limits, triangulated.forecast, false, [&] { return find_narrow_place(triangulated.mesh); });
   Decomposition decomposition =
       decomposition_of(request, domain, given, triangulated, ranks_to_suit(place, speeds.size()), watch);
+  if (request.decomposition.forecast_error > 1)
+    disturb_forecasts(decomposition, request.decomposition.forecast_error, static_cast<std::uint64_t>(request.seed));
   prepared.plan = timed(watch, "map", [&] {
     PlanOptions options = plan_options(request, place, speeds);
     if (!request.mapping.file.empty())

@@ -71,6 +71,7 @@ struct Request {
     std::string file;
     double separator_angle = DecomposeOptions{}.min_angle;
     double skew = 0;
+    double forecast_error = 1;  ///< factor by which forecasts are off, up or down
   } decomposition;
 
   struct Mapping {

@@ -110,7 +110,8 @@ void add(Pslg& to, const Pslg& other, Point by, std::int32_t marker) {
 TEST_CASE("random domains keep their shape within the tolerance, and what lies where") {
   std::mt19937_64 random = seeded_generator("simplify");
   std::int64_t removed = 0, rings = 0, refused = 0, probes = 0;
-  for (std::int64_t i = case_count(150); i > 0; --i) {
+  std::int64_t tried = 0;
+  for (; more_cases(tried, 150, rings > 0); ++tried) {
     const std::uint64_t seed = random();
     CAPTURE(seed);
     random.seed(seed);
@@ -170,9 +171,9 @@ TEST_CASE("random domains keep their shape within the tolerance, and what lies w
     if (report.points == 0 && report.rings == 0) CHECK(again.segments == before.segments);
   }
   MESSAGE(removed << " points, " << rings << " rings, " << probes << " probes, " << refused << " refused");
-  CHECK(removed > 1000);
+  CHECK(removed > 10 * tried);
   CHECK(rings > 0);
-  CHECK(probes > 1000);
+  CHECK(probes > 10 * tried);
 }
 
 TEST_CASE("a smooth line keeps about as many points as it needs") {

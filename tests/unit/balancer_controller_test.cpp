@@ -150,7 +150,43 @@ TEST_CASE("the leader plans when all have reported, and a rank follows") {
   const auto answer = sent<LoadReport>(followed);
   REQUIRE(answer.size() == 1);  // the leader learns the outcome
   CHECK(answer[0].second.plan == plans[0].second.round);
-  CHECK(answer[0].second.loads.size() == 3);
+  REQUIRE(answer[0].second.loads.size() == 4);
+  CHECK(answer[0].second.loads.back() == ReportedLoad{11_sub, 0, 0, 0});  // gone
+}
+
+TEST_CASE("work that was finished before it could move is not expected at its destination") {
+  const Layout layout = grid_layout(12, 1, 2);
+  Knowledge knowledge(std::make_shared<Layout>(layout), 10);
+  Controller giver = controller_of(1_rank, layout, "greedy");
+  const auto reported = sent<LoadReport>(giver.think(1, loads_of(6, 11, 1000), 300));
+  REQUIRE(reported.size() == 1);
+  knowledge.hear(0_rank, {1, 0, 0, {}}, 1);
+  knowledge.hear(1_rank, reported[0].second, 1);
+  const std::vector<Move> moves{{10_sub, 0_rank}, {11_sub, 0_rank}};
+  knowledge.expect(moves, knowledge.snapshot(1, true), 1, 1);
+  CHECK(knowledge.snapshot(1, true).ranks[0_rank].remaining == 2000);
+
+  giver.receive(0_rank, balancer::Plan{1, {{10_sub, 0_rank}, {11_sub, 0_rank}}}, 1.1);
+  const Decision followed = giver.think(1.2, loads_of(6, 10, 1000), 300);
+  CHECK(followed.moves == std::vector<Move>{{10_sub, 0_rank}});
+  const auto answer = sent<LoadReport>(followed);
+  REQUIRE(answer.size() == 1);
+  knowledge.hear(1_rank, answer[0].second, 1.2);
+  CHECK(knowledge.in_motion(10_sub));
+  CHECK(!knowledge.in_motion(11_sub));
+  CHECK(knowledge.snapshot(1.2, true).ranks[0_rank].remaining == 1000);
+}
+
+TEST_CASE("doubts about the work of others do not keep a rank idle") {
+  // Rank 1 has all the work, but doubts by half when it will finish.
+  const Layout layout = grid_layout(12, 1, 3);
+  for (const bool idle : {true, false}) {
+    Controller leader = controller_of(0_rank, layout, "greedy");
+    leader.receive(1_rank, LoadReport{1, 0, 100, loads_of(4, 7, 1000), 2}, 1);
+    leader.receive(2_rank, LoadReport{1, 0, 100, idle ? Loads{} : loads_of(8, 8, 100), 2}, 1);
+    const Decision decision = leader.think(1.1, loads_of(0, 1, 1000), 100, 2);
+    CHECK(sent<balancer::Plan>(decision).size() == (idle ? 1 : 0));
+  }
 }
 
 namespace {
