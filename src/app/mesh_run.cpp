@@ -362,7 +362,9 @@ std::pair<Pslg, QualityBounds> share_domain(const Told& told, job::Team& team, R
 void mesh_by_lattice(const Told& told, job::Team& team) {
   const Request& request = told.request;
   RunNotes notes(request, "mpirun -n " + std::to_string(team.ranks()) + " " + told.command, !team.leads());
-  const auto [pslg, bounds] = share_domain(told, team, notes);
+  const auto shared = share_domain(told, team, notes);
+  const Pslg& pslg = shared.first;
+  const QualityBounds& bounds = shared.second;
   Mesh mesh = mesh_on_lattice(team, pslg, bounds, notes);
   StagedFiles files;
   job::agree(team, [&] {

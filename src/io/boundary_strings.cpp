@@ -98,7 +98,7 @@ BoundaryString whole(const Mesh& mesh, const Ring& ring) {
 void append_strings(const Mesh& mesh, Ring ring, std::vector<BoundaryString>& strings) {
   const auto change = std::ranges::adjacent_find(ring, std::not_equal_to(), &BorderEdge::open);
   if (change == ring.end()) return strings.push_back(whole(mesh, ring));
-  std::ranges::rotate(ring, change + 1);  // so that a string begins with it
+  std::rotate(ring.begin(), change + 1, ring.end());  // so that a string begins with it
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (i == 0 || ring[i].open != ring[i - 1].open)
       strings.push_back({ring[i].open ? BoundaryString::Kind::kOpen : BoundaryString::Kind::kLand, {ring[i].from}});

@@ -83,15 +83,16 @@ void write_land(FileSink& sink, const Strings& land) {
 void write_fort14(const Mesh& mesh, const std::string& path, std::span<const std::int32_t> open) {
   Strings strings =
       boundary_strings(mesh, [&](std::int32_t marker) { return std::ranges::find(open, marker) != open.end(); });
-  const auto land = std::ranges::stable_partition(
-      strings, [](const BoundaryString& string) { return string.kind == BoundaryString::Kind::kOpen; });
+  const auto land = std::stable_partition(strings.begin(), strings.end(), [](const BoundaryString& string) {
+    return string.kind == BoundaryString::Kind::kOpen;
+  });
   FileSink sink(path);
   sink.text("driftmesh\n");
   write_line(sink, {mesh.triangles.size(), mesh.points.size()}, "number of elements and nodes");
   write_nodes(sink, mesh);
   write_triangles(sink, mesh);
-  write_open(sink, {strings.begin(), land.begin()});
-  write_land(sink, {land.begin(), land.end()});
+  write_open(sink, {strings.begin(), land});
+  write_land(sink, {land, strings.end()});
   sink.commit();
 }
 

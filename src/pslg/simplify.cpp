@@ -82,7 +82,7 @@ PolygonRing ring_of(const Polyline& line, const Pslg& pslg) {
 class SmallRings {
  public:
   SmallRings(const Pslg& pslg, const std::vector<Polyline>& lines, double side, Obstacles& obstacles)
-      : pslg_(pslg), lines_(lines), obstacles_(obstacles), dropped_(lines.size(), false), small_(pslg.points.size()) {
+      : pslg_(pslg), obstacles_(obstacles), dropped_(lines.size(), false), small_(pslg.points.size()) {
     std::vector<std::size_t> small;
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (const Box box = box_of(lines[i]);
@@ -131,7 +131,6 @@ class SmallRings {
   }
 
   const Pslg& pslg_;
-  const std::vector<Polyline>& lines_;
   Obstacles& obstacles_;
   std::vector<bool> dropped_;
   std::vector<bool> small_;  // points of small rings
