@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "balancer/stealing/policy_stealing.hpp"
-#include "base/mix.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
 #include "decompose/presplit.hpp"
@@ -16,6 +15,7 @@
 #include "driftmesh/policy_parameters.hpp"
 #include "job/key.hpp"
 #include "mapping/mapping_file.hpp"
+#include "pslg/seeded_random.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh::job {
@@ -50,11 +50,8 @@ Decomposition decomposition_of(const Request& request, const Domain& domain, con
 
 /// Multiplies each forecast by a random factor between 1 / most and most, all magnitudes as likely.
 void disturb_forecasts(Decomposition& decomposition, double most, std::uint64_t seed) {
-  for (const SubdomainId s : ids_of(decomposition.subdomains)) {
-    const std::uint64_t bits = mix(mix(seed + kMixStep) + kMixStep * (to_index(s) + 1));
-    const double chance = static_cast<double>(bits >> 11) * 0x1p-53;
-    decomposition.subdomains[s].predicted *= std::pow(most, 2 * chance - 1);
-  }
+  SeededRandom random(seed);
+  for (auto& subdomain : decomposition.subdomains) subdomain.predicted *= std::pow(most, random.uniform(-1, 1));
 }
 
 void check_has_subdomains(const Request& request) {

@@ -830,7 +830,7 @@ class Experiments(Cli):
         "published-chesapeake": ["bounds.triangles-per-rank=300", "decomposition.subdomains=300"],
         "modern-1024": ["bounds.triangles-per-rank=30", "decomposition.subdomains-per-rank=2",
                         "balance.policy=[none, greedy]"],
-        "wrong-forecasts": ["bounds.triangles=1e5", "decomposition.forecast-error=[1, 16]", "balance.policy=[none, zoltan]"],
+        "wrong-forecasts": ["repetitions=1", "bounds.triangles=1e5", "decomposition.forecast-error=[1, 16]", "balance.policy=[none, zoltan]"],
         "grand-4096": ["bounds.triangles-per-rank=30", "decomposition.subdomains-per-rank=2",
                        "balance.policy=[none, stealing]"],
         "two-ranks": ["bounds.triangles=2e4"],
