@@ -66,9 +66,7 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
   Pslg domain;
   if (input != nullptr) {
     domain = *input;
-    static_cast<void>(repair(domain));
-    static_cast<void>(job::simplify_domain(request.input, job::input_name(request), domain));
-    job::add_nested_holes(request.input.holes, domain);
+    static_cast<void>(job::clean_input(request.input, job::input_name(request), domain));
   }
   const FunctionField size(options.size);
   VerifyOptions asked{.min_angle = request.bounds.angle,

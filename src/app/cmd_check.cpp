@@ -49,10 +49,8 @@ struct CheckOptions {
 std::optional<Pslg> read_and_repair(const CheckOptions& options, const job::Request::Input& asked) {
   if (options.input.empty()) return std::nullopt;
   Pslg input = read_input(options.input).pslg;
-  const RepairReport repairs = repair(input, options.input);
+  const RepairReport repairs = job::clean_input(asked, options.input, input);
   if (!options.quiet) print(repairs.summary());
-  static_cast<void>(job::simplify_domain(asked, options.input, input));
-  job::add_nested_holes(asked.holes, input);
   return input;
 }
 

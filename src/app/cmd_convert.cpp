@@ -1,7 +1,5 @@
-#include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "app/commands.hpp"
 #include "app/run_files.hpp"
@@ -17,17 +15,6 @@ struct ConvertOptions {
   ReadOptions reading;
   WriteOptions writing;
 };
-
-/// Numbers separated by commas, all of them whole.
-cli::Take into_markers(std::vector<std::int32_t>& markers) {
-  return [&markers](const std::string& text) {
-    markers.clear();
-    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-      end = text.find(',', begin);
-      cli::into(markers.emplace_back())(text.substr(begin, end - begin));
-    }
-  };
-}
 
 void run_convert(const ConvertOptions& options) {
   FileRegistry files;
@@ -63,7 +50,7 @@ cli::Command convert_command() {
                       {.name = "open-boundary",
                        .value = "MARKERS",
                        .help = "Markers of the segments that are open sea, in .14, .grd and .gr3; others are land",
-                       .take = into_markers(options->writing.open_boundary)},
+                       .take = cli::into(options->writing.open_boundary)},
                       allow_outside_option(options->reading)},
           .examples = {"driftmesh convert bay.vtu bay.msh"},
           .exit_codes = "0 done, 1 error, 2 wrong usage",

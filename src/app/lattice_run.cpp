@@ -8,6 +8,8 @@
 #include "distributed/observed_exchange.hpp"
 #include "driftmesh/error.hpp"
 #include "job/check.hpp"
+#include "job/domain.hpp"
+#include "job/failure.hpp"
 #include "job/memory.hpp"
 #include "job/rank_report.hpp"
 #include "job/simulated/run_simulated.hpp"
@@ -18,6 +20,7 @@
 #include "pdr/part.hpp"
 #include "pdr/simulated/simulate.hpp"
 #include "pdr/start.hpp"
+#include "runtime/plan_bytes.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -47,18 +50,41 @@ RankOutcome outcome_of(const pdr::Part& part, double computing, double seconds) 
   return outcome;
 }
 
-void gather_reports(job::Team& team, const job::RankReport& own, job::RunRecord& run) {
-  ByteWriter writer;
-  own.write(writer);
-  for (const Bytes& bytes : team.gather(writer.take())) {
-    ByteReader reader(bytes);
-    job::add_report(run, job::RankReport::read(reader));
-  }
+void require_area_bound(const QualityBounds& bounds) {
+  if (!(bounds.max_area > 0))
+    throw job::KeyError("run.method", "is pdr, but nothing bounds the size of triangles",
+                        "give bounds.area or bounds.triangles, or use the coupled method");
 }
 
 }  // namespace
 
-Mesh mesh_on_lattice(job::Team& team, const Pslg& pslg, const QualityBounds& bounds, RunNotes& notes) {
+BoundedDomain share_domain(const job::Request& request, const job::Use& use, job::Team& team, RunNotes& notes) {
+  Pslg pslg;
+  ByteWriter area;
+  job::agree(team, [&] {
+    if (!team.leads()) return;
+    job::Domain domain = job::read_domain(request, {}, notes);
+    job::record_domain(notes.run, request, domain);
+    const job::Triangulated found = job::triangulate_domain(request, domain, team.ranks(), job::Cut::kNever, notes);
+    require_area_bound(found.bounds);
+    job::check_forecast(job::find_limits(request.limits, domain.pslg, use, job::processes_of(team)), found.forecast,
+                        false, [&] { return find_narrow_place(found.mesh); });
+    notes.run.forecast = found.forecast;
+    area.number(found.bounds.max_area);
+    pslg = std::move(domain.pslg);
+  });
+  pslg = pslg_from_bytes(team.broadcast(team.leads() ? pslg_to_bytes(pslg) : Bytes()));
+  const Bytes bytes = team.broadcast(area.take());
+  notes.run.max_area = ByteReader(bytes).number<double>();
+  QualityBounds bounds = bounds_of(
+      pslg,
+      {.min_angle = request.bounds.angle, .max_area = notes.run.max_area, .region_areas = request.bounds.region_areas});
+  return {std::move(pslg), std::move(bounds)};
+}
+
+Mesh mesh_on_lattice(job::Team& team, const BoundedDomain& domain, RunNotes& notes) {
+  const Pslg& pslg = domain.pslg;
+  const QualityBounds& bounds = domain.bounds;
   const std::unique_ptr<job::Channel> channel = team.open();
   Mesh whole;
   job::by_itself(team, [&] {
@@ -89,18 +115,12 @@ Mesh mesh_on_lattice(job::Team& team, const Pslg& pslg, const QualityBounds& bou
     pdr::keep_own_triangles(part->mesh, part->refinement.cells(), part->lattice, team.rank());
     job::RankReport report = report_of(*part, bounds, outcome);
     report.rank.peak = job::peak_memory();
-    gather_reports(team, report, notes.run);
+    job::gather_reports(team, report, notes.run);
   });
   channel->close();
   notes.run.vertices = static_cast<std::int64_t>(whole.points.size());
   notes.run.subsegments = static_cast<std::int64_t>(whole.edges.size());
   return whole;
-}
-
-void require_area_bound(const QualityBounds& bounds) {
-  if (!(bounds.max_area > 0))
-    throw job::KeyError("run.method", "is pdr, but nothing bounds the size of triangles",
-                        "give bounds.area or bounds.triangles, or use the coupled method");
 }
 
 ClusterRun simulate_on_lattice(const job::Request& request, job::Triangulated&& triangulated, const job::Limits& limits,

@@ -16,7 +16,6 @@
 #include "app/run_files.hpp"
 #include "app/run_notes.hpp"
 #include "balancer/policies/policy_factory.hpp"
-#include "base/bytes.hpp"
 #include "base/keep_memory.hpp"
 #include "base/staged_files.hpp"
 #include "distributed/exchange.hpp"
@@ -40,7 +39,6 @@
 #include "mesh/interpolate_attributes.hpp"
 #include "mesh/to_piece.hpp"
 #include "picture/plot.hpp"
-#include "runtime/plan_bytes.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -298,12 +296,9 @@ job::Order prepare_order(const Told& told, const job::Team& team, RunNotes& note
 }
 
 void report(job::Team& team, job::RankRun& run, RunNotes& notes) {
-  ByteWriter writer;
-  timed(notes, "inspect", [&] { job::by_itself(team, [&] { run.report().write(writer); }); });
-  for (const Bytes& bytes : team.gather(writer.take())) {
-    ByteReader reader(bytes);
-    job::add_report(notes.run, job::RankReport::read(reader));
-  }
+  job::RankReport own;
+  timed(notes, "inspect", [&] { job::by_itself(team, [&] { own = run.report(); }); });
+  job::gather_reports(team, own, notes.run);
   job::add_plan(notes.run, run.plan());
 }
 
@@ -330,53 +325,34 @@ void assemble_and_write(const Request& request, job::Team& team, std::optional<j
   channel->close();
 }
 
-/// The domain and its bounds on all ranks, as rank 0 finds them.
-std::pair<Pslg, QualityBounds> share_domain(const Told& told, job::Team& team, RunNotes& notes) {
-  const Request& request = told.request;
-  Pslg pslg;
-  ByteWriter area;
-  job::agree(team, [&] {
-    if (!team.leads()) return;
-    job::check_ranks(request, job::kRanks, team.ranks());
-    register_files(told, team.ranks());
-    job::Domain domain = job::read_domain(request, {}, notes);
-    job::record_domain(notes.run, request, domain);
-    const job::Triangulated found = job::triangulate_domain(request, domain, team.ranks(), job::Cut::kNever, notes);
-    require_area_bound(found.bounds);
-    const job::Use use{.writes = writes(request.output), .gathers = true};
-    job::check_forecast(job::find_limits(request.limits, domain.pslg, use, job::processes_of(team)), found.forecast,
-                        false, [&] { return find_narrow_place(found.mesh); });
-    notes.run.forecast = found.forecast;
-    area.number(found.bounds.max_area);
-    pslg = std::move(domain.pslg);
-  });
-  pslg = pslg_from_bytes(team.broadcast(team.leads() ? pslg_to_bytes(pslg) : Bytes()));
-  const Bytes bytes = team.broadcast(area.take());
-  const double bound = ByteReader(bytes).number<double>();
-  const QualityBounds bounds = bounds_of(
-      pslg, {.min_angle = request.bounds.angle, .max_area = bound, .region_areas = request.bounds.region_areas});
-  notes.run.max_area = bound;
-  return {std::move(pslg), bounds};
-}
-
-void mesh_by_lattice(const Told& told, job::Team& team) {
-  const Request& request = told.request;
-  RunNotes notes(request, "mpirun -n " + std::to_string(team.ranks()) + " " + told.command, !team.leads());
-  const auto shared = share_domain(told, team, notes);
-  const Pslg& pslg = shared.first;
-  const QualityBounds& bounds = shared.second;
-  Mesh mesh = mesh_on_lattice(team, pslg, bounds, notes);
-  StagedFiles files;
-  job::agree(team, [&] {
-    if (team.leads() && writes(request.output)) write_whole(request, mesh, pslg.holes, notes);
-  });
-  const auto listed = job::staged_by_all(team, files);
-  if (writes(request.output)) notes.note_files(files_written(request, 1), listed);
+/// The files appear, and the summary is shown, once all ranks are done.
+void finish(job::Team& team, StagedFiles& files, RunNotes& notes) {
   job::agree(team, [&] {
     if (team.leads()) notes.finish();
   });
   job::commit(team, files);
   if (team.leads()) notes.show();
+}
+
+void mesh_by_lattice(const Told& told, job::Team& team) {
+  const Request& request = told.request;
+  RunNotes notes(request, "mpirun -n " + std::to_string(team.ranks()) + " " + told.command, !team.leads());
+  job::agree(team, [&] {
+    if (!team.leads()) return;
+    job::check_ranks(request, job::kRanks, team.ranks());
+    register_files(told, team.ranks());
+  });
+  job::cap_memory(request.limits);
+  const job::Use use{.writes = writes(request.output), .gathers = true};
+  const BoundedDomain domain = share_domain(request, use, team, notes);
+  Mesh mesh = mesh_on_lattice(team, domain, notes);
+  StagedFiles files;
+  job::agree(team, [&] {
+    if (team.leads() && writes(request.output)) write_whole(request, mesh, domain.pslg.holes, notes);
+  });
+  const auto listed = job::staged_by_all(team, files);
+  if (writes(request.output)) notes.note_files(files_written(request, 1), listed);
+  finish(team, files, notes);
 }
 
 void mesh_on_team(const Told& told, job::Team& team) {
@@ -396,11 +372,7 @@ void mesh_on_team(const Told& told, job::Team& team) {
     assemble_and_write(request, team, run, notes);
     notes.note_files(files_written(request, team.ranks()), job::staged_by_all(team, files));
   }
-  job::agree(team, [&] {
-    if (team.leads()) notes.finish();
-  });
-  job::commit(team, files);
-  if (team.leads()) notes.show();
+  finish(team, files, notes);
 }
 
 int mesh_on_ranks(const Told& told) {

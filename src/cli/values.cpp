@@ -51,12 +51,13 @@ Take into(std::string& to) {
   };
 }
 
-Take into(std::vector<double>& to, const Range& range) {
-  return [&to, range](const std::string& text) {
-    std::istringstream items(text);
-    to.clear();
-    for (std::string item; std::getline(items, item, ',');) to.push_back(read_number(item, range));
-  };
+std::vector<std::string> separated(const std::string& text) {
+  std::vector<std::string> items;
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+    end = text.find(',', begin);
+    items.push_back(text.substr(begin, end - begin));
+  }
+  return items;
 }
 
 }  // namespace driftmesh::cli

@@ -53,8 +53,17 @@ template <class Number>
 [[nodiscard]] inline Take into(std::optional<std::string>& to) {
   return [&to](const std::string& text) { to = text; };
 }
-/// Numbers separated by commas.
-[[nodiscard]] Take into(std::vector<double>& to, const Range& range = {});
+/// What lies between commas; "" is one item.
+[[nodiscard]] std::vector<std::string> separated(const std::string& text);
+/// Numbers separated by commas, in place of earlier ones.
+template <class Number>
+requires std::integral<Number> || std::floating_point<Number>
+[[nodiscard]] Take into(std::vector<Number>& to, const Range& range = {}) {
+  return [&to, range](const std::string& text) {
+    to.clear();
+    for (const std::string& item : separated(text)) into(to.emplace_back(), range)(item);
+  };
+}
 /// A flag.
 [[nodiscard]] inline Take into(bool& to) {
   return [&to](const std::string&) { to = true; };

@@ -8,6 +8,7 @@
 #include "base/bytes.hpp"
 #include "base/in_parts.hpp"
 #include "base/staged_files.hpp"
+#include "distributed/mesh_bytes.hpp"
 #include "distributed/rank_status.hpp"
 #include "distributed/write_together.hpp"
 #include "io/pvtu_format.hpp"
@@ -18,38 +19,6 @@ namespace driftmesh {
 namespace {
 
 constexpr Rank kWriter{0};  // of files of the whole mesh
-
-Bytes pack(const Mesh& mesh) {
-  ByteWriter writer;
-  writer.array(mesh.points);
-  writer.array(mesh.triangles);
-  writer.array(mesh.edges);
-  writer.array(mesh.point_markers);
-  writer.array(mesh.attributes);
-  writer.value(mesh.attributes_per_point);
-  writer.array(mesh.regions);
-  writer.array(mesh.numbers);
-  writer.array(mesh.subdomains);
-  writer.array(mesh.ranks);
-  return writer.take();
-}
-
-Mesh unpack(const Mail& mail) {
-  Mesh mesh;
-  read_mail(mail, [&](ByteReader& reader) {
-    reader.array(mesh.points);
-    reader.array(mesh.triangles);
-    reader.array(mesh.edges);
-    reader.array(mesh.point_markers);
-    reader.array(mesh.attributes);
-    reader.value(mesh.attributes_per_point);
-    reader.array(mesh.regions);
-    reader.array(mesh.numbers);
-    reader.array(mesh.subdomains);
-    reader.array(mesh.ranks);
-  });
-  return mesh;
-}
 
 VtuArrays arrays_of_series(const DistributedPiece& piece) {
   VtuArrays arrays = arrays_of_pieces(piece);
@@ -69,7 +38,7 @@ std::unique_ptr<FileSink> prepare_piece(const DistributedPiece& piece, const std
 
 std::vector<Mail> GatherPieces::send(int round) {
   std::vector<Mail> mail;
-  if (round == 0 && piece_.rank != kWriter) mail.push_back({kWriter, pack(piece_.mesh)});
+  if (round == 0 && piece_.rank != kWriter) mail.push_back({kWriter, mesh_to_bytes(piece_.mesh)});
   if (round == 1 && piece_.rank == kWriter) mail = status_to_all(piece_.ranks, [&] { merge(); });
   return mail;
 }
@@ -92,7 +61,7 @@ void GatherPieces::receive(int round, std::vector<Mail> mail) {
 void GatherPieces::merge() {
   std::vector<Mesh> others;
   for (Mail& mail : pieces_) {
-    others.push_back(unpack(mail));
+    others.push_back(mesh_of(mail));
     mail.bytes = {};
   }
   std::vector<const Mesh*> pieces{&piece_.mesh};

@@ -13,7 +13,7 @@ namespace driftmesh {
   return std::clamp(t, 0.0, 1.0);
 }
 
-/// Rounded; if an end is nearest, that to the end, whatever the segment.
+/// Rounded; if an end is nearest, or the ends are one point, that to the end, whatever the segment.
 [[nodiscard]] inline double squared_distance_to_segment(const Point& p, const Point& a, const Point& b) {
   const double t = nearest_on_segment(p, a, b);
   const Point nearest = t < 1 ? Point{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)} : b;

@@ -126,10 +126,7 @@ void check_pdr(const Request& request, Place place) {
           "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
   require(request.bounds.angle > 0, "run.method", "is pdr, which needs a bound on angles", "give bounds.angle");
   const Request standard;
-  const bool parts = request.decomposition.subdomains != 0 || request.decomposition.subdomains_per_rank != 0 ||
-                     !request.decomposition.file.empty() || !request.mapping.file.empty() ||
-                     request.mapping.method != standard.mapping.method || request.mapping.by_area ||
-                     request.mapping.by_speed || !request.mapping.speeds.empty();
+  const bool parts = request.decomposition != standard.decomposition || request.mapping != standard.mapping;
   require(!parts, "run.method", "is pdr, which has no subdomains to cut or map", "remove what sets them");
   require(request.run.presplit == standard.run.presplit, "run.presplit",
           "has no meaning with pdr: it has no interfaces", "remove it");

@@ -27,6 +27,13 @@ void keep_original_points(RepairReport& repairs, const std::vector<std::int32_t>
   repairs.original_point = std::move(original);
 }
 
+/// Adds hole points to a repaired input where the rule makes holes of its rings.
+void add_nested_holes(HoleRule rule, Pslg& pslg) {
+  if (rule != HoleRule::kNested) return;
+  const std::vector<Point> holes = find_nested_rings(triangulate(pslg)).alternating_holes;
+  pslg.holes.insert(pslg.holes.end(), holes.begin(), holes.end());
+}
+
 }  // namespace
 
 Domain read_domain(const Request& request, const Given& given, Watch& watch) {
@@ -40,7 +47,7 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   warn(request, warnings, watch);
   if (request.input.simplify > 0) {
     domain.simplified =
-        timed(watch, "simplify", [&] { return simplify_domain(request.input, input_name(request), domain.pslg); });
+        timed(watch, "simplify", [&] { return simplify(domain.pslg, request.input.simplify, input_name(request)); });
     keep_original_points(domain.repairs, std::exchange(domain.simplified.original_point, {}));
   }
   add_nested_holes(request.input.holes, domain.pslg);
@@ -50,14 +57,11 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   return domain;
 }
 
-SimplifyReport simplify_domain(const Request::Input& asked, const std::string& name, Pslg& pslg) {
-  return asked.simplify > 0 ? simplify(pslg, asked.simplify, name) : SimplifyReport{};
-}
-
-void add_nested_holes(HoleRule rule, Pslg& pslg) {
-  if (rule != HoleRule::kNested) return;
-  const std::vector<Point> holes = find_nested_rings(triangulate(pslg)).alternating_holes;
-  pslg.holes.insert(pslg.holes.end(), holes.begin(), holes.end());
+RepairReport clean_input(const Request::Input& asked, const std::string& name, Pslg& pslg) {
+  RepairReport repairs = repair(pslg, name);
+  if (asked.simplify > 0) simplify(pslg, asked.simplify, name);
+  add_nested_holes(asked.holes, pslg);
+  return repairs;
 }
 
 void warn(const Request& request, std::span<const std::string> warnings, Watch& watch) {

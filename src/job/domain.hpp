@@ -37,11 +37,9 @@ struct Domain {
 /// Throws InputError, FileError.
 [[nodiscard]] Domain read_domain(const Request& request, const Given& given, Watch& watch);
 
-/// Simplifies a repaired input if the request asks for it. Throws InputError if nothing would be left.
-SimplifyReport simplify_domain(const Request::Input& asked, const std::string& name, Pslg& pslg);
-
-/// Adds hole points to a repaired input where the rule makes holes of its rings.
-void add_nested_holes(HoleRule rule, Pslg& pslg);
+/// Does to an input what read_domain does, without telling anybody: repairs and simplifies it, and applies the rule for
+/// holes. `name` is for messages. Throws InputError.
+RepairReport clean_input(const Request::Input& asked, const std::string& name, Pslg& pslg);
 
 /// Passes on warnings about the input, only the first of them if there are very many. Throws InputError instead if the
 /// request is strict.

@@ -373,8 +373,7 @@ Section parts_section() {
            places(kMany)),
        key("mapping.file", &R::mapping, &R::Mapping::file,
            "Take the mapping from load balancing statistics of DARMA vt, as written by lb-statistics or by LBAF: the "
-           "file "
-           "of rank 0 (data.0.json)",
+           "file of rank 0 (data.0.json)",
            file(), option("mapping-file", "FILE"), places(kMany), entry_points(kMesh | kExperiment)),
        choice(
            "run.method", &R::run, &R::Run::method, methods,

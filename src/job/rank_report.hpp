@@ -4,6 +4,7 @@
 #include "job/facts_book.hpp"
 #include "job/prepare.hpp"
 #include "job/record.hpp"
+#include "job/team.hpp"
 #include "runtime/rank_loop.hpp"
 #include "runtime/run_plan.hpp"
 
@@ -23,6 +24,9 @@ struct RankReport {
 
 /// Adds the report of a rank to the record of its run.
 void add_report(RunRecord& run, const RankReport& report);
+
+/// Adds the reports of all ranks to the record of rank 0. Collective.
+void gather_reports(Team& team, const RankReport& own, RunRecord& run);
 
 /// Adds the facts that all ranks share and none reports.
 void add_plan(RunRecord& run, const RunPlan& plan);

@@ -72,6 +72,7 @@ struct Request {
     double separator_angle = DecomposeOptions{}.min_angle;
     double skew = 0;
     double forecast_error = 1;  ///< factor by which forecasts are off, up or down
+    friend bool operator==(const Decomposition&, const Decomposition&) = default;
   } decomposition;
 
   struct Mapping {
@@ -80,6 +81,7 @@ struct Request {
     bool by_area = false;
     std::vector<double> speeds;  ///< of each rank, relative; empty: all equal
     std::string file;            ///< instead of all these
+    friend bool operator==(const Mapping&, const Mapping&) = default;
   } mapping;
 
   struct Cluster {

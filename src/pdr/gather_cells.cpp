@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/narrow.hpp"
+#include "distributed/mesh_bytes.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/to_piece.hpp"
 #include "pdr/point_hash.hpp"
@@ -14,26 +15,6 @@ namespace driftmesh::pdr {
 namespace {
 
 using Ends = std::pair<std::int32_t, std::int32_t>;
-
-void write(ByteWriter& writer, const Mesh& mesh) {
-  writer.array(mesh.points);
-  writer.array(mesh.triangles);
-  writer.array(mesh.edges);
-  writer.array(mesh.point_markers);
-  writer.array(mesh.regions);
-}
-
-Mesh read_piece(const Mail& mail) {
-  Mesh mesh;
-  read_mail(mail, [&](ByteReader& reader) {
-    reader.array(mesh.points);
-    reader.array(mesh.triangles);
-    reader.array(mesh.edges);
-    reader.array(mesh.point_markers);
-    reader.array(mesh.regions);
-  });
-  return mesh;
-}
 
 /// Keeps the points that triangles use, and those of the input, in their order.
 void drop_unused_points(Mesh& mesh, std::size_t inputs) {
@@ -158,9 +139,7 @@ OwnCounts count_own(const Triangulation& mesh, const Lattice& lattice, Rank rank
 
 std::vector<Mail> GatherCells::send(int /*round*/) {
   if (rank_ == Rank{0}) return {};
-  ByteWriter writer;
-  write(writer, own_);
-  return {{Rank{0}, writer.take()}};
+  return {{Rank{0}, mesh_to_bytes(own_)}};
 }
 
 std::vector<Rank> GatherCells::senders(int /*round*/) const {
@@ -174,7 +153,7 @@ void GatherCells::receive(int /*round*/, std::vector<Mail> mail) {
   if (rank_ != Rank{0}) return;
   Joining joining(whole_);
   joining.add(own_);
-  for (const Mail& one : mail) joining.add(read_piece(one));
+  for (const Mail& one : mail) joining.add(mesh_of(one));
   joining.finish();
   if (!fits_together(whole_)) throw Error("the cells of the ranks do not fit together");
   whole_.attributes_per_point = own_.attributes_per_point;

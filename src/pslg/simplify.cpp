@@ -31,7 +31,8 @@ double cosine(const Point& a, const Point& v, const Point& b) {
 /// The points of the lines, of the rest, and the seeds, to be found by their places.
 class Obstacles {
  public:
-  explicit Obstacles(const Pslg& pslg) : places_(pslg.points), input_points_(pslg.points.size()) {
+  explicit Obstacles(const Pslg& pslg)
+      : places_(pslg.points), seeds_begin_(static_cast<std::int32_t>(pslg.points.size())) {
     places_.insert(places_.end(), pslg.holes.begin(), pslg.holes.end());
     for (const Pslg::Region& region : pslg.regions) places_.push_back(region.at);
     std::vector<Box> boxes;
@@ -42,8 +43,8 @@ class Obstacles {
 
   [[nodiscard]] const Point& place(std::int32_t i) const { return places_[i]; }
   [[nodiscard]] bool there(std::int32_t i) const { return there_[i]; }
-  [[nodiscard]] bool is_seed(std::int32_t i) const { return static_cast<std::size_t>(i) >= input_points_; }
-  [[nodiscard]] std::int32_t seeds_begin() const { return static_cast<std::int32_t>(input_points_); }
+  [[nodiscard]] bool is_seed(std::int32_t i) const { return i >= seeds_begin_; }
+  [[nodiscard]] std::int32_t seeds_begin() const { return seeds_begin_; }
   void remove(std::int32_t i) { there_[i] = false; }
 
   /// Calls visit(i) for everything that is there in the box.
@@ -65,7 +66,7 @@ class Obstacles {
 
  private:
   std::vector<Point> places_;
-  std::size_t input_points_;
+  std::int32_t seeds_begin_;
   BoxTree tree_;
   std::vector<bool> there_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "driftmesh/error.hpp"
+#include "geometry/segment_geometry.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {
@@ -24,12 +25,8 @@ SegmentDistance::SegmentDistance(const Pslg& pslg, std::span<const std::int32_t>
 
 /// Not less than that of the segment's box, so that no rounding error makes the answer depend on the order of a search.
 double SegmentDistance::squared_distance(const Point& p, const Ends& segment) {
-  const auto& [a, b] = segment;
-  const double abx = b.x - a.x, aby = b.y - a.y, apx = p.x - a.x, apy = p.y - a.y;
-  const double length2 = abx * abx + aby * aby;
-  const double t = length2 > 0 ? std::clamp((apx * abx + apy * aby) / length2, 0.0, 1.0) : 0;
-  const double dx = apx - t * abx, dy = apy - t * aby;
-  return std::max(dx * dx + dy * dy, Box::around(a, b).squared_distance(p));
+  return std::max(squared_distance_to_segment(p, segment.a, segment.b),
+                  Box::around(segment.a, segment.b).squared_distance(p));
 }
 
 double SegmentDistance::at(const Point& p) const {

@@ -10,6 +10,7 @@
 #include "property/cases.hpp"
 #include "protocol/adversarial_network.hpp"
 #include "support/distributed_case.hpp"
+#include "support/exchange_over.hpp"
 #include "support/mesh_equality.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
@@ -162,11 +163,9 @@ TEST_CASE("messages may come in any order") {
     const auto all = c.assemblies(ranks, owners);
     protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
     const std::size_t part = seed % 2 == 0 ? ExchangeRunner::kPart : 20 + seed;  // whole, or in many parts
-    IdVector<Rank, ExchangeRunner> runners;
-    for (const Rank r : first_ids<Rank>(ranks)) runners.emplace_back(network.transport(r), part);
-    IdVector<Rank, protocol::RankStep> steps;
-    for (const Rank r : ids_of(all)) steps.push_back([&, r] { return runners[r].step(*all[r]); });
-    REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);
+    IdVector<Rank, Exchange*> exchanges;
+    for (const auto& one : all) exchanges.push_back(one.get());
+    exchange_over(network, exchanges, part);
     const auto expected = c.pieces(ranks, owners);
     for (const Rank r : ids_of(all)) test::check_same_mesh(all[r]->piece(c.input).mesh, expected[r].mesh);
     reordered += network.counters().reordered;

@@ -17,6 +17,7 @@
 #include "pdr/start.hpp"
 #include "property/cases.hpp"
 #include "protocol/adversarial_network.hpp"
+#include "support/exchange_over.hpp"
 #include "support/id_literals.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
@@ -74,10 +75,14 @@ struct Ranks {
   }
 };
 
-void refine_directly(const Ranks& ranks) {
+IdVector<Rank, Exchange*> refinements_of(const Ranks& ranks) {
   IdVector<Rank, Exchange*> exchanges;
   for (const auto& one : ranks.all) exchanges.push_back(&one->refinement);
-  exchange_directly(exchanges);
+  return exchanges;
+}
+
+void refine_directly(const Ranks& ranks) {
+  exchange_directly(refinements_of(ranks));
 }
 
 void check_mesh(const Case& c, const Mesh& mesh) {
@@ -151,11 +156,7 @@ TEST_CASE("an adversarial network does not change the mesh") {
     const auto count = static_cast<std::int32_t>(2 + seed % 3);
     const Ranks all(c, count), undisturbed(c, count);
     protocol::AdversarialNetwork network(count, protocol::Adversary::from_seed(seed));
-    IdVector<Rank, ExchangeRunner> runners;
-    for (const Rank r : first_ids<Rank>(count)) runners.emplace_back(network.transport(r));
-    IdVector<Rank, protocol::RankStep> steps;
-    for (const Rank r : ids_of(all.all)) steps.push_back([&, r] { return runners[r].step(all.all[r]->refinement); });
-    REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);
+    exchange_over(network, refinements_of(all));
     refine_directly(undisturbed);
     const Mesh mesh = all.whole(c);
     check_mesh(c, mesh);
