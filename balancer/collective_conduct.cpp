@@ -68,9 +68,8 @@ Decision CollectiveConduct::think(const Situation& situation) {
     decide(situation, decision);
     return decision;
   }
-  if (stage_ == Stage::kReady) council_.announce(round_, contribution(situation));
   if (leads() && stage_ == Stage::kApart) call(situation, decision);
-  if (stage_ == Stage::kCalled) answer(situation, decision);
+  if (stage_ == Stage::kCalled) answer(decision);
   if (leads() && stage_ == Stage::kReady && ready_ == layout_->ranks) start(decision);
   report(situation, decision);
   return decision;
@@ -97,8 +96,7 @@ void CollectiveConduct::call(const Situation& situation, Decision& decision) {
   say_to_all(Step::kCall, decision);
 }
 
-void CollectiveConduct::answer(const Situation& situation, Decision& decision) {
-  council_.announce(round_, contribution(situation));
+void CollectiveConduct::answer(Decision& decision) {
   stage_ = Stage::kReady;
   if (leads())
     ++ready_;
@@ -114,7 +112,10 @@ void CollectiveConduct::start(Decision& decision) {
 
 void CollectiveConduct::decide(const Situation& situation, Decision& decision) {
   const Contribution own = contribution(situation);
-  const Council::Decision decided = council_.decide(round_, own);
+  const std::optional<Council::Decision> all = council_.decide(round_, own);
+  decision.assembles = !all;
+  if (!all) return;
+  const Council::Decision& decided = *all;
   stage_ = Stage::kApart;
   decision.planned = true;
   for (const Move& move : decided.moves)

@@ -46,7 +46,7 @@ class CollectiveConduct {
   void take_step(const JointRound& step);
   void say_to_all(Step step, Decision& decision) const;
   void call(const Situation& situation, Decision& decision);
-  void answer(const Situation& situation, Decision& decision);
+  void answer(Decision& decision);
   void start(Decision& decision);
   void decide(const Situation& situation, Decision& decision);
   void report(const Situation& situation, Decision& decision);

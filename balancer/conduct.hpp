@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "balancer/experience.hpp"
 #include "balancer/messages.hpp"
 #include "balancer/move_cost.hpp"
 #include "driftmesh/load_snapshot.hpp"
@@ -21,6 +22,7 @@ struct ControllerOptions {
   int refusals = 8;                ///< after this many in a row a rank stops asking for work until it is given some
   double overhead = 0.01;          ///< fraction of the time that planning may take
   double reference_speed = 7.9e6;  ///< triangles a second of a rank that plans as fast as Policy::planning_seconds says
+  double work_to_start = kWorkToStart;  ///< of a subdomain, in triangles
   MoveCost cost;
   Worth worth;
 
@@ -36,7 +38,8 @@ struct ControllerOptions {
 struct Decision {
   std::vector<Move> moves;  ///< hand these over, now
   std::vector<Outgoing> messages;
-  bool planned = false;  ///< planning was considered, which may have taken long: call took()
+  bool planned = false;    ///< planning was considered, which may have taken long: call took()
+  bool assembles = false;  ///< wait for all ranks, and think() again before anything else (see Council)
 };
 
 /// The state of a rank as told to the controller.

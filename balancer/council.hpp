@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "balancer/joint_plan.hpp"
@@ -23,11 +24,9 @@ class Council {
   Council(const Council&) = delete;
   Council& operator=(const Council&) = delete;
 
-  /// A rank is ready for a round, with its current load. A second call updates the load.
-  virtual void announce(std::uint32_t round, const Contribution& contribution) = 0;
-
-  /// Called by each rank once per round, after all have announced themselves. May wait for all of them.
-  [[nodiscard]] virtual Decision decide(std::uint32_t round, const Contribution& contribution) = 0;
+  /// Called by each rank in each round. Real ranks wait here for all others. A simulated one gets nothing at first: it
+  /// must wait until all have called (protocol::StepResult::kAssembling), and then call again.
+  [[nodiscard]] virtual std::optional<Decision> decide(std::uint32_t round, const Contribution& contribution) = 0;
 
  protected:
   Council() = default;

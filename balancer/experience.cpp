@@ -55,7 +55,7 @@ void Experience::worked(SubdomainId id, double seconds, bool started) {
 void Experience::finished(SubdomainId id, bool on_segments, double forecast, double made) {
   const auto node = seconds_.extract(id);
   if (node.empty() || forecast <= 0 || node.mapped() <= 0) return;
-  const double pace = node.mapped() / (kWorkToStart + forecast);
+  const double pace = node.mapped() / (work_to_start_ + forecast);
   (on_segments ? on_segments_ : inside_) += {1, forecast, made, pace, pace * pace};
 }
 
@@ -68,7 +68,7 @@ double Experience::ratio(bool on_segments) const {
 
 double Experience::rest(bool on_segments, double forecast, double made) const {
   const double expected = forecast * ratio(on_segments);
-  return (made > 0 ? 0 : kWorkToStart) + expected_rest(expected, variation() * expected, made);
+  return (made > 0 ? 0 : work_to_start_) + expected_rest(expected, variation() * expected, made);
 }
 
 double Experience::variation() const {

@@ -8,7 +8,7 @@
 namespace driftmesh::balancer {
 
 /// Triangles that could be made in the time that it takes to start a subdomain, besides its own (see CostModel): of
-/// small subdomains it is much of the work.
+/// small subdomains it is much of the work. Fewer where each triangle stands for many.
 inline constexpr double kWorkToStart = 250;
 
 /// The expected rest of a number with this expectation and standard deviation, normally distributed, that is known to
@@ -21,6 +21,9 @@ inline constexpr double kWorkToStart = 250;
 /// is that of a sum to which a few subdomains have been added that behave as expected.
 class Experience {
  public:
+  /// Starting a subdomain takes as long as that many triangles.
+  explicit Experience(double work_to_start = kWorkToStart) : work_to_start_(work_to_start) {}
+
   /// A subdomain was refined for that long; `started`: for the first time.
   void worked(SubdomainId id, double seconds, bool started);
   /// It met its bounds for the first time, and had been started with that forecast. Ignored if it was started
@@ -47,6 +50,7 @@ class Experience {
   };
   [[nodiscard]] Sums all() const;
 
+  double work_to_start_;
   std::map<SubdomainId, double> seconds_;  // spent on those started here and not finished
   Sums inside_, on_segments_;
 };

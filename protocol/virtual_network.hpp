@@ -66,12 +66,14 @@ class VirtualNetwork {
     double waited = 0;
     double line_free = 0;  // when the last message has left
     bool idle = false;
+    bool assembling = false;
     bool finished = false;
     std::vector<Parcel> inbox;  // a heap, the earliest arrival first
   };
   [[nodiscard]] double wake_time(Rank rank) const;
   void send(Rank source, Rank destination, Bytes bytes);
   std::optional<Received> poll(Rank rank);
+  void release();
 
   VirtualCluster cluster_;
   IdVector<Rank, RankState> ranks_;

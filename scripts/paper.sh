@@ -46,8 +46,6 @@ run_experiment() {
   if [[ $small == yes ]]; then
     settings=(--set pictures=false)
     for setting in "$@"; do settings+=(--set "$setting"); done
-  elif [[ $file == scaled-speedup ]]; then
-    settings=(--set 'cluster.ranks=[1, 2, 4, 8, 16, 32, 64, 144, 256, 512]') # with 1,024 it takes 6 GB
   fi
   rm -rf "${folder:?}/$name"
   "$program" run "$configs/$file.yaml" -o "$folder/$name" --quiet "${settings[@]}"

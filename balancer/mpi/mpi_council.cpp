@@ -25,7 +25,7 @@ std::vector<T> MpiCouncil::from_all(const std::vector<T>& own) {
   return all;
 }
 
-Council::Decision MpiCouncil::decide(std::uint32_t, const Contribution& contribution) {
+std::optional<Council::Decision> MpiCouncil::decide(std::uint32_t, const Contribution& contribution) {
   const IdVector<Rank, RankLoad> states(from_all<RankLoad>({contribution.state}));
   const LoadSnapshot own = own_snapshot(contribution, layout_, states);
   const Dealing dealing = policy_->dealing(own);

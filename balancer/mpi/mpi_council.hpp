@@ -17,9 +17,8 @@ class MpiCouncil final : public Council {
   MpiCouncil(protocol::MpiTransport& transport, std::shared_ptr<const Layout> layout,
              std::shared_ptr<const Policy> policy, const ControllerOptions& options);
 
-  void announce(std::uint32_t, const Contribution&) override {}
   /// Waits for all ranks of the communicator.
-  [[nodiscard]] Decision decide(std::uint32_t round, const Contribution& contribution) override;
+  [[nodiscard]] std::optional<Decision> decide(std::uint32_t round, const Contribution& contribution) override;
 
  private:
   template <class T>

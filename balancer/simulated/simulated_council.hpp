@@ -2,33 +2,32 @@
 
 #include <map>
 #include <memory>
-#include <unordered_set>
+#include <optional>
 
 #include "balancer/conduct.hpp"
 #include "balancer/council.hpp"
+#include "balancer/effort.hpp"
 #include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {
 
-/// The council shared by all ranks of one process. Nobody waits: decisions follow from the loads announced.
+/// The council shared by all ranks of one process. What Zoltan takes for parts is noted as effort of all ranks alike, a
+/// part of it for each, with the collective operations that it needs ("collective").
 class SimulatedCouncil final : public Council {
  public:
   SimulatedCouncil(std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
                    const ControllerOptions& options);
 
-  void announce(std::uint32_t round, const Contribution& contribution) override;
-  [[nodiscard]] Decision decide(std::uint32_t round, const Contribution& contribution) override;
+  [[nodiscard]] std::optional<Decision> decide(std::uint32_t round, const Contribution& contribution) override;
 
-  /// Whether rank 0, which calls the rounds, has not decided in a round that was started. Other ranks may have learned
-  /// of its start too late, after the end of all work or the call to the next round; real ranks would be waited for.
-  [[nodiscard]] bool in_session() const;
+  /// Whether a rank has not decided in a round that another one has come to.
+  [[nodiscard]] bool in_session() const { return !rounds_.empty(); }
 
  private:
   struct Round {
     std::map<Rank, Contribution> contributions;
-    std::unordered_set<SubdomainId> listed;
     std::map<Rank, Decision> decisions;  // not yet fetched
-    bool decided = false;
+    Efforts efforts;                     // of each rank
   };
   void conclude_round(Round& round) const;
   [[nodiscard]] std::vector<std::vector<Part>> parts_of(const std::vector<Contribution>& contributions,
@@ -37,8 +36,7 @@ class SimulatedCouncil final : public Council {
   std::shared_ptr<const Layout> layout_;
   std::shared_ptr<const Policy> policy_;
   ControllerOptions options_;
-  std::map<std::uint32_t, Round> rounds_;
-  std::uint32_t last_ = 0;
+  std::map<std::uint32_t, Round> rounds_;  // that are not over
 };
 
 /// The council of simulated ranks for plans of this policy; null if it does not plan collectively.

@@ -75,7 +75,9 @@ void read_options(const Record& record, RecordedRun& run) {
   run.latency = record.get<double>("/experiment/cluster.latency");
   run.bandwidth = record.get<double>("/experiment/cluster.bandwidth");
   run.message_overhead = record.get<double>("/experiment/cluster.message-overhead");
-  options.reference_speed /= record.get<double>("/experiment/cluster.scale");
+  const auto scale = record.get<double>("/experiment/cluster.scale");
+  options.reference_speed /= scale;
+  options.work_to_start /= scale;
   options.cost.latency = run.latency + 2 * run.message_overhead;
   options.cost.bandwidth = run.bandwidth;
   constexpr double kTrianglesPerPoint = 2;

@@ -8,12 +8,25 @@
 namespace driftmesh {
 
 double reference_speed(const CostModel& costs) {
-  return 1.8 / costs.point;
+  constexpr double kTriangles = 5000, kTrianglesPerPoint = 1.886;
+  return kTriangles / (costs.start + kTriangles / kTrianglesPerPoint * costs.point);
+}
+
+CostModel scaled(CostModel costs, double scale) {
+  costs.start /= scale;
+  costs.listed /= scale;
+  for (auto& [kind, unit] : costs.planning.unit) unit /= scale;
+  return costs;
 }
 
 double cutting_seconds(const CostModel& costs, std::size_t subdomains) {
   const auto n = static_cast<double>(std::max<std::size_t>(subdomains, 1));
   return costs.cut * n * std::log2(n);
+}
+
+double collective_seconds(const ClusterSpec& cluster) {
+  const double levels = std::ceil(std::log2(std::max(ranks_of(cluster), 1)));
+  return 2 * levels * (cluster.latency + 2 * cluster.message_overhead);
 }
 
 std::int32_t ranks_of(const ClusterSpec& cluster) {
@@ -23,6 +36,7 @@ std::int32_t ranks_of(const ClusterSpec& cluster) {
 }
 
 IdVector<Rank, double> speeds_of(const ClusterSpec& cluster, const CostModel& costs) {
+  const double reference = reference_speed(scaled(costs, cluster.scale));
   IdVector<Rank, double> speeds;
   for (const RankGroup& group : cluster.groups) {
     if (group.ranks < 1)
@@ -31,7 +45,7 @@ IdVector<Rank, double> speeds_of(const ClusterSpec& cluster, const CostModel& co
     if (!(group.speed >= 0 && std::isfinite(group.speed)))
       throw Error("group '" + group.name + "' of the cluster has a speed of " + std::to_string(group.speed) +
                   " triangles per second; it must be above 0, or 0 for the speed of the machine in docs/benchmarks.md");
-    speeds.insert(speeds.end(), to_index(group.ranks), group.speed > 0 ? group.speed : reference_speed(costs));
+    speeds.insert(speeds.end(), to_index(group.ranks), group.speed > 0 ? group.speed : reference);
   }
   if (speeds.empty()) throw Error("a cluster needs at least one rank");
   if (cluster.drag.empty()) return speeds;

@@ -31,7 +31,7 @@ struct ClusterSpec {
   std::vector<RankGroup> groups;
   std::vector<RankChange> changes;  ///< of speeds, those of a rank in the order of time
   IdVector<Rank, double> drag;      ///< the fraction of its speed that each rank keeps; empty: all of it
-  double memory = 0;                ///< triangles for which each rank has memory; 0: any number
+  double memory = 0;                ///< triangles for which each rank has memory, and takes nine tenths; 0: any number
   double latency = 50e-6;           ///< seconds from the end of sending to arrival
   double bandwidth = 1e9;           ///< bytes per second that leave a rank
   double scale = 1;  ///< triangles that each one stands for: what depends on subdomains alone costs that much less
@@ -40,14 +40,21 @@ struct ClusterSpec {
 };
 
 /// Triangles per second that a rank with these costs refines in subdomains of several thousand triangles: each point
-/// makes two triangles, less a tenth for points on borders, which make fewer, and for the preparation of subdomains.
-/// With the default costs this is the speed of a core of the machine in docs/benchmarks.md, no matter which machine
+/// makes two triangles, less a twentieth for points on borders, which make fewer, and subdomains must be started. With
+/// the default costs this is the speed of a core of the machine in docs/benchmarks.md, no matter which machine
 /// simulates.
 [[nodiscard]] double reference_speed(const CostModel& costs);
+
+/// The costs where each triangle stands for many (see ClusterSpec::scale): what depends on subdomains alone, not on
+/// their triangles, is not scaled up with the triangles' costs.
+[[nodiscard]] CostModel scaled(CostModel costs, double scale);
 
 /// Seconds that it takes to cut a domain into that many subdomains, by halving. Not a matter of the ranks' speeds,
 /// which may stand for larger meshes in the same subdomains.
 [[nodiscard]] double cutting_seconds(const CostModel& costs, std::size_t subdomains);
+
+/// Seconds of an operation in which all ranks take part, over a tree, there and back.
+[[nodiscard]] double collective_seconds(const ClusterSpec& cluster);
 
 [[nodiscard]] std::int32_t ranks_of(const ClusterSpec& cluster);
 /// The speed of each rank in triangles per second. Throws Error for a cluster without ranks, a group without ranks,

@@ -452,9 +452,9 @@ Section cluster_section() {
            "Fraction of its speed that each rank keeps, real or simulated, such as 1,0.5; empty: all of it",
            in(0.01, 1), option("drag", "F,F,..."), places(kMany), entry_points(kMesh | kExperiment)),
        key("cluster.memory", &R::cluster, &R::Cluster::memory,
-           "Triangles for which each rank of a simulated cluster has memory: it takes no work beyond that, and more "
-           "stop "
-           "the run; 0: any number",
+           "Triangles for which each rank of a simulated cluster has memory: it takes no work beyond nine tenths of "
+           "that, "
+           "and more than all of it stop the run; 0: any number",
            unit("triangles"), from(0)),
        key("cluster.latency", &R::cluster, &R::Cluster::latency,
            "Time from the end of sending to arrival, on simulated clusters", unit("seconds"), from(0), places(kMany)),
@@ -464,8 +464,9 @@ Section cluster_section() {
            "Time a rank spends on each message it sends or receives, on simulated clusters", unit("seconds"), from(0),
            places(kMany)),
        key("cluster.scale", &R::cluster, &R::Cluster::scale,
-           "Triangles that each one stands for, where speeds are scaled down: planning, which depends on the number of "
-           "subdomains, costs that much less than the speeds say",
+           "Triangles that each one stands for, where speeds are scaled down: planning and the start of subdomains, "
+           "which "
+           "depend on their number, cost that much less than the speeds say",
            above(0)),
        key("cluster.costs", &R::cluster, &R::Cluster::costs,
            "What work and planning cost, as measured by driftmesh calibrate; empty: as on the machine in "

@@ -101,6 +101,7 @@ Balancing balancing_of(const Request& request, Place place, std::size_t ranks) {
     balancing.options.cost.latency = request.cluster.latency + 2 * request.cluster.message_overhead;
     balancing.options.cost.bandwidth = request.cluster.bandwidth;
     balancing.options.reference_speed /= request.cluster.scale;
+    balancing.options.work_to_start /= request.cluster.scale;
   }
   return balancing;
 }

@@ -83,7 +83,7 @@ std::shared_ptr<const balancer::Layout> layout_of(const RunPlan& plan, std::int3
     const Decomposition::Subdomain& known = plan.decomposition.subdomains[s];
     layout->subdomains.push_back({known.centroid.x,
                                   known.centroid.y,
-                                  balancer::kWorkToStart + known.predicted,
+                                  plan.balancing.options.work_to_start + known.predicted,
                                   plan.owners[s],
                                   {},
                                   on_segments(plan.decomposition, s)});

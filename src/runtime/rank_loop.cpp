@@ -38,6 +38,7 @@ RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, IdSpan<S
       limits_{transport.ranks(), static_cast<std::int32_t>(owners.size()),
               static_cast<std::int32_t>(plan.decomposition.roots.size())},
       agenda_(plan.work.order),
+      experience_(plan.balancing.options.work_to_start),
       clock_(transport.now()) {}
 
 RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs, Observers observers,
@@ -101,11 +102,12 @@ void RankLoop::drop_work() {
 }
 
 protocol::StepResult RankLoop::step() {
-  charge(&RankTimes::idle);
-  const bool heard = poll();
+  charge(assembled_since_ ? &RankTimes::balancing : &RankTimes::idle);
+  const bool heard = !assembled_since_ && poll();
   charge(agenda_.empty() && !heard ? &RankTimes::idle : &RankTimes::polling);
   const bool came_first = controller_ && controller_->pressing() && balance(worked_);
-  if (came_first && send()) charge(&RankTimes::sending);  // what it calls for goes out at once
+  if ((came_first || assembled_since_) && send()) charge(&RankTimes::sending);  // what it calls for goes out at once
+  if (assembled_since_) return protocol::StepResult::kAssembling;
   const bool worked = work();
   if (!worked && !heard && !out_.empty()) crew_->wait();
   charge(worked || !out_.empty() ? &RankTimes::computing : &RankTimes::idle);
@@ -221,7 +223,8 @@ void RankLoop::end(Shift& shift, double seconds) {
   seconds += transport_.now() - start;  // a slow rank may be made by waiting there
   const SliceWork& done = out.shift.done;
   learn(subdomain, done, seconds);
-  const double started = done.prepared > 0 ? balancer::kWorkToStart + static_cast<double>(done.prepared) : 0;
+  const double started =
+      done.prepared > 0 ? plan_.balancing.options.work_to_start + static_cast<double>(done.prepared) : 0;
   speed_.add({started + static_cast<double>(done.triangles), seconds, done.prepared > 0 ? out.load.remaining : 0});
   own_failure_ = false;
 }
@@ -241,7 +244,7 @@ bool RankLoop::balance(bool worked) {
   const bool ran_out = std::exchange(worked_, worked) && agenda_.empty();
   if (!controller_ || !(controller_->due(clock_) || ran_out)) return false;
   if (protocol_.phase() != protocol::Termination::Phase::kWorking) return false;
-  const double start = transport_.now();
+  const double start = std::exchange(assembled_since_, std::nullopt).value_or(transport_.now());
   const std::vector<balancer::ReportedLoad> own = loads();
   transport_.spend(static_cast<double>(own.size()) * costs_.listed);
   own_failure_ = plan_.policy->placement() != balancer::Placement::kCollective;
@@ -253,6 +256,7 @@ bool RankLoop::balance(bool worked) {
                          experience_.doubt(own), free_memory(own));
   own_failure_ = false;
   if (considered) observers_.deliberated(considered->take());
+  if (decision.assembles) assembled_since_ = start;
   transport_.spend(costs_.planning.seconds(planning.efforts()));
   // Only what planning took: packing what it hands over does not make looking at loads more expensive.
   const double took = transport_.now() - start;

@@ -175,8 +175,9 @@ class RankLoop {
   std::shared_ptr<const balancer::Layout> layout_;  // if there is a controller
   balancer::Experience experience_;
   balancer::SpeedEstimate speed_;
-  bool worked_ = false;       // in the last step
-  bool own_failure_ = false;  // what is thrown now concerns this rank alone, or has been thrown
+  std::optional<double> assembled_since_;  // this rank waits for all others since then
+  bool worked_ = false;                    // in the last step
+  bool own_failure_ = false;               // what is thrown now concerns this rank alone, or has been thrown
   bool abandoned_ = false;
   std::int64_t triangles_ = 0;
   std::int64_t interface_splits_ = 0;

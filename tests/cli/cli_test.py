@@ -842,7 +842,7 @@ class Experiments(Cli):
                              "cluster.groups=[{ranks: 6, speed: 8e4}, {ranks: 6, speed: 1e4}]"],
         "changing-speeds": ["bounds.triangles=1e4", "decomposition.subdomains-per-rank=4"],
         "short-memory": ["bounds.triangles=1e5", "decomposition.subdomains-per-rank=20",
-                         "cluster.memory=[0, 24e3]"],
+                         "cluster.memory=[0, 21e3]"],
         "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
     }
 
@@ -940,7 +940,7 @@ class Experiments(Cli):
                 most = max(rank["triangles"] for rank in record["parts"]["ranks"])
                 if row["balance.policy"] != "none":
                     self.assertGreater(int(row["hand_offs"]), 0)
-                    self.assertEqual(most > 24e3, row["cluster.memory"] == "0", most)
+                    self.assertEqual(most > 21e3, row["cluster.memory"] == "0", most)
         self.refuse("run", self.CONFIGS / "short-memory.yaml", "-o", "none", "--set", "bounds.triangles=1e5", "--quiet",
                     "--set", "cluster.memory=1e4", code=3, says=["cluster.memory"])
 
@@ -1244,8 +1244,8 @@ class Experiments(Cli):
 
     def test_a_dry_run_prints_and_does_nothing(self):
         said = self.succeed("run", self.CONFIGS / "scaled-speedup.yaml", "--dry-run")
-        self.assertIn("triangles-per-rank: 100000", said)
-        self.assertIn("# 11 runs", said)
+        self.assertIn("triangles-per-rank: 25000", said)
+        self.assertIn("# 13 runs", said)
         self.assertEqual(self.files(), [])
 
     def test_errors_are_reported_before_anything_runs(self):

@@ -38,9 +38,8 @@ std::vector<Council::Decision> hold_round(protocol::MpiTransport& transport, con
   const std::shared_ptr<const Policy> policy = make_policy("zoltan", parameters);
   MpiCouncil council(transport, snapshot.layout, policy, {});
   const Contribution& own = contributions[to_index(transport.rank())];
-  council.announce(1, own);
   std::vector<Council::Decision> decisions;
-  for (const Bytes& bytes : transport.all_gather(to_bytes(council.decide(1, own))))
+  for (const Bytes& bytes : transport.all_gather(to_bytes(council.decide(1, own).value())))
     decisions.push_back(from_bytes(bytes));
   return decisions;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,12 @@ inline IdVector<SubdomainId, Rank> late_owners(std::size_t subdomains, std::int3
   return owners;
 }
 
-/// The plan of a run that makes about this many triangles of `input`, in subdomains of several slices. Policies check
-/// loads often, so that they act within tenths of a second.
+/// The plan of a run that makes about this many triangles of `input`, in 40 subdomains, or 20 a rank, of several
+/// slices. Policies check loads often, so that they act within tenths of a second.
 inline RunPlan late_plan(const Pslg& input, double triangles, std::int32_t ranks, const LateCase& late) {
   const double area = summarize_angles(triangulate(input)).total_area;
-  RunPlan plan = plan_for(input, {20, 1.5 * area / triangles, {}, nullptr}, ranks, 40, Presplit::kOff);
+  RunPlan plan =
+      plan_for(input, {20, 1.5 * area / triangles, {}, nullptr}, ranks, std::max(40, 20 * ranks), Presplit::kOff);
   plan.owners = late_owners(plan.owners.size(), ranks, late);
   plan.work.slice = 40;
   plan.work.aggregation = 8;

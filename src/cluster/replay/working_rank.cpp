@@ -42,10 +42,11 @@ WorkingRank::WorkingRank(protocol::Transport& transport, const std::shared_ptr<c
 }
 
 protocol::StepResult WorkingRank::step() {
-  const bool heard = poll();
+  const bool heard = !assembled_since_ && poll();
   const bool ran_out = std::exchange(worked_, false) && agenda().empty();
   if (ran_out || controller_.due(transport_.now())) balance();
   send();
+  if (assembled_since_) return protocol::StepResult::kAssembling;
   const bool worked = worked_ = work();
   if (!worked) protocol_.rest(!controller_.waiting());
   send();
@@ -89,11 +90,12 @@ void WorkingRank::balance() {
   for (const SubdomainId id : agenda())
     own.push_back({id, protocol_.where(id).epoch, jobs_.at(id).remaining(), jobs_.at(id).bytes()});
   const balancer::EffortLog planning;
-  const double start = transport_.now();
+  const double start = std::exchange(assembled_since_, std::nullopt).value_or(transport_.now());
   auto decision =
       controller_.think(transport_.now(), own, options_.given_speed > 0 ? options_.given_speed : speed_.value());
+  if (decision.assembles) assembled_since_ = start;
   transport_.spend(balancer::PlanningCosts{}.seconds(planning.efforts()) * options_.planning_speed);
-  if (decision.planned) controller_.took(options_.planning_speed > 0 ? transport_.now() - start : 1e-3);
+  if (decision.planned) controller_.took(std::max(transport_.now() - start, options_.planning_speed > 0 ? 0 : 1e-3));
   for (auto& message : decision.messages) protocol_.advise(message.destination, balancer::encode(message.message));
   for (const auto& move : decision.moves) hand_over(move);
 }

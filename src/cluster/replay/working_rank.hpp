@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "balancer/controller.hpp"
@@ -63,7 +64,8 @@ class WorkingRank {
   balancer::SpeedEstimate speed_;
   std::map<SubdomainId, CountedWork> jobs_;
   Options options_;
-  bool worked_ = false;  // in the last step
+  std::optional<double> assembled_since_;  // waits for all others since then
+  bool worked_ = false;                    // in the last step
   Counts counts_;
 };
 

@@ -16,13 +16,6 @@
 namespace driftmesh {
 namespace {
 
-/// What depends on subdomains, not on their triangles, is not scaled up with the triangles' costs.
-CostModel scaled(CostModel costs, double scale) {
-  costs.listed /= scale;
-  for (auto& [kind, unit] : costs.planning.unit) unit /= scale;
-  return costs;
-}
-
 void require_fit(const RunPlan& plan, std::int32_t ranks) {
   const auto most = std::max_element(plan.owners.begin(), plan.owners.end());
   if (most != plan.owners.end() && *most >= Rank{ranks})
@@ -42,9 +35,12 @@ class Simulation {
         observers_(observers) {
     const std::int32_t ranks = ranks_of(cluster);
     require_fit(plan, ranks);
+    const IdVector<Rank, double> speeds = virtual_cluster(cluster, costs).speeds;
+    CostModel of_ranks = scaled(costs, cluster.scale);
     of_rank_.resize(to_index(ranks));
     logs_.reserve(to_index(ranks));  // the observers refer to its elements
     for (const Rank r : first_ids<Rank>(ranks)) {
+      of_ranks.planning.unit["collective"] = collective_seconds(cluster) * speeds[r];  // a matter of the network
       RankLog& log = logs_.emplace_back(network_.transport(r), plan);
       RankLoop::Observers watch;
       watch.after_slice = [this, r, &log](const RankLoop& loop, const RankLoop::Slice& slice) {
@@ -62,10 +58,12 @@ class Simulation {
       watch.deliberated = [&log](std::vector<balancer::Deliberation> considered) {
         log.deliberated(std::move(considered));
       };
-      loops_.push_back(std::make_unique<RankLoop>(network_.transport(r), plan, scaled(costs, cluster.scale),
-                                                  std::move(watch), council_.get()));
+      loops_.push_back(
+          std::make_unique<RankLoop>(network_.transport(r), plan, of_ranks, std::move(watch), council_.get()));
+      constexpr double kOffered = 0.9;  // as on real ranks: forecasts err
       if (memory_ < balancer::kAmpleMemory)
-        loops_.back()->limit_memory([this, r] { return memory_ - static_cast<double>(loops_[r]->triangles()); });
+        loops_.back()->limit_memory(
+            [this, r] { return kOffered * memory_ - static_cast<double>(loops_[r]->triangles()); });
       log.begins(*loops_.back());
     }
   }

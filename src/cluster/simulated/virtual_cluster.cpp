@@ -5,7 +5,8 @@ namespace driftmesh {
 protocol::VirtualCluster virtual_cluster(const ClusterSpec& cluster, const CostModel& costs) {
   protocol::VirtualCluster made;
   made.speeds = speeds_of(cluster, costs);
-  for (double& speed : made.speeds) speed /= reference_speed(costs);
+  const double reference = reference_speed(scaled(costs, cluster.scale));
+  for (double& speed : made.speeds) speed /= reference;
   made.schedules = schedules_of(cluster);
   const protocol::Link link{cluster.latency, cluster.bandwidth};
   made.link = [link](Rank, Rank) { return link; };
