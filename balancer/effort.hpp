@@ -37,10 +37,12 @@ void note_effort(const char* kind, double units);
 /// the machine.
 struct PlanningCosts {
   std::map<std::string, double> unit = {{"snapshot", 26e-9},  // a subdomain in the planner's view of the load
-                                        {"deal", 25e-9},    // a subdomain of which greedy asks whether it should leave
-                                        {"place", 1.4e-9},  // one that leaves, and a rank that could take it
-                                        {"weigh", 150e-9},  // a planned move
-                                        {"remap", 65e-9},   // a subdomain of parts that are assigned to ranks
+                                        {"deal", 22e-9},     // a subdomain of which greedy asks whether it should leave
+                                        {"place", 290e-9},   // one that leaves
+                                        {"news", 10e-9},     // a rank in the broker's view of the load
+                                        {"search", 2.5e-9},  // a rank that is considered for work, or asked for some
+                                        {"weigh", 150e-9},   // a planned move
+                                        {"remap", 65e-9},    // a subdomain of parts that are assigned to ranks
                                         // By Zoltan, a subdomain and a level of bisection:
                                         {"rcb", 25e-9},
                                         {"rib", 33e-9},

@@ -7,10 +7,6 @@
 namespace driftmesh::balancer {
 namespace {
 
-bool is_speed(double speed) {
-  return speed > 0 && std::isfinite(speed);
-}
-
 template <class States>
 auto* find_in(States& states, SubdomainId id) {
   const auto place = std::ranges::lower_bound(states, id, {}, &SubdomainLoad::id);
@@ -49,13 +45,19 @@ Rank owner_of(const LoadSnapshot& snapshot, SubdomainId id) {
   return known ? known->owner : (*snapshot.layout)[id].owner;
 }
 
-IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankLoad> ranks) {
+double mean_speed(IdSpan<Rank, const RankLoad> ranks) {
   double sum = 0;
   int known = 0;
   for (const RankLoad& rank : ranks)
     if (is_speed(rank.speed)) sum += rank.speed, ++known;
+  return known > 0 ? sum / known : 1;
+}
+
+IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankLoad> ranks) {
+  const double mean = mean_speed(ranks);
   IdVector<Rank, double> speeds;
-  for (const RankLoad& rank : ranks) speeds.push_back(is_speed(rank.speed) ? rank.speed : known > 0 ? sum / known : 1);
+  speeds.reserve(ranks.size());
+  for (const RankLoad& rank : ranks) speeds.push_back(is_speed(rank.speed) ? rank.speed : mean);
   return speeds;
 }
 

@@ -1,6 +1,7 @@
 #include "balancer/rank_news.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace driftmesh::balancer {
 namespace {
@@ -21,16 +22,16 @@ bool RankNews::hear(Rank rank, const LoadNews& news, double now) {
   Heard& heard = ranks_[rank];
   if (news.round <= heard.news.round) return false;
   const double believed = std::max(0.0, heard.news.remaining - heard.news.speed * std::max(0.0, now - heard.at));
+  set_speed(rank, news.speed);
   heard = {news, now};
   return news.spare > 0 && news.remaining > kNotable * believed;
 }
 
 void RankNews::expect(Rank from, Rank to, double work, double now) {
-  const IdVector<Rank, RankLoad> current = states(now);
   // A rank cannot give what it has not received yet.
   const auto change = [&](Rank rank, double amount) {
     Heard& heard = ranks_[rank];
-    heard.news.remaining = std::max(0.0, current[rank].remaining + amount);
+    heard.news.remaining = std::max(0.0, state(rank, now).remaining + amount);
     heard.news.spare = std::clamp(heard.news.spare + std::min(0.0, amount), 0.0, heard.news.remaining);
     if (heard.news.free_memory < kAmpleMemory) heard.news.free_memory = std::max(0.0, heard.news.free_memory - amount);
     heard.at = now;
@@ -41,7 +42,7 @@ void RankNews::expect(Rank from, Rank to, double work, double now) {
 
 void RankNews::assume(const IdVector<Rank, RankLoad>& states, double now) {
   for (const Rank r : ids_of(ranks_)) {
-    ranks_[r].news.speed = states[r].speed;
+    set_speed(r, states[r].speed);
     ranks_[r].news.remaining = states[r].remaining;
     ranks_[r].news.free_memory = states[r].free_memory;
     ranks_[r].at = now;
@@ -54,20 +55,29 @@ bool RankNews::complete() const {
 
 IdVector<Rank, RankLoad> RankNews::states(double now) const {
   IdVector<Rank, RankLoad> states;
-  for (const Heard& heard : ranks_) {
-    const LoadNews& news = heard.news;
-    states.push_back({news.speed, news.remaining, news.doubt, news.free_memory});
-  }
-  const IdVector<Rank, double> speeds = assumed_speeds(states);
-  for (const Rank r : ids_of(states))
-    states[r].remaining = std::max(0.0, states[r].remaining - speeds[r] * std::max(0.0, now - ranks_[r].at));
+  states.reserve(ranks_.size());
+  for (const Rank r : ids_of(ranks_)) states.push_back(state(r, now));
   return states;
 }
 
-IdVector<Rank, bool> RankNews::able(const IdVector<Rank, RankLoad>& states) const {
-  IdVector<Rank, bool> able;
-  for (const Rank r : ids_of(ranks_)) able.push_back(std::min(ranks_[r].news.spare, states[r].remaining) > 0);
-  return able;
+RankLoad RankNews::state(Rank rank, double now) const {
+  const LoadNews& news = ranks_[rank].news;
+  const double done = known_or_mean(news.speed) * std::max(0.0, now - ranks_[rank].at);
+  return {news.speed, std::max(0.0, news.remaining - done), news.doubt, news.free_memory};
+}
+
+bool RankNews::can_give(Rank rank, const RankLoad& state) const {
+  return std::min(ranks_[rank].news.spare, state.remaining) > 0;
+}
+
+double RankNews::known_or_mean(double speed) const {
+  return is_speed(speed) ? speed : known_ > 0 ? sum_ / known_ : 1;
+}
+
+void RankNews::set_speed(Rank rank, double speed) {
+  const double before = std::exchange(ranks_[rank].news.speed, speed);
+  if (is_speed(before)) sum_ -= before, --known_;
+  if (is_speed(speed)) sum_ += speed, ++known_;
 }
 
 }  // namespace driftmesh::balancer

@@ -28,15 +28,22 @@ class RankNews {
 
   /// All ranks at `now`: the last news minus what they must have done since.
   [[nodiscard]] IdVector<Rank, RankLoad> states(double now) const;
-  /// For each rank, whether it has something to give. It works on that last.
-  [[nodiscard]] IdVector<Rank, bool> able(const IdVector<Rank, RankLoad>& states) const;
+  [[nodiscard]] RankLoad state(Rank rank, double now) const;
+  /// Whether a rank in that state has something to give. It works on that last.
+  [[nodiscard]] bool can_give(Rank rank, const RankLoad& state) const;
+  /// The speed, or if it is not known, the mean of those that are.
+  [[nodiscard]] double known_or_mean(double speed) const;
 
  private:
   struct Heard {
     LoadNews news;
     double at = 0;
   };
+  void set_speed(Rank rank, double speed);
+
   IdVector<Rank, Heard> ranks_;
+  double sum_ = 0;  // of the speeds that are known
+  int known_ = 0;
 };
 
 }  // namespace driftmesh::balancer

@@ -16,13 +16,6 @@ double seconds_of(double work, double speed) {
   return work <= 0 ? 0 : speed > 0 ? work / speed : HUGE_VAL;
 }
 
-// Idle ranks per possible giver, not counting the one that asks.
-std::uint32_t rivals(const IdVector<Rank, RankLoad>& ranks, const IdVector<Rank, bool>& able) {
-  const auto idle = std::count_if(ranks.begin(), ranks.end(), [](const RankLoad& r) { return r.remaining <= 0; });
-  const auto givers = std::count(able.begin(), able.end(), true);
-  return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(0, idle - 1) / std::max<std::ptrdiff_t>(1, givers));
-}
-
 // The amount that makes both finish at the same time.
 double even_share(const RankLoad& victim, double victim_speed, const RankLoad& thief, double thief_speed) {
   const double share = (victim.remaining * thief_speed - thief.remaining * victim_speed) / (victim_speed + thief_speed);
@@ -73,6 +66,7 @@ void RequestConduct::arrived(SubdomainId id) {
 
 Decision RequestConduct::think(const Situation& situation) {
   Decision decision;
+  board_.reset();
   Loads own(situation.own.begin(), situation.own.end());
   for (const WorkRequest& request : std::exchange(requests_, {}))
     if (self_ == kBroker)
@@ -160,34 +154,37 @@ void RequestConduct::place(const WorkRequest& request, const Situation& situatio
 }
 
 bool RequestConduct::pass_on(WorkRequest request, const Situation& situation, Loads& own, Decision& decision) {
-  news_->hear(self_, news_of(++reports_, situation, own), situation.now);
-  LoadSnapshot snapshot;
-  snapshot.layout = layout_;
-  snapshot.ranks = news_->states(situation.now);
-  snapshot.ranks[request.thief] = {request.speed, request.remaining, request.doubt, request.free_memory};
-  const IdVector<Rank, bool> able = news_->able(snapshot.ranks);
-  const auto victim = policy_->victim(snapshot, request.thief, able);
+  const double now = situation.now;
+  news_->hear(self_, news_of(++reports_, situation, own), now);
+  if (!board_) board_.emplace(*news_, layout_, now);
+  const auto put = [&](Rank rank, const RankLoad& state) { board_->put(rank, state, news_->can_give(rank, state)); };
+  const RankLoad thief{request.speed, request.remaining, request.doubt, request.free_memory};
+  put(self_, news_->state(self_, now));
+  put(request.thief, thief);
+  const auto victim = policy_->victim(board_->snapshot(), request.thief, board_->able());
   if (is_logged())
     note({.subject = Deliberation::Subject::kRequest,
           .verdict = victim ? Verdict::kDone : Verdict::kNoGiver,
           .thief = request.thief,
           .giver = victim.value_or(request.thief)});
-  if (!victim) return false;
-  request.rivals = rivals(snapshot.ranks, able);
-  hungry_.erase(request.thief);
-  if (*victim == self_) {
-    const double given = give(request, situation, own, decision);
-    if (given <= 0) hungry_.insert(request.thief);
-    news_->expect(self_, request.thief, given, situation.now);
-    return true;
+  if (victim) {
+    request.rivals = board_->rivals();
+    hungry_.erase(request.thief);
+    if (*victim == self_) {
+      const double given = give(request, situation, own, decision);
+      if (given <= 0) hungry_.insert(request.thief);
+      news_->expect(self_, request.thief, given, now);
+    } else {
+      const RankLoad& giver = board_->snapshot().ranks[*victim];
+      const double giver_speed = news_->known_or_mean(giver.speed) * (1 + std::min(request.rivals, kMostRivals));
+      news_->expect(*victim, request.thief, even_share(giver, giver_speed, thief, news_->known_or_mean(request.speed)),
+                    now);
+      decision.messages.push_back({*victim, request});
+    }
+    put(*victim, news_->state(*victim, now));
   }
-  const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
-  const double giver_speed = speeds[*victim] * (1 + std::min(request.rivals, kMostRivals));
-  news_->expect(*victim, request.thief,
-                even_share(snapshot.ranks[*victim], giver_speed, snapshot.ranks[request.thief], speeds[request.thief]),
-                situation.now);
-  decision.messages.push_back({*victim, request});
-  return true;
+  put(request.thief, news_->state(request.thief, now));
+  return victim.has_value();
 }
 
 // The broker repeats its own requests; it passes on all others without waiting for an answer.
@@ -195,7 +192,7 @@ void RequestConduct::feed_hungry(const Situation& situation, Loads& own, Decisio
   if (!std::exchange(surprised_, false)) return;
   const std::set<Rank> hungry = hungry_;
   for (const Rank thief : hungry) {
-    const RankLoad state = news_->states(situation.now)[thief];
+    const RankLoad state = news_->state(thief, situation.now);
     if (thief == self_)
       refusals_ = 0, hungry_.erase(thief);
     else if (!pass_on({thief, 0, state.remaining, state.speed, 0, state.doubt, state.free_memory}, situation, own,

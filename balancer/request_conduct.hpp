@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "balancer/conduct.hpp"
+#include "balancer/rank_board.hpp"
 #include "balancer/rank_news.hpp"
 #include "balancer/report_rule.hpp"
 #include "driftmesh/policy.hpp"
@@ -64,8 +65,9 @@ class RequestConduct {
   std::vector<SubdomainId> coming_;   // promised, not yet here
   double promised_ = 0;               // when
 
-  std::optional<RankNews> news_;  // of the broker
-  bool surprised_ = false;        // by news since idle ranks were last served
+  std::optional<RankNews> news_;    // of the broker
+  std::optional<RankBoard> board_;  // made from it for the requests of one think()
+  bool surprised_ = false;          // by news since idle ranks were last served
   std::set<Rank> hungry_;
 };
 

@@ -1,28 +1,22 @@
 #include "balancer/surplus.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
-#include <optional>
 #include <queue>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include "balancer/effort.hpp"
+#include "balancer/ranks_by_finish.hpp"
 
 namespace driftmesh::balancer {
 namespace {
 
 using Index = std::size_t;  // into the listed subdomains
 
-/// The listed subdomain with this ID, or none.
-std::optional<Index> index_of(const LoadSnapshot& snapshot, SubdomainId id) {
-  const SubdomainLoad* const s = find(snapshot, id);
-  return s ? std::optional<Index>(s - snapshot.subdomains.data()) : std::nullopt;
-}
-
-std::vector<Neighbor> neighbors_of(const LoadSnapshot& snapshot, const SubdomainLoad& s) {
-  return snapshot.layout ? (*snapshot.layout)[s.id].neighbors : std::vector<Neighbor>();
-}
+constexpr Index kUnlisted = SIZE_MAX;
 
 class Dealer {
  public:
@@ -30,37 +24,64 @@ class Dealer {
       : snapshot_(snapshot),
         tolerance_(tolerance),
         ideal_(ideal_time(snapshot)),
-        speeds_(assumed_speeds(snapshot.ranks)) {}
+        speeds_(assumed_speeds(snapshot.ranks)),
+        index_(snapshot.layout ? snapshot.layout->subdomains.size() : 0, kUnlisted),
+        border_(snapshot.subdomains.size()),
+        gone_(snapshot.subdomains.size(), false) {
+    if (!snapshot.layout) return;
+    for (Index i = 0; i < snapshot.subdomains.size(); ++i) index_[snapshot.subdomains[i].id] = i;
+  }
 
   /// Subdomains that are neighbors stay together where ranks have room for them.
   LoadSnapshot deal_together() {
     std::vector<Index> left;
     const std::vector<Index> pool = collect();
-    note_place(pool);
+    RanksByFinish takers = takers_of(pool);
     for (const Index i : pool)
-      if (!place_within_shares(i)) left.push_back(i);
-    return deal_singly(std::move(left));
+      if (!place_within_shares(i, takers)) left.push_back(i);
+    deal_singly(std::move(left), takers);
+    return std::move(snapshot_);
   }
   /// Largest first, each to the rank that would finish it first.
-  LoadSnapshot deal_singly() { return deal_singly(collect()); }
+  LoadSnapshot deal_singly() {
+    std::vector<Index> pool = collect();
+    RanksByFinish takers = takers_of(pool);
+    deal_singly(std::move(pool), takers);
+    return std::move(snapshot_);
+  }
 
  private:
-  LoadSnapshot deal_singly(std::vector<Index> pool) {
-    note_place(pool);
+  void deal_singly(std::vector<Index> pool, RanksByFinish& takers) {
     std::ranges::sort(pool, {}, [&](Index i) {
       const SubdomainLoad& s = snapshot_.subdomains[i];
       return std::tuple(-s.remaining, s.id);
     });
-    for (const Index i : pool) place_earliest(i);
-    return std::move(snapshot_);
+    for (const Index i : pool) place_earliest(i, takers);
+    note_effort("search", static_cast<double>(takers.examined()));
   }
 
-  void note_place(const std::vector<Index>& pool) const {
-    note_effort("place", static_cast<double>(pool.size() * speeds_.size()));
+  [[nodiscard]] RanksByFinish takers_of(const std::vector<Index>& pool) const {
+    note_effort("place", static_cast<double>(pool.size()));
+    note_effort("search", static_cast<double>(speeds_.size()));
+    double work = 0;
+    for (const Index i : pool) work += snapshot_.subdomains[i].remaining;
+    IdVector<Rank, double> loads;
+    for (const RankLoad& rank : snapshot_.ranks) loads.push_back(rank.remaining);
+    return {loads, speeds_, work / static_cast<double>(std::max<std::size_t>(pool.size(), 1))};
   }
 
   double& load(Rank rank) { return snapshot_.ranks[rank].remaining; }
   [[nodiscard]] double share(Rank rank) const { return ideal_ * speeds_[rank]; }
+
+  [[nodiscard]] std::span<const Neighbor> neighbors_of(Index i) const {
+    if (!snapshot_.layout) return {};
+    return (*snapshot_.layout)[snapshot_.subdomains[i].id].neighbors;
+  }
+  /// The neighbor, if it is listed and still belongs to this rank.
+  [[nodiscard]] Index staying(const Neighbor& neighbor, Rank r) const {
+    const Index j = index_[neighbor.subdomain];
+    return j != kUnlisted && snapshot_.subdomains[j].owner == r && !gone_[j] ? j : kUnlisted;
+  }
 
   /// The surplus of all ranks.
   std::vector<Index> collect() {
@@ -77,40 +98,38 @@ class Dealer {
   /// Adds the surplus of a rank to the pool: what leaves most easily, each next to the one before if possible, so that
   /// they can stay together elsewhere.
   void peel(Rank r, const std::vector<Index>& own, std::vector<Index>& pool) {
-    std::map<Index, double> border;  // with those that leave, less that with those that stay
+    // With those that leave, less that with those that stay.
     for (const Index i : own)
-      for (const Neighbor& n : neighbors_of(snapshot_, snapshot_.subdomains[i]))
-        if (const auto j = index_of(snapshot_, n.subdomain); j && snapshot_.subdomains[*j].owner == r)
-          border[i] -= n.length;
+      for (const Neighbor& n : neighbors_of(i))
+        if (staying(n, r) != kUnlisted) border_[i] -= n.length;
     const auto key = [&](Index i) {
       const SubdomainLoad& s = snapshot_.subdomains[i];
-      return std::tuple(-static_cast<std::int64_t>(weight_class(s)), border[i], s.turn, s.remaining, -to_int(s.id));
+      return std::tuple(-static_cast<std::int64_t>(weight_class(s)), border_[i], s.turn, s.remaining, -to_int(s.id));
     };
     using Entry = std::pair<decltype(key(0)), Index>;
     std::priority_queue<Entry> queue;
     for (const Index i : own) queue.emplace(key(i), i);
-    std::vector<bool> gone(snapshot_.subdomains.size(), false);
     while (load(r) > share(r) && !queue.empty()) {
       const auto [was, i] = queue.top();
       queue.pop();
-      if (gone[i] || was != key(i)) continue;
-      gone[i] = true;
-      const SubdomainLoad& s = snapshot_.subdomains[i];
-      load(r) -= s.remaining;
+      if (gone_[i] || was != key(i)) continue;
+      gone_[i] = true;
+      load(r) -= snapshot_.subdomains[i].remaining;
       pool.push_back(i);
-      for (const Neighbor& n : neighbors_of(snapshot_, s))
-        if (const auto j = index_of(snapshot_, n.subdomain); j && snapshot_.subdomains[*j].owner == r && !gone[*j]) {
-          border[*j] += 2 * n.length;
-          queue.emplace(key(*j), *j);
+      for (const Neighbor& n : neighbors_of(i))
+        if (const Index j = staying(n, r); j != kUnlisted) {
+          border_[j] += 2 * n.length;
+          if (!snapshot_.subdomains[j].fixed) queue.emplace(key(j), j);
         }
     }
   }
 
-  void give(Index i, Rank taker) {
+  void give(Index i, Rank taker, RanksByFinish& takers) {
     if (taker != snapshot_.subdomains[i].owner)
       snapshot_.ranks[taker].free_memory -= memory_for(snapshot_.subdomains[i]);
     snapshot_.subdomains[i].owner = taker;
     load(taker) += snapshot_.subdomains[i].remaining;
+    takers.set_load(taker, load(taker));
   }
 
   [[nodiscard]] bool has_memory(Rank r, const SubdomainLoad& s) const {
@@ -121,38 +140,38 @@ class Dealer {
   }
 
   /// To the rank with the longest border that has room for it in its share, or to the one with most room.
-  bool place_within_shares(Index i) {
+  bool place_within_shares(Index i, RanksByFinish& takers) {
     const SubdomainLoad& s = snapshot_.subdomains[i];
     std::map<Rank, double> borders;
-    for (const Neighbor& n : neighbors_of(snapshot_, s))
-      if (const Rank r = owner_of(snapshot_, n.subdomain); has_room(r, s)) borders[r] += n.length;
+    for (const Neighbor& n : neighbors_of(i)) {
+      const Index j = index_[n.subdomain];
+      const Rank r = j != kUnlisted ? snapshot_.subdomains[j].owner : (*snapshot_.layout)[n.subdomain].owner;
+      if (has_room(r, s)) borders[r] += n.length;
+    }
     const auto longest = std::ranges::max_element(borders, {}, [](const auto& b) { return b.second; });
     if (longest != borders.end()) {
-      give(i, longest->first);
+      give(i, longest->first, takers);
       return true;
     }
-    const Rank roomiest = std::ranges::max(ids_of(speeds_), {}, [&](Rank r) { return share(r) - load(r); });
+    const Rank roomiest = takers.roomiest(ideal_);
     if (!has_room(roomiest, s)) return false;
-    give(i, roomiest);
+    give(i, roomiest, takers);
     return true;
   }
 
   // Ties go to the owner, so that nothing moves without a reason.
-  void place_earliest(Index i) {
+  void place_earliest(Index i, RanksByFinish& takers) {
     const SubdomainLoad& s = snapshot_.subdomains[i];
-    Rank best = s.owner;
-    double earliest = (load(best) + s.remaining) / speeds_[best];
-    for (const Rank r : ids_of(speeds_)) {
-      const double finished = (load(r) + s.remaining) / speeds_[r];
-      if (finished < earliest && has_memory(r, s)) best = r, earliest = finished;
-    }
-    give(i, best);
+    give(i, takers.earliest(s.remaining, s.owner, [&](Rank r) { return has_memory(r, s); }), takers);
   }
 
   LoadSnapshot snapshot_;
   double tolerance_;
   double ideal_;
   IdVector<Rank, double> speeds_;
+  IdVector<SubdomainId, Index> index_;  // among those listed
+  std::vector<double> border_;          // of a rank's subdomains while it gives some up
+  std::vector<bool> gone_;              // given up
 };
 
 }  // namespace

@@ -20,13 +20,17 @@ class Stealing final : public Policy {
 
   [[nodiscard]] std::optional<Rank> victim(const LoadSnapshot& snapshot, Rank thief,
                                            const IdVector<Rank, bool>& able) const override {
-    note_effort("place", static_cast<double>(snapshot.ranks.size()));
-    const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
-    const auto finish = [&](Rank r) { return snapshot.ranks[r].remaining / speeds[r]; };
-    double latest = finish(thief);
+    note_effort("search", static_cast<double>(snapshot.ranks.size()));
+    const double mean = mean_speed(snapshot.ranks);
+    const auto speed = [&](const RankLoad& rank) { return is_speed(rank.speed) ? rank.speed : mean; };
+    double latest = snapshot.ranks[thief].remaining / speed(snapshot.ranks[thief]);
     std::optional<Rank> found;
-    for (const Rank r : ids_of(speeds))
-      if (able[r] && r != thief && finish(r) > latest) found = r, latest = finish(r);
+    for (const Rank r : ids_of(snapshot.ranks)) {
+      const RankLoad& rank = snapshot.ranks[r];
+      if (rank.remaining <= latest * speed(rank) || !able[r] || r == thief) continue;
+      found = r;
+      latest = rank.remaining / speed(rank);
+    }
     return found;
   }
 

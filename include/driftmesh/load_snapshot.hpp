@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -91,6 +92,13 @@ void sum_up(LoadSnapshot& snapshot);
 
 /// The listed subdomain with this ID, or null.
 [[nodiscard]] const SubdomainLoad* find(const LoadSnapshot& snapshot, SubdomainId id);
+
+/// Whether a speed is known: above 0, and finite.
+[[nodiscard]] inline bool is_speed(double speed) {
+  return speed > 0 && std::isfinite(speed);
+}
+/// The mean of the speeds that are known, or 1.
+[[nodiscard]] double mean_speed(IdSpan<Rank, const RankLoad> ranks);
 
 /// The speed of each rank. Unknown or nonpositive speeds are replaced by the mean of the others, or by 1 if all are.
 [[nodiscard]] IdVector<Rank, double> assumed_speeds(IdSpan<Rank, const RankLoad> ranks);

@@ -11,6 +11,9 @@
 #include "balancer/effort.hpp"
 #include "balancer/knowledge.hpp"
 #include "balancer/move_cost.hpp"
+#include "balancer/policies/policy_factory.hpp"
+#include "balancer/rank_board.hpp"
+#include "balancer/rank_news.hpp"
 #include "balancer/remap_parts.hpp"
 #include "balancer/surplus.hpp"
 #include "balancer/zoltan/zoltan_partition.hpp"
@@ -99,6 +102,11 @@ void measure_size(Measured& measured, std::int32_t side, std::int32_t ranks) {
   LoadSnapshot dealt;
   measured.add("deal", [&] { dealt = deal_surplus(balanced, 0.5); });
   measured.add("place", [&] { dealt = deal_surplus(snapshot, 0.02); });
+  const RankNews news(*layout, 0);
+  measured.add("news", [&] { static_cast<void>(RankBoard(news, layout, 0)); });
+  const auto stealing = make_policy("stealing");
+  const IdVector<Rank, bool> able(to_index(ranks), true);
+  measured.add("search", [&] { static_cast<void>(stealing->victim(snapshot, Rank{0}, able)); });
   measured.add("weigh", [&] { static_cast<void>(worth_moving(snapshot, moves_between(snapshot, dealt), {})); });
   std::vector<Part> parts = zoltan_partition(snapshot, {});  // the first time, it starts MPI
   for (const char* method : {"RCB", "RIB", "HSFC", "GRAPH", "HYPERGRAPH"}) {

@@ -2,11 +2,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <functional>
 #include <set>
 
 #include "balancer/move_cost.hpp"
 #include "balancer/policies/policy_factory.hpp"
+#include "balancer/ranks_by_finish.hpp"
 #include "property/cases.hpp"
 #include "support/load_snapshots.hpp"
 
@@ -23,6 +26,7 @@ void check_valid(const LoadSnapshot& snapshot, const std::vector<Move>& moves) {
     CAPTURE(to_int(move.subdomain));
     const SubdomainLoad* const s = find(snapshot, move.subdomain);
     REQUIRE(s != nullptr);
+    REQUIRE(!s->fixed);
     REQUIRE(move.destination != s->owner);
     REQUIRE(snapshot.ranks.has(move.destination));
     REQUIRE(moved.insert(move.subdomain).second);
@@ -74,6 +78,49 @@ std::vector<Named> planners() {
 
 }  // namespace
 
+TEST_CASE("the rank for a subdomain is found without looking at all ranks") {
+  auto random = testing::seeded_generator("ranks by finish");
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  std::size_t examined = 0, compared = 0;
+  for (std::int64_t c = 0; c < testing::case_count(300); ++c) {
+    CAPTURE(c);
+    const std::size_t ranks = random() % (c % 10 == 0 ? 1000 : 40) + 1;
+    const bool measured = random() % 2 == 0, idle = random() % 2 == 0, coarse = random() % 2 == 0;
+    IdVector<Rank, double> speeds, loads;
+    for (std::size_t r = 0; r < ranks; ++r) {
+      speeds.push_back(static_cast<double>(1 + random() % 3) * 1e6 * (measured ? uniform(0.99, 1.01) : 1));
+      loads.push_back(idle && random() % 2 == 0 ? 0 : coarse ? std::floor(uniform(0, 9)) * 1e5 : uniform(0, 1e6));
+    }
+    RanksByFinish searched(loads, speeds, 1e5);
+    const double ideal = uniform(0.1, 1);
+    for (int step = 0; step < 60; ++step) {
+      const double work = coarse ? 1e5 : uniform(0, 3e5);
+      const Rank owner{static_cast<std::int32_t>(random() % ranks)};
+      const std::size_t refused = random() % 3;
+      const auto may = [&](Rank r) { return to_index(r) % 3 != refused; };
+      const auto finish = [&](Rank r) { return (loads[r] + work) / speeds[r]; };
+      const auto room = [&](Rank r) { return ideal * speeds[r] - loads[r]; };
+      Rank first = owner, roomiest{};
+      for (const Rank r : ids_of(speeds)) {
+        if (finish(r) < finish(first) && may(r)) first = r;
+        if (room(r) > room(roomiest)) roomiest = r;
+      }
+      const Rank found = searched.earliest(work, owner, may);
+      REQUIRE((found == owner || may(found)));
+      REQUIRE(finish(found) == doctest::Approx(finish(first)).epsilon(1e-11));
+      REQUIRE(room(searched.roomiest(ideal)) == doctest::Approx(room(roomiest)).epsilon(1e-11).scale(ideal * 3e6));
+      loads[found] += work;
+      searched.set_load(found, loads[found]);
+      compared += 2 * ranks;
+    }
+    examined += searched.examined();
+  }
+  std::printf("looked at %zu ranks of %zu\n", examined, compared);
+  CHECK(examined < compared / 3);
+}
+
 TEST_CASE("plans are valid and repeatable, and their worthwhile part finishes no later") {
   auto random = testing::seeded_generator("plans");
   const auto policies = planners();
@@ -82,7 +129,9 @@ TEST_CASE("plans are valid and repeatable, and their worthwhile part finishes no
     const std::uint64_t seed = random();
     CAPTURE(seed);
     std::mt19937_64 one(seed);
-    const LoadSnapshot snapshot = random_snapshot(one);
+    LoadSnapshot snapshot = random_snapshot(one);
+    const auto fixed = one() % 3;  // in tenths
+    for (SubdomainLoad& s : snapshot.subdomains) s.fixed = one() % 10 < fixed;
     const double before = time_with(snapshot, {});
     for (const auto& [name, policy] : policies) {
       CAPTURE(name);
