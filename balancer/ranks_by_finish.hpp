@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "driftmesh/id_vector.hpp"
+#include "driftmesh/ids.hpp"
 
 namespace driftmesh::balancer {
 
