@@ -63,4 +63,11 @@ FoundCut CutFinder::find(const Piece& piece, const WorkSamples& samples, const F
   return best;
 }
 
+std::optional<Fork> CutFinder::find_fork(const Piece& piece) {
+  constexpr double kSpacing = 1.0 / 15;
+  read_loop(map_, piece.side, outline_.loop);
+  place_stations(map_, kSpacing * std::sqrt(piece.area), angle_, outline_);
+  return driftmesh::find_fork(outline_, angle_);
+}
+
 }  // namespace driftmesh

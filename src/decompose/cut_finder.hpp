@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "decompose/cut_search.hpp"
+#include "decompose/fork.hpp"
 #include "decompose/outline.hpp"
 #include "decompose/pieces.hpp"
 #include "decompose/planar_map.hpp"
@@ -31,6 +33,8 @@ class CutFinder {
   CutFinder(const PlanarMap& map, double angle) : map_(map), angle_(angle) {}
 
   [[nodiscard]] FoundCut find(const Piece& piece, const WorkSamples& samples, const Fairness& fairness);
+  /// Into three pieces of about equal area.
+  [[nodiscard]] std::optional<Fork> find_fork(const Piece& piece);
 
  private:
   const PlanarMap& map_;

@@ -1,8 +1,10 @@
 #include "decompose/cutter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <queue>
 
 namespace driftmesh {
@@ -79,8 +81,38 @@ void Cutter::divide(double work) {
     if (pieces_[i].parts == 1 && pieces_[i].work > work) heavy.push_back(i);
   for (const PieceId piece : heavy) {
     pieces_[piece].parts = 2;
-    if (!cut(piece, find(piece, random_bias()))) pieces_[piece].parts = 1;
+    const FoundCut found = find(piece, random_bias());
+    const bool fair =
+        found && std::max(found.cut.share_between, 1 - found.cut.share_between) * pieces_[piece].work <= work;
+    if (!fair && cut_in_three(piece)) continue;
+    if (!cut(piece, found)) pieces_[piece].parts = 1;
   }
+}
+
+/// Where work is in proportion to area.
+bool Cutter::cut_in_three(PieceId index) {
+  if (!samples_[index].empty()) return false;
+  const Piece piece = pieces_[index];
+  const std::optional<Fork> fork = finder_.find_fork(piece);
+  if (!fork) return false;
+  std::array<SideId, 3> ends;
+  std::ranges::transform(fork->ends, ends.begin(), [this](const auto& station) { return realize(map_, station); });
+  const SideId bent = map_.connect(ends[0], ends[1], PlanarMap::Kind::kSeparator);
+  const SideId from_center = map_.split(bent, map_.add_point(fork->center, kNone));
+  const SideId third = map_.connect(from_center, ends[2], PlanarMap::Kind::kSeparator);
+  for (const SideId side : {PlanarMap::twin(bent), PlanarMap::twin(third)}) {
+    pieces_.push_back(part_of(piece, side));
+    samples_.emplace_back();
+  }
+  pieces_[index] = part_of(piece, third);
+  return true;
+}
+
+/// The piece left of `side`, once it is cut off, as one subdomain.
+Piece Cutter::part_of(const Piece& whole, SideId side) {
+  read_loop(map_, side, loop_);
+  const double area = area_inside(loop_);
+  return {side, 1, kNone, area, whole.work * area / whole.area};
 }
 
 FoundCut Cutter::find(PieceId piece, double bias) {

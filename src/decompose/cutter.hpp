@@ -27,7 +27,8 @@ class Cutter {
   /// Returns the number of parts that could not be made.
   [[nodiscard]] std::int32_t run();
 
-  /// Cuts each finished piece of more than `work` in two, where a cut is found. This makes more pieces than parts.
+  /// Cuts each finished piece of more than `work` in two, or in three where that leaves less on every side, if it can
+  /// be cut. This makes more pieces than parts.
   void divide(double work);
 
  private:
@@ -38,6 +39,8 @@ class Cutter {
   [[nodiscard]] FoundCut find(PieceId piece, double bias);
   [[nodiscard]] double random_bias();
   [[nodiscard]] bool cut(PieceId piece, const FoundCut& found);
+  [[nodiscard]] bool cut_in_three(PieceId piece);
+  [[nodiscard]] Piece part_of(const Piece& whole, SideId side);
   void share_samples(PieceId rest, PieceId between);
 
   PlanarMap& map_;

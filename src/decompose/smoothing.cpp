@@ -14,12 +14,11 @@ namespace driftmesh {
 namespace {
 
 // Lengths are in units of a subdomain's size.
-constexpr double kInterfaceWorth = 0.8;  ///< the cost at which an interface is removed
-constexpr double kShort = 0.8;           ///< separators shorter than this may become points
-constexpr double kClearance = 0.02;      ///< between a separator and what it does not meet
-constexpr double kLength = 0.1;          ///< of separators
-constexpr double kLittle = 0.01;         ///< steps shorter than this are not worth their time
-constexpr int kRounds = 2;
+constexpr double kInterfaceWorth = 0.225;  ///< the cost at which an interface is removed
+constexpr double kShort = 0.7;             ///< separators shorter than this may become points
+constexpr double kClearance = 0.02;        ///< between a separator and what it does not meet
+constexpr double kLength = 0.1;            ///< of separators
+constexpr double kLittle = 0.02;           ///< steps shorter than this are not worth their time
 
 class Smoother {
  public:
@@ -32,12 +31,11 @@ class Smoother {
         star_(map, piece_of_, angle),
         cost_(star_, pieces, piece_of_) {}
 
+  /// Ends move before any are merged, so that it shows which separators are short, and what a merger costs.
   void run() {
+    move_ends(1);
     merge_ends();
-    const IdVector<MapVertexId, SideId> sides = movable_ends();
-    for (int round = 0; round < kRounds; ++round)
-      for (const SideId side : sides)
-        if (side != kNone) move(side);
+    move_ends(2);
   }
 
  private:
@@ -51,11 +49,12 @@ class Smoother {
   [[nodiscard]] double length(SideId h) const {
     return std::sqrt(squared_distance(map_.at(map_.start(h)), map_.at(map_.end(h))));
   }
-  [[nodiscard]] bool allows(const Point& p) const {
+  [[nodiscard]] bool allows(const Point& p) {
     return star_.allows(p, {kClearance * cost_.size(), kLength * cost_.size()});
   }
 
-  /// Contracts separators where that is worth it, the shortest first.
+  /// Contracts separators where that is worth it, the shortest first. Loads may become larger than otherwise; moves
+  /// that follow see to that.
   void merge_ends() {
     std::vector<std::pair<double, SideId>> shortest;
     for (const WallId w : ids_of(map_.walls)) {
@@ -72,7 +71,7 @@ class Smoother {
   /// Contracts `side` to the point where it starts if only separators meet where it ends.
   bool merge(SideId side) {
     if (!roams(PlanarMap::twin(side)) || !star_.read_without(side)) return false;
-    cost_.set(loads_);
+    cost_.set(loads_, StarCost::kMostMerged);
     const std::optional<Point> place =
         place_merged(side, cost_.at_present() + length(side) + kInterfaceWorth * cost_.size());
     if (!place) return false;
@@ -124,10 +123,17 @@ class Smoother {
     return sides;
   }
 
+  void move_ends(int rounds) {
+    const IdVector<MapVertexId, SideId> sides = movable_ends();
+    for (int round = 0; round < rounds; ++round)
+      for (const SideId side : sides)
+        if (side != kNone) move(side);
+  }
+
   /// Moves the point where `side` starts to a place that costs less.
   void move(SideId side) {
     if (!star_.read(side) || star_.freedom() == Star::Freedom::kStays) return;
-    cost_.set(loads_);
+    cost_.set(loads_, StarCost::kMostMoved);
     const double present = cost_.at({0, 0});
     const Point whole = cost_.step({0, 0});
     const double least = kLittle * cost_.size();

@@ -101,6 +101,7 @@ bool Star::read_around(SideId side, SideId merged) {
   set_freedom(side);
   for (std::size_t k = 0; k < count_; ++k) read_spoke(spokes_[k]);
   for (std::size_t k = 0; k < count_; ++k) read_sector(k);
+  has_limits_ = false;
   return true;
 }
 
@@ -123,10 +124,19 @@ void Star::set_freedom(SideId side) {
 }
 
 void Star::read_spoke(Spoke& spoke) {
+  spoke.separates = !is_input(spoke.side);
+  spoke.end = relative(map_.end(spoke.side));
+  spoke.start = relative(map_.start(spoke.side));
+}
+
+void Star::read_sector(std::size_t k) {
+  const Spoke &from = spokes_[k], &to = after(k);
+  sectors_[k].piece = piece_of_[from.side];
+  sectors_[k].swept = cross(to.end, to.start) + cross(to.start, from.start) + cross(from.start, from.end);
+}
+
+void Star::set_limits(Spoke& spoke) {
   const SideId h = spoke.side, back = PlanarMap::twin(h);
-  spoke.separates = !is_input(h);
-  spoke.end = relative(map_.end(h));
-  spoke.start = relative(map_.start(h));
   spoke.left_limit = spoke.right_limit = kAnyAngle;
   if (!spoke.separates || map_.side(h).next == back) return;
   spoke.left = relative(map_.end(map_.side(h).next));
@@ -136,19 +146,23 @@ void Star::read_spoke(Spoke& spoke) {
   spoke.right_limit = Angle(home, difference(spoke.right, spoke.end)).limit(limit_);
 }
 
-void Star::read_sector(std::size_t k) {
+void Star::set_limit(std::size_t k) {
   const Spoke &from = spokes_[k], &to = after(k);
   Sector& sector = sectors_[k];
-  sector.piece = piece_of_[from.side];
   sector.limit = kAnyAngle;
-  sector.swept = cross(to.end, to.start) + cross(to.start, from.start) + cross(from.start, from.end);
   if (sector.piece == kNone || count_ == 1 || (!from.separates && !to.separates)) return;
   const bool merged = !(from.start == to.start);
   sector.limit = merged ? limit_ : Angle(difference(from.end, from.start), difference(to.end, to.start)).limit(limit_);
 }
 
-bool Star::allows(const Point& p, const Room& room) const {
-  if (!keeps_lengths(p, room.length) || !keeps_angles(p)) return false;
+bool Star::allows(const Point& p, const Room& room) {
+  if (!keeps_lengths(p, room.length)) return false;
+  for (std::size_t k = 0; k < count_ && !has_limits_; ++k) {
+    set_limits(spokes_[k]);
+    set_limit(k);
+  }
+  has_limits_ = true;
+  if (!keeps_angles(p)) return false;
   for (std::size_t k = 0; k < count_; ++k)
     if (sectors_[k].piece != kNone && !stays_clear(k, p, room.clearance)) return false;
   return true;

@@ -62,7 +62,7 @@ class Star {
     return 0.5 * (p.x * (a.y - b.y) - p.y * (a.x - b.x) - sectors_[k].swept);
   }
   /// Whether the center may be at `p`: no angle becomes too small, and no wall comes near another one.
-  [[nodiscard]] bool allows(const Point& p, const Room& room) const;
+  [[nodiscard]] bool allows(const Point& p, const Room& room);
 
  private:
   bool read_around(SideId side, SideId merged);
@@ -70,6 +70,8 @@ class Star {
   void set_freedom(SideId side);
   void read_spoke(Spoke& spoke);
   void read_sector(std::size_t k);
+  void set_limits(Spoke& spoke);
+  void set_limit(std::size_t k);
   [[nodiscard]] bool keeps_lengths(const Point& p, double least) const;
   [[nodiscard]] bool keeps_angles(const Point& p) const;
   [[nodiscard]] bool stays_clear(std::size_t k, const Point& p, double keep) const;
@@ -85,6 +87,7 @@ class Star {
   Freedom freedom_ = Freedom::kStays;
   Point origin_, along_;
   std::size_t count_ = 0;
+  bool has_limits_ = false;  ///< they are set when they are first needed
   std::array<Spoke, kMostSpokes> spokes_;
   std::array<Sector, kMostSpokes> sectors_;
 };

@@ -8,16 +8,15 @@
 namespace driftmesh {
 namespace {
 
-// Costs of loads are lengths in units of a subdomain's size. A load may become larger than kMostLoad or smaller than
-// kLeastLoad only if it was before.
-constexpr double kUneven = 0.6;  ///< of the squared deviation from the mean
-constexpr double kOver = 16;     ///< of the squared excess over kMostLoad
-constexpr double kMostLoad = 1.18, kLeastLoad = 0.65;
+// Costs of loads are lengths in units of a subdomain's size.
+constexpr double kUneven = 0.6;      ///< of the squared deviation from the mean
+constexpr double kOver = 16;         ///< of the squared excess over kMostMoved
+constexpr double kLeastLoad = 0.65;  ///< a load is smaller only if it was before
 /// The weight of separators inside a subdomain, which will be dropped: something, so that they do not run wild.
 constexpr double kInner = 0.01;
 
 double cost_of_load(double load) {
-  const double over = std::max(0.0, load - kMostLoad);
+  const double over = std::max(0.0, load - StarCost::kMostMoved);
   return kUneven * (load - 1) * (load - 1) + kOver * over * over;
 }
 
@@ -37,7 +36,8 @@ Loads::Loads(const IdVector<PieceId, Piece>& pieces, const IdVector<PieceId, Sub
   for (double& s : size) s = std::sqrt(s);
 }
 
-void StarCost::set(const Loads& loads) {
+void StarCost::set(const Loads& loads, double most_load) {
+  most_load_ = most_load;
   count_ = 0;
   size_ = kNever;
   const auto sectors = star_.sectors();
@@ -82,7 +82,7 @@ double StarCost::at(const Point& p) {
   }
   for (std::size_t i = 0; i < count_; ++i) {
     const Neighbor& n = neighbors_[i];
-    if (n.load > std::max(kMostLoad, n.before) || n.load < std::min(kLeastLoad, n.before)) return kNever;
+    if (n.load > std::max(most_load_, n.before) || n.load < std::min(kLeastLoad, n.before)) return kNever;
     cost += n.size * cost_of_load(n.load);
   }
   return cost;
@@ -110,7 +110,7 @@ StarCost::Slopes StarCost::slopes(const Point& p) const {
   }
   for (std::size_t i = 0; i < count_; ++i) {
     const Neighbor& n = neighbors_[i];
-    const double over = std::max(0.0, n.load - kMostLoad);
+    const double over = std::max(0.0, n.load - kMostMoved);
     sum.add(n.slope, 2 * n.size * (kUneven * (n.load - 1) + kOver * over),
             2 * n.size * (over > 0 ? kUneven + kOver : kUneven));
   }

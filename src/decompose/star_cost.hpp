@@ -24,12 +24,14 @@ struct Loads {
 class StarCost {
  public:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
+  /// Loads that only a subdomain that has more already may have: when a point moves, and when two become one.
+  static constexpr double kMostMoved = 1.18, kMostMerged = 1.25;
 
   /// The star may be read anew before each call of set().
   StarCost(const Star& star, const IdVector<PieceId, Piece>& pieces, const IdVector<SideId, PieceId>& piece_of)
       : star_(star), pieces_(pieces), piece_of_(piece_of) {}
 
-  void set(const Loads& loads);
+  void set(const Loads& loads, double most_load);
   /// The size of the smallest subdomain around.
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] double at_present() const;
@@ -60,7 +62,7 @@ class StarCost {
   const Star& star_;
   const IdVector<PieceId, Piece>& pieces_;
   const IdVector<SideId, PieceId>& piece_of_;
-  double size_ = 0;
+  double size_ = 0, most_load_ = 0;
   std::size_t count_ = 0;
   std::array<Neighbor, Star::kMostSpokes> neighbors_;
   std::array<std::size_t, Star::kMostSpokes> neighbor_of_{};  // of each sector

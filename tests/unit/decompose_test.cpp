@@ -140,6 +140,18 @@ TEST_CASE("a few heavy pieces are divided, and light ones are joined") {
   }
 }
 
+TEST_CASE("a heavy triangle with equal sides is cut in three") {  // no straight cut is fair, at more than 60 degrees
+  DecomposeOptions options;
+  options.subdomains = 2000;
+  options.min_angle = 61.2;
+  const Triangulation mesh = prepared(generate_pipe({}));
+  const Decomposition d = decompose(mesh, options);
+  const DecompositionReport report = check_whole(d, mesh, 2000);
+  CHECK(report.smallest_angle >= 61.2 - 1e-9);
+  CHECK(report.largest_load <= 1.25);
+  CHECK(static_cast<double>(interfaces(d).size()) < 2.1 * 2000);  // 2.5 in groups of smaller pieces
+}
+
 TEST_CASE("the same input gives the same decomposition") {
   const Triangulation mesh = prepared(with_holes());
   CHECK(decompose_into(mesh, 77) == decompose_into(mesh, 77));

@@ -1,0 +1,75 @@
+#include "decompose/fork.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "decompose/bridges.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
+
+// Three separators that meet inside a piece.
+
+using namespace driftmesh;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// The outline of a domain with these corners, counterclockwise.
+Outline outline_of(const std::vector<Point>& corners, double spacing, double angle) {
+  Pslg pslg;
+  pslg.points = corners;
+  const auto count = static_cast<std::int32_t>(corners.size());
+  for (std::int32_t i = 0; i < count; ++i) pslg.segments.push_back({i, (i + 1) % count, 1});
+  Triangulation mesh = triangulate(pslg);
+  prepare_corners(mesh);
+  const PlanarMap map = connected_walls(mesh, 10, angle);
+  SideId inside = kNone;
+  for (const SideId h : ids_of(map.sides))
+    if (map.side(h).in_domain()) inside = h;
+  Outline outline;
+  read_loop(map, inside, outline.loop);
+  place_stations(map, spacing, angle, outline);
+  return outline;
+}
+
+double angle_between(const Point& center, const Point& a, const Point& b) {
+  const double ax = a.x - center.x, ay = a.y - center.y, bx = b.x - center.x, by = b.y - center.y;
+  return std::atan2(std::fabs(ax * by - ay * bx), ax * bx + ay * by) / kDegree;
+}
+
+}  // namespace
+
+TEST_CASE("a triangle with equal sides is cut from its middle to the middle of each side") {
+  const double height = std::sqrt(3.0);
+  const std::optional<Fork> fork =
+      find_fork(outline_of({{0, 0}, {2, 0}, {1, height}}, 0.1, 61 * kDegree), 61 * kDegree);
+  REQUIRE(fork);
+  CHECK(std::hypot(fork->center.x - 1, fork->center.y - height / 3) < 1e-12);
+  for (const Outline::Station& end : fork->ends)
+    CHECK(std::hypot(end.at.x - fork->center.x, end.at.y - fork->center.y) < 1.02 * height / 3);
+}
+
+TEST_CASE("a fork keeps the angle, at its center and at the border") {
+  const std::vector<Point> corners = {{0, 0}, {3, 0}, {3.2, 1}, {1, 1.6}, {-0.3, 0.8}};
+  for (const double least : {30.0, 61.2, 80.0}) {
+    CAPTURE(least);
+    const std::optional<Fork> fork = find_fork(outline_of(corners, 0.1, least * kDegree), least * kDegree);
+    REQUIRE(fork);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Outline::Station &end = fork->ends[k], &next = fork->ends[(k + 1) % 3];
+      CHECK(angle_between(fork->center, end.at, next.at) >= least - 1e-9);
+      CHECK(Outline::allows(end, fork->center.x - end.at.x, fork->center.y - end.at.y));
+    }
+  }
+}
+
+TEST_CASE("there is no fork where the border is not seen, or the angle leaves no room") {
+  CHECK(!find_fork(outline_of({{0, 0}, {3, 0}, {3, 3}, {2.9, 0.1}, {0.1, 0.1}}, 0.1, kDegree), kDegree));  // L
+  CHECK(!find_fork(outline_of({{0, 0}, {2, 0}, {1, std::sqrt(3.0)}}, 0.1, 100 * kDegree), 100 * kDegree));
+}
