@@ -43,6 +43,57 @@ py::dict shared_points(const py::object& self) {
   return shared;
 }
 
+GhostedPiece make_ghosts(const py::object& given, const DistributedPiece& piece) {
+  MPI_Comm communicator = communicator_from(given);
+  const py::gil_scoped_release unlocked;
+  return add_ghost_layer(communicator, piece);
+}
+
+/// For each neighbor two views: triangles that it has as ghosts, and that it owns.
+py::dict exchanged_triangles(const py::object& self) {
+  py::dict exchanged;
+  for (const GhostedPiece::Neighbor& n : self.cast<const GhostedPiece&>().neighbors)
+    exchanged[py::int_(to_int(n.rank))] = py::make_tuple(view(n.sent, self), view(n.received, self));
+  return exchanged;
+}
+
+/// A view of the ranks that own points.
+template <class Piece>
+py::array owners_of(const py::object& self) {
+  const auto& owners = self.cast<const Piece&>().owners;
+  static_assert(sizeof(Rank) == sizeof(std::int32_t));
+  return column_of(owners, reinterpret_cast<const std::int32_t*>(owners.data()), self);
+}
+
+void add_ghosted_piece(py::module_& module) {
+  py::class_<GhostedPiece>(module, "GhostedPiece", "One rank's part of a distributed mesh with a ring of ghosts.")
+      .def_property_readonly(
+          "rank", [](const GhostedPiece& p) { return to_int(p.rank); }, "The rank that has it.")
+      .def_readonly("ranks", &GhostedPiece::ranks, "Number of all ranks.")
+      .def_property_readonly(
+          "mesh", [](const GhostedPiece& p) -> const Mesh& { return p.mesh; },
+          py::return_value_policy::reference_internal,
+          "The piece, in its order, then ghosts: points and triangles by number. Its ranks are the owners of "
+          "triangles.")
+      .def_readonly("own_points", &GhostedPiece::own_points, "Points of the piece, which come first in the mesh.")
+      .def_readonly("own_triangles", &GhostedPiece::own_triangles, "Triangles of the piece, which come first.")
+      .def_readonly("own_edges", &GhostedPiece::own_edges, "Subsegments of the piece, which come first.")
+      .def_property_readonly("owners", &owners_of<GhostedPiece>, "Rank that owns each point, shape (points,).")
+      .def_property_readonly(
+          "triangle_numbers",
+          [](const py::object& self) { return view(self.cast<const GhostedPiece&>().triangle_numbers, self); },
+          "Number of each triangle in the whole mesh, whichever rank has it, shape (triangles,).")
+      .def_property_readonly(
+          "neighbors", &exchanged_triangles,
+          "For each rank with ghosts here: the indices of own triangles that are ghosts there, and of "
+          "the ghosts that it owns, in the same order on both sides.");
+  module.def(
+      "add_ghost_layer", &make_ghosts, py::arg("communicator"), py::arg("piece"),
+      "add_ghost_layer(communicator, piece)\n\n"
+      "Each rank's piece with a ring of ghosts around it: the triangles of other ranks that have a point in common\n"
+      "with a triangle of the piece. Collective.");
+}
+
 }  // namespace
 
 void add_distributed(py::module_& module) {
@@ -54,20 +105,15 @@ void add_distributed(py::module_& module) {
       .def_readonly("ranks", &DistributedPiece::ranks, "Number of all ranks.")
       .def_readonly("mesh", &DistributedPiece::mesh,
                     "The subdomains of this rank joined into one Mesh, with `numbers` and `subdomains`.")
-      .def_property_readonly(
-          "owners",
-          [](const py::object& self) {
-            const auto& owners = self.cast<const DistributedPiece&>().owners;
-            static_assert(sizeof(Rank) == sizeof(std::int32_t));
-            return column_of(owners, reinterpret_cast<const std::int32_t*>(owners.data()), self);
-          },
-          "Rank that owns each point, one of those that have it, shape (points,).")
+      .def_property_readonly("owners", &owners_of<DistributedPiece>,
+                             "Rank that owns each point, one of those that have it, shape (points,).")
       .def_property_readonly("neighbors", &shared_points,
                              "For each rank with shared points, the indices of these points, in the same order on both "
                              "sides: a dictionary of arrays of shape (shared points,).")
       .def_readonly("has_regions", &DistributedPiece::has_regions, "Whether the whole mesh has regions.")
       .def_readonly("total_points", &DistributedPiece::total_points, "Points of the whole mesh, each counted once.")
       .def_readonly("total_triangles", &DistributedPiece::total_triangles, "Triangles of the whole mesh.");
+  add_ghosted_piece(module);
   module.def(
       "mesh_distributed", &make_piece, py::arg("communicator"), py::arg("input"), py::pos_only(),
       ("mesh_distributed(communicator, input, /, **options) -> DistributedPiece\n\n"

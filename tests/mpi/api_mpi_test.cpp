@@ -2,10 +2,13 @@
 #include <mpi.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <new>
+#include <numbers>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "driftmesh/decomposition.hpp"
 #include "driftmesh/error.hpp"
@@ -264,4 +267,53 @@ TEST_CASE("a file that cannot be written is an error on all ranks") {
     CHECK(said.starts_with("rank 0: ") == (std::string(name) != "mesh.unknown"));  // that, every rank sees by itself
     CHECK(said.find(std::string(name).starts_with("no") ? "no-such-folder/mesh" : name) != std::string::npos);
   }
+}
+
+TEST_CASE("ghosts have the values that their owners send") {
+  const DistributedPiece piece =
+      mesh_distributed(MPI_COMM_WORLD, generate_rectangle_hole({}), {.max_area = 0.002, .subdomains = {.count = 13}});
+  const GhostedPiece ghosted = add_ghost_layer(MPI_COMM_WORLD, piece);
+  CHECK((ghosted.mesh.triangles.size() > piece.mesh.triangles.size()) == (piece.ranks > 1));
+  // A value on each own triangle goes to all that have it as a ghost, over the caller's communicator.
+  std::vector<std::int64_t> values(ghosted.triangle_numbers.begin(),
+                                   ghosted.triangle_numbers.begin() + ghosted.own_triangles);
+  values.resize(ghosted.mesh.triangles.size(), -1);
+  std::vector<std::vector<std::int64_t>> sent, received;
+  std::vector<MPI_Request> requests;
+  for (const GhostedPiece::Neighbor& n : ghosted.neighbors) {
+    auto& out = sent.emplace_back();
+    for (const std::int32_t t : n.sent) out.push_back(values[static_cast<std::size_t>(t)]);
+    received.emplace_back(n.received.size());
+  }
+  for (std::size_t k = 0; k < ghosted.neighbors.size(); ++k) {
+    const int rank = to_int(ghosted.neighbors[k].rank);
+    MPI_Isend(sent[k].data(), static_cast<int>(sent[k].size()), MPI_INT64_T, rank, 0, MPI_COMM_WORLD,
+              &requests.emplace_back());
+    MPI_Irecv(received[k].data(), static_cast<int>(received[k].size()), MPI_INT64_T, rank, 0, MPI_COMM_WORLD,
+              &requests.emplace_back());
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  for (std::size_t k = 0; k < ghosted.neighbors.size(); ++k)
+    for (std::size_t i = 0; i < received[k].size(); ++i)
+      values[static_cast<std::size_t>(ghosted.neighbors[k].received[i])] = received[k][i];
+  CHECK(values == ghosted.triangle_numbers);
+  // Each triangle at a point of the piece is there: around a point that is on no subsegment the angles close.
+  std::vector<double> turn(ghosted.mesh.points.size(), 0);
+  for (const auto& t : ghosted.mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = [&](std::size_t k) { return ghosted.mesh.points[static_cast<std::size_t>(t[(i + k) % 3])]; };
+      const Point a = at(0), b = at(1), c = at(2);
+      turn[static_cast<std::size_t>(t[i])] += std::atan2((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x),
+                                                         (b.x - a.x) * (c.x - a.x) + (b.y - a.y) * (c.y - a.y));
+    }
+  std::vector<bool> on_boundary(ghosted.mesh.points.size(), false);
+  for (const Mesh::Edge& e : ghosted.mesh.edges)
+    on_boundary[static_cast<std::size_t>(e.a)] = on_boundary[static_cast<std::size_t>(e.b)] = true;
+  std::size_t closed = 0;
+  for (std::size_t v = 0; v < static_cast<std::size_t>(ghosted.own_points); ++v)
+    if (!on_boundary[v]) {
+      CHECK(turn[v] == doctest::Approx(2 * std::numbers::pi));
+      ++closed;
+    }
+  CHECK(closed > 0);
 }

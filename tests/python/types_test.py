@@ -36,7 +36,7 @@ class Stubs(unittest.TestCase):
         self.assertEqual(set(driftmesh.__all__) - set(self.declared), {"__version__"})
 
     def test_members(self):
-        for name in ("CheckReport", "Decomposition", "DistributedPiece", "Load", "Mesh", "Progress", "Pslg", "SimulatedRun"):
+        for name in ("CheckReport", "Decomposition", "DistributedPiece", "GhostedPiece", "Load", "Mesh", "Progress", "Pslg", "SimulatedRun"):
             has = {member for member, value in vars(getattr(driftmesh, name)).items() if not member.startswith("_")}
             declares = {node.name for node in self.declared[name].body if not node.name.startswith("_")}
             self.assertEqual(declares, has, name)

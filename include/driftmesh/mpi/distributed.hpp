@@ -5,6 +5,7 @@
 #include <string>
 
 #include "driftmesh/distributed_piece.hpp"
+#include "driftmesh/ghosted_piece.hpp"
 #include "driftmesh/options.hpp"
 #include "driftmesh/pslg.hpp"
 
@@ -24,6 +25,12 @@ namespace driftmesh {
 /// (Placement::kCollective), does the job end with a message.
 [[nodiscard]] DistributedPiece mesh_distributed(MPI_Comm communicator, const Pslg& input,
                                                 const MeshOptions& options = {});
+
+/// The pieces of all ranks, each with a ring of ghost triangles around it (see GhostedPiece). Collective, in one round
+/// of messages; nothing is gathered but two numbers for each subdomain. Takes what mesh_distributed returned, on the
+/// same communicator, or one of the same ranks in the same order. Throws Error, on the rank concerned, if pieces do not
+/// belong together.
+[[nodiscard]] GhostedPiece add_ghost_layer(MPI_Comm communicator, const DistributedPiece& piece);
 
 /// Writes the pieces of all ranks. Collective. If `path` ends in .pvtu, writes one file per rank and one that lists
 /// them; otherwise one file in the format given by the extension, gathered on rank 0, which needs memory for the whole

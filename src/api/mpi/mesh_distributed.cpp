@@ -9,6 +9,7 @@
 #include "api/library_request.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/bytes.hpp"
+#include "distributed/ghost_layer.hpp"
 #include "distributed/write_distributed.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/ids.hpp"
@@ -102,6 +103,16 @@ DistributedPiece mesh_distributed(MPI_Comm communicator, const Pslg& input, cons
   return with_words_of_options([&] {
     Call call(input, options, balancer::make_policy);
     return with_team(communicator, [&](job::Team& team) { return mesh_on(team, call, options); });
+  });
+}
+
+GhostedPiece add_ghost_layer(MPI_Comm communicator, const DistributedPiece& piece) {
+  return with_team(communicator, [&](job::Team& team) {
+    return with_channel(team, [&](ExchangeRunner& ranks) {
+      GhostLayer layer(piece);
+      ranks.run(layer);
+      return layer.take();
+    });
   });
 }
 
