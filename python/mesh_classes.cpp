@@ -1,6 +1,8 @@
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -52,6 +54,16 @@ void add_edge_views(py::class_<Class>& to, const char* name, const char* doc, co
   });
 }
 
+/// Names by number: properties that are dictionaries, copied.
+template <class Class>
+void add_names(py::class_<Class>& to) {
+  to.def_property_readonly(
+      "marker_names", [](const Class& v) { return v.names.markers; },
+      "What markers of segments are called, by marker.");
+  to.def_property_readonly(
+      "region_names", [](const Class& v) { return v.names.regions; }, "What regions are called, by attribute.");
+}
+
 template <class Class>
 void take_point_data(Class& value, py::handle markers, py::handle attributes) {
   if (!markers.is_none()) value.point_markers = integers_from(markers, "point_markers");
@@ -79,9 +91,13 @@ std::vector<Edge> edges_from(py::handle pairs, py::handle markers, std::int32_t 
   return edges;
 }
 
+using Markers = std::map<std::int32_t, std::string>;
+using Regions = std::map<double, std::string>;
+
 Pslg make_pslg(py::handle points, py::handle segments, py::handle segment_markers, py::handle holes, py::handle regions,
-               py::handle point_markers, py::handle attributes) {
+               py::handle point_markers, py::handle attributes, Markers marker_names, Regions region_names) {
   Pslg pslg;
+  pslg.names = {std::move(marker_names), std::move(region_names)};
   pslg.points = points_from(points, "points");
   pslg.segments =
       edges_from<Pslg::Segment>(segments, segment_markers, 1, "segments", "segment_markers", pslg.points.size());
@@ -99,8 +115,10 @@ Pslg make_pslg(py::handle points, py::handle segments, py::handle segment_marker
 }
 
 Mesh make_mesh(py::handle points, py::handle triangles, py::handle edges, py::handle edge_markers,
-               py::handle point_markers, py::handle attributes, py::handle regions) {
+               py::handle point_markers, py::handle attributes, py::handle regions, Markers marker_names,
+               Regions region_names) {
   Mesh mesh;
+  mesh.names = {std::move(marker_names), std::move(region_names)};
   mesh.points = points_from(points, "points");
   const std::vector<std::int32_t> corners = integers_from(triangles, "triangles", 3);
   require_indices(corners, mesh.points.size(), "triangles");
@@ -124,7 +142,8 @@ void add_pslg(py::module_& module) {
   const py::object none = py::none();
   pslg.def(py::init(&make_pslg), py::arg("points"), py::arg("segments") = none, py::kw_only(),
            py::arg("segment_markers") = none, py::arg("holes") = none, py::arg("regions") = none,
-           py::arg("point_markers") = none, py::arg("attributes") = none, "A domain from arrays, which are copied.");
+           py::arg("point_markers") = none, py::arg("attributes") = none, py::arg("marker_names") = Markers{},
+           py::arg("region_names") = Regions{}, "A domain from arrays, which are copied.");
   add_point_views(pslg);
   add_edge_views(pslg, "segments", "Indices of the two ends of each segment, shape (segments, 2).", "segment_markers",
                  "Markers of the segments, shape (segments,).", &Pslg::segments);
@@ -137,6 +156,7 @@ void add_pslg(py::module_& module) {
              static_assert(sizeof(Pslg::Region) == 4 * sizeof(double));
              return columns_of(v.regions, v.regions.empty() ? nullptr : &v.regions[0].at.x, 4, self);
            });
+  add_names(pslg);
   pslg.def(
       "write", [](const Pslg& v, const std::filesystem::path& path) { write_poly(v, path.string()); }, py::arg("path"),
       py::call_guard<py::gil_scoped_release>(), "Write Triangle's .poly. The file appears only when it is complete.");
@@ -152,7 +172,7 @@ void add_mesh(py::module_& module) {
   const py::object none = py::none();
   mesh.def(py::init(&make_mesh), py::arg("points"), py::arg("triangles"), py::kw_only(), py::arg("edges") = none,
            py::arg("edge_markers") = none, py::arg("point_markers") = none, py::arg("attributes") = none,
-           py::arg("regions") = none,
+           py::arg("regions") = none, py::arg("marker_names") = Markers{}, py::arg("region_names") = Regions{},
            "A mesh from arrays, which are copied: to check it, draw it, or write it to a file.");
   add_point_views(mesh);
   add_view(mesh, "triangles", "Indices of the corners, counterclockwise, shape (triangles, 3).",
@@ -171,6 +191,7 @@ void add_mesh(py::module_& module) {
            [](const Mesh& v, py::handle self) { return view(v.subdomains, self); });
   add_view(mesh, "ranks", "Rank that had the subdomain of each triangle, shape (triangles,), or (0,).",
            [](const Mesh& v, py::handle self) { return view(v.ranks, self); });
+  add_names(mesh);
   mesh.def(
       "write", [](const Mesh& v, const std::filesystem::path& path) { write_mesh(v, path.string()); }, py::arg("path"),
       py::call_guard<py::gil_scoped_release>(),

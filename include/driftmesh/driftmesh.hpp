@@ -8,6 +8,7 @@
 #include "driftmesh/generate.hpp"
 #include "driftmesh/mesh.hpp"
 #include "driftmesh/mesher.hpp"
+#include "driftmesh/names.hpp"
 #include "driftmesh/options.hpp"
 #include "driftmesh/point.hpp"
 #include "driftmesh/policy.hpp"

@@ -44,9 +44,10 @@ struct WriteOptions {
 };
 
 /// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, .h5 (with an .xdmf beside it), .su2,
-/// .14, .grd or .gr3 (ADCIRC, SCHISM), or Triangle's .node, .ele, .poly, .edge, .neigh (any of these names the whole
-/// set); to standard output for "-" (as .vtu), "-.vtu" and "-.msh". Files appear under their names only when complete.
-/// docs/file-formats.md says what each format holds. Errors: InputError for an unknown extension, FileError.
+/// .mesh (MFEM), .14, .grd or .gr3 (ADCIRC, SCHISM), or Triangle's .node, .ele, .poly, .edge, .neigh (any of these
+/// names the whole set); to standard output for "-" (as .vtu), "-.vtu" and "-.msh". Files appear under their names only
+/// when complete. docs/file-formats.md says what each format holds. Errors: InputError for an unknown extension and for
+/// names that no file can hold (see Names), FileError.
 void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
 /// What reading a mesh may do.
@@ -54,7 +55,7 @@ struct ReadOptions {
   bool allow_outside = false;  ///< a .pvtu may name pieces outside of its own folder, and through links that leave it
 };
 
-/// Reads a mesh back, from any of these formats but .su2, from standard input by the same names, or from the pieces
+/// Reads a mesh back, from any of these formats but .mesh, from standard input by the same names, or from the pieces
 /// that a .pvtu names. Everything is checked before it is used: indices are in range and counts fit the file. Triangles
 /// stay as the file lists them, so that a check sees the actual contents; only if the total area is negative are all of
 /// them reversed. Errors: InputError naming file and place, FileError.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "driftmesh/names.hpp"
 #include "driftmesh/point.hpp"
 
 namespace driftmesh {
@@ -31,6 +32,7 @@ struct Mesh {
   std::vector<double> attributes;           ///< attributes_per_point values for each point, point by point
   std::int32_t attributes_per_point = 0;
   std::vector<double> regions;  ///< empty, or the attribute of each triangle's region; 0 outside all regions
+  Names names;                  ///< of markers and regions, also of those that do not occur
 
   // Only for a mesh made in subdomains, or a rank's piece of one.
   std::vector<std::int64_t> numbers;     ///< empty, or the number of each point of a piece in the whole mesh

@@ -1,10 +1,15 @@
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "app/commands.hpp"
 #include "app/run_files.hpp"
 #include "cli/values.hpp"
 #include "io/mesh_file.hpp"
+#include "pslg/names.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -14,13 +19,30 @@ struct ConvertOptions {
   std::string output;
   ReadOptions reading;
   WriteOptions writing;
+  Names names;  // that replace those of the mesh
 };
+
+/// Stores the parts of 5=inlet.
+template <class Value>
+cli::Take into_names(std::map<Value, std::string>& names, std::optional<Value> (*number_from)(std::string_view)) {
+  return [&names, number_from](const std::string& text) {
+    const std::size_t equals = text.find('=');
+    const auto number = number_from(text.substr(0, equals));
+    if (equals == std::string::npos || !number) throw cli::UsageError("is '" + text + "', which is not NUMBER=NAME");
+    names[*number] = text.substr(equals + 1);
+  };
+}
 
 void run_convert(const ConvertOptions& options) {
   FileRegistry files;
   register_mesh_input(files, options.input, "INPUT", options.reading);
   register_mesh_output(files, options.output, "OUTPUT");
-  write_mesh(read_mesh(options.input, options.reading), options.output, options.writing);
+  Mesh mesh = read_mesh(options.input, options.reading);
+  Names names = options.names;
+  names.markers.merge(mesh.names.markers);
+  names.regions.merge(mesh.names.regions);
+  mesh.names = std::move(names);
+  write_mesh(mesh, options.output, options.writing);
 }
 
 }  // namespace
@@ -51,6 +73,16 @@ cli::Command convert_command() {
                        .value = "MARKERS",
                        .help = "Markers of the segments that are open sea, in .14, .grd and .gr3; others are land",
                        .take = cli::into(options->writing.open_boundary)},
+                      {.name = "marker-name",
+                       .value = "MARKER=NAME",
+                       .help = "What a marker of segments is called in files that can hold names, such as 5=inlet",
+                       .repeats = true,
+                       .take = into_names(options->names.markers, marker_from)},
+                      {.name = "region-name",
+                       .value = "REGION=NAME",
+                       .help = "What a region is called in files that can hold names, such as 10=land",
+                       .repeats = true,
+                       .take = into_names(options->names.regions, region_from)},
                       allow_outside_option(options->reading)},
           .examples = {"driftmesh convert bay.vtu bay.msh"},
           .exit_codes = "0 done, 1 error, 2 wrong usage",

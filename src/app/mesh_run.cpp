@@ -260,6 +260,9 @@ int mesh_by_threads(const Told& told, job::Domain&& domain, job::Triangulated&& 
 
 int mesh_here(const Told& told, job::Place place) {
   const Request& request = told.request;
+  for (const std::string& output : request.output.meshes)
+    if (is_for_ranks(output))
+      throw InputError({output}, "has a file for each rank of MPI", "start the program with mpirun, or write a .mesh");
   register_files(told, 1);
   RunNotes notes(request, told.command);
   job::cap_memory(request.limits);

@@ -1,5 +1,7 @@
 #include "distributed/mesh_bytes.hpp"
 
+#include "pslg/names.hpp"
+
 namespace driftmesh {
 
 Bytes mesh_to_bytes(const Mesh& mesh) {
@@ -14,6 +16,7 @@ Bytes mesh_to_bytes(const Mesh& mesh) {
   writer.array(mesh.numbers);
   writer.array(mesh.subdomains);
   writer.array(mesh.ranks);
+  transfer_names(writer, mesh.names);
   return writer.take();
 }
 
@@ -30,6 +33,7 @@ Mesh mesh_of(const Mail& mail) {
     reader.array(mesh.numbers);
     reader.array(mesh.subdomains);
     reader.array(mesh.ranks);
+    transfer_names(reader, mesh.names);
   });
   return mesh;
 }

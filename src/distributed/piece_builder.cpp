@@ -49,6 +49,7 @@ DistributedPiece PieceBuilder::build(const HeldSubdomains& held, const Pslg& psl
   piece_.mesh.ranks.assign(piece_.mesh.triangles.size(), to_int(rank_));
   mark_points(pslg);
   set_attributes(pslg);
+  piece_.mesh.names = pslg.names;
   find_sharers();
   return std::move(piece_);
 }

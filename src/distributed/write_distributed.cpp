@@ -10,6 +10,7 @@
 #include "base/staged_files.hpp"
 #include "distributed/mesh_bytes.hpp"
 #include "distributed/rank_status.hpp"
+#include "distributed/write_mfem.hpp"
 #include "distributed/write_together.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/merge_pieces.hpp"
@@ -133,6 +134,11 @@ void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, std
     if (is_in_pieces(path)) {
       WritePieces pieces(piece, path);
       ranks.run(pieces);
+      continue;
+    }
+    if (is_for_ranks(path)) {
+      WriteMfem parts(piece, path);
+      ranks.run(parts);
       continue;
     }
     if (is_written_by_all(path)) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "distributed/rank_status.hpp"
+#include "io/msh_groups.hpp"
 
 namespace driftmesh {
 namespace {
@@ -19,6 +20,7 @@ VtuArrays arrays_of_pieces(const DistributedPiece& piece) {
 WriteTogether::WriteTogether(const DistributedPiece& piece, std::string path)
     : piece_(piece), path_(std::move(path)), part_{.mesh = piece.mesh, .points = {}, .lines = {}, .row = {}} {
   shape_.arrays = arrays_of_pieces(piece);
+  shape_.names = piece.mesh.names;
   part_.row.resize(piece.mesh.points.size());
   for (std::size_t v = 0; v < piece.owners.size(); ++v)
     if (piece.owners[v] == piece.rank) part_.points.push_back(static_cast<std::int32_t>(v));
@@ -111,7 +113,7 @@ void WriteTogether::learn_counts(const std::vector<Mail>& mail) {
     all_regions.insert(regions.begin(), regions.end());
     written.insert(edges.begin(), edges.end());
   }
-  part_.tags = tags_of_regions(all_regions);
+  part_.tags = tags_of_values(all_regions);
   for (std::size_t i = 0; i < part_.points.size(); ++i)
     part_.row[part_.points[i]] = static_cast<std::int64_t>(part_.first_point + i);
   for (std::size_t e = 0; e < piece_.mesh.edges.size(); ++e)

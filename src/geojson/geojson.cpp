@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -75,7 +76,28 @@ class FeatureReader {
     if (type_of(feature) != "Feature") fail("has type \"" + type_of(feature) + "\" instead of \"Feature\"");
     const auto geometry = feature.find("geometry"), properties = feature.find("properties");
     if (geometry == feature.end() || geometry->is_null()) return;  // a feature without a place
-    read_geometry(*geometry, properties != feature.end() && properties->is_object() ? *properties : Json::object(), 0);
+    const Json none = Json::object();
+    const Json& known = properties != feature.end() && properties->is_object() ? *properties : none;
+    read_geometry(*geometry, known, 0);
+    read_name(known);
+  }
+
+  /// Of the region or the marker that the feature has by its number: features of one kind may have names of their own.
+  void read_name(const Json& properties) {
+    const auto name = properties.find("name");
+    if (name == properties.end() || !name->is_string()) return;
+    if (const auto region = number_in(properties, "region"))
+      give_name(found_.names.regions, *region, "region", *name);
+    else if (number_in(properties, "marker"))
+      give_name(found_.names.markers, *marker_in(properties), "marker", *name);
+  }
+
+  template <class Value>
+  void give_name(std::map<Value, std::string>& names, Value value, const char* what, const std::string& name) const {
+    const auto known = names.try_emplace(value, name).first;
+    if (known->second != name)
+      fail("calls its " + std::string(what) + " '" + name + "', but another feature '" + known->second + "'",
+           "give each a number of its own");
   }
 
   void read_geometry(const Json& geometry, const Json& properties, int depth) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "driftmesh/names.hpp"
 #include "geojson/interior_point.hpp"
 
 namespace driftmesh {
@@ -32,6 +33,7 @@ struct GeoFeatures {
   std::vector<Polygon> polygons;
   std::vector<Line> lines;
   std::vector<Point> points;
+  Names names;             ///< of markers and regions
   bool in_degrees = true;  ///< longitudes and latitudes, as the format has it, unless an old "crs" says otherwise
 };
 

@@ -107,6 +107,7 @@ std::string project(GeoFeatures& features, const std::string& file) {
 
 Pslg to_pslg(const GeoFeatures& features, const std::string& file) {
   PslgBuilder builder;
+  builder.pslg().names = features.names;
   for (const GeoFeatures::Line& line : features.lines) builder.add_chain(line.points, false, line.marker);
   const RingIndex index(features);
   for (const GeoFeatures::Polygon& polygon : features.polygons) {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -24,15 +23,13 @@ struct Hdf5Shape {
   std::uint64_t triangles = 0;
   std::uint64_t lines = 0;
   VtuArrays arrays;
+  Names names{};
 };
 /// Where arrays begin, by their names: byte offsets into the file. An array without elements has no place.
 using Hdf5Places = std::map<std::string, std::uint64_t>;
 
 /// `file` exists and is replaced; messages call it `path`. Throws FileError.
 [[nodiscard]] Hdf5Places create_hdf5(const std::string& file, const std::string& path, const Hdf5Shape& shape);
-
-/// The tags of regions, positive integers for solvers (see group_tags).
-[[nodiscard]] std::map<double, std::int32_t> tags_of_regions(const std::set<double>& regions);
 
 /// What one process writes of a mesh.
 struct Hdf5Part {

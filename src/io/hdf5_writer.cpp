@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <map>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -98,6 +99,8 @@ class Hdf5Maker {
     array<std::int64_t>("/viz/topology/facets", {shape_.lines, 2});
     array<std::int32_t>("/tags/cells", {shape_.triangles});
     array<std::int32_t>("/tags/facets", {shape_.lines});
+    name_values("/tags/cells", shape_.names.regions);
+    name_values("/tags/facets", shape_.names.markers);
   }
 
   [[nodiscard]] std::uint64_t cells() const { return shape_.triangles + shape_.lines; }
@@ -113,6 +116,20 @@ class Hdf5Maker {
     const Hdf5Handle one(H5Screate(H5S_SCALAR), H5Sclose);
     const Hdf5Handle attribute(H5Acreate(group.id(), called, text.id(), one.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     check(H5Awrite(attribute.id(), text.id(), value.data()) >= 0);
+  }
+
+  /// Attributes of an array that are called as its values are.
+  template <class Value>
+  void name_values(const char* array, const std::map<Value, std::string>& names) const {
+    const Hdf5Handle set(H5Dopen(file_.id(), array, H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle how(H5Pcreate(H5P_ATTRIBUTE_CREATE), H5Pclose);
+    H5Pset_char_encoding(how.id(), H5T_CSET_UTF8);
+    const Hdf5Handle one(H5Screate(H5S_SCALAR), H5Sclose);
+    for (const auto& [value, called] : names) {
+      const Hdf5Handle attribute(
+          H5Acreate(set.id(), called.c_str(), hdf5_type<Value>(), one.id(), how.id(), H5P_DEFAULT), H5Aclose);
+      check(H5Awrite(attribute.id(), hdf5_type<Value>(), &value) >= 0);
+    }
   }
 
   void number(const char* called, std::uint64_t value) const {
@@ -340,23 +357,15 @@ void write_hdf5_part(const std::string& file, const std::string& path, const Hdf
   out.close();
 }
 
-std::map<double, std::int32_t> tags_of_regions(const std::set<double>& regions) {
-  const std::vector<double> values(regions.begin(), regions.end());
-  const std::vector<std::int32_t> tags = group_tags(values);
-  std::map<double, std::int32_t> result;
-  for (std::size_t i = 0; i < values.size(); ++i) result[values[i]] = tags[i];
-  return result;
-}
-
 void write_hdf5(const Mesh& mesh, const std::string& path) {
   AtomicFile file(path);
   const std::string& name = file.name_meanwhile();
-  const Hdf5Shape shape{mesh.points.size(), mesh.triangles.size(), mesh.edges.size(), arrays_of(mesh)};
+  const Hdf5Shape shape{mesh.points.size(), mesh.triangles.size(), mesh.edges.size(), arrays_of(mesh), mesh.names};
   const Hdf5Part part{.mesh = mesh,
                       .points = numbered<std::int32_t>(mesh.points.size()),
                       .lines = numbered<std::int32_t>(mesh.edges.size()),
                       .row = numbered<std::int64_t>(mesh.points.size()),
-                      .tags = tags_of_regions({mesh.regions.begin(), mesh.regions.end()})};
+                      .tags = tags_of_values({mesh.regions.begin(), mesh.regions.end()})};
   const Hdf5Places places = create_hdf5(name, path, shape);
   write_hdf5_part(name, path, shape, places, part);
   file.commit();

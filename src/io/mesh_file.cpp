@@ -6,16 +6,18 @@
 #include "driftmesh/error.hpp"
 #include "io/fort14_format.hpp"
 #include "io/hdf5_format.hpp"
+#include "io/mfem_format.hpp"
 #include "io/msh_format.hpp"
 #include "io/pvtu_format.hpp"
 #include "io/su2_format.hpp"
 #include "io/triangle_format.hpp"
 #include "io/vtu_format.hpp"
+#include "pslg/names.hpp"
 
 namespace driftmesh {
 namespace {
 
-enum class Format { kTriangle, kVtu, kPvtu, kMsh, kHdf5, kSu2, kFort14 };
+enum class Format { kTriangle, kVtu, kPvtu, kMsh, kHdf5, kSu2, kMfem, kMfemParts, kFort14 };
 
 Format named_format(const std::string& path) {
   if (names_no_format(path)) return Format::kVtu;
@@ -25,6 +27,8 @@ Format named_format(const std::string& path) {
   if (extension == ".msh") return Format::kMsh;
   if (extension == ".su2") return Format::kSu2;
   if (extension == ".h5") return Format::kHdf5;
+  if (extension == ".mesh") return Format::kMfem;
+  if (extension == ".pmesh") return Format::kMfemParts;
   for (const char* of_fort14 : {".14", ".grd", ".gr3"})
     if (extension == of_fort14) return Format::kFort14;
   for (const char* of_triangle : {".node", ".ele", ".poly", ".edge", ".neigh"})
@@ -35,7 +39,8 @@ Format named_format(const std::string& path) {
 
 Format format_of(const std::string& path) {
   const Format format = named_format(path);
-  if (is_standard_stream(path) && (format == Format::kTriangle || format == Format::kPvtu || format == Format::kHdf5))
+  if (is_standard_stream(path) && (format == Format::kTriangle || format == Format::kPvtu || format == Format::kHdf5 ||
+                                   format == Format::kMfemParts))
     throw InputError({path, 0}, "means several files, but a standard stream is only one",
                      "use - with the extension of a single file, as in -.vtu, or name a file");
   return format;
@@ -48,6 +53,7 @@ std::string without_extension(const std::string& path) {
 }  // namespace
 
 void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
+  check_names(mesh.names, path);
   switch (format_of(path)) {
     case Format::kVtu:
       return write_vtu(mesh, path);
@@ -59,6 +65,10 @@ void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& o
       return write_hdf5(mesh, path);
     case Format::kSu2:
       return write_su2(mesh, path);
+    case Format::kMfem:
+      return write_mfem(mesh, path);
+    case Format::kMfemParts:
+      throw InputError({path, 0}, "is for a mesh on ranks", "this mesh is in one piece; write a .mesh");
     case Format::kFort14:
       return write_fort14(mesh, path, options.open_boundary);
     case Format::kTriangle:
@@ -77,6 +87,9 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) {
     case Format::kHdf5:
       return read_hdf5(path);
     case Format::kSu2:
+      return read_su2(path);
+    case Format::kMfem:
+    case Format::kMfemParts:
       throw InputError({path, 0}, "is in a format that is written, but not read",
                        std::string("keep the mesh in one of ") + kMeshFiles);
     case Format::kFort14:
@@ -92,7 +105,11 @@ bool is_in_pieces(const std::string& path) {
 }
 
 bool is_written_by_all(const std::string& path) {
-  return is_in_pieces(path) || format_of(path) == Format::kHdf5;
+  return is_in_pieces(path) || is_for_ranks(path) || format_of(path) == Format::kHdf5;
+}
+
+bool is_for_ranks(const std::string& path) {
+  return format_of(path) == Format::kMfemParts;
 }
 
 std::vector<std::string> mesh_files(const std::string& path) {

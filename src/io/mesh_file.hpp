@@ -13,11 +13,14 @@ namespace driftmesh {
 
 /// The files that hold a mesh, for messages and help: "the mesh: " + kMeshFiles.
 inline constexpr const char* kMeshFiles =
-    ".vtu, .pvtu, .msh, .h5, .14, .grd, .gr3, or any file of Triangle's .node/.ele set";
+    ".vtu, .pvtu, .msh, .h5, .su2, .14, .grd, .gr3, or any file of Triangle's .node/.ele set";
 
 /// Whether the extension is that of a mesh in pieces: .pvtu. Error: InputError for an unknown extension.
 [[nodiscard]] bool is_in_pieces(const std::string& path);
-/// Whether ranks write it together, so that none of them has the whole mesh: .pvtu and .h5. Error: as is_in_pieces.
+/// Whether only ranks can write it, each a file of its own: .pmesh. Error: as is_in_pieces.
+[[nodiscard]] bool is_for_ranks(const std::string& path);
+/// Whether ranks write it together, so that none of them has the whole mesh: .pvtu, .h5 and .pmesh. Error: as
+/// is_in_pieces.
 [[nodiscard]] bool is_written_by_all(const std::string& path);
 /// The pieces of a mesh, not merged, with the numbers of their points, to be read one by one. Errors: as read_mesh.
 class PieceFiles {

@@ -76,4 +76,12 @@ std::vector<std::int32_t> group_tags(const std::vector<double>& values) {
   return tags;
 }
 
+std::map<double, std::int32_t> tags_of_values(const std::set<double>& distinct) {
+  const std::vector<double> values(distinct.begin(), distinct.end());
+  const std::vector<std::int32_t> tags = group_tags(values);
+  std::map<double, std::int32_t> result;
+  for (std::size_t i = 0; i < values.size(); ++i) result[values[i]] = tags[i];
+  return result;
+}
+
 }  // namespace driftmesh

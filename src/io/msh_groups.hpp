@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,5 +30,8 @@ inline constexpr std::int32_t kTagOfZero = 1'000'000;
 /// to the largest int32, and kTagOfZero for 0. Negative and fractional values, and kTagOfZero itself beside a 0, get
 /// the unused tags above kTagOfZero, in ascending order.
 [[nodiscard]] std::vector<std::int32_t> group_tags(const std::vector<double>& values);
+
+/// The same by value. Solvers that read other formats want such tags, too.
+[[nodiscard]] std::map<double, std::int32_t> tags_of_values(const std::set<double>& distinct);
 
 }  // namespace driftmesh

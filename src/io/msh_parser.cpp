@@ -1,5 +1,6 @@
 #include "io/msh_parser.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -65,6 +66,8 @@ class MshParser {
       parse_elements(input);
     else if (name == "DriftmeshPointMarkers")
       parse_point_markers();
+    else if (name == "DriftmeshValues")
+      parse_group_values();
     else
       return false;
     return true;
@@ -317,6 +320,22 @@ class MshParser {
     for (std::uint64_t left = input.size(); left > 0; --left) {
       const std::uint64_t node = input.size();
       raw_.point_markers->push_back({node, input.integer()});
+    }
+  }
+
+  void parse_group_values() {
+    TextMshInput input(cursor_);
+    for (std::uint64_t left = input.size(); left > 0; --left) {
+      const std::int32_t dimension = input.integer();
+      const std::int32_t tag = input.integer();
+      const double value = input.real();
+      if (!std::isfinite(value) || (dimension == 1 && value != static_cast<double>(static_cast<std::int32_t>(
+                                                                   std::clamp<double>(value, INT32_MIN, INT32_MAX)))))
+        fail("has a value in $DriftmeshValues that is no marker or region", kDamaged);
+      if (!raw_.group_values.try_emplace({dimension, tag}, value).second)
+        fail("has two values in $DriftmeshValues for dimension " + std::to_string(dimension) + " and tag " +
+                 std::to_string(tag),
+             kDamaged);
     }
   }
 

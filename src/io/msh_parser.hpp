@@ -46,6 +46,7 @@ struct RawMsh {
   std::vector<ElementValue> subdomains;
   std::vector<ElementValue> ranks;
   std::optional<std::vector<Marker>> point_markers;
+  std::map<EntityKey, double> group_values;  ///< markers and regions that neither name nor tag of the group says
 };
 
 /// Reads the sections of a file of format 4.1, ASCII or binary. Tags are not checked for existence. Errors: InputError.

@@ -12,6 +12,7 @@
 #include "io/msh_parser.hpp"
 #include "io/read_checks.hpp"
 #include "io/tag_order.hpp"
+#include "pslg/names.hpp"
 
 namespace driftmesh {
 namespace {
@@ -36,6 +37,7 @@ class MshAssembler {
     mesh_.ranks = values_of_triangles(raw_.ranks, kRankView);
     place_attributes();
     place_point_markers();
+    place_names();
     return std::move(mesh_);
   }
 
@@ -137,11 +139,28 @@ class MshAssembler {
         values[used[i]] = 0;
         continue;
       }
-      const auto name = raw_.group_names.find({dimension, group->second});
-      const std::optional<Value> named = name == raw_.group_names.end() ? std::nullopt : parse(name->second);
-      values[used[i]] = named ? *named : static_cast<Value>(group->second);
+      values[used[i]] = value_of_group({dimension, group->second}, parse);
     }
     return values;
+  }
+
+  template <class Parse>
+  [[nodiscard]] auto value_of_group(const RawMsh::EntityKey& group, Parse parse) const {
+    using Value = typename decltype(parse({}))::value_type;
+    if (const auto value = raw_.group_values.find(group); value != raw_.group_values.end())
+      return static_cast<Value>(value->second);
+    const auto name = raw_.group_names.find(group);
+    const std::optional<Value> named = name == raw_.group_names.end() ? std::nullopt : parse(name->second);
+    return named ? *named : static_cast<Value>(group.second);
+  }
+
+  /// Names of groups that stand for no number.
+  void place_names() {
+    for (const auto& [group, name] : raw_.group_names)
+      if (group.first == 1)
+        add_marker_name(mesh_.names, value_of_group(group, marker_of_group_name), name);
+      else if (group.first == 2)
+        add_region_name(mesh_.names, value_of_group(group, region_of_group_name), name);
   }
 
   // Not when no surface is in a group, nor when the only group is the one that write_msh gives a mesh without regions.

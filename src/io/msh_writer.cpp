@@ -3,6 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -117,7 +118,19 @@ struct Entity {
   std::int32_t tag = 0;
   std::string name;
   Box box;
+  double value = 0;          // marker or region
+  bool hides_value = false;  // neither name nor tag tells it
 };
+
+/// `names`: of markers or regions, which otherwise have the name that `number_name` makes.
+template <class Value, class NumberName>
+Entity make_entity(std::int32_t tag, Value value, const std::map<Value, std::string>& names,
+                   const NumberName& number_name) {
+  const auto name = names.find(value);
+  if (name == names.end()) return {.tag = tag, .name = number_name(value), .box = {}};
+  return {
+      .tag = tag, .name = name->second, .box = {}, .value = static_cast<double>(value), .hides_value = tag != value};
+}
 
 // Which entity everything belongs to. Curves and surfaces are numbered from 0; a node on both belongs to the curve.
 struct Classification {
@@ -144,20 +157,21 @@ struct Classification {
     for (const Mesh::Edge& edge : mesh.edges) curve_of_edge.push_back(markers.number(edge.marker));
     const std::vector<std::int32_t> tags = group_tags(markers.values);
     for (std::size_t i = 0; i < tags.size(); ++i)
-      curves.push_back({tags[i], marker_group_name(static_cast<std::int32_t>(markers.values[i])), {}});
+      curves.push_back(
+          make_entity(tags[i], static_cast<std::int32_t>(markers.values[i]), mesh.names.markers, marker_group_name));
   }
 
   void classify_triangles(const Mesh& mesh) {
     surface_of_triangle.assign(mesh.triangles.size(), 0);
     if (mesh.regions.empty()) {
-      surfaces.push_back({1, std::string(kDomainName), {}});
+      surfaces.push_back({.tag = 1, .name = std::string(kDomainName), .box = {}});
       return;
     }
     DistinctValues regions;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) surface_of_triangle[t] = regions.number(mesh.regions[t]);
     const std::vector<std::int32_t> tags = group_tags(regions.values);
     for (std::size_t i = 0; i < tags.size(); ++i)
-      surfaces.push_back({tags[i], region_group_name(regions.values[i]), {}});
+      surfaces.push_back(make_entity(tags[i], regions.values[i], mesh.names.regions, region_group_name));
   }
 
   void find_boxes(const Mesh& mesh) {
@@ -363,6 +377,28 @@ void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& marker
   sink.text("$EndDriftmeshPointMarkers\n");
 }
 
+/// The markers and regions of groups whose names say something else and whose tags cannot be these values.
+void write_values(FileSink& sink, const Classification& classes) {
+  std::size_t hidden = 0;
+  for (const auto* const entities : {&classes.curves, &classes.surfaces})
+    hidden += static_cast<std::size_t>(std::ranges::count_if(*entities, &Entity::hides_value));
+  if (hidden == 0) return;
+  sink.text("$DriftmeshValues\n");
+  sink.number(hidden);
+  sink.character('\n');
+  for (const auto& [dimension, entities] : {std::pair(1, &classes.curves), {2, &classes.surfaces}})
+    for (const Entity& entity : *entities) {
+      if (!entity.hides_value) continue;
+      sink.number(dimension);
+      sink.character(' ');
+      sink.number(entity.tag);
+      sink.character(' ');
+      sink.number(entity.value);
+      sink.character('\n');
+    }
+  sink.text("$EndDriftmeshValues\n");
+}
+
 }  // namespace
 
 void write_msh(const Mesh& mesh, const std::string& path, bool ascii) {
@@ -375,6 +411,7 @@ void write_msh(const Mesh& mesh, const std::string& path, bool ascii) {
   write_nodes(out, mesh, classes);
   write_elements(out, mesh, classes);
   write_views(out, mesh, classes);
+  write_values(out.text(), classes);
   if (!mesh.point_markers.empty()) write_point_markers(out.text(), mesh.point_markers);
   out.commit();
 }

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <map>
+#include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -8,13 +11,10 @@
 #include "io/file_sink.hpp"
 #include "io/su2_format.hpp"
 #include "mesh/mesh_edges.hpp"
+#include "pslg/names.hpp"
 
 namespace driftmesh {
 namespace {
-
-// VTK's numbers of cell types, which SU2 uses.
-constexpr int kSu2Line = 3;
-constexpr int kSu2Triangle = 5;
 
 void write_count(FileSink& sink, std::string_view name, std::size_t count) {
   sink.text(name);
@@ -33,15 +33,58 @@ void write_numbers(FileSink& sink, std::initializer_list<std::int64_t> numbers) 
   sink.character('\n');
 }
 
-void write_boundaries(FileSink& sink, const Mesh& mesh) {
+/// The edges of the boundary, by their markers.
+using Boundaries = std::map<std::int32_t, std::vector<std::size_t>>;
+
+Boundaries boundaries_of(const Mesh& mesh) {
   const auto at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
-  std::map<std::int32_t, std::vector<std::size_t>> of_marker;
+  Boundaries boundaries;
   for (std::size_t e = 0; e < at_edges.size(); ++e)
-    if ((at_edges[e][0] < 0) != (at_edges[e][1] < 0)) of_marker[mesh.edges[e].marker].push_back(e);
-  write_count(sink, "NMARK", of_marker.size());
-  for (const auto& [marker, edges] : of_marker) {
-    sink.text("MARKER_TAG= ");
+    if ((at_edges[e][0] < 0) != (at_edges[e][1] < 0)) boundaries[mesh.edges[e].marker].push_back(e);
+  return boundaries;
+}
+
+/// One word: lists of markers in settings are separated by commas and blanks, and '%' begins a comment there.
+std::string word_of(std::string name) {
+  std::ranges::replace_if(
+      name, [](char c) { return std::string_view(" ,()=%").find(c) != std::string_view::npos; }, '_');
+  if (marker_from(name)) name.insert(name.begin(), '_');
+  return name;
+}
+
+using Tags = std::map<std::int32_t, std::string>;
+
+Tags tags_of(const Boundaries& boundaries, const Names& names) {
+  Tags tags;
+  std::set<std::string> taken;
+  for (const auto& [marker, edges] : boundaries) {
+    const auto name = names.markers.find(marker);
+    std::string& tag = tags[marker] = name == names.markers.end() ? std::to_string(marker) : word_of(name->second);
+    while (!taken.insert(tag).second) tag.append("_").append(std::to_string(marker));
+  }
+  return tags;
+}
+
+/// At the beginning, where SU2 looks for nothing but its keywords. Between markers it skips no comments.
+void write_names(FileSink& sink, const Tags& tags, const Names& names) {
+  for (const auto& [marker, tag] : tags) {
+    const auto name = names.markers.find(marker);
+    if (name == names.markers.end()) continue;
+    sink.text(kSu2NameComment);
     sink.number(marker);
+    for (const std::string& word : {tag, name->second}) {
+      sink.character(' ');
+      sink.text(word);
+    }
+    sink.character('\n');
+  }
+}
+
+void write_boundaries(FileSink& sink, const Mesh& mesh, const Boundaries& boundaries, const Tags& tags) {
+  write_count(sink, "NMARK", boundaries.size());
+  for (const auto& [marker, edges] : boundaries) {
+    sink.text("MARKER_TAG= ");
+    sink.text(tags.at(marker));
     sink.character('\n');
     write_count(sink, "MARKER_ELEMS", edges.size());
     for (const std::size_t e : edges) write_numbers(sink, {kSu2Line, mesh.edges[e].a, mesh.edges[e].b});
@@ -52,6 +95,9 @@ void write_boundaries(FileSink& sink, const Mesh& mesh) {
 
 void write_su2(const Mesh& mesh, const std::string& path) {
   FileSink sink(path);
+  const Boundaries boundaries = boundaries_of(mesh);
+  const Tags tags = tags_of(boundaries, mesh.names);
+  write_names(sink, tags, mesh.names);
   sink.text("NDIME= 2\n");
   write_count(sink, "NELEM", mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -67,7 +113,7 @@ void write_su2(const Mesh& mesh, const std::string& path) {
     sink.number(v);
     sink.character('\n');
   }
-  write_boundaries(sink, mesh);
+  write_boundaries(sink, mesh, boundaries, tags);
   sink.commit();
 }
 

@@ -49,6 +49,11 @@ void for_each_cell_array(const VtuArrays& arrays, const Visit& visit) {
   if (arrays.ranks) visit(kInt32, "rank");
 }
 
+// Names of markers and regions are arrays of the field data, which are called so and have two components: the number
+// that has the name, and the dimension of what has it. These are the names of the first component.
+inline constexpr const char* kMarkerOfName = "marker";
+inline constexpr const char* kRegionOfName = "region";
+
 /// VTK's name of the type.
 template <class T>
 [[nodiscard]] constexpr const char* vtk_type_name() {

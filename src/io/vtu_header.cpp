@@ -6,6 +6,7 @@
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/read_checks.hpp"
+#include "io/vtu_format.hpp"
 #include "io/xml_scanner.hpp"
 
 namespace driftmesh {
@@ -56,8 +57,13 @@ class VtuHeaderParser {
   static bool lies_in(const XmlTag& tag, const Path& path) { return tag.parents == path; }
   static bool is_array(std::string_view name) { return name == "DataArray" || name == "Array"; }
 
-  /// Of the piece: PointData, CellData, Points, Cells; empty for field data and all that a mesh has no place for.
+  /// Of the piece: PointData, CellData, Points, Cells; of the field data what are names; empty for all that a mesh has
+  /// no place for.
   static std::string section_of(const XmlTag& tag) {
+    if (lies_in(tag, {"VTKFile", "UnstructuredGrid", "FieldData"}) && tag.attribute("ComponentName1") == "dimension")
+      return tag.attribute("ComponentName0") == kMarkerOfName   ? VtuHeader::kMarkerNames
+             : tag.attribute("ComponentName0") == kRegionOfName ? VtuHeader::kRegionNames
+                                                                : "";
     for (const std::string_view section : {"PointData", "CellData", "Points", "Cells"})
       if (lies_in(tag, {"VTKFile", "UnstructuredGrid", "Piece", section})) return std::string(section);
     return "";

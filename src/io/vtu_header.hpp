@@ -30,13 +30,16 @@ struct VtuHeader {
     std::size_t line = 0;
   };
   using Name = std::pair<std::string, std::string>;  ///< section (PointData, ...) and name
+  // The sections of arrays in the field data that name markers and regions.
+  static constexpr const char* kMarkerNames = "FieldData of markers";
+  static constexpr const char* kRegionNames = "FieldData of regions";
 
   std::uint64_t points = 0;
   std::uint64_t cells = 0;
   bool wide_lengths = false;        ///< lengths in the data are UInt64, not UInt32
   bool compressed = false;          ///< by zlib
   bool raw = false;                 ///< appended data are bytes, not base64
-  std::map<Name, Array> arrays;     ///< on points and cells
+  std::map<Name, Array> arrays;     ///< on points and cells, and names
   std::vector<Array> other_arrays;  ///< which only take up room
   std::string_view appended;        ///< the section, from behind its '_' to the end of the file
 };

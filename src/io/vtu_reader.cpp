@@ -5,12 +5,14 @@
 
 #include "base/file_bytes.hpp"
 #include "base/huge_pages.hpp"
+#include "base/xml_text.hpp"
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/read_checks.hpp"
 #include "io/vtu_data.hpp"
 #include "io/vtu_format.hpp"
 #include "io/vtu_header.hpp"
+#include "pslg/names.hpp"
 
 namespace driftmesh {
 namespace {
@@ -237,6 +239,16 @@ void read_cells(Mesh& mesh, const std::string& path, const ArrayReader& arrays, 
   load_of_triangles("rank", mesh.ranks);
 }
 
+void read_names(Mesh& mesh, const VtuHeader& header, const ArrayReader& arrays) {
+  for (const auto& [place, array] : header.arrays) {
+    const auto& [section, name] = place;
+    if (section == VtuHeader::kMarkerNames)
+      add_marker_name(mesh.names, arrays.load<std::int32_t>(array, 1)[0], unescaped(name));
+    if (section == VtuHeader::kRegionNames)
+      add_region_name(mesh.names, arrays.load<double>(array, 1)[0], unescaped(name));
+  }
+}
+
 void require_array(const std::string& file, const VtuHeader& header, const DeclaredArray& declared) {
   const auto found = header.arrays.find({declared.section, declared.name});
   const std::string words = "array '" + declared.name + "' in <" + declared.section + ">";
@@ -259,6 +271,7 @@ Mesh parse_vtu(const std::string& file, std::string_view bytes, std::span<const 
   read_points(mesh, file, arrays, header.points);
   read_point_data(mesh, arrays, header.points);
   read_cells(mesh, file, arrays, header.cells);
+  read_names(mesh, header, arrays);
   check_read_mesh(mesh, file);
   return mesh;
 }

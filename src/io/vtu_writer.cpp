@@ -1,5 +1,7 @@
+#include <map>
 #include <utility>
 
+#include "base/xml_text.hpp"
 #include "io/file_sink.hpp"
 #include "io/vtu_format.hpp"
 #include "mesh/mesh_edges.hpp"
@@ -76,12 +78,39 @@ void declare_grid(VtuFile& file, const Counts& counts) {
   file.header("      </Cells>\n");
 }
 
+/// Names as numbers in arrays that are called so, since not all readers know arrays of text.
+template <class Value>
+void declare_names(VtuFile& file, const std::map<Value, std::string>& names, const char* what, int dimension) {
+  for (const auto& [value, name] : names) {
+    file.header("      <DataArray type=\"");
+    file.header(vtk_type_name<Value>());
+    file.header("\" Name=\"");
+    file.header(escaped(name));
+    file.header("\" NumberOfComponents=\"2\" ComponentName0=\"");
+    file.header(what);
+    file.header("\" ComponentName1=\"dimension\" NumberOfTuples=\"1\" format=\"ascii\">");
+    file.sink().number(value);
+    file.sink().character(' ');
+    file.sink().number(dimension);
+    file.header("</DataArray>\n");
+  }
+}
+
+void declare_field_data(VtuFile& file, const Names& names) {
+  if (names.empty()) return;
+  file.header("    <FieldData>\n");
+  declare_names(file, names.markers, kMarkerOfName, 1);
+  declare_names(file, names.regions, kRegionOfName, 2);
+  file.header("    </FieldData>\n");
+}
+
 template <class Offset>
-void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts) {
+void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts, const Names& names) {
   file.header(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "  <UnstructuredGrid>\n");
+  declare_field_data(file, names);
   file.header("    <Piece NumberOfPoints=\"" + std::to_string(counts.points) + "\" NumberOfCells=\"" +
               std::to_string(counts.cells) + "\">\n");
   declare_point_data(file, arrays, counts);
@@ -155,7 +184,7 @@ void write_grid(VtuFile& file, const Mesh& mesh, const Counts& counts) {
 template <class Offset>
 void write_all(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const std::vector<std::uint8_t>& ghosts,
                const Counts& counts) {
-  write_header<Offset>(file, arrays, counts);
+  write_header<Offset>(file, arrays, counts, mesh.names);
   write_point_data(file, mesh, arrays, ghosts);
   write_cell_data(file, mesh, arrays, counts);
   write_grid<Offset>(file, mesh, counts);

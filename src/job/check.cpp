@@ -8,6 +8,7 @@
 
 #include "base/nearest_name.hpp"
 #include "driftmesh/error.hpp"
+#include "job/domain.hpp"
 #include "job/keys.hpp"
 #include "pslg/generators.hpp"
 
@@ -135,7 +136,7 @@ void check_pdr(const Request& request, Place place) {
   require(request.run.threads <= 1 && !request.run.sleep && request.run.scratch.empty(), "run.method",
           "is pdr, whose ranks have one thread and one mesh in memory",
           "remove run.threads, run.sleep and run.scratch");
-  const auto whole = [](const std::string& mesh) { return !mesh.ends_with(".pvtu"); };
+  const auto whole = [](const std::string& mesh) { return !mesh.ends_with(".pvtu") && !mesh.ends_with(".pmesh"); };
   require(std::ranges::all_of(request.output.meshes, whole), "output.meshes",
           "asks for pieces, but pdr gathers the mesh", "write one file");
 }
@@ -183,6 +184,7 @@ void check(const Request& request, Place place, const balancer::PolicyMaker& pol
   for (const Key& key : keys()) check_value(key, key.load(request));
   check_places(request, place);
   check_input(request.input);
+  static_cast<void>(names_of(request.input));
   check_sizes(request.bounds, request.sizing);
   check_policy(request, policies);
   check_parts(request);

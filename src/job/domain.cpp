@@ -6,9 +6,11 @@
 
 #include "driftmesh/files.hpp"
 #include "driftmesh/repair.hpp"
+#include "job/key.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/nested_rings.hpp"
 #include "pslg/generators.hpp"
+#include "pslg/names.hpp"
 #include "sizing/sampled_field.hpp"
 
 namespace driftmesh::job {
@@ -34,13 +36,38 @@ void add_nested_holes(HoleRule rule, Pslg& pslg) {
   pslg.holes.insert(pslg.holes.end(), holes.begin(), holes.end());
 }
 
+/// Names that the request gives replace those that the input has.
+void name_markers_and_regions(const Request& request, Pslg& pslg) {
+  Names names = names_of(request.input);
+  names.markers.merge(pslg.names.markers);
+  names.regions.merge(pslg.names.regions);
+  check_names(names, input_name(request));
+  pslg.names = std::move(names);
+}
+
 }  // namespace
+
+Names names_of(const Request::Input& asked) {
+  Names names;
+  for (const auto& [number, name] : asked.marker_names) {
+    const auto marker = marker_from(number);
+    if (!marker) throw KeyError("input.marker-names", "has '" + number + "' as a marker", "markers are whole numbers");
+    names.markers[*marker] = name;
+  }
+  for (const auto& [number, name] : asked.region_names) {
+    const auto region = region_from(number);
+    if (!region) throw KeyError("input.region-names", "has '" + number + "' as a region", "regions are numbers");
+    names.regions[*region] = name;
+  }
+  return names;
+}
 
 Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   Domain domain;
   InputFile input = timed(watch, "read", [&] { return raw_input(request.input, given); });
   domain.pslg = std::move(input.pslg);
   domain.projection = std::move(input.projection);
+  name_markers_and_regions(request, domain.pslg);
   domain.repairs = timed(watch, "repair", [&] { return repair(domain.pslg, input_name(request)); });
   const std::vector<std::string> warnings = std::exchange(domain.repairs.warnings, {});
   watch.repaired(domain.repairs);

@@ -41,6 +41,9 @@ struct Domain {
 /// holes. `name` is for messages. Throws InputError.
 RepairReport clean_input(const Request::Input& asked, const std::string& name, Pslg& pslg);
 
+/// The names that a request gives to markers and regions. Throws KeyError for what is no marker or no region.
+[[nodiscard]] Names names_of(const Request::Input& asked);
+
 /// Passes on warnings about the input, only the first of them if there are very many. Throws InputError instead if the
 /// request is strict.
 void warn(const Request& request, std::span<const std::string> warnings, Watch& watch);

@@ -261,7 +261,13 @@ Section input_section() {
        key("input.strict", &R::input, &R::Input::strict,
            "Whether warnings about the input are errors: segments outside the domain, regions that are not "
            "separated, rings that are neither holes nor regions",
-           option("strict"), entry_points(kMeshers | kDecompose))}};
+           option("strict"), entry_points(kMeshers | kDecompose)),
+       key("input.marker-names", &R::input, &R::Input::marker_names,
+           "What a marker of segments is called in files that can hold names, such as 5=inlet",
+           option("marker-name", "MARKER=NAME"), entry_points(kMesh)),
+       key("input.region-names", &R::input, &R::Input::region_names,
+           "What a region is called in files that can hold names, such as 10=land",
+           option("region-name", "REGION=NAME"), entry_points(kMesh))}};
 }
 
 Section triangle_section() {
@@ -480,7 +486,9 @@ Section output_section() {
           kMesh,
           {key("output.meshes", &R::output, &R::Output::meshes,
                "Mesh file; its extension selects the format: .vtu (ParaView), .pvtu (the same in pieces, one per "
-               "rank), .msh (Gmsh 4.1), .h5 (HDF5 with an .xdmf beside it, for solvers), .su2, .14 or .grd (ADCIRC), "
+               "rank), .msh (Gmsh 4.1), .h5 (HDF5 with an .xdmf beside it, for solvers), .su2, .mesh (MFEM), .pmesh "
+               "(MFEM's "
+               "ParMesh, a file for each rank), .14 or .grd (ADCIRC), "
                ".gr3 (SCHISM), or .node, .ele, .poly, .edge, .neigh (each writes all of Triangle's files); - "
                "is standard output",
                option('o', "output", "FILE")),

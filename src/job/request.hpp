@@ -39,7 +39,9 @@ struct Request {
     std::map<std::string, std::string> parameters;  ///< of the generator
     double simplify = 0;                            ///< by how much lines may move; 0: nothing is simplified
     HoleRule holes = HoleRule::kPoints;
-    bool strict = false;  ///< warnings about the input are errors
+    bool strict = false;                              ///< warnings about the input are errors
+    std::map<std::string, std::string> marker_names;  ///< by the numbers of markers
+    std::map<std::string, std::string> region_names;  ///< by the attributes of regions
   } input;
 
   struct Bounds {

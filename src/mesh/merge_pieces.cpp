@@ -30,6 +30,7 @@ class Merger {
     report_gaps();
     take_triangles();
     take_edges();
+    take_names();
     if (numbering_ == Numbering::sparse) whole_.numbers = std::move(numbers_);
     return std::move(whole_);
   }
@@ -223,6 +224,19 @@ class Merger {
     for (std::size_t i = 0; i < all.size(); ++i)
       if (i == 0 || all[i].key() != all[i - 1].key() || all[i].piece == all[i - 1].piece)
         whole_.edges.push_back(all[i].edge);
+  }
+
+  /// A piece from a file has them all, or, from other programs, those that it needs.
+  void take_names() {
+    const auto take = [&](auto& all, const auto& of_piece) {
+      for (const auto& [value, name] : of_piece)
+        if (const auto known = all.try_emplace(value, name).first; known->second != name)
+          faults_.add([&] { return "pieces have different names, '" + known->second + "' and '" + name + "'"; });
+    };
+    for (const Mesh* piece : pieces_) {
+      take(whole_.names.markers, piece->names.markers);
+      take(whole_.names.regions, piece->names.regions);
+    }
   }
 
   std::span<const Mesh* const> pieces_;

@@ -34,9 +34,9 @@ enum class Numbering : std::uint8_t {
 /// which subdomain.
 ///
 /// Where pieces contradict each other, the first one counts and the contradiction is added to `faults`: a point with
-/// different coordinates, marker or attributes in another piece; a number twice in one piece; a number below the
-/// largest that no piece has (such a point is in no triangle; if there are many, the gaps are closed). Throws Error if
-/// a piece has no numbers, or negative ones.
+/// different coordinates, marker or attributes in another piece; a marker or a region with different names; a number
+/// twice in one piece; a number below the largest that no piece has (such a point is in no triangle; if there are many,
+/// the gaps are closed). Throws Error if a piece has no numbers, or negative ones.
 [[nodiscard]] Mesh merge_pieces(std::span<const Mesh* const> pieces, MergeFaults& faults,
                                 Numbering numbering = Numbering::complete);
 [[nodiscard]] Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults);

@@ -82,6 +82,7 @@ Mesh to_piece(const Triangulation& mesh, const Pslg& pslg) {
   for (const Subsegment& s : mesh.subsegments)
     if (s.is_leaf())
       piece.edges.push_back({order.place[s.vertex[0]], order.place[s.vertex[1]], mesh.roots[s.root].marker});
+  piece.names = pslg.names;
   return piece;
 }
 

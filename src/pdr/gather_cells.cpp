@@ -155,6 +155,7 @@ void GatherCells::receive(int /*round*/, std::vector<Mail> mail) {
   joining.add(own_);
   for (const Mail& one : mail) joining.add(mesh_of(one));
   joining.finish();
+  whole_.names = own_.names;
   if (!fits_together(whole_)) throw Error("the cells of the ranks do not fit together");
   whole_.attributes_per_point = own_.attributes_per_point;
   whole_.attributes = std::move(own_.attributes);

@@ -4,6 +4,7 @@
 
 #include "base/bytes.hpp"
 #include "driftmesh/error.hpp"
+#include "pslg/names.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh {
@@ -40,6 +41,7 @@ void transfer_pslg(Stream& stream, Input& pslg) {
   stream.array(pslg.holes);
   stream.array(pslg.regions);
   stream.value(pslg.first_number);
+  transfer_names(stream, pslg.names);
 }
 
 /// About the size of the arrays that grow with the number of subdomains.

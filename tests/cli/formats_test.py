@@ -144,6 +144,45 @@ class Formats(Cli):
         self.refuse("convert", "m.vtu", "x.14", "--open-boundary", "2,sea", code=2, says=["--open-boundary", "sea"])
         self.refuse("mesh", "in.poly", "-o", "x.14", "--open-boundary", "2.5", code=2, says=["open-boundary", "whole number"])
 
+    def test_names_go_through_all_files_that_hold_them(self):
+        self.write("in.poly", REGIONS)
+        named = ["--marker-name", "1=inlet", "--marker-name", "-6=in let", "--region-name", "2.5=land & sea"]
+        for i, parts in enumerate(PARTS[1:3]):
+            said = self.succeed("mesh", "in.poly", "--area", "0.1", *parts, *named, "-o", f"{i}.vtu", "-o", f"{i}.pvtu")
+            self.assertIn("-6=in let", said)  # in the line that repeats the command
+            self.succeed("convert", f"{i}.pvtu", "a.h5")
+            self.succeed("convert", "a.h5", "b.msh", "--ascii")
+            self.succeed("convert", "b.msh", "c.vtu")
+            self.succeed("convert", "c.vtu", "d.su2", "--marker-name", "1=out(let)")
+            names = lambda file, text: text in (self.folder / file).read_bytes()
+            for file, text in (("c.vtu", b'Name="in let"'), ("c.vtu", b'Name="land &amp; sea"'), ("b.msh", b'"land & sea"'),
+                               ("d.su2", b"MARKER_TAG= in_let\n"), ("d.su2", b"MARKER_TAG= out_let_\n")):
+                self.assertTrue(names(file, text), (file, text))
+            self.succeed("convert", "d.su2", "e.su2")
+            self.assertEqual((self.folder / "d.su2").read_bytes(), (self.folder / "e.su2").read_bytes())
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "square.poly", "--area", "0.01", "-o", "s.su2")
+        self.assertIn("accepted", self.succeed("check", "s.su2", "square.poly", "--area", "0.01"))
+        self.write("coast.geojson", json.dumps({"type": "Feature", "properties": {"marker": 4, "name": "reef"}, "geometry":
+                                                {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}}))
+        self.succeed("mesh", "coast.geojson", "-o", "f.su2")
+        self.assertIn("MARKER_TAG= reef\n", (self.folder / "f.su2").read_text())
+        self.refuse("mesh", "in.poly", "--marker-name", "x=inlet", "-o", "x.vtu", code=2, says=["--marker-name", "'x'"])
+        self.refuse("mesh", "in.poly", "--marker-name", "1=", "-o", "x.vtu", says=["in.poly", "is empty"])
+        self.refuse("mesh", "in.poly", "--marker-name", "1=a", "--region-name", "2=a", "-o", "x.vtu", says=["'a' is given twice"])
+        self.refuse("convert", "c.vtu", "x.msh", "--marker-name", "1.5=a", code=2, says=["--marker-name", "1.5=a"])
+        self.refuse("convert", "c.vtu", "x.msh", "--region-name", "1=domain", says=["x.msh", "'domain'"])
+
+    def test_files_of_ranks_are_refused_in_one_process(self):
+        self.write("in.poly", SQUARE)
+        self.refuse("mesh", "in.poly", "-o", "x.pmesh", says=["x.pmesh", "mpirun", ".mesh"])
+        self.succeed("mesh", "in.poly", "-o", "m.mesh", "-o", "m.vtu")
+        self.refuse("convert", "m.vtu", "x.pmesh", says=["x.pmesh", ".mesh"])
+        self.succeed("convert", "m.vtu", "again.mesh")
+        self.assertEqual((self.folder / "m.mesh").read_text(), (self.folder / "again.mesh").read_text())
+        self.refuse("check", "m.mesh", code=2, says=["is written, but not read"])
+        self.assertEqual(self.files(), ["again.mesh", "in.poly", "m.mesh", "m.vtu"])
+
     def test_separators_are_constraints_in_triangles_files_and_nothing_else(self):
         self.write("in.poly", REGIONS)
         self.succeed("mesh", "in.poly", "--area", "0.1", "-n", "9", "-o", "t.ele", "-o", "m.vtu")

@@ -1,4 +1,4 @@
-// Bytes to the readers of VTU, PVTU, .msh and .14: what is accepted must be a mesh whose indices and lengths fit.
+// Bytes to the readers of VTU, PVTU, .msh, .14 and .su2: what is accepted must be a mesh whose indices and lengths fit.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "io/fort14_format.hpp"
 #include "io/msh_format.hpp"
 #include "io/pvtu_format.hpp"
+#include "io/su2_format.hpp"
 #include "io/vtu_format.hpp"
 
 namespace {
@@ -49,6 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   parse_and_check([](const auto& file, auto text) { return parse_vtu(file, text); }, bytes);
   parse_and_check(parse_msh, bytes);
   parse_and_check(parse_fort14, bytes);
+  parse_and_check(parse_su2, bytes);
   try {
     (void)parse_pvtu("fuzz", bytes);
   } catch (const Error&) {

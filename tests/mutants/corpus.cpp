@@ -198,6 +198,9 @@ class CorpusMaker {
       if (format != "msh") continue;
       for (const char* const name : {"msh-full", "msh-plain"}) add_as_text(name);
     }
+    Mesh boundary = RandomMesh(7, 3, 2, {false, false, true, 0}).mesh();
+    boundary.names.markers = {{5, "in let"}, {-3, "50% (of) it"}, {1, "inlet"}};
+    add("su2", Reading::kMesh, "mesh.su2", write(boundary));
     add_encoded("vtu-full-base64", {.base64 = true});
     add_encoded("vtu-full-zlib", {.compressed = true});
     add_encoded("vtu-full-zlib-base64", {.compressed = true, .base64 = true});
@@ -222,7 +225,7 @@ class CorpusMaker {
   void add_foreign_meshes() {
     const Files files = files_in(DRIFTMESH_SOURCE_DIR "/tests/fuzz/corpus/read_mesh");
     for (const char* const name : {"ascii.vtu", "inline.vtu", "zlib-base64.vtu", "zlib-inline.vtu", "zlib-raw.vtu",
-                                   "piece.vtu", "text.msh", "subdomains.msh"})
+                                   "piece.vtu", "text.msh", "subdomains.msh", "foil.su2"})
       add(name, Reading::kMesh, name, Files{{name, files.at(name)}});
     add("ele-by-hand", Reading::kMesh, "mesh.ele",
         Files{{"mesh.node", "6 2\n0 0 0\n1 2 0\n2 0 2\n3 1 1\n4 0 1\n5 1 0\n"},

@@ -20,6 +20,7 @@
 #include "mesh/corners.hpp"
 #include "mutants/declared_mesh.hpp"
 #include "mutants/declared_msh.hpp"
+#include "mutants/declared_su2.hpp"
 #include "mutants/declared_tables.hpp"
 #include "mutants/declared_vtu.hpp"
 #include "mutants/settings_check.hpp"
@@ -110,6 +111,7 @@ Mesh declared_mesh(const Files& files, const std::string& name) {
   if (name.ends_with(".vtu")) return declared_vtu(files.at(name), ignored);
   if (name.ends_with(".pvtu")) return declared_pvtu(files, name);
   if (name.ends_with(".msh")) return declared_msh(files.at(name), ignored);
+  if (name.ends_with(".su2")) return declared_su2(files.at(name));
   return declared_triangle_mesh(files, stem_of(name));
 }
 

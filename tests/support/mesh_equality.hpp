@@ -18,6 +18,7 @@ inline void check_same_mesh(const Mesh& actual, const Mesh& expected) {
   CHECK(actual.numbers == expected.numbers);
   CHECK(actual.subdomains == expected.subdomains);
   CHECK(actual.ranks == expected.ranks);
+  CHECK(actual.names == expected.names);
 }
 
 }  // namespace driftmesh::test

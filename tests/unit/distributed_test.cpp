@@ -307,6 +307,34 @@ TEST_CASE("an empty rank writes a piece with the same arrays") {
   CHECK(file_bytes(folder.path() / "plate_1.vtu").find("Name=\"subdomain\"") != std::string::npos);
 }
 
+TEST_CASE("names of markers and regions reach the pieces, their files and the gathered mesh") {
+  const TemporaryFolder folder;
+  DistributedCase c = plate(9);
+  c.input.names = {{{1, "outside"}, {77, "nowhere"}}, {{0.5, "plate & holes"}}};
+  const auto pieces = c.pieces(3, random_owners(c.parts.size(), 3, 5));
+  for (const DistributedPiece& piece : pieces) CHECK(piece.mesh.names == c.input.names);
+  const auto written = [&]<class Writer>(const std::string& path, const Writer& make) {
+    std::vector<std::unique_ptr<Exchange>> writers;
+    IdVector<Rank, Exchange*> exchanges;
+    for (const DistributedPiece& piece : pieces) writers.push_back(make(piece, path));
+    for (const auto& writer : writers) exchanges.push_back(writer.get());
+    CHECK(write_all(exchanges) == std::vector<std::string>(3));
+    return read_mesh(path).names;
+  };
+  CHECK(written(folder.path() / "plate.h5", [](const DistributedPiece& piece, const std::string& path) {
+          return std::make_unique<WriteTogether>(piece, path);
+        }) == c.input.names);
+  CHECK(written(folder.path() / "plate.pvtu", [](const DistributedPiece& piece, const std::string& path) {
+          return std::make_unique<WritePieces>(piece, path);
+        }) == c.input.names);
+  std::vector<std::unique_ptr<GatherPieces>> gathering;
+  IdVector<Rank, Exchange*> exchanges;
+  for (const DistributedPiece& piece : pieces) gathering.push_back(std::make_unique<GatherPieces>(piece));
+  for (const auto& one : gathering) exchanges.push_back(one.get());
+  talk(exchanges);
+  CHECK(gathering[0]->whole().names == c.input.names);
+}
+
 TEST_CASE("ranks write one .h5 together, whichever holds what, and even if one holds nothing") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "plate.h5";

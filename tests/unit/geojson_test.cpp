@@ -202,6 +202,24 @@ TEST_CASE("interior points lie inside, exactly, whatever the polygon") {
   CHECK(!interior_point(none));
 }
 
+TEST_CASE("names belong to the region or the marker that a feature has by its number") {
+  const auto names = [](const std::string& first, const std::string& second) {
+    const std::string text =
+        planar(polygon("[" + kSquare + "," + kHole + "]", first) + "," + polygon("[" + kIsland + "]", second));
+    return parse_geojson_input("x.json", text).pslg.names;
+  };
+  CHECK(names(R"({"region": 7.5, "marker": 4, "name": "bay"})", R"({"marker": 9, "name": "\u00dcberlauf"})") ==
+        Names{{{9,
+                "\xC3\x9C"
+                "berlauf"}},
+              {{7.5, "bay"}}});
+  CHECK(names(R"({"boundary": "land", "name": "Kent"})", R"({"name": "Smith Island"})").empty());
+  CHECK(names(R"({"marker": 9, "name": 17})", R"({"marker": 9, "name": null})").empty());
+  CHECK(names(R"({"marker": 9, "name": "reef"})", R"({"marker": 9, "name": "reef"})").markers.size() == 1);
+  CHECK_THROWS_WITH_AS((void)names(R"({"marker": 9, "name": "reef"})", R"({"marker": 9, "name": "rock"})"),
+                       doctest::Contains("feature 2 calls its marker 'rock', but another feature 'reef'"), InputError);
+}
+
 TEST_CASE("what is wrong is named, with the line or the feature") {
   CHECK(message_of("{\"type\":\n\"Feature\",\n,}").starts_with("coast.geojson:3: is not valid JSON"));
   CHECK(message_of("").starts_with("coast.geojson:1: is not valid JSON"));

@@ -72,6 +72,7 @@ Mesh mesh_of_gmsh_text() {
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   mesh.edges = {{0, 1, 7}, {1, 2, 9}, {2, 3, 0}};
   mesh.regions = {3, 3};
+  mesh.names = {{{7, "inlet"}}, {{3, "fluid"}}};
   return mesh;
 }
 
@@ -185,6 +186,32 @@ TEST_CASE("an ASCII .msh of Gmsh gives markers and regions by the tags of its gr
   CHECK_THROWS_AS((void)read_mesh(path), InputError);  // $MeshFormat has to come first
   replace_file(path, std::string(kGmshText) + "$Periodic\n1\n0 1 2\n0\n$EndPeriodic\n");
   check_same_mesh(read_mesh(path), mesh_of_gmsh_text());
+}
+
+TEST_CASE("groups in .msh have the names of markers and regions, whose exact values are kept beside where needed") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  Mesh mesh = mesh_of_gmsh_text();
+  mesh.edges[0].marker = -3;
+  mesh.regions = {3, 0.5};
+  mesh.names = {{{-3, "shore"}}, {{3, "fluid"}, {0.5, "7"}}};
+  write_mesh(mesh, path, {.ascii = true});
+  const std::string text = file_bytes(path);
+  CHECK(text.find("1 1000001 \"shore\"\n") != std::string::npos);
+  CHECK(text.find("2 3 \"fluid\"\n") != std::string::npos);
+  CHECK(text.find("$DriftmeshValues\n2\n1 1000001 -3\n2 1000001 0.5\n$EndDriftmeshValues\n") != std::string::npos);
+  check_same_mesh(read_mesh(path), mesh);
+
+  const auto refused = [&](const std::string& what, const std::string& instead) {
+    std::string damaged = text;
+    damaged.replace(damaged.find(what), what.size(), instead);
+    replace_file(path, damaged);
+    CHECK_THROWS_WITH_AS((void)read_mesh(path), doctest::Contains("DriftmeshValues"), InputError);
+  };
+  refused("1 1000001 -3\n", "1 1000001 -3.5\n");
+  refused("1 1000001 -3\n", "1 1000001 3e9\n");
+  refused("1 1000001 -3\n2 ", "1 1000001 -3\n1 ");
+  refused("$DriftmeshValues\n2", "$DriftmeshValues\n1");
 }
 
 TEST_CASE("a clockwise mesh is reversed as a whole; a single inverted triangle stays for a check to find") {

@@ -112,6 +112,19 @@ TEST_CASE("other markers and attributes of the same point are found") {
         "point 6 has other attributes in piece 0 than in piece 1");
 }
 
+TEST_CASE("pieces have their names in common, and different ones for a marker are found") {
+  Mesh left = left_square(), right = right_square();
+  left.names = {{{5, "south"}}, {{1, "west"}}};
+  right.names = {{{5, "south"}, {6, "east"}}, {}};
+  MergeFaults faults;
+  CHECK(merge_pieces(std::vector{left, right}, faults).names == Names{{{5, "south"}, {6, "east"}}, {{1, "west"}}});
+  CHECK(faults.count == 0);
+  right.names.markers[5] = "north";
+  CHECK(merge_pieces(std::vector{left, right}, faults).names.markers.at(5) == "south");
+  REQUIRE(faults.count == 1);
+  CHECK(faults.first[0] == "pieces have different names, 'south' and 'north'");
+}
+
 TEST_CASE("points with different numbers at the same place of an interface are found") {
   Mesh right = right_square();
   right.numbers[4] = 7;

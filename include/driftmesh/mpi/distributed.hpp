@@ -33,8 +33,9 @@ namespace driftmesh {
 [[nodiscard]] GhostedPiece add_ghost_layer(MPI_Comm communicator, const DistributedPiece& piece);
 
 /// Writes the pieces of all ranks. Collective. If `path` ends in .pvtu, writes one file per rank and one that lists
-/// them; otherwise one file in the format given by the extension, gathered on rank 0, which needs memory for the whole
-/// mesh. Files appear only when complete. Throws InputError and FileError, on all ranks if one cannot write.
+/// them; if in .pmesh, one per rank for a ParMesh of MFEM; if in .h5, all write one together; otherwise one file in the
+/// format given by the extension, gathered on rank 0, which needs memory for the whole mesh. Files appear only when
+/// complete. Throws InputError and FileError, on all ranks if one cannot write.
 void write_distributed(MPI_Comm communicator, const DistributedPiece& piece, const std::string& path);
 
 }  // namespace driftmesh

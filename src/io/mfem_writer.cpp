@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <filesystem>
+#include <initializer_list>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "driftmesh/id_vector.hpp"
+#include "io/mfem_format.hpp"
+#include "io/msh_groups.hpp"
+#include "mesh/mesh_edges.hpp"
+
+namespace driftmesh {
+namespace {
+
+// Geometry types of the format.
+constexpr std::int32_t kMfemSegment = 1;
+constexpr std::int32_t kMfemTriangle = 2;
+
+class MfemText {
+ public:
+  MfemText(FileSink& sink, const MfemPart& part) : sink_(sink), part_(part), mesh_(part.mesh) {}
+
+  void write() {
+    const bool is_parallel = !part_.groups.empty();
+    sink_.text(is_parallel ? "MFEM mesh v1.2\n\ndimension\n2\n" : "MFEM mesh v1.0\n\ndimension\n2\n");
+    write_elements();
+    write_boundary();
+    write_points();
+    if (!is_parallel) return;
+    sink_.text("\nmfem_serial_mesh_end\n");
+    write_groups();
+    write_shared();
+    sink_.text("\nmfem_mesh_end\n");
+  }
+
+ private:
+  void line(std::initializer_list<std::int64_t> numbers) {
+    bool first = true;
+    for (const std::int64_t number : numbers) {
+      if (!std::exchange(first, false)) sink_.character(' ');
+      sink_.number(number);
+    }
+    sink_.character('\n');
+  }
+
+  void count(std::string_view name, std::size_t number) {
+    sink_.text(name);
+    sink_.number(number);
+    sink_.character('\n');
+  }
+
+  void write_elements() {
+    count("\nelements\n", mesh_.triangles.size());
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      line({mesh_.regions.empty() ? 1 : part_.region_tags.at(mesh_.regions[t]), kMfemTriangle, a, b, c});
+    }
+  }
+
+  void write_boundary() {
+    count("\nboundary\n", part_.boundary.size());
+    for (const std::int32_t e : part_.boundary) {
+      const Mesh::Edge& edge = mesh_.edges[to_index(e)];
+      line({part_.marker_tags.at(edge.marker), kMfemSegment, edge.a, edge.b});
+    }
+  }
+
+  void write_points() {
+    count("\nvertices\n", mesh_.points.size());
+    sink_.text("2\n");
+    for (const Point& p : mesh_.points) {
+      sink_.number(p.x);
+      sink_.character(' ');
+      sink_.number(p.y);
+      sink_.character('\n');
+    }
+  }
+
+  void write_groups() {
+    count("\ncommunication_groups\nnumber_of_groups ", part_.groups.size());
+    sink_.text("\n# number of ranks in each group, followed by the ranks\n");
+    for (const MfemGroup& group : part_.groups) {
+      sink_.number(group.ranks.size());
+      for (const std::int32_t rank : group.ranks) {
+        sink_.character(' ');
+        sink_.number(rank);
+      }
+      sink_.character('\n');
+    }
+  }
+
+  void write_shared() {
+    std::size_t points = 0, edges = 0;
+    for (const MfemGroup& group : part_.groups) points += group.points.size(), edges += group.edges.size();
+    count("\ntotal_shared_vertices ", points);
+    count("total_shared_edges ", edges);
+    for (std::size_t g = 1; g < part_.groups.size(); ++g) {  // the first is this rank alone
+      count("\n# group ", g);
+      count("shared_vertices ", part_.groups[g].points.size());
+      for (const std::int32_t point : part_.groups[g].points) line({point});
+      count("\nshared_edges ", part_.groups[g].edges.size());
+      for (const auto& [a, b] : part_.groups[g].edges) line({a, b});
+    }
+  }
+
+  FileSink& sink_;
+  const MfemPart& part_;
+  const Mesh& mesh_;
+};
+
+}  // namespace
+
+std::unique_ptr<FileSink> prepare_mfem(const MfemPart& part, const std::string& path) {
+  auto sink = std::make_unique<FileSink>(path);
+  MfemText(*sink, part).write();
+  return sink;
+}
+
+void write_mfem(const Mesh& mesh, const std::string& path) {
+  MfemPart part{.mesh = mesh, .boundary = {}, .region_tags = {}, .marker_tags = {}};
+  std::set<double> markers;
+  const auto at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
+  for (std::size_t e = 0; e < at_edges.size(); ++e) {
+    markers.insert(mesh.edges[e].marker);
+    if ((at_edges[e][0] < 0) != (at_edges[e][1] < 0)) part.boundary.push_back(static_cast<std::int32_t>(e));
+  }
+  part.region_tags = tags_of_values({mesh.regions.begin(), mesh.regions.end()});
+  part.marker_tags = tags_of_values(markers);
+  prepare_mfem(part, path)->commit();
+}
+
+std::string mfem_part_path(const std::string& path, std::int32_t rank) {
+  const std::string digits = std::to_string(rank);
+  const std::size_t zeros = digits.size() < 6 ? 6 - digits.size() : 0;
+  return std::filesystem::path(path).replace_extension(".mesh.").string() + std::string(zeros, '0') + digits;
+}
+
+}  // namespace driftmesh
