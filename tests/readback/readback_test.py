@@ -44,22 +44,24 @@ INPUT = """8 2 1 1
 2 1.5 0.5 20 0
 """
 
+NAMES = {"inlet": 2, "in the middle": 9, "land": 10}  # of two markers and a region
 INSIDE = ("0", "9")  # markers of segments inside the domain
 
 # Reader, its version's module, file, ranks that read, and what it can tell. "one": by one process; "ranks": by three.
 ALL = ("points", "triangles", "area", "regions", "markers")
+NAMED = (*ALL, "names")
 GRID = ("points", "triangles", "area")
 CASES = [
-    ("vtk", "one.vtu", 1, ALL), ("vtk", "ranks.pvtu", 1, ALL),
+    ("vtk", "one.vtu", 1, NAMED), ("vtk", "ranks.pvtu", 1, NAMED),
     ("vtk", "one.h5", 1, ALL), ("vtk", "ranks.h5", 1, ALL),
-    ("meshio", "one.vtu", 1, ALL), ("meshio", "one.msh", 1, ALL), ("meshio", "ranks.msh", 1, ALL),
-    ("meshio", "text.msh", 1, ALL),
-    ("meshio", "one.su2", 1, (*GRID, "boundary")),
-    ("gmsh", "ranks.msh", 1, ALL), ("gmsh", "text.msh", 1, ALL),
-    ("petsc", "ranks.msh", 1, ALL), ("petsc", "text.msh", 1, ALL),
-    *[("petsc", file, ranks, GRID) for file in ("one.h5", "ranks.h5") for ranks in (1, 2, 3)],
+    ("meshio", "one.vtu", 1, NAMED), ("meshio", "one.msh", 1, NAMED), ("meshio", "ranks.msh", 1, NAMED),
+    ("meshio", "text.msh", 1, NAMED),
+    ("meshio", "plain.su2", 1, (*GRID, "boundary")),
+    ("gmsh", "ranks.msh", 1, NAMED), ("gmsh", "text.msh", 1, NAMED),
+    ("petsc", "ranks.msh", 1, NAMED), ("petsc", "text.msh", 1, NAMED),
+    *[("petsc", file, ranks, NAMED) for file in ("one.h5", "ranks.h5") for ranks in (1, 2, 3)],
     *[("dolfinx", file, ranks, ALL) for file in ("one.xdmf", "ranks.xdmf") for ranks in (1, 2, 3)],
-    ("h5py", "ranks.h5", 1, ALL),
+    ("h5py", "ranks.h5", 1, NAMED),
 ]
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                    OMPI_MCA_rmaps_base_oversubscribe="1", OMP_NUM_THREADS="1")
@@ -74,15 +76,17 @@ def run(*words, folder):
 
 def write_meshes(program, mpirun, folder):
     (folder / "in.poly").write_text(INPUT)
-    words = [program, "mesh", "in.poly", "-n", "6", "--area", "0.002", "--quiet"]
-    run(*words, "-o", "one.vtu", "-o", "one.msh", "-o", "one.h5", "-o", "one.su2", folder=folder)
+    words = [program, "mesh", "in.poly", "-n", "6", "--area", "0.002", "--quiet", "--marker-name", "2=inlet",
+             "--marker-name", "9=in the middle", "--region-name", "10=land"]
+    run(*words, "-o", "one.vtu", "-o", "one.msh", "-o", "one.h5", folder=folder)
+    run(program, "convert", "one.vtu", "plain.ele", folder=folder)
+    run(program, "convert", "plain.ele", "plain.su2", folder=folder)  # without names, which meshio does not take there
     run(program, "convert", "one.vtu", "text.msh", "--ascii", folder=folder)
     run(mpirun, "-n", 3, *words, "-o", "ranks.pvtu", "-o", "ranks.msh", "-o", "ranks.h5", folder=folder)
 
 
-def facts_of_text(program, folder):
+def facts_of_text(folder):
     """From our own text files, which Triangle's format explains, by a reader of ten lines."""
-    run(program, "convert", "one.vtu", "plain.ele", folder=folder)
     rows = lambda name: [[float(word) for word in line.split()] for line in (folder / name).read_text().splitlines()
                          if line.strip() and not line.startswith("#")]
     points = [row[1:3] for row in rows("plain.node")[1:]]
@@ -96,7 +100,7 @@ def facts_of_text(program, folder):
         if marker != -1000000:
             markers[str(int(marker))] = markers.get(str(int(marker)), 0) + 1
     return {"points": len(points), "triangles": len(triangles), "area": area, "regions": regions, "markers": markers,
-            "boundary": {marker: count for marker, count in markers.items() if marker not in INSIDE}}
+            "names": NAMES, "boundary": {marker: count for marker, count in markers.items() if marker not in INSIDE}}
 
 
 def answer_of(reader, file, ranks, mpirun, folder):
@@ -120,7 +124,7 @@ def table(versions):
     for reader, file, ranks, facts in CASES:
         key = (reader, file.split(".")[1], file.split(".")[0], facts)
         rows.setdefault(key, []).append(str(ranks))
-    by = {"one": "one process", "ranks": "three ranks", "text": "`--ascii`"}
+    by = {"one": "one process", "ranks": "three ranks", "text": "`--ascii`", "plain": "one process"}
     lines = ["| reader | file | written by | on ranks | compared |\n", "|---|---|---|---|---|\n"]
     for (reader, extension, origin, facts), ranks in rows.items():
         lines.append(f"| {reader} {versions.get(reader, '')} | `.{extension}` | {by[origin]} | {', '.join(ranks)} "
@@ -135,7 +139,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         write_meshes(pathlib.Path(program).resolve(), mpirun, folder)
-        expected = facts_of_text(pathlib.Path(program).resolve(), folder)
+        expected = facts_of_text(folder)
         for reader, file, ranks, facts in CASES:
             if reader in missing:
                 continue

@@ -8,4 +8,5 @@ with h5py.File(sys.argv[1]) as file:
     ranks = file["VTKHDF/CellData/rank"][: len(triangles)]
     assert (ranks[1:] >= ranks[:-1]).all(), "the triangles of a rank are not consecutive"
     answer(h5py.__version__, points=len(points), triangles=len(triangles), area=area(points, triangles),
-           regions=counts(file["VTKHDF/CellData/region"][: len(triangles)]), markers=counts(file["tags/facets"][:]))
+           regions=counts(file["VTKHDF/CellData/region"][: len(triangles)]), markers=counts(file["tags/facets"][:]),
+           names={name: int(value) for tags in ("facets", "cells") for name, value in file["tags"][tags].attrs.items()})

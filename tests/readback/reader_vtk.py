@@ -27,5 +27,8 @@ if sys.argv[1].endswith(".pvtu"):  # a subsegment between pieces is in both
     markers = markers[numpy.unique(ends, axis=0, return_index=True)[1]]
 ghosts = grid.GetPointGhostArray()  # without those that another piece counts
 count = len(points) if ghosts is None else int((vtk_to_numpy(ghosts) & 1 == 0).sum())
+fields = grid.GetFieldData()
+arrays = [fields.GetArray(i) for i in range(fields.GetNumberOfArrays())]
+names = {array.GetName(): int(array.GetValue(0)) for array in arrays if array.GetComponentName(1) == "dimension"}
 answer(vtk.vtkVersion().GetVTKVersion(), points=count, triangles=int(is_triangle.sum()),
-       area=area(points, triangles), regions=counts(cells["region"][is_triangle]), markers=counts(markers))
+       area=area(points, triangles), regions=counts(cells["region"][is_triangle]), markers=counts(markers), names=names)
