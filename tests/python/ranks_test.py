@@ -44,6 +44,28 @@ class Pieces(unittest.TestCase):
             theirs = WORLD.sendrecv(mine, dest=rank, source=rank)
             np.testing.assert_array_equal(mine, theirs)
 
+    def test_ghosts_are_the_triangles_of_others_at_own_points(self):
+        piece = piece_of()
+        ghosted = driftmesh.add_ghost_layer(WORLD, piece)
+        mesh = ghosted.mesh
+        np.testing.assert_array_equal(mesh.triangles[: ghosted.own_triangles], piece.mesh.triangles)
+        np.testing.assert_array_equal(mesh.points[: ghosted.own_points], piece.mesh.points)
+        np.testing.assert_array_equal(mesh.edges[: ghosted.own_edges], piece.mesh.edges)
+        self.assertEqual((ghosted.rank, ghosted.ranks, len(ghosted.owners)), (WORLD.rank, WORLD.size, len(mesh.points)))
+        triangles = mesh.numbers[mesh.triangles]
+        everything = [(rank, number, corners) for rank, (numbers, own) in enumerate(WORLD.allgather(
+            (ghosted.triangle_numbers[: ghosted.own_triangles], triangles[: ghosted.own_triangles])))
+            for number, corners in zip(numbers.tolist(), map(tuple, own.tolist()))]
+        self.assertEqual(sorted(number for _, number, _ in everything), list(range(piece.total_triangles)))
+        own = set(piece.mesh.numbers.tolist())
+        expected = {(rank, number, corners) for rank, number, corners in everything if rank != WORLD.rank and own & set(corners)}
+        here = slice(ghosted.own_triangles, None)
+        self.assertEqual(set(zip(mesh.ranks[here].tolist(), ghosted.triangle_numbers[here].tolist(),
+                                 map(tuple, triangles[here].tolist()))), expected)
+        for rank, (sent, received) in ghosted.neighbors.items():
+            theirs = WORLD.sendrecv(ghosted.triangle_numbers[sent], dest=rank, source=rank)
+            np.testing.assert_array_equal(ghosted.triangle_numbers[received], theirs)
+
     def test_a_view_outlives_its_piece(self):
         points = piece_of().mesh.points
         shared = list(piece_of().neighbors.values())

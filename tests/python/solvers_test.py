@@ -11,7 +11,8 @@ WORLD = MPI.COMM_WORLD
 CORNERS = [(0, 0), (0.5, 0), (1, 0), (1, 1), (0.5, 1), (0, 1)]
 SIDES = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (5, 0), (1, 4)]
 MARKERS = [1, 1, 2, 3, 3, 4, 9]
-SQUARE = driftmesh.Pslg(CORNERS, SIDES, segment_markers=MARKERS, regions=[(0.2, 0.5, 5, -1), (0.8, 0.5, 6, -1)])
+SQUARE = driftmesh.Pslg(CORNERS, SIDES, segment_markers=MARKERS, regions=[(0.2, 0.5, 5, -1), (0.8, 0.5, 6, -1)],
+                        marker_names={2: "inlet", 9: "in the middle", 1: "depth"}, region_names={6: "right half"})
 
 
 def piece_of(area=1e-3, square=SQUARE):
@@ -86,6 +87,12 @@ class Petsc(Solver):
                   "markers": counted([plex.getLabelValue("Face Sets", p) for p in self.owned(plex, 1)])}
         counts["markers"].pop(-1)  # edges without a label
         self.assertEqual(counts, whole_counts(piece))
+        # "depth" is a label of PETSc.
+        for name, value, count in (("inlet", 2, counts["markers"][2]), ("in the middle", 9, counts["markers"][9]),
+                                   ("right half", 6, counts["regions"][6])):
+            found = counted([plex.getLabelValue(name, p) for depth in (1, 2) for p in self.owned(plex, depth)])
+            self.assertEqual({v: n for v, n in found.items() if v != -1}, {value: count})
+        self.assertEqual(plex.getLabelValue("depth", 0), 2)
 
     def test_a_star_ends_at_the_same_place(self):
         """Coordinates that owners send along the star forest are those that are there."""

@@ -30,6 +30,14 @@ class Contents(unittest.TestCase):
         np.testing.assert_array_equal(pslg.attributes[5], [5, -5])
         self.assertEqual(pslg.holes.shape, (0, 2))
 
+    def test_names(self):
+        names = {"marker_names": {1: "inlet", -7: "Überlauf"}, "region_names": {7: "land", 8.5: "sea"}}
+        pslg = driftmesh.Pslg([(0, 0), (1, 0), (0, 1)], [(0, 1), (1, 2), (2, 0)], **names)
+        for value in (pslg, driftmesh.mesh(pslg), driftmesh.Mesh(pslg.points, [(0, 1, 2)], **names)):
+            self.assertEqual((value.marker_names, value.region_names), tuple(names.values()))
+        with self.assertRaisesRegex(driftmesh.InputError, "'land' is given twice"):
+            driftmesh.mesh(driftmesh.Pslg([(0, 0), (1, 0), (0, 1)], marker_names={1: "land", 2: "land"}))
+
     def test_mesh(self):
         mesh = driftmesh.mesh(domain())
         count, triangles, edges = len(mesh.points), len(mesh.triangles), len(mesh.edges)
