@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "app/run_files.hpp"
 #include "cli/values.hpp"
 #include "io/mesh_file.hpp"
+#include "mesh/mesh_edges.hpp"
 #include "pslg/names.hpp"
 
 namespace driftmesh::app {
@@ -20,7 +22,17 @@ struct ConvertOptions {
   ReadOptions reading;
   WriteOptions writing;
   Names names;  // that replace those of the mesh
+  bool boundary_only = false;
 };
+
+/// Removes subsegments with triangles on both sides.
+void keep_boundary(Mesh& mesh) {
+  const auto at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
+  std::size_t kept = 0;
+  for (std::size_t e = 0; e < at_edges.size(); ++e)
+    if (at_edges[e][0] < 0 || at_edges[e][1] < 0) mesh.edges[kept++] = mesh.edges[e];
+  mesh.edges.resize(kept);
+}
 
 /// Stores the parts of 5=inlet.
 template <class Value>
@@ -42,6 +54,7 @@ void run_convert(const ConvertOptions& options) {
   names.markers.merge(mesh.names.markers);
   names.regions.merge(mesh.names.regions);
   mesh.names = std::move(names);
+  if (options.boundary_only) keep_boundary(mesh);
   write_mesh(mesh, options.output, options.writing);
 }
 
@@ -69,6 +82,10 @@ cli::Command convert_command() {
                        .name = "ascii",
                        .help = "Write .msh as text, for programs that read no binary one (deal.II)",
                        .take = cli::into(options->writing.ascii)},
+                      {.kind = cli::Option::Kind::kFlag,
+                       .name = "boundary-only",
+                       .help = "Leave out segments inside of the domain, for programs that refuse them (deal.II)",
+                       .take = cli::into(options->boundary_only)},
                       {.name = "open-boundary",
                        .value = "MARKERS",
                        .help = "Markers of the segments that are open sea, in .14, .grd and .gr3; others are land",

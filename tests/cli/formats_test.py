@@ -173,6 +173,18 @@ class Formats(Cli):
         self.refuse("convert", "c.vtu", "x.msh", "--marker-name", "1.5=a", code=2, says=["--marker-name", "1.5=a"])
         self.refuse("convert", "c.vtu", "x.msh", "--region-name", "1=domain", says=["x.msh", "'domain'"])
 
+    def test_segments_inside_can_be_left_out(self):
+        self.write("in.poly", REGIONS)
+        self.succeed("mesh", "in.poly", "--area", "0.1", "-o", "m.vtu")
+        self.succeed("convert", "m.vtu", "all.ele")
+        self.succeed("convert", "m.vtu", "rim.ele", "--boundary-only")
+        segments = lambda name: [line.split() for line in (self.folder / name).read_text().splitlines()[2:-1]]
+        sides = [frozenset(pair) for line in (self.folder / "rim.ele").read_text().splitlines()[1:]
+                 if not line.startswith("#") for pair in itertools.combinations(line.split()[1:4], 2)]
+        expected = [row[1:] for row in segments("all.poly") if sides.count(frozenset(row[1:3])) == 1]
+        self.assertEqual([row[1:] for row in segments("rim.poly")], expected)
+        self.assertLess(len(expected), len(segments("all.poly")))
+
     def test_files_of_ranks_are_refused_in_one_process(self):
         self.write("in.poly", SQUARE)
         self.refuse("mesh", "in.poly", "-o", "x.pmesh", says=["x.pmesh", "mpirun", ".mesh"])

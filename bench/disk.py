@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Compares writing by ranks with the speed of the disk, and their memory with an even share; prints a table in Markdown.
+
+Ranks make a mesh and write it, as .h5 into one file and as .pvtu into a file each. After each, dd writes as many bytes to the same
+folder: one process one file, and as many processes as ranks their parts of one file. Seconds include those of `sync`. Memory is the
+peak of each rank's process, from its start to its end.
+
+usage: disk.py [--program DRIFTMESH] [--triangles N] [--ranks N] [--rounds N] [--folder FOLDER]
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+PROJECT = pathlib.Path(__file__).resolve().parent.parent
+MEGABYTE = 1 << 20
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+# Starts the rest of its arguments, and says how much memory they took.
+PEAK = ("import resource, subprocess, sys; code = subprocess.call(sys.argv[1:]);"
+        "print('PEAK', resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024, flush=True); sys.exit(code)")
+
+
+def synced(start):
+    subprocess.run(["sync"], check=True)
+    return time.monotonic() - start
+
+
+def mesh(options, folder, extension):
+    """Seconds to write, bytes, peaks of the ranks."""
+    record = folder / "record.json"
+    done = subprocess.run(["mpirun", "-n", str(options.ranks), "--bind-to", "none", "--oversubscribe", sys.executable, "-c", PEAK,
+                           options.program, "mesh", "--generate", "pipe", "--triangles", options.triangles, "--quiet", "-o",
+                           folder / f"mesh.{extension}", "--json", record],
+                          env=ENVIRONMENT, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(done.stdout + done.stderr)
+    seconds = json.loads(record.read_text())["work"]["seconds_by_stage"]["write"] + synced(time.monotonic())
+    files = list(folder.glob("mesh*"))
+    total = sum(path.stat().st_size for path in files)
+    for path in files:
+        path.unlink()
+    return seconds, total, [int(line.split()[1]) for line in done.stdout.splitlines() if line.startswith("PEAK")]
+
+
+def dd(folder, total, processes):
+    """Seconds of processes that write their parts of one file."""
+    target, each = folder / "dd.bin", total // processes // MEGABYTE
+    subprocess.run(["sync"], check=True)
+    start = time.monotonic()
+    running = [subprocess.Popen(["dd", "if=/dev/zero", f"of={target}", "bs=1M", f"count={each}", f"seek={k * each}", "conv=notrunc"],
+                                stderr=subprocess.DEVNULL) for k in range(processes)]
+    if any(process.wait() for process in running):
+        sys.exit("dd failed")
+    seconds = synced(start)
+    target.unlink()
+    return seconds
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", default=PROJECT / "build/release/driftmesh", help="default: build/release/driftmesh")
+    parser.add_argument("--triangles", default="100M")
+    parser.add_argument("--ranks", type=int, default=2)
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--folder", help="on the disk in question; default: that of temporary files")
+    options = parser.parse_args()
+    options.program = pathlib.Path(options.program).resolve()
+    rows = {extension: [] for extension in ("h5", "pvtu")}
+    with tempfile.TemporaryDirectory(dir=options.folder) as name:
+        folder = pathlib.Path(name)
+        for _ in range(options.rounds):
+            for extension, row in rows.items():
+                seconds, total, peaks = mesh(options, folder, extension)
+                row.append((seconds, dd(folder, total, 1), dd(folder, total, options.ranks), total,
+                            max(peaks) * len(peaks) / sum(peaks), sum(peaks)))
+    print(f"{options.triangles} triangles on {options.ranks} ranks, medians of {options.rounds} in turn:\n")
+    print("| file | GB | written in | dd, one process | dd, a process for each rank, one file | peak of all ranks | largest over even share |\n"
+          "|---|---|---|---|---|---|---|")
+    for extension, row in rows.items():
+        seconds, one, parts, total, share, peak = (statistics.median(column) for column in zip(*row))
+        print(f"| `.{extension}` | {total / 1e9:.2f} | {seconds:.1f} s | {one:.1f} s | {parts:.1f} s | {peak / 1e9:.2f} GB | {share:.3f} |")
+
+
+if __name__ == "__main__":
+    main()
