@@ -12,11 +12,11 @@ export function section(title, note) {
   return made;
 }
 
-/** Four significant digits, and whole numbers with separators. */
-export function number(x) {
+/** Four significant digits unless told otherwise, and whole numbers with separators. */
+export function number(x, digits = 4) {
   if (x === null || x === undefined || Number.isNaN(x)) return "";
   if (Number.isInteger(x)) return x.toLocaleString("en-US");
-  return Number(x.toPrecision(4)).toLocaleString("en-US", { maximumFractionDigits: 12 });
+  return Number(x.toPrecision(digits)).toLocaleString("en-US", { maximumFractionDigits: 12 });
 }
 
 export const percent = (x) => (x === null || x === undefined ? "" : `${(100 * x).toFixed(1)} %`);

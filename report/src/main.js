@@ -1,36 +1,67 @@
+import { comparison, timesOfRuns } from "./comparison.js";
 import { readMesh, readRuns } from "./data.js";
-import { section } from "./elements.js";
+import { element, number, section } from "./elements.js";
 import { meshSection } from "./mesh_section.js";
 import { oneRun } from "./one_run.js";
-import { comparison, tableOfRuns } from "./overview.js";
+import { tableOfRuns } from "./overview.js";
+import { secondsOf } from "./runs.js";
+
+/** The chosen run, and beside it another one if a reader wants that: {place, choose(k)}. */
+function chosenRun(runs, follow) {
+  const place = element("div", { id: "chosen" });
+  const beside = element("select", { id: "beside" }, element("option", { value: "" }, "no other run"),
+    ...runs.map(({ name }, k) => element("option", { value: k }, name)));
+  let chosen = 0;
+  const show = () => {
+    const shown = [runs[chosen], ...(beside.value === "" ? [] : [runs[beside.value]])];
+    const end = Math.max(...shown.map(({ record }) => secondsOf(record) ?? 0));
+    place.replaceChildren(element("div", { class: shown.length > 1 ? "beside" : "" }, ...shown.map((run) => oneRun(run, end))));
+    if (runs.length > 1) place.prepend(element("div", { class: "controls" }, element("label", {}, "Beside the chosen run: ", beside)));
+  };
+  beside.addEventListener("change", show);
+  const choose = (k) => {
+    chosen = k;
+    show();
+    follow(runs[k].record);
+  };
+  return { place, show, choose };
+}
+
+function titleOf(runs, mesh) {
+  const names = [...new Set(runs.map(({ record }) => record.experiment?.name))].filter(Boolean);
+  if (names.length > 0) return names.join(", ");
+  return mesh?.name ?? (runs.length === 1 ? runs[0].record.input?.file : null) ?? "driftmesh report";
+}
+
+function aboutOf(runs, mesh) {
+  const versions = [...new Set(runs.map((r) => r.record.program))].filter(Boolean);
+  return [`A report by driftmesh ${versions.join(" and ")}`.trim(), ...(runs.length > 0 ? [`${runs.length} run${runs.length === 1 ? "" : "s"}`] : []),
+    ...(mesh ? [`${number(mesh.triangles.length / 3)} triangles`] : [])].join(", ");
+}
 
 async function fill(report) {
   const [runs, mesh] = await Promise.all([readRuns(), readMesh()]);
+  const title = titleOf(runs, mesh);
+  document.title = title;
+  document.querySelector("h1").textContent = title;
+  document.getElementById("about").textContent = aboutOf(runs, mesh);
   report.replaceChildren();
-  let shown = null;
   let seen = null;
-  const choose = (k) => {
-    const next = oneRun(runs[k]);
-    shown.replaceWith(next);
-    shown = next;
-    seen?.follow(runs[k].record);
-  };
+  const chosen = chosenRun(runs, (record) => seen?.follow(record));
   if (runs.length > 1) {
     const all = section("Runs", "Choose a run to see more of it below.");
-    all.append(tableOfRuns(runs, choose));
-    report.append(all);
-    const compared = comparison(runs);
-    if (compared) report.append(compared);
+    all.append(tableOfRuns(runs, chosen.choose));
+    report.append(all, ...[comparison(runs), timesOfRuns(runs)].filter(Boolean));
   }
-  if (runs.length > 0) report.append((shown = oneRun(runs[0])));
   if (mesh) {
     seen = meshSection(mesh, runs[0]?.record);
     report.append(seen.place);
     seen.start();
   }
-  const versions = [...new Set(runs.map((r) => r.record.program))].filter(Boolean);
-  document.getElementById("about").textContent =
-    `${runs.length} run${runs.length === 1 ? "" : "s"}${versions.length ? `, driftmesh ${versions.join(", ")}` : ""}`;
+  if (runs.length > 0) {
+    report.append(chosen.place);
+    chosen.show();
+  }
   document.body.dataset.ready = "yes";
 }
 

@@ -18,6 +18,19 @@ export function idleOf(record) {
   return all > 0 ? idle / all : null;
 }
 
+/** What the time of ranks is spent on, as records name it. */
+export const kindsOfTime = ["computing", "sending", "polling", "balancing", "idle"];
+
+/** The mean seconds of all ranks for each kind: {kind, seconds}; nothing without ranks. */
+export function rankMeans(record) {
+  const ranks = record.parts?.ranks ?? [];
+  if (ranks.length === 0) return [];
+  return kindsOfTime.map((kind) => ({ kind, seconds: ranks.reduce((sum, r) => sum + (r.seconds[kind] ?? 0), 0) / ranks.length }));
+}
+
+/** The number of ranks. */
+export const ranksOf = (record, trace) => record.parts?.ranks?.length || busyIntervals(trace).reduce((most, b) => Math.max(most, b.rank + 1), 0);
+
 /** The keys that differ between runs, in the order in which they were swept. */
 export function sweptKeys(records) {
   const keys = [];
@@ -35,7 +48,7 @@ export function rowsOf(runs) {
     const swept = keys.map((key) => record.swept?.[key]);
     const value = (v) => (typeof v === "number" ? v : v === undefined ? "" : word(v));
     return { run, name, seconds: secondsOf(record), ideal: idealOf(record), triangles: record.mesh?.triangles ?? null,
-      moves: movesOf(record).length, idle: idleOf(record), keys: swept.map(value) };
+      moves: movesOf(record).length, messages: record.cluster?.messages ?? null, idle: idleOf(record), keys: swept.map(value) };
   });
 }
 

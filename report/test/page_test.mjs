@@ -53,32 +53,82 @@ const inked = (page, selector) => page.$eval(selector, (canvas) => {
 
 async function checkRuns(page) {
   assert.equal((await page.$$("#runs tbody tr")).length, 3);
-  assert.match(await text(page, "#about"), /^3 runs, driftmesh \d/);
+  assert.match(await text(page, "#about"), /^A report by driftmesh \d[.\d]*, 3 runs, [\d,]+ triangles$/);
   const records = [1, 2, 3].map((k) => JSON.parse(readFileSync(file(`runs/run-${k}.json`), "utf8")));
   const moves = await page.$$eval("#runs tbody tr", (rows) => rows.map((r) => Number(r.cells[5].textContent.replaceAll(",", ""))));
   assert.deepEqual(moves, records.map((r) => r.cluster.moves.length));
   assert.ok(moves[1] > 0, "greedy moves something, or this test shows nothing");
-  for (const id of ["comparison", "timeline", "load", "angles", "areas"]) {
-    await wait(page, (chart) => document.querySelector(`#${chart} canvas`), id);
-    assert.ok((await inked(page, `#${id} canvas`)) > 500, `${id} is drawn`);
+  const charts = ["#comparison", ".times", ".timeline", ".rank-times", ".load", ".angles", ".areas", ".smallest-angles"];
+  for (const chart of [...charts.map((c) => `${c} canvas`), ".map"]) {
+    await wait(page, (selector) => document.querySelector(selector), chart);
+    assert.ok((await inked(page, chart)) > 500, `${chart} is drawn`);
   }
+  // Another figure is compared.
+  const drawn = await page.$eval("#comparison canvas", (canvas) => canvas.toDataURL());
+  await page.select("#metric", "subdomains moved");
+  await wait(page, (before) => (document.querySelector("#comparison canvas")?.toDataURL() ?? before) !== before, drawn);
   // By keyboard, as by mouse, a reader gets to another run.
   await page.focus("#runs tbody tr:nth-child(2)");
   await page.keyboard.press("Enter");
-  await wait(page, () => document.querySelector("#one-run h2").textContent === "Run run-2");
-  assert.ok((await text(page, "#facts")).includes(records[1].mesh.digest));
+  await wait(page, () => document.querySelector(".one-run h2").textContent === "Run run-2");
+  assert.ok((await text(page, ".facts")).includes(records[1].mesh.digest));
   await page.click("#runs tbody tr:nth-child(3)");
-  await wait(page, () => document.querySelector("#one-run h2").textContent === "Run run-3");
+  await wait(page, () => document.querySelector(".one-run h2").textContent === "Run run-3");
+  await page.select("#beside", "1");
+  await wait(page, () => document.querySelectorAll(".timeline canvas").length === 2);
+  assert.deepEqual(await page.$$eval(".one-run > section:first-child h2", (titles) => titles.map((t) => t.textContent)), ["Run run-3", "Run run-2"]);
+  await page.select("#beside", "");
+  await checkTimeline(page);
+  await checkMap(page);
+}
+
+/** Moves the slider of a replay: all its frames would take long where there are no graphics. */
+const nearlyTheEnd = (page, id) => page.$eval(`[id='${id}']`, (slider) => {
+  slider.value = 0.9;
+  slider.dispatchEvent(new Event("input"));
+});
+
+/** Ctrl and the wheel show less time, a double click all of it. */
+async function checkTimeline(page) {
+  await wait(page, () => document.querySelectorAll(".timeline canvas").length === 1);
+  await page.$eval(".timeline", (chart) => chart.scrollIntoView({ block: "center" }));
+  const { x, y, width, height } = await (await page.$(".timeline canvas")).boundingBox();
+  const picture = () => page.$eval(".timeline canvas", (canvas) => canvas.toDataURL());
+  const changed = (before) => wait(page, (was) => document.querySelector(".timeline canvas").toDataURL() !== was, before);
+  const whole = await picture();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.keyboard.down("Control");
+  await page.mouse.wheel({ deltaY: -300 });
+  await page.keyboard.up("Control");
+  await changed(whole);
+  const part = await picture();
+  await page.mouse.click(x + width / 2, y + height / 2, { clickCount: 2 });
+  await changed(part);
+}
+
+/** Subdomains have the colors of other ranks at the end. */
+async function checkMap(page) {
+  const picture = () => page.$eval(".map", (canvas) => canvas.toDataURL());
+  const before = await picture();
+  await nearlyTheEnd(page, "run-3-time");
+  await page.click("[id='run-3-play']");
+  await wait(page, () => Number(document.getElementById("run-3-time").value) === 1);
+  assert.notEqual(await picture(), before);
+  await page.$eval(".map", (canvas) => canvas.scrollIntoView({ block: "center" }));
+  const { x, y, width, height } = await (await page.$(".map")).boundingBox();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await wait(page, () => /^Subdomain \d+ on rank \d/.test(document.querySelector(".one-run .told").textContent));
 }
 
 async function checkMesh(page) {
   const all = await inked(page, "#mesh");
   assert.ok(all > 10000, `the mesh is drawn: ${all} pixels`);
+  const drawn = () => page.$eval("#mesh", (canvas) => Number(canvas.dataset.drawn));
   // The middle of the rectangle is its hole; a place near its lower left corner is not.
   await page.$eval("#mesh", (canvas) => canvas.scrollIntoView({ block: "center" }));
   const { x, y, width, height } = await (await page.$("#mesh")).boundingBox();
   await page.mouse.move(x + width / 2 - height / 3, y + height / 2 + height / 8);
-  await wait(page, () => /^triangle [\d,]+, area/.test(document.getElementById("told").textContent));
+  await wait(page, () => /^triangle [\d,]+ at \(.*\), area/.test(document.getElementById("told").textContent));
   assert.match(await text(page, "#told"), /subdomain \d+/);
   await page.mouse.move(x + 3, y + 3);
   await wait(page, () => document.getElementById("told").textContent === "");
@@ -90,6 +140,11 @@ async function checkMesh(page) {
   await page.mouse.wheel({ deltaY: -400 });
   await wait(page, () => Number(document.getElementById("mesh").dataset.zoom) > 2);
   await page.screenshot({ path: file("zoomed.png") });
+  const before = await drawn();
+  await page.mouse.move(x + width / 2 - height / 3, y + height / 2 + height / 8);
+  for (let k = 0; k < 6; ++k) await page.mouse.wheel({ deltaY: -400 });
+  await wait(page, (most) => Number(document.getElementById("mesh").dataset.drawn) < most, before / 2);
+  assert.ok((await drawn()) > 0 && (await inked(page, "#mesh")) > 10000, "what is in sight is drawn, and no more");
   await page.keyboard.press("0");
   await wait(page, () => document.getElementById("mesh").dataset.zoom === "1.000");
 }
@@ -100,6 +155,7 @@ async function checkReplay(page) {
   const colors = () => page.$eval("#mesh", (canvas) => canvas.toDataURL());
   await page.evaluate(() => new Promise(requestAnimationFrame));
   const before = await colors();
+  await nearlyTheEnd(page, "time");
   await page.click("#play");
   await wait(page, () => Number(document.getElementById("time").value) === 1);
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
@@ -122,6 +178,11 @@ try {
   await checkMesh(page);
   await checkReplay(page);
   await page.screenshot({ path: file("report.png"), fullPage: true });
+  await page.pdf({ path: file("report.pdf"), format: "A4", printBackground: true });
+  await page.setViewport({ width: 390, height: 844 });
+  await page.evaluate(() => new Promise((done) => setTimeout(done, 500)));
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390), "a phone shows it without scrolling sideways");
+  await page.screenshot({ path: file("phone.png"), fullPage: true });
   assert.deepEqual(problems, []);
 } finally {
   await browser.close();

@@ -52,5 +52,12 @@ test("a row has the settings and figures of its run", () => {
   const record = (policy, seconds) => ({ swept: { policy }, cluster: { seconds, ideal_seconds: 1, moves: [{}] }, mesh: { triangles: 7 },
     parts: { ranks: ranks(0.1) } });
   const rows = runs.rowsOf([{ name: "a", record: record("none", 3) }, { name: "b", record: record("greedy", 2) }]);
-  assert.deepEqual(rows[1], { run: 1, name: "b", seconds: 2, ideal: 1, triangles: 7, moves: 1, idle: 0.1, keys: ["greedy"] });
+  assert.deepEqual(rows[1], { run: 1, name: "b", seconds: 2, ideal: 1, triangles: 7, moves: 1, messages: null, idle: 0.1, keys: ["greedy"] });
+});
+
+test("means of ranks are those of each kind of time", () => {
+  const record = { parts: { ranks: ranks(0.25, 0.75) } };
+  assert.deepEqual(runs.rankMeans(record).map((m) => m.seconds), [0.5, 0, 0, 0, 0.5]);
+  assert.deepEqual(runs.rankMeans({}), []);
+  assert.equal(runs.ranksOf({}, { traceEvents: [slice(4, 0, 1, 0)] }), 5);
 });

@@ -1,20 +1,16 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/run_files.hpp"
-#include "base/atomic_file.hpp"
-#include "base/read_file.hpp"
+#include "app/run_report.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
-#include "report/report_page.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -31,46 +27,6 @@ struct ReportCommand {
   ReadOptions reading;
 };
 
-bool is_record(const fs::path& path) {
-  return path.extension() == ".json" && !path.string().ends_with(kTraceEnding);
-}
-
-/// The records among the inputs: a folder stands for those in it, in the order of their names.
-std::vector<fs::path> records_of(const std::vector<std::string>& inputs) {
-  std::vector<fs::path> records;
-  for (const std::string& input : inputs) {
-    if (!fs::is_directory(input)) {
-      records.emplace_back(input);
-      continue;
-    }
-    std::vector<fs::path> found;
-    for (const fs::directory_entry& entry : fs::directory_iterator(input))
-      if (entry.is_regular_file() && is_record(entry.path())) found.push_back(entry.path());
-    if (found.empty())
-      throw InputError({input, 0}, "has no records of runs", "name a folder that `driftmesh run` has written");
-    std::sort(found.begin(), found.end());
-    records.insert(records.end(), found.begin(), found.end());
-  }
-  return records;
-}
-
-/// JSON without blanks.
-std::string compact_json(const fs::path& path) {
-  const std::string text = read_file(path.string());
-  const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw InputError({path.string(), 0}, "is not JSON", "name a record that --json wrote");
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
-
-ReportedRun read_run(const fs::path& path) {
-  ReportedRun run{path.stem().string(), compact_json(path), {}};
-  if (run.record.find("\"format\":\"driftmesh ") == std::string::npos)
-    throw InputError({path.string(), 0}, "is not the record of a run", "name one that `driftmesh run` or --json wrote");
-  const fs::path trace = fs::path(path).replace_extension(kTraceEnding);
-  if (fs::exists(trace)) run.trace = compact_json(trace);
-  return run;
-}
-
 void run_report(const ReportCommand& command) {
   if (command.inputs.empty() && command.mesh.empty())
     throw cli::UsageError("name a run, a folder of runs, or a --mesh");
@@ -81,8 +37,6 @@ void run_report(const ReportCommand& command) {
   for (const fs::path& record : records) files.reads(record.string(), "RUN");
   if (!command.mesh.empty()) register_mesh_input(files, command.mesh, "--mesh", command.reading);
   register_output(files, command.output, "--output");
-  std::vector<ReportedRun> runs;
-  for (const fs::path& record : records) runs.push_back(read_run(record));
   ReportedMesh mesh;
   if (!command.mesh.empty())
     mesh = {fs::path(command.mesh).filename().string(), read_mesh(command.mesh, command.reading)};
@@ -91,10 +45,8 @@ void run_report(const ReportCommand& command) {
         {command.mesh, 0},
         fmt::format("has {} triangles, and a page shows at most {}", mesh.mesh.triangles.size(), kMostTriangles),
         "make a picture with `driftmesh plot`");
-  AtomicFile page(command.output);
-  page.write(report_page(runs, mesh));
-  page.commit();
-  fmt::print("{}: {} run{}{}\n", command.output, runs.size(), runs.size() == 1 ? "" : "s",
+  write_report(command.output, records, mesh);
+  fmt::print("{}: {} run{}{}\n", command.output, records.size(), records.size() == 1 ? "" : "s",
              mesh.mesh.triangles.empty() ? "" : fmt::format(", {} triangles", mesh.mesh.triangles.size()));
 }
 

@@ -12,12 +12,12 @@
 #include "app/chrome_trace.hpp"
 #include "app/commands.hpp"
 #include "app/decision_log.hpp"
-#include "app/experiment_pictures.hpp"
 #include "app/experiment_run.hpp"
 #include "app/experiment_table.hpp"
 #include "app/lb_statistics.hpp"
 #include "app/progress_line.hpp"
 #include "app/real_cluster.hpp"
+#include "app/run_report.hpp"
 #include "base/atomic_file.hpp"
 #include "base/file_identity.hpp"
 #include "base/file_registry.hpp"
@@ -43,8 +43,8 @@ struct RunCommand {
 };
 
 // In the folder of the results; endings follow the name of a run.
-constexpr const char *kExperimentFile = "experiment.yaml", *kTableFile = "table.csv", *kRecordEnding = ".json",
-                     *kDecisionsEnding = ".decisions.jsonl", *kStatisticsEnding = ".lb-stats";
+constexpr const char *kExperimentFile = "experiment.yaml", *kTableFile = "table.csv", *kPageFile = "report.html",
+                     *kRecordEnding = ".json", *kDecisionsEnding = ".decisions.jsonl", *kStatisticsEnding = ".lb-stats";
 
 std::string statistics_file(std::int32_t rank) {
   return fmt::format("data.{}.json", rank);
@@ -65,10 +65,10 @@ void make_folder(const std::filesystem::path& folder) {
 /// Removes what an earlier experiment left in its folder, so that no record there belongs to another experiment than
 /// the table. A folder without an experiment is not touched.
 void remove_earlier_results(const std::filesystem::path& folder) {
-  static const std::regex of_a_run(R"(run-\d+(\.json|\.decisions\.jsonl|\.trace\.json|\.lb-stats|-[a-z-]+\.png))");
+  static const std::regex of_a_run(R"(run-\d+(\.json|\.decisions\.jsonl|\.trace\.json|\.lb-stats))");
   std::error_code ignored;
   if (!std::filesystem::exists(folder / kExperimentFile, ignored)) return;
-  std::vector<std::filesystem::path> stale{folder / kTableFile, folder / kSweepPicture};
+  std::vector<std::filesystem::path> stale{folder / kTableFile, folder / kPageFile};
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
     if (std::regex_match(entry.path().filename().string(), of_a_run)) stale.push_back(entry.path());
   for (const auto& path : stale) std::filesystem::remove_all(path, ignored);
@@ -115,9 +115,12 @@ class Runner {
       progress_.begin(fmt::format("run {} of {}", i + 1, runs()));
       do_run(name_of(i), point_of(i), static_cast<std::int32_t>(i % repetitions()));
     }
-    if (file_.base.pictures) draw_sweep(table_, file_.base.name, folder_.string());
+    const bool reported = file_.base.report && has_report_page();
+    if (reported) write_report((folder_ / kPageFile).string(), records_of({folder_.string()}), {});
     progress_.end();
-    if (!command_.quiet) print(table_.markdown() + "\nresults in " + folder_.string() + "/\n");
+    if (!command_.quiet)
+      print(table_.markdown() + "\nresults in " + folder_.string() + "/" +
+            (reported ? fmt::format("; to look at: {}", (folder_ / kPageFile).string()) : "") + "\n");
   }
 
  private:
@@ -138,13 +141,12 @@ class Runner {
       require_inside(path, folder_.string());
       files.writes(path, "the results");
     };
-    for (const char* file : {kExperimentFile, kTableFile, kSweepPicture}) writes(file);
+    for (const char* file : {kExperimentFile, kTableFile, kPageFile}) writes(file);
     for (std::size_t i = 0; i < runs(); ++i) {
       const std::string name = name_of(i);
       writes(name + kRecordEnding);
       writes(name + kDecisionsEnding);
       writes(name + kTraceEnding);
-      for (const std::string& picture : pictures_of_run(name)) writes(picture);
       for (std::int32_t r = 0; r < ranks_of_statistics(point_of(i).request); ++r)
         writes(name + kStatisticsEnding + "/" + statistics_file(r));
     }
@@ -175,10 +177,7 @@ class Runner {
     StagedFiles files;
     write_file(folder_ / (name + kRecordEnding), experiment_record(run));
     write_file(folder_ / (name + kDecisionsEnding), decision_lines(run.outcome));
-    if (run.request.pictures) {
-      draw_run(run, folder_.string());
-      write_file(folder_ / (name + kTraceEnding), chrome_trace(run.outcome));
-    }
+    if (run.request.report) write_file(folder_ / (name + kTraceEnding), chrome_trace(run.outcome));
     if (run.request.lb_phases > 0) write_lb_statistics(run, folder_ / (name + kStatisticsEnding));
     table_.add(run);
     write_file(folder_ / kTableFile, table_.csv());

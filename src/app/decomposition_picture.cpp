@@ -70,17 +70,4 @@ void plot_decomposition(const Decomposition& d, const std::string& path, const s
   plot_mesh(colored_subdomains(d), path, options);
 }
 
-void plot_owners(const Decomposition& d, const IdVector<SubdomainId, Rank>& owners, const std::string& path,
-                 const std::string& title) {
-  Mesh piece = subdomains_as_mesh(d);
-  for (const std::int32_t s : piece.subdomains) piece.ranks.push_back(to_int(owners[SubdomainId{s}]));
-  PlotOptions options;
-  options.color = PlotColor::rank;
-  options.edges = PlotEdges::off;
-  options.title = title;
-  options.subtitle = grouped(static_cast<std::int64_t>(d.size())) + " subdomains";
-  options.counts = false;  // of triangles that only fill subdomains
-  plot_mesh(piece, path, options);
-}
-
 }  // namespace driftmesh::app

@@ -15,8 +15,4 @@ namespace driftmesh::app {
 /// Plots them. Throws like plot_mesh.
 void plot_decomposition(const Decomposition& decomposition, const std::string& path, const std::string& title);
 
-/// Plots them with one color per owner. Throws like plot_mesh.
-void plot_owners(const Decomposition& decomposition, const IdVector<SubdomainId, Rank>& owners, const std::string& path,
-                 const std::string& title);
-
 }  // namespace driftmesh::app

@@ -512,7 +512,7 @@ Section experiment_section() {
       kExperiment,
       {key("name", &R::name, "Name of the results; by default that of the file"),
        key("repetitions", &R::repetitions, "Number of times each run is made", in(1, 1000)),
-       key("pictures", &R::pictures, "Draw pictures of each run"),
+       key("report", &R::report, "Write what each rank did when, and all runs as a page for browsers"),
        key("lb-statistics", &R::lb_phases,
            "Number of phases in the load balancing statistics written for DARMA vt's tools; 0: none", in(0, 10'000))}};
 }

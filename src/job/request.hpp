@@ -136,7 +136,7 @@ struct Request {
   // Of experiments, which make many runs.
   std::string name = "experiment";
   std::int32_t repetitions = 1;
-  bool pictures = true;
+  bool report = true;
   std::int32_t lb_phases = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "report/report_page.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,21 +37,23 @@ void add_run(std::string& to, const ReportedRun& run) {
 }
 
 template <class Value>
-void add_array(std::string& to, const ReportedMesh& mesh, const char* name, const char* type,
-               const std::vector<Value>& array) {
-  add_block(
-      to, std::string("data-mesh=\"") + name + "\" data-type=\"" + type + "\" data-name=\"" + escaped(mesh.name) + "\"",
-      array.data(), array.size() * sizeof(Value));
+void add_array(std::string& to, const char* name, const char* type, const std::vector<Value>& array,
+               const std::string& more = {}) {
+  add_block(to, std::string("data-mesh=\"") + name + "\" data-type=\"" + type + "\"" + more, array.data(),
+            array.size() * sizeof(Value));
 }
 
-/// Seen from the middle of the mesh: a float has seven digits.
-std::vector<float> near_the_middle(const std::vector<Point>& points) {
+Point middle_of(const std::vector<Point>& points) {
   Point low = points.front(), high = low;
   for (const Point& p : points) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  const Point middle{low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
+  return {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2};
+}
+
+/// Seen from the middle of the mesh: a float has seven digits.
+std::vector<float> near_the_middle(const std::vector<Point>& points, const Point& middle) {
   std::vector<float> near;
   near.reserve(2 * points.size());
   for (const Point& p : points) {
@@ -61,17 +65,19 @@ std::vector<float> near_the_middle(const std::vector<Point>& points) {
 
 void add_mesh(std::string& to, const ReportedMesh& reported) {
   const Mesh& mesh = reported.mesh;
-  add_array(to, reported, "points", "Float32", near_the_middle(mesh.points));
+  const Point middle = middle_of(mesh.points);
+  add_array(to, "points", "Float32", near_the_middle(mesh.points, middle),
+            fmt::format(" data-name=\"{}\" data-middle=\"{} {}\"", escaped(reported.name), middle.x, middle.y));
   std::vector<std::int32_t> numbers;
   numbers.reserve(3 * mesh.triangles.size());
   for (const auto& t : mesh.triangles) numbers.insert(numbers.end(), t.begin(), t.end());
-  add_array(to, reported, "triangles", "Uint32", numbers);
-  if (!mesh.ranks.empty()) add_array(to, reported, "rank", "Int32", mesh.ranks);
-  if (!mesh.subdomains.empty()) add_array(to, reported, "subdomain", "Int32", mesh.subdomains);
+  add_array(to, "triangles", "Uint32", numbers);
+  if (!mesh.ranks.empty()) add_array(to, "rank", "Int32", mesh.ranks);
+  if (!mesh.subdomains.empty()) add_array(to, "subdomain", "Int32", mesh.subdomains);
   if (mesh.regions.empty()) return;
   numbers.clear();
   for (const double r : mesh.regions) numbers.push_back(static_cast<std::int32_t>(std::lround(r)));
-  add_array(to, reported, "region", "Int32", numbers);
+  add_array(to, "region", "Int32", numbers);
 }
 
 }  // namespace

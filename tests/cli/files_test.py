@@ -112,7 +112,7 @@ class NothingReadIsOverwritten(Files):
         self.write("e.yaml", experiment)
         os.rename(self.folder / "square.poly", self.folder / "table.csv")
         self.write("square.node", BACKGROUND_NODES)
-        for name in ("table.csv", "run-1.json", "run-1-time.png", "run-1.decisions.jsonl", "run-1.trace.json",
+        for name in ("table.csv", "run-1.json", "report.html", "run-1.decisions.jsonl", "run-1.trace.json",
                      "run-1.lb-stats/data.1.json"):
             (self.folder / "run-1.lb-stats").mkdir(exist_ok=True)
             self.write(name, SQUARE)
@@ -252,7 +252,7 @@ class TogetherOrNotAtAll(Files):
 class NoWayOut(Files):
     """Names in files lead out of their folder only when the command line says so."""
 
-    EXPERIMENT = "input: {file: square.poly}\nbounds: {triangles: 2e3}\ncluster: {ranks: 2}\npictures: false\n"
+    EXPERIMENT = "input: {file: square.poly}\nbounds: {triangles: 2e3}\ncluster: {ranks: 2}\nreport: false\n"
 
     def setUp(self):
         super().setUp()

@@ -20,7 +20,7 @@ bounds: {triangles-per-rank: 2000}
 decomposition: {subdomains-per-rank: 10}
 cluster: {groups: [{ranks: 2, speed: 1e4}, {ranks: 2, speed: 4e4}]}
 mapping: {method: block}
-pictures: false
+report: false
 balance: {parameters: {pairs.so.share: 0.8}}
 sweep: {balance.policy: [none, greedy, plugins/pairs.so]}
 """

@@ -77,7 +77,7 @@ class Dashes(Streams):
         self.assertIn(digest.encode(), self.pipe("check", "-", given=mesh)[0])
 
     def test_an_experiment(self):
-        experiment = b"input: {file: square.poly}\nbounds: {triangles: 2e3}\ncluster: {ranks: 2}\npictures: false\n"
+        experiment = b"input: {file: square.poly}\nbounds: {triangles: 2e3}\ncluster: {ranks: 2}\nreport: false\n"
         said, _ = self.pipe("run", "-", given=experiment)
         self.assertIn(b"results in experiment.runs/", said)
         self.assertIn("run-1.json", os.listdir(self.folder / "experiment.runs"))

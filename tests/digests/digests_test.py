@@ -66,7 +66,7 @@ EXPERIMENTS = {
 EXPERIMENT = """input: {{file: {}}}
 cluster:
   groups: [{{name: fast, ranks: 3, speed: 8e6}}, {{name: slow, ranks: 3, speed: 2e6}}]
-pictures: false
+report: false
 """
 
 

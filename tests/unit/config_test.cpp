@@ -132,7 +132,7 @@ TEST_CASE("errors name the place and what was probably meant") {
   CHECK(message_for("cluster: {ranks: 2.5}\n") == "test.yaml:1:18: 'cluster.ranks' is 2.5; give a whole number");
   CHECK(message_for("run: {order: largets}\n") ==
         "test.yaml:1:14: 'run.order' is 'largets'; the nearest valid value is 'largest'");
-  CHECK(message_for("pictures: yes\n") == "test.yaml:1:11: 'pictures' is 'yes'; it is either true or false");
+  CHECK(message_for("report: yes\n") == "test.yaml:1:9: 'report' is 'yes'; it is either true or false");
   CHECK(message_for("cluster:\n  groups:\n    - {rank: 2}\n") ==
         "test.yaml:3:8: 'cluster.groups' has no field 'rank'; the nearest one is 'ranks'");
   CHECK(message_for("cluster: {ranks: 2}\ncluster: {latency: 1}\n") ==

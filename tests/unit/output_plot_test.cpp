@@ -10,7 +10,6 @@
 #include "driftmesh/error.hpp"
 #include "io/xml_scanner.hpp"
 #include "picture/plot.hpp"
-#include "picture/plot_chart.hpp"
 #include "picture/plot_color.hpp"
 #include "picture/plot_raster.hpp"
 #include "picture/plot_scale.hpp"
@@ -277,46 +276,4 @@ TEST_CASE("a picture that cannot be written is an error and leaves nothing behin
   CHECK_THROWS_AS(plot_mesh(mesh, folder.path() / "a.png", {.width = 1000000}), InputError);
   CHECK_THROWS_AS(plot_mesh(mesh, folder.path() / "missing" / "a.svg", {}), FileError);
   CHECK(std::filesystem::is_empty(folder.path()));
-}
-
-TEST_CASE("stacked bars have the heights and the order of their parts") {
-  const TemporaryFolder folder;
-  const std::string path = (folder.path() / "bars.png").string();
-  StackedBars bars;
-  bars.parts = {{"low", {1, 0, 0}, {1, 2}}, {"high", {0, 0, 1}, {3, 0}}};
-  bars.groups = {{"both", 2}};
-  plot_chart(bars, path);
-  const Picture picture(path);
-  const auto count = [&](std::uint32_t color, int left, int right) {
-    int pixels = 0;
-    for (int y = 120; y < picture.height(); ++y)
-      for (int x = left; x < right; ++x) pixels += picture.at(x, y) == color ? 1 : 0;
-    return static_cast<double>(pixels);
-  };
-  const int middle = 110 + (picture.width() - 150) / 2;
-  const double first_low = count(0xff0000, 0, middle), first_high = count(0x0000ff, 0, middle);
-  CHECK(first_low > 1000);
-  CHECK(first_high == doctest::Approx(3 * first_low).epsilon(0.02));
-  CHECK(count(0xff0000, middle, picture.width()) == doctest::Approx(2 * first_low).epsilon(0.02));
-  CHECK(count(0x0000ff, middle, picture.width()) == 0);
-}
-
-TEST_CASE("curves, bands and timelines are drawn, even empty ones") {
-  const TemporaryFolder folder;
-  const std::string path = (folder.path() / "chart.png").string();
-  LineChart lines;
-  plot_chart(lines, path);
-  const int frame_only = Picture(path).drawn(110, 120, 1360, 700);
-  lines.curves = {{"band", {1, 0, 0}, {{1, 2}, {100, 3}}, {1, 1}}, {"line", {0, 0, 1}, {{1, 1}, {100, 2}}, {}, true}};
-  for (const bool logarithmic : {false, true}) {
-    lines.logarithmic_x = logarithmic;
-    plot_chart(lines, path);
-    CHECK(Picture(path).drawn(110, 120, 1360, 700) > frame_only + 10000);
-  }
-  Timeline timeline;
-  plot_chart(timeline, path);
-  timeline = {{"moves", "", "seconds", "rank"}, 3, 2.0, {{{0, 1}}, {{0.5, 2}}, {}}, {{0.2, 0.4, 0, 2}}};
-  plot_chart(timeline, path);
-  CHECK(Picture(path).drawn(110, 120, 1360, 700) > 10000);
-  CHECK_THROWS_AS(plot_chart(timeline, (folder.path() / "chart.gif").string()), InputError);
 }
