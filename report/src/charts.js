@@ -6,6 +6,7 @@ const config = {
   range: { category: colors },
   font: "system-ui, sans-serif",
   axis: { labelFontSize: 12, titleFontSize: 13, titleFontWeight: "normal", gridColor: "#e8e8e8", labelColor: "#333" },
+  axisX: { tickCount: 10, labelOverlap: true },
   legend: { labelFontSize: 12, titleFontSize: 13, titleFontWeight: "normal", labelLimit: 400 },
   view: { stroke: null },
 };

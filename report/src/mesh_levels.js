@@ -3,8 +3,8 @@
 
 const kGrid = 64;                       // cells along a side, by which triangles are sorted
 export const kImages = [512, 1024, 2048];  // cells of the images along a side
-const kSmall = 0.6;                     // of a cell: triangles that an image stands for are no larger
-const kCovered = 0.35;                  // of the area of a cell that is not left empty
+const kSmall = 0.45;                    // of a cell: triangles that an image stands for are no larger
+const kCovered = 0.2;                   // of the area of a cell that is not left empty
 
 const cellOf = (x, cells) => Math.min(cells - 1, Math.max(0, Math.floor(((x + 1) / 2) * cells)));
 
@@ -82,9 +82,22 @@ function eachInImage(mesh, level, visit) {
   }
 }
 
+/** Cells without a value between two that have one get it from one of them: where few triangles are in a cell, chance may
+ * have put none of their centers there. */
+function closeGaps(values, cells, isEmpty) {
+  const gaps = [];
+  for (let row = 1; row + 1 < cells; ++row)
+    for (let i = row * cells + 1; i < (row + 1) * cells - 1; ++i)
+      if (isEmpty(values[i]))
+        for (const step of [1, cells])
+          if (!isEmpty(values[i - step]) && !isEmpty(values[i + step])) gaps.push([i, values[i - step]]);
+  for (const [i, value] of gaps) values[i] = value;
+  return values;
+}
+
 /** For each cell of an image the mean of `values`, NaN where there is nothing. `areas` are in units of the image's side. */
 export function meansOf(mesh, level, values, areas) {
-  const cells = kImages[level] ** 2;
+  const side = kImages[level], cells = side ** 2;
   const sums = new Float32Array(cells), covered = new Float32Array(cells);
   eachInImage(mesh, level, (t, cell) => {
     sums[cell] += values[t] * areas[t];
@@ -92,12 +105,12 @@ export function meansOf(mesh, level, values, areas) {
   });
   const enough = (kCovered * 4) / cells;
   for (let cell = 0; cell < cells; ++cell) sums[cell] = covered[cell] < enough ? NaN : sums[cell] / covered[cell];
-  return sums;
+  return closeGaps(sums, side, Number.isNaN);
 }
 
 /** For each cell the number of one of its triangles, -1 where there is nothing. */
 export function numbersOf(mesh, level, numbers, areas) {
-  const cells = kImages[level] ** 2;
+  const side = kImages[level], cells = side ** 2;
   const found = new Int32Array(cells).fill(-1), covered = new Float32Array(cells);
   eachInImage(mesh, level, (t, cell) => {
     found[cell] = numbers[t];
@@ -105,5 +118,5 @@ export function numbersOf(mesh, level, numbers, areas) {
   });
   const enough = (kCovered * 4) / cells;
   for (let cell = 0; cell < cells; ++cell) if (covered[cell] < enough) found[cell] = -1;
-  return found;
+  return closeGaps(found, side, (n) => n < 0);
 }

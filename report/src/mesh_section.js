@@ -32,13 +32,16 @@ function categoryLegend(count) {
   return [...chips, ...(count > most ? [`... ${count - 1}; colors repeat after ${most}`] : [])];
 }
 
+/** As high as the mesh wants it, within reason. */
+const heightFor = ([x, y], width) => Math.max(260, Math.min(680, 0.8 * window.innerHeight, (width * y) / (x || 1)));
+
 /** The mesh in the order in which it is drawn, with its columns; `length` and `middle` lead back to the input. */
 function prepared(mesh) {
-  const { length, middle } = intoSquare(mesh.points);
+  const { length, middle, half } = intoSquare(mesh.points);
   const sorted = sortTriangles(mesh.points, mesh.triangles);
   const columns = Object.fromEntries(Object.entries(mesh.columns).map(([name, column]) =>
     [name, Uint32Array.from(sorted.order, (t) => Math.max(0, column[t]))]));
-  return { ...sorted, points: mesh.points, columns, ...measure(mesh.points, sorted.triangles), length,
+  return { ...sorted, points: mesh.points, columns, ...measure(mesh.points, sorted.triangles), length, half,
     middle: middle.map((x, d) => x + mesh.middle[d]) };
 }
 
@@ -146,7 +149,10 @@ export function meshSection(mesh, firstRecord) {
       clearTimeout(timer);
       timer = setTimeout(() => find(offsetX, offsetY), 40);
     });
-    new ResizeObserver(redraw).observe(canvas);
+    new ResizeObserver(() => {
+      canvas.style.height = `${heightFor(shown.half, canvas.clientWidth)}px`;
+      redraw();
+    }).observe(canvas);
     offer();
     paint();
   };

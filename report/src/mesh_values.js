@@ -1,7 +1,7 @@
 // Figures of triangles. Pure functions.
 
-/** Moved and scaled into a square of side 2. In place; returns {length, middle}: of a unit, and of all, in the
- * former lengths. */
+/** Moved and scaled into a square of side 2. In place; returns {length, middle, half}: of a unit, and of
+ * all, in the former lengths; and half of the sides of all in the new ones. */
 export function intoSquare(points) {
   const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
   for (let i = 0; i < points.length; ++i) {
@@ -12,7 +12,7 @@ export function intoSquare(points) {
   const length = Math.max(high[0] - low[0], high[1] - low[1]) / 2 || 1;
   const middle = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
   for (let i = 0; i < points.length; ++i) points[i] = (points[i] - middle[i & 1]) / length;
-  return { length, middle };
+  return { length, middle, half: [(high[0] - low[0]) / 2 / length, (high[1] - low[1]) / 2 / length] };
 }
 
 /** Areas and smallest angles (degrees) of all triangles. */

@@ -41,7 +41,7 @@ function upload(gl, unit, texture, array, per, [internal, format, type]) {
 const kNumbers = ["R32UI", "RED_INTEGER", "UNSIGNED_INT"];
 const kNone = new Uint32Array(1);
 
-/** Draws `mesh` ({points, triangles, starts, areas, angles}, sorted, in a square of side 2 around 0) on a canvas. */
+/** Draws `mesh` ({points, triangles, starts, areas, angles, half}, sorted, in a square of side 2 around 0) on a canvas. */
 export class MeshView {
   constructor(canvas, mesh, range) {
     this.canvas = canvas;
@@ -84,7 +84,8 @@ export class MeshView {
 
   /** Pixels of the screen in a unit. */
   unit() {
-    return (Math.min(this.canvas.clientWidth, this.canvas.clientHeight) / 2.1) * this.transform.k;
+    const [x, y] = this.mesh.half;
+    return (Math.min(this.canvas.clientWidth / Math.max(x, 0.05), this.canvas.clientHeight / Math.max(y, 0.05)) / 2.1) * this.transform.k;
   }
 
   /** From the mesh's coordinates to clip space. */

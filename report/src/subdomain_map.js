@@ -6,6 +6,7 @@ import { movesOf, ownersAt, secondsOf } from "./runs.js";
 
 const kMargin = 20;  // pixels
 const kMostSeams = 6000;
+const kTangents = 16;
 const kReach = 1.6;  // of the distance to the nearest neighbors: how far a subdomain can be seen from its center
 
 /** Whether a record says where its subdomains lie and who has them. */
@@ -13,6 +14,21 @@ export const hasMap = (record) => record.cluster?.subdomains?.x?.length > 2 && r
 
 const extent = (values) => values.reduce((a, b) => Math.max(a, b)) - values.reduce((a, b) => Math.min(a, b));
 const heightFor = ({ x, y }, width) => Math.min(Math.max((width * extent(y)) / (extent(x) || 1), 220), 560);
+
+/** The part of a convex polygon within a circle, nearly: within its tangents in some directions (Sutherland and Hodgman 1974). */
+function withinCircle(polygon, center, radius) {
+  let left = polygon;
+  for (let k = 0; k < kTangents && left.length > 0; ++k) {
+    const direction = [Math.cos((2 * Math.PI * k) / kTangents), Math.sin((2 * Math.PI * k) / kTangents)];
+    const beyond = (p) => direction[0] * (p[0] - center[0]) + direction[1] * (p[1] - center[1]) - radius;
+    left = left.flatMap((p, i) => {
+      const q = left[(i + 1) % left.length], a = beyond(p), b = beyond(q);
+      const crossing = a * b < 0 ? [[p[0] + ((q[0] - p[0]) * a) / (a - b), p[1] + ((q[1] - p[1]) * a) / (a - b)]] : [];
+      return a <= 0 ? [p, ...crossing] : crossing;
+    });
+  }
+  return left;
+}
 
 /** What is drawn for each subdomain, fitted into a canvas: {paths, find(x, y)}. A record has centers only, so each gets what is
  * nearer to it than to the others, but not too far. */
@@ -29,10 +45,7 @@ function cellsOf({ x, y }, width, height) {
     const around = [...delaunay.neighbors(s)].map((n) => distance(center, centers[n])).sort((a, b) => a - b);
     const radius = Math.max(1.5, (kReach / 2) * (around[Math.min(2, around.length - 1)] ?? width));
     const path = new Path2D();
-    (voronoi.cellPolygon(s) ?? []).forEach((p, k) => {
-      const far = Math.max(1, distance(p, center) / radius);
-      path[k === 0 ? "moveTo" : "lineTo"](center[0] + (p[0] - center[0]) / far, center[1] + (p[1] - center[1]) / far);
-    });
+    withinCircle(voronoi.cellPolygon(s) ?? [], center, radius).forEach((p, k) => path[k === 0 ? "moveTo" : "lineTo"](...p));
     path.closePath();
     return path;
   });

@@ -6,7 +6,7 @@ const kRows = 1024;  // more would be thinner than a pixel
 const blue = "#0072b2", orange = "#e69f00", sky = "#56b4e9";
 
 /** Seconds from 0 to `end`; Ctrl and the wheel zoom in, dragging moves. */
-const seconds = (end) => (field) => ({ field, type: "quantitative", title: "seconds", axis: { tickCount: 10 }, scale: { domain: [0, end], nice: false } });
+const seconds = (end) => (field) => ({ field, type: "quantitative", title: "seconds", scale: { domain: [0, end], nice: false } });
 const zoom = [{ name: "zoom", bind: "scales",
   select: { type: "interval", encodings: ["x"], zoom: "wheel![event.ctrlKey]", clear: "dblclick" } }];
 
@@ -19,7 +19,7 @@ export function timeline({ record, trace, name }, end) {
   const row = (rank) => ({ top: rank - 0.5, bottom: rank - 0.5 + every });
   const busy = busyIntervals(trace).filter((b) => b.rank % every === 0).map((b) => ({ ...b, ...row(b.rank) }));
   const moves = movesOf(record), plans = plansOf(trace);
-  const height = Math.ceil(ranks / every) * Math.max(1, Math.min(18, Math.floor(720 / ranks)));
+  const height = Math.ceil(ranks / every) * Math.max(1, Math.min(ranks > 4 ? 22 : 36, Math.floor(720 / ranks)));
   const x = seconds(end);
   const y = (field) => ({ field, type: "quantitative", axis: rankAxis(ranks), scale: { ...rankScale(ranks), reverse: true } });
   const color = legendOf(["refines", "subdomain on its way"], [blue, orange]);

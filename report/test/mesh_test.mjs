@@ -70,7 +70,7 @@ test("an image stands for triangles smaller than its cells, and for no others", 
     const first = levels.firstInImage(sorted.starts, level);
     for (let t = 0; t < 5000; ++t) {
       const [x0, y0, x1, y1] = boxOf(sorted, t);
-      assert.equal(Math.max(x1 - x0, y1 - y0) <= (0.6 * 2) / cells, t >= first, `triangle ${t}`);
+      assert.equal(Math.max(x1 - x0, y1 - y0) <= (0.45 * 2) / cells, t >= first, `triangle ${t}`);
     }
   });
 });
@@ -79,12 +79,12 @@ test("cells have means by area, and nothing where little is covered", () => {
   const cell = 2 / levels.kImages[2];
   const corner = (x, y) => [x * cell, y * cell];
   // Two triangles in one cell, one of twice the area; and a tiny one in another.
-  const points = Float32Array.from([corner(0.1, 0.1), corner(0.6, 0.1), corner(0.1, 0.7), corner(0.3, 0.9), corner(0.9, 0.3), corner(0.9, 0.9),
+  const points = Float32Array.from([corner(0.1, 0.1), corner(0.5, 0.1), corner(0.1, 0.4), corner(0.5, 0.9), corner(0.9, 0.5), corner(0.9, 0.9),
     corner(5.5, 0.5), corner(5.6, 0.5), corner(5.5, 0.6)].flat());
   const mesh = { points, ...levels.sortTriangles(points, Uint32Array.from({ length: 9 }, (_, k) => k)) };
   const { areas } = values.measure(points, mesh.triangles);
   const given = Float32Array.from(mesh.order, (t) => [10, 40, 7][t]);
-  const wide = areas.map((area) => area * 1.4);  // together they cover enough
+  const wide = areas.map((area) => area * 2);  // together they cover enough
   const means = levels.meansOf(mesh, 2, given, wide);
   const filled = [...means.keys()].filter((k) => !Number.isNaN(means[k]));
   assert.equal(filled.length, 1);
@@ -93,6 +93,18 @@ test("cells have means by area, and nothing where little is covered", () => {
   assert.ok(Math.abs(means[filled[0]] - expected) < 1e-3);
   const numbers = levels.numbersOf(mesh, 2, Uint32Array.from(mesh.order), wide);
   assert.deepEqual([...numbers.keys()].filter((k) => numbers[k] >= 0), filled);
+});
+
+test("a gap between cells that have something is closed", () => {
+  const side = levels.kImages[0], cell = 2 / side;
+  const triangleIn = (column, row) => [[0.3, 0.3], [0.7, 0.3], [0.3, 0.7]].flatMap(([x, y]) => [(column + x) * cell - 1, (row + y) * cell - 1]);
+  const points = Float32Array.from([triangleIn(9, 9), triangleIn(11, 9), triangleIn(20, 20)].flat());
+  const mesh = { points, ...levels.sortTriangles(points, Uint32Array.from({ length: 9 }, (_, k) => k)) };
+  const whole = new Float32Array(3).fill(cell * cell);
+  const means = levels.meansOf(mesh, 0, Float32Array.from(mesh.order, (t) => [5, 6, 7][t]), whole);
+  const at = (column, row) => means[row * side + column];
+  assert.deepEqual([at(9, 9), at(10, 9), at(11, 9), at(20, 20)], [5, 5, 6, 7]);
+  assert.equal(means.filter((m) => !Number.isNaN(m)).length, 4);
 });
 
 test("areas, smallest angles and histograms", () => {
@@ -107,6 +119,6 @@ test("areas, smallest angles and histograms", () => {
 
 test("a mesh is moved into a square, and its place is not lost", () => {
   const points = Float32Array.from([10, 20, 30, 24]);
-  const { length, middle } = values.intoSquare(points);
-  assert.deepEqual([[...points], length, middle], [[-1, -0.20000000298023224, 1, 0.20000000298023224], 10, [20, 22]]);
+  const { length, middle, half } = values.intoSquare(points);
+  assert.deepEqual([[...points], { length, middle, half }], [[-1, -0.20000000298023224, 1, 0.20000000298023224], { length: 10, middle: [20, 22], half: [1, 0.2] }]);
 });
