@@ -99,22 +99,27 @@ void add_load_class(py::module_& module) {
                         "The load at one moment, as a policy sees it: arrays with an entry for each unfinished "
                         "subdomain, or for each rank. Work is in triangles, times are in seconds.");
   add_of_subdomains<std::int32_t>(load, "subdomains", &SubdomainLoad::id,
-                                  "IDs of the unfinished subdomains, ascending.");
-  add_of_subdomains<std::int32_t>(load, "owners", &SubdomainLoad::owner, "Rank that has the subdomain.");
+                                  "IDs of the unfinished subdomains, ascending, shape (subdomains,).");
+  add_of_subdomains<std::int32_t>(load, "owners", &SubdomainLoad::owner,
+                                  "Rank that has the subdomain, shape (subdomains,).");
   add_of_subdomains<double>(load, "remaining", &SubdomainLoad::remaining,
-                            "Triangles still to be made in it, predicted.");
-  add_of_subdomains<std::uint64_t>(load, "bytes", &SubdomainLoad::bytes, "Bytes to move it.");
+                            "Triangles still to be made in it, predicted, shape (subdomains,).");
+  add_of_subdomains<std::uint64_t>(load, "bytes", &SubdomainLoad::bytes, "Bytes to move it, shape (subdomains,).");
   add_of_subdomains<std::int32_t>(load, "turns", &SubdomainLoad::turn,
-                                  "Position in its owner's order of work; 0 is being worked on.");
-  add_of_subdomains<double>(load, "costs", &SubdomainLoad::cost, "Seconds of both ranks to move it.");
-  add_of_subdomains<bool>(load, "fixed", &SubdomainLoad::fixed, "Whether it stays where it is, whatever is planned.");
-  add_of_ranks(load, "rank_remaining", &RankLoad::remaining, "Triangles that each rank has still to make.");
-  add_of_ranks(load, "rank_doubts", &RankLoad::doubt, "Relative standard deviation of the time for that.");
+                                  "Position in its owner's order of work, shape (subdomains,); 0 is being worked on.");
+  add_of_subdomains<double>(load, "costs", &SubdomainLoad::cost,
+                            "Seconds of both ranks to move it, shape (subdomains,).");
+  add_of_subdomains<bool>(load, "fixed", &SubdomainLoad::fixed,
+                          "Whether it stays where it is, whatever is planned, shape (subdomains,).");
+  add_of_ranks(load, "rank_remaining", &RankLoad::remaining,
+               "Triangles that each rank has still to make, shape (ranks,).");
+  add_of_ranks(load, "rank_doubts", &RankLoad::doubt,
+               "Relative standard deviation of the time for that, shape (ranks,).");
   add_of_ranks(load, "rank_free_memory", &RankLoad::free_memory,
-               "Triangles for which each rank has memory besides those that it has and will make.");
+               "Triangles for which each rank has memory besides those that it has and will make, shape (ranks,).");
   load.def_property_readonly(
       "rank_speeds", [](const py::object& self) { return view(self.cast<const Load&>().speeds, self); },
-      "Triangles per second of each rank, as measured; the mean of the others where it is not known.");
+      "Triangles per second of each rank, as measured, shape (ranks,); the mean of the others where it is not known.");
   load.def(
       "neighbors",
       [](const Load& self, std::int32_t subdomain) {

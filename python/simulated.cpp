@@ -44,36 +44,39 @@ void add_simulated(py::module_& module) {
   py::class_<SimulatedRun> run_class(module, "SimulatedRun",
                                      "Results of a run on a simulated cluster, in virtual seconds.");
   py::class_<Move>(run_class, "Move", "A subdomain that moved from one rank to another.")
-      .def_property_readonly("subdomain", [](const Move& m) { return to_int(m.subdomain); })
-      .def_property_readonly("source", [](const Move& m) { return to_int(m.from); })
-      .def_property_readonly("target", [](const Move& m) { return to_int(m.to); })
-      .def_readonly("left", &Move::left, "When it was sent.")
-      .def_readonly("arrived", &Move::arrived, "When it was unpacked.")
-      .def_readonly("bytes", &Move::bytes);
+      .def_property_readonly(
+          "subdomain", [](const Move& m) { return to_int(m.subdomain); }, "Its number.")
+      .def_property_readonly(
+          "source", [](const Move& m) { return to_int(m.from); }, "The rank that gave it away.")
+      .def_property_readonly(
+          "target", [](const Move& m) { return to_int(m.to); }, "The rank that got it.")
+      .def_readonly("left", &Move::left, "When it was sent, in virtual seconds.")
+      .def_readonly("arrived", &Move::arrived, "When it was unpacked, in virtual seconds.")
+      .def_readonly("bytes", &Move::bytes, "Its size when packed.");
   py::class_<Times>(run_class, "RankTimes", "How a rank spent its time.")
-      .def_readonly("computing", &Times::computing)
-      .def_readonly("sending", &Times::sending)
-      .def_readonly("polling", &Times::polling)
-      .def_readonly("balancing", &Times::balancing)
-      .def_readonly("idle", &Times::idle);
+      .def_readonly("computing", &Times::computing, "Seconds of refinement.")
+      .def_readonly("sending", &Times::sending, "Seconds of sending messages.")
+      .def_readonly("polling", &Times::polling, "Seconds of receiving messages.")
+      .def_readonly("balancing", &Times::balancing, "Seconds of planning and moving subdomains.")
+      .def_readonly("idle", &Times::idle, "Seconds without work.");
   run_class.def_readonly("seconds", &SimulatedRun::seconds, "Until the last rank knows that all work is done.")
       .def_readonly("ideal_seconds", &SimulatedRun::ideal_seconds, "If every rank had computed from start to end.")
-      .def_readonly("triangles", &SimulatedRun::triangles)
-      .def_readonly("messages", &SimulatedRun::messages)
-      .def_readonly("message_bytes", &SimulatedRun::message_bytes)
+      .def_readonly("triangles", &SimulatedRun::triangles, "Of the whole mesh.")
+      .def_readonly("messages", &SimulatedRun::messages, "Number of messages between ranks.")
+      .def_readonly("message_bytes", &SimulatedRun::message_bytes, "Size of all of them.")
       .def_readonly("moves", &SimulatedRun::moves, "In order of departure.")
       .def_readonly("ranks", &SimulatedRun::ranks, "The times of each rank.")
       .def_property_readonly(
           "speeds", [](const py::object& self) { return view(self.cast<const SimulatedRun&>().speeds, self); },
-          "Triangles per second of each rank.")
+          "Triangles per second of each rank, shape (ranks,).")
       .def_property_readonly(
           "owners_before",
           [](const py::object& self) { return ranks_view(self.cast<const SimulatedRun&>().owners_before, self); },
-          "Rank of each subdomain at the start.")
+          "Rank of each subdomain at the start, shape (subdomains,).")
       .def_property_readonly(
           "owners_after",
           [](const py::object& self) { return ranks_view(self.cast<const SimulatedRun&>().owners_after, self); },
-          "Rank of each subdomain in the end.");
+          "Rank of each subdomain in the end, shape (subdomains,).");
   py::options options;
   options.disable_function_signatures();
   module.def(

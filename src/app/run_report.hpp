@@ -12,8 +12,8 @@ namespace driftmesh::app {
 /// InputError for a folder without any.
 [[nodiscard]] std::vector<std::filesystem::path> records_of(const std::vector<std::string>& inputs);
 
-/// Writes a page of the runs with these records, and a mesh unless it has no triangles. A trace beside a record is read,
-/// too. Throws InputError for what is not the record of a run, Error without has_report_page().
+/// Writes a page of the runs with these records, and a mesh unless it has no triangles. A trace beside a record is
+/// read, too. Throws InputError for what is not the record of a run, Error without has_report_page().
 void write_report(const std::string& path, const std::vector<std::filesystem::path>& records, const ReportedMesh& mesh);
 
 }  // namespace driftmesh::app

@@ -15,7 +15,7 @@ import tempfile
 import unittest
 
 SOURCE = pathlib.Path(sys.argv.pop(1))
-NEEDS = {"adaptive_poisson": "scipy", "poisson_dolfinx": "dolfinx"}
+NEEDS = {"adaptive_poisson": "scipy", "adaptive_dolfinx": "dolfinx"}
 
 
 class InFolder(unittest.TestCase):
@@ -61,8 +61,8 @@ class InFolder(unittest.TestCase):
     def test_adaptive_poisson(self):
         self.assertIn("to the power of -", self.run_example("adaptive_poisson"))
 
-    def test_poisson_dolfinx(self):
-        self.assertIn("a factor of", self.run_example("poisson_dolfinx"))
+    def test_adaptive_dolfinx(self):
+        self.assertIn("to the power of -", self.run_example("adaptive_dolfinx"))
 
     def test_own_policy(self):
         self.assertEqual(len(self.run_example("own_policy").splitlines()), 5)

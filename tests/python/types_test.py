@@ -41,6 +41,17 @@ class Stubs(unittest.TestCase):
             declares = {node.name for node in self.declared[name].body if not node.name.startswith("_")}
             self.assertEqual(declares, has, name)
 
+    def test_members_are_described(self):
+        """In words, and arrays by their shapes."""
+        for name, node in self.declared.items():
+            for member in (m for m in node.body if isinstance(m, ast.FunctionDef) and not m.name.startswith("_")):
+                with self.subTest(member=f"{name}.{member.name}"):
+                    said = getattr(getattr(driftmesh, name), member.name).__doc__
+                    self.assertTrue(said)
+                    if member.decorator_list and ast.unparse(member.returns) in ("Floats", "Integers", "LongIntegers"):
+                        self.assertIn("shape (", said)
+        self.assertTrue(all(getattr(driftmesh, name).__doc__ for name in self.declared))
+
     def test_options(self):
         for name in ("mesh", "check", "mesh_distributed", "simulate"):
             keywords = {argument.arg for argument in self.declared[name].args.kwonlyargs}
