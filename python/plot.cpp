@@ -63,9 +63,11 @@ void add_plot(py::module_& module) {
   options.disable_function_signatures();
   add_plot_of<Mesh>(
       module,
-      "plot(what, path, *, color=\"angle\", edges=\"auto\", width=1600, height=0, box=None, title=\"\")\n\n"
+      "plot(what, path, *, color=\"auto\", edges=\"auto\", width=1600, height=0, box=None, title=\"\")\n\n"
       "Draw a Mesh or a Pslg as .png, .svg or .pdf, by the extension of the path.\n\n"
-      "    color: what the colors of triangles show: angle, area, region, subdomain, rank or none\n"
+      "    color: what the colors of triangles show: angle, area, region, subdomain, rank or none; auto: the angle, "
+      "or\n"
+      "        the area where triangles are too small to be seen\n"
       "    edges: whether edges are drawn: on, off, or auto (where they are long enough to be seen)\n"
       "    width, height: in pixels; height 0 is what fits\n"
       "    box: x0, y0, x1, y1 of the part of the plane to show\n\n"

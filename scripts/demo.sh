@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A complete example: builds driftmesh, generates a bay with islands, meshes it coarsely, finely and on two
+# A complete example: builds driftmesh, generates a bay with islands, meshes it coarsely, finely along its shores, and on two
 # ranks, checks the meshes against the input, and plots them.
 #   scripts/demo.sh [FOLDER]        (default: demo/ in the project)
 set -euo pipefail
@@ -44,12 +44,12 @@ driftmesh plot bay.vtu -o bay.png
 driftmesh plot bay.vtu -o bay.svg
 driftmesh plot bay.vtu --box 43000,17000,52000,25000 -o bay-detail.png
 
-say "Fine everywhere: no triangle larger than 1,000 square meters"
-driftmesh mesh bay.poly --area 1000 --angle 20 -o bay-fine.vtu
-driftmesh check bay-fine.vtu bay.poly --area 1000 --angle 20 --quiet
+say "Fine along all shores: edges of 25 meters there, and longer ones in open water"
+driftmesh mesh bay.poly --size '25 + 0.04*distance()' --angle 20 -o bay-fine.vtu
+driftmesh check bay-fine.vtu bay.poly --size '25 + 0.04*distance()' --angle 20 --quiet
 driftmesh plot bay-fine.vtu -o bay-fine.png
 
-say "The same in 60 subdomains on two ranks, which share out the work as they go"
+say "Two million triangles of at most 1,000 square meters in 60 subdomains on two ranks, which share out the work as they go"
 on_two_ranks mesh bay.poly --area 1000 --angle 20 --subdomains 60 --balance stealing -o bay-parts.pvtu
 driftmesh check bay-parts.pvtu bay.poly --area 1000 --angle 20 --quiet
 driftmesh plot bay-parts.pvtu --color subdomain -o bay-parts.png

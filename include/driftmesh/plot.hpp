@@ -12,6 +12,7 @@ namespace driftmesh {
 
 /// The quantity that a triangle's color shows.
 enum class PlotColor {
+  automatic,  ///< the angle, or the area where triangles are too small to be seen
   angle,      ///< its smallest angle, 0 to 60 degrees
   area,       ///< its area, on a logarithmic scale
   region,     ///< its region attribute
@@ -36,7 +37,7 @@ struct PlotOptions {
   std::string name = "the input";  ///< of what is drawn, for messages
   int width = 1600;                ///< pixels (points in PDF)
   int height = 0;                  ///< 0: chosen to fit what is shown
-  PlotColor color = PlotColor::angle;
+  PlotColor color = PlotColor::automatic;
   PlotEdges edges = PlotEdges::automatic;
   std::optional<PlotBox> box{};  ///< the part of the plane to show; absent: everything
   std::string title{};
@@ -46,9 +47,9 @@ struct PlotOptions {
 };
 
 /// Draws the mesh as .png, .svg or .pdf, by the extension of `path`; "-" is PNG to standard output. Triangles of less
-/// than about two pixels on average are not drawn one by one: each pixel then shows the worst angle, or the mean of the
-/// logarithms of the areas, of the triangles in it. Throws InputError for an unknown extension or an impossible size,
-/// for a box with nothing in it, and for a color that shows what the mesh does not list; FileError.
+/// than about two pixels on average are not drawn one by one: each pixel then shows the worst angle of the triangles in
+/// it, or the mean of the logarithms of the areas of those around it. Throws InputError for an unknown extension or an
+/// impossible size, for a box with nothing in it, and for a color that shows what the mesh does not list; FileError.
 void plot(const Mesh& mesh, const std::string& path, const PlotOptions& options = {});
 
 /// Draws segments by marker, points (if there are not too many), holes as crosses and regions with their labels. Throws

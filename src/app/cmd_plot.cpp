@@ -140,8 +140,9 @@ cli::Command plot_command() {
           .summary = "Draw a mesh or an input as PNG, SVG or PDF",
           .options = plot_options(*command),
           .notes =
-              "Where triangles are smaller than about two pixels, each pixel shows the worst angle, or the mean "
-              "area, of the triangles in it.",
+              "Where triangles are smaller than about two pixels, each pixel shows the worst angle of those in it, or "
+              "the mean "
+              "area of those around it; auto shows areas there, and angles otherwise.",
           .examples = {"driftmesh plot bay.poly -o input.svg",
                        "driftmesh plot bay.vtu --color area --box 380000,4180000,420000,4210000 -o bay.svg"},
           .exit_codes = "0 done, 1 error, 2 wrong usage",

@@ -42,9 +42,10 @@ bool shows_any(const Mesh& mesh, const Box& box) {
 }  // namespace
 
 const PlotNames<PlotColor>& plot_colors() {
-  static const PlotNames<PlotColor> names = {{"angle", PlotColor::angle},   {"area", PlotColor::area},
-                                             {"region", PlotColor::region}, {"subdomain", PlotColor::subdomain},
-                                             {"rank", PlotColor::rank},     {"none", PlotColor::none}};
+  static const PlotNames<PlotColor> names = {
+      {"auto", PlotColor::automatic}, {"angle", PlotColor::angle},         {"area", PlotColor::area},
+      {"region", PlotColor::region},  {"subdomain", PlotColor::subdomain}, {"rank", PlotColor::rank},
+      {"none", PlotColor::none}};
   return names;
 }
 

@@ -20,6 +20,7 @@ namespace driftmesh {
 namespace {
 
 constexpr double kDenseSide = 2;               // pixels: smaller triangles are not drawn one by one
+constexpr int kAveraged = 2;                   // pixels in each direction that a mean of areas goes over
 constexpr double kShortestLine = 2;            // pixels: shorter edges are not drawn
 constexpr std::size_t kMostPolygons = 150000;  // in a vector picture; more are drawn as an embedded image
 
@@ -35,6 +36,11 @@ Box with_margin(const Box& box) {
   return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}};
 }
 
+/// The side of a triangle of mean area.
+double mean_side(const PlotSummary& shown) {
+  return std::sqrt(2 * shown.shown_area / std::max<double>(1, static_cast<double>(shown.shown_triangles)));
+}
+
 class MeshPlot {
  public:
   MeshPlot(const Mesh& mesh, const std::string& path, const PlotOptions& options)
@@ -43,11 +49,12 @@ class MeshPlot {
         frame_(shown_box(options, with_margin(box_of(mesh))), options.width, options.height, has_legend(options)),
         canvas_(path, frame_.width(), frame_.height()),
         summary_(summarize(mesh, frame_.shown())),
-        values_(plot_values(mesh, options.color, frame_.shown(), options.counts)) {
-    const double mean_area = summary_.shown_area / std::max<double>(1, static_cast<double>(summary_.shown_triangles));
-    mean_side_ = std::sqrt(2 * mean_area) * frame_.scale();
-    is_dense_ = mean_side_ < kDenseSide && options.edges != PlotEdges::on;
-  }
+        mean_side_(mean_side(summary_) * frame_.scale()),
+        is_dense_(mean_side_ < kDenseSide && options.edges != PlotEdges::on),
+        color_(options.color != PlotColor::automatic ? options.color
+               : is_dense_                           ? PlotColor::area
+                                                     : PlotColor::angle),
+        values_(plot_values(mesh, color_, frame_.shown(), options.counts, is_dense_)) {}
 
   void draw() {
     frame_.draw_title(canvas_, options_.title, subtitle());
@@ -65,9 +72,7 @@ class MeshPlot {
   [[nodiscard]] Point corner(std::int32_t vertex) const { return frame_.to_pixels(mesh_.points[vertex]); }
 
   /// Whether colors show a quantity; otherwise they show categories.
-  [[nodiscard]] bool is_range() const {
-    return options_.color == PlotColor::angle || options_.color == PlotColor::area;
-  }
+  [[nodiscard]] bool is_range() const { return color_ == PlotColor::angle || color_ == PlotColor::area; }
 
   [[nodiscard]] static bool has_legend(const PlotOptions& options) {
     return options.legend && options.color != PlotColor::none;
@@ -124,7 +129,7 @@ class MeshPlot {
 
   [[nodiscard]] ValueRaster::Keep what_a_pixel_keeps() const {
     if (!is_dense_ || !is_range()) return ValueRaster::Keep::last;
-    return options_.color == PlotColor::angle ? ValueRaster::Keep::minimum : ValueRaster::Keep::mean;
+    return color_ == PlotColor::angle ? ValueRaster::Keep::minimum : ValueRaster::Keep::mean;
   }
 
   void draw_raster() {
@@ -140,6 +145,7 @@ class MeshPlot {
       const auto& [a, b, c] = mesh_.triangles[t];
       raster.add_triangle(inside(a), inside(b), inside(c), values_.of_triangle[t]);
     }
+    if (keep == ValueRaster::Keep::mean) raster.average_around(kAveraged);
     paint(raster, origin);
   }
 
@@ -209,7 +215,7 @@ class MeshPlot {
     if (!is_range()) return draw_swatches(canvas_, frame_, values_.title, values_.swatches);
     ColorBar bar = values_.bar;
     if (is_dense_)
-      bar.notes.emplace_back(options_.color == PlotColor::angle ? "worst of each pixel" : "mean of each pixel");
+      bar.notes.emplace_back(color_ == PlotColor::angle ? "worst of each pixel" : "mean around each pixel");
     draw_color_bar(canvas_, frame_, bar);
   }
 
@@ -218,9 +224,10 @@ class MeshPlot {
   PlotFrame frame_;
   Canvas canvas_;
   PlotSummary summary_;
+  double mean_side_;  // of the triangles in view, pixels
+  bool is_dense_;
+  PlotColor color_;
   PlotValues values_;
-  double mean_side_ = 0;  // of the triangles in view, pixels
-  bool is_dense_ = false;
 };
 
 }  // namespace

@@ -55,6 +55,36 @@ void ValueRaster::add_triangle(const Point& a, const Point& b, const Point& c, f
     put(static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), value);
 }
 
+/// Along a row or a column: each sum and count becomes that of those at most so many samples away.
+void ValueRaster::add_up(std::int64_t first, std::int64_t step, std::int64_t count, int samples) {
+  const auto size = static_cast<std::size_t>(count);
+  std::vector<double> sums(size + 1, 0);
+  std::vector<std::uint64_t> counts(size + 1, 0);
+  const auto at = [&](std::size_t k) { return static_cast<std::size_t>(first + static_cast<std::int64_t>(k) * step); };
+  for (std::size_t k = 0; k < size; ++k) {
+    sums[k + 1] = sums[k] + double{values_[at(k)]};
+    counts[k + 1] = counts[k] + counts_[at(k)];
+  }
+  const auto reach = static_cast<std::size_t>(samples);
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t from = k - std::min(k, reach), to = std::min(k + reach + 1, size);
+    values_[at(k)] = static_cast<float>(sums[to] - sums[from]);
+    counts_[at(k)] = static_cast<std::uint32_t>(counts[to] - counts[from]);
+  }
+}
+
+void ValueRaster::average_around(int samples) {
+  std::vector<bool> reached(values_.size());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    reached[i] = !std::isnan(values_[i]);
+    if (!reached[i]) values_[i] = 0;
+  }
+  for (std::int64_t row = 0; row < rows_; ++row) add_up(row * columns_, 1, columns_, samples);
+  for (std::int64_t column = 0; column < columns_; ++column) add_up(column, columns_, rows_, samples);
+  for (std::size_t i = 0; i < values_.size(); ++i)
+    if (!reached[i]) values_[i] = std::numeric_limits<float>::quiet_NaN();
+}
+
 void ValueRaster::put(std::int64_t column, std::int64_t row, float value) {
   const auto index = static_cast<std::size_t>(row * columns_ + column);
   float& kept = values_[index];

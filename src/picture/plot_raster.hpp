@@ -25,6 +25,10 @@ class ValueRaster {
   /// Corners in pixels, y down, in either orientation. Parts outside the raster are clipped.
   void add_triangle(const Point& a, const Point& b, const Point& c, float value);
 
+  /// Replaces each mean by that of all triangles at most so many samples away in each direction. Only if means are
+  /// kept.
+  void average_around(int samples);
+
   /// One pixel as the mean of its samples' colors, and the fraction of the samples that any triangle reached.
   struct Pixel {
     Rgb color;
@@ -36,6 +40,7 @@ class ValueRaster {
   [[nodiscard]] int height() const { return height_; }
 
  private:
+  void add_up(std::int64_t first, std::int64_t step, std::int64_t count, int samples);
   void put(std::int64_t column, std::int64_t row, float value);
 
   int width_;

@@ -66,7 +66,7 @@ PlotValues angle_values(const Mesh& mesh, const Box& shown) {
 
 // log10 of the smallest and largest area, without the outermost thousandth on both sides: a single sliver must not
 // stretch the scale.
-std::array<double, 2> area_range(const Mesh& mesh, const Box& shown, const std::vector<float>& logs) {
+std::array<double, 2> area_range(const Mesh& mesh, const Box& shown, const std::vector<float>& logs, double narrowest) {
   std::vector<float> seen;
   for (std::size_t t = 0; t < logs.size(); ++t)
     if (is_shown(mesh, t, shown)) seen.push_back(logs[t]);
@@ -78,10 +78,11 @@ std::array<double, 2> area_range(const Mesh& mesh, const Box& shown, const std::
   };
   const double low = quantile(0.001);
   const double high = quantile(0.999);
-  return high - low > 0.02 ? std::array{low, high} : std::array{low - 0.1, high + 0.1};
+  const double missing = std::max(narrowest - (high - low), 0.0);
+  return {low - missing / 2, high + missing / 2};
 }
 
-PlotValues area_values(const Mesh& mesh, const Box& shown) {
+PlotValues area_values(const Mesh& mesh, const Box& shown, bool dense) {
   PlotValues result;
   result.of_triangle.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -89,7 +90,8 @@ PlotValues area_values(const Mesh& mesh, const Box& shown) {
     const double area = std::fabs(signed_area(corners.a, corners.b, corners.c));
     result.of_triangle.push_back(static_cast<float>(std::log10(std::max(area, 1e-300))));
   }
-  const auto [low, high] = area_range(mesh, shown, result.of_triangle);
+  // Of a fine mesh one wants to see where it is finer, and not how areas vary among neighbors.
+  const auto [low, high] = area_range(mesh, shown, result.of_triangle, dense ? 1 : 0.2);
   set_bar_range(result, low, high);
   result.bar.title = "Area";
   result.bar.notes = {"log scale"};
@@ -143,18 +145,19 @@ PlotSummary summarize(const Mesh& mesh, const Box& shown) {
   return summary;
 }
 
-PlotValues plot_values(const Mesh& mesh, PlotColor color, const Box& shown, bool counts) {
+PlotValues plot_values(const Mesh& mesh, PlotColor color, const Box& shown, bool counts, bool dense) {
   switch (color) {
     case PlotColor::angle:
       return angle_values(mesh, shown);
     case PlotColor::area:
-      return area_values(mesh, shown);
+      return area_values(mesh, shown, dense);
     case PlotColor::region:
       return class_values(mesh, mesh.regions, "Region", counts);
     case PlotColor::subdomain:
       return class_values(mesh, mesh.subdomains, "Subdomain", counts);
     case PlotColor::rank:
       return class_values(mesh, mesh.ranks, "Rank", counts);
+    case PlotColor::automatic:  // decided by now
     case PlotColor::none:
       break;
   }

@@ -36,6 +36,7 @@ struct PlotSummary {
 
 /// The histogram and the range of areas are those of the triangles in view. A mesh that does not list regions,
 /// subdomains or ranks counts as region, subdomain or rank 0. `counts`: swatches show how many triangles there are.
-[[nodiscard]] PlotValues plot_values(const Mesh& mesh, PlotColor color, const Box& shown, bool counts = true);
+[[nodiscard]] PlotValues plot_values(const Mesh& mesh, PlotColor color, const Box& shown, bool counts = true,
+                                     bool dense = false);
 
 }  // namespace driftmesh

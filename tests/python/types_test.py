@@ -43,14 +43,15 @@ class Stubs(unittest.TestCase):
 
     def test_members_are_described(self):
         """In words, and arrays by their shapes."""
-        for name, node in self.declared.items():
+        for name in set(driftmesh.__all__) & set(self.declared):
+            node = self.declared[name]
+            self.assertTrue(getattr(driftmesh, name).__doc__, name)
             for member in (m for m in node.body if isinstance(m, ast.FunctionDef) and not m.name.startswith("_")):
                 with self.subTest(member=f"{name}.{member.name}"):
                     said = getattr(getattr(driftmesh, name), member.name).__doc__
                     self.assertTrue(said)
                     if member.decorator_list and ast.unparse(member.returns) in ("Floats", "Integers", "LongIntegers"):
                         self.assertIn("shape (", said)
-        self.assertTrue(all(getattr(driftmesh, name).__doc__ for name in self.declared))
 
     def test_options(self):
         for name in ("mesh", "check", "mesh_distributed", "simulate"):

@@ -215,6 +215,38 @@ TEST_CASE("a coarse mesh in SVG is made of polygons, and the file is XML") {
   CHECK(paths >= 8);
 }
 
+TEST_CASE("colors show angles where triangles can be seen, and areas where they cannot") {
+  const TemporaryFolder folder;
+  const auto bytes = [&](const Mesh& mesh, PlotColor color) {
+    const std::string path = (folder.path() / "mesh.png").string();
+    plot_mesh(mesh, path, {.width = 300, .color = color, .title = "mesh"});
+    return file_bytes(path);
+  };
+  const Mesh coarse = square_with_hole();
+  CHECK(bytes(coarse, PlotColor::automatic) == bytes(coarse, PlotColor::angle));
+  const Mesh fine = RandomMesh(5, 250, 250).mesh();
+  CHECK(bytes(fine, PlotColor::automatic) == bytes(fine, PlotColor::area));
+  CHECK(bytes(fine, PlotColor::area) != bytes(fine, PlotColor::angle));
+}
+
+TEST_CASE("means go over the triangles around a sample, and nothing gets a value that has none") {
+  ValueRaster raster(5, 5, 1, ValueRaster::Keep::mean);
+  const auto put = [&](double x, double y, float value) {
+    raster.add_triangle({x, y}, {x + 0.1, y}, {x, y + 0.1}, value);
+  };
+  put(1.2, 1.2, 0.1F);
+  put(1.6, 1.2, 0.3F);
+  put(2.2, 2.2, 0.8F);
+  put(4.2, 4.2, 0.5F);
+  raster.average_around(1);
+  const auto value = [&](int x, int y) { return raster.pixel(x, y, [](double v) { return Rgb{v, v, v}; }); };
+  CHECK(value(1, 1).color.red == doctest::Approx(0.4));
+  CHECK(value(2, 2).color.red == doctest::Approx(0.4));
+  CHECK(value(4, 4).color.red == doctest::Approx(0.5));
+  CHECK(value(2, 1).coverage == 0);
+  CHECK(value(1, 1).coverage == 1);
+}
+
 TEST_CASE("text stays inside a narrow picture, and a legend leaves room for the plot") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "narrow.png";
