@@ -25,4 +25,4 @@ mkdir -p "$pages"
 cp --parents README.md CHANGELOG.md CONTRIBUTING.md LICENSE CITATION.cff "$pages"
 cp -r docs configs examples scripts "$pages"
 mkdocs build --strict --clean --quiet
-echo "build/site/README.html"
+ls build/site/index.html

@@ -25,11 +25,23 @@ function scaleLegend(least, greatest, what) {
 }
 
 /** A chip for each category, if not too many. */
-function categoryLegend(count) {
+function categoryLegend(names) {
   const most = fills.length * kShades;
-  const chips = Array.from({ length: Math.min(count, most) }, (_, n) => n).flatMap((n) =>
-    [element("span", { class: "chip", style: `background: ${css(ofCategory(n))}` }), String(n)]);
-  return [...chips, ...(count > most ? [`... ${count - 1}; colors repeat after ${most}`] : [])];
+  const chips = names.slice(0, most).flatMap((name, n) =>
+    [element("span", { class: "chip", style: `background: ${css(ofCategory(n))}` }), number(name)]);
+  return [...chips, ...(names.length > most ? [`... ${number(names[names.length - 1])}; colors repeat after ${most}`] : [])];
+}
+
+/** Numbers from 0 for the categories of a column, and their names: ranks and subdomains have such numbers, attributes of regions
+ * are any values. */
+function categoriesOf(name, column, order) {
+  if (name !== "region") {
+    const numbers = Uint32Array.from(order, (t) => Math.max(0, column[t]));
+    return { numbers, names: Array.from({ length: numbers.reduce((a, b) => Math.max(a, b), 0) + 1 }, (_, n) => n) };
+  }
+  const names = [...new Set(column)].sort((a, b) => a - b);
+  const place = new Map(names.map((value, n) => [value, n]));
+  return { numbers: Uint32Array.from(order, (t) => place.get(column[t])), names };
 }
 
 /** As high as the mesh wants it, within reason. */
@@ -40,7 +52,7 @@ function prepared(mesh) {
   const { length, middle, half } = intoSquare(mesh.points);
   const sorted = sortTriangles(mesh.points, mesh.triangles);
   const columns = Object.fromEntries(Object.entries(mesh.columns).map(([name, column]) =>
-    [name, Uint32Array.from(sorted.order, (t) => Math.max(0, column[t]))]));
+    [name, categoriesOf(name, column, sorted.order)]));
   return { ...sorted, points: mesh.points, columns, ...measure(mesh.points, sorted.triangles), length, half,
     middle: middle.map((x, d) => x + mesh.middle[d]) };
 }
@@ -78,9 +90,8 @@ export function meshSection(mesh, firstRecord) {
       canvas.dataset.drawn = view.drawn;
     });
   };
-  const most = (column) => column.reduce((a, b) => Math.max(a, b), 0);
   const hasOwners = () => shown.columns.subdomain && record?.cluster?.owners_before && movesOf(record).length > 0 &&
-    most(shown.columns.subdomain) < record.cluster.owners_before.length;
+    shown.columns.subdomain.names.length <= record.cluster.owners_before.length;
   const offer = () => {
     const before = colorBy.value;
     const names = ["area", "angle", ...Object.keys(shown.columns), ...(hasOwners() ? [kOverTime] : [])];
@@ -94,10 +105,10 @@ export function meshSection(mesh, firstRecord) {
     replay.place.style.display = by === kOverTime ? "" : "none";
     if (by === "angle") key.replaceChildren(...scaleLegend(0, 60, "smallest angle (degrees)"));
     else if (by === "area") key.replaceChildren(...scaleLegend(range[0] * unitArea, range[1] * unitArea, "area"));
-    else key.replaceChildren(...categoryLegend(by === kOverTime ? record.parts.ranks.length : most(shown.columns[by]) + 1));
+    else key.replaceChildren(...categoryLegend(by === kOverTime ? record.parts.ranks.map((_, rank) => rank) : shown.columns[by].names));
     if (by === "angle" || by === "area") view.colorBy(by);
-    else if (by === kOverTime) view.colorBy("numbers", shown.columns.subdomain, ownersAt(record, replay.moment()));
-    else view.colorBy("numbers", shown.columns[by]);
+    else if (by === kOverTime) view.colorBy("numbers", shown.columns.subdomain.numbers, ownersAt(record, replay.moment()));
+    else view.colorBy("numbers", shown.columns[by].numbers);
     redraw();
   };
   colorBy.addEventListener("change", paint);

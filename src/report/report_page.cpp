@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <string_view>
 
@@ -74,10 +73,8 @@ void add_mesh(std::string& to, const ReportedMesh& reported) {
   add_array(to, "triangles", "Uint32", numbers);
   if (!mesh.ranks.empty()) add_array(to, "rank", "Int32", mesh.ranks);
   if (!mesh.subdomains.empty()) add_array(to, "subdomain", "Int32", mesh.subdomains);
-  if (mesh.regions.empty()) return;
-  numbers.clear();
-  for (const double r : mesh.regions) numbers.push_back(static_cast<std::int32_t>(std::lround(r)));
-  add_array(to, "region", "Int32", numbers);
+  if (!mesh.regions.empty())
+    add_array(to, "region", "Float32", std::vector<float>(mesh.regions.begin(), mesh.regions.end()));
 }
 
 }  // namespace

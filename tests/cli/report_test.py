@@ -57,6 +57,14 @@ class Report(Cli):
             area += ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
         self.assertAlmostEqual(area, 16, 4)
 
+    def test_attributes_of_regions_are_in_the_page_as_they_are(self):
+        regions = "1\n1 1 1 -2.5 0\n"
+        self.assertTrue(SQUARE.endswith("0\n"), "no holes, and no regions yet")
+        self.write("region.poly", SQUARE + regions)
+        self.succeed("mesh", "region.poly", "-o", "region.vtu")
+        arrays = blocks(self.page("--mesh", "region.vtu"), "mesh")
+        self.assertEqual(set(struct.unpack(f"<{len(arrays['triangles']) // 12}f", arrays["region"])), {-2.5})
+
     def test_the_page_needs_nothing_else(self):
         page = self.page("square.json", "--mesh", "square.vtu")
         self.assertNotRegex(page, r"""<(script|link|img)[^>]*(src|href)\s*=\s*["']?\w""")
