@@ -1,25 +1,32 @@
 // How millions of triangles are sorted so that few must be drawn: by size, and by place. Where triangles are smaller than
 // pixels, an image of their mean color stands for them; elsewhere only those in sight are drawn. Coordinates are from -1 to 1.
 
-const kGrid = 64;                       // cells along a side, by which triangles are sorted
+const kGrids = [16, 64];                // cells along a side, by which triangles are sorted: larger ones, and all others
 export const kImages = [512, 1024, 2048];  // cells of the images along a side
 const kSmall = 0.45;                    // of a cell: triangles that an image stands for are no larger
 const kCovered = 0.2;                   // of the area of a cell that is not left empty
 
 const cellOf = (x, cells) => Math.min(cells - 1, Math.max(0, Math.floor(((x + 1) / 2) * cells)));
 
-/** 0 if it may reach beyond its neighbors' cells, k + 1 if only the last k images stand for it. */
+const kClasses = 3 + kImages.length;
+
+/** 0 if it may reach beyond its neighbors' cells in both grids, 1 if in the second one, k + 2 if the first k images stand for it. */
 function sizeClass(size) {
-  if (size > 2 / kGrid) return 0;
+  if (size > 2 / kGrids[0]) return 0;
+  if (size > 2 / kGrids[1]) return 1;
   let k = kImages.length;
   while (k > 0 && size > (kSmall * 2) / kImages[k - 1]) --k;
-  return k + 1;
+  return k + 2;
 }
+
+const gridOf = (k) => kGrids[Math.min(k - 1, 1)];
+/** The first bucket of a class; a class has one for each cell, class 0 only one. */
+const firstBucket = (k) => (k === 0 ? 0 : k === 1 ? 1 : 1 + kGrids[0] ** 2 + (k - 2) * kGrids[1] ** 2);
 
 /** The place of each triangle in the new order: {order, triangles, starts}, `starts` for each class and cell. */
 export function sortTriangles(points, triangles) {
   const count = triangles.length / 3;
-  const buckets = 1 + (kImages.length + 1) * kGrid * kGrid;
+  const buckets = firstBucket(kClasses);
   const bucket = new Uint16Array(count);
   const starts = new Uint32Array(buckets + 1);
   for (let t = 0; t < count; ++t) {
@@ -27,8 +34,8 @@ export function sortTriangles(points, triangles) {
     const ax = points[a], ay = points[a + 1], bx = points[b], by = points[b + 1], cx = points[c], cy = points[c + 1];
     const size = Math.max(ax, bx, cx) - Math.min(ax, bx, cx), high = Math.max(ay, by, cy) - Math.min(ay, by, cy);
     const k = sizeClass(Math.max(size, high));
-    const cell = cellOf((ay + by + cy) / 3, kGrid) * kGrid + cellOf((ax + bx + cx) / 3, kGrid);
-    bucket[t] = k === 0 ? 0 : 1 + (k - 1) * kGrid * kGrid + cell;
+    const grid = k === 0 ? 1 : gridOf(k);
+    bucket[t] = firstBucket(k) + cellOf((ay + by + cy) / 3, grid) * grid + cellOf((ax + bx + cx) / 3, grid);
     ++starts[bucket[t] + 1];
   }
   for (let k = 0; k < buckets; ++k) starts[k + 1] += starts[k];
@@ -43,7 +50,7 @@ export function sortTriangles(points, triangles) {
 }
 
 /** The first triangle that image `level` stands for: all that follow are such. */
-export const firstInImage = (starts, level) => starts[1 + (level + 1) * kGrid * kGrid];
+export const firstInImage = (starts, level) => starts[firstBucket(level + 3)];
 
 /** Ranges of triangles, [from, to), that may be seen between the corners; of classes up to `level`, or all for null. */
 export function rangesInSight(starts, [x0, y0, x1, y1], level) {
@@ -55,14 +62,16 @@ export function rangesInSight(starts, [x0, y0, x1, y1], level) {
     else ranges.push([from, to]);
   };
   add(0, starts[1]);
-  if (x1 < -1.1 || y1 < -1.1 || x0 > 1.1 || y0 > 1.1) return ranges;
-  const left = Math.max(0, cellOf(x0, kGrid) - 1), right = Math.min(kGrid - 1, cellOf(x1, kGrid) + 1);
-  const low = Math.max(0, cellOf(y0, kGrid) - 1), high = Math.min(kGrid - 1, cellOf(y1, kGrid) + 1);
-  for (let k = 0; k <= (level ?? kImages.length); ++k)
+  if (x1 < -1 || y1 < -1 || x0 > 1 || y0 > 1) return ranges;
+  for (let k = 1; k < (level === null ? kClasses : level + 3); ++k) {
+    const grid = gridOf(k);
+    const left = Math.max(0, cellOf(x0, grid) - 1), right = Math.min(grid - 1, cellOf(x1, grid) + 1);
+    const low = Math.max(0, cellOf(y0, grid) - 1), high = Math.min(grid - 1, cellOf(y1, grid) + 1);
     for (let row = low; row <= high; ++row) {
-      const start = 1 + k * kGrid * kGrid + row * kGrid;
+      const start = firstBucket(k) + row * grid;
       add(starts[start + left], starts[start + right + 1]);
     }
+  }
   return ranges;
 }
 

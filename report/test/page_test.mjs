@@ -127,7 +127,7 @@ async function checkMesh(page) {
   // The middle of the rectangle is its hole; a place near its lower left corner is not.
   await page.$eval("#mesh", (canvas) => canvas.scrollIntoView({ block: "center" }));
   const { x, y, width, height } = await (await page.$("#mesh")).boundingBox();
-  await page.mouse.move(x + width / 2 - height / 3, y + height / 2 + height / 8);
+  await page.mouse.move(x + width / 8, y + (3 * height) / 4);
   await wait(page, () => /^triangle [\d,]+ at \(.*\), area/.test(document.getElementById("told").textContent));
   assert.match(await text(page, "#told"), /subdomain \d+/);
   await page.mouse.move(x + 3, y + 3);
@@ -141,7 +141,7 @@ async function checkMesh(page) {
   await wait(page, () => Number(document.getElementById("mesh").dataset.zoom) > 2);
   await page.screenshot({ path: file("zoomed.png") });
   const before = await drawn();
-  await page.mouse.move(x + width / 2 - height / 3, y + height / 2 + height / 8);
+  await page.mouse.move(x + width / 8, y + (3 * height) / 4);  // not in the hole
   for (let k = 0; k < 6; ++k) await page.mouse.wheel({ deltaY: -400 });
   await wait(page, (most) => Number(document.getElementById("mesh").dataset.drawn) < most, before / 2);
   assert.ok((await drawn()) > 0 && (await inked(page, "#mesh")) > 10000, "what is in sight is drawn, and no more");
