@@ -17,6 +17,7 @@
 #include "app/lb_statistics.hpp"
 #include "app/progress_line.hpp"
 #include "app/real_cluster.hpp"
+#include "app/run_files.hpp"
 #include "app/run_report.hpp"
 #include "base/atomic_file.hpp"
 #include "base/file_identity.hpp"

@@ -12,6 +12,8 @@ import driftmesh
 
 FOLDER = pathlib.Path(driftmesh.__file__).parent  # that of the built package, whose sources are links
 
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples" / "python"
+
 PROGRAM = """\
 import driftmesh
 mesh = driftmesh.mesh(driftmesh.generate("bay", seed=7), min_angle=25, size=lambda x, y: 10 + x, subdomains={"count": 4})
@@ -74,6 +76,15 @@ class Stubs(unittest.TestCase):
         errors = [int(line.split(":")[1]) for line in said.splitlines() if "error:" in line and "program.py" in line]
         self.assertEqual(errors, [5, 6, 7], said)
         self.assertNotIn("pyi:", said)
+
+    @unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not installed")
+    def test_mypy_on_examples(self):
+        examples = [str(path) for path in EXAMPLES.glob("*.py")]
+        self.assertGreater(len(examples), 2)
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", folder, "--ignore-missing-imports", *examples],
+                                  capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout)
 
 
 if __name__ == "__main__":
