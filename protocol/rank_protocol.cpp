@@ -13,7 +13,7 @@ RankProtocol::RankProtocol(Rank self, std::int32_t ranks, IdSpan<SubdomainId, co
       ranks_(ranks),
       aggregator_(self, aggregation),
       directory_(self, owners),
-      termination_(self, ranks) {}
+      termination_(self, ranks, rules.arity()) {}
 
 void RankProtocol::count_sent(Station station, std::size_t count) {
   if (rules_->counts_as_sent(station)) termination_.work_sent(static_cast<std::int64_t>(count));

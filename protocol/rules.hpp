@@ -1,6 +1,7 @@
 #pragma once
 
 #include "protocol/directory.hpp"
+#include "protocol/wave.hpp"
 
 namespace driftmesh::protocol {
 
@@ -41,6 +42,8 @@ class Rules {
   }
   /// A rank calls itself passive only when none of its subdomains has work.
   [[nodiscard]] virtual bool rests(bool has_work) const { return !has_work; }
+  /// How many ranks may be below a rank in the tree of termination; any number from 1 to TreePlace::kMostChildren does.
+  [[nodiscard]] virtual std::int32_t arity() const { return TreePlace::kMostChildren; }
   /// Records only move forward.
   [[nodiscard]] virtual bool supersedes(const Location& news, const Location& record) const {
     return news.epoch > record.epoch;

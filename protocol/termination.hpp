@@ -30,8 +30,9 @@ class Termination {
     kFinished,  ///< nothing will arrive any more
   };
 
-  Termination(Rank self, std::int32_t ranks)
-      : self_(self), alone_(ranks == 1), probe_(self, ranks), pass_(self, ranks) {}
+  /// No rank of the tree has more than `arity` ranks below it, at most TreePlace::kMostChildren; the same for all.
+  Termination(Rank self, std::int32_t ranks, std::int32_t arity = TreePlace::kMostChildren)
+      : self_(self), alone_(ranks == 1), probe_(self, ranks, arity), pass_(self, ranks, arity) {}
 
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] std::uint64_t rounds() const { return probe_.round(); }  ///< probes that have reached this rank

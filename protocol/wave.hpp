@@ -15,18 +15,21 @@
 
 namespace driftmesh::protocol {
 
-/// The place of a rank in the tree of all ranks, whose root is rank 0: the children of r are 8r + 1 to 8r + 8. So no
-/// rank is more than log8(P) + 1 messages from the root, and none has to hear from more than 8 others.
+/// The place of a rank in the tree of all ranks, whose root is rank 0: the children of r are kr + 1 to kr + k. So no
+/// rank is more than log_k(P) + 1 messages from the root, and none has to hear from more than k others. The
+/// tree is wide: some dozens of messages, a microsecond each, take no longer than the latency of one more level.
 class TreePlace {
  public:
-  static constexpr std::int32_t kArity = 8;
+  static constexpr std::int32_t kMostChildren = 64;
 
-  TreePlace(Rank self, std::int32_t ranks) : self_(self), first_(to_int(self) * std::int64_t{kArity} + 1) {
-    count_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(ranks - first_, 0, kArity));
+  /// `arity`, from 1 to kMostChildren, is the k of all ranks.
+  TreePlace(Rank self, std::int32_t ranks, std::int32_t arity)
+      : self_(self), arity_(arity), first_(to_int(self) * std::int64_t{arity} + 1) {
+    count_ = static_cast<std::int32_t>(std::clamp<std::int64_t>(ranks - first_, 0, arity));
   }
   [[nodiscard]] bool is_root() const { return self_ == Rank{0}; }
   /// Not of the root.
-  [[nodiscard]] Rank parent() const { return Rank{(to_int(self_) - 1) / kArity}; }
+  [[nodiscard]] Rank parent() const { return Rank{(to_int(self_) - 1) / arity_}; }
   [[nodiscard]] std::size_t children() const { return static_cast<std::size_t>(count_); }
   [[nodiscard]] Rank child(std::size_t i) const {
     return Rank{static_cast<std::int32_t>(first_) + static_cast<std::int32_t>(i)};
@@ -40,6 +43,7 @@ class TreePlace {
 
  private:
   Rank self_;
+  std::int32_t arity_;
   std::int64_t first_;  // child; beyond the ranks of any run where there is none
   std::int32_t count_;
 };
@@ -51,7 +55,7 @@ class TreePlace {
 template <class Answer>
 class Wave {
  public:
-  Wave(Rank self, std::int32_t ranks) : place_(self, ranks) {}
+  Wave(Rank self, std::int32_t ranks, std::int32_t arity) : place_(self, ranks, arity) {}
 
   [[nodiscard]] const TreePlace& place() const { return place_; }
   [[nodiscard]] std::uint64_t round() const { return round_; }  ///< of the last question
@@ -116,7 +120,7 @@ class Wave {
   std::uint64_t round_ = 0;
   bool asked_ = false;
   bool relay_due_ = false;
-  std::bitset<TreePlace::kArity> answered_;
+  std::bitset<TreePlace::kMostChildren> answered_;
   Answer sum_;
 };
 

@@ -62,29 +62,36 @@ int latencies(IdVector<Rank, Termination>& ranks) {
   }
 }
 
-IdVector<Rank, Termination> make(std::int32_t ranks) {
+IdVector<Rank, Termination> make(std::int32_t ranks, std::int32_t arity = TreePlace::kMostChildren) {
   IdVector<Rank, Termination> all;
-  for (const Rank r : first_ids<Rank>(ranks)) all.emplace_back(r, ranks);
+  for (const Rank r : first_ids<Rank>(ranks)) all.emplace_back(r, ranks, arity);
   return all;
 }
 
 }  // namespace
 
 TEST_CASE("ranks without any work finish after one probe, one pass and one farewell") {
-  for (const std::int32_t ranks : {1, 2, 3, 8, 9, 10, 17, 73, 74, 600}) {
-    CAPTURE(ranks);
-    auto all = make(ranks);
-    CHECK(settle(all) == 5 * (ranks - 1));
-    for (const auto& rank : all) CHECK(rank.phase() == Phase::kFinished);
-  }
+  for (const std::int32_t arity : {1, 2, 8, 64})
+    for (const std::int32_t ranks : {1, 2, 3, 8, 9, 10, 17, 64, 65, 66, 73, 74, 600}) {
+      CAPTURE(arity);
+      CAPTURE(ranks);
+      auto all = make(ranks, arity);
+      CHECK(settle(all) == 5 * (ranks - 1));
+      for (const auto& rank : all) CHECK(rank.phase() == Phase::kFinished);
+    }
 }
 
 TEST_CASE("the end takes latencies in proportion to the height of the tree") {
-  for (const auto& [ranks, height] : {std::pair(2, 1), {9, 1}, {10, 2}, {32, 2}, {73, 2}, {144, 3}, {4096, 4}}) {
+  const auto check = [](std::int32_t ranks, std::int32_t arity, int height) {
     CAPTURE(ranks);
-    auto all = make(ranks);
+    CAPTURE(arity);
+    auto all = make(ranks, arity);
     CHECK(latencies(all) == 5 * height);
-  }
+  };
+  for (const auto& [ranks, height] : {std::pair(2, 1), {65, 1}, {66, 2}, {144, 2}, {4096, 2}, {4161, 2}, {4162, 3}})
+    check(ranks, 64, height);
+  for (const auto& [ranks, height] : {std::pair(9, 1), {10, 2}, {73, 2}, {74, 3}}) check(ranks, 8, height);
+  check(10, 1, 9);
 }
 
 TEST_CASE("the end of work is detected within two more probes") {
@@ -118,7 +125,7 @@ TEST_CASE("no termination while a message is under way or a rank is busy") {
 }
 
 TEST_CASE("a rank at work passes a question on, and answers when the ranks below have") {
-  auto all = make(11);  // 9 and 10 are below 1
+  auto all = make(11, 8);  // 9 and 10 are below 1
   for (const Outgoing& question : advance(all[0_rank], true)) deliver(all, 0_rank, question);
   const auto asked = advance(all[1_rank], false);
   REQUIRE(asked.size() == 2);

@@ -11,6 +11,7 @@
 #include "protocol/virtual_network.hpp"
 #include "support/broken_rules.hpp"
 #include "support/id_literals.hpp"
+#include "support/rules_over_tree.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::protocol;
@@ -27,9 +28,9 @@ struct Tally {
 class Run {
  public:
   Run(std::uint64_t seed, std::int32_t ranks, const Rules& rules, const MeshRules& mesh)
-      : world_(seed, ranks), network_(ranks, adversary(seed)) {
+      : world_(seed, ranks), network_(ranks, adversary(seed)), rules_(rules, testing::arity_for(seed)) {
     for (const Rank r : first_ids<Rank>(ranks))
-      ranks_.push_back(std::make_unique<ToyRank>(network_.transport(r), world_, rules, mesh));
+      ranks_.push_back(std::make_unique<ToyRank>(network_.transport(r), world_, rules_, mesh));
   }
 
   // The first problem, or "".
@@ -119,6 +120,7 @@ class Run {
 
   World world_;
   AdversarialNetwork network_;
+  testing::RulesOverTree rules_;
   IdVector<Rank, std::unique_ptr<ToyRank>> ranks_;
   std::optional<std::uint64_t> rounds_when_quiet_;
 };
