@@ -55,6 +55,12 @@ void Knowledge::expect(std::span<const Move> moves, const LoadSnapshot& planned_
       planned_[move.subdomain] = {s->owner, move.destination, plan, now, *s};
 }
 
+std::map<Rank, double> Knowledge::on_its_way() const {
+  std::map<Rank, double> needed;
+  for (const auto& [id, planned] : planned_) needed[planned.to] += memory_for(planned.load);
+  return needed;
+}
+
 Rank Knowledge::owner_of(SubdomainId id) const {
   const auto known = claims_.find(id);
   return known == claims_.end() ? (*layout_)[id].owner : known->second.owner;
@@ -91,11 +97,9 @@ LoadSnapshot Knowledge::snapshot(double now, bool with_silent) const {
   for (const auto& [id, planned] : planned_) arriving[planned.to].push_back(planned.load);
   static const std::vector<SubdomainLoad> kNone;
   IdVector<Rank, double> unlisted;
-  const bool short_of_memory = std::ranges::any_of(ranks_, [](const Heard& h) { return h.free_memory < kAmpleMemory; });
   for (const Rank r : ids_of(ranks_)) {
     const auto coming = arriving.find(r);
-    const double free_memory = ranks_[r].any || !short_of_memory ? ranks_[r].free_memory : 0;
-    snapshot.ranks.push_back({ranks_[r].speed, 0, ranks_[r].doubt, free_memory});
+    snapshot.ranks.push_back({ranks_[r].speed, 0, ranks_[r].doubt, ranks_[r].any ? ranks_[r].free_memory : 0});
     unlisted.push_back(list(snapshot, r, coming == arriving.end() ? kNone : coming->second, now));
   }
   for (const auto& [rank, loads] : arriving)

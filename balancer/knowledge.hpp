@@ -27,13 +27,16 @@ class Knowledge {
 
   /// Whether a planned move of this subdomain is unsettled, so that it may be anywhere.
   [[nodiscard]] bool in_motion(SubdomainId id) const { return planned_.contains(id); }
+  /// Memory that the ranks need for what planned moves bring them, in triangles.
+  [[nodiscard]] std::map<Rank, double> on_its_way() const;
   /// Whether all ranks have reported.
   [[nodiscard]] bool complete() const { return heard_ == ranks_.size(); }
   /// The owner of a subdomain, as far as known.
   [[nodiscard]] Rank owner_of(SubdomainId id) const;
 
   /// The load at `now`: reports minus what a rank must have done since at its speed, in its reported order. Ranks
-  /// without a report have the load that the layout predicts; their subdomains are listed if `with_silent`.
+  /// without a report have the load that the layout predicts; their subdomains are listed if `with_silent`. They may
+  /// not be there yet: nothing is to go there, as if they had no memory.
   [[nodiscard]] LoadSnapshot snapshot(double now, bool with_silent) const;
 
  private:
@@ -43,9 +46,9 @@ class Knowledge {
     double at = 0;
     double speed = 0;
     double doubt = 0;
-    std::vector<ReportedLoad> loads;    // in the order of work
-    double unlisted = 0;                // other work; without a report, all that the layout predicts
-    double free_memory = kAmpleMemory;  // without a report, nothing where others are short of it
+    std::vector<ReportedLoad> loads;  // in the order of work
+    double unlisted = 0;              // other work; without a report, all that the layout predicts
+    double free_memory = kAmpleMemory;
   };
   struct Claim {
     Rank owner{};

@@ -41,6 +41,8 @@ class VirtualNetwork::Endpoint final : public Transport {
 VirtualNetwork::VirtualNetwork(VirtualCluster cluster) : cluster_(std::move(cluster)), ranks_(cluster_.speeds.size()) {
   for (const double speed : cluster_.speeds) require_positive(speed, "a rank's speed");
   require_positive(cluster_.step_overhead, "the time of a step");
+  require_positive(cluster_.ranks_per_host, "the number of ranks on a host");
+  if (!ranks_.empty()) line_free_.assign(host_of(Rank{static_cast<std::int32_t>(ranks_.size()) - 1}) + 1, 0);
   if (cluster_.schedules.empty()) cluster_.schedules.resize(ranks_.size());
   if (cluster_.schedules.size() != ranks_.size())
     throw Error("virtual cluster: speeds must change for all ranks or none");
@@ -71,18 +73,46 @@ void VirtualNetwork::send(Rank source, Rank destination, Bytes bytes) {
   if (!ranks_.has(destination))
     throw LimitError("rank " + to_string(source) + " sends to rank " + to_string(destination) + " of " +
                      std::to_string(ranks_.size()));
-  RankState& from = ranks_[source];
-  RankState& to = ranks_[destination];
-  from.clock += cluster_.message_overhead;
-  double arrival = from.clock;
-  if (source != destination) {
-    const Link link = cluster_.link(source, destination);
-    from.line_free = std::max(from.line_free, from.clock) + static_cast<double>(bytes.size()) / link.bandwidth;
-    arrival = from.line_free + link.latency;
-  }
-  const double before = wake_time(destination);
+  double& now = ranks_[source].clock;
+  now += cluster_.message_overhead;
+  const auto size = static_cast<double>(bytes.size());
   bytes_ += bytes.size();
-  to.inbox.push_back({arrival, serial_++, {source, std::move(bytes)}});
+  const std::uint64_t serial = serial_++;
+  Received message{source, std::move(bytes)};
+  if (source == destination) return deliver(now, serial, destination, std::move(message));
+  if (host_of(source) == host_of(destination)) {
+    const Link& memory = cluster_.within_host;
+    return deliver(now + size / memory.bandwidth + memory.latency, serial, destination, std::move(message));
+  }
+  Departure departure{now, serial, destination, std::move(message)};
+  if (cluster_.ranks_per_host == 1) return depart(std::move(departure));
+  departures_.push_back(std::move(departure));
+  std::push_heap(departures_.begin(), departures_.end(), std::greater<>());
+}
+
+void VirtualNetwork::depart(Departure departure) {
+  const Rank source = departure.message.source;
+  const Link link = cluster_.link(source, departure.destination);
+  double& line_free = line_free_[host_of(source)];
+  line_free =
+      std::max(line_free, departure.ready) + static_cast<double>(departure.message.bytes.size()) / link.bandwidth;
+  deliver(line_free + link.latency, departure.serial, departure.destination, std::move(departure.message));
+}
+
+/// Whoever steps next sends nothing before it does: what is ready by then can leave.
+void VirtualNetwork::depart_before_steps() {
+  while (!departures_.empty() && (agenda_.empty() || departures_.front().ready <= agenda_.begin()->first)) {
+    std::pop_heap(departures_.begin(), departures_.end(), std::greater<>());
+    Departure next = std::move(departures_.back());
+    departures_.pop_back();
+    depart(std::move(next));
+  }
+}
+
+void VirtualNetwork::deliver(double arrival, std::uint64_t serial, Rank destination, Received message) {
+  RankState& to = ranks_[destination];
+  const double before = wake_time(destination);
+  to.inbox.push_back({arrival, serial, std::move(message)});
   std::push_heap(to.inbox.begin(), to.inbox.end(), std::greater<>());
   if (to.idle && !to.finished) {
     agenda_.erase({before, destination});
@@ -120,6 +150,7 @@ RunResult VirtualNetwork::run(IdSpan<Rank, const RankStep> steps) {
   for (const Rank r : ids_of(ranks_)) agenda_.insert({wake_time(r), r});
   std::uint64_t taken = 0;
   while (going > 0) {
+    depart_before_steps();
     if (agenda_.empty() || agenda_.begin()->first == kNever) return {RunEnd::kStalled, taken};
     if (taken == cluster_.step_limit) return {RunEnd::kStepLimit, taken};
     ++taken;

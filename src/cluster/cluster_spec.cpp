@@ -76,6 +76,12 @@ IdVector<Rank, protocol::SpeedSchedule> schedules_of(const ClusterSpec& cluster)
   return schedules;
 }
 
+IdVector<Rank, bool> late_ranks_of(const ClusterSpec& cluster) {
+  IdVector<Rank, bool> late;
+  for (const protocol::SpeedSchedule& schedule : schedules_of(cluster)) late.push_back(schedule.present_from(0) > 0);
+  return late;
+}
+
 IdVector<Rank, std::size_t> groups_of(const ClusterSpec& cluster) {
   IdVector<Rank, std::size_t> groups;
   for (std::size_t g = 0; g < cluster.groups.size(); ++g)

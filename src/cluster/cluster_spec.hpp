@@ -25,15 +25,16 @@ struct RankChange {
   double factor = 1;       ///< of the speed that they have otherwise; 0: they are not there
 };
 
-/// A cluster to simulate. Ranks are numbered consecutively through the groups. Every rank has its own link to all
-/// others.
+/// A cluster to simulate. Ranks are numbered consecutively through the groups. Every host has a link to all others,
+/// which its ranks share; within a host messages go through memory (see protocol::VirtualCluster).
 struct ClusterSpec {
   std::vector<RankGroup> groups;
   std::vector<RankChange> changes;  ///< of speeds, those of a rank in the order of time
   IdVector<Rank, double> drag;      ///< the fraction of its speed that each rank keeps; empty: all of it
   double memory = 0;                ///< triangles for which each rank has memory, and takes nine tenths; 0: any number
   double latency = 50e-6;           ///< seconds from the end of sending to arrival
-  double bandwidth = 1e9;           ///< bytes per second that leave a rank
+  double bandwidth = 1e9;           ///< bytes per second that leave a host
+  std::int32_t ranks_per_host = 1;  ///< consecutive ones
   double scale = 1;  ///< triangles that each one stands for: what depends on subdomains alone costs that much less
   double message_overhead =
       1e-6;  ///< seconds that a rank of any speed spends on each message that it sends or receives
@@ -62,6 +63,8 @@ struct ClusterSpec {
 [[nodiscard]] IdVector<Rank, double> speeds_of(const ClusterSpec& cluster, const CostModel& costs);
 /// How the speed of each rank changes. Throws Error for ranks that the cluster lacks, and as SpeedSchedule does.
 [[nodiscard]] IdVector<Rank, protocol::SpeedSchedule> schedules_of(const ClusterSpec& cluster);
+/// Whether each rank is not there at the start.
+[[nodiscard]] IdVector<Rank, bool> late_ranks_of(const ClusterSpec& cluster);
 /// The group of each rank.
 [[nodiscard]] IdVector<Rank, std::size_t> groups_of(const ClusterSpec& cluster);
 

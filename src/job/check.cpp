@@ -102,7 +102,8 @@ void check_parts(const Request& request) {
   require(d.file.empty() || (d.subdomains == 0 && d.subdomains_per_rank == 0), "decomposition.file",
           "has a number of subdomains, but another one is given", "remove one of them");
   const Request::Mapping& m = request.mapping;
-  require(m.file.empty() || (m.method == Request::Mapping{}.method && m.speeds.empty() && !m.by_speed && !m.by_area),
+  require(m.file.empty() || (m.method == Request::Mapping{}.method && m.speeds.empty() && !m.by_speed && !m.by_area &&
+                             m.to_late_ranks),
           "mapping.file", "replaces the mapping, but settings of one are given", "remove them or mapping.file");
   require(request.mapping.speeds.empty() || !request.mapping.by_speed, "mapping.by-speed",
           "cannot be combined with mapping.speeds", "remove one of them");
@@ -170,6 +171,9 @@ void check_cluster(const Request& request) {
     throw KeyError("cluster.changes", std::string("is wrong: ") + error.what(),
                    "list the changes of each rank in the order of time");
   }
+  require(request.mapping.to_late_ranks || std::ranges::count(late_ranks_of(cluster_of(request)), false) > 0,
+          "mapping.to-late-ranks", "is off, but no rank is there at the start",
+          "let some begin at once, or turn it on");
 }
 
 }  // namespace
@@ -250,6 +254,7 @@ ClusterSpec cluster_of(const Request& request) {
   cluster.scale = c.scale;
   cluster.latency = c.latency;
   cluster.bandwidth = c.bandwidth;
+  cluster.ranks_per_host = c.ranks_per_host;
   cluster.memory = c.memory;
   cluster.message_overhead = c.message_overhead;
   return cluster;

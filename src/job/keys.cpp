@@ -377,6 +377,11 @@ Section parts_section() {
        key("mapping.by-area", &R::mapping, &R::Mapping::by_area,
            "Map by area instead of expected work: an uneven start, for experiments", option("map-by-area"),
            places(kMany)),
+       key("mapping.to-late-ranks", &R::mapping, &R::Mapping::to_late_ranks,
+           "Map work also to simulated ranks that are not there at the start (cluster.changes); otherwise they get "
+           "only "
+           "what a policy gives them",
+           places(kSimulated), entry_points(kExperiment)),
        key("mapping.file", &R::mapping, &R::Mapping::file,
            "Take the mapping from load balancing statistics of DARMA vt, as written by lb-statistics or by LBAF: the "
            "file of rank 0 (data.0.json)",
@@ -465,7 +470,12 @@ Section cluster_section() {
        key("cluster.latency", &R::cluster, &R::Cluster::latency,
            "Time from the end of sending to arrival, on simulated clusters", unit("seconds"), from(0), places(kMany)),
        key("cluster.bandwidth", &R::cluster, &R::Cluster::bandwidth,
-           "Bytes per second that a rank can send, on simulated clusters", above(0), places(kMany)),
+           "Bytes per second that a host can send, on simulated clusters", above(0), places(kMany)),
+       key("cluster.ranks-per-host", &R::cluster, &R::Cluster::ranks_per_host,
+           "Consecutive ranks that share a host, and with it the bandwidth: messages within a host go through memory, "
+           "at "
+           "5 GB/s and 1 us",
+           in(1, kMaxRanks)),
        key("cluster.message-overhead", &R::cluster, &R::Cluster::message_overhead,
            "Time a rank spends on each message it sends or receives, on simulated clusters", unit("seconds"), from(0),
            places(kMany)),

@@ -112,6 +112,8 @@ PlanOptions plan_options(const Request& request, Place place, const IdVector<Ran
   options.mapping.method = request.mapping.method;
   if (request.mapping.by_area) options.mapping.weight = MappingWeight::kArea;
   options.mapping.speeds = request.mapping.by_speed ? speeds : IdVector<Rank, double>(request.mapping.speeds);
+  if (place == kSimulated && !request.mapping.to_late_ranks)
+    options.mapping.absent = late_ranks_of(cluster_of(request));
   options.presplit = request.run.presplit;
   options.work.aggregation = static_cast<std::size_t>(request.run.aggregation);
   options.work.slice = request.run.slice;

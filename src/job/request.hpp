@@ -83,6 +83,7 @@ struct Request {
     bool by_area = false;
     std::vector<double> speeds;  ///< of each rank, relative; empty: all equal
     std::string file;            ///< instead of all these
+    bool to_late_ranks = true;   ///< also to simulated ranks that are not there at the start
     friend bool operator==(const Mapping&, const Mapping&) = default;
   } mapping;
 
@@ -96,6 +97,7 @@ struct Request {
     std::vector<double> drag;
     double latency = ClusterSpec{}.latency;
     double bandwidth = ClusterSpec{}.bandwidth;
+    std::int32_t ranks_per_host = ClusterSpec{}.ranks_per_host;
     double memory = ClusterSpec{}.memory;
     double message_overhead = ClusterSpec{}.message_overhead;
     double scale = ClusterSpec{}.scale;

@@ -77,9 +77,7 @@ Assignment map_round_robin(const Decomposition& d, std::int32_t ranks) {
   return assignment;
 }
 
-}  // namespace
-
-Assignment map_subdomains(const Decomposition& d, const MappingOptions& options) {
+Assignment map_to_all(const Decomposition& d, const MappingOptions& options) {
   const IdVector<Rank, double> speeds = speeds_of(options);
   switch (options.method) {
     case MappingMethod::kBlock:
@@ -99,12 +97,36 @@ Assignment map_subdomains(const Decomposition& d, const MappingOptions& options)
   return assignment;
 }
 
+bool is_absent(const MappingOptions& options, Rank r) {
+  return options.absent.has(r) && options.absent[r];
+}
+
+}  // namespace
+
+Assignment map_subdomains(const Decomposition& d, const MappingOptions& options) {
+  const IdVector<Rank, double> speeds = speeds_of(options);
+  std::vector<Rank> there;
+  MappingOptions among_them = options;
+  among_them.speeds.clear();
+  for (const Rank r : ids_of(speeds)) {
+    if (is_absent(options, r)) continue;
+    there.push_back(r);
+    among_them.speeds.push_back(speeds[r]);
+  }
+  if (there.empty()) throw Error("no rank is there to map work to");
+  among_them.ranks = static_cast<std::int32_t>(there.size());
+  Assignment assignment = map_to_all(d, among_them);
+  for (Rank& rank : assignment) rank = there[to_index(rank)];
+  return assignment;
+}
+
 MappingReport report_mapping(const Decomposition& d, const Assignment& assignment, const MappingOptions& options) {
   const IdVector<Rank, double> speeds = speeds_of(options);
   IdVector<Rank, double> work(speeds.size(), 0);
   for (const SubdomainId i : ids_of(d.subdomains)) work[assignment[i]] += d.subdomains[i].predicted;
-  const double mean =
-      std::accumulate(work.begin(), work.end(), 0.0) / std::accumulate(speeds.begin(), speeds.end(), 0.0);
+  double speed = 0;
+  for (const Rank r : ids_of(speeds)) speed += is_absent(options, r) ? 0 : speeds[r];
+  const double mean = std::accumulate(work.begin(), work.end(), 0.0) / speed;
   MappingReport report;
   for (const Rank r : ids_of(work)) report.largest_load = std::max(report.largest_load, work[r] / (speeds[r] * mean));
   double whole = 0;

@@ -25,10 +25,11 @@ struct MappingOptions {
   IdVector<Rank, double> speeds;
   MappingMethod method = MappingMethod::kGraph;
   MappingWeight weight = MappingWeight::kWork;
+  IdVector<Rank, bool> absent{};  ///< these ranks get nothing; empty: none of them
 };
 
 /// Maps subdomains to ranks by weight. Deterministic. A rank may be left without work if there are not many more
-/// subdomains than ranks. Throws Error for options out of range.
+/// subdomains than ranks. Throws Error for options out of range, and if all ranks are absent.
 [[nodiscard]] Assignment map_subdomains(const Decomposition& decomposition, const MappingOptions& options);
 
 /// Quality of a mapping.

@@ -841,6 +841,7 @@ class Experiments(Cli):
         "migration-stress": ["bounds.triangles=3e4", "cluster.scale=100", "decomposition.subdomains=[24, 120]",
                              "cluster.groups=[{ranks: 6, speed: 8e4}, {ranks: 6, speed: 1e4}]"],
         "changing-speeds": ["bounds.triangles=1e4", "decomposition.subdomains-per-rank=4"],
+        "late-hosts": ["bounds.triangles=1e4", "decomposition.subdomains-per-rank=4"],
         "short-memory": ["bounds.triangles=1e5", "decomposition.subdomains-per-rank=20",
                          "cluster.memory=[0, 21e3]"],
         "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
@@ -942,6 +943,25 @@ class Experiments(Cli):
                     self.assertEqual(most > 21e3, row["cluster.memory"] == "0", most)
         self.refuse("run", self.CONFIGS / "short-memory.yaml", "-o", "none", "--set", "bounds.triangles=1e5", "--quiet",
                     "--set", "cluster.memory=1e4", code=3, says=["cluster.memory"])
+
+    def test_late_ranks_begin_without_work_and_get_some(self):
+        self.run_config("late-hosts", "bounds.triangles=2e5", "decomposition.subdomains-per-rank=20", "cluster.speed=1e4",
+                        "cluster.scale=790", "cluster.ranks-per-host=4")
+        rows = self.table()
+        for row in rows:
+            with self.subTest(policy=row["balance.policy"]):
+                record = json.loads((self.folder / "results" / f"{row['run']}.json").read_text())
+                self.assertLess(max(record["cluster"]["owners_before"]), 12)
+                late = [rank["triangles"] for rank in record["parts"]["ranks"][12:]]
+                self.assertEqual(sum(late) > 0, row["balance.policy"] != "none")
+                arrived = [move["arrived"] for move in record["cluster"]["moves"] if move["to"] >= 12]
+                self.assertEqual(len(arrived) > 0, row["balance.policy"] != "none")
+                self.assertGreaterEqual(min(arrived, default=0.5), 0.5)
+        none, *others = (float(row["seconds"]) for row in rows)
+        self.assertLess(max(others), 0.95 * none)
+        self.refuse("run", self.CONFIGS / "late-hosts.yaml", "-o", "none", "--quiet", "--set",
+                    "cluster.changes=[{rank: 0, ranks: 16, factor: 0}, {rank: 0, ranks: 16, at: 1}]",
+                    says=["mapping.to-late-ranks"])
 
     def test_a_recorded_run_is_replayed_with_other_policies(self):
         self.run_config("changing-speeds", "bounds.triangles=2e5", "decomposition.subdomains-per-rank=20",

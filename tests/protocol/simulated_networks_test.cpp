@@ -59,15 +59,18 @@ TEST_CASE("the adversarial network keeps the contract") {
 }
 
 TEST_CASE("virtual ranks keep the contract") {
-  for (std::size_t ranks = 1; ranks <= 5; ++ranks) {
-    CAPTURE(ranks);
-    contract::check_transport_contract([&](const contract::Program& program) {
-      VirtualCluster cluster{.speeds = IdVector<Rank, double>(ranks, 1.0), .link = {}};
-      cluster.speeds.back() = 0.25;
-      VirtualNetwork network(cluster);
-      REQUIRE(network.run(steps_on(network, static_cast<std::int32_t>(ranks), program)).end == RunEnd::kFinished);
-    });
-  }
+  for (std::size_t ranks = 1; ranks <= 5; ++ranks)
+    for (const std::int32_t ranks_per_host : {1, 2, 5}) {
+      CAPTURE(ranks);
+      CAPTURE(ranks_per_host);
+      contract::check_transport_contract([&](const contract::Program& program) {
+        VirtualCluster cluster{
+            .speeds = IdVector<Rank, double>(ranks, 1.0), .link = {}, .ranks_per_host = ranks_per_host};
+        cluster.speeds.back() = 0.25;
+        VirtualNetwork network(cluster);
+        REQUIRE(network.run(steps_on(network, static_cast<std::int32_t>(ranks), program)).end == RunEnd::kFinished);
+      });
+    }
 }
 
 TEST_CASE("a delaying transport keeps the contract, and reorders") {
@@ -290,6 +293,63 @@ TEST_CASE("a rank that joins late gets its messages then") {
   CHECK(network.clock(1_rank) == doctest::Approx(6));
   cluster.schedules.resize(1);
   CHECK_THROWS_AS(VirtualNetwork{cluster}, Error);
+}
+
+namespace {
+
+/// When rank 2 gets a message of ten bytes from rank 0, and one from rank 1, sent after so many seconds of work; at ten
+/// bytes a second, on hosts of so many ranks.
+std::array<double, 2> arrivals_at_two(std::int32_t ranks_per_host, std::array<double, 2> work) {
+  VirtualNetwork network({.speeds = {1, 1, 1},
+                          .link =
+                              [](Rank, Rank) {
+                                return Link{0.5, 10};
+                              },
+                          .message_overhead = 0,
+                          .ranks_per_host = ranks_per_host});
+  std::array<double, 2> arrivals{};
+  int heard = 0;
+  const auto sender = [&](Rank r) -> RankStep {
+    return [&, r] {
+      network.transport(r).spend(work[to_index(r)]);
+      network.transport(r).send(2_rank, Bytes(10));
+      return StepResult::kFinished;
+    };
+  };
+  const IdVector<Rank, RankStep> steps{sender(0_rank), sender(1_rank), [&] {
+                                         while (const auto received = network.transport(2_rank).poll()) {
+                                           arrivals[to_index(received->source)] = network.clock(2_rank);
+                                           ++heard;
+                                         }
+                                         return heard == 2 ? StepResult::kFinished : StepResult::kIdle;
+                                       }};
+  REQUIRE(network.run(steps).end == RunEnd::kFinished);
+  return arrivals;
+}
+
+}  // namespace
+
+TEST_CASE("the ranks of a host share its line, in the order in which they send") {
+  const auto at = [](double first, double second) {
+    return std::array{doctest::Approx(first), doctest::Approx(second)};
+  };
+  const auto check = [&](std::int32_t ranks_per_host, std::array<double, 2> work,
+                         const std::array<doctest::Approx, 2>& expected) {
+    CAPTURE(ranks_per_host);
+    const auto arrivals = arrivals_at_two(ranks_per_host, work);
+    CHECK(arrivals[0] == expected[0]);
+    CHECK(arrivals[1] == expected[1]);
+  };
+  check(1, {1, 1}, at(2.5, 2.5));
+  check(2, {1, 1}, at(2.5, 3.5));
+  check(2, {1, 1.25}, at(2.5, 3.5));
+  check(2, {1, 5}, at(2.5, 6.5));
+  check(2, {5, 1}, at(6.5, 2.5));  // what is sent later delays nothing, though its sender steps first
+  check(2, {1.5, 1}, at(3.5, 2.5));
+  const auto within = arrivals_at_two(3, {1, 1});
+  CHECK(within[0] == doctest::Approx(1.000001));  // through memory
+  CHECK(within[1] == doctest::Approx(1.000001));
+  CHECK_THROWS_AS(VirtualNetwork({.speeds = {1}, .link = {}, .ranks_per_host = 0}), Error);
 }
 
 TEST_CASE("equal ranks with equal work finish together, whatever their number") {

@@ -70,6 +70,25 @@ TEST_CASE("a run takes as long as changing speeds say, and the ideal follows the
   CHECK_THROWS_AS(static_cast<void>(schedules_of(cluster)), Error);
 }
 
+TEST_CASE("ranks on one host send through memory, not by a slow line") {
+  const RunPlan plan = pipe_plan(60e3, 6, 60, Presplit::kOff);
+  ClusterSpec cluster = equal_ranks(6);
+  cluster.bandwidth = 2e6;
+  const ClusterRun apart = simulate(plan, cluster, {});
+  cluster.ranks_per_host = 6;
+  CHECK(simulate(plan, cluster, {}).makespan < apart.makespan);
+}
+
+TEST_CASE("late ranks are known") {
+  ClusterSpec cluster = equal_ranks(4);
+  CHECK(late_ranks_of(cluster) == IdVector<Rank, bool>{false, false, false, false});
+  cluster.changes = {{.rank = 1, .at = 0, .factor = 0},
+                     {.rank = 1, .at = 2, .factor = 1},
+                     {.rank = 3, .at = 1, .factor = 0},
+                     {.rank = 3, .at = 2, .factor = 1}};
+  CHECK(late_ranks_of(cluster) == IdVector<Rank, bool>{false, true, false, false});
+}
+
 TEST_CASE("a simulated run is reproducible, and its results are consistent") {
   const RunPlan plan = pipe_plan(60e3, 6, 60, Presplit::kOff);
   std::int64_t triangles = 0, last_progress = 0;

@@ -56,6 +56,21 @@ TEST_CASE("work follows the speeds of the ranks") {
   }
 }
 
+TEST_CASE("absent ranks get nothing, and the others what they would get without them") {
+  const Decomposition d = square_in(400);
+  for (const MappingMethod method : {MappingMethod::kGraph, MappingMethod::kBlock, MappingMethod::kRoundRobin}) {
+    const Assignment without = map_subdomains(d, {2, {1, 3}, method});
+    MappingOptions options{5, {9, 1, 9, 3, 9}, method};
+    options.absent = {true, false, true, false, true};
+    const Assignment assignment = map_subdomains(d, options);
+    for (const SubdomainId i : ids_of(assignment)) REQUIRE(assignment[i] == (without[i] == 0_rank ? 1_rank : 3_rank));
+    CHECK(report_mapping(d, assignment, options).largest_load ==
+          doctest::Approx(report_mapping(d, without, {2, {1, 3}, method}).largest_load));
+    options.absent.assign(5, true);
+    CHECK_THROWS_AS(static_cast<void>(map_subdomains(d, options)), Error);
+  }
+}
+
 TEST_CASE("area can be balanced instead of work") {
   Decomposition d = square_in(400);
   for (const SubdomainId i : first_ids<SubdomainId>(40))

@@ -10,6 +10,7 @@ protocol::VirtualCluster virtual_cluster(const ClusterSpec& cluster, const CostM
   made.schedules = schedules_of(cluster);
   const protocol::Link link{cluster.latency, cluster.bandwidth};
   made.link = [link](Rank, Rank) { return link; };
+  made.ranks_per_host = cluster.ranks_per_host;
   made.message_overhead = cluster.message_overhead;
   return made;
 }
