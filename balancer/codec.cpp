@@ -10,7 +10,7 @@ namespace {
 
 using protocol::MessageOf;
 
-constexpr std::size_t kReportedLoadBytes = 24, kMoveBytes = 8;
+constexpr std::size_t kReportedLoadBytes = 24, kMoveBytes = 8, kRankBytes = 4, kGuestBytes = 12;
 
 void fields(auto& archive, MessageOf<ReportedLoad> auto& m) {
   archive.subdomain(m.subdomain);
@@ -34,6 +34,7 @@ void fields(auto& archive, MessageOf<Move> auto& m) {
 void fields(auto& archive, MessageOf<Plan> auto& m) {
   archive.number(m.round);
   archive.list(m.moves, kMoveBytes, [](auto& a, auto& move) { fields(a, move); });
+  archive.list(m.ask, kRankBytes, [](auto& a, auto& rank) { a.rank(rank); });
 }
 void fields(auto& archive, MessageOf<LoadNews> auto& m) {
   archive.number(m.round);
@@ -59,6 +60,15 @@ void fields(auto& archive, MessageOf<WorkAnswer> auto& m) {
 void fields(auto& archive, MessageOf<JointRound> auto& m) {
   archive.number(m.round);
   archive.choice(m.stage, JointRound::Stage::kStart);
+}
+void fields(auto& archive, MessageOf<Admission::Guest> auto& m) {
+  archive.subdomain(m.subdomain);
+  archive.amount(m.triangles);
+}
+void fields(auto& archive, MessageOf<Admission> auto& m) {
+  archive.number(m.round);
+  archive.choice(m.stage, Admission::Stage::kReturn);
+  archive.list(m.guests, kGuestBytes, [](auto& a, auto& guest) { fields(a, guest); });
 }
 
 }  // namespace

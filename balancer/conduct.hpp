@@ -37,6 +37,7 @@ struct ControllerOptions {
 /// Balancing actions of a rank at one moment.
 struct Decision {
   std::vector<Move> moves;  ///< hand these over, now
+  std::vector<Move> asks;   ///< moves that their destinations are to be asked for first (see Admissions)
   std::vector<Outgoing> messages;
   bool planned = false;    ///< planning was considered, which may have taken long: call took()
   bool assembles = false;  ///< wait for all ranks, and think() again before anything else (see Council)
@@ -56,6 +57,11 @@ struct Situation {
   double total = 0;
   for (const ReportedLoad& load : own) total += load.remaining;
   return total;
+}
+
+/// The triangles for which a rank that takes it needs memory.
+[[nodiscard]] inline double room_for(const ReportedLoad& load) {
+  return memory_for(SubdomainLoad{.id = load.subdomain, .remaining = load.remaining, .bytes = load.bytes});
 }
 
 /// The load of a rank, in ascending order of IDs.

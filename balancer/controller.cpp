@@ -20,7 +20,7 @@ Each(Answers...) -> Each<Answers...>;  // clang deduces it for aggregates from v
 
 Controller::Controller(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
                        const ControllerOptions& options, double now, Council* council)
-    : look_interval_(options.look), next_look_(now) {
+    : self_(self), admissions_(self), look_interval_(options.look), next_look_(now) {
   if (layout->ranks < 2) return;
   switch (policy->placement()) {
     case Placement::kNobody:
@@ -40,12 +40,17 @@ Controller::Controller(Rank self, std::shared_ptr<const Layout> layout, std::sha
 }
 
 void Controller::receive(Rank source, Message advice, double now) {
+  next_look_ = now;
+  if (auto* const step = std::get_if<Admission>(&advice)) {
+    if (conduct_.index() != 0) admissions_.receive(source, std::move(*step));
+    return;
+  }
   std::visit(Each{[&](auto& conduct) { conduct.receive(source, std::move(advice), now); }, [](std::monostate) {}},
              conduct_);
-  next_look_ = now;
 }
 
 void Controller::arrived(SubdomainId id, protocol::Epoch epoch, double now) {
+  admissions_.arrived(id);
   std::visit(Each{[&](PlanningConduct& planning) { planning.arrived(id, epoch); },
                   [&](RequestConduct& requests) { requests.arrived(id); },
                   [&](CollectiveConduct& collective) { collective.arrived(id, now); }, [](std::monostate) {}},
@@ -59,27 +64,56 @@ bool Controller::due(double now) const {
 }
 
 bool Controller::pressing() const {
-  return std::visit(Each{[](const auto& conduct) { return conduct.pressing(); }, [](std::monostate) { return false; }},
+  return admissions_.pressing() ||
+         std::visit(Each{[](const auto& conduct) { return conduct.pressing(); }, [](std::monostate) { return false; }},
                     conduct_);
 }
 
 Decision Controller::think(double now, std::span<const ReportedLoad> own, double speed, double doubt,
                            double free_memory) {
   next_look_ = now + look_interval_;
-  return std::visit(Each{[&](auto& conduct) {
-                           return conduct.think({now, own, speed, doubt, free_memory});
-                         },
-                         [](std::monostate) { return Decision{}; }},
-                    conduct_);
+  std::vector<ReportedLoad> rest;
+  Admissions::Settled settled;
+  if (admissions_.waiting()) {
+    rest.assign(own.begin(), own.end());
+    settled = admissions_.settle(free_memory, rest);
+    tell(settled);
+    own = rest;
+  }
+  const Situation situation{now, own, speed, doubt, std::max(0.0, free_memory - admissions_.set_aside())};
+  Decision decision = std::visit(
+      Each{[&](auto& conduct) { return conduct.think(situation); }, [](std::monostate) { return Decision{}; }},
+      conduct_);
+  const auto append = [](auto& to, auto&& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(decision.messages, admissions_.ask(decision.asks, own));
+  append(decision.messages, settled.messages);
+  append(decision.moves, settled.moves);
+  return decision;
+}
+
+/// What does not come is not waited for, and whoever planned it should learn of the memory here.
+void Controller::tell(const Admissions::Settled& settled) {
+  std::visit(Each{[&](PlanningConduct& planning) {
+                    if (settled.refused) planning.refused();
+                  },
+                  [&](RequestConduct& requests) {
+                    for (const SubdomainId id : settled.not_coming) requests.not_coming(id);
+                    if (settled.refused) requests.refused();
+                  },
+                  [](CollectiveConduct&) {}, [](std::monostate) {}},
+             conduct_);
 }
 
 bool Controller::waiting() const {
-  return std::visit(Each{[](const auto& conduct) { return conduct.waiting(); }, [](std::monostate) { return false; }},
+  return admissions_.waiting() ||
+         std::visit(Each{[](const auto& conduct) { return conduct.waiting(); }, [](std::monostate) { return false; }},
                     conduct_);
 }
 
 void Controller::give_up() {
-  if (!std::holds_alternative<CollectiveConduct>(conduct_)) conduct_ = std::monostate();
+  if (std::holds_alternative<CollectiveConduct>(conduct_)) return;
+  conduct_ = std::monostate();
+  admissions_ = Admissions(self_);
 }
 
 void Controller::took(double seconds) {

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "balancer/admissions.hpp"
 #include "balancer/collective_conduct.hpp"
 #include "balancer/council.hpp"
 #include "balancer/messages.hpp"
@@ -36,6 +37,9 @@ class Controller {
   /// this call says that it is no longer in transit.
   void arrived(SubdomainId id, protocol::Epoch epoch, double now);
 
+  /// A move that think() decided on could not be made: the subdomain is still here.
+  void stayed(SubdomainId id) { admissions_.stayed(id); }
+
   /// Whether think() has something to do. Cheap.
   [[nodiscard]] bool due(double now) const;
 
@@ -47,7 +51,8 @@ class Controller {
   [[nodiscard]] Decision think(double now, std::span<const ReportedLoad> own, double speed, double doubt = 0,
                                double free_memory = kAmpleMemory);
 
-  /// Whether a request of this rank is unanswered, received advice is unhandled, or a joint plan is in progress.
+  /// Whether a request or a question of this rank is unanswered, received advice is unhandled, or a joint plan is in
+  /// progress.
   [[nodiscard]] bool waiting() const;
 
   /// The run has been abandoned: from now on nothing is planned, answered or waited for. Only a joint plan goes on to
@@ -63,7 +68,11 @@ class Controller {
   void looked(double now, double seconds);
 
  private:
+  void tell(const Admissions::Settled& settled);
+
+  Rank self_;
   std::variant<std::monostate, PlanningConduct, RequestConduct, CollectiveConduct> conduct_;
+  Admissions admissions_;
   double look_interval_;
   double next_look_;
 };

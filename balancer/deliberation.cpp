@@ -39,6 +39,8 @@ const char* name_of(Verdict verdict) {
       return "gone";
     case Verdict::kNoGiver:
       return "no giver";
+    case Verdict::kAsked:
+      return "asked";
   }
   return "";
 }
@@ -53,6 +55,8 @@ const char* name_of(Deliberation::Subject subject) {
       return "advice";
     case Deliberation::Subject::kRequest:
       return "request";
+    case Deliberation::Subject::kAdmission:
+      return "admission";
   }
   return "";
 }

@@ -27,6 +27,7 @@ enum class Verdict : std::int32_t {
   kNeedless,        ///< all finish as early without it
   kGone,            ///< it is no longer there, or finished
   kNoGiver,         ///< no rank has work to give
+  kAsked,           ///< the rank where it would go is asked first
 };
 
 /// In the words of the log.
@@ -42,10 +43,11 @@ struct JudgedMove {
 /// One thing that a rank considered.
 struct Deliberation {
   enum class Subject : std::int32_t {
-    kLoad,     ///< the load as it knows it, and whether to plan
-    kPlan,     ///< moves that its policy proposes
-    kAdvice,   ///< moves that a planner advises it to make
-    kRequest,  ///< of `thief` for work: the broker passes it on to `giver`
+    kLoad,       ///< the load as it knows it, and whether to plan
+    kPlan,       ///< moves that its policy proposes
+    kAdvice,     ///< moves that a planner advises it to make
+    kRequest,    ///< of `thief` for work: the broker passes it on to `giver`
+    kAdmission,  ///< moves that it asks the receiver for, or what came of that
   };
   struct KnownLoad {
     Rank rank{};

@@ -36,6 +36,7 @@ struct LoadReport {
 struct Plan {
   std::uint32_t round = 0;
   std::vector<Move> moves;
+  std::vector<Rank> ask;  ///< the destinations that may be short of memory: they are asked first (see Admission)
   friend bool operator==(const Plan&, const Plan&) = default;
 };
 
@@ -82,7 +83,26 @@ struct JointRound {
   friend bool operator==(const JointRound&, const JointRound&) = default;
 };
 
-using Message = std::variant<LoadReport, Plan, LoadNews, WorkRequest, WorkAnswer, JointRound>;
+/// A step toward moves to a rank that may be short of memory. Each question gets one answer; what was admitted comes,
+/// or is returned.
+struct Admission {
+  enum class Stage : std::uint8_t {
+    kAsk,     ///< the giver to the receiver: is there memory for these?
+    kAnswer,  ///< the receiver to the giver: for these, and it is set aside for them
+    kReturn,  ///< the giver to the receiver: these do not come after all
+  };
+  struct Guest {
+    SubdomainId subdomain{};
+    double triangles = 0;  ///< that it has and will have
+    friend bool operator==(const Guest&, const Guest&) = default;
+  };
+  std::uint32_t round = 0;  ///< of the giver's questions, from 1
+  Stage stage = Stage::kAsk;
+  std::vector<Guest> guests;
+  friend bool operator==(const Admission&, const Admission&) = default;
+};
+
+using Message = std::variant<LoadReport, Plan, LoadNews, WorkRequest, WorkAnswer, JointRound, Admission>;
 
 /// A message and its destination.
 struct Outgoing {

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "balancer/admissions.hpp"
 #include "balancer/partners.hpp"
 
 namespace driftmesh::balancer {
@@ -19,14 +20,12 @@ LoadSnapshot between(LoadSnapshot snapshot, Rank self, std::span<const Move> mov
   return snapshot;
 }
 
-/// Divides the free memory of each rank among those that may give it work without knowing of each other: its distant
-/// partners, and about as many ranks as a rank touches.
-void divide_memory(LoadSnapshot& snapshot, Rank self) {
+/// How many times a rank may be given the same without being asked, if each plans with its partners: twice by each that
+/// may, which are the distant ones and about as many as a rank touches.
+double unaware_partners(Rank self, std::int32_t ranks) {
   constexpr std::size_t kTouching = 6;
-  const auto ranks = static_cast<std::int32_t>(snapshot.ranks.size());
-  const std::size_t givers = std::min(snapshot.ranks.size() - 1, distant_partners(self, ranks).size() + kTouching);
-  for (RankLoad& rank : snapshot.ranks)
-    if (rank.free_memory < kAmpleMemory) rank.free_memory /= static_cast<double>(givers);
+  const std::size_t partners = distant_partners(self, ranks).size() + kTouching;
+  return kUnawareGivers * static_cast<double>(std::min(to_index(ranks) - 1, partners));
 }
 
 // False if it is not there.
@@ -83,7 +82,9 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
     for (const Move& move : plan.moves) {
       const Verdict verdict = judge(move, situation, own);
       followed.moves.push_back({move.subdomain, self_, move.destination, verdict});
-      if (verdict == Verdict::kDone && remove(own, move.subdomain)) decision.moves.push_back(move);
+      const bool asks = std::ranges::find(plan.ask, move.destination) != plan.ask.end();
+      if (verdict == Verdict::kDone && remove(own, move.subdomain))
+        (asks ? decision.asks : decision.moves).push_back(move);
       if (verdict == Verdict::kGone) mentioned_.push_back({.subdomain = move.subdomain});
     }
     note(std::move(followed));
@@ -115,7 +116,6 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
   if (leads) be_sure_of_idle_ranks(snapshot);
   if (leads && !may_gain(snapshot, options_.worth, pace_.cost_of_planning())) return;
-  if (!leads) divide_memory(snapshot, self_);
   const double rest = options_.rest_after_move(finishing_time(snapshot));
   std::erase_if(moved_, [&](const auto& move) { return now - move.second > rest; });
   price_moves(snapshot, options_.cost);
@@ -172,19 +172,30 @@ void PlanningConduct::took(double seconds) {
 void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own,
                              Decision& decision) {
   ++plans_;
+  const std::vector<Rank> asked = to_be_asked(moves, snapshot);
+  const auto asks = [&](const Move& move) { return std::ranges::binary_search(asked, move.destination); };
   std::map<Rank, Plan> of_rank;
   for (const Move& move : moves) {
     const Rank owner = find(snapshot, move.subdomain)->owner;
     if (owner != self_) {
-      of_rank[owner].round = plans_;
-      of_rank[owner].moves.push_back({move.subdomain, move.destination});
+      Plan& plan = of_rank[owner];
+      plan.round = plans_;
+      plan.moves.push_back(move);
+      if (asks(move) && std::ranges::find(plan.ask, move.destination) == plan.ask.end())
+        plan.ask.push_back(move.destination);
     } else if (remove(own, move.subdomain)) {
-      decision.moves.push_back(move);
+      (asks(move) ? decision.asks : decision.moves).push_back(move);
       plan_seen_ = plans_;
       acted_ = true;
     }
   }
   for (auto& [rank, plan] : of_rank) decision.messages.push_back({rank, std::move(plan)});
+}
+
+std::vector<Rank> PlanningConduct::to_be_asked(std::span<const Move> moves, const LoadSnapshot& snapshot) const {
+  const bool leads = policy_->placement() == Placement::kLeader;
+  return short_of_memory(snapshot, moves, knowledge_->on_its_way(),
+                         leads ? kUnawareGivers : unaware_partners(self_, layout_->ranks));
 }
 
 void PlanningConduct::report(const Situation& situation, const Loads& own, Decision& decision) {

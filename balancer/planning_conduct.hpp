@@ -23,6 +23,8 @@ class PlanningConduct {
 
   void receive(Rank source, Message advice, double now);
   void arrived(SubdomainId id, protocol::Epoch epoch) { mentioned_.push_back({id, epoch, 0, 0}); }
+  /// What was on its way here, by other ranks' plans, does not come: they should know why.
+  void refused() { acted_ = true; }
   [[nodiscard]] bool waiting() const { return !advised_.empty(); }
   [[nodiscard]] bool pressing() const { return waiting(); }
   [[nodiscard]] Decision think(const Situation& situation);
@@ -38,6 +40,7 @@ class PlanningConduct {
   [[nodiscard]] std::vector<Move> worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation);
   [[nodiscard]] bool affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const;
   void advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own, Decision& decision);
+  [[nodiscard]] std::vector<Rank> to_be_asked(std::span<const Move> moves, const LoadSnapshot& snapshot) const;
   void report(const Situation& situation, const Loads& own, Decision& decision);
   [[nodiscard]] Loads with_mentioned(Loads own) const;
   [[nodiscard]] std::vector<Rank> audience(const Loads& own);

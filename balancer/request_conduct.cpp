@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "balancer/admissions.hpp"
 #include "balancer/deliberation.hpp"
 
 namespace driftmesh::balancer {
@@ -14,6 +15,15 @@ constexpr std::uint32_t kMostRivals = 15;
 
 double seconds_of(double work, double speed) {
   return work <= 0 ? 0 : speed > 0 ? work / speed : HUGE_VAL;
+}
+
+// Triangles for which their destination needs memory.
+double memory_needed(std::span<const Move> moves, const std::vector<ReportedLoad>& own) {
+  double needed = 0;
+  for (const Move& move : moves)
+    if (const auto load = std::ranges::find(own, move.subdomain, &ReportedLoad::subdomain); load != own.end())
+      needed += room_for(*load);
+  return needed;
 }
 
 // The amount that makes both finish at the same time.
@@ -82,12 +92,12 @@ Decision RequestConduct::think(const Situation& situation) {
 
 // Returns how much work is given.
 double RequestConduct::give(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision) {
-  WorkAnswer answer{request.round, {}};
+  WorkAnswer answer{request.round, gifts(request, situation, own)};
   const double before = total_work(own);
-  for (const Move& move : gifts(request, situation, own)) {
+  const bool asks = must_ask(request.free_memory, memory_needed(answer.moves, own));
+  for (const Move& move : answer.moves) {
     std::erase_if(own, [&](const auto& load) { return load.subdomain == move.subdomain; });
-    answer.moves.push_back({move.subdomain, move.destination});
-    decision.moves.push_back(move);
+    (asks ? decision.asks : decision.moves).push_back(move);
   }
   changed_ = true;
   decision.messages.push_back({request.thief, std::move(answer)});

@@ -25,6 +25,10 @@ class RequestConduct {
 
   void receive(Rank source, Message advice, double now);
   void arrived(SubdomainId id);
+  /// A subdomain that was to come does not.
+  void not_coming(SubdomainId id) { arrived(id); }
+  /// That was for lack of memory here.
+  void refused() { ++refusals_, changed_ = true; }
   [[nodiscard]] bool waiting() const { return asked_ || !requests_.empty(); }
   [[nodiscard]] bool pressing() const { return !requests_.empty(); }
   /// Work is on its way here.

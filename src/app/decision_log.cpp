@@ -52,6 +52,7 @@ config::Json json_of(const Deliberation& considered) {
       said.update({{"saves", considered.saves}, {"moves", moves_json(considered)}});
       break;
     case Subject::kAdvice:
+    case Subject::kAdmission:
       said["moves"] = moves_json(considered);
       break;
     case Subject::kRequest:

@@ -264,7 +264,8 @@ bool RankLoop::balance(bool worked) {
   controller_->looked(transport_.now(), took);
   // Messages first: they are short, and must not wait for subdomains to be packed and sent.
   for (const balancer::Outgoing& o : decision.messages) protocol_.advise(o.destination, balancer::encode(o.message));
-  for (const balancer::Move& move : decision.moves) hand_over(move.subdomain, move.destination);
+  for (const balancer::Move& move : decision.moves)
+    if (!hand_over(move.subdomain, move.destination)) controller_->stayed(move.subdomain);
   charge(&RankTimes::balancing);
   return !decision.moves.empty() || !decision.messages.empty();
 }

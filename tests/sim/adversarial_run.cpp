@@ -18,19 +18,21 @@ AdversarialRun::AdversarialRun(const Scenario& scenario, Domain& domain, const W
       domain_(domain),
       mover_(scenario),
       network_(scenario.ranks, adversary()),
+      rules_(rules, scenario.arity),
       stale_locations_{std::mt19937_64(scenario.seed), {}},
       witness_(scenario.ranks, to_index(scenario.subdomains), [this] { return is_quiet(); }) {
   make_plan();
   council_ = balancer::make_simulated_council(plan_.layout, plan_.policy, plan_.balancing.options);
   for (const Rank r : first_ids<Rank>(scenario.ranks))
     loops_.push_back(std::make_unique<RankLoop>(transport_of(r, wrap), plan_, costs_of(r), RankLoop::Observers{},
-                                                council_.get(), rules));
+                                                council_.get(), rules_));
   for (const Rank r : ids_of(loops_)) {
     if (scenario.crew == 0) break;
     crews_.push_back(std::make_unique<testing::SimulatedCrew>(scenario.crew, scenario.seed + to_index(r)));
     loops_[r]->hire(*crews_.back());
   }
   arrivals_seen_.resize(loops_.size());
+  if (scenario.short_of_memory && plan_.layout) limit_memory();
 }
 
 Outcome AdversarialRun::run() {
@@ -39,6 +41,8 @@ Outcome AdversarialRun::run() {
   say("no message lost", lost_messages());
   say("tokens have the right count and color", witness_.token_problem());
   say("no SPLIT makes more hops than its subdomain", witness_.hops_problem());
+  say("each question for memory has an answer",
+      outcome_.effects.questions == outcome_.effects.answers ? "" : "some have none, or several");
   say("one live owner", owners_at_the_end());
   say("no unfinished plan", council_ && council_->in_session() ? "the run has ended during a round of planning" : "");
   if (!outcome_.failure().empty()) return std::move(outcome_);
@@ -82,6 +86,16 @@ CostModel AdversarialRun::costs_of(Rank r) const {
   return costs;
 }
 
+// Chance moves subdomains regardless of it, and so ranks may well have more than they have room for.
+void AdversarialRun::limit_memory() {
+  double total = 0;
+  for (const balancer::Layout::Subdomain& s : plan_.layout->subdomains) total += s.predicted;
+  for (const Rank r : ids_of(loops_)) {
+    const double room = total / static_cast<double>(1 + (scenario_.seed + to_index(r)) % 4);
+    loops_[r]->limit_memory([room, loop = loops_[r].get()] { return room - static_cast<double>(loop->triangles()); });
+  }
+}
+
 protocol::Adversary AdversarialRun::adversary() {
   protocol::Adversary result = scenario_.adversary;
   const auto after = [ranks = static_cast<std::uint64_t>(scenario_.ranks)](std::uint64_t steps) {
@@ -109,7 +123,8 @@ protocol::Adversary AdversarialRun::adversary() {
       result.urgency = [late = after(40)](const protocol::Parcel& parcel, std::uint64_t step) {
         const bool advice = is_advice<balancer::Plan>(parcel.bytes) || is_advice<balancer::WorkRequest>(parcel.bytes) ||
                             is_advice<balancer::WorkAnswer>(parcel.bytes) ||
-                            is_advice<balancer::JointRound>(parcel.bytes);
+                            is_advice<balancer::JointRound>(parcel.bytes) ||
+                            is_advice<balancer::Admission>(parcel.bytes);
         return advice ? late(parcel, step) : protocol::Urgency::kAnyTime;
       };
       break;

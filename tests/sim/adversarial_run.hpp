@@ -20,6 +20,7 @@
 #include "sim/scenario.hpp"
 #include "sim/stale_locations.hpp"
 #include "sim/witness.hpp"
+#include "support/rules_over_tree.hpp"
 #include "support/simulated_crew.hpp"
 
 namespace driftmesh::sim {
@@ -71,6 +72,7 @@ class AdversarialRun {
     Verdict verdict;
   };
   void make_plan();
+  void limit_memory();
   /// Time for policies: a step takes one unit, an insertion a tenth, or up to a whole one on a slow rank.
   [[nodiscard]] CostModel costs_of(Rank r) const;
   /// The scenario's adversary, with its mischief.
@@ -101,6 +103,7 @@ class AdversarialRun {
   SubdomainContext context_;
   std::deque<Subdomain> copies_;
   protocol::AdversarialNetwork network_;
+  testing::RulesOverTree rules_;
   StaleLocations stale_locations_;
   Witness witness_;
   std::vector<std::unique_ptr<protocol::Transport>> layers_;       // between ranks and network

@@ -23,6 +23,8 @@ constexpr Counter kSums[] = {{&AdversaryEffects::by_chance, "moved by chance"},
                              {&AdversaryEffects::repeated_locations, "repeated locations"},
                              {&AdversaryEffects::outdated_locations, "outdated locations"},
                              {&AdversaryEffects::late_plans, "moves planned too late"},
+                             {&AdversaryEffects::questions, "questions for memory"},
+                             {&AdversaryEffects::answers, "answers"},
                              {&AdversaryEffects::starved, "steps withheld"}};
 
 }  // namespace

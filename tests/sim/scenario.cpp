@@ -7,6 +7,7 @@
 #include <random>
 
 #include "sim/domains.hpp"
+#include "support/rules_over_tree.hpp"
 
 namespace driftmesh::sim {
 namespace {
@@ -65,6 +66,8 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
   s.lopsided = random() % 4 == 0;
   s.mischief = one_of(std::array{Mischief::kNone, Mischief::kNone, Mischief::kRacingHandOffs, Mischief::kLateLocations,
                                  Mischief::kStaleLocations, Mischief::kLateAdvice});
+  s.short_of_memory = seed % 5 == 0;
+  s.arity = testing::arity_for(seed);
   s.crew = random() % 3 == 0 ? 1 + random() % 4 : 0;
   // With first-in-first-out order, a delayed message would block all behind it.
   if (s.mischief != Mischief::kNone && s.mischief != Mischief::kStaleLocations) s.adversary.fifo = false;
@@ -74,13 +77,14 @@ Scenario Scenario::from_seed(std::uint64_t seed, const Choice& choice) {
 std::string Scenario::describe() const {
   const protocol::Adversary& a = adversary;
   return fmt::format(
-      "seed {}: {} in {} subdomains on {} ranks, presplit {}, {} SPLITs a message, slices of {}{}; {}moved by {}{}, {} "
-      "times at most, by chance {} at each step; {}, delay {}{}{}{}{}",
+      "seed {}: {} in {} subdomains on {} ranks, presplit {}, {} SPLITs a message, slices of {}{}; {}moved by {}{}{}, "
+      "{} "
+      "times at most, by chance {} at each step; at most {} ranks below each; {}, delay {}{}{}{}{}",
       seed, domain, subdomains, ranks, presplit ? "on" : "off", aggregation, slice,
       sleep ? ", finished subdomains sleep" : "", crew > 0 ? fmt::format("crews of {}; ", crew) : "", mover,
-      lopsided ? " from a single rank" : "", most_moves, move_chance, a.fifo ? "in order" : "reordered", a.delay,
-      a.starve ? ", a rank starved" : "", a.hold_one ? ", a message held back" : "", a.copy > 0 ? ", copies" : "",
-      words_of(mischief));
+      short_of_memory ? " within memory" : "", lopsided ? " from a single rank" : "", most_moves, move_chance, arity,
+      a.fifo ? "in order" : "reordered", a.delay, a.starve ? ", a rank starved" : "",
+      a.hold_one ? ", a message held back" : "", a.copy > 0 ? ", copies" : "", words_of(mischief));
 }
 
 }  // namespace driftmesh::sim

@@ -102,6 +102,7 @@ TEST_CASE("the schedules are hard, on every domain and number of ranks") {
   CHECK(effects.repeated_locations > at_least);
   CHECK(effects.outdated_locations > at_least);
   CHECK(effects.late_plans > at_least / 20);
+  CHECK(effects.questions > at_least / 20);
   CHECK(effects.starved > at_least);
   CHECK(effects.most_hops > 1);
   CHECK(ranks.contains(1));

@@ -55,6 +55,11 @@ class Witness {
     } else if (is<protocol::SplitBatch>(bytes)) {
       const auto batch = decoded<protocol::SplitBatch>(bytes);
       for (const auto& group : batch.groups) split_sent(group);
+    } else if (is_advice<balancer::Admission>(bytes)) {
+      const auto step =
+          std::get<balancer::Admission>(balancer::decode(rank, decoded<protocol::Advice>(bytes), kLimits));
+      effects_.questions += step.stage == balancer::Admission::Stage::kAsk ? 1 : 0;
+      effects_.answers += step.stage == balancer::Admission::Stage::kAnswer ? 1 : 0;
     }
   }
 

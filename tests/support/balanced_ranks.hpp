@@ -41,7 +41,7 @@ class WorkingRanks {
   template <class Network>
   WorkingRanks(Network& network, const balancer::Layout& layout, const Jobs& jobs, const std::string& policy,
                const balancer::Parameters::Values& parameters, const balancer::ControllerOptions& options, double slice,
-               double given_speed = 0)
+               double given_speed = 0, const IdVector<Rank, double>& memory = {})
       : jobs_(jobs) {
     const auto shared_layout = std::make_shared<const balancer::Layout>(layout);
     PolicyCalled called = policy_called(policy);
@@ -49,12 +49,15 @@ class WorkingRanks {
     const std::shared_ptr<const balancer::Policy> shared_policy = balancer::make_policy(called.name, called.parameters);
     council_ = balancer::make_simulated_council(shared_layout, shared_policy, options);
     for (const Rank r : first_ids<Rank>(layout.ranks)) {
+      WorkingRank::Options own{.slice = slice, .given_speed = given_speed};
+      if (!memory.empty()) own.memory = memory[r];
       ranks_.push_back(std::make_unique<WorkingRank>(network.transport(r), shared_layout, jobs, shared_policy, options,
-                                                     council_.get(), WorkingRank::Options{slice, given_speed}));
+                                                     council_.get(), own));
       steps_.emplace_back([rank = ranks_.back().get()] { return rank->step(); });
     }
   }
   [[nodiscard]] const IdVector<Rank, protocol::RankStep>& steps() const { return steps_; }
+  [[nodiscard]] const WorkingRank& operator[](Rank r) const { return *ranks_[r]; }
 
   /// Determined from the jobs, wherever they are.
   [[nodiscard]] Outcome outcome(protocol::RunEnd end) const {
@@ -79,7 +82,7 @@ class WorkingRanks {
  private:
   const Jobs& jobs_;
   std::unique_ptr<balancer::Council> council_;  // if the policy needs one
-  std::vector<std::unique_ptr<WorkingRank>> ranks_;
+  IdVector<Rank, std::unique_ptr<WorkingRank>> ranks_;
   IdVector<Rank, protocol::RankStep> steps_;
 };
 

@@ -30,8 +30,16 @@ class RandomMessage {
         for (auto n = below(5); n > 0; --n) report.loads.push_back({subdomain(), number(), amount(), random_()});
         return report;
       }
-      case 1:
-        return Plan{number(), moves()};
+      case 1: {
+        Plan plan{number(), moves(), {}};
+        for (auto n = below(5); n > 0; --n) plan.ask.push_back(rank());
+        return plan;
+      }
+      case 5: {
+        Admission step{number(), static_cast<Admission::Stage>(below(3)), {}};
+        for (auto n = below(5); n > 0; --n) step.guests.push_back({subdomain(), amount()});
+        return step;
+      }
       case 2:
         return LoadNews{number(), amount(), amount(), amount(), amount()};
       case 3:
@@ -123,9 +131,9 @@ TEST_CASE("damaged advice is rejected, or decodes to another complete message") 
 }
 
 TEST_CASE("the layout of a plan is little-endian and fixed") {
-  const Advice advice = encode(Plan{0x0a0b0c0d, {{1_sub, 2_rank}}});
+  const Advice advice = encode(Plan{0x0a0b0c0d, {{1_sub, 2_rank}}, {3_rank}});
   CHECK(advice.topic == 1);
-  const std::vector<int> expected{0x0d, 0x0c, 0x0b, 0x0a, 1, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0};
+  const std::vector<int> expected{0x0d, 0x0c, 0x0b, 0x0a, 1, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 3, 0, 0, 0};
   REQUIRE(advice.content.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::to_integer<int>(advice.content[i]) == expected[i]);
 }
@@ -139,14 +147,16 @@ TEST_CASE("errors about advice say what is wrong") {
   CHECK(error_of(encode(LoadReport{1, 0, -1.0, {}})) == "message from rank 5: an amount is negative or not finite");
   CHECK(error_of(encode(LoadNews{1, 1.0, 2.0, -0.5})) == "message from rank 5: an amount is negative or not finite");
   CHECK(error_of(encode(WorkRequest{7_rank, 1, 1.0, 2.0, 0})) == "message from rank 5: rank 7 is outside 0 .. 6");
-  CHECK(error_of(encode(Plan{1, {{100_sub, 1_rank}}})) == "message from rank 5: subdomain 100 is outside 0 .. 99");
+  CHECK(error_of(encode(Plan{1, {{100_sub, 1_rank}}, {}})) == "message from rank 5: subdomain 100 is outside 0 .. 99");
   CHECK(with(JointRound{1, JointRound::Stage::kStart}, 4, 3) == "message from rank 5: choice 3 does not exist");
-  CHECK(error_of({6, {}}) == "message from rank 5: it is advice on the unknown topic 6");
+  CHECK(with(Admission{1, Admission::Stage::kReturn, {}}, 4, 3) == "message from rank 5: choice 3 does not exist");
+  CHECK(error_of(encode(Plan{1, {}, {7_rank}})) == "message from rank 5: rank 7 is outside 0 .. 6");
+  CHECK(error_of({7, {}}) == "message from rank 5: it is advice on the unknown topic 7");
   CHECK(error_of({0, {}}) == "message from rank 5: it ends too early");
 }
 
 TEST_CASE("a length in advice allocates no memory before its bytes are known to exist") {
-  Advice advice = encode(Plan{1, {}});
+  Advice advice = encode(Plan{1, {}, {}});
   for (std::size_t i = 4; i < 8; ++i) advice.content[i] = std::byte{0xff};
-  CHECK(error_of(advice) == "message from rank 5: it announces 4294967295 items, but 0 bytes follow");
+  CHECK(error_of(advice) == "message from rank 5: it announces 4294967295 items, but 4 bytes follow");
 }

@@ -166,7 +166,7 @@ TEST_CASE("work that was finished before it could move is not expected at its de
   knowledge.expect(moves, knowledge.snapshot(1, true), 1, 1);
   CHECK(knowledge.snapshot(1, true).ranks[0_rank].remaining == 2000);
 
-  giver.receive(0_rank, balancer::Plan{1, {{10_sub, 0_rank}, {11_sub, 0_rank}}}, 1.1);
+  giver.receive(0_rank, balancer::Plan{1, {{10_sub, 0_rank}, {11_sub, 0_rank}}, {}}, 1.1);
   const Decision followed = giver.think(1.2, loads_of(6, 10, 1000), 300);
   CHECK(followed.moves == std::vector<Move>{{10_sub, 0_rank}});
   const auto answer = sent<LoadReport>(followed);
@@ -316,7 +316,7 @@ TEST_CASE("a rank without work sends none, whatever the plan") {
     CAPTURE(policy);
     for (const Rank self : first_ids<Rank>(3)) {
       Controller c = controller_of(self, layout, policy);
-      c.receive(2_rank, balancer::Plan{1, {{0_sub, 1_rank}, {4_sub, 2_rank}, {9_sub, 0_rank}}}, 0);
+      c.receive(2_rank, balancer::Plan{1, {{0_sub, 1_rank}, {4_sub, 2_rank}, {9_sub, 0_rank}}, {}}, 0);
       c.receive(2_rank, LoadReport{1, 0, 10, loads_of(8, 11, 1e6)}, 0);
       c.receive(2_rank, balancer::LoadNews{1, 4e6, 3e6, 10}, 0);
       c.receive(2_rank, balancer::WorkRequest{2_rank, 1, 0, 10, 0}, 0);

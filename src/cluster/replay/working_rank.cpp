@@ -91,13 +91,21 @@ void WorkingRank::balance() {
     own.push_back({id, protocol_.where(id).epoch, jobs_.at(id).remaining(), jobs_.at(id).bytes()});
   const balancer::EffortLog planning;
   const double start = std::exchange(assembled_since_, std::nullopt).value_or(transport_.now());
-  auto decision =
-      controller_.think(transport_.now(), own, options_.given_speed > 0 ? options_.given_speed : speed_.value());
+  const double free_memory =
+      options_.memory < balancer::kAmpleMemory ? options_.memory - occupied() : balancer::kAmpleMemory;
+  auto decision = controller_.think(transport_.now(), own,
+                                    options_.given_speed > 0 ? options_.given_speed : speed_.value(), 0, free_memory);
   if (decision.assembles) assembled_since_ = start;
   transport_.spend(balancer::PlanningCosts{}.seconds(planning.efforts()) * options_.planning_speed);
   if (decision.planned) controller_.took(std::max(transport_.now() - start, options_.planning_speed > 0 ? 0 : 1e-3));
   for (auto& message : decision.messages) protocol_.advise(message.destination, balancer::encode(message.message));
   for (const auto& move : decision.moves) hand_over(move);
+}
+
+double WorkingRank::occupied() const {
+  double triangles = 0;
+  for (const auto& [id, job] : jobs_) triangles += std::max(job.done, job.forecast);
+  return triangles;
 }
 
 void WorkingRank::hand_over(const balancer::Move& move) {

@@ -33,8 +33,9 @@ class WorkingRank {
     double done = 0;
   };
   struct Options {
-    double slice = 16384;       ///< triangles
-    double given_speed = 0;     ///< triangles a second, where there is no time to measure one; 0: it is measured
+    double slice = 16384;    ///< triangles
+    double given_speed = 0;  ///< triangles a second, where there is no time to measure one; 0: it is measured
+    double memory = balancer::kAmpleMemory;  ///< triangles that it has memory for
     double planning_speed = 0;  ///< triangles a second of the machine whose planning costs are charged; 0: none are
   };
 
@@ -46,6 +47,8 @@ class WorkingRank {
 
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] const std::map<SubdomainId, CountedWork>& jobs() const { return jobs_; }
+  /// Triangles of its jobs when all are done, by their forecasts.
+  [[nodiscard]] double occupied() const;
   double last_work = 0;  ///< the time when it last had something to do
 
  private:
