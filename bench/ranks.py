@@ -82,6 +82,20 @@ class Bench:
         subprocess.run(list(map(str, command)), check=True, env=ENVIRONMENT)
         return json.loads((self.folder / "runs" / "run-1.json").read_text())
 
+    def coast(self, kind, drag, policy, *settings):
+        """The record of one run on a coast that is graded by the distance to it: uneven subdomains, no presplitting."""
+        ranks = len(drag)
+        experiment = {"input": {"file": str(self.input_of("chesapeake"))}, "bounds": {"angle": 20},
+                      "sizing": {"size": self.options.coast}, "decomposition": {"subdomains": 300, "skew": 0.5},
+                      "run": {"presplit": "off"}, "balance": {"policy": policy}, "pictures": False,
+                      "cluster": {"kind": kind, "ranks": ranks, "drag": drag}}
+        (self.folder / "coast.yaml").write_text(json.dumps(experiment))
+        command = ["mpirun", "--bind-to", "none", "-n", str(ranks)] if kind == "real" else []
+        command += [self.options.program, "run", self.folder / "coast.yaml", "-o", self.folder / "coast", "--quiet",
+                    *(word for setting in settings for word in ("--set", setting))]
+        subprocess.run(list(map(str, command)), check=True, env=ENVIRONMENT)
+        return json.loads((self.folder / "coast" / "run-1.json").read_text())
+
     def take_turns(self, cases):
         """The records of each case, one list per case; cases are functions that make one run."""
         records = [[] for _ in cases]
@@ -267,6 +281,41 @@ def simulator(bench):
                 ["ranks", "drag", "policy", "measured", "with constants", "error", "calibrated", "error"], rows)
 
 
+def work_speed(run):
+    """Triangles per second of work of a rank that computes all the time."""
+    return run["mesh"]["triangles"] / sum(rank["seconds"]["computing"] for rank in run["parts"]["ranks"])
+
+
+def reality(bench):
+    """Predictions for a workload on which nothing was tuned. Between the runs of two, three and four ranks two equal
+    ranks with no policy calibrate the speed of a rank while both cores are busy. Of three and four ranks each gets so
+    small a share of the time that two cores suffice."""
+    drags = ([1, 0.3], [0.6, 0.6, 0.3], [0.4, 0.4, 0.3, 0.2])
+    calibrating = ([1, 1], "none")
+    cases = [case for drag in drags
+             for case in [calibrating, *((drag, policy) for policy in ("none", "stealing", "greedy", "zoltan"))]]
+    measured = bench.take_turns([lambda case=case: bench.coast("real", *case) for case in cases])
+    speed = median([run for case, runs in zip(cases, measured) if case == calibrating for run in runs], work_speed)
+    costs = bench.folder / "costs.yaml"
+    subprocess.run([str(bench.options.program), "calibrate", "-o", str(costs)], check=True, stdout=subprocess.DEVNULL)
+    given = [f"cluster.costs={costs}", f"cluster.speed={speed}"]
+    rows = []
+    for (drag, policy), runs in zip(cases, measured):
+        if (drag, policy) == calibrating:
+            continue
+        model = bench.coast("simulated", drag, policy, *given, f"cluster.ranks-per-host={len(drag)}")
+        real = median(runs, seconds)
+        spread = (max(map(seconds, runs)) - min(map(seconds, runs))) / 2
+        rows.append([len(drag), ", ".join(map(str, drag)), policy, f"{real:.2f} +- {spread:.2f}", f"{seconds(model):.2f}",
+                     f"{seconds(model) / real:.3f}", f"{median(runs, lambda r: total(r, 'hand_offs')):.0f}",
+                     total(model, "hand_offs")])
+    print_table(f"Simulated against real ranks on a coast: size {bench.options.coast}, "
+                f"{measured[0][0]['mesh']['triangles']:,} triangles in 300 uneven subdomains, interfaces not presplit "
+                f"(`reality`); speed of a rank {speed / 1e6:.3f} million triangles/s, measured on two equal ranks between "
+                "the others:", ["ranks", "drag", "policy", "real, s", "simulated, s", "simulated / real", "moved", "simulated"],
+                rows)
+
+
 def machine():
     name = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo", encoding="ascii")
                  if line.startswith("model name")), "unknown processor")
@@ -275,7 +324,7 @@ def machine():
 
 def main():
     suites = {suite.__name__: suite
-              for suite in (models, aggregation, breakdown, balance, size, growth, simulator)}
+              for suite in (models, aggregation, breakdown, balance, size, growth, simulator, reality)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("suite", nargs="*", help=f"{', '.join(suites)}; default: all")
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh")
@@ -287,6 +336,7 @@ def main():
     parser.add_argument("--mapping", default="graph", help="aggregation: round-robin makes every interface a border")
     parser.add_argument("--sizes", type=float, nargs="+", default=[43, 200], help="size: millions of triangles")
     parser.add_argument("--triangles", type=float, default=10e6, help="simulator: approximate number of triangles")
+    parser.add_argument("--coast", default="220 + 0.05*distance()", help="reality: the size, an expression")
     options = parser.parse_args()
     if unknown := set(options.suite) - set(suites):
         parser.error(f"unknown suite {', '.join(sorted(unknown))}")
