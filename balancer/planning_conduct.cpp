@@ -20,12 +20,13 @@ LoadSnapshot between(LoadSnapshot snapshot, Rank self, std::span<const Move> mov
   return snapshot;
 }
 
-/// How many times a rank may be given the same without being asked, if each plans with its partners: twice by each that
-/// may, which are the distant ones and about as many as a rank touches.
+/// How many times a rank may be given the same without being asked, if each plans with its partners: a few times by
+/// each that may, which are the distant ones and about as many as a rank touches.
 double unaware_partners(Rank self, std::int32_t ranks) {
   constexpr std::size_t kTouching = 6;
+  constexpr double kTimes = 4;
   const std::size_t partners = distant_partners(self, ranks).size() + kTouching;
-  return kUnawareGivers * static_cast<double>(std::min(to_index(ranks) - 1, partners));
+  return kTimes * static_cast<double>(std::min(to_index(ranks) - 1, partners));
 }
 
 // False if it is not there.
