@@ -946,7 +946,7 @@ class Experiments(Cli):
 
     def test_late_ranks_begin_without_work_and_get_some(self):
         self.run_config("late-hosts", "bounds.triangles=2e5", "decomposition.subdomains-per-rank=20", "cluster.speed=1e4",
-                        "cluster.scale=790", "cluster.ranks-per-host=4")
+                        "cluster.scale=790")
         rows = self.table()
         for row in rows:
             with self.subTest(policy=row["balance.policy"]):
