@@ -15,8 +15,8 @@
 #include "job/simulated/run_simulated.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
-#include "mesh/interpolate_attributes.hpp"
-#include "pdr/gather_cells.hpp"
+#include "pdr/cell_assembly.hpp"
+#include "pdr/own_cells.hpp"
 #include "pdr/part.hpp"
 #include "pdr/simulated/simulate.hpp"
 #include "pdr/start.hpp"
@@ -82,11 +82,12 @@ BoundedDomain share_domain(const job::Request& request, const job::Use& use, job
   return {std::move(pslg), std::move(bounds)};
 }
 
-Mesh mesh_on_lattice(job::Team& team, const BoundedDomain& domain, RunNotes& notes) {
+DistributedPiece mesh_on_lattice(job::Team& team, const BoundedDomain& domain, RunNotes& notes) {
   const Pslg& pslg = domain.pslg;
   const QualityBounds& bounds = domain.bounds;
   const std::unique_ptr<job::Channel> channel = team.open();
-  Mesh whole;
+  DistributedPiece piece;
+  std::int64_t subsegments = 0;
   job::by_itself(team, [&] {
     ExchangeRunner ranks(channel->transport());
     Triangulation mesh = triangulate(pslg);
@@ -105,12 +106,10 @@ Mesh mesh_on_lattice(job::Team& team, const BoundedDomain& domain, RunNotes& not
     timed(notes, "refine", [&] { ranks.run(refinement); });
     const RankOutcome outcome = outcome_of(*part, computing, refining.seconds());
     timed(notes, "assemble", [&] {
-      pdr::GatherCells gathering(
-          team.rank(), team.ranks(),
-          pdr::own_triangles(part->mesh, pslg, part->refinement.cells(), part->lattice, team.rank()));
-      ranks.run(gathering);
-      whole = std::move(gathering.whole());
-      if (team.leads()) interpolate_attributes(pslg, whole);
+      pdr::CellAssembly assembly(team.rank(), team.ranks(), part->mesh, part->refinement.cells(), part->lattice);
+      ranks.run(assembly);
+      piece = assembly.piece(pslg);
+      subsegments = assembly.total_subsegments();
     });
     pdr::keep_own_triangles(part->mesh, part->refinement.cells(), part->lattice, team.rank());
     job::RankReport report = report_of(*part, bounds, outcome);
@@ -118,9 +117,9 @@ Mesh mesh_on_lattice(job::Team& team, const BoundedDomain& domain, RunNotes& not
     job::gather_reports(team, report, notes.run);
   });
   channel->close();
-  notes.run.vertices = static_cast<std::int64_t>(whole.points.size());
-  notes.run.subsegments = static_cast<std::int64_t>(whole.edges.size());
-  return whole;
+  notes.run.vertices = piece.total_points;
+  notes.run.subsegments = subsegments;
+  return piece;
 }
 
 ClusterRun simulate_on_lattice(const job::Request& request, job::Triangulated&& triangulated, const job::Limits& limits,

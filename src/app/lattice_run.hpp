@@ -2,7 +2,7 @@
 
 #include "app/run_notes.hpp"
 #include "cluster/cluster_run.hpp"
-#include "driftmesh/mesh.hpp"
+#include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/pslg.hpp"
 #include "job/limits.hpp"
 #include "job/record.hpp"
@@ -27,8 +27,8 @@ struct BoundedDomain {
                                          RunNotes& notes);
 
 /// Meshes a domain by partially coupled refinement (src/pdr), the ranks of the team together, and notes what each of
-/// them did. All ranks give the same domain. The mesh is on rank 0. Collective; an error on one rank ends the job.
-[[nodiscard]] Mesh mesh_on_lattice(job::Team& team, const BoundedDomain& domain, RunNotes& notes);
+/// them did. All ranks give the same domain. Returns the rank's piece. Collective; an error on one rank ends the job.
+[[nodiscard]] DistributedPiece mesh_on_lattice(job::Team& team, const BoundedDomain& domain, RunNotes& notes);
 
 /// Makes the mesh of an experiment by partially coupled refinement on its simulated cluster, in virtual time, and adds
 /// what the ranks report to `record`. Throws KeyError if nothing bounds the size of triangles, LimitError if there are

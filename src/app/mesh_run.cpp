@@ -316,6 +316,16 @@ void write_pieces(const Request& request, const DistributedPiece& piece, Exchang
     });
 }
 
+void write_on_team(const Request& request, job::Team& team, const DistributedPiece& piece,
+                   const std::vector<Point>& holes, RunNotes& notes) {
+  const std::unique_ptr<job::Channel> channel = team.open();
+  job::by_itself(team, [&] {
+    ExchangeRunner ranks(channel->transport());
+    write_pieces(request, piece, ranks, holes, notes);
+  });
+  channel->close();
+}
+
 void assemble_and_write(const Request& request, job::Team& team, std::optional<job::RankRun>& run, RunNotes& notes) {
   const std::unique_ptr<job::Channel> channel = team.open();
   job::by_itself(team, [&] {
@@ -346,15 +356,14 @@ void mesh_by_lattice(const Told& told, job::Team& team) {
     register_files(told, team.ranks());
   });
   job::cap_memory(request.limits);
-  const job::Use use{.writes = writes(request.output), .gathers = true};
+  const job::Use use{.in_subdomains = true, .writes = writes(request.output), .gathers = gathers(request.output)};
   const BoundedDomain domain = share_domain(request, use, team, notes);
-  Mesh mesh = mesh_on_lattice(team, domain, notes);
+  const DistributedPiece piece = mesh_on_lattice(team, domain, notes);
   StagedFiles files;
-  job::agree(team, [&] {
-    if (team.leads() && writes(request.output)) write_whole(request, mesh, domain.pslg.holes, notes);
-  });
-  const auto listed = job::staged_by_all(team, files);
-  if (writes(request.output)) notes.note_files(files_written(request, 1), listed);
+  if (writes(request.output)) {
+    write_on_team(request, team, piece, domain.pslg.holes, notes);
+    notes.note_files(files_written(request, team.ranks()), job::staged_by_all(team, files));
+  }
   finish(team, files, notes);
 }
 

@@ -205,13 +205,9 @@ void PieceBuilder::set_attributes(const Pslg& pslg) {
   const AttributeField field(pslg);
   piece.attributes.resize(piece.points.size() * width);
   for (std::size_t v = 0; v < piece.points.size(); ++v) {
-    const std::span values = std::span(piece.attributes).subspan(v * width, width);
     const auto place = static_cast<Place>(v);
     const VertexOrigin origin = corners_.has(place) ? decomposition_.origin[corners_[place]] : kFree;
-    if (is_input(origin))
-      std::copy_n(pslg.attributes.begin() + static_cast<std::ptrdiff_t>(origin * width), width, values.begin());
-    else
-      field.evaluate(piece.points[v], values);
+    field.evaluate(origin, piece.points[v], std::span(piece.attributes).subspan(v * width, width));
   }
 }
 

@@ -137,9 +137,6 @@ void check_pdr(const Request& request, Place place) {
   require(request.run.threads <= 1 && !request.run.sleep && request.run.scratch.empty(), "run.method",
           "is pdr, whose ranks have one thread and one mesh in memory",
           "remove run.threads, run.sleep and run.scratch");
-  const auto whole = [](const std::string& mesh) { return !mesh.ends_with(".pvtu") && !mesh.ends_with(".pmesh"); };
-  require(std::ranges::all_of(request.output.meshes, whole), "output.meshes",
-          "asks for pieces, but pdr gathers the mesh", "write one file");
 }
 
 void check_output(const Request::Output& output) {

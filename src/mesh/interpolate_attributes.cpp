@@ -37,6 +37,11 @@ void AttributeField::evaluate(const Point& p, std::span<double> values) const {
   }
 }
 
+void AttributeField::evaluate(VertexOrigin origin, const Point& p, std::span<double> values) const {
+  if (!is_input(origin)) return evaluate(p, values);
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = pslg_.attributes[origin * values.size() + k];
+}
+
 void interpolate_attributes(const Pslg& pslg, Mesh& piece) {
   if (pslg.attributes_per_point == 0) return;
   const std::size_t width = pslg.attributes_per_point;

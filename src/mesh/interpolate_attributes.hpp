@@ -18,6 +18,8 @@ class AttributeField {
   explicit AttributeField(const Pslg& pslg);
   /// Sets the attributes_per_point values at `p`. They depend on the input and `p` alone.
   void evaluate(const Point& p, std::span<double> values) const;
+  /// Those of a point of the mesh: what the input gives its own points, and evaluate() all others.
+  void evaluate(VertexOrigin origin, const Point& p, std::span<double> values) const;
   /// The number of points of the input that its triangulation uses.
   [[nodiscard]] std::size_t used_points() const { return used_points_; }
 

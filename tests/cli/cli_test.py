@@ -730,7 +730,8 @@ class Mesh(Cli):
 
     def test_partially_coupled_refinement_makes_one_mesh_on_any_number_of_ranks(self):
         self.succeed("generate", "pipe", "-o", "pipe.poly")
-        mesh = ["mesh", "pipe.poly", "--triangles", "5e4", "--method", "pdr", "--json", "run.json", "-o", "pipe.vtu"]
+        mesh = ["mesh", "pipe.poly", "--triangles", "5e4", "--method", "pdr", "--json", "run.json", "-o", "pipe.vtu",
+                "-o", "pieces.pvtu"]
         for ranks in 1, 2, 4:
             result = self.on_ranks(ranks, *mesh)
             self.assertEqual(result.returncode, 0, result.stderr)
@@ -738,7 +739,12 @@ class Mesh(Cli):
             self.assertEqual(len(run["parts"]["ranks"]), ranks)
             self.assertEqual(sum(r["triangles"] for r in run["parts"]["ranks"]), run["mesh"]["triangles"])
             self.assertEqual(sum(r["splits_sent"] for r in run["parts"]["ranks"]) > 0, ranks > 1)
-            self.succeed("check", "pipe.vtu", "pipe.poly", "--angle", "20", "--area", str(run["mesh"]["largest_area"]))
+            self.assertEqual(len(list(self.folder.glob("pieces_*.vtu"))), ranks)
+            area = str(run["mesh"]["largest_area"])
+            for file in "pipe.vtu", "pieces.pvtu":
+                checked = self.succeed("check", file, "pipe.poly", "--angle", "20", "--area", area)
+                self.assertIn(f"{run['mesh']['vertices']:,}", checked)
+            self.assertRegex(checked, "subdomains +1, 0 interfaces")  # Delaunay between ranks, too
         for options in (["--size", "0.1"], ["-n", "8"], ["--balance", "greedy"], ["--threads", "2"]):
             with self.subTest(options=options):
                 self.assertEqual(self.on_ranks(2, *mesh, *options).returncode, 2)

@@ -6,7 +6,7 @@
 #include "cluster/simulated/virtual_cluster.hpp"
 #include "distributed/observed_exchange.hpp"
 #include "driftmesh/error.hpp"
-#include "pdr/gather_cells.hpp"
+#include "pdr/own_cells.hpp"
 #include "pdr/start.hpp"
 #include "protocol/transport_layer.hpp"
 #include "protocol/virtual_network.hpp"
