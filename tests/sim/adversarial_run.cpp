@@ -49,6 +49,7 @@ Outcome AdversarialRun::run() {
   const std::vector<const Subdomain*> all = subdomains_awake();
   const auto problems = testing::conformity_problems(plan_.decomposition, all);
   say("both sides of each edge hold the same points", problems.empty() ? "" : problems.front());
+  say("points on interfaces are announced once or twice", announcements(all));
   say("the verifier accepts the mesh", verdict_on_mesh(domain_, plan_.decomposition, all));
   compare_digest(all);
   return std::move(outcome_);
@@ -238,6 +239,25 @@ std::string AdversarialRun::lost_messages() const {
   if (c.hand_offs != c.arrivals)
     return std::to_string(c.hand_offs) + " subdomains were given away, " + std::to_string(c.arrivals) + " arrived";
   return {};
+}
+
+/// A side announces each point that it makes, and no other, so a point is announced by one side or both.
+std::string AdversarialRun::announcements(const std::vector<const Subdomain*>& all) const {
+  if (scenario_.presplit) return {};  // there are points that both sides know from the start
+  std::int64_t points = 0, announced = 0;
+  for (const Subdomain* s : all) {
+    const SubdomainMesh& part = s->mesh();
+    for (const Subsegment& segment : part.mesh.subsegments) {
+      const Decomposition::Root& root = plan_.decomposition.roots[part.roots[segment.root]];
+      const bool interface = root.right != kNoSubdomain && root.right != root.left;
+      points += !segment.is_leaf() && interface && root.left == s->id() ? 1 : 0;
+    }
+  }
+  for (const auto& loop : loops_) announced += loop->interface_splits();
+  const std::int64_t sent = outcome_.counters.splits_sent;
+  if (points <= announced && announced <= 2 * points && sent <= announced) return {};
+  return std::to_string(points) + " points, " + std::to_string(announced) + " announced, " + std::to_string(sent) +
+         " sent";
 }
 
 std::string AdversarialRun::owners_at_the_end() const {

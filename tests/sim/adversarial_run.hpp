@@ -89,6 +89,7 @@ class AdversarialRun {
   [[nodiscard]] bool work_anywhere();
   void count();
   [[nodiscard]] std::string lost_messages() const;
+  [[nodiscard]] std::string announcements(const std::vector<const Subdomain*>& all) const;
   [[nodiscard]] std::string owners_at_the_end() const;
   void compare_digest(const std::vector<const Subdomain*>& all);
   /// All subdomains; awake copies of those that sleep.
