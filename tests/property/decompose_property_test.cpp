@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <random>
 #include <string>
 #include <utility>
@@ -122,7 +124,103 @@ Archipelago make_archipelago(std::uint64_t seed) {
   return result;
 }
 
+/// A square with holes that are regular polygons: no corner of the domain is sharper than 90 degrees.
+Pslg square_with_holes(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  Pslg pslg;
+  const auto add_ring = [&](const Point& center, double radius, double turn, std::int32_t corners) {
+    const auto first = static_cast<std::int32_t>(pslg.points.size());
+    for (std::int32_t i = 0; i < corners; ++i) {
+      const double angle = turn + 2 * std::numbers::pi * i / corners;
+      pslg.points.push_back({center.x + radius * std::cos(angle), center.y + radius * std::sin(angle)});
+      pslg.segments.push_back({first + i, first + (i + 1) % corners, 1});
+    }
+  };
+  add_ring({0, 0}, 3, std::numbers::pi / 4, 4);
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0}) {
+      if (random() % 4 == 0) continue;
+      const Point center{x + 0.3 * unit(random), y + 0.3 * unit(random)};
+      add_ring(center, 0.05 + 0.5 * unit(random), 6 * unit(random), static_cast<std::int32_t>(3 + random() % 6));
+      pslg.holes.push_back(center);
+    }
+  return pslg;
+}
+
+/// What the theorem of docs/theory.md says of a decomposition for one angle bound, without a bound on area.
+struct Distances {
+  double subsegment = 0;  ///< the shortest, at least
+  double vertices = 0;    ///< that see each other
+  bool holds = false;
+};
+
+double distance_to(const Point& p, const Point& a, const Point& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double t = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+  return std::hypot(a.x + t * dx - p.x, a.y + t * dy - p.y);
+}
+
+Distances distances_of(const Decomposition& d, double min_angle) {
+  double feature = std::numeric_limits<double>::infinity(), cosine = 0;
+  const auto at = [&](GlobalPointId v) { return d.points[v]; };
+  for (const Decomposition::Root& r : d.roots) {
+    for (const GlobalPointId v : ids_of(d.points))
+      if (v != r.a && v != r.b) feature = std::min(feature, distance_to(at(v), at(r.a), at(r.b)));
+    for (const Decomposition::Root& s : d.roots)
+      for (const auto& [apex, one] : {std::pair(r.a, r.b), std::pair(r.b, r.a)})
+        for (const auto& [other_apex, other] : {std::pair(s.a, s.b), std::pair(s.b, s.a)}) {
+          if (apex != other_apex || one == other) continue;
+          const double ux = at(one).x - at(apex).x, uy = at(one).y - at(apex).y;
+          const double vx = at(other).x - at(apex).x, vy = at(other).y - at(apex).y;
+          cosine = std::max(cosine, (ux * vx + uy * vy) / std::hypot(ux, uy) / std::hypot(vx, vy));
+        }
+  }
+  const double c = cosine > 0.5 ? 1 / (2 * cosine) : 1, ratio = 1 / (2 * std::sin(min_angle * std::numbers::pi / 180));
+  const double length = std::sqrt(0.75) * feature;
+  return {length, c * length, std::sqrt(0.75) * ratio * c >= 1};
+}
+
 }  // namespace
+
+TEST_CASE("no two vertices come nearer to each other than the theorem says") {
+  double nearest = std::numeric_limits<double>::infinity();
+  std::size_t exchanged = 0, subsegments = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::case_count(60)); ++seed) {
+    CAPTURE(seed);
+    const Triangulation mesh = prepared(square_with_holes(seed));
+    DecomposeOptions options;
+    options.subdomains = static_cast<std::int32_t>(2 + seed % 19);
+    const Decomposition d = decompose(mesh, options);
+    QualityBounds bounds;
+    bounds.min_angle = seed % 2 == 0 ? 20 : 25;
+    const Distances least = distances_of(d, bounds.min_angle);
+    REQUIRE(least.holds);
+    const auto refined = testing::refine_together(d, bounds);
+    exchanged += refined.exchanged;
+    for (const SubdomainMesh& part : refined.parts) {
+      const auto length = [&](VertexId u, VertexId v) {
+        return std::hypot(part.mesh.points[u].x - part.mesh.points[v].x, part.mesh.points[u].y - part.mesh.points[v].y);
+      };
+      for (const Subsegment& s : part.mesh.subsegments) {
+        if (!s.is_leaf()) continue;
+        REQUIRE(length(s.vertex[0], s.vertex[1]) >= least.subsegment * (1 - 1e-9));
+        ++subsegments;
+      }
+      for (const Triangle& t : part.mesh.triangles)  // the nearest two that see each other are joined
+        for (std::size_t i = 0; i < 3 && t.alive(); ++i) {
+          const double edge = length(t.vertex[i], t.vertex[(i + 1) % 3]);
+          REQUIRE(edge >= least.vertices * (1 - 1e-9));
+          const bool added = !part.points.has(t.vertex[i]) || !part.points.has(t.vertex[(i + 1) % 3]);
+          if (added) nearest = std::min(nearest, edge / least.vertices);
+        }
+    }
+  }
+  MESSAGE(subsegments << " subsegments, " << exchanged << " split points exchanged; an added vertex is at " << nearest
+                      << " times the distance from another one");
+  CHECK(exchanged > 0);
+  CHECK(nearest < 2);  // else the bound would mean little
+}
 
 TEST_CASE("domains of many parts are cut into any number of subdomains") {
   std::size_t shared = 0;
