@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the tables and figures of the paper (PCDM, TOMS Algorithm 872) and sets them beside the published ones (docs/paper.md):
-# FOLDER/paper.md with all tables, each as .csv, too; pictures of each run; report-*.html. Builds driftmesh unless given.
+# FOLDER/paper.html and paper.md with all tables, each as .csv, too; pictures of each run; report-*.html. Builds driftmesh unless given.
 #   scripts/paper.sh [--small] [--program DRIFTMESH] [FOLDER]    (default: paper/ in the project; --small: tiny, for tests)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
@@ -87,4 +87,4 @@ say "This machine"
 if [[ $small == yes ]]; then work=(1e5 1) caution=(small); else work=(2e6 3) caution=(); fi
 python3 "$project_root/scripts/paper/measure.py" "$program" "$folder" "${work[@]}"
 python3 "$project_root/scripts/paper/compare.py" "$folder" "${caution[@]}"
-say "Done: $folder/paper.md"
+say "Done: $folder/paper.html, $folder/paper.md"

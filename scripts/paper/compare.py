@@ -4,7 +4,7 @@
 usage: compare.py FOLDER [small]
 
 Reads FOLDER/table-1, FOLDER/fig-7, ... and FOLDER/measured.json. Writes each table as .md and .csv, fig-7.svg, fig-10.svg,
-fig-10-modern.svg, and paper.md with all tables.
+fig-10-modern.svg, and paper.md and paper.html with all tables.
 """
 
 import json
@@ -13,6 +13,7 @@ import statistics
 import sys
 
 import chart
+import page
 import published
 from runs import read_runs
 from table import Table
@@ -75,16 +76,20 @@ def table_1(folder, costs):
                    "at 144"],
                   "Simulated on the paper's cluster, with its T_s: what rank 0 does before was measured here, and multiplied by "
                   f"{published.SLOWNESS:.1f}, as a rank there is slower. T_P is refinement to the end; the paper's contains "
-                  "reading and broadcasting, too.")
+                  "reading and broadcasting, too. The last row of a model is the run of 144 ranks with the published speed of "
+                  "each and its share of the work, the other two have means of three kinds of ranks.")
     runs = {(run.model, run.ranks): run for run in read_runs(folder / "table-1")}
     for model, paper in published.TABLE_1.items():
         def row(name, decomposition, triangulation, times):
-            efficiency = [scaled_speedup(n, paper["serial"], decomposition + triangulation, t) / n for n, t in times.items()]
+            before = decomposition + triangulation
+            efficiency = {n: scaled_speedup(n, paper["serial"], before, t) / n for n, t in times.items()}
             table.add(model, name, paper["serial"], f"{decomposition:.2f}", f"{triangulation:.2f}",
-                      *(f"{t:.1f}" for t in times.values()), *(f"{e:.2f}" for e in efficiency))
+                      *(f"{found[n]:.{digits}f}" if n in found else "" for found, digits in ((times, 1), (efficiency, 2))
+                        for n in paper["ranks"]))
         row("published", paper["decomposition"], paper["triangulation"], paper["ranks"])
         ours = {n: runs[model, n] for n in paper["ranks"] if (model, n) in runs}
         row("driftmesh", *costs.before_ranks(model), {n: run.seconds * run.scale() for n, run in ours.items()})
+        row("rank by rank", *costs.before_ranks(model), {144: unbalanced(folder, published.MODELS[model]).seconds})
     return table
 
 
@@ -246,6 +251,11 @@ def figure_11(folder):
     return table
 
 
+def unbalanced(folder, name):
+    """The published run of 144 ranks, each with its speed and share of the work, without balancing."""
+    return next(run for run in read_runs(folder / f"published-{name}") if run.value("balance.policy") == "none")
+
+
 def replayed(folder):
     table = Table("replay", "The published runs on 144 ranks with a balancer",
                   ["run", "policy", "seconds", "recovered of what balance could save", "of the whole published time", "possible",
@@ -254,7 +264,7 @@ def replayed(folder):
                   "and planning is charged.")
     for model, name in published.MODELS.items():
         runs = read_runs(folder / f"published-{name}")
-        none = next(run for run in runs if run.value("balance.policy") == "none")
+        none = unbalanced(folder, name)
         whole = published.FIGURE_10[model][144]
         actual, _ = published.REFINEMENT_144[model]
         for run in runs:
@@ -274,6 +284,7 @@ def main():
     for table in tables:
         table.write(folder)
     caution = "Made with --small, where fixed costs prevail: the figures say nothing.\n\n" if "small" in sys.argv[2:] else ""
+    page.write(folder, caution, tables)
     text = "\n".join(table.markdown() for table in tables)
     (folder / "paper.md").write_text(f"# The paper and driftmesh\n\n{caution}{text}")
 

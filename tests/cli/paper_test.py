@@ -6,6 +6,7 @@ usage: paper_test.py PAPER.SH DRIFTMESH [unittest options]
 
 import csv
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -43,6 +44,11 @@ class Paper(Cli):
         self.assertIn("--small", text)
         for name in ("table-1", "table-1-real", "table-2", "table-3", "table-3-real", "fig-7", "fig-10", "fig-10-modern", "fig-11", "replay"):
             self.assertIn((self.folder / "paper" / f"{name}.md").read_text(), text)
+        page = (self.folder / "paper" / "paper.html").read_text()
+        self.assertEqual((page.count("<table>"), page.count("<svg ")), (10, 3))
+        self.assertIn('<td class="published">0.606</td>', page)
+        for link in re.findall(r'href="([^"#]+)"', page):
+            self.assertTrue((self.folder / "paper" / link).exists(), link)
         for name in ("fig-7", "fig-10", "fig-10-modern"):
             self.assertTrue((self.folder / "paper" / f"{name}.svg").read_text().endswith("</svg>\n"))
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "decompose/bridges.hpp"
@@ -57,9 +58,9 @@ TEST_CASE("a triangle with equal sides is cut from its middle to the middle of e
 
 TEST_CASE("a fork keeps the angle, at its center and at the border") {
   const std::vector<Point> corners = {{0, 0}, {3, 0}, {3.2, 1}, {1, 1.6}, {-0.3, 0.8}};
-  for (const double least : {30.0, 61.2, 80.0}) {
+  for (const auto& [least, at_border] : {std::pair(30.0, 30.0), std::pair(61.2, 61.2), std::pair(118.0, 40.0)}) {
     CAPTURE(least);
-    const std::optional<Fork> fork = find_fork(outline_of(corners, 0.1, least * kDegree), least * kDegree);
+    const std::optional<Fork> fork = find_fork(outline_of(corners, 0.1, at_border * kDegree), least * kDegree);
     REQUIRE(fork);
     for (std::size_t k = 0; k < 3; ++k) {
       const Outline::Station &end = fork->ends[k], &next = fork->ends[(k + 1) % 3];
