@@ -59,6 +59,11 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME driftmesh)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS openmpi-bin)
+if(DRIFTMESH_HAS_GDAL)  # is loaded only when a file needs it
+  string(REPLACE ".so." "" gdal_package "${gdal_soname}")
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS ${gdal_package})
+  set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS ${gdal_package})
+endif()
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Makes, checks, converts and draws triangle meshes.
  Quality bounds on angles and areas, on one core or with mpirun on many ranks,
  between which subdomains move while they are refined.")

@@ -92,8 +92,11 @@ void add_functions(py::module_& module) {
   module.def(
       "holds_input", [](const Path& path) { return holds_input(path.string()); }, py::arg("path"));
   module.def(
-      "read_input", [](const Path& path) { return read_input(path.string()).pslg; }, py::arg("path"), Unlocked(),
-      "read_input(path) -> Pslg\n\nRead a domain: GeoJSON (projected to meters), Triangle's .poly, or the points of a "
+      "read_input", [](const Path& path, const std::string& layers) { return read_input(path.string(), layers).pslg; },
+      py::arg("path"), py::arg("layers") = "", Unlocked(),
+      "read_input(path, layers='') -> Pslg\n\nRead a domain: GeoJSON, a shapefile or another file that GDAL reads, of "
+      "which\nlayers may name some with commas between them (projected to meters), Triangle's .poly, or the points of "
+      "a "
       ".node. "
       "Raises InputError with file and line.");
   module.def(

@@ -20,16 +20,20 @@ namespace driftmesh {
 /// A domain from a file.
 struct InputFile {
   Pslg pslg;
-  std::string projection;  ///< of coordinates that the file has in degrees, "UTM zone 18N"; empty: as they are
+  /// "UTM zone 18N": of coordinates that the file has in degrees, or that it names. Empty: it is not known, and
+  /// coordinates are those of the file.
+  std::string projection;
 };
 
-/// Reads a domain: GeoJSON (.geojson, .json), or what read_poly reads. Polygons of GeoJSON are the domain and their
-/// holes are holes; lines and points are constraints; properties have markers and regions (docs/file-formats.md).
-/// Longitudes and latitudes become meters in the UTM zone of their middle. Errors: as read_poly.
-[[nodiscard]] InputFile read_input(const std::string& path);
+/// Reads a domain: GeoJSON (.geojson, .json), by GDAL shapefiles and others that GIS have (.shp, .gpkg, .fgb, .gml,
+/// .kml, .gmt), or what read_poly reads. Polygons of GeoJSON and its like are the domain and their holes are holes;
+/// lines and points are constraints; properties have markers and regions (docs/file-formats.md). Longitudes and
+/// latitudes become meters in the UTM zone of their middle. `layers`: of a file that has several, names with commas
+/// between them. Errors: as read_poly.
+[[nodiscard]] InputFile read_input(const std::string& path, const std::string& layers = "");
 
-/// Whether the file at `path` is read as an input, by read_input, and not as a mesh: GeoJSON, a .poly, or a .node
-/// without an .ele next to it.
+/// Whether the file at `path` is read as an input, by read_input, and not as a mesh: GeoJSON and its like, a .poly, or
+/// a .node without an .ele next to it.
 [[nodiscard]] bool holds_input(const std::string& path);
 
 /// Writes `pslg` as .poly, numbered from pslg.first_number. Numbers are the shortest that read back to the

@@ -24,6 +24,7 @@
 #include "job/check.hpp"
 #include "job/domain.hpp"
 #include "job/memory.hpp"
+#include "job/rasters.hpp"
 #include "mesh/digest.hpp"
 #include "sizing/field_of_threads.hpp"
 #include "verify/report_text.hpp"
@@ -46,10 +47,10 @@ struct CheckOptions {
   ReadOptions reading;
 };
 
-std::optional<Pslg> read_and_repair(const CheckOptions& options, const job::Request::Input& asked) {
+std::optional<InputFile> read_and_repair(const CheckOptions& options, const job::Request::Input& asked) {
   if (options.input.empty()) return std::nullopt;
-  Pslg input = read_input(options.input).pslg;
-  const RepairReport repairs = job::clean_input(asked, options.input, input);
+  InputFile input = read_input(options.input, asked.layers);
+  const RepairReport repairs = job::clean_input(asked, options.input, input.pslg);
   if (!options.quiet) print(repairs.summary());
   return input;
 }
@@ -115,17 +116,23 @@ std::unique_ptr<const SizeField> size_for_threads(const SizingOptions& sizes, st
 
 VerifyReport read_and_verify(CheckOptions& options, const job::Request& request) {
   CheckedMesh mesh(options.mesh, options.reading);
-  const std::optional<Pslg> input = read_and_repair(options, request.input);
+  const std::optional<InputFile> file = read_and_repair(options, request.input);
+  const Pslg* const input = file ? &file->pslg : nullptr;
   const bool sized =
       !request.sizing.expression.empty() || !request.sizing.background.empty() || request.sizing.longest > 0;
-  SizingOptions sizes = job::sizing_of(request.sizing, input ? job::box_of(*input) : sized ? mesh.box() : Box{});
-  sizes.input = input ? &*input : nullptr;
+  SizingOptions sizes = job::sizing_of(request.sizing, input != nullptr ? job::box_of(*input)
+                                                       : sized          ? mesh.box()
+                                                                        : Box{});
+  sizes.input = input;
+  job::Rasters rasters = job::rasters_of(request, file ? file->projection : "");
+  open_all(rasters, sizes.domain, {});
+  sizes.rasters = std::move(rasters.open);
   options.verify.threads = options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   options.size = size_for_threads(sizes, options.verify.threads);
   options.verify.size = options.size.get();
   // Lengths whose growth is limited cannot fall much between the points that are looked up anyway.
   if (!request.sizing.expression.empty() && request.sizing.gradation == 0) options.verify.size_spacing = sizes.spacing;
-  VerifyReport report = mesh.verify(input ? &*input : nullptr, options.verify);
+  VerifyReport report = mesh.verify(input, options.verify);
   if (!options.quiet) print(fmt::format("digest         {:016x}\n", mesh.digest()));
   return report;
 }
@@ -174,7 +181,7 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
       {.kind = cli::Option::Kind::kPositional,
        .name = "input",
        .value = "INPUT",
-       .help = "The .poly that the mesh was made from; if given, the mesh must cover its domain and contain its "
+       .help = "The input that the mesh was made from; if given, the mesh must cover its domain and contain its "
                "segments, markers, points and regions",
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(options.input)},

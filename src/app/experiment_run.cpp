@@ -65,8 +65,14 @@ void end_preparation(ExperimentRun& run, const Stopwatch& since, job::Watch& wat
 void run_real(ExperimentRun& run, RealCluster& cluster, job::Prepared&& prepared, job::Domain&& domain,
               job::Watch& watch) {
   run.plan = prepared.plan;
-  run.outcome = cluster.run({std::move(prepared.plan), std::move(domain.pslg), run.request.sizing, run.request.limits,
-                             run.speeds, use_of(run.request)},
+  run.outcome = cluster.run({std::move(prepared.plan),
+                             std::move(domain.pslg),
+                             run.request.sizing,
+                             run.request.limits,
+                             run.speeds,
+                             use_of(run.request),
+                             {},
+                             std::move(domain.rasters)},
                             run.record, watch);
   run.speeds = measured_speeds(run.outcome, run.speeds);
 }

@@ -133,9 +133,10 @@ void write_whole(const Request& request, Mesh& mesh, const std::vector<Point>& h
 // ---- In one piece ----------------------------------------------------------------------------------------------
 
 // By value, so that its memory is free before the mesh is written.
-Mesh converted(Triangulation mesh, const Pslg& pslg) {  // NOLINT(performance-unnecessary-value-param)
-  Mesh piece = to_piece(mesh, pslg);
-  interpolate_attributes(pslg, piece);
+Mesh converted(Triangulation mesh, const job::Domain& domain) {  // NOLINT(performance-unnecessary-value-param)
+  Mesh piece = to_piece(mesh, domain.pslg);
+  interpolate_attributes(domain.pslg, piece);
+  job::set_depths(domain.rasters, piece);
   return piece;
 }
 
@@ -150,7 +151,7 @@ int mesh_in_one_piece(const Told& told, const job::Domain& domain, job::Triangul
   const bool keep = request.limits.keep_incomplete;
   StagedFiles files;
   if (writes(request.output) && (made.result.complete || keep)) {
-    Mesh mesh = timed(notes, "convert", [&] { return converted(std::move(made.result.mesh), domain.pslg); });
+    Mesh mesh = timed(notes, "convert", [&] { return converted(std::move(made.result.mesh), domain); });
     const bool numbered = std::ranges::any_of(request.output.meshes, is_in_pieces);
     DistributedPiece piece = as_piece(std::move(mesh), numbered);
     if (numbered)
@@ -212,8 +213,8 @@ job::Order order_of(const Request& request, job::Domain&& domain, const job::Tri
   check_capacity(request, prepared, use, processes);
   prepared.plan.work.sleep = use.sleeps;
   job::add_prepared(notes.run, prepared);
-  return {std::move(prepared.plan), std::move(domain.pslg), request.sizing, request.limits, shares, use,
-          request.run.scratch};
+  return {std::move(prepared.plan), std::move(domain.pslg),   request.sizing, request.limits, shares, use,
+          request.run.scratch,      std::move(domain.rasters)};
 }
 
 // ---- By threads ------------------------------------------------------------------------------------------------

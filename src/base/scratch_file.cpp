@@ -12,7 +12,6 @@
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
-namespace {
 
 /// Where the file system does not know files without names, one is created and unlinked at once.
 int open_without_name(const std::string& folder) {
@@ -26,8 +25,6 @@ int open_without_name(const std::string& folder) {
   if (named >= 0) ::unlink(name.c_str());
   return named;
 }
-
-}  // namespace
 
 ScratchFile::ScratchFile(std::string folder) : folder_(std::move(folder)), file_(open_without_name(folder_)) {
   if (file_ < 0) fail("cannot keep scratch data in this folder");

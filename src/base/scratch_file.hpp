@@ -9,6 +9,9 @@
 
 namespace driftmesh {
 
+/// Opens a file without a name in a folder, for reading and writing; -1 if that fails, with the reason in errno.
+[[nodiscard]] int open_without_name(const std::string& folder);
+
 /// Room on disk for what memory shall not hold. The file has no name, so the system removes it when the process ends,
 /// however that happens. Bytes are only ever appended; where some are no longer needed, a hole is punched, which gives
 /// the room back to the file system if it knows holes. Errors: FileError. Threads may use it at the same time.

@@ -100,7 +100,8 @@ class Values {
 
   [[nodiscard]] Value value(const KeyPath& path, const YAML::Node& node) const {
     if (path.entry.empty()) return value(*path.key, node);
-    return text(path.key->name + "." + path.entry, node);
+    const std::string own = text(path.key->name + "." + path.entry, node);
+    return job::names_file(*path.key, own) ? origin_.resolved(own) : own;
   }
 
  private:
@@ -128,7 +129,8 @@ class Values {
     Table table;
     for (const auto& entry : node) {
       const std::string name = text(key, entry.first);
-      if (!table.emplace(name, text(key.name + "." + name, entry.second)).second)
+      const std::string own = text(key.name + "." + name, entry.second);
+      if (!table.emplace(name, job::names_file(key, own) ? origin_.resolved(own) : own).second)
         fail(key.name, entry.first, "has '" + name + "' twice", "remove one of them");
     }
     return table;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "base/standard_streams.hpp"
 #include "config/value_json.hpp"
@@ -97,7 +98,7 @@ Json schema_of(const KeyInfo& key) {
 std::string values_words(const KeyInfo& key) {
   static constexpr const char* kWords[] = {"text",       "file", "file",  "files", "number", "whole number",
                                            "true/false", "",     "table", "list",  "numbers"};
-  std::string words = kWords[static_cast<int>(key.kind)];
+  std::string words = key.of_files ? "table of files" : kWords[static_cast<int>(key.kind)];
   for (const std::string& choice : key.choices) words += (words.empty() ? "" : ", ") + choice;
   if (!key.or_file.empty()) words += ", or a file " + key.or_file;
   if (std::isfinite(key.least)) words += (key.above ? " above " : " from ") + job::shortest_text(key.least);
@@ -112,9 +113,16 @@ std::string row(const std::string& name, const KeyInfo& key) {
 
 /// The value in a form that does not depend on the folder of the file it is written to.
 Value from_anywhere(const KeyInfo& key, const Value& value) {
-  const auto* const text = std::get_if<std::string>(&value);
-  if (text == nullptr || !job::names_file(key, *text) || is_standard_stream(*text)) return value;
-  return std::filesystem::absolute(*text).string();
+  const auto absolute = [&](const std::string& text) {
+    const bool moves = job::names_file(key, text) && !is_standard_stream(text);
+    return moves ? std::filesystem::absolute(text).string() : text;
+  };
+  if (const auto* const text = std::get_if<std::string>(&value)) return absolute(*text);
+  const auto* const table = std::get_if<std::map<std::string, std::string>>(&value);
+  if (table == nullptr) return value;
+  std::map<std::string, std::string> moved;
+  for (const auto& [name, text] : *table) moved[name] = absolute(text);
+  return moved;
 }
 
 bool in_experiments(const KeyInfo& key) {

@@ -1,12 +1,14 @@
 #include "geojson/geojson.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "driftmesh/error.hpp"
+#include "gis/transverse_mercator.hpp"
 
 namespace driftmesh {
 namespace {
@@ -33,7 +35,7 @@ class FeatureReader {
   explicit FeatureReader(const std::string& file) : file_(file) {}
 
   GeoFeatures read(const Json& root) {
-    found_.in_degrees = is_in_degrees(root);
+    read_system(root);
     const std::string type = type_of(root);
     if (type == "FeatureCollection")
       for (const Json& feature : array_in(root, "features")) read_feature(feature);
@@ -52,11 +54,16 @@ class FeatureReader {
   }
 
   /// GeoJSON of 2008 could name another system; names of the default one vary.
-  static bool is_in_degrees(const Json& root) {
+  void read_system(const Json& root) {
     const auto name = Json::json_pointer("/crs/properties/name");
-    if (!root.is_object() || !root.contains(name) || !root[name].is_string()) return true;
+    if (!root.is_object() || !root.contains(name) || !root[name].is_string()) return;
     const auto& text = root[name].get_ref<const std::string&>();
-    return text.find("CRS84") != std::string::npos || text.ends_with(":4326");
+    found_.in_degrees = text.find("CRS84") != std::string::npos || text.ends_with(":4326");
+    int code = 0;
+    const std::size_t colon = text.rfind(':');
+    if (text.find("EPSG") == std::string::npos || colon == std::string::npos) return;
+    std::from_chars(text.data() + colon + 1, text.data() + text.size(), code);
+    if (const auto zone = utm_zone_of_epsg(code)) found_.projection = zone->name();
   }
 
   [[nodiscard]] std::string type_of(const Json& object) const {

@@ -8,8 +8,8 @@
 
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
-#include "geojson/transverse_mercator.hpp"
 #include "geometry/box.hpp"
+#include "gis/transverse_mercator.hpp"
 
 namespace driftmesh {
 namespace {

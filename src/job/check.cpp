@@ -11,6 +11,7 @@
 #include "job/domain.hpp"
 #include "job/keys.hpp"
 #include "pslg/generators.hpp"
+#include "sizing/named_raster.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -66,6 +67,20 @@ void check_input(const Request::Input& input) {
     throw KeyError("input.generate", std::string("is invalid: ") + error.what(),
                    "driftmesh generate --help lists the models and their parameters");
   }
+}
+
+void check_rasters(const Request& request) {
+  for (const auto& [name, file] : request.input.rasters) {
+    if (!can_name_raster(name))
+      throw KeyError("input.rasters", "has the name '" + name + "'",
+                     "a name has letters, digits and underscores, and no other meaning in expressions");
+    if (file.empty()) throw KeyError("input.rasters", "names no file for '" + name + "'", "write NAME=FILE");
+  }
+  const std::string& depth = request.output.depth;
+  if (!depth.empty() && !request.input.rasters.contains(depth))
+    throw KeyError("output.depth", "is '" + depth + "', but no raster has this name", "name its file in input.rasters");
+  require(request.input.rasters.empty() || !depth.empty() || !request.sizing.expression.empty(), "input.rasters",
+          "serves sizing.size and output.depth, but neither is given", "give one of them");
 }
 
 void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
@@ -127,6 +142,7 @@ void check_pdr(const Request& request, Place place) {
           "run.method", "is pdr, which needs the same bound on size everywhere, but lengths vary",
           "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
   require(request.bounds.angle > 0, "run.method", "is pdr, which needs a bound on angles", "give bounds.angle");
+  require(request.output.depth.empty(), "run.method", "is pdr, which knows no rasters", "remove output.depth");
   const Request standard;
   const bool parts = request.decomposition != standard.decomposition || request.mapping != standard.mapping;
   require(!parts, "run.method", "is pdr, which has no subdomains to cut or map", "remove what sets them");
@@ -186,6 +202,7 @@ void check(const Request& request, Place place, const balancer::PolicyMaker& pol
   check_places(request, place);
   check_input(request.input);
   static_cast<void>(names_of(request.input));
+  check_rasters(request);
   check_sizes(request.bounds, request.sizing);
   check_policy(request, policies);
   check_parts(request);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "driftmesh/error.hpp"
 #include "driftmesh/files.hpp"
 #include "driftmesh/repair.hpp"
 #include "job/key.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 InputFile raw_input(const Request::Input& input, const Given& given) {
   if (given.input != nullptr) return {*given.input, {}};
-  if (input.generator.empty()) return read_input(input.file);
+  if (input.generator.empty()) return read_input(input.file, input.layers);
   return {generate(input.generator, input.parameters), {}};
 }
 
@@ -43,6 +44,16 @@ void name_markers_and_regions(const Request& request, Pslg& pslg) {
   names.regions.merge(pslg.names.regions);
   check_names(names, input_name(request));
   pslg.names = std::move(names);
+}
+
+void open_rasters(const Request& request, Domain& domain, Watch& watch) {
+  domain.rasters = rasters_of(request, domain.projection);
+  if (domain.rasters.files.empty()) return;
+  if (!request.output.depth.empty() && domain.pslg.attributes_per_point > 0)
+    throw InputError({input_name(request)}, "has attributes of points, but depths would take their place",
+                     "remove output.depth or the attributes");
+  const auto opened = [&] { return open_all(domain.rasters, box_of(domain.pslg), domain.pslg.points); };
+  warn(request, timed(watch, "rasters", opened), watch);
 }
 
 }  // namespace
@@ -78,7 +89,9 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
     keep_original_points(domain.repairs, std::exchange(domain.simplified.original_point, {}));
   }
   add_nested_holes(request.input.holes, domain.pslg);
-  SizeSource source = timed(watch, "size", [&] { return size_of(request.sizing, given.size, domain.pslg); });
+  open_rasters(request, domain, watch);
+  SizeSource source =
+      timed(watch, "size", [&] { return size_of(request.sizing, domain.rasters.open, given.size, domain.pslg); });
   domain.size = std::move(source.field);
   domain.background = source.background;
   return domain;
@@ -105,8 +118,10 @@ void warn(const Request& request, std::span<const std::string> warnings, Watch& 
   if (listed < warnings.size()) watch.warn(more(listed));
 }
 
-SizeSource size_of(const Request::Sizing& sizing, const SizeField* given, const Pslg& pslg) {
+SizeSource size_of(const Request::Sizing& sizing, const NamedRasters& rasters, const SizeField* given,
+                   const Pslg& pslg) {
   SizingOptions options = sizing_of(sizing, box_of(pslg));
+  options.rasters = rasters;
   options.input = &pslg;
   if (given == nullptr) return make_size(options);
   return {std::make_unique<SampledField>(*given, SampledField::Grid{options.domain.low, options.spacing})};

@@ -9,6 +9,7 @@
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/repair.hpp"
 #include "driftmesh/simplify.hpp"
+#include "job/rasters.hpp"
 #include "job/request.hpp"
 #include "job/watch.hpp"
 #include "sizing/make_size_field.hpp"
@@ -29,6 +30,7 @@ struct Domain {
   std::string projection;  ///< see InputFile
   RepairReport repairs;
   SimplifyReport simplified;                   ///< without its points
+  Rasters rasters;                             ///< open
   std::unique_ptr<const SizeField> size;       ///< null: none is asked for
   const BackgroundMesh* background = nullptr;  ///< of the size field
 };
@@ -49,8 +51,9 @@ RepairReport clean_input(const Request::Input& asked, const std::string& name, P
 void warn(const Request& request, std::span<const std::string> warnings, Watch& watch);
 
 /// The size field that the request asks for, or the given one if not null, for a domain with these points: the same on
-/// every rank. Null if there is none. Throws InputError, FileError.
-[[nodiscard]] SizeSource size_of(const Request::Sizing& sizing, const SizeField* given, const Pslg& pslg);
+/// every rank. `rasters`: those that the expression may name. Null if there is none. Throws InputError, FileError.
+[[nodiscard]] SizeSource size_of(const Request::Sizing& sizing, const NamedRasters& rasters, const SizeField* given,
+                                 const Pslg& pslg);
 
 /// What the request asks for of the sizes of triangles in a domain inside `box`.
 [[nodiscard]] SizingOptions sizing_of(const Request::Sizing& sizing, const Box& box);

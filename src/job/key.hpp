@@ -60,6 +60,7 @@ struct KeyInfo {
   std::string why_not_more;          ///< the reason for the limit `most`, or empty
   std::vector<std::string> choices;  ///< kChoice
   std::string or_file;               ///< kChoice: the extension of a file that may be named instead, or empty
+  bool of_files = false;             ///< kTable: its values name files, as a kFile does
   std::vector<KeyInfo> fields;       ///< kList
 
   Places places = kAnywhere;            ///< where it applies; elsewhere it is rejected

@@ -77,6 +77,9 @@ auto unit(const char* name) {
 auto file() {
   return [](KeyInfo& key) { key.kind = Kind::kFile; };
 }
+auto of_files() {
+  return [](KeyInfo& key) { key.of_files = true; };
+}
 auto output_file() {
   return [](KeyInfo& key) { key.kind = Kind::kOutput; };
 }
@@ -243,13 +246,22 @@ Section input_section() {
       kAnywhere,
       kMesh | kExperiment,
       {key("input.file", &R::input, &R::Input::file,
-           "The domain: GeoJSON, Triangle's .poly (with its .node next to it), or .node", file(), option("input"),
-           entry_points(kMesh | kDecompose | kExperiment)),
+           "The domain: GeoJSON, a shapefile or another file that GDAL reads (.gpkg, .fgb, .gml, .kml, .gmt), "
+           "Triangle's "
+           ".poly (with its .node next to it), or .node",
+           file(), option("input"), entry_points(kMesh | kDecompose | kExperiment)),
        key("input.generate", &R::input, &R::Input::generator,
            "Generate the domain instead of reading a file (see driftmesh generate --help)", option("generate", "KIND"),
            one_of(generator_names())),
        key("input.parameters", &R::input, &R::Input::parameters,
            "A parameter of the generated domain, such as resolution=300", option("generate-with", "NAME=VALUE")),
+       key("input.layers", &R::input, &R::Input::layers,
+           "Of a file with several layers those to read, with commas between their names", option("layers", "NAMES"),
+           entry_points(kMesh | kDecompose | kCheck | kExperiment)),
+       key("input.rasters", &R::input, &R::Input::rasters,
+           "A raster, by a name that size expressions and depths use, such as depth=bathymetry.asc: an ESRI ASCII grid "
+           "(.asc), or what GDAL reads (GeoTIFF, netCDF)",
+           of_files(), option("raster", "NAME=FILE"), entry_points(kMesh | kDecompose | kCheck | kExperiment)),
        key("input.simplify", &R::input, &R::Input::simplify,
            "Remove points of lines where these then move by at most this length, and rings that fit into a square with "
            "this side; lines never cross. 0: keep all",
@@ -294,7 +306,8 @@ Section triangle_section() {
        key("sizing.size", &R::sizing, &R::Sizing::expression,
            "Target edge length as a function of x, y and the distance to the nearest segment with one of some markers: "
            "\"0.1 + 0.02*sqrt(x^2 + y^2)\", \"5 + 0.1*distance(1, 2)\"; distance() is that to the nearest of all "
-           "segments",
+           "segments. A raster's name is its value, and slope(name) the length of its gradient: "
+           "\"max(20, 3*sqrt(9.81*depth))\"",
            option("size", "EXPR"), entry_points(kAll & ~kLibrary)),
        key("sizing.background", &R::sizing, &R::Sizing::background,
            "Target edge lengths from a background mesh: FILE.node and FILE.ele, with the length as the first attribute "
@@ -507,6 +520,9 @@ Section output_section() {
            key("output.open-boundary", &R::output, &R::Output::open_boundary,
                "Markers of the segments that are open sea, in .14, .grd and .gr3; other segments are land",
                in(INT32_MIN, INT32_MAX), option("open-boundary", "MARKERS")),
+           key("output.depth", &R::output, &R::Output::depth,
+               "Give each point the value of the raster of this name as its attribute, the depth in .14, .grd and .gr3",
+               option("depth", "NAME")),
            key("output.picture", &R::output, &R::Output::picture,
                "Picture of the mesh: .png, .svg or .pdf (see also driftmesh plot --help)", output_file(),
                option("plot", "FILE")),
@@ -606,7 +622,7 @@ void check_range(const KeyInfo& key, double value) {
 }
 
 bool names_file(const KeyInfo& key, const std::string& text) {
-  if (key.kind == Kind::kFile) return !text.empty();
+  if (key.kind == Kind::kFile || key.of_files) return !text.empty();
   return !key.or_file.empty() && text.ends_with(key.or_file);
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/bytes.hpp"
 #include "base/failure.hpp"
+#include "job/domain.hpp"
 #include "runtime/plan_bytes.hpp"
 
 namespace driftmesh::job {
@@ -33,6 +34,7 @@ Bytes head_of(const Order& order) {
   writer.text(order.sizing.background);
   transfer_rest(writer, order);
   writer.text(order.scratch);
+  order.rasters.write(writer);
   return writer.take();
 }
 
@@ -42,6 +44,7 @@ Order order_from(ByteReader& head) {
   order.sizing.background = head.text();
   transfer_rest(head, order);
   order.scratch = head.text();
+  order.rasters = Rasters::read(head);
   return order;
 }
 
@@ -90,6 +93,7 @@ std::optional<Order> take(Team& team, const balancer::PolicyMaker& policies) {
         Order order = order_from(head);
         order.plan = plan_from_bytes(team.broadcast({}), team.ranks(), policies);
         order.pslg = pslg_from_bytes(team.broadcast({}));
+        open_all(order.rasters, box_of(order.pslg), {});
         return std::optional(std::move(order));
       });
     case Letter::kNothing:

@@ -11,6 +11,7 @@
 #include "balancer/policy_list.hpp"
 #include "driftmesh/pslg.hpp"
 #include "job/limits.hpp"
+#include "job/rasters.hpp"
 #include "job/request.hpp"
 #include "job/team.hpp"
 #include "runtime/run_plan.hpp"
@@ -26,6 +27,7 @@ struct Order {
   IdVector<Rank, double> shares;  ///< fraction of its time that each rank works, for experiments; empty: all of it
   Use use;                        ///< of the mesh
   std::string scratch{};          ///< folder where subdomains sleep; empty: in memory
+  Rasters rasters{};              ///< open; others than rank 0 open them themselves
 };
 
 /// Shares the order that rank 0 makes with all ranks; empty if it makes none because there is no more work. Collective;

@@ -23,7 +23,8 @@ namespace {
 std::unique_ptr<const SizeField> size_for_threads(const Order& order, const SizeField* given) {
   const std::int32_t threads = order.plan.work.threads;
   std::vector<std::unique_ptr<const SizeField>> fields;
-  for (std::int32_t t = 0; t < threads; ++t) fields.push_back(size_of(order.sizing, given, order.pslg).field);
+  for (std::int32_t t = 0; t < threads; ++t)
+    fields.push_back(size_of(order.sizing, order.rasters.open, given, order.pslg).field);
   if (threads == 1 || fields.front() == nullptr) return std::move(fields.front());
   return std::make_unique<FieldOfThreads>(std::move(fields));
 }
@@ -135,7 +136,9 @@ DistributedPiece RankRun::assemble(ExchangeRunner& ranks) const {
   return by_itself(team_, [&] {
     PieceAssembly assembly(team_.rank(), team_.ranks(), order_.plan.decomposition, held_by_rank(loop_->subdomains()));
     ranks.run(assembly);
-    return assembly.piece(order_.pslg);
+    DistributedPiece piece = assembly.piece(order_.pslg);
+    set_depths(order_.rasters, piece.mesh);
+    return piece;
   });
 }
 

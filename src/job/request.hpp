@@ -42,6 +42,8 @@ struct Request {
     bool strict = false;                              ///< warnings about the input are errors
     std::map<std::string, std::string> marker_names;  ///< by the numbers of markers
     std::map<std::string, std::string> region_names;  ///< by the attributes of regions
+    std::string layers;                               ///< of the file, with commas between them; empty: the only one
+    std::map<std::string, std::string> rasters;       ///< their files, by name
   } input;
 
   struct Bounds {
@@ -130,6 +132,7 @@ struct Request {
     std::vector<std::string> meshes;
     bool ascii = false;
     std::vector<double> open_boundary;  ///< markers
+    std::string depth;                  ///< the raster that points get values of; empty: none
     std::string picture;
     std::string record;
     bool quiet = false;

@@ -27,7 +27,7 @@ std::int32_t threads_of(const Request& request) {
 ThreadRun::ThreadRun(Order order, std::int32_t threads, const SizeField* size, Watch& watch)
     : order_(std::move(order)), watch_(watch), book_(order_.plan.decomposition) {
   for (std::int32_t t = 0; t < threads; ++t) {
-    made_.push_back(size_of(order_.sizing, size, order_.pslg).field);
+    made_.push_back(size_of(order_.sizing, order_.rasters.open, size, order_.pslg).field);
     sizes_.push_back(made_.back().get());
   }
   order_.plan.bounds.size = sizes_.front();
@@ -104,14 +104,20 @@ std::vector<SubdomainCensus> ThreadRun::census() const {
 
 void ThreadRun::write_pieces(const std::string& path) const {
   const PieceSeries series(order_.plan.decomposition, refinement_->subdomains(), census(), order_.pslg);
-  write_series(path, series.size(), sizes_.size(), [&](Rank k) { return series.piece(k); });
+  write_series(path, series.size(), sizes_.size(), [&](Rank k) {
+    DistributedPiece piece = series.piece(k);
+    set_depths(order_.rasters, piece.mesh);
+    return piece;
+  });
 }
 
 DistributedPiece ThreadRun::assemble() const {
   PieceAssembly assembly(Rank{0}, 1, order_.plan.decomposition, held_by_rank(refinement_->subdomains()), census());
   const IdVector<Rank, Exchange*> alone{&assembly};
   exchange_directly(alone);
-  return assembly.piece(order_.pslg);
+  DistributedPiece piece = assembly.piece(order_.pslg);
+  set_depths(order_.rasters, piece.mesh);
+  return piece;
 }
 
 }  // namespace driftmesh::job

@@ -14,9 +14,10 @@
 
 #include "base/mix.hpp"
 #include "driftmesh/error.hpp"
-#include "sizing/distance_calls.hpp"
 #include "sizing/expression_range.hpp"
+#include "sizing/field_calls.hpp"
 #include "sizing/least_search.hpp"
+#include "sizing/segment_distance.hpp"
 
 namespace driftmesh {
 
@@ -25,13 +26,13 @@ struct ExpressionField::Parser {
   mu::Parser expression;
   double x = 0;
   double y = 0;
-  ExpressionRange::Distances distances;
-  std::vector<double> distance_values;
+  PlaneVariables variables;
+  std::vector<double> values;  // of these
 
   double value_at(const Point& p) {
     x = p.x;
     y = p.y;
-    for (std::size_t k = 0; k < distances.size(); ++k) distance_values[k] = distances[k]->at(p);
+    for (std::size_t k = 0; k < variables.size(); ++k) values[k] = variables[k].function->at(p);
     return expression.Eval();
   }
 };
@@ -60,7 +61,8 @@ std::string bare_message(const mu::ParserError& error) {
   std::string what = bare_message(error);
   if (error.GetPos() >= 0)
     what = "column " + std::to_string(std::min<std::size_t>(error.GetPos(), expression.size()) + 1) + ": " + what;
-  fail(expression, what, "it may use x, y, pi, e, numbers, + - * / ^, distance() and functions such as sqrt, min, exp");
+  fail(expression, what,
+       "it may use x, y, pi, e, numbers, + - * / ^, distance(), names of rasters and functions such as sqrt, min, exp");
 }
 
 std::string printed(double value) {
@@ -95,22 +97,34 @@ std::string list_of(const std::set<std::int32_t>& markers) {
 }
 
 /// What the calls of distance in an expression measure.
-ExpressionRange::Distances distances_of(const std::string& expression, const DistanceCalls& calls, const Pslg* input) {
-  ExpressionRange::Distances distances;
-  if (calls.markers.empty()) return distances;
+void add_distances(const std::string& expression, const FieldCalls& calls, const Pslg* input,
+                   PlaneVariables& variables) {
+  if (calls.markers.empty()) return;
   std::set<std::int32_t> known;
   if (input != nullptr)
     for (const Pslg::Segment& s : input->segments) known.insert(s.marker);
   if (known.empty())
     fail(expression, "there are no segments that distance could measure to", "give an input that has segments");
-  for (const std::vector<std::int32_t>& markers : calls.markers) {
-    for (const std::int32_t marker : markers)
+  for (std::size_t k = 0; k < calls.markers.size(); ++k) {
+    for (const std::int32_t marker : calls.markers[k])
       if (!known.contains(marker))
         fail(expression, "no segment has the marker " + std::to_string(marker),
              "the markers of segments are " + list_of(known));
-    distances.push_back(std::make_shared<SegmentDistance>(*input, markers));
+    variables.push_back(
+        {FieldCalls::distance_name(k), std::make_shared<const SegmentDistance>(*input, calls.markers[k])});
   }
-  return distances;
+}
+
+void add_rasters(const std::string& expression, const FieldCalls& calls, const NamedRasters& rasters,
+                 PlaneVariables& variables) {
+  for (const NamedRaster& raster : rasters) variables.push_back({raster.name, values_of(raster.raster)});
+  for (const std::string& name : calls.slopes) {
+    const auto found = std::ranges::find(rasters, name, &NamedRaster::name);
+    if (found == rasters.end())
+      fail(expression, "slope asks for the raster '" + name + "', which is not given",
+           "name its file: --raster " + name + "=FILE");
+    variables.push_back({FieldCalls::slope_name(name), slope_of(found->raster)});
+  }
 }
 
 constexpr double kRounding = 1e-9;  // relative
@@ -144,13 +158,15 @@ struct ExpressionField::Bounds {
   LeastSearch search;
 };
 
-ExpressionField::ExpressionField(const std::string& expression, double shortest, double spacing, const Pslg* input)
+ExpressionField::ExpressionField(const std::string& expression, double shortest, double spacing, const Pslg* input,
+                                 const NamedRasters& rasters)
     : parser_(std::make_unique<Parser>()), shortest_(shortest) {
   refuse_assignment(expression);
-  const DistanceCalls calls = take_distance_calls(expression);
+  const FieldCalls calls = take_field_calls(expression);
   parser_->text = expression;
-  parser_->distances = distances_of(expression, calls, input);
-  parser_->distance_values.resize(parser_->distances.size());
+  add_distances(expression, calls, input, parser_->variables);
+  add_rasters(expression, calls, rasters, parser_->variables);
+  parser_->values.resize(parser_->variables.size());
   mu::Parser& parser = parser_->expression;
   try {
     parser.DefineVar("x", &parser_->x);
@@ -158,8 +174,8 @@ ExpressionField::ExpressionField(const std::string& expression, double shortest,
     parser.DefineConst("pi", std::numbers::pi);
     parser.DefineConst("e", std::numbers::e);
     parser.DefineFun("hypot", static_cast<double (*)(double, double)>(std::hypot));
-    for (std::size_t k = 0; k < parser_->distances.size(); ++k)
-      parser.DefineVar(DistanceCalls::name_of(k), &parser_->distance_values[k]);
+    for (std::size_t k = 0; k < parser_->variables.size(); ++k)
+      parser.DefineVar(parser_->variables[k].name, &parser_->values[k]);
     parser.SetExpr(calls.expression);
     int values = 0;
     parser.Eval(values);
@@ -167,7 +183,7 @@ ExpressionField::ExpressionField(const std::string& expression, double shortest,
   } catch (const mu::ParserError& error) {
     fail(error, expression);
   }
-  const std::optional<ExpressionRange> range = ExpressionRange::of(calls.expression, parser_->distances);
+  const std::optional<ExpressionRange> range = ExpressionRange::of(calls.expression, parser_->variables);
   if (!range || !agree(*range, [this](const Point& p) { return parser_->value_at(p); })) return;
   const auto bound = [=](const Box& box) { return std::max(range->over(box).low, shortest); };
   bounds_ = std::make_unique<Bounds>(Bounds{*range, LeastSearch(bound, spacing)});

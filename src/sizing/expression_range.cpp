@@ -9,15 +9,13 @@
 #include <string_view>
 #include <utility>
 
-#include "sizing/distance_calls.hpp"
-
 namespace driftmesh {
 
 enum class ExpressionRange::Op : std::uint8_t {
   kX,  // no operands
   kY,
   kConstant,
-  kDistance,  // its number is the step's constant
+  kVariable,  // its number is the step's constant
   kNegative,  // one
   kSquare,
   kSin,
@@ -161,8 +159,8 @@ Interval ExpressionRange::apply(Op op, const Interval* v) {
   return result;
 }
 
-const SegmentDistance& ExpressionRange::distance_of(const Step& step) const {
-  return *distances_[static_cast<std::size_t>(step.constant.low)];
+const PlaneFunction& ExpressionRange::function_of(const Step& step) const {
+  return *variables_[static_cast<std::size_t>(step.constant.low)].function;
 }
 
 Interval ExpressionRange::over(const Box& box) const {
@@ -180,8 +178,8 @@ Interval ExpressionRange::over(const Box& box) const {
       case Op::kConstant:
         stack[size] = step.constant;
         break;
-      case Op::kDistance:
-        stack[size] = distance_of(step).over(box);
+      case Op::kVariable:
+        stack[size] = function_of(step).over(box);
         break;
       default:
         stack[size] = apply(step.op, &stack[size]);
@@ -288,8 +286,8 @@ double ExpressionRange::at(const Point& p) const {
       case Op::kConstant:
         stack[size] = step.constant.low;
         break;
-      case Op::kDistance:
-        stack[size] = distance_of(step).at(p);
+      case Op::kVariable:
+        stack[size] = function_of(step).at(p);
         break;
       default:
         stack[size] = apply(step.op, &stack[size]);
@@ -303,8 +301,8 @@ double ExpressionRange::at(const Point& p) const {
 /// to powers, which like ?: group from the right.
 class ExpressionCompiler {
  public:
-  ExpressionCompiler(std::string_view text, ExpressionRange::Distances distances) : rest_(text) {
-    range_.distances_ = std::move(distances);
+  ExpressionCompiler(std::string_view text, PlaneVariables variables) : rest_(text) {
+    range_.variables_ = std::move(variables);
   }
 
   std::optional<ExpressionRange> compile() {
@@ -326,7 +324,7 @@ class ExpressionCompiler {
     range_.steps_.push_back({op, constant});
   }
   void emit_constant(double value) { emit(Op::kConstant, {value, value}); }
-  void emit_distance(std::size_t k) { emit(Op::kDistance, {static_cast<double>(k), static_cast<double>(k)}); }
+  void emit_variable(std::size_t k) { emit(Op::kVariable, {static_cast<double>(k), static_cast<double>(k)}); }
   void emit_power() {
     const ExpressionRange::Step& exponent = range_.steps_.back();
     if (!known_ || exponent.op != Op::kConstant || exponent.constant.low != 2) return emit(Op::kPower);
@@ -452,8 +450,8 @@ class ExpressionCompiler {
     if (name == "y") return emit(Op::kY);
     if (name == "pi" || name == "_pi") return emit_constant(std::numbers::pi);
     if (name == "e" || name == "_e") return emit_constant(std::numbers::e);
-    for (std::size_t k = 0; k < range_.distances_.size(); ++k)
-      if (name == DistanceCalls::name_of(k)) return emit_distance(k);
+    for (std::size_t k = 0; k < range_.variables_.size(); ++k)
+      if (name == range_.variables_[k].name) return emit_variable(k);
     read_call(name);
   }
 
@@ -503,8 +501,8 @@ class ExpressionCompiler {
   bool known_ = true;
 };
 
-std::optional<ExpressionRange> ExpressionRange::of(const std::string& expression, Distances distances) {
-  return ExpressionCompiler(expression, std::move(distances)).compile();
+std::optional<ExpressionRange> ExpressionRange::of(const std::string& expression, PlaneVariables variables) {
+  return ExpressionCompiler(expression, std::move(variables)).compile();
 }
 
 }  // namespace driftmesh

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/box.hpp"
 #include "sizing/interval.hpp"
-#include "sizing/segment_distance.hpp"
+#include "sizing/plane_function.hpp"
 
 namespace driftmesh {
 
@@ -17,10 +16,9 @@ namespace driftmesh {
 /// exact ones as the box shrinks otherwise.
 class ExpressionRange {
  public:
-  using Distances = std::vector<std::shared_ptr<const SegmentDistance>>;
   /// For an expression that muParser accepts; nothing if it uses what is not known here.
-  /// `distances`: what DistanceCalls::name_of stands for.
-  [[nodiscard]] static std::optional<ExpressionRange> of(const std::string& expression, Distances distances = {});
+  /// `variables`: those that it may contain beside x and y.
+  [[nodiscard]] static std::optional<ExpressionRange> of(const std::string& expression, PlaneVariables variables = {});
 
   /// Infinite ends are allowed.
   [[nodiscard]] Interval over(const Box& box) const;
@@ -40,11 +38,11 @@ class ExpressionRange {
   static std::size_t operands_of(Op op);
   static Interval apply(Op op, const Interval* operands);
   static Interval apply_to_numbers(Op op, const Interval* operands);
-  [[nodiscard]] const SegmentDistance& distance_of(const Step& step) const;
+  [[nodiscard]] const PlaneFunction& function_of(const Step& step) const;
   static double apply(Op op, const double* operands);
 
   std::vector<Step> steps_;
-  Distances distances_;
+  PlaneVariables variables_;
 };
 
 }  // namespace driftmesh

@@ -82,7 +82,8 @@ std::unique_ptr<SizeField> graded_expression(std::unique_ptr<ExpressionField> fi
 }
 
 std::unique_ptr<SizeField> expression_field(const SizingOptions& options) {
-  auto field = std::make_unique<ExpressionField>(options.expression, options.shortest, options.spacing, options.input);
+  auto field = std::make_unique<ExpressionField>(options.expression, options.shortest, options.spacing, options.input,
+                                                 options.rasters);
   if (options.gradation) return graded_expression(std::move(field), options);
   if (field->has_bounds() || !std::isfinite(options.spacing)) return field;
   return std::make_unique<SampledField>(std::move(field), SampledField::Grid{options.domain.low, options.spacing});

@@ -10,6 +10,7 @@
 #include "driftmesh/size_field.hpp"
 #include "geometry/box.hpp"
 #include "sizing/background_mesh.hpp"
+#include "sizing/named_raster.hpp"
 
 namespace driftmesh {
 
@@ -31,6 +32,8 @@ struct SizingOptions {
   /// With the segments that distance() in the expression measures to; null: none. Not owned, and needed only while the
   /// field is made.
   const Pslg* input = nullptr;
+  /// Those that the expression may name.
+  NamedRasters rasters{};
 };
 
 /// A size field, and the background mesh in it if there is one.

@@ -34,6 +34,7 @@ class Packages(unittest.TestCase):
         self.assertIn(VERSION, run(root / "usr/bin/driftmesh", "--version"))
         for library in ("libopenmpi3", "libtrilinos-zoltan", "libyaml-cpp", "libcairo2"):
             self.assertIn(library, self.field("driftmesh", "Depends"))
+        self.assertNotIn("gdal", self.field("driftmesh", "Depends"))  # which is loaded only when a file needs it
         self.assertFalse((root / "usr/include").exists())
 
     def test_library(self):

@@ -25,6 +25,7 @@ LIBRARIES = {
     "cairo": (r"cairo.*\.h", ["picture"]),
     "cli11": (r"CLI/.*", ["cli"]),
     "fmt": (r"fmt/.*", None),
+    "gdal": (r"(gdal|ogr|cpl)\w*\.h", ["gis"]),
     "hdf5": (r"hdf5\.h", ["io"]),
     "json": (r"nlohmann/.*", None),
     "metis": (r"metis\.h", ["decompose"]),

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <random>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "base/bytes.hpp"
+#include "base/mapped_array.hpp"
 #include "base/scratch_file.hpp"
 #include "driftmesh/error.hpp"
 #include "temporary_folder.hpp"
@@ -96,4 +98,28 @@ TEST_CASE("a folder that cannot be written is refused by name") {
   CHECK_THROWS_WITH_AS(ScratchFile{missing},
                        (missing + ": cannot keep scratch data in this folder: No such file or directory").c_str(),
                        FileError);
+}
+
+TEST_CASE("large arrays lie in the folder for temporary files, or are refused where there is none") {
+  constexpr std::uint64_t kLarge = std::uint64_t{40} << 20;  // of 8 bytes: more than memory is used for
+  const TemporaryFolder folder;
+  const char* const before = std::getenv("TMPDIR");
+  const std::string kept = before != nullptr ? before : "/tmp";
+  ::setenv("TMPDIR", folder.path().c_str(), 1);
+  {
+    MappedArray<double> array(kLarge);
+    CHECK(array[0] == 0);
+    CHECK(array[kLarge - 1] == 0);
+    array[kLarge - 1] = 7;
+    MappedArray<double> moved = std::move(array);
+    CHECK(moved[kLarge - 1] == 7);
+    CHECK(moved.size() == kLarge);
+    CHECK(std::filesystem::is_empty(folder.path()));
+  }
+  ::setenv("TMPDIR", (folder.path() / "none").c_str(), 1);
+  CHECK_THROWS_AS(MappedArray<double>(std::uint64_t{1} << 26), FileError);
+  MappedArray<std::int32_t> small(1000);
+  small[999] = 3;
+  CHECK(small[999] + small[0] == 3);
+  ::setenv("TMPDIR", kept.c_str(), 1);
 }

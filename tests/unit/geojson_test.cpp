@@ -12,7 +12,7 @@
 #include "geojson/interior_point.hpp"
 #include "geojson/read_input.hpp"
 #include "geojson/rings_to_pslg.hpp"
-#include "geojson/transverse_mercator.hpp"
+#include "gis/transverse_mercator.hpp"
 #include "property/cases.hpp"
 
 using namespace driftmesh;
@@ -109,7 +109,7 @@ TEST_CASE("polygons, holes and islands in them become a domain with seeds and ma
   const auto [pslg, projection] = parse_geojson_input(
       "x.json", planar(polygon("[" + kSquare + "," + kHole + "]", R"({"region": 7, "max_area": 0.5})") + "," +
                        polygon("[" + kIsland + "]", R"({"marker": 9})")));
-  CHECK(projection.empty());
+  CHECK(projection == "UTM zone 18N");
   CHECK(pslg.points.size() == 12);
   CHECK(pslg.segments.size() == 12);
   CHECK(std::ranges::count(pslg.segments, 1, &Pslg::Segment::marker) == 4);
@@ -270,4 +270,16 @@ TEST_CASE("files with random edits are read, or refused with an InputError") {
   }
   CHECK(accepted > 100);
   CHECK(accepted < 4900);
+}
+
+TEST_CASE("a system that is a UTM zone is known by its name, and coordinates remain") {
+  const auto in_system = [](const std::string& name) {
+    return parse_geojson_input("x.json", R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": ")" +
+                                             name + R"("}}, "coordinates": [[[0,0],[10,0],[10,10],[0,0]]]})");
+  };
+  CHECK(in_system("urn:ogc:def:crs:EPSG::32618").projection == "UTM zone 18N");
+  CHECK(in_system("EPSG:32733").projection == "UTM zone 33S");
+  CHECK(in_system("EPSG:3857").projection.empty());
+  CHECK(in_system("EPSG:32733").pslg.points[1] == Point{10, 0});
+  CHECK(in_system("EPSG:4326").projection == "UTM zone 31N");
 }

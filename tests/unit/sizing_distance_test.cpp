@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "driftmesh/error.hpp"
-#include "sizing/distance_calls.hpp"
 #include "sizing/expression_field.hpp"
+#include "sizing/field_calls.hpp"
 #include "sizing/make_size_field.hpp"
 #include "sizing/segment_distance.hpp"
 
@@ -209,7 +209,20 @@ TEST_CASE("errors in distances name the column, and the markers that exist") {
 }
 
 TEST_CASE("calls of distance become variables in the same columns") {
-  const DistanceCalls calls = take_distance_calls("1+distance(2 , -1)*x + distance()/distance(-1,2,2)+ distance");
+  const FieldCalls calls = take_field_calls("1+distance(2 , -1)*x + distance()/distance(-1,2,2)+ distance");
   CHECK(calls.expression == "1+distance_0      *x + distance_1/distance_0      + distance");
   CHECK(calls.markers == std::vector<std::vector<std::int32_t>>{{-1, 2}, {}});
+}
+
+TEST_CASE("calls of slope become variables, each raster's once, and names that have a meaning are not for rasters") {
+  const FieldCalls calls = take_field_calls("slope( depth )+slope(depth)*slope/slope(b)");
+  CHECK(calls.expression == "slope_depth   +slope_depth *slope/slope_b ");
+  CHECK(calls.slopes == std::vector<std::string>{"depth", "b"});
+  CHECK(calls.markers.empty());
+  CHECK_THROWS_WITH_AS(static_cast<void>(take_field_calls("1+slope(2*depth)")), doctest::Contains("column 10"),
+                       InputError);
+  CHECK_THROWS_WITH_AS(static_cast<void>(take_field_calls("slope()")), doctest::Contains("slope(depth)"), InputError);
+  for (const char* name : {"depth", "_", "Depth2", "x1"}) CHECK(can_name_raster(name));
+  for (const char* name : {"", "x", "pi", "2a", "a-b", "sqrt", "hypot", "distance", "slope", "slope_a", "distance_0"})
+    CHECK_FALSE(can_name_raster(name));
 }

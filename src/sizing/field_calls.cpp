@@ -1,16 +1,15 @@
-#include "sizing/distance_calls.hpp"
+#include "sizing/field_calls.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <string_view>
 
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {
 
-constexpr std::string_view kName = "distance";
+constexpr std::string_view kDistance = "distance", kSlope = "slope";
 
 bool is_part_of_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -20,14 +19,15 @@ class CallReader {
  public:
   explicit CallReader(const std::string& text) : text_(text) {}
 
-  DistanceCalls read() {
+  FieldCalls read() {
     while (at_ < text_.size()) {
       const std::size_t begin = at_;
       if (is_part_of_name(text_[at_]))
         read_word();
       else
         calls_.expression += text_[at_++];
-      if (std::string_view(text_).substr(begin, at_ - begin) == kName) read_call(begin);
+      const std::string_view word = std::string_view(text_).substr(begin, at_ - begin);
+      if (word == kDistance || word == kSlope) read_call(begin, word);
     }
     return std::move(calls_);
   }
@@ -38,16 +38,27 @@ class CallReader {
   }
 
   /// After the name at `begin`, which is left to muParser unless a parenthesis follows.
-  void read_call(std::size_t begin) {
+  void read_call(std::size_t begin, std::string_view word) {
     const std::size_t behind = at_;
     if (!take('(')) {
       at_ = behind;
       return;
     }
-    const std::size_t k = index_of(read_markers());
-    calls_.expression.resize(calls_.expression.size() - kName.size());
-    const std::string name = DistanceCalls::name_of(k);
+    const std::string name =
+        word == kDistance ? FieldCalls::distance_name(index_of(read_markers())) : FieldCalls::slope_name(read_raster());
+    calls_.expression.resize(calls_.expression.size() - word.size());
     calls_.expression += name + std::string(std::max(at_ - begin, name.size()) - name.size(), ' ');
+  }
+
+  std::string read_raster() {
+    skip_space();
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && is_part_of_name(text_[at_])) ++at_;
+    std::string name = text_.substr(begin, at_ - begin);
+    if (name.empty() || !take(')'))
+      fail("the argument of slope is the name of a raster", "write for example slope(depth)");
+    if (std::ranges::find(calls_.slopes, name) == calls_.slopes.end()) calls_.slopes.push_back(name);
+    return name;
   }
 
   std::vector<std::int32_t> read_markers() {
@@ -55,7 +66,7 @@ class CallReader {
     if (take(')')) return markers;
     do markers.push_back(read_marker());
     while (take(','));
-    if (!take(')')) fail();
+    if (!take(')')) fail_in_distance();
     std::ranges::sort(markers);
     markers.erase(std::unique(markers.begin(), markers.end()), markers.end());
     return markers;
@@ -65,7 +76,7 @@ class CallReader {
     skip_space();
     std::int32_t marker = 0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), marker);
-    if (error != std::errc{}) fail();
+    if (error != std::errc{}) fail_in_distance();
     at_ = end - text_.data();
     return marker;
   }
@@ -87,25 +98,37 @@ class CallReader {
     return true;
   }
 
-  [[noreturn]] void fail() const {
+  [[noreturn]] void fail(const char* what, const char* next) const {
     throw InputError({"size expression \"" + text_ + '"'},
-                     "column " + std::to_string(std::min(at_, text_.size()) + 1) +
-                         ": the arguments of distance are markers of segments, whole numbers with commas between them",
-                     "write distance(1, 2), or distance() for all segments");
+                     "column " + std::to_string(std::min(at_, text_.size()) + 1) + ": " + what, next);
+  }
+  [[noreturn]] void fail_in_distance() const {
+    fail("the arguments of distance are markers of segments, whole numbers with commas between them",
+         "write distance(1, 2), or distance() for all segments");
   }
 
   const std::string& text_;
   std::size_t at_ = 0;
-  DistanceCalls calls_;
+  FieldCalls calls_;
 };
 
 }  // namespace
 
-std::string DistanceCalls::name_of(std::size_t k) {
-  return std::string(kName) + '_' + std::to_string(k);
+std::string FieldCalls::distance_name(std::size_t k) {
+  return std::string(kDistance) + '_' + std::to_string(k);
 }
 
-DistanceCalls take_distance_calls(const std::string& expression) {
+std::string FieldCalls::slope_name(const std::string& raster) {
+  return std::string(kSlope) + '_' + raster;
+}
+
+bool FieldCalls::reserves(std::string_view name) {
+  for (const std::string_view word : {kDistance, kSlope})
+    if (name == word || name.starts_with(std::string(word) + '_')) return true;
+  return false;
+}
+
+FieldCalls take_field_calls(const std::string& expression) {
   return CallReader(expression).read();
 }
 

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+
+#ifdef DRIFTMESH_GDAL_LIBRARY
+#include <cpl_error.h>
+#include <gdal.h>
+#include <ogr_api.h>
+#include <ogr_srs_api.h>
+#endif
+
+namespace driftmesh {
+
+#ifdef DRIFTMESH_GDAL_LIBRARY
+
+// Each name is a member, its type, and what it is found by.
+// clang-format off
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
+#define DRIFTMESH_GDAL_FUNCTIONS(USE)                                                                               \
+  USE(CPLErrorReset) USE(CPLGetLastErrorMsg) USE(CPLGetLastErrorType) USE(CPLPopErrorHandler)                       \
+  USE(CPLPushErrorHandler) USE(CPLQuietErrorHandler) USE(GDALAllRegister) USE(GDALClose)                            \
+  USE(GDALDatasetGetLayer) USE(GDALDatasetGetLayerByName) USE(GDALDatasetGetLayerCount) USE(GDALFlushCache)         \
+  USE(GDALGetGeoTransform) USE(GDALGetRasterBand) USE(GDALGetRasterCount) USE(GDALGetRasterNoDataValue)             \
+  USE(GDALGetRasterOffset) USE(GDALGetRasterScale) USE(GDALGetRasterXSize) USE(GDALGetRasterYSize)                  \
+  USE(GDALGetSpatialRef) USE(GDALOpenEx) USE(GDALRasterIO) USE(OCTDestroyCoordinateTransformation)                  \
+  USE(OCTNewCoordinateTransformation) USE(OCTTransform) USE(OGR_F_Destroy) USE(OGR_F_GetFieldAsDouble)              \
+  USE(OGR_F_GetFieldAsInteger64) USE(OGR_F_GetFieldAsString) USE(OGR_F_GetFieldCount)                               \
+  USE(OGR_F_GetFieldDefnRef) USE(OGR_F_GetGeometryRef) USE(OGR_F_IsFieldSetAndNotNull) USE(OGR_Fld_GetNameRef)      \
+  USE(OGR_Fld_GetType) USE(OGR_GT_Flatten) USE(OGR_G_DestroyGeometry) USE(OGR_G_GetGeometryCount)                   \
+  USE(OGR_G_GetGeometryRef) USE(OGR_G_GetGeometryType) USE(OGR_G_GetLinearGeometry) USE(OGR_G_GetPointCount)        \
+  USE(OGR_G_GetX) USE(OGR_G_GetY) USE(OGR_G_Transform) USE(OGR_L_GetName) USE(OGR_L_GetNextFeature)                 \
+  USE(OGR_L_GetSpatialRef) USE(OGR_L_ResetReading) USE(OSRDestroySpatialReference) USE(OSRGetLinearUnits)           \
+  USE(OSRGetUTMZone) USE(OSRImportFromEPSG) USE(OSRIsGeographic) USE(OSRIsProjected) USE(OSRIsSame)                 \
+  USE(OSRNewSpatialReference) USE(OSRSetAxisMappingStrategy)
+// clang-format on
+
+/// The functions of GDAL that are used here. The library is loaded when they are first asked for.
+struct GdalFunctions {
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
+#define DRIFTMESH_GDAL_MEMBER(name) decltype(&::name) name;
+  DRIFTMESH_GDAL_FUNCTIONS(DRIFTMESH_GDAL_MEMBER)
+#undef DRIFTMESH_GDAL_MEMBER
+
+  /// Whether a coordinate system is one of places on the globe, and not of a drawing.
+  [[nodiscard]] bool is_on_globe(OGRSpatialReferenceH system) const {
+    return OSRIsGeographic(system) != 0 || OSRIsProjected(system) != 0;
+  }
+};
+
+/// To read this file. Throws InputError that says how to get GDAL where it cannot be loaded.
+[[nodiscard]] const GdalFunctions& gdal_for(const std::string& file);
+
+/// An object of GDAL, and what destroys it.
+template <class Handle>
+using OwnedByUs = std::unique_ptr<std::remove_pointer_t<Handle>, std::function<void(Handle)>>;
+
+/// Opens a file for reading, as GDAL_OF_VECTOR or GDAL_OF_RASTER. Throws FileError where it is not there or may not be
+/// read, and InputError for what GDAL does not know.
+[[nodiscard]] OwnedByUs<GDALDatasetH> open_by_gdal(const GdalFunctions& gdal, const std::string& file, unsigned kind);
+
+/// While it exists, errors of GDAL are not printed in this thread, only kept for message().
+class QuietGdal {
+ public:
+  explicit QuietGdal(const GdalFunctions& gdal);
+  ~QuietGdal();
+  QuietGdal(const QuietGdal&) = delete;
+  QuietGdal& operator=(const QuietGdal&) = delete;
+  /// The last error or warning; `otherwise` if there was none.
+  [[nodiscard]] std::string message(const std::string& otherwise) const;
+  /// Whether the last of them was an error.
+  [[nodiscard]] bool failed() const;
+
+ private:
+  const GdalFunctions& gdal_;
+};
+
+#else
+
+/// Throws InputError: this program was built without GDAL.
+[[noreturn]] void refuse_without_gdal(const std::string& file);
+
+#endif
+
+}  // namespace driftmesh

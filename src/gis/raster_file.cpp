@@ -1,0 +1,126 @@
+#include "gis/raster_file.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "driftmesh/error.hpp"
+#include "gis/gdal_functions.hpp"
+
+namespace driftmesh {
+
+#ifdef DRIFTMESH_GDAL_LIBRARY
+
+namespace {
+
+/// Blocks of a file with tiles are needed for many rows, but GDAL would keep them all, up to a twentieth of the memory.
+constexpr std::int64_t kRowsKept = 1024;
+
+class GdalRaster final : public RasterRows {
+ public:
+  explicit GdalRaster(const std::string& file)
+      : file_(file), gdal_(gdal_for(file)), data_(open_by_gdal(gdal_, file, GDAL_OF_RASTER)) {
+    if (gdal_.GDALGetRasterCount(data_.get()) == 0)
+      fail("holds no raster by itself, but maybe several", "extract one with gdal_translate; gdalinfo lists them");
+    set_frame();
+  }
+
+  [[nodiscard]] const RasterFrame& frame() const override { return frame_; }
+  [[nodiscard]] std::function<Point(const Point&)> from_zone(const UtmZone& zone) const override {
+    const OGRSpatialReferenceH own = gdal_.GDALGetSpatialRef(data_.get());
+    if (own == nullptr || !gdal_.is_on_globe(own)) return RasterRows::from_zone(zone);
+    const QuietGdal quiet(gdal_);
+    const OwnedByUs<OGRSpatialReferenceH> system(
+        gdal_.OSRNewSpatialReference(nullptr), [this](OGRSpatialReferenceH s) { gdal_.OSRDestroySpatialReference(s); });
+    if (gdal_.OSRImportFromEPSG(system.get(), zone.epsg()) != OGRERR_NONE)
+      fail(quiet.message("PROJ does not know the zone of the domain"), "its data may be missing: install proj-data");
+    gdal_.OSRSetAxisMappingStrategy(system.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    if (gdal_.OSRIsSame(own, system.get()) != 0) return nullptr;
+    const std::shared_ptr<std::remove_pointer_t<OGRCoordinateTransformationH>> to_own(
+        gdal_.OCTNewCoordinateTransformation(system.get(), own),
+        [&gdal = gdal_](OGRCoordinateTransformationH t) { gdal.OCTDestroyCoordinateTransformation(t); });
+    if (to_own == nullptr) fail(quiet.message("lies in an unknown coordinate system"), "reproject it with gdalwarp");
+    return [this, to_own](const Point& p) {
+      Point place = p;
+      if (gdal_.OCTTransform(to_own.get(), 1, &place.x, &place.y, nullptr) == 0)
+        fail("cannot be placed in the domain's zone", "reproject it with gdalwarp");
+      return place;
+    };
+  }
+
+  void read(std::int64_t j, std::int64_t first, std::span<float> values) override {
+    const QuietGdal quiet(gdal_);
+    row_.resize(values.size());
+    const auto top = static_cast<int>(upside_down_ ? j : frame_.rows - 1 - j);
+    const int count = static_cast<int>(values.size());
+    if (gdal_.GDALRasterIO(band_, GF_Read, static_cast<int>(first), top, count, 1, row_.data(), count, 1, GDT_Float64,
+                           0, 0) != CE_None)
+      fail("cannot be read at row " + std::to_string(top + 1) + ": " + quiet.message("no reason is known"),
+           "it was not written completely, or is damaged");
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = value_of(row_[k]);
+    if (j % kRowsKept == 0) gdal_.GDALFlushCache(data_.get());
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what, const std::string& next) const {
+    throw InputError({file_}, what, next);
+  }
+
+  void set_frame() {
+    const GDALDatasetH data = data_.get();
+    std::array<double, 6> place{};
+    if (gdal_.GDALGetGeoTransform(data, place.data()) != CE_None)
+      fail("does not say where its values are", "give it a place with gdal_translate -a_ullr");
+    if (place[2] != 0 || place[4] != 0 || !(place[1] > 0) || place[5] == 0)
+      fail("has rows that do not run from west to east", "make it upright with gdalwarp");
+    upside_down_ = place[5] > 0;
+    frame_.columns = gdal_.GDALGetRasterXSize(data);
+    frame_.rows = gdal_.GDALGetRasterYSize(data);
+    frame_.dx = place[1];
+    frame_.dy = std::abs(place[5]);
+    const double low = upside_down_ ? place[3] : place[3] + place[5] * static_cast<double>(frame_.rows);
+    frame_.first = {place[0] + frame_.dx / 2, low + frame_.dy / 2};
+    band_ = gdal_.GDALGetRasterBand(data, 1);
+    int given = 0;
+    const double none = gdal_.GDALGetRasterNoDataValue(band_, &given);
+    if (given != 0) none_ = none;
+    const double scale = gdal_.GDALGetRasterScale(band_, &given);
+    if (given != 0) scale_ = scale;
+    const double offset = gdal_.GDALGetRasterOffset(band_, &given);
+    if (given != 0) offset_ = offset;
+  }
+
+  [[nodiscard]] float value_of(double stored) const {
+    const auto value = static_cast<float>(stored * scale_ + offset_);
+    return (none_ && stored == *none_) || !std::isfinite(value) ? std::numeric_limits<float>::quiet_NaN() : value;
+  }
+
+  std::string file_;
+  const GdalFunctions& gdal_;
+  OwnedByUs<GDALDatasetH> data_;
+  GDALRasterBandH band_ = nullptr;
+  RasterFrame frame_;
+  bool upside_down_ = false;
+  std::optional<double> none_;
+  double scale_ = 1, offset_ = 0;
+  std::vector<double> row_;
+};
+
+}  // namespace
+
+std::unique_ptr<RasterRows> open_raster_file(const std::string& path) {
+  return std::make_unique<GdalRaster>(path);
+}
+
+#else
+
+std::unique_ptr<RasterRows> open_raster_file(const std::string& path) {
+  refuse_without_gdal(path);
+}
+
+#endif
+
+}  // namespace driftmesh

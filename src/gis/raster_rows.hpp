@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "driftmesh/point.hpp"
+#include "gis/transverse_mercator.hpp"
+
+namespace driftmesh {
+
+/// Where the values of a raster are: at the points first + (i dx, j dy) for 0 <= i < columns, 0 <= j < rows.
+struct RasterFrame {
+  std::int64_t columns = 0, rows = 0;
+  Point first{};          ///< the lower left one
+  double dx = 0, dy = 0;  ///< > 0
+};
+
+/// A raster in a file, to be read once from the top to the bottom.
+class RasterRows {
+ public:
+  virtual ~RasterRows() = default;
+  [[nodiscard]] virtual const RasterFrame& frame() const = 0;
+  /// From places in a UTM zone to the raster's coordinates; null: they are the same. A file that does not name its
+  /// system has longitudes and latitudes if all its coordinates could be some, and is in the zone otherwise.
+  [[nodiscard]] virtual std::function<Point(const Point&)> from_zone(const UtmZone& zone) const;
+  /// Values of row `j` from column `first` on, NaN where there are none. Rows are asked for in descending order, each
+  /// at most once. Throws InputError.
+  virtual void read(std::int64_t j, std::int64_t first, std::span<float> values) = 0;
+  /// After the last row that is needed: throws InputError where the rest of the file is damaged, as far as that is
+  /// seen.
+  virtual void finish() {}
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace driftmesh {
+
+/// Whether the file is one of polygons and lines that GDAL reads, by its name: .shp, .gpkg, .fgb, .gml, .kml, .gmt.
+[[nodiscard]] bool is_vector_file(const std::string& path);
+
+/// The files that are read for it: those beside a shapefile, too, as far as they exist.
+[[nodiscard]] std::vector<std::string> vector_files(const std::string& path);
+
+/// The features of such a file as the text of GeoJSON, in order, with their fields as properties in lower case. Fields
+/// without a value and empty texts are left out. Coordinates in a projection in meters remain as they are, with a "crs"
+/// that names a UTM zone by its code; those of a layer whose system is not known, too; all others become longitudes and
+/// latitudes on WGS 84, with no "crs". Curves become lines. `layers`: names with commas between them, in the order in
+/// which their features come; empty: the only one. Throws InputError, FileError: for a file that cannot be read or
+/// takes GDAL that is not there, for layers that do not exist or lie in different systems, and for several layers of
+/// which none is named.
+[[nodiscard]] std::string vector_as_geojson(const std::string& path, const std::string& layers);
+
+}  // namespace driftmesh

@@ -1,0 +1,67 @@
+#include "job/rasters.hpp"
+
+#include <algorithm>
+
+#include "gis/transverse_mercator.hpp"
+#include "raster/open_raster.hpp"
+#include "raster/raster.hpp"
+
+namespace driftmesh::job {
+namespace {
+
+std::string warning_of(const std::string& name, const std::string& file, const OpenedRaster& opened,
+                       std::size_t points) {
+  std::string parts;
+  if (opened.outside > 0) parts = std::to_string(opened.outside) + " lie outside of " + file;
+  if (opened.without > 0)
+    parts += (parts.empty() ? "" : " and ") + std::to_string(opened.without) + " lie where " + file + " has no value";
+  return "raster " + name + ": of " + std::to_string(points) + " points of the domain, " + parts +
+         "; the nearest value counts there";
+}
+
+}  // namespace
+
+void Rasters::write(ByteWriter& writer) const {
+  writer.value(files.size());
+  for (const auto& [name, file] : files) {
+    writer.text(name);
+    writer.text(file);
+  }
+  writer.text(projection);
+  writer.text(depth);
+}
+
+Rasters Rasters::read(ByteReader& reader) {
+  Rasters rasters;
+  for (auto left = reader.value<std::size_t>(); left > 0; --left) {
+    std::string name = reader.text();
+    rasters.files[std::move(name)] = reader.text();
+  }
+  rasters.projection = reader.text();
+  rasters.depth = reader.text();
+  return rasters;
+}
+
+Rasters rasters_of(const Request& request, const std::string& projection) {
+  return {request.input.rasters, projection, request.output.depth, {}};
+}
+
+std::vector<std::string> open_all(Rasters& rasters, const Box& box, const std::vector<Point>& points) {
+  std::vector<std::string> warnings;
+  for (const auto& [name, file] : rasters.files) {
+    const OpenedRaster opened = open_raster(file, {box, points, utm_zone_named(rasters.projection)});
+    rasters.open.push_back({name, opened.raster});
+    if (opened.outside > 0 || opened.without > 0) warnings.push_back(warning_of(name, file, opened, points.size()));
+  }
+  return warnings;
+}
+
+void set_depths(const Rasters& rasters, Mesh& mesh) {
+  if (rasters.depth.empty()) return;
+  const auto found = std::ranges::find(rasters.open, rasters.depth, &NamedRaster::name);
+  mesh.attributes_per_point = 1;
+  mesh.attributes.resize(mesh.points.size());
+  std::ranges::transform(mesh.points, mesh.attributes.begin(), [&](const Point& p) { return found->raster->at(p); });
+}
+
+}  // namespace driftmesh::job

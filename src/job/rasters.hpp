@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/bytes.hpp"
+#include "driftmesh/mesh.hpp"
+#include "geometry/box.hpp"
+#include "job/request.hpp"
+#include "sizing/named_raster.hpp"
+
+namespace driftmesh::job {
+
+/// The rasters of a request, for one domain. Each rank opens its own; the threads of a rank share them.
+struct Rasters {
+  std::map<std::string, std::string> files;  ///< by name
+  std::string projection;                    ///< of the domain; see InputFile
+  std::string depth;                         ///< the one that the points of the mesh get values of; empty: none
+  NamedRasters open;
+
+  void write(ByteWriter& writer) const;  ///< without what is open
+  [[nodiscard]] static Rasters read(ByteReader& reader);
+};
+
+/// None is open yet.
+[[nodiscard]] Rasters rasters_of(const Request& request, const std::string& projection);
+
+/// Opens all of them around a box, for a domain with these points. Returns warnings: where some of the points lie
+/// outside of a raster, or where it has no values. Throws InputError, FileError; see open_raster.
+std::vector<std::string> open_all(Rasters& rasters, const Box& box, const std::vector<Point>& points);
+
+/// Gives the points of a mesh, or of a piece, their depths as the only attribute, if a raster of depths is asked for.
+void set_depths(const Rasters& rasters, Mesh& mesh);
+
+}  // namespace driftmesh::job

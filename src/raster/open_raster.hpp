@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "driftmesh/point.hpp"
+#include "gis/transverse_mercator.hpp"
+#include "raster/raster.hpp"
+
+namespace driftmesh {
+
+/// What a raster is opened for.
+struct RasterPlace {
+  Box domain{};                     ///< around the domain
+  std::span<const Point> points{};  ///< of the domain, which are counted below
+  std::optional<UtmZone> zone{};    ///< that they lie in; absent: their system is not known, and is that of the raster
+};
+
+/// A raster, and how well it covers the domain.
+struct OpenedRaster {
+  std::shared_ptr<const Raster> raster;
+  std::size_t outside = 0;  ///< points of the domain that lie outside of the raster
+  std::size_t without = 0;  ///< others where it has no value
+};
+
+/// Reads a raster around the box of a domain: an ESRI ASCII grid (.asc) by itself, anything else by GDAL. The file is
+/// read once, row by row; what is needed of it is kept in tiles, in memory or, where it is large, on disk (see
+/// MappedRoom).
+/// - Where the raster has no value, that of the nearest point which has one counts; all within an eighth of the
+/// domain's
+///   size around it are considered.
+/// - A raster in other coordinates than the domain is resampled bilinearly (see resample); values are kept in single
+///   precision.
+/// Errors: FileError, and InputError for a damaged file, one that does not overlap the domain, and one without values
+/// there.
+[[nodiscard]] OpenedRaster open_raster(const std::string& path, const RasterPlace& place);
+
+}  // namespace driftmesh

@@ -1,0 +1,97 @@
+#include "raster/raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace driftmesh {
+namespace {
+
+constexpr double kFewSteps = 3;  // spacings
+
+/// As a count of spacings from the first point, no farther than the last one. Never falls as x rises, rounded as it is.
+double steps_to(double x, double first, double spacing, std::int64_t count) {
+  return std::clamp((x - first) / spacing, 0.0, static_cast<double>(count - 1));
+}
+
+/// The difference of the values on both sides of a point, where there are some, per unit of length.
+template <class Value>
+double rise(std::int64_t i, std::int64_t count, double spacing, const Value& value) {
+  const std::int64_t before = std::max<std::int64_t>(i - 1, 0), behind = std::min(i + 1, count - 1);
+  if (before == behind) return 0;
+  return (static_cast<double>(value(behind)) - static_cast<double>(value(before))) /
+         (spacing * static_cast<double>(behind - before));
+}
+
+TiledGrid slopes_of(const TiledGrid& grid) {
+  const RasterFrame& frame = grid.frame();
+  TiledGrid slopes(frame);
+  for (std::int64_t j = 0; j < frame.rows; ++j)
+    for (std::int64_t i = 0; i < frame.columns; ++i) {
+      const double east = rise(i, frame.columns, frame.dx, [&](std::int64_t k) { return grid.at(k, j); });
+      const double north = rise(j, frame.rows, frame.dy, [&](std::int64_t k) { return grid.at(i, k); });
+      slopes.set(i, j, static_cast<float>(std::sqrt(east * east + north * north)));
+    }
+  return slopes;
+}
+
+}  // namespace
+
+Raster::Raster(TiledGrid grid)
+    : grid_(std::move(grid)),
+      pyramid_(grid_),
+      largest_(pyramid_.over(grid_, 0, 0, frame().columns - 1, frame().rows - 1)) {}
+
+double Raster::column_at(double x) const {
+  return steps_to(x, frame().first.x, frame().dx, frame().columns);
+}
+
+double Raster::row_at(double y) const {
+  return steps_to(y, frame().first.y, frame().dy, frame().rows);
+}
+
+/// At a place in steps from the first point.
+double Raster::value(double u, double v) const {
+  const auto i = static_cast<std::int64_t>(u), j = static_cast<std::int64_t>(v);
+  const std::int64_t right = std::min(i + 1, frame().columns - 1), above = std::min(j + 1, frame().rows - 1);
+  const double s = u - static_cast<double>(i), t = v - static_cast<double>(j);
+  const double a = grid_.at(i, j), b = grid_.at(right, j), c = grid_.at(i, above), d = grid_.at(right, above);
+  const double low = a + (b - a) * s, high = c + (d - c) * s;
+  return std::clamp(low + (high - low) * t, std::min({a, b, c, d}), std::max({a, b, c, d}));  // rounding aside
+}
+
+double Raster::at(const Point& p) const {
+  return value(column_at(p.x), row_at(p.y));
+}
+
+Extent Raster::over(const Box& box) const {
+  const std::array<double, 4> steps{column_at(box.low.x), row_at(box.low.y), column_at(box.high.x), row_at(box.high.y)};
+  if (steps[2] - steps[0] <= kFewSteps && steps[3] - steps[1] <= kFewSteps) return exact_over(steps);
+  const auto first_column = static_cast<std::int64_t>(steps[0]), first_row = static_cast<std::int64_t>(steps[1]);
+  const auto last_column = std::min(static_cast<std::int64_t>(steps[2]) + 1, frame().columns - 1);
+  const auto last_row = std::min(static_cast<std::int64_t>(steps[3]) + 1, frame().rows - 1);
+  return pyramid_.over(grid_, first_column, first_row, last_column, last_row);
+}
+
+/// On a rectangle within four points of the grid, a bilinear function is extreme at corners.
+Extent Raster::exact_over(const std::array<double, 4>& steps) const {
+  Extent found{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const auto next = [](double from, double last) {
+    return from < last ? std::min(std::floor(from) + 1, last) : last + 1;
+  };
+  for (double v = steps[1]; v <= steps[3]; v = next(v, steps[3]))
+    for (double u = steps[0]; u <= steps[2]; u = next(u, steps[2])) {
+      const double here = value(u, v);
+      found = {std::min(found.low, here), std::max(found.high, here)};
+    }
+  const double rounding = 0x1p-48 * std::max(std::abs(largest_.low), std::abs(largest_.high));
+  return {std::max(found.low - rounding, largest_.low), std::min(found.high + rounding, largest_.high)};
+}
+
+std::shared_ptr<const Raster> Raster::slope() const {
+  std::call_once(has_slope_, [this] { slope_ = std::make_shared<const Raster>(slopes_of(grid_)); });
+  return slope_;
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+
+#include "geometry/box.hpp"
+#include "raster/raster.hpp"
+
+namespace driftmesh {
+
+/// From places in one coordinate system to those in another.
+using PlaceMap = std::function<Point(const Point&)>;
+
+/// The values of a raster at the points of a grid over a box in other coordinates. Its spacing is a power of two, at
+/// most those of the raster there, and its points are multiples of it, so that they hardly depend on the box.
+/// `to_source`: smooth, from these coordinates to those of the raster. It is asked at every sixteenth point in each
+/// direction, and is linear in between, which for map projections changes places by less than a hundredth of the
+/// spacing for spacings up to ten kilometers.
+[[nodiscard]] TiledGrid resample(const Raster& source, const PlaceMap& to_source, const Box& box);
+
+/// Around the image of a box, as far as points along its rim tell, and a hundredth of its size more.
+[[nodiscard]] Box image_of(const Box& box, const PlaceMap& map);
+
+}  // namespace driftmesh

@@ -1,0 +1,49 @@
+#include "sizing/named_raster.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "raster/raster.hpp"
+#include "sizing/field_calls.hpp"
+
+namespace driftmesh {
+namespace {
+
+constexpr std::array<std::string_view, 32> kKnown{"x",     "y",     "pi",   "_pi",   "e",    "_e",   "sin",  "cos",
+                                                  "tan",   "asin",  "acos", "atan",  "sinh", "cosh", "tanh", "asinh",
+                                                  "acosh", "atanh", "log2", "log10", "log",  "ln",   "exp",  "sqrt",
+                                                  "sign",  "rint",  "abs",  "min",   "max",  "sum",  "avg",  "atan2"};
+
+class RasterFunction final : public PlaneFunction {
+ public:
+  explicit RasterFunction(std::shared_ptr<const Raster> raster) : raster_(std::move(raster)) {}
+  [[nodiscard]] double at(const Point& p) const override { return raster_->at(p); }
+  [[nodiscard]] Interval over(const Box& box) const override {
+    const Extent values = raster_->over(box);
+    return {values.low, values.high};
+  }
+
+ private:
+  std::shared_ptr<const Raster> raster_;
+};
+
+}  // namespace
+
+std::shared_ptr<const PlaneFunction> values_of(std::shared_ptr<const Raster> raster) {
+  return std::make_shared<const RasterFunction>(std::move(raster));
+}
+
+std::shared_ptr<const PlaneFunction> slope_of(const std::shared_ptr<const Raster>& raster) {
+  return values_of(raster->slope());
+}
+
+bool can_name_raster(std::string_view name) {
+  const auto may_begin = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
+  if (name.empty() || !may_begin(static_cast<unsigned char>(name.front()))) return false;
+  if (!std::ranges::all_of(name, [&](unsigned char c) { return may_begin(c) || std::isdigit(c) != 0; })) return false;
+  return name != "hypot" && !FieldCalls::reserves(name) && std::ranges::find(kKnown, name) == kKnown.end();
+}
+
+}  // namespace driftmesh

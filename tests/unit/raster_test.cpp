@@ -1,0 +1,192 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "driftmesh/error.hpp"
+#include "gis/transverse_mercator.hpp"
+#include "raster/ascii_grid.hpp"
+#include "raster/nearest_values.hpp"
+#include "raster/open_raster.hpp"
+#include "temporary_folder.hpp"
+
+// Grids in text, their values as functions of position, and their places on the globe.
+
+using namespace driftmesh;
+
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+/// The rows as they are read, the topmost first.
+std::vector<std::vector<float>> rows_of(const std::string& text) {
+  AsciiGrid grid("depth.asc", text);
+  std::vector<std::vector<float>> rows;
+  for (std::int64_t j = grid.frame().rows - 1; j >= 0; --j) {
+    rows.emplace_back(static_cast<std::size_t>(grid.frame().columns));
+    grid.read(j, 0, rows.back());
+  }
+  grid.finish();
+  return rows;
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    static_cast<void>(rows_of(text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+const std::string kHeader = "ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 4\n";
+
+std::string written(const TemporaryFolder& folder, const std::string& text) {
+  const std::string path = (folder.path() / "depth.asc").string();
+  std::ofstream(path) << text;
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("an ESRI ASCII grid has its values in the middle of its cells, the topmost row first") {
+  const AsciiGrid grid("depth.asc", kHeader + "1 2 3\n4 5 6\n");
+  CHECK(grid.frame().columns == 3);
+  CHECK(grid.frame().rows == 2);
+  CHECK(grid.frame().first == Point{12, 22});
+  CHECK(grid.frame().dx == 4);
+  CHECK(rows_of(kHeader + "1 2 3\n4 5 6\n") == std::vector<std::vector<float>>{{1, 2, 3}, {4, 5, 6}});
+}
+
+TEST_CASE("entries of the header come in any order and case, and values may break lines anywhere") {
+  const std::string text =
+      "NROWS 2\r\nNCols 3\r\nYLLCENTER 5\r\nXLLCENTER -1e1\r\nDX 2\r\nDY 0.5\r\nnodata_value -1\r\n1 +2\r\n3 -1\r\n5 "
+      "nan";
+  const AsciiGrid grid("depth.asc", text);
+  CHECK(grid.frame().first == Point{-10, 5});
+  CHECK(grid.frame().dx == 2);
+  CHECK(grid.frame().dy == 0.5);
+  const auto rows = rows_of(text);
+  CHECK(rows[0] == std::vector<float>{1, 2, 3});
+  CHECK(std::isnan(rows[1][0]));
+  CHECK(rows[1][1] == 5);
+  CHECK(std::isnan(rows[1][2]));
+}
+
+TEST_CASE("a damaged grid is refused with the line of the damage") {
+  const auto says = [](const std::string& text, const std::string& part) {
+    INFO(text);
+    CHECK_MESSAGE(message_of(text).find(part) != std::string::npos, message_of(text));
+  };
+  says(kHeader + "1 2 3\n4 x 6\n", "depth.asc:7: 'x' is not a value");
+  says(kHeader + "1 2 3\n4 1,5 6\n", "depth.asc:7: '1,5' is not a value");
+  says(kHeader + "1 2 3\n4 5 6 \n\n7\n", "depth.asc:9: '7' follows the last");
+  says(kHeader + "1 22222 3\n4 5", "depth.asc:7: the file ends where a value is expected");
+  says(kHeader + "1 2\n", "depth.asc:6: the file is too short");
+  says(kHeader + "1 2 3\n4 1e99 6\n", "depth.asc:7: '1e99' is beyond single precision");
+  says("ncols 3\nncols 3\n", "depth.asc:2: the header has 'ncols' twice");
+  says("ncols 3\nrows 3\n", "depth.asc:2: 'rows' is not an entry");
+  says("ncols many\n", "depth.asc:1: 'many' is not a number");
+  says("ncols 2.5\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4 5", "no whole number of columns");
+  says("ncols 999999999\nnrows 999999999\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3", "too short");
+  says("ncols 1\nnrows 2\nxllcorner 0\nxllcenter 0\nyllcorner 0\ncellsize 1\n1 2", "or twice");
+  says("ncols 1\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize -1\n1 2", "not positive");
+  says("ncols 1\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize inf\n1 2", "not positive");
+  says("ncols 1\nnrows 2\nxllcorner 0\nyllcorner 0\n1 2", "one size of cells");
+  says("", "no whole number of columns");
+}
+
+TEST_CASE("values are bilinear between the points of a grid, and those of the nearest point outside") {
+  const TemporaryFolder folder;
+  const OpenedRaster opened = open_raster(written(folder, kHeader + "1 2 3\n4 5 60\n"), {{{10, 20}, {22, 28}}, {}, {}});
+  const Raster& raster = *opened.raster;
+  CHECK(raster.at({12, 22}) == 4);
+  CHECK(raster.at({16, 22}) == 5);
+  CHECK(raster.at({20, 26}) == 3);
+  CHECK(raster.at({14, 22}) == 4.5);
+  CHECK(raster.at({14, 24}) == 3);
+  CHECK(raster.at({18, 24}) == doctest::Approx((2 + 3 + 5 + 60) / 4.0));
+  CHECK(raster.at({-1000, -1000}) == 4);
+  CHECK(raster.at({1e300, 22}) == 60);
+  const double far = std::numeric_limits<double>::infinity();
+  CHECK(raster.over({{-far, -far}, {far, far}}).low == 1);
+  CHECK(raster.over({{-far, -far}, {far, far}}).high == 60);
+  CHECK(raster.over({{12, 26}, {15.9, 30}}).high == doctest::Approx(1.975));
+}
+
+TEST_CASE("the slope of a plane is the same everywhere") {
+  RasterFrame frame{7, 5, {100, -50}, 2, 3};
+  TiledGrid grid(frame);
+  for (std::int64_t j = 0; j < 5; ++j)
+    for (std::int64_t i = 0; i < 7; ++i)
+      grid.set(i, j, static_cast<float>(0.5 * grid.point(i, j).x - 0.25 * grid.point(i, j).y));
+  const Raster raster(std::move(grid));
+  const double slope = std::hypot(0.5, 0.25);
+  CHECK(raster.slope()->at({100, -50}) == doctest::Approx(slope).epsilon(1e-6));
+  CHECK(raster.slope()->at({107.1, -43.2}) == doctest::Approx(slope).epsilon(1e-6));
+  CHECK(raster.slope() == raster.slope());
+}
+
+TEST_CASE("points outside of a raster and without a value are counted, and get the nearest") {
+  const TemporaryFolder folder;
+  const std::string path = written(folder, kHeader + "1 -9999 3\n4 5 -9999\n");
+  const std::vector<Point> points{{16, 26}, {20, 22}, {12, 26}, {9, 26}, {22.1, 21}};
+  const OpenedRaster opened = open_raster(path, {Box::of(points), points, {}});
+  CHECK(opened.without == 2);
+  CHECK(opened.outside == 2);
+  CHECK(opened.raster->at({16, 26}) == 1);  // of three as near the one of the lowest column
+  CHECK(opened.raster->at({20, 22}) == 5);
+  const auto refuses = [&](const std::string& text, const Box& domain, const char* part) {
+    CHECK_THROWS_WITH_AS(static_cast<void>(open_raster(written(folder, text), {domain, {}, {}})),
+                         doctest::Contains(part), InputError);
+  };
+  refuses(kHeader + "1 2 3 4 5 6", {{50, 50}, {60, 60}}, "lies elsewhere than the domain");
+  refuses(kHeader + "-9999 -9999 -9999 -9999 -9999 -9999", {{10, 20}, {20, 22}}, "has no value in or near");
+}
+
+TEST_CASE("the inverse of the projection leads back") {
+  for (const double latitude : {-79.0, -33.3, 0.0, 1e-9, 37.5, 60.0, 83.9})
+    for (const double away : {-40.0, -3.0, -1e-7, 0.0, 2.9, 39.0}) {
+      const UtmZone zone{18, latitude >= 0};
+      const Point there = utm(zone.central_meridian() + away, latitude, zone);
+      const Point back = geographic(there, zone);
+      CHECK(std::abs(back.x - zone.central_meridian() - away) < 2e-12);
+      CHECK(std::abs(back.y - latitude) < 2e-12);
+    }
+  CHECK(utm_zone_named("UTM zone 18N")->epsg() == 32618);
+  CHECK(utm_zone_named(UtmZone{60, false}.name())->epsg() == 32760);
+  CHECK_FALSE(utm_zone_named("UTM zone 61N"));
+  CHECK_FALSE(utm_zone_named(""));
+  CHECK(utm_zone_of_epsg(32701)->name() == "UTM zone 1S");
+  CHECK_FALSE(utm_zone_of_epsg(32661));
+  CHECK_FALSE(utm_zone_of_epsg(4326));
+}
+
+TEST_CASE("a raster in degrees is resampled to the domain's zone") {
+  // Linear in longitude and latitude, so that only positions can be wrong; seven thousandths of a degree are 780 m.
+  const TemporaryFolder folder;
+  constexpr double kStep = 0.007, kWest = -77, kSouth = 36.5;
+  for (const double turn : {0.0, 360.0}) {  // some count longitudes from Greenwich to the east
+    std::string text = "ncols 300\nnrows 300\nxllcenter " + std::to_string(kWest + turn) + "\nyllcenter " +
+                       std::to_string(kSouth) + "\ncellsize " + std::to_string(kStep) + "\n";
+    for (int row = 299; row >= 0; --row)
+      for (int column = 0; column < 300; ++column) text += std::to_string(3 * kStep * column + 5 * kStep * row) + " ";
+    const UtmZone zone{18, true};
+    const std::vector<Point> points{utm(-76.5, 37, zone), utm(-75.5, 37, zone), utm(-75.5, 38, zone),
+                                    utm(-76.5, 38, zone)};
+    const OpenedRaster opened = open_raster(written(folder, text), {Box::of(points), points, zone});
+    CHECK(opened.outside == 0);
+    CHECK(opened.without == 0);
+    CHECK(opened.raster->frame().dx == 512);
+    double worst = 0;
+    for (double longitude = -76.4; longitude < -75.6; longitude += 0.0173)
+      for (double latitude = 37.1; latitude < 37.9; latitude += 0.0191) {
+        const double expected = 3 * (longitude - kWest) + 5 * (latitude - kSouth);
+        worst = std::max(worst, std::abs(opened.raster->at(utm(longitude, latitude, zone)) - expected));
+      }
+    CHECK(worst < 0.01 * 5 * kStep);  // a hundredth of the raster's spacing
+  }
+}
