@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that the named groups need and that are missing.
-#   scripts/setup.sh [build] [report] [python] [test] [readers] [bench] [fuzz] [hosts] [site]        (default: build)
+#   scripts/setup.sh [build] [gis] [report] [python] [test] [readers] [bench] [fuzz] [hosts] [site]        (default: build)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 
@@ -10,16 +10,17 @@ packages_of() {
     build) echo g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev libhdf5-dev nlohmann-json3-dev \
       libmuparser-dev libyaml-cpp-dev libcairo2-dev libmetis-dev libtrilinos-zoltan-dev \
       libboost-serialization-dev libopenmpi-dev openmpi-bin zlib1g-dev ;;
+    gis) echo libgdal-dev ;;  # 160 MB with what it needs; users of what is built with it need libgdal32 alone, if they read such files
     report) { command -v node && command -v npm; } >/dev/null || echo nodejs npm ;;  # others than Debian's will do
     python) echo pybind11-dev python3-dev python3-mpi4py python3-numpy ;;
-    test) echo chromium doctest-dev libboost-dev libcgal-dev clang-format clang-tidy dpkg-dev file fish gmsh man-db mypy python3 python3-pip python3-scipy python3-venv python3-yaml spin zsh ;;
+    test) echo chromium doctest-dev libboost-dev libcgal-dev clang-format clang-tidy dpkg-dev file fish gdal-bin gmsh gmt-gshhg-full man-db mypy python3 python3-pip python3-h5py python3-scipy python3-shapely python3-venv python3-yaml spin zsh ;;
     readers) echo gmsh openmpi-bin python3-dolfinx python3-h5py python3-meshio python3-petsc4py python3-vtk9 ;;
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
     hosts) echo iproute2 nftables ;;
     site) echo mkdocs ;;
     *)
-      echo "setup.sh: unknown group '$1'; use build, report, python, test, readers, bench, fuzz, hosts or site" >&2
+      echo "setup.sh: unknown group '$1'; use build, gis, report, python, test, readers, bench, fuzz, hosts or site" >&2
       return 2
       ;;
   esac

@@ -68,7 +68,7 @@ formatted() {
     xargs -0 clang-format --dry-run -Werror
 }
 
-scripts/setup.sh build report python test readers hosts site
+scripts/setup.sh build gis report python test readers hosts site
 run_preset ci
 [[ $quick == yes ]] || run_preset asan-ubsan
 say "clang-tidy"

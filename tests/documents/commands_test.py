@@ -10,7 +10,7 @@ Indented blocks, and those fenced as sh, are commands. Remarks on lines of their
     <!-- if: COMMAND -->             it is run only where this command succeeds
     <!-- file: NAME -->              the fenced block is the content of this file
 
-A remark <!-- before: COMMANDS --> anywhere makes what the page expects to be there, and <!-- needs: PROGRAM or MODULE ... --> at
+A remark <!-- before: COMMANDS --> anywhere makes what the page expects to be there, and <!-- needs: PROGRAM, MODULE or /FILE ... --> at
 the top names what must be installed; otherwise the exit code is 77. In the folder, which is the home, are `examples` and `configs` of the
 project, and DRIFTMESH_BUILD is the folder of the build.
 """
@@ -80,13 +80,16 @@ def blocks_of(text):
     return blocks, skipped
 
 
+def is_there(name):
+    if name.startswith("/"):
+        return pathlib.Path(name).exists()
+    return shutil.which(name) or subprocess.run(["/usr/bin/python3", "-c", f"import {name}"], capture_output=True,
+                                                check=False).returncode == 0
+
+
 def missing(text):
     needs = re.match(r"<!-- needs: (.*?) -->", text)
-    for name in needs[1].split() if needs else []:
-        if not shutil.which(name) and subprocess.run(["/usr/bin/python3", "-c", f"import {name}"], capture_output=True,
-                                                     check=False).returncode != 0:
-            return name
-    return None
+    return next((name for name in (needs[1].split() if needs else []) if not is_there(name)), None)
 
 
 def main():
