@@ -39,7 +39,7 @@ namespace driftmesh {
 
 /// The functions of GDAL that are used here. The library is loaded when they are first asked for.
 struct GdalFunctions {
-// NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage,bugprone-macro-parentheses): a name cannot be in parentheses here
 #define DRIFTMESH_GDAL_MEMBER(name) decltype(&::name) name;
   DRIFTMESH_GDAL_FUNCTIONS(DRIFTMESH_GDAL_MEMBER)
 #undef DRIFTMESH_GDAL_MEMBER
