@@ -1,6 +1,7 @@
 #include "balancer/collective_conduct.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "balancer/deliberation.hpp"
@@ -89,11 +90,29 @@ void CollectiveConduct::call(const Situation& situation, Decision& decision) {
   pace_.looked(now);
   LoadSnapshot sums;
   sums.ranks = news_->states(now);
-  if (!may_gain(sums, options_.worth, pace_.cost_of_planning())) return;
+  const double cost = cost_of_round();
+  const Verdict verdict = outlook(sums, options_.worth, cost, options_.time_ahead(ideal_time(sums), cost));
+  fresh_ = verdict == Verdict::kTooEarly;  // it will be time without news
+  if (verdict != Verdict::kDone || !last_can_give(sums)) return;
   ++round_;
   ready_ = 0;
   stage_ = Stage::kCalled;
   say_to_all(Step::kCall, decision);
+}
+
+/// Of the last one, or at first what the collective operations on the way to a decision take at least: each goes up a
+/// tree of all ranks and down again.
+double CollectiveConduct::cost_of_round() const {
+  constexpr double kOperations = 4;
+  const double levels = std::ceil(std::log2(std::max(2, layout_->ranks)));
+  return std::max(pace_.cost_of_planning(), kOperations * 2 * levels * options_.cost.latency);
+}
+
+/// Whether the rank that finishes last has more than it is working on now.
+bool CollectiveConduct::last_can_give(const LoadSnapshot& sums) const {
+  const IdVector<Rank, double> speeds = assumed_speeds(sums.ranks);
+  const Rank last = std::ranges::max(ids_of(speeds), {}, [&](Rank r) { return sums.ranks[r].remaining / speeds[r]; });
+  return news_->can_give(last, sums.ranks[last]);
 }
 
 void CollectiveConduct::answer(Decision& decision) {

@@ -46,6 +46,8 @@ class CollectiveConduct {
   void take_step(const JointRound& step);
   void say_to_all(Step step, Decision& decision) const;
   void call(const Situation& situation, Decision& decision);
+  [[nodiscard]] double cost_of_round() const;
+  [[nodiscard]] bool last_can_give(const LoadSnapshot& sums) const;
   void answer(Decision& decision);
   void start(Decision& decision);
   void decide(const Situation& situation, Decision& decision);

@@ -20,6 +20,7 @@ struct ControllerOptions {
   double interval = 1;             ///< longest time in seconds between reports of a rank with work
   double change = 0.1;             ///< a forecast that is off by this fraction is reported (see ReportRule)
   int refusals = 8;                ///< after this many in a row a rank stops asking for work until it is given some
+  double ahead = 0.25;             ///< of the time that is left: who runs out of work within that gets more
   double overhead = 0.01;          ///< fraction of the time that planning may take
   double reference_speed = 7.9e6;  ///< triangles a second of a rank that plans as fast as Policy::planning_seconds says
   double work_to_start = kWorkToStart;  ///< of a subdomain, in triangles
@@ -28,6 +29,11 @@ struct ControllerOptions {
 
   /// From asking for work to having it, in seconds: a look at the load, the way to rank 0, to the giver and back.
   [[nodiscard]] double time_to_get_work() const { return look + 3 * cost.latency; }
+  /// How long before a rank runs out of work others should give it some, in seconds, if so much time is left and a plan
+  /// takes so long. Not sooner: forecasts get better, and borders between what stays and what moves become settled.
+  [[nodiscard]] double time_ahead(double left, double planning) const {
+    return std::max({ahead * left, 8 * time_to_get_work(), 4 * planning});
+  }
   /// How long a subdomain stays where it has come to, in seconds, if so much time is left.
   [[nodiscard]] double rest_after_move(double left) const { return std::min(interval, left / 20); }
   /// How long to wait for a planned move, in seconds.

@@ -15,6 +15,8 @@ const char* name_of(Verdict verdict) {
       return "even";
     case Verdict::kSmallGain:
       return "small gain";
+    case Verdict::kTooEarly:
+      return "too early";
     case Verdict::kCostlyPlanning:
       return "planning takes longer";
     case Verdict::kNoMoves:

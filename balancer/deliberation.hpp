@@ -15,6 +15,7 @@ enum class Verdict : std::int32_t {
   kDone,            ///< planned, made, advised or passed on
   kEven,            ///< the load is even, as far as forecasts and speeds are to be trusted
   kSmallGain,       ///< an even load would gain less than moves are made for
+  kTooEarly,        ///< no rank runs out of work soon
   kCostlyPlanning,  ///< it would gain less time than planning takes
   kNoMoves,         ///< the policy proposes none
   kSmallSaving,     ///< with their costs, the moves save less than moves are made for

@@ -75,6 +75,22 @@ double ideal_time(const LoadSnapshot& snapshot) {
   return speed > 0 ? work / speed : 0;
 }
 
+bool has_open_borders(const LoadSnapshot& snapshot, const SubdomainLoad& s) {
+  return 2 * s.remaining >= (*snapshot.layout)[s.id].predicted;
+}
+
+double border_between_ranks(const LoadSnapshot& snapshot) {
+  double twice = 0;
+  for (const SubdomainLoad& s : snapshot.subdomains) {
+    if (!has_open_borders(snapshot, s)) continue;
+    for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors) {
+      const SubdomainLoad* const other = find(snapshot, n.subdomain);
+      if (other && other->owner != s.owner && has_open_borders(snapshot, *other)) twice += n.length;
+    }
+  }
+  return twice / 2;
+}
+
 LoadSnapshot after(LoadSnapshot snapshot, std::span<const Move> moves) {
   for (const Move& move : moves) {
     SubdomainLoad& s = *find_in(snapshot.subdomains, move.subdomain);

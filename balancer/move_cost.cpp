@@ -6,7 +6,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "balancer/deliberation.hpp"
 #include "balancer/effort.hpp"
 #include "protocol/messages.hpp"
 
@@ -119,6 +118,13 @@ std::vector<JudgedMove> consider_those_that_fit(Selection& selection, const Load
   return out;
 }
 
+/// Whether any rank has no more work than it does in this many seconds.
+bool runs_out(const LoadSnapshot& snapshot, double seconds) {
+  const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
+  return std::ranges::any_of(ids_of(speeds),
+                             [&](Rank r) { return snapshot.ranks[r].remaining <= seconds * speeds[r]; });
+}
+
 }  // namespace
 
 void price_moves(LoadSnapshot& snapshot, const MoveCost& cost) {
@@ -151,11 +157,12 @@ double possible_gain(const LoadSnapshot& snapshot) {
   return gain_beyond(noise_of(snapshot), finishing_time(snapshot) - ideal_time(snapshot));
 }
 
-bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning) {
+Verdict outlook(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning, double ahead) {
   const double last = finishing_time(snapshot), ideal = ideal_time(snapshot), noise = noise_of(snapshot);
   const double gain = gain_beyond(noise, last - ideal);
   const Verdict verdict = gain <= 0                                            ? Verdict::kEven
                           : gain <= worth.gain * last || gain <= worth.seconds ? Verdict::kSmallGain
+                          : !runs_out(snapshot, ahead)                         ? Verdict::kTooEarly
                           : gain <= cost_of_planning                           ? Verdict::kCostlyPlanning
                                                                                : Verdict::kDone;
   if (is_logged())
@@ -164,8 +171,8 @@ bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_p
           .ideal = ideal,
           .noise = noise,
           .saves = gain,
-          .loads = known_loads(snapshot)});
-  return verdict == Verdict::kDone;
+          .loads = verdict == Verdict::kTooEarly ? std::vector<Deliberation::KnownLoad>{} : known_loads(snapshot)});
+  return verdict;
 }
 
 std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost,

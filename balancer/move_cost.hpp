@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
+#include "balancer/deliberation.hpp"
 #include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
@@ -42,9 +44,11 @@ struct Worth {
 /// How much earlier the last rank would finish if work were even, in seconds, beyond noise.
 [[nodiscard]] double possible_gain(const LoadSnapshot& snapshot);
 
-/// Whether planning is worthwhile at all: the possible gain, beyond noise, exceeds both the required one and the time
-/// that planning takes, in seconds. It and worth_moving() note what they find (see Deliberation).
-[[nodiscard]] bool may_gain(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning);
+/// Whether planning is worthwhile: kDone if the possible gain, beyond noise, exceeds both the required one and the time
+/// that planning takes, in seconds, and a rank runs out of work within `ahead` seconds. It and worth_moving() note what
+/// they find (see Deliberation).
+[[nodiscard]] Verdict outlook(const LoadSnapshot& snapshot, const Worth& worth, double cost_of_planning,
+                              double ahead = HUGE_VAL);
 
 /// Whether a plan may be reduced to the moves that it needs.
 enum class Kept { kNeeded, kAll };

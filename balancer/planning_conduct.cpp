@@ -29,6 +29,15 @@ double unaware_partners(Rank self, std::int32_t ranks) {
   return kTimes * static_cast<double>(std::min(to_index(ranks) - 1, partners));
 }
 
+/// Drops moves to ranks that have work for long: where several ranks give to the same one without knowing of each
+/// other, and forecasts change, they would give it too much, too often.
+void drop_early(std::vector<Move>& moves, const LoadSnapshot& snapshot, Rank self, const ControllerOptions& options) {
+  const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
+  const auto time = [&](Rank r) { return snapshot.ranks[r].remaining / speeds[r]; };
+  const double ahead = 2 * options.time_ahead(time(self), 0);  // it takes more than one step
+  std::erase_if(moves, [&](const Move& move) { return time(move.destination) > ahead; });
+}
+
 // False if it is not there.
 bool remove(std::vector<ReportedLoad>& own, SubdomainId id) {
   return std::erase_if(own, [&](const auto& load) { return load.subdomain == id; }) > 0;
@@ -111,12 +120,18 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   if (!news_ || !pace_.due(now)) return;
   // The first plan waits a little for the speeds of all ranks.
   if (leads && !knowledge_->complete() && now < start_ + options_.patience()) return;
-  news_ = false;
   pace_.looked(now);
   decision.planned = true;
   LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
   if (leads) be_sure_of_idle_ranks(snapshot);
-  if (leads && !may_gain(snapshot, options_.worth, pace_.cost_of_planning())) return;
+  news_ = false;
+  if (leads) {
+    const double cost = pace_.cost_of_planning();
+    const double ahead = options_.time_ahead(ideal_time(snapshot), std::max(cost, cost_of_whole(snapshot, situation)));
+    const Verdict verdict = outlook(snapshot, options_.worth, cost, ahead);
+    news_ = verdict == Verdict::kTooEarly;  // it will be time without any
+    if (verdict != Verdict::kDone) return;
+  }
   const double rest = options_.rest_after_move(finishing_time(snapshot));
   std::erase_if(moved_, [&](const auto& move) { return now - move.second > rest; });
   price_moves(snapshot, options_.cost);
@@ -132,13 +147,18 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
 
 /// The plan of the policy as far as it is worth its moves. If the policy offers single moves as well, a plan is asked
 /// for only where it may pay off, and kept as a whole, since what makes it better than those would be lost in parts, or
-/// not at all.
+/// not at all: it must end notably earlier, or leave less border between ranks for not too many moves.
 std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation) {
   const bool leads = policy_->placement() == Placement::kLeader;
   const auto needed = [&](const std::vector<Move>& moves) {
     return worth_moving(leads ? snapshot : between(snapshot, self_, moves), moves, options_.cost, options_.worth);
   };
-  const auto single = leads ? policy_->touch_up(snapshot) : std::nullopt;
+  if (!leads) {
+    std::vector<Move> moves = policy_->plan(snapshot, self_);
+    drop_early(moves, snapshot, self_, options_);
+    return needed(moves);
+  }
+  const auto single = policy_->touch_up(snapshot);
   if (single && !affords_whole(snapshot, situation)) return needed(*single);
   const std::vector<Move> plan = policy_->plan(snapshot, self_);
   if (!single) return needed(plan);
@@ -152,16 +172,21 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot,
   const double notable = options_.worth.gain * ideal_time(snapshot), later = finish(whole) - finish(few);
   const bool has_few_moves =
       static_cast<double>(whole.size()) <= policy_->most_moves() * static_cast<double>(few.size());
-  const bool takes_whole = later < -notable || (later <= notable && has_few_moves);
+  const auto border = [&](const std::vector<Move>& moves) { return border_between_ranks(after(snapshot, moves)); };
+  const bool takes_whole = later < -notable || (later <= notable && has_few_moves && border(whole) < border(few));
   overrule(takes_whole ? 0 : 1);
   return takes_whole ? whole : few;
 }
 
-/// Not if the rest of the run would gain less than planning takes; until the first plan, that is an expectation.
+/// Not if the rest of the run would gain less than planning takes.
 bool PlanningConduct::affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const {
+  return situation.now >= next_whole_ && possible_gain(snapshot) > cost_of_whole(snapshot, situation);
+}
+
+/// What a plan of the policy takes, in seconds; until the first one that is an expectation.
+double PlanningConduct::cost_of_whole(const LoadSnapshot& snapshot, const Situation& situation) const {
   const double slower = situation.speed > 0 ? options_.reference_speed / situation.speed : 1;
-  const double expected = whole_cost_ > 0 ? whole_cost_ : slower * policy_->planning_seconds(snapshot);
-  return situation.now >= next_whole_ && possible_gain(snapshot) > expected;
+  return whole_cost_ > 0 ? whole_cost_ : slower * policy_->planning_seconds(snapshot);
 }
 
 void PlanningConduct::took(double seconds) {

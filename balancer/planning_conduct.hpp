@@ -39,6 +39,7 @@ class PlanningConduct {
   void plan(const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] std::vector<Move> worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation);
   [[nodiscard]] bool affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const;
+  [[nodiscard]] double cost_of_whole(const LoadSnapshot& snapshot, const Situation& situation) const;
   void advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own, Decision& decision);
   [[nodiscard]] std::vector<Rank> to_be_asked(std::span<const Move> moves, const LoadSnapshot& snapshot) const;
   void report(const Situation& situation, const Loads& own, Decision& decision);

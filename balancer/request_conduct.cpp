@@ -41,6 +41,10 @@ RequestConduct::RequestConduct(Rank self, std::shared_ptr<const Layout> layout, 
       policy_(std::move(policy)),
       options_(options),
       rule_(options.gap, options.interval, options.change) {
+  double predicted = 0;
+  for (const Layout::Subdomain& s : layout_->subdomains) predicted += s.predicted;
+  constexpr double kOfMean = 0.25;
+  crumbs_ = kOfMean * predicted / static_cast<double>(std::max<std::size_t>(1, layout_->subdomains.size()));
   if (self == kBroker) news_.emplace(*layout_, now);
 }
 
@@ -143,7 +147,7 @@ void RequestConduct::forget_promises(double now) {
 
 void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decision) {
   const double total = total_work(own);
-  const double next = own.empty() ? 0 : total - own.front().remaining;
+  const double next = own.empty() ? 0 : total - own.front().remaining - crumbs_;
   const bool low = policy_->runs_low(seconds_of(next, situation.speed) - options_.time_to_get_work());
   if (!low) refusals_ = 0;
   if (!low || asked_ || !coming_.empty() || refusals_ >= options_.refusals || situation.free_memory <= 0) return;

@@ -62,7 +62,8 @@ class RequestConduct {
   std::uint32_t reports_ = 0;
   std::vector<WorkRequest> requests_;  // not looked at
 
-  bool asked_ = false;                // not yet answered
+  double crumbs_ = 0;   // triangles: no more is left in finished subdomains whose neighbors have split their borders
+  bool asked_ = false;  // not yet answered
   std::uint32_t round_ = 0;           // of the last request
   int refusals_ = 0;                  // in a row
   std::vector<SubdomainId> arrived_;  // since the last request; they may arrive before the answer that promises them

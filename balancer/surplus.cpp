@@ -24,6 +24,7 @@ class Dealer {
       : snapshot_(snapshot),
         tolerance_(tolerance),
         ideal_(ideal_time(snapshot)),
+        limit_(ideal_),
         speeds_(assumed_speeds(snapshot.ranks)),
         index_(snapshot.layout ? snapshot.layout->subdomains.size() : 0, kUnlisted),
         border_(snapshot.subdomains.size()),
@@ -32,13 +33,14 @@ class Dealer {
     for (Index i = 0; i < snapshot.subdomains.size(); ++i) index_[snapshot.subdomains[i].id] = i;
   }
 
-  /// Subdomains that are neighbors stay together where ranks have room for them.
-  LoadSnapshot deal_together() {
+  /// Subdomains that are neighbors stay together where ranks have room for them until `limit`, in seconds.
+  LoadSnapshot deal_together(double limit) {
+    limit_ = limit;
     std::vector<Index> left;
     const std::vector<Index> pool = collect();
     RanksByFinish takers = takers_of(pool);
     for (const Index i : pool)
-      if (!place_within_shares(i, takers)) left.push_back(i);
+      if (!place_next_to_neighbors(i, takers)) left.push_back(i);
     deal_singly(std::move(left), takers);
     return std::move(snapshot_);
   }
@@ -71,16 +73,29 @@ class Dealer {
   }
 
   double& load(Rank rank) { return snapshot_.ranks[rank].remaining; }
-  [[nodiscard]] double share(Rank rank) const { return ideal_ * speeds_[rank]; }
+  /// The work that a rank does within the limit.
+  [[nodiscard]] double share(Rank rank) const { return limit_ * speeds_[rank]; }
 
   [[nodiscard]] std::span<const Neighbor> neighbors_of(Index i) const {
     if (!snapshot_.layout) return {};
     return (*snapshot_.layout)[snapshot_.subdomains[i].id].neighbors;
   }
-  /// The neighbor, if it is listed and still belongs to this rank.
-  [[nodiscard]] Index staying(const Neighbor& neighbor, Rank r) const {
+  /// The neighbor, if it is listed and the border to it counts.
+  [[nodiscard]] Index open(const Neighbor& neighbor) const {
     const Index j = index_[neighbor.subdomain];
+    return j != kUnlisted && has_open_borders(snapshot_, snapshot_.subdomains[j]) ? j : kUnlisted;
+  }
+  /// The same, if it still belongs to this rank.
+  [[nodiscard]] Index staying(const Neighbor& neighbor, Rank r) const {
+    const Index j = open(neighbor);
     return j != kUnlisted && snapshot_.subdomains[j].owner == r && !gone_[j] ? j : kUnlisted;
+  }
+  /// Whether the neighbor has left its rank, or is where work is lacking.
+  [[nodiscard]] bool is_where_work_goes(const Neighbor& neighbor) const {
+    const Index j = open(neighbor);
+    if (j == kUnlisted) return false;
+    const Rank r = snapshot_.subdomains[j].owner;
+    return gone_[j] || snapshot_.ranks[r].remaining < ideal_ * speeds_[r] * (1 - tolerance_);
   }
 
   /// The surplus of all ranks.
@@ -91,17 +106,17 @@ class Dealer {
       if (!snapshot_.subdomains[i].fixed) own[snapshot_.subdomains[i].owner].push_back(i);
     std::vector<Index> pool;
     for (const Rank r : ids_of(own))
-      if (load(r) > share(r) * (1 + tolerance_)) peel(r, own[r], pool);
+      if (load(r) > std::max(limit_, ideal_ * (1 + tolerance_)) * speeds_[r]) peel(r, own[r], pool);
     return pool;
   }
 
-  /// Adds the surplus of a rank to the pool: what leaves most easily, each next to the one before if possible, so that
-  /// they can stay together elsewhere.
+  /// Adds the surplus of a rank to the pool: what leaves most easily, each next to the one before if possible, or to
+  /// the surplus of another rank, so that they can stay together elsewhere.
   void peel(Rank r, const std::vector<Index>& own, std::vector<Index>& pool) {
     // With those that leave, less that with those that stay.
     for (const Index i : own)
       for (const Neighbor& n : neighbors_of(i))
-        if (staying(n, r) != kUnlisted) border_[i] -= n.length;
+        border_[i] += staying(n, r) != kUnlisted ? -n.length : is_where_work_goes(n) ? n.length : 0;
     const auto key = [&](Index i) {
       const SubdomainLoad& s = snapshot_.subdomains[i];
       return std::tuple(-static_cast<std::int64_t>(weight_class(s)), border_[i], s.turn, s.remaining, -to_int(s.id));
@@ -139,21 +154,19 @@ class Dealer {
     return load(r) + s.remaining <= share(r) && has_memory(r, s);
   }
 
-  /// To the rank with the longest border that has room for it in its share, or to the one with most room.
-  bool place_within_shares(Index i, RanksByFinish& takers) {
+  /// To the rank with the longest border that has room for it, or to the one with most room.
+  bool place_next_to_neighbors(Index i, RanksByFinish& takers) {
     const SubdomainLoad& s = snapshot_.subdomains[i];
     std::map<Rank, double> borders;
-    for (const Neighbor& n : neighbors_of(i)) {
-      const Index j = index_[n.subdomain];
-      const Rank r = j != kUnlisted ? snapshot_.subdomains[j].owner : (*snapshot_.layout)[n.subdomain].owner;
-      if (has_room(r, s)) borders[r] += n.length;
-    }
+    for (const Neighbor& n : neighbors_of(i))
+      if (const Index j = open(n); j != kUnlisted && has_room(snapshot_.subdomains[j].owner, s))
+        borders[snapshot_.subdomains[j].owner] += n.length;
     const auto longest = std::ranges::max_element(borders, {}, [](const auto& b) { return b.second; });
     if (longest != borders.end()) {
       give(i, longest->first, takers);
       return true;
     }
-    const Rank roomiest = takers.roomiest(ideal_);
+    const Rank roomiest = takers.roomiest(limit_);
     if (!has_room(roomiest, s)) return false;
     give(i, roomiest, takers);
     return true;
@@ -167,7 +180,7 @@ class Dealer {
 
   LoadSnapshot snapshot_;
   double tolerance_;
-  double ideal_;
+  double ideal_, limit_;  // seconds
   IdVector<Rank, double> speeds_;
   IdVector<SubdomainId, Index> index_;  // among those listed
   std::vector<double> border_;          // of a rank's subdomains while it gives some up
@@ -177,12 +190,18 @@ class Dealer {
 }  // namespace
 
 LoadSnapshot deal_surplus(const LoadSnapshot& snapshot, double tolerance) {
-  LoadSnapshot together = Dealer(snapshot, tolerance).deal_together();
-  LoadSnapshot singly = Dealer(snapshot, tolerance).deal_singly();
-  const double latest = finishing_time(singly) + tolerance / 2 * ideal_time(snapshot);
-  LoadSnapshot dealt = std::move(finishing_time(together) <= latest ? together : singly);
-  if (finishing_time(dealt) < finishing_time(snapshot)) return dealt;
-  return snapshot;
+  LoadSnapshot dealt = Dealer(snapshot, tolerance).deal_singly();
+  const double earliest = finishing_time(dealt), ideal = ideal_time(snapshot);
+  if (!snapshot.layout) return earliest < finishing_time(snapshot) ? dealt : snapshot;
+  // Large pieces do not always fit; the more room, the likelier.
+  for (const double room : {0.5, 1.0, 1.5}) {
+    const double limit = earliest + room * tolerance * ideal;
+    LoadSnapshot together = Dealer(snapshot, tolerance).deal_together(limit);
+    if (finishing_time(together) > limit) continue;
+    dealt = std::move(together);
+    break;
+  }
+  return finishing_time(dealt) < finishing_time(snapshot) ? dealt : snapshot;
 }
 
 }  // namespace driftmesh::balancer

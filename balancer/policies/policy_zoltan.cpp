@@ -11,11 +11,13 @@
 namespace driftmesh::balancer {
 namespace {
 
-/// The length of the borders of `s` with subdomains of `rank`.
+/// The length of the open borders of `s` with subdomains of `rank`.
 double border_with(const LoadSnapshot& snapshot, const SubdomainLoad& s, Rank rank) {
   double length = 0;
-  for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors)
-    if (owner_of(snapshot, n.subdomain) == rank) length += n.length;
+  for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors) {
+    const SubdomainLoad* const other = find(snapshot, n.subdomain);
+    if (other && other->owner == rank && has_open_borders(snapshot, *other)) length += n.length;
+  }
   return length;
 }
 
@@ -136,7 +138,7 @@ std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
   dealing.polish = parameters.flag("polish", dealing.polish);
   dealing.tolerance = parameters.number("tolerance", dealing.tolerance, 0, 10);
   const double touch_up = parameters.number("touch-up", 0.1, 0, 10);
-  const double most_moves = parameters.number("most-moves", 2, 0, 1e9);
+  const double most_moves = parameters.number("most-moves", 1.5, 0, 1e9);
   return std::make_unique<ZoltanPolicy>(std::move(all), collective ? Placement::kCollective : Placement::kLeader,
                                         touch_up, dealing, most_moves);
 }

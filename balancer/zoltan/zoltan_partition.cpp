@@ -107,13 +107,18 @@ struct Graph {
     for (const SubdomainLoad& s : snapshot->subdomains) {
       for (const Neighbor& n : (*snapshot->layout)[s.id].neighbors) {
         const int where = processes[at++];
-        if (where < 0) continue;
+        if (where < 0 || is_settled(s, n)) continue;
         target.push_back(static_cast<ZOLTAN_ID_TYPE>(n.subdomain));
         process.push_back(where);
         weight.push_back(static_cast<float>(n.length / mean));
       }
       first.push_back(narrow<int>(target.size(), "borders between subdomains"));
     }
+  }
+  /// Whether the points on a border are known on both sides, as far as this process can tell.
+  [[nodiscard]] bool is_settled(const SubdomainLoad& s, const Neighbor& n) const {
+    const SubdomainLoad* const other = find(*snapshot, n.subdomain);
+    return other && !(has_open_borders(*snapshot, s) && has_open_borders(*snapshot, *other));
   }
   /// Of all subdomains, so that it is the same on all processes. Zoltan weighs borders against sizes_to_move.
   [[nodiscard]] double mean_border() const {

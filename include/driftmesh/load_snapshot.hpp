@@ -108,6 +108,11 @@ void sum_up(LoadSnapshot& snapshot);
 /// When all would finish if work were arbitrarily divisible: total work / total speed.
 [[nodiscard]] double ideal_time(const LoadSnapshot& snapshot);
 
+/// Whether most of the points on its borders are still to be made. Else both sides know them.
+[[nodiscard]] bool has_open_borders(const LoadSnapshot& snapshot, const SubdomainLoad& s);
+/// The length of the borders between subdomains of different ranks, where both have open borders.
+[[nodiscard]] double border_between_ranks(const LoadSnapshot& snapshot);
+
 /// The snapshot after `moves`, which must be valid. If a subdomain is moved more than once, its last move counts.
 [[nodiscard]] LoadSnapshot after(LoadSnapshot snapshot, std::span<const Move> moves);
 

@@ -25,6 +25,13 @@ Loads loads_of(std::int32_t first, std::int32_t last, double work) {
   return loads;
 }
 
+/// Without waiting until a rank runs out of work soon.
+ControllerOptions planning_early() {
+  ControllerOptions options;
+  options.ahead = 1;
+  return options;
+}
+
 Controller controller_of(Rank self, const Layout& layout, const std::string& policy, double start = 0) {
   return Controller(self, std::make_shared<Layout>(layout), make_policy(policy), ControllerOptions{}, start);
 }
@@ -118,8 +125,9 @@ TEST_CASE("a planned move without news is forgotten") {
 
 TEST_CASE("the leader plans when all have reported, and a rank follows") {
   const Layout layout = grid_layout(12, 1, 2);
-  Controller leader = controller_of(0_rank, layout, "greedy", 100),
-             other = controller_of(1_rank, layout, "greedy", 100);
+  const std::shared_ptr<const Policy> greedy = balancer::make_policy("greedy", {});
+  Controller leader(0_rank, std::make_shared<Layout>(layout), greedy, planning_early(), 100);
+  Controller other = controller_of(1_rank, layout, "greedy", 100);
   CHECK(leader.due(100));
   CHECK(leader.think(100, loads_of(0, 5, 1000), 400).moves.empty());
   CHECK(!leader.due(100.001));
@@ -135,15 +143,17 @@ TEST_CASE("the leader plans when all have reported, and a rank follows") {
   const auto plans = sent<balancer::Plan>(decision);
   REQUIRE(plans.size() == 1);
   CHECK(plans[0].first == 1_rank);
-  CHECK(plans[0].second.moves.size() == 4);
+  REQUIRE(plans[0].second.moves.size() == 4);
+  // Those next to the other rank, so that the border between them stays as short.
+  for (const SubdomainId id : {6_sub, 7_sub, 8_sub, 9_sub})
+    CHECK(std::ranges::count(plans[0].second.moves, Move{id, 0_rank}) == 1);
 
   // Subdomains that are not here, finished, or not worth their cost stay.
   other.receive(0_rank, plans[0].second, 100.2);
   CHECK(other.waiting());
-  Loads here = loads_of(6, 11, 1000);
-  here.pop_back();
-  here[3].remaining = 1;
-  here[3].bytes = 100'000'000;
+  Loads here = loads_of(7, 11, 1000);
+  here[2].remaining = 1;
+  here[2].bytes = 100'000'000;
   const Decision followed = other.think(100.2, here, 100);
   CHECK(!other.waiting());
   CHECK(followed.moves.size() == 2);
@@ -151,7 +161,7 @@ TEST_CASE("the leader plans when all have reported, and a rank follows") {
   REQUIRE(answer.size() == 1);  // the leader learns the outcome
   CHECK(answer[0].second.plan == plans[0].second.round);
   REQUIRE(answer[0].second.loads.size() == 4);
-  CHECK(answer[0].second.loads.back() == ReportedLoad{11_sub, 0, 0, 0});  // gone
+  CHECK(answer[0].second.loads.back() == ReportedLoad{6_sub, 0, 0, 0});  // gone
 }
 
 TEST_CASE("work that was finished before it could move is not expected at its destination") {
@@ -266,7 +276,7 @@ class TwoPlans final : public Policy {
 /// How many moves a leader with eight subdomains makes or advises when the other rank has four.
 std::size_t moves_made(const std::vector<Move>& whole, const std::vector<Move>& single, double most_moves) {
   Controller leader(0_rank, std::make_shared<Layout>(grid_layout(12, 1, 2)),
-                    std::make_shared<TwoPlans>(whole, single, most_moves), {}, 0);
+                    std::make_shared<TwoPlans>(whole, single, most_moves), planning_early(), 0);
   leader.receive(1_rank, LoadReport{1, 0, 100, loads_of(8, 11, 1000)}, 1);
   const Decision decision = leader.think(1, loads_of(0, 7, 1000), 100);
   std::size_t moves = decision.moves.size();
@@ -276,12 +286,17 @@ std::size_t moves_made(const std::vector<Move>& whole, const std::vector<Move>& 
 
 }  // namespace
 
-TEST_CASE("a whole plan with many more moves than single ones is made only where it finishes earlier") {
+TEST_CASE("a whole plan is made where it finishes earlier, or leaves less border with not too many moves") {
   const std::vector<Move> six{{0_sub, 1_rank}, {1_sub, 1_rank}, {2_sub, 1_rank},
                               {3_sub, 1_rank}, {8_sub, 0_rank}, {9_sub, 0_rank}};
   const std::vector<Move> two{{6_sub, 1_rank}, {7_sub, 1_rank}}, one{{7_sub, 1_rank}};
-  CHECK(moves_made(six, two, 3) == 6);
-  CHECK(moves_made(six, two, 2) == 2);
+  std::vector<Move> ten;  // the halves of the strip, exchanged
+  for (const SubdomainId id : first_ids<SubdomainId>(6)) ten.push_back({id, 1_rank});
+  for (const SubdomainId id : {8_sub, 9_sub, 10_sub, 11_sub}) ten.push_back({id, 0_rank});
+  const std::vector<Move> scattered{{2_sub, 1_rank}, {5_sub, 1_rank}};
+  CHECK(moves_made(ten, scattered, 5) == 10);
+  CHECK(moves_made(ten, scattered, 4) == 2);
+  CHECK(moves_made(ten, two, 5) == 2);
   CHECK(moves_made(six, one, 2) == 6);  // by a ninth
 }
 
@@ -326,6 +341,19 @@ TEST_CASE("a rank without work sends none, whatever the plan") {
   }
 }
 
+TEST_CASE("the leader waits with a plan until a rank runs out of work soon") {
+  const auto plans_when_left = [](double seconds) {
+    Controller leader = controller_of(0_rank, grid_layout(12, 1, 2), "greedy");
+    leader.receive(1_rank, LoadReport{1, 0, 100, loads_of(6, 11, 1000)}, 1);
+    const Decision decision = leader.think(1, loads_of(0, 5, 100 * seconds / 6), 100);
+    return !sent<balancer::Plan>(decision).empty();
+  };
+  CHECK(!plans_when_left(30));  // of 45 seconds on average
+  CHECK(!plans_when_left(12));
+  CHECK(plans_when_left(8));  // of 34
+  CHECK(plans_when_left(0));
+}
+
 TEST_CASE("a rank asks for work when it begins its last subdomain, however long that takes, or a little earlier") {
   const Layout layout = grid_layout(12, 1, 3);
   const auto asks = [&](const Loads& own) {
@@ -333,8 +361,11 @@ TEST_CASE("a rank asks for work when it begins its last subdomain, however long 
     return !sent<balancer::WorkRequest>(c.think(0, own, 1000)).empty();
   };
   CHECK(asks(loads_of(4, 4, 1e6)));
-  CHECK(!asks(loads_of(4, 5, 100)));  // a tenth of a second each
+  CHECK(!asks(loads_of(4, 5, 1000)));  // a second each
   CHECK(asks(loads_of(4, 5, 5)));
+  // What is left in a finished subdomain whose neighbors have split its borders is no work to rely on.
+  CHECK(asks({{4_sub, 0, 1000, 40}, {5_sub, 0, 100, 40}}));
+  CHECK(!asks({{4_sub, 0, 1000, 40}, {5_sub, 0, 400, 40}}));
 }
 
 TEST_CASE("a rank that runs low sends a request and waits for the answer") {

@@ -23,7 +23,7 @@ std::vector<Deliberation> noted_by(const std::function<void()>& plan) {
 }
 
 Verdict verdict_on(const LoadSnapshot& snapshot, double cost_of_planning = 0) {
-  const auto noted = noted_by([&] { static_cast<void>(may_gain(snapshot, {}, cost_of_planning)); });
+  const auto noted = noted_by([&] { static_cast<void>(outlook(snapshot, {}, cost_of_planning)); });
   REQUIRE(noted.size() == 1);
   CHECK(noted[0].subject == Deliberation::Subject::kLoad);
   CHECK(noted[0].finish == finishing_time(snapshot));

@@ -117,16 +117,16 @@ TEST_CASE("what forecasts leave in doubt moves nothing") {
   for (SubdomainLoad& load : s.subdomains) load.owner = load.id < 22_sub ? 0_rank : 1_rank;
   sum_up(s);
   const std::vector<Move> plan{{21_sub, 1_rank}};
-  CHECK(may_gain(s, {}, 0));
+  CHECK(outlook(s, {}, 0) == Verdict::kDone);
   CHECK(worth_moving(s, plan, {}) == plan);
   for (RankLoad& rank : s.ranks) rank.doubt = 0.01;
-  CHECK(may_gain(s, {}, 0));
+  CHECK(outlook(s, {}, 0) == Verdict::kDone);
   CHECK(worth_moving(s, plan, {}) == plan);
   for (RankLoad& rank : s.ranks) rank.doubt = 0.1;
-  CHECK(!may_gain(s, {}, 0));
+  CHECK(outlook(s, {}, 0) != Verdict::kDone);
   CHECK(worth_moving(s, plan, {}).empty());
   s.ranks[1_rank].remaining = 0;  // plainly idle
-  CHECK(may_gain(s, {}, 0));
+  CHECK(outlook(s, {}, 0) == Verdict::kDone);
 }
 
 TEST_CASE("the noise of ranks that differ by chance alone is the gain that they seem to offer") {

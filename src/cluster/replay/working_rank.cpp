@@ -19,10 +19,6 @@ IdVector<SubdomainId, Rank> owners_of(const balancer::Layout& layout) {
 
 }  // namespace
 
-double CountedWork::remaining() const {
-  return done >= work ? 0 : std::max(1.0, forecast - done);
-}
-
 std::uint64_t CountedWork::bytes() const {
   return 40 + static_cast<std::uint64_t>(16 * done);
 }
@@ -32,6 +28,7 @@ WorkingRank::WorkingRank(protocol::Transport& transport, const std::shared_ptr<c
                          const balancer::ControllerOptions& balancing, balancer::Council* council,
                          const Options& options)
     : transport_(transport),
+      layout_(layout),
       owners_(owners_of(*layout)),
       protocol_(transport.rank(), transport.ranks(), owners_),
       limits_{transport.ranks(), static_cast<std::int32_t>(work.size()), 1},
@@ -80,21 +77,29 @@ bool WorkingRank::poll() {
 std::vector<SubdomainId> WorkingRank::agenda() const {
   std::vector<SubdomainId> order;
   for (const auto& [id, job] : jobs_)
-    if (job.remaining() > 0) order.push_back(id);
+    if (!job.finished()) order.push_back(id);
   std::stable_partition(order.begin(), order.end(), [&](SubdomainId id) { return jobs_.at(id).done > 0; });
   return order;
 }
 
-void WorkingRank::balance() {
+std::vector<balancer::ReportedLoad> WorkingRank::loads() const {
   std::vector<balancer::ReportedLoad> own;
-  for (const SubdomainId id : agenda())
-    own.push_back({id, protocol_.where(id).epoch, jobs_.at(id).remaining(), jobs_.at(id).bytes()});
+  for (const SubdomainId id : agenda()) {
+    const CountedWork& job = jobs_.at(id);
+    const double remaining = std::max(1.0, experience_.rest((*layout_)[id].on_segments, job.forecast, job.done));
+    own.push_back({id, protocol_.where(id).epoch, remaining, job.bytes()});
+  }
+  return own;
+}
+
+void WorkingRank::balance() {
+  const std::vector<balancer::ReportedLoad> own = loads();
   const balancer::EffortLog planning;
   const double start = std::exchange(assembled_since_, std::nullopt).value_or(transport_.now());
+  const double speed = options_.given_speed > 0 ? options_.given_speed : speed_.value();
   const double free_memory =
       options_.memory < balancer::kAmpleMemory ? options_.memory - occupied() : balancer::kAmpleMemory;
-  auto decision = controller_.think(transport_.now(), own,
-                                    options_.given_speed > 0 ? options_.given_speed : speed_.value(), 0, free_memory);
+  auto decision = controller_.think(transport_.now(), own, speed, experience_.doubt(own), free_memory);
   if (decision.assembles) assembled_since_ = start;
   transport_.spend(balancer::PlanningCosts{}.seconds(planning.efforts()) * options_.planning_speed);
   if (decision.planned) controller_.took(std::max(transport_.now() - start, options_.planning_speed > 0 ? 0 : 1e-3));
@@ -110,6 +115,7 @@ double WorkingRank::occupied() const {
 
 void WorkingRank::hand_over(const balancer::Move& move) {
   const auto node = jobs_.extract(move.subdomain);
+  experience_.left(move.subdomain);
   Bytes packed(std::max<std::size_t>(sizeof(CountedWork), node.mapped().bytes()));
   std::memcpy(packed.data(), &node.mapped(), sizeof(CountedWork));
   protocol_.hand_off(move.subdomain, move.destination, std::move(packed));
@@ -120,14 +126,18 @@ void WorkingRank::hand_over(const balancer::Move& move) {
 bool WorkingRank::work() {
   const auto order = agenda();
   if (order.empty()) return false;
-  CountedWork& job = jobs_.at(order.front());
+  const SubdomainId id = order.front();
+  CountedWork& job = jobs_.at(id);
+  const bool starts = job.done <= 0;
   const double amount = std::min(options_.slice, job.work - job.done);
   const double before = transport_.now();
   transport_.spend(amount);  // speeds of the network are triangles a second
   job.done += amount;
   counts_.done += amount;
-  speed_.add({amount, transport_.now() - before});
   last_work = transport_.now();
+  speed_.add({amount, last_work - before});
+  experience_.worked(id, last_work - before, starts);
+  if (job.finished()) experience_.finished(id, (*layout_)[id].on_segments, job.forecast, job.done);
   return true;
 }
 

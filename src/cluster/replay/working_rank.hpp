@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "balancer/controller.hpp"
+#include "balancer/experience.hpp"
 #include "balancer/speed_estimate.hpp"
 #include "protocol/rank_protocol.hpp"
 #include "protocol/rank_step.hpp"
@@ -20,11 +21,12 @@ struct CountedWork {
   double done = 0;      ///< triangles
   double work = 0;      ///< the actual amount
   double forecast = 0;  ///< what all ranks believe
-  [[nodiscard]] double remaining() const;
+  [[nodiscard]] bool finished() const { return done >= work; }
   [[nodiscard]] std::uint64_t bytes() const;  ///< of its packed form
 };
 
-/// A rank that does such work with the real protocol, codec and controller. Its time is counted in triangles.
+/// A rank that does such work with the real protocol, codec and controller, and learns from it. Its time is counted in
+/// triangles.
 class WorkingRank {
  public:
   struct Counts {
@@ -55,16 +57,19 @@ class WorkingRank {
   void send();
   bool poll();
   [[nodiscard]] std::vector<SubdomainId> agenda() const;
+  [[nodiscard]] std::vector<balancer::ReportedLoad> loads() const;
   void balance();
   void hand_over(const balancer::Move& move);
   bool work();
 
   protocol::Transport& transport_;
+  std::shared_ptr<const balancer::Layout> layout_;
   IdVector<SubdomainId, Rank> owners_;  // at the start
   protocol::RankProtocol protocol_;
   protocol::WireLimits limits_;
   balancer::Controller controller_;
   balancer::SpeedEstimate speed_;
+  balancer::Experience experience_{0};  // counted work contains the start of subdomains
   std::map<SubdomainId, CountedWork> jobs_;
   Options options_;
   std::optional<double> assembled_since_;  // waits for all others since then
