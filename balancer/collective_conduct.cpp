@@ -90,6 +90,7 @@ void CollectiveConduct::call(const Situation& situation, Decision& decision) {
   pace_.looked(now);
   LoadSnapshot sums;
   sums.ranks = news_->states(now);
+  be_sure_of_idle_ranks(sums);
   const double cost = cost_of_round();
   const Verdict verdict = outlook(sums, options_.worth, cost, options_.time_ahead(ideal_time(sums), cost));
   fresh_ = verdict == Verdict::kTooEarly;  // it will be time without news

@@ -149,6 +149,12 @@ double noise_of(const LoadSnapshot& snapshot) {
   return working < 2 ? 0 : (std::sqrt(2 * std::log(working)) - 0.6) * std::sqrt(squares / working);
 }
 
+void be_sure_of_idle_ranks(LoadSnapshot& snapshot) {
+  const auto idle = [](const RankLoad& rank) { return rank.remaining <= 0; };
+  if (std::ranges::none_of(snapshot.ranks, idle)) return;
+  for (RankLoad& rank : snapshot.ranks) rank.doubt = 0;
+}
+
 double gain_beyond(double noise, double apparent) {
   return apparent > noise ? std::max(0.0, std::sqrt(apparent * apparent - noise * noise) - noise) : 0;
 }

@@ -38,6 +38,9 @@ struct Worth {
 /// and speeds in doubt: the expected maximum of as many normal deviates as there are ranks with work.
 [[nodiscard]] double noise_of(const LoadSnapshot& snapshot);
 
+/// Counts no doubts once a rank has no work: whatever that is given saves time.
+void be_sure_of_idle_ranks(LoadSnapshot& snapshot);
+
 /// What is left of an apparent gain when there is noise: that contributed to it, and will again after the moves.
 [[nodiscard]] double gain_beyond(double noise, double apparent);
 

@@ -43,13 +43,6 @@ bool remove(std::vector<ReportedLoad>& own, SubdomainId id) {
   return std::erase_if(own, [&](const auto& load) { return load.subdomain == id; }) > 0;
 }
 
-/// Once a rank has no work, whatever it is given saves time: doubts about the work of others must not keep it idle.
-void be_sure_of_idle_ranks(LoadSnapshot& snapshot) {
-  const auto idle = [](const RankLoad& rank) { return rank.remaining <= 0; };
-  if (std::ranges::none_of(snapshot.ranks, idle)) return;
-  for (RankLoad& rank : snapshot.ranks) rank.doubt = 0;
-}
-
 }  // namespace
 
 PlanningConduct::PlanningConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
