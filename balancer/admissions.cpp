@@ -95,6 +95,7 @@ void Admissions::follow(const Step& answer, std::vector<ReportedLoad>& own, Sett
     const bool fits = load != own.end() && room_for(*load) <= kMore * p.guest.triangles;
     const Verdict verdict = load == own.end() ? Verdict::kGone : admitted && fits ? Verdict::kDone : Verdict::kNoMemory;
     followed.moves.push_back({id, self_, p.other, verdict});
+    if (verdict == Verdict::kGone) settled.gone.push_back(id);
     if (verdict == Verdict::kDone) {
       followed.verdict = verdict;
       settled.moves.push_back({id, p.other});

@@ -54,6 +54,7 @@ class Admissions {
     std::vector<Outgoing> messages;
     std::vector<SubdomainId> not_coming;  ///< refused here, or returned: they are not to be expected
     bool refused = false;                 ///< some of them for lack of memory
+    std::vector<SubdomainId> gone;        ///< of those asked for: finished here meanwhile
   };
   /// Answers questions, given memory for `free_memory` triangles including what is set aside, and follows answers. What
   /// leaves, or waits for an answer, is removed from `own`.

@@ -94,6 +94,7 @@ Decision Controller::think(double now, std::span<const ReportedLoad> own, double
 /// What does not come is not waited for, and whoever planned it should learn of the memory here.
 void Controller::tell(const Admissions::Settled& settled) {
   std::visit(Each{[&](PlanningConduct& planning) {
+                    for (const SubdomainId id : settled.gone) planning.gone(id);
                     if (settled.refused) planning.refused();
                   },
                   [&](RequestConduct& requests) {

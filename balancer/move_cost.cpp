@@ -118,11 +118,13 @@ std::vector<JudgedMove> consider_those_that_fit(Selection& selection, const Load
   return out;
 }
 
-/// Whether any rank has no more work than it does in this many seconds.
+/// Whether any rank that can be given some has no more work than it does in this many seconds.
 bool runs_out(const LoadSnapshot& snapshot, double seconds) {
   const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
-  return std::ranges::any_of(ids_of(speeds),
-                             [&](Rank r) { return snapshot.ranks[r].remaining <= seconds * speeds[r]; });
+  return std::ranges::any_of(ids_of(speeds), [&](Rank r) {
+    const RankLoad& rank = snapshot.ranks[r];
+    return rank.free_memory > 0 && rank.remaining <= seconds * speeds[r];
+  });
 }
 
 }  // namespace
@@ -150,7 +152,7 @@ double noise_of(const LoadSnapshot& snapshot) {
 }
 
 void be_sure_of_idle_ranks(LoadSnapshot& snapshot) {
-  const auto idle = [](const RankLoad& rank) { return rank.remaining <= 0; };
+  const auto idle = [](const RankLoad& rank) { return rank.remaining <= 0 && rank.free_memory > 0; };
   if (std::ranges::none_of(snapshot.ranks, idle)) return;
   for (RankLoad& rank : snapshot.ranks) rank.doubt = 0;
 }

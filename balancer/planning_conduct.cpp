@@ -88,7 +88,7 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
       const bool asks = std::ranges::find(plan.ask, move.destination) != plan.ask.end();
       if (verdict == Verdict::kDone && remove(own, move.subdomain))
         (asks ? decision.asks : decision.moves).push_back(move);
-      if (verdict == Verdict::kGone) mentioned_.push_back({.subdomain = move.subdomain});
+      if (verdict == Verdict::kGone) gone(move.subdomain);
     }
     note(std::move(followed));
   }

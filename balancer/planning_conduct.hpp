@@ -25,6 +25,9 @@ class PlanningConduct {
   void arrived(SubdomainId id, protocol::Epoch epoch) { mentioned_.push_back({id, epoch, 0, 0}); }
   /// What was on its way here, by other ranks' plans, does not come: they should know why.
   void refused() { acted_ = true; }
+  /// A subdomain that should have moved was finished before: whoever planned it counts on that work for its
+  /// destination.
+  void gone(SubdomainId id) { mentioned_.push_back({.subdomain = id}); }
   [[nodiscard]] bool waiting() const { return !advised_.empty(); }
   [[nodiscard]] bool pressing() const { return waiting(); }
   [[nodiscard]] Decision think(const Situation& situation);

@@ -74,7 +74,7 @@ class Bench:
         """The record of one run of configs/two-ranks.yaml, on real or simulated ranks."""
         settings = {"cluster.kind": kind, "cluster.ranks": ranks, "cluster.drag": json.dumps(drag),
                     "balance.policy": policy, "input.generate": '""', "input.file": self.input_of("pipe"),
-                    "bounds.triangles": self.options.triangles, "pictures": "false"}
+                    "bounds.triangles": self.options.triangles, "report": "false"}
         command = ["mpirun", "-n", str(ranks)] if kind == "real" else []
         command += [self.options.program, "run", PROJECT / "configs/two-ranks.yaml", "-o", self.folder / "runs",
                     "--quiet", *(word for item in settings.items() for word in ("--set", "{}={}".format(*item))),
@@ -87,7 +87,7 @@ class Bench:
         ranks = len(drag)
         experiment = {"input": {"file": str(self.input_of("chesapeake"))}, "bounds": {"angle": 20},
                       "sizing": {"size": self.options.coast}, "decomposition": {"subdomains": 300, "skew": 0.5},
-                      "run": {"presplit": "off"}, "balance": {"policy": policy}, "pictures": False,
+                      "run": {"presplit": "off"}, "balance": {"policy": policy}, "report": False,
                       "cluster": {"kind": kind, "ranks": ranks, "drag": drag}}
         (self.folder / "coast.yaml").write_text(json.dumps(experiment))
         command = ["mpirun", "--bind-to", "none", "-n", str(ranks)] if kind == "real" else []

@@ -44,7 +44,7 @@ run_experiment() {
   local name=$1 file=$2 settings=()
   shift 2
   if [[ $small == yes ]]; then
-    settings=(--set pictures=false)
+    settings=(--set report=false)
     for setting in "$@"; do settings+=(--set "$setting"); done
   fi
   rm -rf "${folder:?}/$name"

@@ -32,7 +32,7 @@ class GhostLayer final : public Exchange {
  private:
   /// Triangles of one subdomain, which one rank has one after the other.
   struct Block {
-    std::int32_t subdomain = 0;
+    std::int64_t subdomain = 0;  // as wide as the other, so that messages have no padding
     std::int64_t triangles = 0;
   };
   /// What a neighbor sends: a part of its piece.

@@ -44,6 +44,7 @@ class GdalRaster final : public RasterRows {
         [&gdal = gdal_](OGRCoordinateTransformationH t) { gdal.OCTDestroyCoordinateTransformation(t); });
     if (to_own == nullptr) fail(quiet.message("lies in an unknown coordinate system"), "reproject it with gdalwarp");
     return [this, to_own](const Point& p) {
+      const QuietGdal quiet_here(gdal_);
       Point place = p;
       if (gdal_.OCTTransform(to_own.get(), 1, &place.x, &place.y, nullptr) == 0)
         fail("cannot be placed in the domain's zone", "reproject it with gdalwarp");

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -129,7 +128,9 @@ class VectorReader {
       if (gdal_.OGR_F_IsFieldSetAndNotNull(feature, k) == 0) continue;
       const OGRFieldDefnH field = gdal_.OGR_F_GetFieldDefnRef(feature, k);
       std::string name = gdal_.OGR_Fld_GetNameRef(field);
-      std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+      std::ranges::transform(name, name.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;  // bytes of UTF-8 stay as they are
+      });
       switch (gdal_.OGR_Fld_GetType(field)) {
         case OFTInteger:
         case OFTInteger64:
@@ -181,7 +182,7 @@ class VectorReader {
       default:
         throw InputError({file_},
                          "feature " + std::to_string(number) + " has a geometry that is no point, line or polygon",
-                         "convert it with ogr2ogr -nlt CONVERT_TO_LINEAR");
+                         "convert it with ogr2ogr -nlt MULTIPOLYGON");
     }
   }
 
@@ -213,7 +214,7 @@ class VectorReader {
 }  // namespace
 
 std::string vector_as_geojson(const std::string& path, const std::string& layers) {
-  return VectorReader(path).read(layers).dump();
+  return VectorReader(path).read(layers).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 #else

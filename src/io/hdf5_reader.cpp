@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "base/narrow.hpp"
@@ -28,10 +30,10 @@ class Hdf5Reader {
     read_points();
     read_cells();
     read_data();
-    for_each_name<std::int32_t>("/tags/facets",
-                                [&](auto marker, const char* name) { add_marker_name(mesh_.names, marker, name); });
+    for_each_name<std::int32_t>(
+        "/tags/facets", [&](auto marker, const std::string& name) { add_marker_name(mesh_.names, marker, name); });
     for_each_name<double>("/tags/cells",
-                          [&](auto region, const char* name) { add_region_name(mesh_.names, region, name); });
+                          [&](auto region, const std::string& name) { add_region_name(mesh_.names, region, name); });
     return std::move(mesh_);
   }
 
@@ -148,25 +150,30 @@ class Hdf5Reader {
     values.resize(mesh_.triangles.size());
   }
 
+  static std::string name_of(const Hdf5Handle& attribute) {
+    std::string name(static_cast<std::size_t>(std::max<ssize_t>(0, H5Aget_name(attribute.id(), 0, nullptr))), '\0');
+    H5Aget_name(attribute.id(), name.size() + 1, name.data());
+    return name;
+  }
+
   /// Calls visit(value, name) for each attribute of an array that is one number.
   template <class Value, class Visit>
   void for_each_name(const std::string& array, const Visit& visit) const {
     if (!has(array)) return;
     const Hdf5Handle set(H5Dopen(file_.id(), array.c_str(), H5P_DEFAULT), H5Dclose);
-    const auto read = [](hid_t of, const char* name, const H5A_info_t*, void* to) -> herr_t {
-      const Hdf5Handle attribute(H5Aopen(of, name, H5P_DEFAULT), H5Aclose);
+    const int count = H5Aget_num_attrs(set.id());
+    for (int k = 0; k < count; ++k) {
+      const Hdf5Handle attribute(
+          H5Aopen_by_idx(set.id(), ".", H5_INDEX_NAME, H5_ITER_INC, static_cast<hsize_t>(k), H5P_DEFAULT, H5P_DEFAULT),
+          H5Aclose);
       const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose);
       const Hdf5Handle type(H5Aget_type(attribute.id()), H5Tclose);
       const H5T_class_t kind = H5Tget_class(type.id());
       Value value{};
       if ((kind == H5T_INTEGER || kind == H5T_FLOAT) && H5Sget_simple_extent_npoints(space.id()) == 1 &&
           H5Aread(attribute.id(), hdf5_type<Value>(), &value) >= 0)
-        (*static_cast<const Visit*>(to))(value, name);
-      return 0;
-    };
-    hsize_t next = 0;
-    H5Aiterate(set.id(), H5_INDEX_NAME, H5_ITER_INC, &next, read,
-               const_cast<void*>(static_cast<const void*>(&visit)));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+        visit(value, name_of(attribute));
+    }
   }
 
   const std::string& path_;

@@ -48,7 +48,7 @@ Boundaries boundaries_of(const Mesh& mesh) {
 std::string word_of(std::string name) {
   std::ranges::replace_if(
       name, [](char c) { return std::string_view(" ,()=%").find(c) != std::string_view::npos; }, '_');
-  if (marker_from(name)) name.insert(name.begin(), '_');
+  if (marker_from(name) || name == "SEND_RECEIVE") name.insert(name.begin(), '_');
   return name;
 }
 

@@ -21,8 +21,13 @@ RasterFrame frame_over(const Box& box, double spacing) {
   RasterFrame frame;
   frame.dx = frame.dy = spacing;
   frame.first = {std::floor(box.low.x / spacing) * spacing, std::floor(box.low.y / spacing) * spacing};
-  frame.columns = 1 + static_cast<std::int64_t>(std::ceil((box.high.x - frame.first.x) / spacing));
-  frame.rows = 1 + static_cast<std::int64_t>(std::ceil((box.high.y - frame.first.y) / spacing));
+  // More than any raster may have; also where the file's spacing makes it infinite or not a number.
+  constexpr double kMost = 0x1p40;
+  const auto count = [](double steps) {
+    return 1 + static_cast<std::int64_t>(steps <= kMost ? std::ceil(steps) : kMost);
+  };
+  frame.columns = count((box.high.x - frame.first.x) / spacing);
+  frame.rows = count((box.high.y - frame.first.y) / spacing);
   return frame;
 }
 
