@@ -73,6 +73,16 @@ double narrowing(const Box& window) {
   return std::max(std::cos((window.low.y + window.high.y) / 2 * std::numbers::pi / 180), 0.01);
 }
 
+/// Throws LimitError with the name of the file if its values are absurdly dense.
+std::shared_ptr<const Raster> resampled(const Raster& raster, const PlaceMap& to_source, const Box& domain,
+                                        const std::string& path) {
+  try {
+    return std::make_shared<const Raster>(resample(raster, to_source, domain));
+  } catch (const LimitError& error) {
+    throw LimitError(path + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 OpenedRaster open_raster(const std::string& path, const RasterPlace& place) {
@@ -105,7 +115,7 @@ OpenedRaster open_raster(const std::string& path, const RasterPlace& place) {
   if (fill_from_nearest(grid, width, grid.frame().dy) == values)
     throw InputError({path}, "has no value in or near the domain", "give one that covers it");
   opened.raster = std::make_shared<const Raster>(std::move(grid));
-  if (to_source) opened.raster = std::make_shared<const Raster>(resample(*opened.raster, to_source, domain));
+  if (to_source) opened.raster = resampled(*opened.raster, to_source, domain, path);
   return opened;
 }
 

@@ -82,6 +82,11 @@ TEST_CASE("markers have their names in a .su2, as one word, and read back whole"
   CHECK(text.find("MARKER_TAG= _-2\n") != std::string::npos);
   check_same_mesh(read_mesh(path), boundary_only(mesh));
 
+  mesh.names.markers = {{-2, "SEND_RECEIVE"}};  // SU2's own word for something else
+  write_mesh(mesh, path);
+  CHECK(file_bytes(path).find("MARKER_TAG= _SEND_RECEIVE\n") != std::string::npos);
+  check_same_mesh(read_mesh(path), boundary_only(mesh));
+
   mesh.names.markers = {{-2, "a b"}, {7, "a,b"}};  // the same word
   write_mesh(mesh, path);
   CHECK(file_bytes(path).find("MARKER_TAG= a_b_7\n") != std::string::npos);

@@ -165,6 +165,17 @@ TEST_CASE("the inverse of the projection leads back") {
   CHECK_FALSE(utm_zone_of_epsg(4326));
 }
 
+TEST_CASE("a raster with an absurd spacing is refused, not resampled") {
+  const TemporaryFolder folder;
+  const UtmZone zone{18, true};
+  const std::vector<Point> points{utm(-76.5, 37, zone), utm(-75.5, 37, zone), utm(-75.5, 38, zone)};
+  for (const char* spacing : {"1e-9", "1e-12", "1e-300"}) {
+    const std::string file =
+        written(folder, "ncols 1\nnrows 1\nxllcenter -76\nyllcenter 37.5\ncellsize " + std::string(spacing) + "\n7\n");
+    CHECK_THROWS_WITH_AS(open_raster(file, {Box::of(points), points, zone}), doctest::Contains(file.c_str()), Error);
+  }
+}
+
 TEST_CASE("a raster in degrees is resampled to the domain's zone") {
   // Linear in longitude and latitude, so that only positions can be wrong; seven thousandths of a degree are 780 m.
   const TemporaryFolder folder;
