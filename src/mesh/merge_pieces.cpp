@@ -229,9 +229,12 @@ class Merger {
   /// A piece from a file has them all, or, from other programs, those that it needs.
   void take_names() {
     const auto take = [&](auto& all, const auto& of_piece) {
-      for (const auto& [value, name] : of_piece)
-        if (const auto known = all.try_emplace(value, name).first; known->second != name)
-          faults_.add([&] { return "pieces have different names, '" + known->second + "' and '" + name + "'"; });
+      for (const auto& entry : of_piece) {
+        const std::string& name = entry.second;
+        const std::string& known = all.try_emplace(entry.first, name).first->second;
+        if (known != name)
+          faults_.add([&] { return "pieces have different names, '" + known + "' and '" + name + "'"; });
+      }
     };
     for (const Mesh* piece : pieces_) {
       take(whole_.names.markers, piece->names.markers);
