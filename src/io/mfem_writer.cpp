@@ -118,13 +118,9 @@ std::unique_ptr<FileSink> prepare_mfem(const MfemPart& part, const std::string& 
 }
 
 void write_mfem(const Mesh& mesh, const std::string& path) {
-  MfemPart part{.mesh = mesh, .boundary = {}, .region_tags = {}, .marker_tags = {}};
+  MfemPart part{.mesh = mesh, .boundary = boundary_edges(mesh), .region_tags = {}, .marker_tags = {}};
   std::set<double> markers;
-  const auto at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
-  for (std::size_t e = 0; e < at_edges.size(); ++e) {
-    markers.insert(mesh.edges[e].marker);
-    if ((at_edges[e][0] < 0) != (at_edges[e][1] < 0)) part.boundary.push_back(static_cast<std::int32_t>(e));
-  }
+  for (const Mesh::Edge& edge : mesh.edges) markers.insert(edge.marker);
   part.region_tags = tags_of_values({mesh.regions.begin(), mesh.regions.end()});
   part.marker_tags = tags_of_values(markers);
   prepare_mfem(part, path)->commit();

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 #include <map>
 #include <set>
@@ -34,13 +33,11 @@ void write_numbers(FileSink& sink, std::initializer_list<std::int64_t> numbers) 
 }
 
 /// The edges of the boundary, by their markers.
-using Boundaries = std::map<std::int32_t, std::vector<std::size_t>>;
+using Boundaries = std::map<std::int32_t, std::vector<std::int32_t>>;
 
 Boundaries boundaries_of(const Mesh& mesh) {
-  const auto at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
   Boundaries boundaries;
-  for (std::size_t e = 0; e < at_edges.size(); ++e)
-    if ((at_edges[e][0] < 0) != (at_edges[e][1] < 0)) boundaries[mesh.edges[e].marker].push_back(e);
+  for (const std::int32_t e : boundary_edges(mesh)) boundaries[mesh.edges[to_index(e)].marker].push_back(e);
   return boundaries;
 }
 
@@ -87,7 +84,10 @@ void write_boundaries(FileSink& sink, const Mesh& mesh, const Boundaries& bounda
     sink.text(tags.at(marker));
     sink.character('\n');
     write_count(sink, "MARKER_ELEMS", edges.size());
-    for (const std::size_t e : edges) write_numbers(sink, {kSu2Line, mesh.edges[e].a, mesh.edges[e].b});
+    for (const std::int32_t e : edges) {
+      const Mesh::Edge& edge = mesh.edges[to_index(e)];
+      write_numbers(sink, {kSu2Line, edge.a, edge.b});
+    }
   }
 }
 

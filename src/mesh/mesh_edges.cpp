@@ -109,6 +109,14 @@ std::vector<std::array<std::int32_t, 2>> triangles_at_edges(const Mesh& mesh, co
   return at_edges;
 }
 
+std::vector<std::int32_t> boundary_edges(const Mesh& mesh) {
+  std::vector<std::int32_t> boundary;
+  const auto at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
+  for (std::size_t e = 0; e < at_edges.size(); ++e)
+    if ((at_edges[e][0] < 0) != (at_edges[e][1] < 0)) boundary.push_back(static_cast<std::int32_t>(e));
+  return boundary;
+}
+
 std::vector<Mesh::Edge> separator_edges(const Mesh& mesh, const TriangleNeighbors& neighbors,
                                         const ConstrainedEdgeIndex& index, std::int32_t marker) {
   std::vector<Mesh::Edge> edges;

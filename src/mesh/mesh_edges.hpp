@@ -42,6 +42,9 @@ class ConstrainedEdgeIndex {
 [[nodiscard]] std::vector<std::array<std::int32_t, 2>> triangles_at_edges(const Mesh& mesh,
                                                                           const ConstrainedEdgeIndex& index);
 
+/// The indices into mesh.edges of those with a triangle on one side only, in ascending order.
+[[nodiscard]] std::vector<std::int32_t> boundary_edges(const Mesh& mesh);
+
 /// The edges on separators: between triangles of different subdomains, and not in mesh.edges. They have this marker.
 [[nodiscard]] std::vector<Mesh::Edge> separator_edges(const Mesh& mesh, const TriangleNeighbors& neighbors,
                                                       const ConstrainedEdgeIndex& index, std::int32_t marker);

@@ -303,12 +303,7 @@ TEST_CASE("hardly ever a rank gets more than it has memory for") {
 
 // Where messages may take forever, what a rank once told of its memory may be ever so old.
 TEST_CASE("on an adversarial network each question has one answer, and what is admitted comes or is returned") {
-  // Time is the number of steps here, and speed is in jobs per step.
-  ControllerOptions options;
-  options.look = 3;
-  options.gap = 20;
-  options.interval = 300;
-  options.cost.latency = 1;
+  const ControllerOptions options = testing::options_in_steps();
   std::map<std::string, Tally> tallies;
   const auto saw_all = [&] {
     return tallies["diffusion"].refusals > 0 && std::ranges::all_of(kPolicies, [&](const std::string& policy) {

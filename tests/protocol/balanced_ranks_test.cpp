@@ -181,12 +181,7 @@ TEST_CASE("random clusters and loads: every run is complete, and none takes much
 }
 
 TEST_CASE("on an adversarial network every request is answered, nothing is lost, and the end is final") {
-  // Time is the number of steps here, and speed is in jobs per step.
-  ControllerOptions options;
-  options.look = 3;
-  options.gap = 20;
-  options.interval = 300;
-  options.cost.latency = 1;
+  const ControllerOptions options = testing::options_in_steps();
   const Parameters::Values low_water{{"low-water", "20"}};
   auto random = testing::seeded_generator("adversaries");
   std::uint64_t reordered = 0, starved = 0, held = 0;

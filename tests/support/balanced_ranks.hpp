@@ -35,6 +35,16 @@ struct Outcome {
   bool complete = false;  // the run ended properly, and every job was done completely and once
 };
 
+/// For adversarial networks, where time is the number of steps, and speed is in jobs per step.
+inline balancer::ControllerOptions options_in_steps() {
+  balancer::ControllerOptions options;
+  options.look = 3;
+  options.gap = 20;
+  options.interval = 300;
+  options.cost.latency = 1;
+  return options;
+}
+
 /// The ranks of one run, made for the endpoints of a network.
 class WorkingRanks {
  public:
