@@ -26,7 +26,7 @@ async function bytesOf(element) {
 
 const arrayTypes = { Float32: Float32Array, Uint32: Uint32Array, Int32: Int32Array };
 
-/** All runs, as {record, trace, name}; trace is null if there is none. */
+/** All runs, as {record, timeline, name}; timeline is null if there is none. */
 export async function readRuns() {
   const read = async (element) =>
     ({ ...JSON.parse(new TextDecoder().decode(await bytesOf(element))), name: element.dataset.run });

@@ -1,9 +1,9 @@
 import { chartSection, told } from "./charts.js";
 import { element, number, section } from "./elements.js";
 import { rankTimes } from "./rank_times.js";
-import { busyIntervals, idealOf, secondsOf } from "./runs.js";
+import { idealOf, secondsOf } from "./runs.js";
 import { hasMap, subdomainMap } from "./subdomain_map.js";
-import { timeline, workLeft } from "./timeline.js";
+import { timeChart, workLeft } from "./timeline.js";
 
 const counted = (count, what) => `${number(count)} ${what}${count === 1 ? "" : "s"}`;
 
@@ -35,16 +35,17 @@ function angles(record) {
 
 /** All about one run. Its charts of time go to `end` seconds, so that runs beside each other can be compared. */
 export function oneRun(run, end) {
-  const { record, trace, name } = run;
+  const { record, timeline, name } = run;
+  const worked = timeline?.busy.length > 0;
   const made = section(`Run ${name}`);
   made.append(facts(record));
   if (record.command) made.append(element("p", { class: "note" }, "To repeat it:"), element("pre", {}, record.command));
   const whole = element("div", { class: "one-run" }, made);
   const parts = [];
-  if (busyIntervals(trace).length > 0) parts.push(timeline(run, end));
+  if (worked) parts.push(timeChart(run, end));
   else if (record.cluster) made.append(element("p", { class: "note" }, "There is no timeline: the run's trace was not found beside its record."));
   if (record.parts?.ranks?.length > 0) parts.push(rankTimes(record, end));
-  if (busyIntervals(trace).length > 0) parts.push(workLeft(run, end));
+  if (worked) parts.push(workLeft(run, end));
   if (hasMap(record)) parts.push(subdomainMap(run));
   if (record.mesh?.angles_by_10_degrees) parts.push(angles(record));
   whole.append(...parts);

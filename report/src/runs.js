@@ -29,7 +29,7 @@ export function rankMeans(record) {
 }
 
 /** The number of ranks. */
-export const ranksOf = (record, trace) => record.parts?.ranks?.length || busyIntervals(trace).reduce((most, b) => Math.max(most, b.rank + 1), 0);
+export const ranksOf = (record, timeline) => record.parts?.ranks?.length || busyIntervals(timeline).reduce((most, b) => Math.max(most, b.rank + 1), 0);
 
 /** The keys that differ between runs, in the order in which they were swept. */
 export function sweptKeys(records) {
@@ -52,56 +52,9 @@ export function rowsOf(runs) {
   });
 }
 
-/** When each rank worked: its slices, joined where the gap between them is too short to be seen. */
-export function busyIntervals(trace) {
-  const slices = (trace?.traceEvents ?? []).filter((e) => e.ph === "X" && e.name === "refine");
-  slices.sort((a, b) => a.tid - b.tid || a.ts - b.ts);
-  const end = slices.reduce((last, e) => Math.max(last, e.ts + e.dur), 0);
-  const intervals = [];
-  for (const { tid, ts, dur, args } of slices) {
-    const last = intervals[intervals.length - 1];
-    if (last && last.rank === tid && ts - last.stop < end / 2000) {
-      last.stop = ts + dur;
-      last.triangles = args?.triangles ?? last.triangles;
-    } else {
-      intervals.push({ rank: tid, start: ts, stop: ts + dur, triangles: args?.triangles });
-    }
-  }
-  return intervals.map((i) => ({ ...i, start: i.start / 1e6, stop: i.stop / 1e6 }));
-}
-
-/** Plans and rejections with their moments: {rank, time, what, plan, moves}. A look that finds the load even is none. */
-export function plansOf(trace) {
-  return (trace?.traceEvents ?? []).filter((e) => e.ph === "i" && e.cat === "balance" && /^(plan|advice):/.test(e.name))
-    .map(({ tid, ts, name, args }) => ({ rank: tid, time: ts / 1e6, what: name,
-      plan: args.verdict === "done" ? "made" : "rejected", moves: args.moves.filter((m) => m.verdict === "done").length }))
-    .filter(({ what }) => what !== "plan: no moves");
-}
-
-/** What is left to do on the ranks over time: {time, least, mean, most} at `samples` times. */
-export function loadOverTime(trace, samples = 200) {
-  const byRank = new Map();
-  let end = 0;
-  for (const e of trace?.traceEvents ?? []) {
-    if (e.ph !== "X" || e.name !== "refine" || e.args?.to_be_made === undefined) continue;
-    if (!byRank.has(e.tid)) byRank.set(e.tid, []);
-    byRank.get(e.tid).push([e.ts + e.dur, e.args.to_be_made]);
-    end = Math.max(end, e.ts + e.dur);
-  }
-  const ranks = [...byRank.values()].map((steps) => steps.sort((a, b) => a[0] - b[0]));
-  const place = ranks.map(() => 0);
-  const load = [];
-  for (let k = 0; k <= samples && ranks.length > 0; ++k) {
-    const time = (end * k) / samples;
-    const left = ranks.map((steps, r) => {
-      while (place[r] + 1 < steps.length && steps[place[r] + 1][0] <= time) ++place[r];
-      return steps[place[r]][1];
-    });
-    load.push({ time: time / 1e6, least: Math.min(...left), most: Math.max(...left),
-      mean: left.reduce((a, b) => a + b) / left.length });
-  }
-  return load;
-}
+/** When each rank worked: {rank, start, stop, triangles}. */
+export const busyIntervals = (timeline) =>
+  (timeline?.busy ?? []).map(([rank, start, stop, triangles]) => ({ rank, start, stop, triangles }));
 
 /** The rank of each subdomain at a time: subdomains that are on their way belong to their receiver. */
 export function ownersAt(record, time) {

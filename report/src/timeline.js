@@ -1,5 +1,5 @@
 import { chartSection, named, rankAxis, rankScale, told, topLegend } from "./charts.js";
-import { busyIntervals, loadOverTime, movesOf, plansOf, ranksOf } from "./runs.js";
+import { busyIntervals, movesOf, ranksOf } from "./runs.js";
 
 const kRows = 1024;  // more would be thinner than a pixel
 
@@ -13,12 +13,12 @@ const zoom = [{ name: "zoom", bind: "scales",
 const legendOf = (labels, colors) => ({ scale: { domain: labels, range: colors }, legend: { ...topLegend(), symbolOpacity: 1 } });
 
 /** When each rank refined, and when subdomains moved, to `end` seconds. */
-export function timeline({ record, trace, name }, end) {
-  const ranks = ranksOf(record, trace);
+export function timeChart({ record, timeline }, end) {
+  const ranks = ranksOf(record, timeline);
   const every = Math.ceil(ranks / kRows);
   const row = (rank) => ({ top: rank - 0.5, bottom: rank - 0.5 + every });
-  const busy = busyIntervals(trace).filter((b) => b.rank % every === 0).map((b) => ({ ...b, ...row(b.rank) }));
-  const moves = movesOf(record), plans = plansOf(trace);
+  const busy = busyIntervals(timeline).filter((b) => b.rank % every === 0).map((b) => ({ ...b, ...row(b.rank) }));
+  const moves = movesOf(record), plans = timeline.plans;
   const height = Math.ceil(ranks / every) * Math.max(1, Math.min(ranks > 4 ? 22 : 36, Math.floor(720 / ranks)));
   const x = seconds(end);
   const y = (field) => ({ field, type: "quantitative", axis: rankAxis(ranks), scale: { ...rankScale(ranks), reverse: true } });
@@ -42,11 +42,11 @@ export function timeline({ record, trace, name }, end) {
 }
 
 /** The work that is left over time, to `end` seconds. */
-export function workLeft({ trace }, end) {
+export function workLeft({ timeline }, end) {
   const x = seconds(end)("time");
   const y = { type: "quantitative", title: "triangles to be made", axis: { format: "~s" } };
   const color = legendOf(["from least to most of all ranks", "mean"], [sky, blue]);
-  return chartSection("Work left on a rank", "load", "", { height: 220, data: { values: loadOverTime(trace) }, encoding: { x }, layer: [
+  return chartSection("Work left on a rank", "load", "", { height: 220, data: { values: timeline.load }, encoding: { x }, layer: [
     { mark: { type: "area", opacity: 0.5 }, encoding: { y: { field: "least", ...y }, y2: { field: "most" },
       color: { datum: "from least to most of all ranks", ...color } } },
     { mark: { type: "line" }, encoding: { y: { field: "mean", ...y }, color: { datum: "mean", ...color } } },

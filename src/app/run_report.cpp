@@ -1,9 +1,9 @@
 #include "app/run_report.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "app/run_files.hpp"
+#include "app/timeline.hpp"
 #include "base/atomic_file.hpp"
 #include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
@@ -12,41 +12,31 @@ namespace driftmesh::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using config::Json;
 
 bool is_record(const fs::path& path) {
   return path.extension() == ".json" && !path.string().ends_with(kTraceEnding);
 }
 
-/// What the page does not show: who is whose neighbor.
-bool belongs_to_page(int depth, Json::parse_event_t event, const Json& value) {
-  constexpr int kInSubdomains = 3;  // of "cluster"
-  return event != Json::parse_event_t::key || depth != kInSubdomains || (value != "neighbors" && value != "borders");
-}
-
-/// Of a trace the page shows slices and plans; moves are in the record.
-bool belongs_to_timeline(int depth, Json::parse_event_t event, const Json& value) {
-  constexpr int kInEvents = 2;
-  if (event != Json::parse_event_t::object_end || depth != kInEvents) return true;
-  const auto name = value.find("name");
-  if (name == value.end() || !name->is_string()) return false;
-  const auto& words = name->get_ref<const std::string&>();
-  return words == "refine" || words.starts_with("plan:") || words.starts_with("advice:");
-}
-
-/// The part of a file that the page shows, as JSON without blanks.
-std::string part_of(const fs::path& path, bool (*belongs)(int, Json::parse_event_t, const Json&)) {
-  const auto json = Json::parse(read_file(path.string()), belongs, false);
-  if (json.is_discarded()) throw InputError({path.string(), 0}, "is not JSON", "name a record that --json wrote");
+std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// The part of a record that the page shows, as JSON without blanks: all but who is whose neighbor.
+std::string record_of(const fs::path& path) {
+  Json json = Json::parse(read_file(path.string()), nullptr, false);
+  if (json.is_discarded()) throw InputError({path.string(), 0}, "is not JSON", "name a record that --json wrote");
+  if (const Json::json_pointer subdomains("/cluster/subdomains"); json.contains(subdomains))
+    for (const char* const about : {"neighbors", "borders"}) json[subdomains].erase(about);
+  return text_of(json);
+}
+
 ReportedRun read_run(const fs::path& path) {
-  ReportedRun run{path.stem().string(), part_of(path, belongs_to_page), {}};
+  ReportedRun run{path.stem().string(), record_of(path), {}};
   if (run.record.find("\"format\":\"driftmesh ") == std::string::npos)
     throw InputError({path.string(), 0}, "is not the record of a run", "name one that `driftmesh run` or --json wrote");
   const fs::path trace = fs::path(path).replace_extension(kTraceEnding);
-  if (fs::exists(trace)) run.trace = part_of(trace, belongs_to_timeline);
+  if (fs::exists(trace)) run.timeline = text_of(json_of(timeline_of(read_file(trace.string()), trace)));
   return run;
 }
 

@@ -31,7 +31,8 @@ void add_block(std::string& to, const std::string& attributes, const void* bytes
 }
 
 void add_run(std::string& to, const ReportedRun& run) {
-  const std::string text = "{\"record\":" + run.record + ",\"trace\":" + (run.trace.empty() ? "null" : run.trace) + "}";
+  const std::string timeline = run.timeline.empty() ? "null" : run.timeline;
+  const std::string text = "{\"record\":" + run.record + ",\"timeline\":" + timeline + "}";
   add_block(to, "data-run=\"" + escaped(run.name) + "\"", text.data(), text.size());
 }
 

@@ -10,8 +10,8 @@ namespace driftmesh {
 /// A run as its files describe it.
 struct ReportedRun {
   std::string name;
-  std::string record;  ///< JSON
-  std::string trace;   ///< in Chrome's format; empty if there is none
+  std::string record;    ///< JSON
+  std::string timeline;  ///< JSON: {busy, plans, load}; empty if there is none
 };
 
 struct ReportedMesh {

@@ -30,12 +30,13 @@ class Report(Cli):
         return (self.folder / "report.html").read_text()
 
     def test_records_and_traces_are_in_the_page(self):
-        self.write("square.trace.json", '{"traceEvents": []}')
+        self.write("square.trace.json", '{"traceEvents": [{"ph": "X", "name": "refine", "tid": 1, "ts": 0, "dur": 2e6, '
+                   '"args": {"triangles": 7, "to_be_made": 3}}]}')
         runs = blocks(self.page("square.json"), "run")
         self.assertEqual(list(runs), ["square"])
         run = json.loads(runs["square"])
         self.assertEqual(run["record"], json.loads((self.folder / "square.json").read_text()))
-        self.assertEqual(run["trace"], {"traceEvents": []})
+        self.assertEqual(run["timeline"]["busy"], [[1, 0.0, 2.0, 7]])
 
     def test_a_folder_stands_for_its_records_in_order(self):
         folder = self.folder / "runs"
