@@ -1,19 +1,13 @@
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <initializer_list>
-#include <limits>
-#include <map>
-#include <set>
-#include <unordered_map>
 #include <utility>
 
 #include "base/narrow.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "io/file_sink.hpp"
+#include "io/msh_classification.hpp"
 #include "io/msh_format.hpp"
 #include "io/msh_groups.hpp"
-#include "mesh/mesh_edges.hpp"
 
 namespace driftmesh {
 namespace {
@@ -80,130 +74,6 @@ std::size_t count_runs(const std::vector<std::int32_t>& entities) {
   return runs;
 }
 
-// Numbers distinct values from 0 in the order of their first occurrence. Values are equal if their bits are.
-class DistinctValues {
- public:
-  std::int32_t number(double value) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    if (!values.empty() && bits == last_bits_) return last_number_;
-    const auto [found, is_new] = numbers_.try_emplace(bits, static_cast<std::int32_t>(values.size()));
-    if (is_new) values.push_back(value);
-    last_bits_ = bits;
-    last_number_ = found->second;
-    return last_number_;
-  }
-  std::vector<double> values;
-
- private:
-  std::unordered_map<std::uint64_t, std::int32_t> numbers_;
-  std::uint64_t last_bits_ = 0;
-  std::int32_t last_number_ = 0;
-};
-
-struct Box {
-  double min_x = std::numeric_limits<double>::infinity();
-  double min_y = min_x;
-  double max_x = -min_x;
-  double max_y = -min_x;
-  void add(const Point& p) {
-    min_x = std::min(min_x, p.x);
-    min_y = std::min(min_y, p.y);
-    max_x = std::max(max_x, p.x);
-    max_y = std::max(max_y, p.y);
-  }
-};
-
-// An entity of the file (a curve for each marker, a surface for each region), which is also a physical group.
-struct Entity {
-  std::int32_t tag = 0;
-  std::string name;
-  Box box;
-  double value = 0;          // marker or region
-  bool hides_value = false;  // neither name nor tag tells it
-};
-
-/// `names`: of markers or regions, which otherwise have the name that `number_name` makes.
-template <class Value, class NumberName>
-Entity make_entity(std::int32_t tag, Value value, const std::map<Value, std::string>& names,
-                   const NumberName& number_name) {
-  const auto name = names.find(value);
-  if (name == names.end()) return {.tag = tag, .name = number_name(value), .box = {}};
-  return {
-      .tag = tag, .name = name->second, .box = {}, .value = static_cast<double>(value), .hides_value = tag != value};
-}
-
-// Which entity everything belongs to. Curves and surfaces are numbered from 0; a node on both belongs to the curve.
-struct Classification {
-  explicit Classification(const Mesh& mesh) {
-    classify_edges(mesh);
-    classify_triangles(mesh);
-    find_boxes(mesh);
-    classify_nodes(mesh);
-    find_boundaries(mesh);
-  }
-
-  std::vector<Entity> curves;
-  std::vector<Entity> surfaces;
-  std::vector<std::int32_t> curve_of_edge;
-  std::vector<std::int32_t> surface_of_triangle;
-  std::vector<std::int32_t> entity_of_node;           // curves, then surfaces
-  std::vector<std::vector<std::int32_t>> boundaries;  // the curves at each surface
-  std::vector<std::array<std::int32_t, 2>> at_edges;  // triangles
-
- private:
-  void classify_edges(const Mesh& mesh) {
-    DistinctValues markers;
-    curve_of_edge.reserve(mesh.edges.size());
-    for (const Mesh::Edge& edge : mesh.edges) curve_of_edge.push_back(markers.number(edge.marker));
-    const std::vector<std::int32_t> tags = group_tags(markers.values);
-    for (std::size_t i = 0; i < tags.size(); ++i)
-      curves.push_back(
-          make_entity(tags[i], static_cast<std::int32_t>(markers.values[i]), mesh.names.markers, marker_group_name));
-  }
-
-  void classify_triangles(const Mesh& mesh) {
-    surface_of_triangle.assign(mesh.triangles.size(), 0);
-    if (mesh.regions.empty()) {
-      surfaces.push_back({.tag = 1, .name = std::string(kDomainName), .box = {}});
-      return;
-    }
-    DistinctValues regions;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) surface_of_triangle[t] = regions.number(mesh.regions[t]);
-    const std::vector<std::int32_t> tags = group_tags(regions.values);
-    for (std::size_t i = 0; i < tags.size(); ++i)
-      surfaces.push_back(make_entity(tags[i], regions.values[i], mesh.names.regions, region_group_name));
-  }
-
-  void find_boxes(const Mesh& mesh) {
-    for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-      for (std::int32_t vertex : {mesh.edges[e].a, mesh.edges[e].b})
-        curves[curve_of_edge[e]].box.add(mesh.points[vertex]);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      for (std::int32_t vertex : mesh.triangles[t]) surfaces[surface_of_triangle[t]].box.add(mesh.points[vertex]);
-  }
-
-  void classify_nodes(const Mesh& mesh) {
-    const auto first_surface = static_cast<std::int32_t>(curves.size());
-    entity_of_node.assign(mesh.points.size(), first_surface);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      for (std::int32_t vertex : mesh.triangles[t]) entity_of_node[vertex] = first_surface + surface_of_triangle[t];
-    for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-      for (std::int32_t vertex : {mesh.edges[e].a, mesh.edges[e].b}) entity_of_node[vertex] = curve_of_edge[e];
-  }
-
-  void find_boundaries(const Mesh& mesh) {
-    boundaries.resize(surfaces.size());
-    std::set<std::pair<std::int32_t, std::int32_t>> seen;
-    at_edges = triangles_at_edges(mesh, ConstrainedEdgeIndex(mesh));
-    for (std::size_t e = 0; e < at_edges.size(); ++e)
-      for (std::int32_t triangle : at_edges[e]) {
-        if (triangle < 0) continue;
-        const std::int32_t surface = surface_of_triangle[triangle];
-        if (seen.insert({surface, curve_of_edge[e]}).second) boundaries[surface].push_back(curve_of_edge[e]);
-      }
-  }
-};
-
 void write_format(MshOutput& out) {
   out.begin("MeshFormat");
   out.text().text(out.ascii() ? "4.1 0 8\n" : "4.1 1 8\n");
@@ -211,8 +81,8 @@ void write_format(MshOutput& out) {
   out.end("MeshFormat");
 }
 
-void write_group_names(FileSink& sink, const std::vector<Entity>& entities, int dimension) {
-  for (const Entity& entity : entities) {
+void write_group_names(FileSink& sink, const std::vector<MshEntity>& entities, int dimension) {
+  for (const MshEntity& entity : entities) {
     sink.number(dimension);
     sink.character(' ');
     sink.number(entity.tag);
@@ -222,7 +92,7 @@ void write_group_names(FileSink& sink, const std::vector<Entity>& entities, int 
   }
 }
 
-void write_physical_names(FileSink& sink, const Classification& classes) {
+void write_physical_names(FileSink& sink, const MshClassification& classes) {
   sink.text("$PhysicalNames\n");
   sink.number(classes.curves.size() + classes.surfaces.size());
   sink.character('\n');
@@ -231,26 +101,26 @@ void write_physical_names(FileSink& sink, const Classification& classes) {
   sink.text("$EndPhysicalNames\n");
 }
 
-void write_entity(MshOutput& out, const Entity& entity, const Box& box) {
+void write_entity(MshOutput& out, const MshEntity& entity, const Box& box) {
   out.integer(entity.tag);
-  for (const double bound : {box.min_x, box.min_y, 0.0, box.max_x, box.max_y, 0.0}) out.real(bound);
+  for (const double bound : {box.low.x, box.low.y, 0.0, box.high.x, box.high.y, 0.0}) out.real(bound);
   out.size(1);
   out.integer(entity.tag);  // the physical group has the tag of its entity
 }
 
-void write_entities(MshOutput& out, const Classification& classes) {
+void write_entities(MshOutput& out, const MshClassification& classes) {
   out.begin("Entities");
   for (std::size_t count : {std::size_t{0}, classes.curves.size(), classes.surfaces.size(), std::size_t{0}})
     out.size(count);
   out.end_record();
-  for (const Entity& curve : classes.curves) {
+  for (const MshEntity& curve : classes.curves) {
     write_entity(out, curve, curve.box);
     out.size(0);  // bounding points: the curve is a set of edges and may have any number of ends
     out.end_record();
   }
   for (std::size_t s = 0; s < classes.surfaces.size(); ++s) {
-    const Entity& surface = classes.surfaces[s];
-    write_entity(out, surface, surface.box.min_x <= surface.box.max_x ? surface.box : Box{0, 0, 0, 0});
+    const MshEntity& surface = classes.surfaces[s];
+    write_entity(out, surface, surface.box.low.x <= surface.box.high.x ? surface.box : Box{{0, 0}, {0, 0}});
     out.size(classes.boundaries[s].size());
     for (std::int32_t curve : classes.boundaries[s]) out.integer(classes.curves[curve].tag);
     out.end_record();
@@ -266,7 +136,7 @@ void write_section_counts(MshOutput& out, std::size_t blocks, std::size_t items)
   out.end_record();
 }
 
-void write_block_header(MshOutput& out, int dimension, const Entity& entity, std::int32_t type, std::size_t count) {
+void write_block_header(MshOutput& out, int dimension, const MshEntity& entity, std::int32_t type, std::size_t count) {
   out.integer(dimension);
   out.integer(entity.tag);
   out.integer(type);
@@ -274,13 +144,13 @@ void write_block_header(MshOutput& out, int dimension, const Entity& entity, std
   out.end_record();
 }
 
-void write_nodes(MshOutput& out, const Mesh& mesh, const Classification& classes) {
+void write_nodes(MshOutput& out, const Mesh& mesh, const MshClassification& classes) {
   out.begin("Nodes");
   write_section_counts(out, count_runs(classes.entity_of_node), mesh.points.size());
   for_each_run(classes.entity_of_node, [&](std::size_t first, std::size_t end) {
     const std::size_t g = to_index(classes.entity_of_node[first]);
     const bool is_curve = g < classes.curves.size();
-    const Entity& entity = is_curve ? classes.curves[g] : classes.surfaces[g - classes.curves.size()];
+    const MshEntity& entity = is_curve ? classes.curves[g] : classes.surfaces[g - classes.curves.size()];
     write_block_header(out, is_curve ? 1 : 2, entity, 0, end - first);  // 0: without parameters on the entity
     for (std::size_t v = first; v < end; ++v) {
       out.size(v + 1);
@@ -300,7 +170,7 @@ void write_element(MshOutput& out, std::size_t tag, std::initializer_list<std::i
   out.end_record();
 }
 
-void write_elements(MshOutput& out, const Mesh& mesh, const Classification& classes) {
+void write_elements(MshOutput& out, const Mesh& mesh, const MshClassification& classes) {
   out.begin("Elements");
   write_section_counts(out, count_runs(classes.surface_of_triangle) + count_runs(classes.curve_of_edge),
                        mesh.triangles.size() + mesh.edges.size());
@@ -356,7 +226,7 @@ void write_element_data(MshOutput& out, std::string_view name, const std::vector
   out.end("ElementData");
 }
 
-void write_views(MshOutput& out, const Mesh& mesh, const Classification& classes) {
+void write_views(MshOutput& out, const Mesh& mesh, const MshClassification& classes) {
   for (std::int32_t k = 0; k < mesh.attributes_per_point; ++k) write_attribute(out, mesh, k);
   if (!mesh.subdomains.empty()) write_element_data(out, kSubdomainView, mesh.subdomains, classes.at_edges);
   if (!mesh.ranks.empty()) write_element_data(out, kRankView, mesh.ranks, classes.at_edges);
@@ -378,16 +248,16 @@ void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& marker
 }
 
 /// The markers and regions of groups whose names say something else and whose tags cannot be these values.
-void write_values(FileSink& sink, const Classification& classes) {
+void write_values(FileSink& sink, const MshClassification& classes) {
   std::size_t hidden = 0;
   for (const auto* const entities : {&classes.curves, &classes.surfaces})
-    hidden += static_cast<std::size_t>(std::ranges::count_if(*entities, &Entity::hides_value));
+    hidden += static_cast<std::size_t>(std::ranges::count_if(*entities, &MshEntity::hides_value));
   if (hidden == 0) return;
   sink.text("$DriftmeshValues\n");
   sink.number(hidden);
   sink.character('\n');
   for (const auto& [dimension, entities] : {std::pair(1, &classes.curves), {2, &classes.surfaces}})
-    for (const Entity& entity : *entities) {
+    for (const MshEntity& entity : *entities) {
       if (!entity.hides_value) continue;
       sink.number(dimension);
       sink.character(' ');
@@ -404,7 +274,7 @@ void write_values(FileSink& sink, const Classification& classes) {
 void write_msh(const Mesh& mesh, const std::string& path, bool ascii) {
   (void)narrow<std::int32_t>(mesh.edges.size() + mesh.triangles.size(), "elements of a .msh file");
   MshOutput out(path, ascii);
-  const Classification classes(mesh);
+  const MshClassification classes(mesh);
   write_format(out);
   write_physical_names(out.text(), classes);
   write_entities(out, classes);
