@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/box.hpp"
+#include "sizing/expression_step.hpp"
 #include "sizing/interval.hpp"
 #include "sizing/plane_function.hpp"
 
@@ -26,22 +26,9 @@ class ExpressionRange {
   [[nodiscard]] double at(const Point& p) const;
 
  private:
-  friend class ExpressionCompiler;
-  enum class Op : std::uint8_t;
-  /// A step of a machine with a stack: takes operands from its top and puts their result there.
-  struct Step {
-    Op op;
-    Interval constant{};
-  };
+  [[nodiscard]] const PlaneFunction& function_of(const ExpressionStep& step) const;
 
-  static constexpr std::size_t kDeepest = 64;  // operands on the stack
-  static std::size_t operands_of(Op op);
-  static Interval apply(Op op, const Interval* operands);
-  static Interval apply_to_numbers(Op op, const Interval* operands);
-  [[nodiscard]] const PlaneFunction& function_of(const Step& step) const;
-  static double apply(Op op, const double* operands);
-
-  std::vector<Step> steps_;
+  std::vector<ExpressionStep> steps_;
   PlaneVariables variables_;
 };
 
