@@ -1,11 +1,10 @@
-import { select } from "d3-selection";
-import { zoom, zoomIdentity } from "d3-zoom";
 import { chartSection, told } from "./charts.js";
-import { css, fills, kShades, ofCategory, stops } from "./colors.js";
 import { element, number, section } from "./elements.js";
+import { categoryLegend, scaleLegend } from "./legends.js";
 import { sortTriangles } from "./mesh_levels.js";
 import { histogram, intoSquare, measure, rangeOf } from "./mesh_values.js";
 import { MeshView } from "./mesh_view.js";
+import { navigate, whenPointed } from "./navigation.js";
 import { replayControls } from "./replay.js";
 import { movesOf, ownersAt, secondsOf } from "./runs.js";
 
@@ -16,20 +15,6 @@ function chartOf(title, kind, note, values, x) {
     encoding: { x: { field: "from", type: "quantitative", ...x }, x2: { field: "to" },
       y: { field: "count", type: "quantitative", title: "triangles", axis: { format: "~s" } }, y2: { datum: 0 },
       tooltip: [told("from", "from"), told("to", "to"), told("count", "triangles", ",d")] } });
-}
-
-/** A strip of the colors from the least to the greatest value. */
-function scaleLegend(least, greatest, what) {
-  const strip = element("span", { class: "strip", style: `background: linear-gradient(to right, ${stops.map(css).join(",")})` });
-  return [`${what} ${number(least)}`, strip, number(greatest)];
-}
-
-/** A chip for each category, if not too many. */
-function categoryLegend(names) {
-  const most = fills.length * kShades;
-  const chips = names.slice(0, most).flatMap((name, n) =>
-    [element("span", { class: "chip", style: `background: ${css(ofCategory(n))}` }), number(name)]);
-  return [...chips, ...(names.length > most ? [`... ${number(names[names.length - 1])}; colors repeat after ${most}`] : [])];
 }
 
 /** Numbers from 0 for the categories of a column, and their names: ranks and subdomains have such numbers, attributes of regions
@@ -57,6 +42,17 @@ function prepared(mesh) {
     middle: middle.map((x, d) => x + mesh.middle[d]) };
 }
 
+/** Charts of the areas and smallest angles. */
+function distributions(shown, range) {
+  const unitArea = shown.length ** 2;
+  return element("div", { class: "beside" },
+    chartOf("Areas", "areas", "In intervals of equal ratio; the unit is the square of the input's.",
+      histogram(shown.areas, range, 40, true).map((b) => ({ ...b, from: b.from * unitArea, to: b.to * unitArea })),
+      { title: "area", scale: { type: "log", nice: false }, axis: { format: ".3~g", labelOverlap: true } }),
+    chartOf("Smallest angles", "smallest-angles", "One of each triangle.", histogram(shown.angles, [0, 60], 60, false),
+      { title: "degrees", scale: { domain: [0, 60] } }));
+}
+
 /** The mesh with its controls: {place, start(), follow(record)}. start() once the place is in the page. */
 export function meshSection(mesh, firstRecord) {
   let record = firstRecord, view = null, waiting = false;
@@ -73,12 +69,7 @@ export function meshSection(mesh, firstRecord) {
   const shown = prepared(mesh);
   const unitArea = shown.length ** 2;
   const range = rangeOf(shown.areas);
-  place.append(element("div", { class: "beside" },
-    chartOf("Areas", "areas", "In intervals of equal ratio; the unit is the square of the input's.",
-      histogram(shown.areas, range, 40, true).map((b) => ({ ...b, from: b.from * unitArea, to: b.to * unitArea })),
-      { title: "area", scale: { type: "log", nice: false }, axis: { format: ".3~g", labelOverlap: true } }),
-    chartOf("Smallest angles", "smallest-angles", "One of each triangle.", histogram(shown.angles, [0, 60], 60, false),
-      { title: "degrees", scale: { domain: [0, 60] } })));
+  place.append(distributions(shown, range));
 
   const redraw = () => {
     if (waiting || !view) return;
@@ -134,32 +125,8 @@ export function meshSection(mesh, firstRecord) {
       said.textContent = `The mesh cannot be drawn: ${error.message}.`;
       return;
     }
-    const selection = select(canvas);
-    const behavior = zoom().scaleExtent([0.5, 1e6]).on("zoom", ({ transform }) => {
-      view.transform = transform;
-      canvas.dataset.zoom = transform.k.toFixed(3);
-      redraw();
-    });
-    selection.call(behavior);
-    const keys = {
-      ArrowLeft: () => behavior.translateBy(selection, 60 / view.transform.k, 0),
-      ArrowRight: () => behavior.translateBy(selection, -60 / view.transform.k, 0),
-      ArrowUp: () => behavior.translateBy(selection, 0, 60 / view.transform.k),
-      ArrowDown: () => behavior.translateBy(selection, 0, -60 / view.transform.k),
-      "+": () => behavior.scaleBy(selection, 1.5),
-      "-": () => behavior.scaleBy(selection, 1 / 1.5),
-      0: () => behavior.transform(selection, zoomIdentity),
-    };
-    canvas.addEventListener("keydown", (event) => {
-      if (!keys[event.key]) return;
-      event.preventDefault();
-      keys[event.key]();
-    });
-    let timer = 0;
-    canvas.addEventListener("pointermove", ({ offsetX, offsetY }) => {
-      clearTimeout(timer);
-      timer = setTimeout(() => find(offsetX, offsetY), 40);
-    });
+    navigate(canvas, view, redraw);
+    whenPointed(canvas, find);
     new ResizeObserver(() => {
       canvas.style.height = `${heightFor(shown.half, canvas.clientWidth)}px`;
       redraw();

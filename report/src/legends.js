@@ -1,0 +1,16 @@
+import { css, fills, kShades, ofCategory, stops } from "./colors.js";
+import { element, number } from "./elements.js";
+
+/** A strip of the colors from the least to the greatest value. */
+export function scaleLegend(least, greatest, what) {
+  const strip = element("span", { class: "strip", style: `background: linear-gradient(to right, ${stops.map(css).join(",")})` });
+  return [`${what} ${number(least)}`, strip, number(greatest)];
+}
+
+/** A chip for each category, if not too many. */
+export function categoryLegend(names) {
+  const most = fills.length * kShades;
+  const chips = names.slice(0, most).flatMap((name, n) =>
+    [element("span", { class: "chip", style: `background: ${css(ofCategory(n))}` }), number(name)]);
+  return [...chips, ...(names.length > most ? [`... ${number(names[names.length - 1])}; colors repeat after ${most}`] : [])];
+}
