@@ -15,6 +15,30 @@ std::string completion_script(const Command& program, const std::string& shell) 
                           : fish_completion(program);
 }
 
+namespace {
+
+std::string value_case(const CaseScript& script, const std::string& path, const Option& option) {
+  std::vector<std::string> patterns;
+  for (const std::string& spelling : spellings(option)) patterns.push_back("'" + path + ":" + spelling + "'");
+  return "    " + joined(patterns, " | ") + ")" + script.values(option) + " ;;\n";
+}
+
+}  // namespace
+
+std::string written(const CaseScript& script, const Command& program) {
+  std::vector<std::string> paths;
+  std::string values, words;
+  for (const NamedCommand& named : all_commands(program)) {
+    if (named.command != &program) paths.push_back("'" + named.name + "'");
+    words += script.words(named);
+    for (const Option* option : named_options(*named.command))
+      if (option->kind == Option::Kind::kValue) values += value_case(script, named.name, *option);
+  }
+  const std::string known = "      " + joined(paths, " | \\\n        ") + ")\n";
+  return replaced(script.begin, '@', program.name) + known + script.commands + values + words +
+         replaced(script.end, '@', program.name);
+}
+
 std::vector<const Option*> named_options(const Command& command) {
   std::vector<const Option*> options{&help_option()};
   for (const Option& option : command.options)

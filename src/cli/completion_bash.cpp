@@ -44,12 +44,6 @@ std::string values_of(const Option& option) {
   return "";
 }
 
-std::string value_case(const std::string& path, const Option& option) {
-  std::vector<std::string> patterns;
-  for (const std::string& spelling : spellings(option)) patterns.push_back("'" + path + ":" + spelling + "'");
-  return "    " + joined(patterns, " | ") + ")" + values_of(option) + " ;;\n";
-}
-
 std::string word_case(const NamedCommand& named) {
   const Command& command = *named.command;
   std::vector<std::string> options;
@@ -63,17 +57,7 @@ std::string word_case(const NamedCommand& named) {
 }  // namespace
 
 std::string bash_completion(const Command& program) {
-  const std::vector<NamedCommand> all = all_commands(program);
-  std::vector<std::string> paths;
-  std::string values, words;
-  for (const NamedCommand& named : all) {
-    if (named.command != &program) paths.push_back("'" + named.name + "'");
-    words += word_case(named);
-    for (const Option* option : named_options(*named.command))
-      if (option->kind == Option::Kind::kValue) values += value_case(named.name, *option);
-  }
-  const std::string known = "      " + joined(paths, " | \\\n        ") + ")\n";
-  return replaced(kBegin, '@', program.name) + known + kCommands + values + words + replaced(kEnd, '@', program.name);
+  return written({kBegin, kCommands, kEnd, values_of, word_case}, program);
 }
 
 }  // namespace driftmesh::cli

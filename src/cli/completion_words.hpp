@@ -26,4 +26,15 @@ namespace driftmesh::cli {
 /// Replaces each `character` of a text.
 [[nodiscard]] std::string replaced(const std::string& text, char character, const std::string& by);
 
+/// A script for shells with `case`, with @ for the name of the program. Between its parts stand the commands (patterns
+/// of one case), and what completes a value after "command:--option" and a word after "command:".
+struct CaseScript {
+  const char* begin;
+  const char* commands;
+  const char* end;
+  std::string (*values)(const Option& option);        ///< what is done for a value, with a space before it
+  std::string (*words)(const NamedCommand& command);  ///< the whole case of a word
+};
+[[nodiscard]] std::string written(const CaseScript& script, const Command& program);
+
 }  // namespace driftmesh::cli

@@ -47,12 +47,6 @@ std::string complete_values(const Option& option) {
   return "_message " + quoted(option.value);
 }
 
-std::string value_case(const std::string& path, const Option& option) {
-  std::vector<std::string> patterns;
-  for (const std::string& spelling : spellings(option)) patterns.push_back("'" + path + ":" + spelling + "'");
-  return "    " + joined(patterns, " | ") + ") " + complete_values(option) + " ;;\n";
-}
-
 std::string word_case(const NamedCommand& named) {
   const Command& command = *named.command;
   std::string text = "    '" + named.name + ":'*)\n      options=(\n";
@@ -74,16 +68,9 @@ std::string word_case(const NamedCommand& named) {
 }  // namespace
 
 std::string zsh_completion(const Command& program) {
-  std::vector<std::string> paths;
-  std::string values, words;
-  for (const NamedCommand& named : all_commands(program)) {
-    if (named.command != &program) paths.push_back("'" + named.name + "'");
-    words += word_case(named);
-    for (const Option* option : named_options(*named.command))
-      if (option->kind == Option::Kind::kValue) values += value_case(named.name, *option);
-  }
-  const std::string known = "      " + joined(paths, " | \\\n        ") + ")\n";
-  return replaced(kBegin, '@', program.name) + known + kCommands + values + words + replaced(kEnd, '@', program.name);
+  return written(
+      {kBegin, kCommands, kEnd, [](const Option& option) { return " " + complete_values(option); }, word_case},
+      program);
 }
 
 }  // namespace driftmesh::cli
