@@ -12,10 +12,6 @@ namespace {
 
 using Stage = Admission::Stage;
 
-void take_out(std::vector<ReportedLoad>& own, SubdomainId id) {
-  std::erase_if(own, [&](const ReportedLoad& load) { return load.subdomain == id; });
-}
-
 }  // namespace
 
 std::vector<Rank> short_of_memory(const LoadSnapshot& snapshot, std::span<const Move> moves,

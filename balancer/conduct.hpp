@@ -70,6 +70,11 @@ struct Situation {
   return memory_for(SubdomainLoad{.id = load.subdomain, .remaining = load.remaining, .bytes = load.bytes});
 }
 
+/// Takes a subdomain out of the load of a rank; false if it is not there.
+inline bool take_out(std::vector<ReportedLoad>& own, SubdomainId id) {
+  return std::erase_if(own, [&](const ReportedLoad& load) { return load.subdomain == id; }) > 0;
+}
+
 /// The load of a rank, in ascending order of IDs.
 [[nodiscard]] inline std::vector<SubdomainLoad> states_of(Rank owner, std::span<const ReportedLoad> own) {
   std::vector<SubdomainLoad> states;

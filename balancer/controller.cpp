@@ -80,6 +80,7 @@ Decision Controller::think(double now, std::span<const ReportedLoad> own, double
     tell(settled);
     own = rest;
   }
+  // A planner that knows of admitted moves takes them off as well: others do not, and it may forget them.
   const Situation situation{now, own, speed, doubt, std::max(0.0, free_memory - admissions_.set_aside())};
   Decision decision = std::visit(
       Each{[&](auto& conduct) { return conduct.think(situation); }, [](std::monostate) { return Decision{}; }},

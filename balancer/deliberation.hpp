@@ -63,6 +63,7 @@ struct Deliberation {
   double finish = 0, ideal = 0,
          noise = 0;                ///< of a load, in seconds from now: see finishing_time, ideal_time, noise_of
   double saves = 0;                ///< by a load made even, by a plan: seconds, beyond noise
+  bool whole = false;              ///< of a plan: its moves are all made, or none (Kept::kAll)
   std::vector<KnownLoad> loads{};  ///< of the ranks with work or a known speed
   std::vector<JudgedMove> moves{};
   Rank thief{}, giver{};

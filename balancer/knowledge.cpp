@@ -55,6 +55,11 @@ void Knowledge::expect(std::span<const Move> moves, const LoadSnapshot& planned_
       planned_[move.subdomain] = {s->owner, move.destination, plan, now, *s};
 }
 
+void Knowledge::put_off(std::uint32_t plan, double seconds) {
+  for (auto& [id, planned] : planned_)
+    if (planned.plan == plan) planned.at += seconds;
+}
+
 std::map<Rank, double> Knowledge::on_its_way() const {
   std::map<Rank, double> needed;
   for (const auto& [id, planned] : planned_) needed[planned.to] += memory_for(planned.load);

@@ -25,6 +25,9 @@ class Knowledge {
   /// Records advised moves under this plan number. They count as made until reports confirm or refute them.
   void expect(std::span<const Move> moves, const LoadSnapshot& planned_on, std::uint32_t plan, double now);
 
+  /// The moves of this plan were advised so many seconds after the moment given to expect(): it took that long to make.
+  void put_off(std::uint32_t plan, double seconds);
+
   /// Whether a planned move of this subdomain is unsettled, so that it may be anywhere.
   [[nodiscard]] bool in_motion(SubdomainId id) const { return planned_.contains(id); }
   /// Memory that the ranks need for what planned moves bring them, in triangles.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "balancer/effort.hpp"
+
 namespace driftmesh::balancer {
 namespace {
 
@@ -75,19 +77,21 @@ double ideal_time(const LoadSnapshot& snapshot) {
   return speed > 0 ? work / speed : 0;
 }
 
-bool has_open_borders(const LoadSnapshot& snapshot, const SubdomainLoad& s) {
-  return 2 * s.remaining >= (*snapshot.layout)[s.id].predicted;
+bool is_open_border(const LoadSnapshot& snapshot, const SubdomainLoad& a, const SubdomainLoad& b) {
+  const auto mostly_ahead = [&](const SubdomainLoad& s) {
+    return 2 * s.remaining >= (*snapshot.layout)[s.id].predicted;
+  };
+  return mostly_ahead(a) && mostly_ahead(b);
 }
 
 double border_between_ranks(const LoadSnapshot& snapshot) {
+  note_effort("border", static_cast<double>(snapshot.subdomains.size()));
   double twice = 0;
-  for (const SubdomainLoad& s : snapshot.subdomains) {
-    if (!has_open_borders(snapshot, s)) continue;
+  for (const SubdomainLoad& s : snapshot.subdomains)
     for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors) {
       const SubdomainLoad* const other = find(snapshot, n.subdomain);
-      if (other && other->owner != s.owner && has_open_borders(snapshot, *other)) twice += n.length;
+      if (other && other->owner != s.owner && is_open_border(snapshot, s, *other)) twice += n.length;
     }
-  }
   return twice / 2;
 }
 

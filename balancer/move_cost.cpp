@@ -196,7 +196,11 @@ std::vector<Move> worth_moving(const LoadSnapshot& snapshot, std::span<const Mov
                           : saved <= 0 || saved < worth.gain * before || saved < worth.seconds ? Verdict::kSmallSaving
                                                                                                : Verdict::kDone;
   if (is_logged()) {
-    Deliberation plan{.subject = Deliberation::Subject::kPlan, .verdict = verdict, .saves = saved, .moves = out};
+    Deliberation plan{.subject = Deliberation::Subject::kPlan,
+                      .verdict = verdict,
+                      .saves = saved,
+                      .whole = kept == Kept::kAll,
+                      .moves = out};
     for (const JudgedMove& move : selection.judged()) plan.moves.push_back(move);
     note(std::move(plan));
   }

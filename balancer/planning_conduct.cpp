@@ -30,17 +30,12 @@ double unaware_partners(Rank self, std::int32_t ranks) {
 }
 
 /// Drops moves to ranks that have work for long: where several ranks give to the same one without knowing of each
-/// other, and forecasts change, they would give it too much, too often.
-void drop_early(std::vector<Move>& moves, const LoadSnapshot& snapshot, Rank self, const ControllerOptions& options) {
+/// other, and forecasts change, they would give it too much, too often. Returns whether there are any.
+bool drop_early(std::vector<Move>& moves, const LoadSnapshot& snapshot, Rank self, const ControllerOptions& options) {
   const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
   const auto time = [&](Rank r) { return snapshot.ranks[r].remaining / speeds[r]; };
   const double ahead = 2 * options.time_ahead(time(self), 0);  // it takes more than one step
-  std::erase_if(moves, [&](const Move& move) { return time(move.destination) > ahead; });
-}
-
-// False if it is not there.
-bool remove(std::vector<ReportedLoad>& own, SubdomainId id) {
-  return std::erase_if(own, [&](const auto& load) { return load.subdomain == id; }) > 0;
+  return std::erase_if(moves, [&](const Move& move) { return time(move.destination) > ahead; }) > 0;
 }
 
 }  // namespace
@@ -86,7 +81,7 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
       const Verdict verdict = judge(move, situation, own);
       followed.moves.push_back({move.subdomain, self_, move.destination, verdict});
       const bool asks = std::ranges::find(plan.ask, move.destination) != plan.ask.end();
-      if (verdict == Verdict::kDone && remove(own, move.subdomain))
+      if (verdict == Verdict::kDone && take_out(own, move.subdomain))
         (asks ? decision.asks : decision.moves).push_back(move);
       if (verdict == Verdict::kGone) gone(move.subdomain);
     }
@@ -131,10 +126,11 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   for (SubdomainLoad& s : snapshot.subdomains)
     s.fixed = s.fixed || knowledge_->in_motion(s.id) || moved_.contains(s.id);
   const std::vector<Move> moves = worthwhile_plan(snapshot, situation);
-  pace_.planned(now, !moves.empty());
+  pace_.planned(now, !moves.empty() || news_);
   if (moves.empty()) return;
   advise(moves, snapshot, own, decision);
   knowledge_->expect(moves, snapshot, plans_, now);
+  advised_now_ = true;
   for (const Move& move : moves) moved_[move.subdomain] = now;
 }
 
@@ -148,13 +144,13 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot,
   };
   if (!leads) {
     std::vector<Move> moves = policy_->plan(snapshot, self_);
-    drop_early(moves, snapshot, self_, options_);
+    news_ = drop_early(moves, snapshot, self_, options_);  // it will be time for those without any
     return needed(moves);
   }
   const auto single = policy_->touch_up(snapshot);
   if (single && !affords_whole(snapshot, situation)) return needed(*single);
   const std::vector<Move> plan = policy_->plan(snapshot, self_);
-  if (!single) return needed(plan);
+  if (!single || plan == *single) return needed(plan);
   planned_whole_ = true;
   whole_at_ = situation.now;
   std::vector<Move> whole = worth_moving(snapshot, plan, options_.cost, options_.worth, Kept::kAll);
@@ -182,7 +178,9 @@ double PlanningConduct::cost_of_whole(const LoadSnapshot& snapshot, const Situat
   return whole_cost_ > 0 ? whole_cost_ : slower * policy_->planning_seconds(snapshot);
 }
 
+// A plan that took long has just been sent, and is not to be forgotten before it can have been carried out.
 void PlanningConduct::took(double seconds) {
+  if (std::exchange(advised_now_, false)) knowledge_->put_off(plans_, seconds);
   if (!std::exchange(planned_whole_, false)) return pace_.took(seconds);
   whole_cost_ = seconds;
   next_whole_ = whole_at_ + seconds / options_.overhead;
@@ -202,7 +200,7 @@ void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& sn
       plan.moves.push_back(move);
       if (asks(move) && std::ranges::find(plan.ask, move.destination) == plan.ask.end())
         plan.ask.push_back(move.destination);
-    } else if (remove(own, move.subdomain)) {
+    } else if (take_out(own, move.subdomain)) {
       (asks(move) ? decision.asks : decision.moves).push_back(move);
       plan_seen_ = plans_;
       acted_ = true;

@@ -72,6 +72,7 @@ class PlanningConduct {
   bool planned_whole_ = false;  // at the last think()
   double whole_at_ = 0, whole_cost_ = 0, next_whole_ = 0;
   std::uint32_t plans_ = 0;
+  bool advised_now_ = false;  // the last plan was made at the last think()
   std::map<SubdomainId, double> moved_;  // when its last move was planned: it is left alone for a while
 };
 

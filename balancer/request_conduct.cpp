@@ -103,7 +103,7 @@ double RequestConduct::give(const WorkRequest& request, const Situation& situati
   const double givers = request.round == 0 ? kCautiously * kUnawareGivers : kUnawareGivers;
   const bool asks = must_ask(request.free_memory, memory_needed(answer.moves, own), 0, givers);
   for (const Move& move : answer.moves) {
-    std::erase_if(own, [&](const auto& load) { return load.subdomain == move.subdomain; });
+    take_out(own, move.subdomain);
     (asks ? decision.asks : decision.moves).push_back(move);
   }
   changed_ = true;

@@ -27,8 +27,8 @@ class RequestConduct {
   void arrived(SubdomainId id);
   /// A subdomain that was to come does not.
   void not_coming(SubdomainId id) { arrived(id); }
-  /// That was for lack of memory here.
-  void refused() { ++refusals_, changed_ = true; }
+  /// That was for lack of memory here, of which rank 0 should know.
+  void refused() { changed_ = true; }
   [[nodiscard]] bool waiting() const { return asked_ || !requests_.empty(); }
   [[nodiscard]] bool pressing() const { return !requests_.empty(); }
   /// Work is on its way here.

@@ -80,19 +80,20 @@ class Dealer {
     if (!snapshot_.layout) return {};
     return (*snapshot_.layout)[snapshot_.subdomains[i].id].neighbors;
   }
-  /// The neighbor, if it is listed and the border to it counts.
-  [[nodiscard]] Index open(const Neighbor& neighbor) const {
+  /// The neighbor of `i`, if it is listed and the border to it counts.
+  [[nodiscard]] Index open(Index i, const Neighbor& neighbor) const {
     const Index j = index_[neighbor.subdomain];
-    return j != kUnlisted && has_open_borders(snapshot_, snapshot_.subdomains[j]) ? j : kUnlisted;
+    if (j == kUnlisted || !is_open_border(snapshot_, snapshot_.subdomains[i], snapshot_.subdomains[j])) return kUnlisted;
+    return j;
   }
   /// The same, if it still belongs to this rank.
-  [[nodiscard]] Index staying(const Neighbor& neighbor, Rank r) const {
-    const Index j = open(neighbor);
+  [[nodiscard]] Index staying(Index i, const Neighbor& neighbor, Rank r) const {
+    const Index j = open(i, neighbor);
     return j != kUnlisted && snapshot_.subdomains[j].owner == r && !gone_[j] ? j : kUnlisted;
   }
   /// Whether the neighbor has left its rank, or is where work is lacking.
-  [[nodiscard]] bool is_where_work_goes(const Neighbor& neighbor) const {
-    const Index j = open(neighbor);
+  [[nodiscard]] bool is_where_work_goes(Index i, const Neighbor& neighbor) const {
+    const Index j = open(i, neighbor);
     if (j == kUnlisted) return false;
     const Rank r = snapshot_.subdomains[j].owner;
     return gone_[j] || snapshot_.ranks[r].remaining < ideal_ * speeds_[r] * (1 - tolerance_);
@@ -116,7 +117,7 @@ class Dealer {
     // With those that leave, less that with those that stay.
     for (const Index i : own)
       for (const Neighbor& n : neighbors_of(i))
-        border_[i] += staying(n, r) != kUnlisted ? -n.length : is_where_work_goes(n) ? n.length : 0;
+        border_[i] += staying(i, n, r) != kUnlisted ? -n.length : is_where_work_goes(i, n) ? n.length : 0;
     const auto key = [&](Index i) {
       const SubdomainLoad& s = snapshot_.subdomains[i];
       return std::tuple(-static_cast<std::int64_t>(weight_class(s)), border_[i], s.turn, s.remaining, -to_int(s.id));
@@ -132,7 +133,7 @@ class Dealer {
       load(r) -= snapshot_.subdomains[i].remaining;
       pool.push_back(i);
       for (const Neighbor& n : neighbors_of(i))
-        if (const Index j = staying(n, r); j != kUnlisted) {
+        if (const Index j = staying(i, n, r); j != kUnlisted) {
           border_[j] += 2 * n.length;
           if (!snapshot_.subdomains[j].fixed) queue.emplace(key(j), j);
         }
@@ -159,7 +160,7 @@ class Dealer {
     const SubdomainLoad& s = snapshot_.subdomains[i];
     std::map<Rank, double> borders;
     for (const Neighbor& n : neighbors_of(i))
-      if (const Index j = open(n); j != kUnlisted && has_room(snapshot_.subdomains[j].owner, s))
+      if (const Index j = open(i, n); j != kUnlisted && has_room(snapshot_.subdomains[j].owner, s))
         borders[snapshot_.subdomains[j].owner] += n.length;
     const auto longest = std::ranges::max_element(borders, {}, [](const auto& b) { return b.second; });
     if (longest != borders.end()) {

@@ -16,7 +16,7 @@ double border_with(const LoadSnapshot& snapshot, const SubdomainLoad& s, Rank ra
   double length = 0;
   for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors) {
     const SubdomainLoad* const other = find(snapshot, n.subdomain);
-    if (other && other->owner == rank && has_open_borders(snapshot, *other)) length += n.length;
+    if (other && other->owner == rank && is_open_border(snapshot, s, *other)) length += n.length;
   }
   return length;
 }
@@ -31,6 +31,7 @@ void take_back_needless(const LoadSnapshot& from, LoadSnapshot& planned, double 
       const Rank owner = from.subdomains[i].owner;
       RankLoad& home = planned.ranks[owner];
       if (s.owner == owner || home.remaining + s.remaining > time * speeds[owner]) continue;
+      note_effort("border", 2);
       if (border_with(planned, s, owner) < border_with(planned, s, s.owner)) continue;
       home.remaining += s.remaining;
       planned.ranks[s.owner].remaining -= s.remaining;
@@ -124,8 +125,9 @@ std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
       {"IMBALANCE_TOL", "1.03"},
       // Do not omit dense hyperedges: in a small graph, none would be left.
       {"PHG_EDGE_SIZE_THRESHOLD", "1.0"},
-      // Borders and moves count alike (see zoltan_partition.cpp for their units).
-      {"PHG_REPART_MULTIPLIER", "1"},
+      // Borders count twice as much as moves (see zoltan_partition.cpp for their units): where they count alike, parts
+      // have longer borders than single moves leave.
+      {"PHG_REPART_MULTIPLIER", "2"},
       {"SEED", std::to_string(parameters.integer("seed", 1, 0, INT32_MAX))}};
   // Partition graphs with Zoltan's own partitioner, available in every build.
   if (all["LB_METHOD"] == "GRAPH") all["GRAPH_PACKAGE"] = "PHG";
@@ -138,7 +140,7 @@ std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
   dealing.polish = parameters.flag("polish", dealing.polish);
   dealing.tolerance = parameters.number("tolerance", dealing.tolerance, 0, 10);
   const double touch_up = parameters.number("touch-up", 0.1, 0, 10);
-  const double most_moves = parameters.number("most-moves", 1.5, 0, 1e9);
+  const double most_moves = parameters.number("most-moves", 2, 0, 1e9);
   return std::make_unique<ZoltanPolicy>(std::move(all), collective ? Placement::kCollective : Placement::kLeader,
                                         touch_up, dealing, most_moves);
 }

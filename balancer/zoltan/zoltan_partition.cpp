@@ -118,7 +118,7 @@ struct Graph {
   /// Whether the points on a border are known on both sides, as far as this process can tell.
   [[nodiscard]] bool is_settled(const SubdomainLoad& s, const Neighbor& n) const {
     const SubdomainLoad* const other = find(*snapshot, n.subdomain);
-    return other && !(has_open_borders(*snapshot, s) && has_open_borders(*snapshot, *other));
+    return other && !is_open_border(*snapshot, s, *other);
   }
   /// Of all subdomains, so that it is the same on all processes. Zoltan weighs borders against sizes_to_move.
   [[nodiscard]] double mean_border() const {

@@ -108,9 +108,10 @@ void sum_up(LoadSnapshot& snapshot);
 /// When all would finish if work were arbitrarily divisible: total work / total speed.
 [[nodiscard]] double ideal_time(const LoadSnapshot& snapshot);
 
-/// Whether most of the points on its borders are still to be made. Else both sides know them.
-[[nodiscard]] bool has_open_borders(const LoadSnapshot& snapshot, const SubdomainLoad& s);
-/// The length of the borders between subdomains of different ranks, where both have open borders.
+/// Whether most of the points on the border between two neighbors are still to be made: neither has most of its work
+/// behind it. Else both know them already, and it does not matter which ranks have the two.
+[[nodiscard]] bool is_open_border(const LoadSnapshot& snapshot, const SubdomainLoad& a, const SubdomainLoad& b);
+/// The length of the open borders between subdomains of different ranks.
 [[nodiscard]] double border_between_ranks(const LoadSnapshot& snapshot);
 
 /// The snapshot after `moves`, which must be valid. If a subdomain is moved more than once, its last move counts.

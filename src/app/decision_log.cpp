@@ -49,7 +49,7 @@ config::Json json_of(const Deliberation& considered) {
                    {"loads", loads_json(considered)}});
       break;
     case Subject::kPlan:
-      said.update({{"saves", considered.saves}, {"moves", moves_json(considered)}});
+      said.update({{"saves", considered.saves}, {"whole", considered.whole}, {"moves", moves_json(considered)}});
       break;
     case Subject::kAdvice:
     case Subject::kAdmission:

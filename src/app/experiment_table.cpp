@@ -66,6 +66,8 @@ Cells all_cells(const Row& row, std::optional<double> recovered) {
   add("message_bytes", row.message_bytes);
   add("hand_offs", row.hand_offs);
   add("hand_off_bytes", row.hand_off_bytes);
+  add("whole_plans", row.whole_plans);
+  add("whole_plans_kept", row.whole_plans_kept);
   return cells;
 }
 
@@ -91,6 +93,7 @@ Cells telling_cells(const Row& row, bool repeated, const std::optional<std::stri
   add("SPLITs", grouped(row.splits));
   add("in messages", grouped(row.split_messages));
   add("moved", grouped(row.hand_offs));
+  add("whole plans kept", fmt::format("{} of {}", row.whole_plans_kept, row.whole_plans));
   return cells;
 }
 
@@ -165,6 +168,11 @@ void ExperimentTable::add(const ExperimentRun& run) {
     row.hand_offs += rank.counters.hand_offs;
     row.hand_off_bytes += rank.counters.hand_off_bytes;
   }
+  for (const balancer::Deliberation& d : run.outcome.deliberations)
+    if (d.subject == balancer::Deliberation::Subject::kPlan && d.whole) {
+      ++row.whole_plans;
+      if (d.verdict == balancer::Verdict::kDone) ++row.whole_plans_kept;
+    }
   row.messages = run.outcome.messages();
   row.message_bytes = run.outcome.message_bytes();
   rows_.push_back(std::move(row));

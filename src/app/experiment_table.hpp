@@ -39,6 +39,7 @@ class ExperimentTable {
     RankTimes times;                     ///< of all ranks together, as fractions of ranks x seconds
     std::int64_t splits = 0, split_messages = 0, hand_offs = 0, hand_off_bytes = 0;
     std::uint64_t messages = 0, message_bytes = 0;
+    std::int64_t whole_plans = 0, whole_plans_kept = 0;  ///< plans to be made as a whole; those of them that were
   };
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 

@@ -108,6 +108,7 @@ void measure_size(Measured& measured, std::int32_t side, std::int32_t ranks) {
   const IdVector<Rank, bool> able(to_index(ranks), true);
   measured.add("search", [&] { static_cast<void>(stealing->victim(snapshot, Rank{0}, able)); });
   measured.add("weigh", [&] { static_cast<void>(worth_moving(snapshot, moves_between(snapshot, dealt), {})); });
+  measured.add("border", [&] { static_cast<void>(border_between_ranks(snapshot)); });
   std::vector<Part> parts = zoltan_partition(snapshot, {});  // the first time, it starts MPI
   for (const char* method : {"RCB", "RIB", "HSFC", "GRAPH", "HYPERGRAPH"}) {
     ZoltanParameters parameters{{"LB_METHOD", method}, {"IMBALANCE_TOL", "1.03"}, {"PHG_EDGE_SIZE_THRESHOLD", "1.0"}};

@@ -16,6 +16,7 @@ void write_deliberation(ByteWriter& writer, const balancer::Deliberation& d) {
   writer.value(d.subject);
   writer.value(d.verdict);
   for (const double value : {d.time, d.finish, d.ideal, d.noise, d.saves}) writer.value(value);
+  writer.value(d.whole);
   for (const Rank rank : {d.rank, d.thief, d.giver}) writer.value(rank);
   writer.array(d.loads);
   writer.array(d.moves);
@@ -26,6 +27,7 @@ balancer::Deliberation read_deliberation(ByteReader& reader) {
   reader.value(d.subject);
   reader.value(d.verdict);
   for (double* value : {&d.time, &d.finish, &d.ideal, &d.noise, &d.saves}) reader.value(*value);
+  reader.value(d.whole);
   for (Rank* rank : {&d.rank, &d.thief, &d.giver}) reader.value(*rank);
   reader.array(d.loads);
   reader.array(d.moves);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "balancer/controller.hpp"
+#include "balancer/effort.hpp"
 #include "balancer/knowledge.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "balancer/report_rule.hpp"
@@ -121,6 +122,27 @@ TEST_CASE("a planned move without news is forgotten") {
   CHECK(knowledge.in_motion(0_sub));
   knowledge.hear(1_rank, {2, 0, 0, loads_of(2, 3, 1000)}, 11);
   CHECK(!knowledge.in_motion(0_sub));
+}
+
+TEST_CASE("moves of a plan that took long to make are not forgotten before they can have been made") {
+  const Layout layout = grid_layout(12, 1, 3);
+  ControllerOptions options;
+  options.overhead = 1;  // it plans again at once
+  Controller leader(0_rank, std::make_shared<Layout>(layout), make_policy("greedy"), options, 0);
+  leader.receive(1_rank, LoadReport{1, 0, 100, loads_of(0, 11, 1000)}, 1);
+  leader.receive(2_rank, LoadReport{1, 0, 100, {}}, 1);
+  const auto plans = sent<balancer::Plan>(leader.think(1, {}, 100));
+  REQUIRE(plans.size() == 1);
+  CHECK(plans[0].second.moves.size() == 8);
+  leader.took(5);  // longer than it waits for moves
+
+  // Rank 1 has sent them; they have not arrived.
+  Loads kept;
+  for (const ReportedLoad& load : loads_of(0, 11, 1000))
+    if (std::ranges::none_of(plans[0].second.moves, [&](const Move& m) { return m.subdomain == load.subdomain; }))
+      kept.push_back(load);
+  leader.receive(1_rank, LoadReport{2, 1, 100, kept}, 6.1);
+  CHECK(sent<balancer::Plan>(leader.think(6.2, {}, 100)).empty());
 }
 
 TEST_CASE("the leader plans when all have reported, and a rank follows") {
@@ -298,6 +320,27 @@ TEST_CASE("a whole plan is made where it finishes earlier, or leaves less border
   CHECK(moves_made(ten, scattered, 4) == 2);
   CHECK(moves_made(ten, two, 5) == 2);
   CHECK(moves_made(six, one, 2) == 6);  // by a ninth
+}
+
+TEST_CASE("comparing the borders of two plans is charged") {
+  const EffortLog log;
+  const std::vector<Move> one{{7_sub, 1_rank}}, two{{6_sub, 1_rank}, {7_sub, 1_rank}};
+  static_cast<void>(moves_made(two, one, 2));
+  static_cast<void>(moves_made(two, two, 2));  // the same: nothing to compare
+  CHECK(log.efforts().at("border") == 2 * 12);
+}
+
+TEST_CASE("diffusion that waits until a partner runs low looks again by itself") {
+  const Layout layout = grid_layout(12, 1, 2);
+  ControllerOptions options;
+  options.interval = 1000;  // no signs of life
+  Controller c(0_rank, std::make_shared<Layout>(layout), make_policy("diffusion"), options, 0);
+  c.receive(1_rank, LoadReport{1, 0, 100, {{6_sub, 0, 3500, 40}}}, 1);
+  CHECK(c.think(1, loads_of(0, 5, 1000), 100).moves.empty());  // rank 1 has work for 35 s, more than half of 60
+  CHECK(c.think(1.1, loads_of(0, 5, 1000), 100).moves.empty());
+  Loads later = loads_of(1, 5, 1000);  // as expected: nothing new
+  later[0].remaining = 900;
+  CHECK(!c.think(12, later, 100).moves.empty());  // 24 s of 49
 }
 
 TEST_CASE("adjacent ranks are told every subdomain, distant partners only their sum") {

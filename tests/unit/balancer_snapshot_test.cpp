@@ -117,6 +117,23 @@ TEST_CASE("surplus goes to the rank that finishes it first") {
   CHECK(moves_between(dealt, deal_surplus(dealt, 0.02)).empty());
 }
 
+TEST_CASE("borders of which one side is mostly finished do not count") {
+  LoadSnapshot s = initial_snapshot(grid_layout(12, 1, 3), {100, 100, 100});
+  CHECK(border_between_ranks(s) == 2);
+  s.subdomains[3].remaining = 400;
+  CHECK(!is_open_border(s, s.subdomains[3], s.subdomains[4]));
+  CHECK(!is_open_border(s, s.subdomains[4], s.subdomains[3]));
+  CHECK(is_open_border(s, s.subdomains[4], s.subdomains[5]));
+  CHECK(border_between_ranks(s) == 1);
+  // What leaves rank 0 has nothing in common with its neighbor on rank 1 any more, and goes where there is most room.
+  for (const std::size_t i : {0, 1, 2, 3}) s.subdomains[i].remaining = 400;
+  s.subdomains[4].remaining = 500;
+  s.subdomains[8].remaining = 100;
+  std::erase_if(s.subdomains, [](const SubdomainLoad& l) { return l.id > 4_sub && l.id != 8_sub; });
+  sum_up(s);
+  CHECK(find(deal_surplus(s, 0.02), 3_sub)->owner == 2_rank);
+}
+
 TEST_CASE("parts go to the ranks that hold most of their work") {
   const LoadSnapshot s = initial_snapshot(grid_layout(9, 1, 3), {100, 100, 100});
   const std::vector<Part> parts = parts_of({2, 2, 2, 0, 0, 0, 1, 1, 1});

@@ -32,6 +32,12 @@ ExperimentRun run(const std::string& policy, double seconds, std::int64_t moved)
   made.outcome.owners.resize(3);
   made.outcome.ranks.resize(2);
   made.outcome.ranks[Rank{0}].counters.hand_offs = moved;
+  const auto plan = [&](balancer::Verdict verdict, bool whole) {
+    made.outcome.deliberations.push_back(
+        {.subject = balancer::Deliberation::Subject::kPlan, .verdict = verdict, .whole = whole});
+  };
+  plan(balancer::Verdict::kDone, false);
+  for (std::int64_t i = 0; i < moved; ++i) plan(i < 4 ? balancer::Verdict::kDone : balancer::Verdict::kOtherPlan, true);
   made.ideal = 4;
   made.oracle = 5;
   return made;
@@ -74,11 +80,12 @@ TEST_CASE("columns that are the same in all runs stand below the table") {
   table.add(run("greedy", 6, 7));
   const std::string text = table.markdown();
   const std::string rows = text.substr(0, text.find("The same in all"));
-  for (const char* differs : {"balance.policy", "seconds", "recovered %", "75.0", "regret %", "20.0", "moved", "0.667"})
+  for (const char* differs : {"balance.policy", "seconds", "recovered %", "75.0", "regret %", "20.0", "moved", "0.667",
+                              "whole plans kept", "4 of 7"})
     CHECK_MESSAGE(rows.find(differs) != std::string::npos, differs);
   CHECK(rows.find("ranks") == std::string::npos);
   CHECK(text.find("ranks 2") != std::string::npos);
   const std::string csv = table.csv();
-  for (const char* column : {"ranks", "oracle_seconds", "regret", "recovered", "repetition"})
+  for (const char* column : {"ranks", "oracle_seconds", "regret", "recovered", "repetition", "whole_plans,whole_plans_kept"})
     CHECK_MESSAGE(csv.find(column) != std::string::npos, column);
 }
