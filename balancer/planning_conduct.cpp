@@ -150,9 +150,10 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot,
   const auto single = policy_->touch_up(snapshot);
   if (single && !affords_whole(snapshot, situation)) return needed(*single);
   const std::vector<Move> plan = policy_->plan(snapshot, self_);
-  if (!single || plan == *single) return needed(plan);
+  if (!single) return needed(plan);
   planned_whole_ = true;
   whole_at_ = situation.now;
+  if (plan == *single) return needed(plan);
   std::vector<Move> whole = worth_moving(snapshot, plan, options_.cost, options_.worth, Kept::kAll);
   std::vector<Move> few = needed(*single);
   const auto finish = [&](const std::vector<Move>& moves) {
@@ -164,25 +165,28 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot,
   const auto border = [&](const std::vector<Move>& moves) { return border_between_ranks(after(snapshot, moves)); };
   const bool takes_whole = later < -notable || (later <= notable && has_few_moves && border(whole) < border(few));
   overrule(takes_whole ? 0 : 1);
+  overruled_gain_ = takes_whole ? 0 : possible_gain(snapshot);
   return takes_whole ? whole : few;
 }
 
-/// Not if the rest of the run would gain less than planning takes.
+/// Not if an even load would gain less than planning takes, or less than when single moves were preferred to the last
+/// whole plan: what was no use with more to gain will be none with less.
 bool PlanningConduct::affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const {
-  return situation.now >= next_whole_ && possible_gain(snapshot) > cost_of_whole(snapshot, situation);
+  if (situation.now < next_whole_) return false;
+  return possible_gain(snapshot) > std::max(cost_of_whole(snapshot, situation), overruled_gain_);
 }
 
-/// What a plan of the policy takes, in seconds; until the first one that is an expectation.
+/// What a plan of the policy takes, in seconds: what one has taken, if that is more than expected.
 double PlanningConduct::cost_of_whole(const LoadSnapshot& snapshot, const Situation& situation) const {
   const double slower = situation.speed > 0 ? options_.reference_speed / situation.speed : 1;
-  return whole_cost_ > 0 ? whole_cost_ : slower * policy_->planning_seconds(snapshot);
+  return std::max(whole_cost_, slower * policy_->planning_seconds(snapshot));
 }
 
 // A plan that took long has just been sent, and is not to be forgotten before it can have been carried out.
 void PlanningConduct::took(double seconds) {
   if (std::exchange(advised_now_, false)) knowledge_->put_off(plans_, seconds);
   if (!std::exchange(planned_whole_, false)) return pace_.took(seconds);
-  whole_cost_ = seconds;
+  whole_cost_ = std::max(whole_cost_, seconds);
   next_whole_ = whole_at_ + seconds / options_.overhead;
 }
 

@@ -71,8 +71,9 @@ class PlanningConduct {
   // Where single moves are had for less, whole plans have a pace of their own:
   bool planned_whole_ = false;  // at the last think()
   double whole_at_ = 0, whole_cost_ = 0, next_whole_ = 0;
+  double overruled_gain_ = 0;  // seconds that were to be gained when the last one was not kept
   std::uint32_t plans_ = 0;
-  bool advised_now_ = false;  // the last plan was made at the last think()
+  bool advised_now_ = false;             // the last plan was made at the last think()
   std::map<SubdomainId, double> moved_;  // when its last move was planned: it is left alone for a while
 };
 

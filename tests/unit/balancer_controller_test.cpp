@@ -322,11 +322,44 @@ TEST_CASE("a whole plan is made where it finishes earlier, or leaves less border
   CHECK(moves_made(six, one, 2) == 6);  // by a ninth
 }
 
+TEST_CASE("a whole plan that is not kept is asked for again when more is to be gained") {
+  const Layout layout = grid_layout(24, 1, 2);
+  int plans = 0;
+  class UselessPlans final : public Policy {
+   public:
+    explicit UselessPlans(int& plans) : plans_(plans) {}
+    [[nodiscard]] Placement placement() const override { return Placement::kLeader; }
+    [[nodiscard]] std::vector<Move> plan(const LoadSnapshot&, Rank) const override {
+      ++plans_;
+      return {{0_sub, 0_rank}};
+    }
+    [[nodiscard]] std::optional<std::vector<Move>> touch_up(const LoadSnapshot&) const override {
+      return std::vector<Move>{};
+    }
+
+   private:
+    int& plans_;
+  };
+  ControllerOptions options = planning_early();
+  options.overhead = 1;
+  Controller leader(0_rank, std::make_shared<Layout>(layout), std::make_shared<UselessPlans>(plans), options, 0);
+  const auto plans_at = [&](std::uint32_t second, std::int32_t subdomains) {
+    leader.receive(1_rank, LoadReport{second, 0, 100, {}}, second);
+    static_cast<void>(leader.think(second, loads_of(0, subdomains - 1, 1000), 100));
+    return plans;
+  };
+  CHECK(plans_at(1, 4) == 1);
+  CHECK(plans_at(5, 4) == 1);
+  CHECK(plans_at(9, 3) == 1);
+  CHECK(plans_at(13, 8) == 2);
+  CHECK(plans_at(17, 6) == 2);
+}
+
 TEST_CASE("comparing the borders of two plans is charged") {
   const EffortLog log;
-  const std::vector<Move> one{{7_sub, 1_rank}}, two{{6_sub, 1_rank}, {7_sub, 1_rank}};
-  static_cast<void>(moves_made(two, one, 2));
-  static_cast<void>(moves_made(two, two, 2));  // the same: nothing to compare
+  const std::vector<Move> together{{6_sub, 1_rank}, {7_sub, 1_rank}}, apart{{2_sub, 1_rank}, {5_sub, 1_rank}};
+  CHECK(moves_made(together, apart, 1) == 2);
+  CHECK(moves_made(together, together, 1) == 2);  // the same: nothing to compare
   CHECK(log.efforts().at("border") == 2 * 12);
 }
 
