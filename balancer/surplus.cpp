@@ -83,7 +83,8 @@ class Dealer {
   /// The neighbor of `i`, if it is listed and the border to it counts.
   [[nodiscard]] Index open(Index i, const Neighbor& neighbor) const {
     const Index j = index_[neighbor.subdomain];
-    if (j == kUnlisted || !is_open_border(snapshot_, snapshot_.subdomains[i], snapshot_.subdomains[j])) return kUnlisted;
+    if (j == kUnlisted || !is_open_border(snapshot_, snapshot_.subdomains[i], snapshot_.subdomains[j]))
+      return kUnlisted;
     return j;
   }
   /// The same, if it still belongs to this rank.

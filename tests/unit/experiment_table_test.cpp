@@ -86,6 +86,7 @@ TEST_CASE("columns that are the same in all runs stand below the table") {
   CHECK(rows.find("ranks") == std::string::npos);
   CHECK(text.find("ranks 2") != std::string::npos);
   const std::string csv = table.csv();
-  for (const char* column : {"ranks", "oracle_seconds", "regret", "recovered", "repetition", "whole_plans,whole_plans_kept"})
+  for (const char* column :
+       {"ranks", "oracle_seconds", "regret", "recovered", "repetition", "whole_plans,whole_plans_kept"})
     CHECK_MESSAGE(csv.find(column) != std::string::npos, column);
 }
