@@ -11,6 +11,19 @@
 namespace driftmesh::balancer {
 namespace {
 
+std::string upper_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return text;
+}
+
+/// Whether graphs are partitioned by Zoltan itself. SCOTCH and ParMETIS keep nothing where it is, and number parts as
+/// they like.
+bool has_own_graphs(const ZoltanParameters& parameters) {
+  const auto package = parameters.find("GRAPH_PACKAGE");
+  return package == parameters.end() || upper_case(package->second) == "PHG";
+}
+
 /// The length of the open borders of `s` with subdomains of `rank`.
 double border_with(const LoadSnapshot& snapshot, const SubdomainLoad& s, Rank rank) {
   double length = 0;
@@ -90,7 +103,8 @@ class ZoltanPolicy final : public Policy {
  private:
   [[nodiscard]] bool keeps_parts() const {
     const std::string& method = parameters_.at("LB_METHOD");
-    return (method == "GRAPH" || method == "HYPERGRAPH") && parameters_.at("LB_APPROACH") != "PARTITION";
+    return (method == "HYPERGRAPH" || (method == "GRAPH" && has_own_graphs(parameters_))) &&
+           parameters_.at("LB_APPROACH") != "PARTITION";
   }
   static std::vector<Rank> owners_of(const std::vector<Part>& parts) {
     std::vector<Rank> owners;
@@ -109,12 +123,6 @@ class ZoltanPolicy final : public Policy {
   Dealing dealing_;
   double most_moves_;
 };
-
-std::string upper_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return text;
-}
 
 }  // namespace
 
@@ -135,7 +143,13 @@ std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
     if (!zoltan_accepts(name, value)) parameters.fail(name, value, "Zoltan's user guide lists valid values");
     all[name] = value;
   }
+  if (!has_own_graphs(all) && !zoltan_partitions_with(all))
+    parameters.fail("GRAPH_PACKAGE", all["GRAPH_PACKAGE"], "this Zoltan was built without it; PHG is always there");
   const bool collective = parameters.choice("placement", {"leader", "collective"}) == "collective";
+  // What ranks know of borders between them may differ, and so would the two directions of an edge, which others do not
+  // bear.
+  if (collective && !has_own_graphs(all))
+    parameters.fail("placement", "collective", "with GRAPH_PACKAGE = " + all["GRAPH_PACKAGE"] + " it must be leader");
   Dealing dealing;
   dealing.polish = parameters.flag("polish", dealing.polish);
   dealing.tolerance = parameters.number("tolerance", dealing.tolerance, 0, 10);

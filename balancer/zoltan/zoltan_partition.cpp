@@ -1,5 +1,6 @@
 #include "balancer/zoltan/zoltan_partition.hpp"
 
+#include <dlfcn.h>
 #include <mpi.h>
 #include <zoltan.h>
 #include <zoltan_dd.h>
@@ -30,6 +31,16 @@ void initialize_once() {
     return true;
   }();
   static_cast<void>(done);
+}
+
+// If Zoltan uses SCOTCH: its threads and its random numbers, which go on from call to call, would make other parts each
+// time.
+void make_scotch_repeat() {
+  static const auto reset = [] {
+    ::setenv("SCOTCH_PTHREAD_NUMBER", "1", 0);
+    return reinterpret_cast<void (*)()>(::dlsym(RTLD_DEFAULT, "SCOTCH_randomReset"));
+  }();
+  if (reset) reset();
 }
 
 /// Owns a Zoltan object; freeing one after MPI_Finalize would abort.
@@ -314,6 +325,7 @@ std::vector<Part> partition(MPI_Comm communicator, const LoadSnapshot& snapshot,
   graph.add_edges(process_of);
   answer_questions(zoltan.get(), graph, as_hypergraph);
 
+  make_scotch_repeat();
   Answer answer;
   const int result = Zoltan_LB_Partition(
       zoltan.get(), &answer.changes, &answer.global_size, &answer.local_size, &answer.imports, &answer.import_global,
@@ -398,6 +410,26 @@ const std::vector<std::string>& zoltan_parameter_names() {
 bool zoltan_accepts(const std::string& name, const std::string& value) {
   initialize_once();
   return Zoltan(MPI_COMM_SELF).set(name, value);
+}
+
+bool zoltan_partitions_with(const ZoltanParameters& parameters) {
+  // Two subdomains, both on the first of two ranks.
+  Layout layout;
+  layout.ranks = 2;
+  layout.subdomains.resize(2);
+  layout.subdomains[SubdomainId{0}].neighbors = {{SubdomainId{1}, 1.0}};
+  layout.subdomains[SubdomainId{1}].neighbors = {{SubdomainId{0}, 1.0}};
+  LoadSnapshot trial;
+  for (const SubdomainId id : ids_of(layout.subdomains)) trial.subdomains.push_back({id, Rank{0}, 1000, 100});
+  trial.layout = std::make_shared<const Layout>(std::move(layout));
+  trial.ranks.resize(2, RankLoad{1});
+  sum_up(trial);
+  try {
+    static_cast<void>(zoltan_partition(trial, parameters));
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 Efforts effort_of_parts(const LoadSnapshot& snapshot, const ZoltanParameters& parameters) {

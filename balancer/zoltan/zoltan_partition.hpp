@@ -16,6 +16,10 @@ namespace driftmesh::balancer {
 /// Whether Zoltan accepts this parameter value. It checks some values only when it partitions.
 [[nodiscard]] bool zoltan_accepts(const std::string& name, const std::string& value);
 
+/// Whether this build of Zoltan partitions at all with these parameters: a graph partitioner such as ParMETIS may be
+/// missing. Zoltan says why not on standard error.
+[[nodiscard]] bool zoltan_partitions_with(const ZoltanParameters& parameters);
+
 /// The effort of zoltan_partition, which notes it.
 [[nodiscard]] Efforts effort_of_parts(const LoadSnapshot& snapshot, const ZoltanParameters& parameters);
 

@@ -115,6 +115,46 @@ TEST_CASE("zoltan accepts its own parameters") {
   CHECK(time_with(s, strict) < time_with(s, loose));
 }
 
+// Debian's Zoltan has SCOTCH, and no ParMETIS; others may have both, or neither.
+TEST_CASE("zoltan's graphs can be partitioned by others, or it says at once that they are not there") {
+  const LoadSnapshot s = initial_snapshot(grid_layout(24, 24, 4), {1, 1, 1, 2});
+  for (const std::string package : {"Scotch", "ParMETIS"})
+    for (const std::string approach : {"repartition", "partition"}) {
+      CAPTURE(package);
+      CAPTURE(approach);
+      const Parameters::Values values{{"GRAPH_PACKAGE", package},
+                                      {"method", "graph"},
+                                      {"approach", approach},
+                                      {"polish", "false"},
+                                      {"touch-up", "0"}};
+      if (const std::string error = error_of("zoltan", values); !error.empty()) {
+        MESSAGE("without " << package);
+        CHECK(error == "policy zoltan: GRAPH_PACKAGE: '" + package +
+                           "' cannot be used; this Zoltan was built without it; PHG is always there");
+        continue;
+      }
+      auto collective = values;
+      collective["placement"] = "collective";
+      CHECK(error_of("zoltan", collective) ==
+            "policy zoltan: placement: 'collective' cannot be used; with GRAPH_PACKAGE = " + package +
+                " it must be leader");
+      const auto policy = make_policy("zoltan", values);
+      const auto moves = policy->plan(s, 0_rank);
+      CHECK(time_with(s, moves) < 1.1 * ideal_time(s));
+      CHECK(policy->plan(s, 0_rank) == moves);  // a pure function
+      // Ranks of the same speed need not swap their parts.
+      LoadSnapshot swapped = after(s, moves);
+      for (auto& subdomain : swapped.subdomains)
+        if (subdomain.owner < 3_rank) subdomain.owner = Rank{(to_int(subdomain.owner) + 1) % 3};
+      sum_up(swapped);
+      CHECK(policy->plan(swapped, 0_rank).empty());
+    }
+  const auto moves_of = [&](const char* package) {
+    return make_policy("zoltan", {{"method", "graph"}, {"GRAPH_PACKAGE", package}})->plan(s, 0_rank);
+  };
+  CHECK(moves_of("phg") == moves_of("PHG"));
+}
+
 TEST_CASE("zoltan copes with fewer subdomains than ranks, none, and one rank") {
   for (const char* method : {"rcb", "hsfc", "graph", "hypergraph"}) {
     CAPTURE(method);
