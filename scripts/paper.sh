@@ -3,83 +3,39 @@
 # FOLDER/paper.html and paper.md with all tables, each as .csv, too; pictures of each run; report-*.html. Builds driftmesh unless given.
 #   scripts/paper.sh [--small] [--program DRIFTMESH] [FOLDER]    (default: paper/ in the project; --small: tiny, for tests)
 set -euo pipefail
-. "$(dirname "${BASH_SOURCE[0]}")/env.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/experiments.sh"
 
-small=no program='' folder=''
-while (($#)); do
-  case "$1" in
-    -h | --help)
-      sed -n '2,4s/^# \{0,1\}//p' "$0"
-      exit 0
-      ;;
-    --small) small=yes ;;
-    --program)
-      (($# > 1)) || { echo "paper.sh: --program needs a file" >&2; exit 2; }
-      program=$(realpath "$2")
-      shift
-      ;;
-    -*)
-      echo "paper.sh: unknown option '$1'; see --help" >&2
-      exit 2
-      ;;
-    *) folder=$1 ;;
-  esac
-  shift
-done
-mkdir -p "${folder:=$project_root/paper}"
-folder=$(cd "$folder" && pwd)
-configs=$project_root/configs
+read_options '--small --program' "$@"
+((${#chosen[@]} == 0)) || refuse "'${chosen[0]}' is one word too many; see --help"
+use_folder paper
+build_program build report
 
-if [[ -z $program ]]; then
-  "$project_root/scripts/setup.sh" build report
-  say "Building driftmesh"
-  cd "$project_root"
-  cmake --preset release -Wno-dev -DDRIFTMESH_TESTS=OFF
-  cmake --build --preset release -j "$jobs" --target driftmesh
-  program=$project_root/build/release/driftmesh
-fi
+after_experiment() {
+  if [[ -e $folder/$1/report.html ]]; then mv "$folder/$1/report.html" "$folder/report-$1.html"; fi
+}
 
-# experiment NAME FILE SMALL...: runs it into FOLDER/NAME; SMALL are settings that make it tiny.
-run_experiment() {
-  local name=$1 file=$2 settings=()
+# of_paper NAME FILE SMALL...: SMALL are settings that make it tiny.
+of_paper() {
+  local name=$1 file=$2
   shift 2
-  if [[ $small == yes ]]; then
-    for setting in "$@"; do settings+=(--set "$setting"); done
-  fi
-  rm -rf "${folder:?}/$name"
-  "$program" run "$configs/$file.yaml" -o "$folder/$name" --quiet "${settings[@]}"
-  if [[ -e $folder/$name/report.html ]]; then mv "$folder/$name/report.html" "$folder/report-$name.html"; fi
-  say "$name: done in $SECONDS s"
+  [[ $small == yes ]] || set --
+  experiment "$name" "$file" "$@"
 }
-
-# Simulated time does not depend on what else runs here: two experiments at a time, as many as there is memory for.
-running=0
-experiment() {
-  ((running < (jobs < 2 ? 1 : 2))) || one_more_done
-  run_experiment "$@" &
-  ((++running))
-}
-one_more_done() {
-  wait -n
-  ((running--)) || true
-}
-trap 'kill $(jobs -p) 2>/dev/null || true' EXIT
 
 few=(bounds.triangles-per-rank=2e3 decomposition.subdomains=600)
 # First, since it takes longest.
-experiment fig-10-modern scaled-speedup bounds.triangles-per-rank=3e3 'cluster.ranks=[1, 8, 64]'
-experiment table-1 paper/table-1 "${few[@]}"
-experiment table-2 paper/table-2 "${few[@]}"
-experiment table-3 paper/table-3 input.generate=pipe "${few[@]}"
-experiment table-3-pdr paper/table-3-pdr input.generate=pipe bounds.triangles-per-rank=5e3 cluster.ranks=16
-experiment fig-7 paper/fig-7 bounds.triangles-per-rank=2e4 decomposition.subdomains-per-rank=25 'run.aggregation=[1, 16, 512]'
-experiment fig-10 paper/fig-10 bounds.triangles-per-rank=1e3 decomposition.subdomains-per-rank=5
-experiment fig-11 paper/fig-11 "${few[@]}"
+of_paper fig-10-modern scaled-speedup bounds.triangles-per-rank=3e3 'cluster.ranks=[1, 8, 64]'
+of_paper table-1 paper/table-1 "${few[@]}"
+of_paper table-2 paper/table-2 "${few[@]}"
+of_paper table-3 paper/table-3 input.generate=pipe "${few[@]}"
+of_paper table-3-pdr paper/table-3-pdr input.generate=pipe bounds.triangles-per-rank=5e3 cluster.ranks=16
+of_paper fig-7 paper/fig-7 bounds.triangles-per-rank=2e4 decomposition.subdomains-per-rank=25 'run.aggregation=[1, 16, 512]'
+of_paper fig-10 paper/fig-10 bounds.triangles-per-rank=1e3 decomposition.subdomains-per-rank=5
+of_paper fig-11 paper/fig-11 "${few[@]}"
 for model in pipe flow chesapeake; do
-  experiment "published-$model" "published-$model" "${few[@]}" 'balance.policy=[none, greedy]'
+  of_paper "published-$model" "published-$model" "${few[@]}" 'balance.policy=[none, greedy]'
 done
-
-while ((running > 0)); do one_more_done; done
+all_done
 
 say "This machine"
 if [[ $small == yes ]]; then work=(1e5 1) caution=(small); else work=(2e6 3) caution=(); fi

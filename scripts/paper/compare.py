@@ -15,14 +15,17 @@ import sys
 import chart
 import page
 import published
+from replay import replayed, unbalanced
 from runs import read_runs
-from table import Table
+from table import Table, percent
 
 COMMUNICATING = ["sending", "polling"]
 
 
-def percent(part):
-    return f"{100 * part:.1f} %"
+def scale(run):
+    """What seconds of PCDM's ranks must be multiplied with to stand for 10 million triangles a rank."""
+    stands_for = published.PCDM_SPEED / run.record["cluster"]["speeds"][0]
+    return 10e6 / (run.value("bounds.triangles-per-rank") * stands_for)
 
 
 def scaled_speedup(ranks, serial, before, parallel):
@@ -88,7 +91,7 @@ def table_1(folder, costs):
                         for n in paper["ranks"]))
         row("published", paper["decomposition"], paper["triangulation"], paper["ranks"])
         ours = {n: runs[model, n] for n in paper["ranks"] if (model, n) in runs}
-        row("driftmesh", *costs.before_ranks(model), {n: run.seconds * run.scale() for n, run in ours.items()})
+        row("driftmesh", *costs.before_ranks(model), {n: run.seconds * scale(run) for n, run in ours.items()})
         row("rank by rank", *costs.before_ranks(model), {144: unbalanced(folder, published.MODELS[model]).seconds})
     return table
 
@@ -114,7 +117,7 @@ def table_2(folder):
     for run in read_runs(folder / "table-2"):
         paper = published.TABLE_2[run.model]
         table.add(run.model, "published", *map(str, paper["computation"]), *map(str, paper["communication"]), "")
-        seconds = {name: [run.scale() * s for s in run.spent(kinds)]
+        seconds = {name: [scale(run) * s for s in run.spent(kinds)]
                    for name, kinds in (("computing", ["computing"]), ("told", COMMUNICATING), ("idle", ["idle"]))}
         table.add(run.model, "driftmesh", *spread(seconds["computing"]), *spread(seconds["told"], 4),
                   f"{statistics.mean(seconds['idle']):.2f}")
@@ -139,11 +142,11 @@ def table_3(folder):
         for method, run in runs:
             if run.model != model:
                 continue
-            factor = run.scale() / (10 * run.ranks)
+            factor = scale(run) / (10 * run.ranks)
             computing, telling, idle = ([factor * s for s in run.spent(kinds)]
                                         for kinds in (["computing"], COMMUNICATING, ["idle"]))
             table.add(model, method, *spread(computing, 3), *spread(telling, 7), f"{statistics.mean(idle):.3f}", run.record["mesh"]["triangles"],
-                      run.total("splits_sent"), run.record["cluster"]["messages"], f"{run.seconds * run.scale():.2f}")
+                      run.total("splits_sent"), run.record["cluster"]["messages"], f"{run.seconds * scale(run):.2f}")
     return table
 
 
@@ -203,7 +206,7 @@ def figure_10(folder, costs):
     for run in read_runs(folder / "fig-10"):
         serial, before = published.TABLE_1[run.model]["serial"], sum(costs.before_ranks(run.model))
         before *= float(run.row["cutting_seconds"]) / cutting_of_4000()
-        lines.setdefault(run.model, {})[run.ranks] = scaled_speedup(run.ranks, serial, before, run.seconds * run.scale())
+        lines.setdefault(run.model, {})[run.ranks] = scaled_speedup(run.ranks, serial, before, run.seconds * scale(run))
     ranks = sorted(lines["pipe"])
     for count in ranks:
         names = [name for model in published.MODELS for name in (f"published {model}", model)]
@@ -246,32 +249,8 @@ def figure_11(folder):
             cells = []
             for name, parts in kinds.items():
                 ours = run.spent(parts, ranks)
-                cells += [published.FIGURE_11[run.model][name][number], f"{run.scale() * statistics.mean(ours):.3g}"]
+                cells += [published.FIGURE_11[run.model][name][number], f"{scale(run) * statistics.mean(ours):.3g}"]
             table.add(run.model, f"{ranks.start} to {ranks.stop - 1}", *cells)
-    return table
-
-
-def unbalanced(folder, name):
-    """The published run of 144 ranks, each with its speed and share of the work, without balancing."""
-    return next(run for run in read_runs(folder / f"published-{name}") if run.value("balance.policy") == "none")
-
-
-def replayed(folder):
-    table = Table("replay", "The published runs on 144 ranks with a balancer",
-                  ["run", "policy", "seconds", "recovered of what balance could save", "of the whole published time", "possible",
-                   "subdomains moved"],
-                  "Each rank has its published speed and share of the work; policies find out speeds during the run, "
-                  "and planning is charged.")
-    for model, name in published.MODELS.items():
-        runs = read_runs(folder / f"published-{name}")
-        none = unbalanced(folder, name)
-        whole = published.FIGURE_10[model][144]
-        actual, _ = published.REFINEMENT_144[model]
-        for run in runs:
-            saved = (none.seconds - run.seconds) / none.seconds * actual / whole
-            table.add(name, run.value("balance.policy"), f"{run.seconds:.1f}",
-                      percent(float(run.row["recovered"] or 0)), percent(saved), percent(published.COULD_SAVE[model]),
-                      int(run.row["hand_offs"]))
     return table
 
 

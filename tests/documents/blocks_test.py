@@ -46,7 +46,7 @@ class Blocks(unittest.TestCase):
                 if page.name not in DRAWINGS:
                     blocks_of(text)
                 for word in re.findall(r"^<!-- ([a-z ]+): ", text, re.MULTILINE):
-                    self.assertIn(word, (*REMARKS, "needs", "keys"))
+                    self.assertIn(word, (*REMARKS, "needs", "keys", "table"))
 
 
 if __name__ == "__main__":

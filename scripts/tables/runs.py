@@ -3,8 +3,6 @@
 import csv
 import json
 
-import published
-
 
 class Run:
     """A row of table.csv, with its record."""
@@ -12,17 +10,16 @@ class Run:
     def __init__(self, folder, row):
         self.row = row
         self.record = json.loads((folder / f"{row['run']}.json").read_text())
+        columns = list(row)
+        self.swept = {key: row[key] for key in columns[1:columns.index("repetition")]}
         self.model = self.value("input.generate")
+        self.policy = self.value("balance.policy")
         self.ranks = int(row["ranks"])
-        self.seconds = float(row["seconds"])
+        self.seconds, self.ideal = float(row["seconds"]), float(row["ideal_seconds"])
+        self.moved, self.points_sent = int(row["hand_offs"]), int(row["splits"])
 
     def value(self, key):
         return self.record["request"][key]
-
-    def scale(self):
-        """What seconds of PCDM's ranks must be multiplied with to stand for 10 million triangles a rank."""
-        stands_for = published.PCDM_SPEED / self.record["cluster"]["speeds"][0]
-        return 10e6 / (self.value("bounds.triangles-per-rank") * stands_for)
 
     def total(self, key):
         return sum(rank[key] for rank in self.record["parts"]["ranks"])

@@ -3,6 +3,10 @@
 import csv
 
 
+def percent(part):
+    return f"{100 * part:.1f} %"
+
+
 class Table:
     def __init__(self, name, title, columns, notes):
         self.name, self.title, self.columns, self.notes = name, title, columns, notes
@@ -13,9 +17,12 @@ class Table:
             raise ValueError(f"{self.name}: {len(cells)} cells for {len(self.columns)} columns: {cells}")
         self.rows.append([cell if isinstance(cell, str) else f"{cell:,}" for cell in cells])
 
+    def lines(self):
+        """As Markdown, without title and notes."""
+        return [f"| {' | '.join(line)} |" for line in [self.columns, ["---"] * len(self.columns), *self.rows]]
+
     def markdown(self):
-        lines = [self.columns, ["---"] * len(self.columns), *self.rows]
-        return "\n".join([f"## {self.title}", "", *(f"| {' | '.join(line)} |" for line in lines), "", self.notes, ""])
+        return "\n".join([f"## {self.title}", "", *self.lines(), "", *([self.notes, ""] if self.notes else [])])
 
     def write(self, folder):
         (folder / f"{self.name}.md").write_text(self.markdown())
