@@ -68,4 +68,7 @@ def aims(folder):
     most("later by diffusion anywhere", 0.0, chosen(folder, [*AIMED_AT, *DETAILS[2:]], ["diffusion"]), over_none)
     ratio("moves of zoltan over those of greedy", 2, ratios(folder, ["zoltan"], "greedy", lambda run: run.moved))
     ratio("points sent by zoltan over those by stealing", 1.1, ratios(folder, ["zoltan"], "stealing", lambda run: run.points_sent))
+    runs = [run for group in chosen(folder, AIMED_AT, ["zoltan"]) for run in group.runs]
+    plans, kept = (sum(getattr(run, name) for run in runs) for name in ("plans", "plans_kept"))
+    table.add("whole plans of zoltan that are kept", "at least 80 %", f"{kept} of {plans}", "all experiments and repetitions")
     return table

@@ -23,6 +23,11 @@ def spread(group):
     return half_range(group.runs) / group.median(lambda run: run.seconds)
 
 
+def plans_kept(group):
+    plans = sum(run.plans for run in group.runs)
+    return f"{sum(run.plans_kept for run in group.runs)} of {plans}" if plans else ""
+
+
 FIGURES = {
     "seconds": lambda group: seconds(group.median(lambda run: run.seconds)),
     "spread": lambda group: percent(spread(group)),
@@ -33,6 +38,7 @@ FIGURES = {
     "regret": lambda group: percent(group.median(lambda run: float(run.row["regret"]))),
     "moved": lambda group: round(group.median(lambda run: run.moved)),
     "points sent": lambda group: round(group.median(lambda run: run.points_sent)),
+    "plans kept": plans_kept,
 }
 
 
@@ -107,6 +113,7 @@ def row_count(row):
 
 
 ONE = ["seconds", "ideal", "recovered", "regret", "moved"]
+PLANS = [*ONE, "points sent", "plans kept"]
 DRAWS = ["seconds", "spread", "ideal", "recovered", "regret", "moved"]
 BY_POLICY = {"policy": policy}
 SCICLONE = "144 ranks of three speeds on 100 Mb/s Ethernet"
@@ -114,10 +121,10 @@ START = {"start": swept("mapping.method")}
 HARM = ["seconds", "ideal", "over ideal", "over none", "moved"]
 
 TABLES = {
-    "sciclone": Comparison(SCICLONE, ["sciclone"], {"domain": swept("input.generate"), **BY_POLICY}, [*ONE, "points sent"]),
+    "sciclone": Comparison(SCICLONE, ["sciclone"], {"domain": swept("input.generate"), **BY_POLICY}, PLANS),
     "sciclone-zoltan": Comparison(f"{SCICLONE}: ways to call Zoltan", ["sciclone-zoltan"],
                                   {"domain": swept("input.generate"), "method": swept("balance.parameters.zoltan.method"),
-                                   "placement": swept("balance.parameters.zoltan.placement")}, [*ONE, "points sent"],
+                                   "placement": swept("balance.parameters.zoltan.placement")}, PLANS,
                                   without="sciclone"),
     "modern-1024": Comparison("1,024 ranks of four speeds", ["modern-1024"], BY_POLICY, ONE),
     "grand-4096": Comparison("4,096 ranks of four speeds", ["grand-4096"], BY_POLICY, ONE),

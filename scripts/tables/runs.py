@@ -17,6 +17,7 @@ class Run:
         self.ranks = int(row["ranks"])
         self.seconds, self.ideal = float(row["seconds"]), float(row["ideal_seconds"])
         self.moved, self.points_sent = int(row["hand_offs"]), int(row["splits"])
+        self.plans, self.plans_kept = int(row["whole_plans"]), int(row["whole_plans_kept"])
 
     def value(self, key):
         return self.record["request"][key]
