@@ -73,6 +73,7 @@ class Balancing(Cli):
             self.assertEqual(marks_of(new), marks_of(old))
             empty = {name: [] for name, _ in marks_of(old)}
             self.assertEqual(with_tables(new, empty), with_tables(old, empty), page)
+            self.assertEqual(with_tables(with_tables(new, empty), lines_below(new)), new, page)
             for name, lines in lines_below(new).items():
                 made = [line for line in (out / f"{name}.md").read_text().splitlines() if line.startswith("|")]
                 self.assertEqual(lines, made)
