@@ -22,8 +22,8 @@ PROJECT = pathlib.Path(__file__).resolve().parent.parent
 MEGABYTE = 1 << 20
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
 # Starts the rest of its arguments, and says how much memory they took.
-PEAK = ("import resource, subprocess, sys; code = subprocess.call(sys.argv[1:]);"
-        "print('PEAK', resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024, flush=True); sys.exit(code)")
+PEAK = ("import os, resource, subprocess, sys; code = subprocess.call(sys.argv[1:]);"  # a line at once: the other rank prints, too
+        "os.write(1, b'PEAK %d\\n' % (resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024)); sys.exit(code)")
 
 
 def synced(start):

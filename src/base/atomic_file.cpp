@@ -18,6 +18,8 @@ namespace driftmesh {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+constexpr std::size_t kLarge = kBufferBytes / 2;
+constexpr std::size_t kAtOnce = 8 * kBufferBytes;  // so that the disk can begin
 
 // Renaming over a device or a pipe would replace it by a plain file.
 bool must_write_directly(const std::string& target) {
@@ -89,8 +91,24 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::write(const void* bytes, std::size_t count) {
   if (count == 0) return;
   errno = 0;
-  if (std::fwrite(bytes, 1, count, stream_) != count) fail("cannot write");
+  if (count >= kLarge)
+    write_large(static_cast<const char*>(bytes), count);
+  else if (std::fwrite(bytes, 1, count, stream_) != count)
+    fail("cannot write");
   size_ += count;
+}
+
+/// Behind what is in the buffer.
+void AtomicFile::write_large(const char* bytes, std::size_t count) {
+  if (std::fflush(stream_) != 0) fail("cannot write");
+  const int file = ::fileno(stream_);
+  for (std::size_t done = 0; done < count;) {
+    const ssize_t now = ::write(file, bytes + done, std::min(count - done, kAtOnce));
+    if (now < 0 && errno == EINTR) continue;
+    if (now <= 0) fail("cannot write");
+    behind_.wrote(file, size_ + done, static_cast<std::size_t>(now));
+    done += static_cast<std::size_t>(now);
+  }
 }
 
 const std::string& AtomicFile::name_meanwhile() const {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/temporary_files.hpp"
+#include "base/write_behind.hpp"
 
 namespace driftmesh {
 
@@ -25,7 +26,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Appends bytes; small writes are gathered in a buffer.
+  /// Appends bytes; small writes are gathered in a buffer, large ones are not copied.
   void write(const void* bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
   /// Bytes written so far.
@@ -37,6 +38,7 @@ class AtomicFile {
 
  private:
   void open();
+  void write_large(const char* bytes, std::size_t count);
   [[noreturn]] void fail(const char* what);
   void close_and_remove() noexcept;
 
@@ -47,6 +49,7 @@ class AtomicFile {
   std::unique_ptr<char[]> buffer_;
   std::FILE* stream_ = nullptr;
   std::uint64_t size_ = 0;
+  WriteBehind behind_;
 };
 
 }  // namespace driftmesh

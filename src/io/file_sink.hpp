@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <concepts>
@@ -39,6 +40,22 @@ class FileSink {
   void raw(const T& value) {
     std::memcpy(room(sizeof(T)), &value, sizeof(T));
     used_ += sizeof(T);
+  }
+  /// value(i) for each i below `count`, as raw does one by one.
+  template <class Value>
+  void raw_values(std::size_t count, const Value& value) {
+    using T = std::decay_t<decltype(value(std::size_t{0}))>;
+    static_assert(std::is_trivially_copyable_v<T>);
+    for (std::size_t begin = 0; begin < count;) {
+      char* const out = room(sizeof(T));
+      const std::size_t now = std::min(count - begin, (kBytes - used_) / sizeof(T));
+      for (std::size_t i = 0; i < now; ++i) {
+        const T one = value(begin + i);
+        std::memcpy(out + i * sizeof(T), &one, sizeof(T));
+      }
+      used_ += now * sizeof(T);
+      begin += now;
+    }
   }
   /// The bytes of all values; many of them bypass the buffer.
   template <class T>

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <initializer_list>
 #include <map>
 #include <numeric>
 #include <string_view>
 #include <utility>
 
 #include "base/atomic_file.hpp"
+#include "base/write_behind.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "io/hdf5_format.hpp"
@@ -176,16 +178,23 @@ class RowWriter {
   /// `count` rows from `first` on; fill(i, row) sets the columns of the i-th of them.
   template <class T, class Fill>
   void rows(const std::string& array, std::size_t columns, std::uint64_t first, std::size_t count, const Fill& fill) {
+    rows<T>({array}, columns, first, count, fill);
+  }
+
+  /// The same rows of several arrays.
+  template <class T, class Fill>
+  void rows(std::initializer_list<std::string> arrays, std::size_t columns, std::uint64_t first, std::size_t count,
+            const Fill& fill) {
     if (count == 0) return;
-    std::uint64_t place = places_.at(array) + first * columns * sizeof(T);
+    std::vector<Place> places;
+    for (const std::string& array : arrays) places.push_back({places_.at(array) + first * columns * sizeof(T), {}});
     std::vector<T> block;
     const std::size_t in_block = std::min(count, std::max<std::size_t>(1, kBytes / sizeof(T) / columns));
     block.resize(in_block * columns);
     for (std::size_t begin = 0; begin < count; begin += in_block) {
       const std::size_t now = std::min(in_block, count - begin);
       for (std::size_t i = 0; i < now; ++i) fill(begin + i, block.data() + i * columns);
-      write(block.data(), now * columns * sizeof(T), place);
-      place += now * columns * sizeof(T);
+      for (Place& place : places) write(block.data(), now * columns * sizeof(T), place);
     }
   }
 
@@ -196,16 +205,24 @@ class RowWriter {
  private:
   static constexpr std::size_t kBytes = std::size_t{1} << 20;
 
-  void write(const void* bytes, std::size_t count, std::uint64_t place) const {
+  /// Where the next rows of an array go.
+  struct Place {
+    std::uint64_t next;
+    WriteBehind behind;
+  };
+
+  void write(const void* bytes, std::size_t count, Place& place) const {
+    const std::uint64_t begin = place.next;
     const char* next = static_cast<const char*>(bytes);
     while (count > 0) {
-      const ssize_t done = ::pwrite(file_, next, count, static_cast<off_t>(place));
+      const ssize_t done = ::pwrite(file_, next, count, static_cast<off_t>(place.next));
       if (done < 0 && errno == EINTR) continue;
       if (done <= 0) throw FileError(path_, "cannot write");
       next += done;
       count -= static_cast<std::size_t>(done);
-      place += static_cast<std::uint64_t>(done);
+      place.next += static_cast<std::uint64_t>(done);
     }
+    place.behind.wrote(file_, begin, place.next - begin);
   }
 
   const std::string& path_;
@@ -277,14 +294,12 @@ class Hdf5PartWriter {
   void write_cells() {
     const auto corners = [&](auto t, auto* row) { corners_of_triangle(t, row); };
     const auto ends = [&](auto e, auto* row) { ends_of_line(e, row); };
-    triangles<std::int64_t>("/viz/topology/cells", 3, corners);
+    // For VTK triangles begin an array without rows, which is the same as one with rows of three; lines follow.
+    const std::string one_after_the_other = "/VTKHDF/Connectivity";
+    out_.rows<std::int64_t>({"/viz/topology/cells", one_after_the_other}, 3, part_.first_triangle,
+                            mesh_.triangles.size(), corners);
     lines<std::int64_t>("/viz/topology/facets", 2, 0, ends);
-
-    // The same for VTK, one after the other.
-    const std::string array = "/VTKHDF/Connectivity";
-    out_.rows<std::int64_t>(array, 1, 3 * part_.first_triangle, 3 * mesh_.triangles.size(),
-                            [&](auto i, auto* row) { *row = part_.row[mesh_.triangles[i / 3][i % 3]]; });
-    out_.rows<std::int64_t>(array, 1, 3 * shape_.triangles + 2 * part_.first_line, 2 * part_.lines.size(),
+    out_.rows<std::int64_t>(one_after_the_other, 1, 3 * shape_.triangles + 2 * part_.first_line, 2 * part_.lines.size(),
                             [&](auto i, auto* row) {
                               const Mesh::Edge& edge = mesh_.edges[part_.lines[i / 2]];
                               *row = part_.row[i % 2 == 0 ? edge.a : edge.b];

@@ -41,6 +41,23 @@ TEST_CASE("a file appears only when committed, and whole") {
   CHECK(files_in(folder.path()) == 1);
 }
 
+TEST_CASE("small and large pieces follow each other in the file, also beyond what the disk begins with") {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "large").string();
+  const std::size_t sizes[] = {3, 700'000, 5, 1 << 20, 400'000, 20 << 20, 1, 9 << 20, 600'000};
+  std::string expected;
+  AtomicFile file(path);
+  for (std::size_t k = 0; k < std::size(sizes); ++k) {
+    std::string piece(sizes[k], '\0');
+    for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = static_cast<char>(i / 7 + 31 * k);
+    file.write(piece);
+    expected += piece;
+    CHECK(file.size() == expected.size());
+  }
+  file.commit();
+  CHECK((content(path) == expected));
+}
+
 TEST_CASE("without commit the old file stays and nothing else is left behind") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "out.txt";

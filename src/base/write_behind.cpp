@@ -1,0 +1,23 @@
+#include "base/write_behind.hpp"
+
+#include <fcntl.h>
+
+#include <tuple>
+
+namespace driftmesh {
+namespace {
+
+constexpr std::uint64_t kEnough = std::uint64_t{16} << 20;  // for a disk to take about as long as for a long seek
+
+}  // namespace
+
+void WriteBehind::wrote(int file, std::uint64_t place, std::size_t count) noexcept {
+  if (place != end_) begin_ = place;
+  end_ = place + count;
+  if (end_ - begin_ < kEnough) return;
+  std::ignore = ::sync_file_range(file, static_cast<off_t>(begin_), static_cast<off_t>(end_ - begin_),
+                                  SYNC_FILE_RANGE_WRITE);  // begins, and does not wait
+  begin_ = end_;
+}
+
+}  // namespace driftmesh
