@@ -29,7 +29,10 @@ struct InputFile {
 /// .kml, .gmt), or what read_poly reads. Polygons of GeoJSON and its like are the domain and their holes are holes;
 /// lines and points are constraints; properties have markers and regions (docs/file-formats.md). Longitudes and
 /// latitudes become meters in the UTM zone of their middle. `layers`: of a file that has several, names with commas
-/// between them. Errors: as read_poly.
+/// between them. Throws FileError for a file that is not there or cannot be read, and InputError: with up to ten
+/// messages as read_poly does; naming the feature of what is wrong in a GIS file; for coordinates that are no
+/// longitudes and latitudes, or reach too far for a UTM zone; for layers that the file has not, or several of which
+/// none is named; and where GDAL is needed and not there.
 [[nodiscard]] InputFile read_input(const std::string& path, const std::string& layers = "");
 
 /// Whether the file at `path` is read as an input, by read_input, and not as a mesh: GeoJSON and its like, a .poly, or
@@ -45,6 +48,7 @@ struct WriteOptions {
   std::vector<Point> holes{};                 ///< a point in each hole, for Triangle's .poly; other formats need none
   bool ascii = false;                         ///< .msh as text, for programs that read no binary one
   std::vector<std::int32_t> open_boundary{};  ///< markers of edges that are open sea, for .14, .grd and .gr3
+  bool ghost_layer = false;                   ///< pieces of .pvtu with a ring of ghost triangles; a whole mesh has none
 };
 
 /// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, .h5 (with an .xdmf beside it), .su2,

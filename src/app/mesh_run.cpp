@@ -116,7 +116,7 @@ void write_in_pieces(const Request& request, const Write& write) {
 
 WriteOptions writing_of(const Request& request, const std::vector<Point>& holes) {
   const std::vector<double>& open = request.output.open_boundary;
-  return {holes, request.output.ascii, {open.begin(), open.end()}};
+  return {holes, request.output.ascii, {open.begin(), open.end()}, request.output.ghost_layer};
 }
 
 /// Writes the other formats, and draws.
@@ -221,7 +221,9 @@ job::Order order_of(const Request& request, job::Domain&& domain, const job::Tri
 
 void assemble_and_write(const Request& request, std::optional<job::ThreadRun>& run, RunNotes& notes) {
   if (std::ranges::any_of(request.output.meshes, is_in_pieces))
-    timed(notes, "write", [&] { write_in_pieces(request, [&](const std::string& path) { run->write_pieces(path); }); });
+    timed(notes, "write", [&] {
+      write_in_pieces(request, [&](const std::string& path) { run->write_pieces(path, request.output.ghost_layer); });
+    });
   if (!writes_whole(request.output)) return;
   DistributedPiece piece = timed(notes, "assemble", [&] { return run->assemble(); });
   const std::vector<Point> holes = run->pslg().holes;

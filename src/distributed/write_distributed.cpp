@@ -8,6 +8,7 @@
 #include "base/bytes.hpp"
 #include "base/in_parts.hpp"
 #include "base/staged_files.hpp"
+#include "distributed/ghost_layer.hpp"
 #include "distributed/mesh_bytes.hpp"
 #include "distributed/rank_status.hpp"
 #include "distributed/write_mfem.hpp"
@@ -21,18 +22,28 @@ namespace {
 
 constexpr Rank kWriter{0};  // of files of the whole mesh
 
-VtuArrays arrays_of_series(const DistributedPiece& piece) {
+VtuArrays arrays_of_series(const DistributedPiece& piece, bool ghost_layer) {
   VtuArrays arrays = arrays_of_pieces(piece);
   arrays.ghosts = piece.ranks > 1;
+  arrays.ghost_cells = ghost_layer && piece.ranks > 1;
   return arrays;
 }
 
 /// A point that several pieces have is a duplicate in all but that of its owner.
-std::unique_ptr<FileSink> prepare_piece(const DistributedPiece& piece, const std::string& path) {
-  std::vector<std::uint8_t> ghosts;
-  if (piece.ranks > 1)
-    for (const Rank owner : piece.owners) ghosts.push_back(owner == piece.rank ? 0 : kDuplicatePoint);
-  return prepare_vtu(piece.mesh, arrays_of_series(piece), pvtu_piece_path(path, to_int(piece.rank)), ghosts);
+VtuGhosts ghosts_of(Rank rank, const std::vector<Rank>& owners) {
+  VtuGhosts ghosts{.rank = to_int(rank)};
+  for (const Rank owner : owners) ghosts.points.push_back(owner == rank ? 0 : kDuplicate);
+  return ghosts;
+}
+
+/// `ghosted`: the same with its ghosts, or null.
+std::unique_ptr<FileSink> prepare_piece(const DistributedPiece& piece, const GhostedPiece* ghosted,
+                                        const std::string& path) {
+  const VtuArrays arrays = arrays_of_series(piece, ghosted != nullptr);
+  const std::string name = pvtu_piece_path(path, to_int(piece.rank));
+  if (piece.ranks == 1) return prepare_vtu(piece.mesh, arrays, name);
+  if (ghosted == nullptr) return prepare_vtu(piece.mesh, arrays, name, ghosts_of(piece.rank, piece.owners));
+  return prepare_vtu(ghosted->mesh, arrays, name, ghosts_of(piece.rank, ghosted->owners));
 }
 
 }  // namespace
@@ -72,16 +83,18 @@ void GatherPieces::merge() {
   if (faults.count != 0) throw Error("the pieces of the mesh do not fit together: " + faults.first[0]);
 }
 
-WritePieces::WritePieces(const DistributedPiece& piece, std::string path) : piece_(piece), path_(std::move(path)) {}
+WritePieces::WritePieces(const DistributedPiece& piece, std::string path, const GhostedPiece* ghosted)
+    : piece_(piece), ghosted_(ghosted), path_(std::move(path)) {}
 
 std::vector<Mail> WritePieces::send(int round) {
   return status_to_all(piece_.ranks, [&] { write_or_commit(round); });
 }
 
 void WritePieces::write_or_commit(int round) {
-  if (round == 0) file_ = prepare_piece(piece_, path_);
+  if (round == 0) file_ = prepare_piece(piece_, ghosted_, path_);
   if (round == 1) file_->commit();
-  if (round == 2 && piece_.rank == kWriter) write_pvtu(path_, piece_.ranks, arrays_of_series(piece_));
+  if (round == 2 && piece_.rank == kWriter)
+    write_pvtu(path_, piece_.ranks, arrays_of_series(piece_, ghosted_ != nullptr));
 }
 
 std::vector<Rank> WritePieces::senders(int) const {
@@ -102,12 +115,32 @@ void write_series(const std::string& path, std::int32_t pieces, std::size_t thre
     in_parts(made.size(), made.size(), [&](std::size_t i, std::size_t, std::size_t) {
       const Rank k{first + static_cast<std::int32_t>(i)};
       const DistributedPiece piece = make(k);
-      if (k == Rank{0}) arrays = arrays_of_series(piece);
-      made[i] = prepare_piece(piece, path);
+      if (k == Rank{0}) arrays = arrays_of_series(piece, false);
+      made[i] = prepare_piece(piece, nullptr, path);
     });
     for (const auto& file : made) file->commit();
   }
   write_pvtu(path, pieces, arrays);
+  files.commit();
+}
+
+void write_ghosted_series(const std::string& path, std::int32_t pieces,
+                          const std::function<DistributedPiece(Rank)>& make) {
+  std::vector<DistributedPiece> made;
+  for (std::int32_t k = 0; k < pieces; ++k) made.push_back(make(Rank{k}));
+  std::vector<std::unique_ptr<GhostLayer>> layers;
+  IdVector<Rank, Exchange*> all;
+  for (const DistributedPiece& piece : made) {
+    layers.push_back(std::make_unique<GhostLayer>(piece));
+    all.push_back(layers.back().get());
+  }
+  exchange_directly(all);
+  StagedFiles files;
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    const GhostedPiece ghosted = layers[k]->take();
+    prepare_piece(made[k], &ghosted, path)->commit();
+  }
+  write_pvtu(path, pieces, arrays_of_series(made.front(), true));
   files.commit();
 }
 
@@ -132,7 +165,13 @@ void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, std
   std::optional<GatherPieces> gathered;
   for (const std::string& path : paths) {
     if (is_in_pieces(path)) {
-      WritePieces pieces(piece, path);
+      std::optional<GhostedPiece> ghosted;
+      if (options.ghost_layer) {
+        GhostLayer layer(piece);
+        ranks.run(layer);
+        ghosted = layer.take();
+      }
+      WritePieces pieces(piece, path, ghosted ? &*ghosted : nullptr);
       ranks.run(pieces);
       continue;
     }

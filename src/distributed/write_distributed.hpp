@@ -10,6 +10,7 @@
 
 #include "distributed/exchange.hpp"
 #include "driftmesh/distributed_piece.hpp"
+#include "driftmesh/ghosted_piece.hpp"
 #include "io/file_sink.hpp"
 #include "io/mesh_file.hpp"
 
@@ -43,8 +44,9 @@ class GatherPieces final : public Exchange {
 /// throw a FileError that names it.
 class WritePieces final : public Exchange {
  public:
-  /// `piece` must outlive the object. `path` ends in .pvtu and is in a folder that all ranks share.
-  WritePieces(const DistributedPiece& piece, std::string path);
+  /// `piece` must outlive the object. `path` ends in .pvtu and is in a folder that all ranks share. `ghosted`: the same
+  /// piece with ghosts, which are to be in the files, likewise; null: without. The same on all ranks.
+  WritePieces(const DistributedPiece& piece, std::string path, const GhostedPiece* ghosted = nullptr);
 
   [[nodiscard]] int rounds() const override { return 3; }
   [[nodiscard]] std::vector<Mail> send(int round) override;
@@ -55,6 +57,7 @@ class WritePieces final : public Exchange {
   void write_or_commit(int round);
 
   const DistributedPiece& piece_;
+  const GhostedPiece* ghosted_;
   std::string path_;
   std::unique_ptr<FileSink> file_;  // complete, but not yet under its name
 };
@@ -63,6 +66,10 @@ class WritePieces final : public Exchange {
 /// appear together (see StagedFiles).
 void write_series(const std::string& path, std::int32_t pieces, std::size_t threads,
                   const std::function<DistributedPiece(Rank)>& make);
+
+/// The same with a ring of ghost triangles in each piece. Takes memory for all pieces at once.
+void write_ghosted_series(const std::string& path, std::int32_t pieces,
+                          const std::function<DistributedPiece(Rank)>& make);
 
 /// Writes a mesh that rank 0 has gathered. On failure, all ranks throw.
 class WriteWhole final : public Exchange {

@@ -28,7 +28,8 @@ class PvtuFile {
     sink_.text(
         "<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
-        "  <PUnstructuredGrid GhostLevel=\"0\">\n");
+        "  <PUnstructuredGrid GhostLevel=\"");
+    sink_.text(arrays.ghost_cells ? "1\">\n" : "0\">\n");
     sink_.text(arrays.numbers ? "    <PPointData GlobalIds=\"global_number\">\n" : "    <PPointData>\n");
     for_each_point_array(
         arrays, [&]<class T>(const T*, const char* name, std::int32_t components) { declare<T>(name, components); });

@@ -21,7 +21,8 @@ struct VtuArrays {
   bool regions = false;
   bool subdomains = false;
   bool ranks = false;
-  bool ghosts = false;  ///< on points
+  bool ghosts = false;       ///< on points
+  bool ghost_cells = false;  ///< and triangles of other pieces
 };
 /// The arrays for which the mesh has values.
 [[nodiscard]] VtuArrays arrays_of(const Mesh& mesh);
@@ -41,12 +42,14 @@ void for_each_point_array(const VtuArrays& arrays, const Visit& visit) {
 /// The same, visit(pointer, name), for arrays on cells.
 template <class Visit>
 void for_each_cell_array(const VtuArrays& arrays, const Visit& visit) {
+  constexpr const std::uint8_t* kUInt8 = nullptr;
   constexpr const std::int32_t* kInt32 = nullptr;
   constexpr const double* kFloat64 = nullptr;
   if (arrays.cell_markers) visit(kInt32, "marker");
   if (arrays.regions) visit(kFloat64, "region");
   if (arrays.subdomains) visit(kInt32, "subdomain");
   if (arrays.ranks) visit(kInt32, "rank");
+  if (arrays.ghost_cells) visit(kUInt8, "vtkGhostType");
 }
 
 // Names of markers and regions are arrays of the field data, which are called so and have two components: the number
@@ -67,13 +70,20 @@ template <class T>
 /// Point data "marker", "attribute" and "global_number"; cell data "marker" (0 on triangles), "region", "subdomain" and
 /// "rank" (on a line, those of an adjacent triangle); each only if the mesh has it.
 void write_vtu(const Mesh& mesh, const std::string& path);
-/// What VTK calls a point that another piece of the mesh counts, and so leaves out of sums and counts.
-inline constexpr std::uint8_t kDuplicatePoint = 1;
+/// What VTK calls a point or a cell that another piece of the mesh counts, and so leaves out of sums and counts.
+inline constexpr std::uint8_t kDuplicate = 1;
 
-/// The same with the given arrays. `ghosts`: with VtuArrays::ghosts, for each point 0 or kDuplicatePoint. The file is
-/// complete, but appears under its name only on commit().
+/// What of a piece other pieces count.
+struct VtuGhosts {
+  std::vector<std::uint8_t> points{};  ///< with VtuArrays::ghosts: for each point 0 or kDuplicate
+  /// With VtuArrays::ghost_cells: the piece's number in mesh.ranks. Triangles with another one are ghosts. A line
+  /// counts in the first of the pieces that have its triangles.
+  std::int32_t rank = 0;
+};
+
+/// The same with the given arrays. The file is complete, but appears under its name only on commit().
 [[nodiscard]] std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path,
-                                                    const std::vector<std::uint8_t>& ghosts = {});
+                                                    const VtuGhosts& ghosts = {});
 
 /// An array that a .pvtu declares for each of its pieces.
 struct DeclaredArray {
@@ -84,7 +94,8 @@ struct DeclaredArray {
 
 /// Reads what write_vtu writes, and what other programs write of triangles and lines: appended or inline, as bytes, in
 /// base64 or as text, compressed by zlib or not. Points may come as any numbers; arrays of other names are ignored.
-/// A piece must have the arrays that are `declared` for it.
+/// Cells that are ghosts (vtkGhostType) are left out, with points that only they use; a line that is a side of a
+/// triangle stays. A piece must have the arrays that are `declared` for it.
 [[nodiscard]] Mesh read_vtu(const std::string& path, std::span<const DeclaredArray> declared = {});
 /// The same from memory; `file` is for messages.
 [[nodiscard]] Mesh parse_vtu(const std::string& file, std::string_view bytes,

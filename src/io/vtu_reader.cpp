@@ -11,6 +11,7 @@
 #include "io/read_checks.hpp"
 #include "io/vtu_data.hpp"
 #include "io/vtu_format.hpp"
+#include "io/vtu_ghosts.hpp"
 #include "io/vtu_header.hpp"
 #include "pslg/names.hpp"
 
@@ -215,7 +216,22 @@ void read_point_data(Mesh& mesh, const ArrayReader& arrays, std::uint64_t count)
     mesh.numbers = arrays.load<std::int64_t>(*number, count).all();
 }
 
-void read_cells(Mesh& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
+/// None without the array.
+GhostCells read_ghosts(const ArrayReader& arrays, const CellSplitter& cells, std::uint64_t count) {
+  GhostCells ghosts;
+  const VtuHeader::Array* const array = arrays.find("CellData", "vtkGhostType");
+  if (array == nullptr) return ghosts;
+  const Values<std::uint8_t> types = arrays.load<std::uint8_t>(*array, count);
+  auto line = cells.line_cells.begin();
+  for (std::size_t cell = 0; cell < count; ++cell) {
+    const bool is_line = line != cells.line_cells.end() && *line == cell;
+    if (is_line) ++line;
+    (is_line ? ghosts.edges : ghosts.triangles).push_back((types[cell] & kDuplicate) != 0);
+  }
+  return ghosts;
+}
+
+GhostCells read_cells(Mesh& mesh, const std::string& path, const ArrayReader& arrays, std::uint64_t count) {
   CellSplitter cells(path, arrays, count);
   cells.split(mesh);
   if (const VtuHeader::Array* const marker = arrays.find("CellData", "marker")) {
@@ -237,6 +253,7 @@ void read_cells(Mesh& mesh, const std::string& path, const ArrayReader& arrays, 
   load_of_triangles("region", mesh.regions);
   load_of_triangles("subdomain", mesh.subdomains);
   load_of_triangles("rank", mesh.ranks);
+  return read_ghosts(arrays, cells, count);
 }
 
 void read_names(Mesh& mesh, const VtuHeader& header, const ArrayReader& arrays) {
@@ -270,9 +287,10 @@ Mesh parse_vtu(const std::string& file, std::string_view bytes, std::span<const 
   Mesh mesh;
   read_points(mesh, file, arrays, header.points);
   read_point_data(mesh, arrays, header.points);
-  read_cells(mesh, file, arrays, header.cells);
+  const GhostCells ghosts = read_cells(mesh, file, arrays, header.cells);
   read_names(mesh, header, arrays);
   check_read_mesh(mesh, file);
+  if (std::ranges::count(ghosts.triangles, true) > 0) drop_ghosts(mesh, ghosts);
   return mesh;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -119,12 +120,11 @@ void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts, 
   file.header("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _");
 }
 
-void write_point_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays,
-                      const std::vector<std::uint8_t>& ghosts) {
+void write_point_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const VtuGhosts& ghosts) {
   if (arrays.point_markers) file.array(mesh.point_markers);
   if (arrays.attributes > 0) file.array(mesh.attributes);
   if (arrays.numbers) file.array(mesh.numbers);
-  if (arrays.ghosts) file.array(ghosts);
+  if (arrays.ghosts) file.array(ghosts.points);
 }
 
 // A line has the value of an adjacent triangle, so that coloring by region does not show the lines in a color of their
@@ -141,16 +141,28 @@ class LineValues {
     }
   }
 
+  /// Whether they are ghosts, which depends on both triangles.
+  void append_ghosts(FileSink& sink, const std::vector<std::int32_t>& ranks, std::int32_t own) const {
+    for (const auto& [left, right] : at_edges_) {
+      std::int32_t first = own;
+      for (const std::int32_t triangle : {left, right})
+        if (triangle >= 0) first = std::min(first, ranks[triangle]);
+      const bool is_own = (left >= 0 && ranks[left] == own) || (right >= 0 && ranks[right] == own);
+      sink.raw(is_own && first == own ? std::uint8_t{0} : kDuplicate);
+    }
+  }
+
  private:
   std::vector<std::array<std::int32_t, 2>> at_edges_;
 };
 
-void write_cell_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const Counts& counts) {
+void write_cell_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const VtuGhosts& ghosts,
+                     const Counts& counts) {
   FileSink& sink = file.sink();
   if (arrays.cell_markers) {
     file.begin_array<std::int32_t>(counts.cells);
-    for (std::size_t t = 0; t < counts.triangles; ++t) sink.raw(std::int32_t{0});
-    for (const Mesh::Edge& edge : mesh.edges) sink.raw(edge.marker);
+    sink.raw_values(counts.triangles, [](std::size_t) { return std::int32_t{0}; });
+    sink.raw_values(counts.lines, [&](std::size_t e) { return mesh.edges[e].marker; });
   }
   if (!arrays.regions && !arrays.subdomains && !arrays.ranks) return;
   const LineValues lines(mesh);
@@ -162,31 +174,37 @@ void write_cell_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, c
   if (arrays.regions) write(mesh.regions);
   if (arrays.subdomains) write(mesh.subdomains);
   if (arrays.ranks) write(mesh.ranks);
+  if (!arrays.ghost_cells) return;
+  file.begin_array<std::uint8_t>(counts.cells);
+  sink.raw_values(counts.triangles,
+                  [&](std::size_t t) { return mesh.ranks[t] == ghosts.rank ? std::uint8_t{0} : kDuplicate; });
+  lines.append_ghosts(sink, mesh.ranks, ghosts.rank);
 }
 
 template <class Offset>
 void write_grid(VtuFile& file, const Mesh& mesh, const Counts& counts) {
   FileSink& sink = file.sink();
   file.begin_array<double>(3 * counts.points);
-  for (const Point& p : mesh.points) sink.raw(std::array<double, 3>{p.x, p.y, 0.0});
+  sink.raw_values(counts.points, [&](std::size_t v) {
+    return std::array<double, 3>{mesh.points[v].x, mesh.points[v].y, 0.0};
+  });
   file.begin_array<std::int32_t>(counts.connectivity);
   sink.raw_array(std::span<const std::array<std::int32_t, 3>>(mesh.triangles));
   for (const Mesh::Edge& edge : mesh.edges) sink.raw(std::array<std::int32_t, 2>{edge.a, edge.b});
   file.begin_array<Offset>(counts.cells);
-  Offset end = 0;
-  for (std::size_t t = 0; t < counts.triangles; ++t) sink.raw(end += 3);
-  for (std::size_t e = 0; e < counts.lines; ++e) sink.raw(end += 2);
+  sink.raw_values(counts.triangles, [](std::size_t t) { return static_cast<Offset>(3 * (t + 1)); });
+  sink.raw_values(counts.lines, [&](std::size_t e) { return static_cast<Offset>(3 * counts.triangles + 2 * (e + 1)); });
   file.begin_array<std::uint8_t>(counts.cells);
-  for (std::size_t t = 0; t < counts.triangles; ++t) sink.raw(kTriangleCell);
-  for (std::size_t e = 0; e < counts.lines; ++e) sink.raw(kLineCell);
+  sink.raw_values(counts.triangles, [](std::size_t) { return kTriangleCell; });
+  sink.raw_values(counts.lines, [](std::size_t) { return kLineCell; });
 }
 
 template <class Offset>
-void write_all(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const std::vector<std::uint8_t>& ghosts,
+void write_all(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const VtuGhosts& ghosts,
                const Counts& counts) {
   write_header<Offset>(file, arrays, counts, mesh.names);
   write_point_data(file, mesh, arrays, ghosts);
-  write_cell_data(file, mesh, arrays, counts);
+  write_cell_data(file, mesh, arrays, ghosts, counts);
   write_grid<Offset>(file, mesh, counts);
   file.header("\n  </AppendedData>\n</VTKFile>\n");
 }
@@ -194,12 +212,19 @@ void write_all(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const s
 }  // namespace
 
 VtuArrays arrays_of(const Mesh& mesh) {
-  return {!mesh.point_markers.empty(), mesh.attributes_per_point, !mesh.numbers.empty(), !mesh.edges.empty(),
-          !mesh.regions.empty(),       !mesh.subdomains.empty(),  !mesh.ranks.empty(),   false};
+  return {!mesh.point_markers.empty(),
+          mesh.attributes_per_point,
+          !mesh.numbers.empty(),
+          !mesh.edges.empty(),
+          !mesh.regions.empty(),
+          !mesh.subdomains.empty(),
+          !mesh.ranks.empty(),
+          false,
+          false};
 }
 
 std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path,
-                                      const std::vector<std::uint8_t>& ghosts) {
+                                      const VtuGhosts& ghosts) {
   auto sink = std::make_unique<FileSink>(path);
   VtuFile file(*sink);
   const Counts counts(mesh);

@@ -131,6 +131,7 @@ struct Request {
   struct Output {
     std::vector<std::string> meshes;
     bool ascii = false;
+    bool ghost_layer = false;
     std::vector<double> open_boundary;  ///< markers
     std::string depth;                  ///< the raster that points get values of; empty: none
     std::string picture;

@@ -102,13 +102,17 @@ std::vector<SubdomainCensus> ThreadRun::census() const {
   return all;
 }
 
-void ThreadRun::write_pieces(const std::string& path) const {
+void ThreadRun::write_pieces(const std::string& path, bool ghost_layer) const {
   const PieceSeries series(order_.plan.decomposition, refinement_->subdomains(), census(), order_.pslg);
-  write_series(path, series.size(), sizes_.size(), [&](Rank k) {
+  const auto make = [&](Rank k) {
     DistributedPiece piece = series.piece(k);
     set_depths(order_.rasters, piece.mesh);
     return piece;
-  });
+  };
+  if (ghost_layer)
+    write_ghosted_series(path, series.size(), make);
+  else
+    write_series(path, series.size(), sizes_.size(), make);
 }
 
 DistributedPiece ThreadRun::assemble() const {

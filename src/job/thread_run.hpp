@@ -41,7 +41,7 @@ class ThreadRun {
   /// The whole mesh.
   [[nodiscard]] DistributedPiece assemble() const;
   /// Writes it as a .pvtu, in pieces that depend on the decomposition alone (distributed/piece_series.hpp).
-  void write_pieces(const std::string& path) const;
+  void write_pieces(const std::string& path, bool ghost_layer) const;
 
  private:
   void check(std::int64_t triangles) const;

@@ -199,16 +199,16 @@ class Ranks(unittest.TestCase):
         subprocess.run([PROGRAM, "generate", "holes", "--columns", "4", "--rows", "3", "-o", "holes.poly"],
                        cwd=self.folder, check=True, capture_output=True)
 
-    def mesh(self, ranks, *outputs):
+    def mesh(self, ranks, *outputs, options=()):
         environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                            OMPI_MCA_rmaps_base_oversubscribe="1", ASAN_OPTIONS="detect_leaks=0")
-        subprocess.run(["mpiexec", "-n", str(ranks), PROGRAM, "mesh", "holes.poly", "--area", "0.01", "-n", "20",
+        subprocess.run(["mpiexec", "-n", str(ranks), PROGRAM, "mesh", "holes.poly", "--area", "0.01", "-n", "20", *options,
                         *(word for output in outputs for word in ("-o", output))],
                        cwd=self.folder, check=True, capture_output=True, timeout=120, env=environment)
 
-    def read(self, name):
+    def read(self, name, level="0"):
         grid = xml.etree.ElementTree.parse(self.folder / name).find("PUnstructuredGrid")
-        self.assertEqual(grid.attrib["GhostLevel"], "0")
+        self.assertEqual(grid.attrib["GhostLevel"], level)
         pieces = [Piece(self.folder / tag.attrib["Source"]) for tag in grid.findall("Piece")]
         declared = {(section.tag, array.attrib["Name"]): array.attrib["type"]
                     for section in grid if section.tag in ("PPointData", "PCellData") for array in section}
@@ -256,6 +256,33 @@ class Ranks(unittest.TestCase):
         held = [set(piece.CellData_subdomain) for piece in self.read("holes.pvtu")]
         self.assertEqual(held[0] | held[1], set(range(20)))
         self.assertFalse(held[0] & held[1])
+
+    def test_ghosts_are_the_triangles_of_others_at_own_points(self):
+        """Of what is no ghost, pieces have each triangle, line and point once; they are read back without ghosts."""
+        self.mesh(3, "plain.pvtu")
+        self.mesh(3, "holes.pvtu", options=["--ghost-layer"])
+        plain, pieces = self.read("plain.pvtu"), self.read("holes.pvtu", level="1")
+        everywhere = {corners for piece in plain for corners, _ in piece.triangles}
+        found = {"triangles": [], "lines": [], "points": []}
+        for rank, (piece, without) in enumerate(zip(pieces, plain)):
+            own = {corners for corners, _ in without.triangles}
+            points = {v for corners in own for v in corners}
+            self.assertEqual({corners for corners, cell in piece.triangles if piece.CellData_vtkGhostType[cell] == 0}, own)
+            self.assertEqual({corners for corners, _ in piece.triangles}, {t for t in everywhere if points & set(t)})
+            for corners, cell in piece.triangles:
+                self.assertEqual(piece.CellData_rank[cell] == rank, piece.CellData_vtkGhostType[cell] == 0)
+            for kind in ("triangles", "lines"):
+                found[kind] += [frozenset(corners) for corners, cell in getattr(piece, kind) if piece.CellData_vtkGhostType[cell] == 0]
+            found["points"] += [n for n, ghost in zip(piece.numbers, piece.PointData_vtkGhostType) if ghost == 0]
+        expected = {"triangles": {frozenset(t) for t in everywhere}, "points": {n for piece in plain for n in piece.numbers},
+                    "lines": {frozenset(line) for piece in plain for line, _ in piece.lines}}
+        for kind, all_of_them in found.items():
+            self.assertEqual(len(all_of_them), len(set(all_of_them)), kind)
+            self.assertEqual(set(all_of_them), expected[kind])
+        for name in ("plain", "holes"):
+            subprocess.run([PROGRAM, "check", f"{name}.pvtu", "holes.poly", "--area", "0.01"], cwd=self.folder, check=True, capture_output=True)
+            subprocess.run([PROGRAM, "convert", f"{name}.pvtu", f"{name}.msh"], cwd=self.folder, check=True, capture_output=True)
+        self.assertEqual((self.folder / "plain.msh").read_bytes(), (self.folder / "holes.msh").read_bytes())
 
     def test_the_merged_file_does_not_depend_on_the_ranks(self):
         wholes = []

@@ -52,7 +52,7 @@ ALL = ("points", "triangles", "area", "regions", "markers")
 NAMED = (*ALL, "names")
 GRID = ("points", "triangles", "area")
 CASES = [
-    ("vtk", "one.vtu", 1, NAMED), ("vtk", "ranks.pvtu", 1, NAMED),
+    ("vtk", "one.vtu", 1, NAMED), ("vtk", "ranks.pvtu", 1, NAMED), ("vtk", "ghosts.pvtu", 1, NAMED),
     ("vtk", "one.h5", 1, ALL), ("vtk", "ranks.h5", 1, ALL),
     ("meshio", "one.vtu", 1, NAMED), ("meshio", "one.msh", 1, NAMED), ("meshio", "ranks.msh", 1, NAMED),
     ("meshio", "text.msh", 1, NAMED),
@@ -83,6 +83,7 @@ def write_meshes(program, mpirun, folder):
     run(program, "convert", "plain.ele", "plain.su2", folder=folder)  # without names, which meshio does not take there
     run(program, "convert", "one.vtu", "text.msh", "--ascii", folder=folder)
     run(mpirun, "-n", 3, *words, "-o", "ranks.pvtu", "-o", "ranks.msh", "-o", "ranks.h5", folder=folder)
+    run(mpirun, "-n", 3, *words, "--ghost-layer", "-o", "ghosts.pvtu", folder=folder)
 
 
 def facts_of_text(folder):
@@ -124,7 +125,7 @@ def table(versions):
     for reader, file, ranks, facts in CASES:
         key = (reader, file.split(".")[1], file.split(".")[0], facts)
         rows.setdefault(key, []).append(str(ranks))
-    by = {"one": "one process", "ranks": "three ranks", "text": "`--ascii`", "plain": "one process"}
+    by = {"one": "one process", "ranks": "three ranks", "ghosts": "`--ghost-layer`", "text": "`--ascii`", "plain": "one process"}
     lines = ["| reader | file | written by | on ranks | compared |\n", "|---|---|---|---|---|\n"]
     for (reader, extension, origin, facts), ranks in rows.items():
         lines.append(f"| {reader} {versions.get(reader, '')} | `.{extension}` | {by[origin]} | {', '.join(ranks)} "
