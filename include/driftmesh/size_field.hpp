@@ -28,6 +28,11 @@ class SizeField {
   /// The same for the values in a triangle, where this takes less time than values at points: most triangles are so
   /// small that they need not be looked at more closely.
   [[nodiscard]] virtual double least_near(const std::array<Point, 3>& /*triangle*/) const { return least(); }
+  /// The same where the least of the values at the corners is known, for a field that knows how fast it changes. 0:
+  /// unknown.
+  [[nodiscard]] virtual double least_between(const std::array<Point, 3>& /*triangle*/, double /*at_corners*/) const {
+    return 0;
+  }
   /// Calls visit(p) for the points where the field may be least, for those who check a mesh: the points of a background
   /// mesh. A field without such points visits none.
   virtual void visit_marks(const std::function<void(const Point&)>& /*visit*/) const {}

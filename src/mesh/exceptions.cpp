@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -53,8 +54,11 @@ class AreaBounds {
   [[nodiscard]] bool too_large_for_size(TriangleId t, double twice_area) {
     const CornerPoints corners{mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
     if (twice_area <= twice_area_of_edge(bounds_.size->least_near(corners))) return false;
-    double h = bounds_.size->edge_length(centroid(corners));
+    double h = std::numeric_limits<double>::infinity();
     for (const VertexId v : mesh_.triangles[t].vertex) h = std::min(h, size_at(v));
+    if (twice_area > twice_area_of_edge(h)) return true;
+    if (twice_area <= twice_area_of_edge(bounds_.size->least_between(corners, h))) return false;
+    h = std::min(h, bounds_.size->edge_length(centroid(corners)));
     return twice_area > twice_area_of_edge(h) || bounds_.size->falls_below(corners, edge_of_twice_area(twice_area));
   }
 

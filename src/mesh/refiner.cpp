@@ -98,7 +98,9 @@ bool Refiner::is_large_for_size(TriangleId t, double twice_area) const {
   const CornerPoints at = corners(t);
   if (!above(bounds_.size->least_near(at))) return false;
   const auto& v = mesh_.triangles[t].vertex;
-  if (above(std::min({state_.size[v[0]], state_.size[v[1]], state_.size[v[2]]}))) return true;
+  const double at_corners = std::min({state_.size[v[0]], state_.size[v[1]], state_.size[v[2]]});
+  if (above(at_corners)) return true;
+  if (!above(bounds_.size->least_between(at, at_corners))) return false;
   return above(bounds_.size->edge_length(centroid(at))) || (looks_between() && asks_between(t, twice_area));
 }
 

@@ -21,6 +21,12 @@ class FieldOfThreads final : public SizeField {
     return own().falls_below(triangle, length);
   }
   [[nodiscard]] double least() const override { return own().least(); }
+  [[nodiscard]] double least_near(const std::array<Point, 3>& triangle) const override {
+    return own().least_near(triangle);
+  }
+  [[nodiscard]] double least_between(const std::array<Point, 3>& triangle, double at_corners) const override {
+    return own().least_between(triangle, at_corners);
+  }
   void visit_marks(const std::function<void(const Point&)>& visit) const override { own().visit_marks(visit); }
 
  private:

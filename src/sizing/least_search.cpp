@@ -83,10 +83,13 @@ std::array<LeastSearch::Cell, 4> LeastSearch::Cell::quarters() const {
   return all;
 }
 
-LeastSearch::Cell LeastSearch::Cell::first_of_cover(const Box& box) {
-  const int exponent = exponent_above(std::max(box.high.x - box.low.x, box.high.y - box.low.y));
+LeastSearch::Cell LeastSearch::Cell::around(const Point& p, int exponent) {
   const double scale = power_of_two(-exponent);
-  return {index_at(box.low.x, scale), index_at(box.low.y, scale), exponent};
+  return {index_at(p.x, scale), index_at(p.y, scale), exponent};
+}
+
+LeastSearch::Cell LeastSearch::Cell::first_of_cover(const Box& box) {
+  return around(box.low, exponent_above(std::max(box.high.x - box.low.x, box.high.y - box.low.y)));
 }
 
 // ---- The search ----
@@ -142,9 +145,7 @@ double LeastSearch::bound_around(const Cell& cell) {
 /// The cell around the middle of a box that is more than 2^wider times as wide.
 LeastSearch::Cell LeastSearch::cell_around(const Box& box, int wider) {
   const int exponent = exponent_above(std::max(box.high.x - box.low.x, box.high.y - box.low.y)) + wider;
-  const double scale = power_of_two(-exponent);
-  const Point middle = box.center();
-  return {index_at(middle.x, scale), index_at(middle.y, scale), exponent};
+  return Cell::around(box.center(), exponent);
 }
 
 double LeastSearch::least_near(const CornerPoints& triangle) {

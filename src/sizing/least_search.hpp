@@ -51,6 +51,8 @@ class LeastSearch {
     /// Where coordinates have no digits left for its quarters.
     [[nodiscard]] bool is_smallest() const;
     [[nodiscard]] std::array<Cell, 4> quarters() const;
+    /// The one of this width that a point is in: on a side, to the right or above.
+    [[nodiscard]] static Cell around(const Point& p, int exponent);
     /// The lowest and leftmost of the cells, at most two in each direction, that cover a box and are larger than it.
     [[nodiscard]] static Cell first_of_cover(const Box& box);
     bool operator==(const Cell&) const = default;

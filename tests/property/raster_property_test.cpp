@@ -248,6 +248,103 @@ TEST_CASE("every triangle obeys what a raster asks for, in one piece and in subd
   }
 }
 
+namespace {
+
+/// Rules as coastal modelers have them: that change slowly, fast, and from one place to the next.
+std::string random_rule(Random& random) {
+  const auto number = [&](double low, double high) { return std::to_string(uniform(random, low, high)); };
+  const std::string depth = number(0.3, 2) + "*sqrt(max(depth, 0.1))";
+  const std::string slope = number(0.5, 3) + "*depth/max(slope(depth), 0.05)";
+  const std::string shore = number(0.2, 1) + "+" + number(0.02, 2) + "*distance(1)";
+  const std::string rules[] = {depth, shore, slope, "min(" + depth + "," + shore + ")",
+                               "min(" + depth + "," + slope + "," + shore + ")"};
+  return "max(" + number(0.1, 0.5) + "," + rules[random() % 5] + ")";
+}
+
+/// What the limit allows from anywhere in a box, by squares of a grid: the values at their centers from above, and
+/// bounds of the expression over them from below.
+struct GridLimit {
+  static constexpr int kSquares = 160;
+  double gradation = 0;
+  std::vector<Box> squares;
+  std::vector<double> at_centers, bounds;
+
+  GridLimit(const ExpressionField& plain, double limit, double side) : gradation(limit) {
+    const double w = side / kSquares;
+    for (int j = 0; j < kSquares; ++j)
+      for (int i = 0; i < kSquares; ++i) {
+        squares.push_back({{i * w, j * w}, {(i + 1) * w, (j + 1) * w}});
+        at_centers.push_back(plain.edge_length(squares.back().center()));
+        bounds.push_back(plain.range(squares.back()).low);
+      }
+  }
+  [[nodiscard]] double above(const Point& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+      const Point q = squares[k].center();
+      least = std::min(least, at_centers[k] + gradation * std::hypot(p.x - q.x, p.y - q.y));
+    }
+    return least;
+  }
+  [[nodiscard]] double below(const Point& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < squares.size(); ++k)
+      least = std::min(least, bounds[k] + gradation * std::sqrt(squares[k].squared_distance(p)));
+    return least;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("limited growth is the least of a grid, whatever was asked before, and known between corners") {
+  Random random = seeded_generator("graded rules");
+  int limited = 0;
+  for (std::int64_t tried = 0; more_cases(tried, 25, limited > 100); ++tried) {
+    const Drawn drawn = random_basin(random);
+    const NamedRasters rasters{{"depth", std::make_shared<const Raster>(drawn.grid())}};
+    Pslg pslg = square(100);
+    for (Pslg::Segment& s : pslg.segments) s.marker = static_cast<std::int32_t>(1 + random() % 3);
+    pslg.segments.front().marker = 1;
+    const std::string rule = random_rule(random);
+    const double gradation = std::exp(uniform(random, -3, 0));
+    CAPTURE(rule);
+    CAPTURE(gradation);
+    const auto expression = [&] { return std::make_unique<ExpressionField>(rule, 0, 0.05, &pslg, rasters); };
+    const auto plain = expression();
+    REQUIRE(plain->has_bounds());
+    const Box box{{0, 0}, {100, 100}};
+    const GradedField field(expression(), gradation, box), backward(expression(), gradation, box);
+    const GridLimit limit(*plain, gradation, 100);
+    std::vector<Point> points;
+    std::vector<double> lengths;
+    for (int k = 0; k < 60; ++k) {
+      points.push_back({uniform(random, 0, 100), uniform(random, 0, 100)});
+      if (k % 3 != 0) points.back() = {points[k - 1].x, std::min(100.0, points[k - 1].y + uniform(random, 0, 1))};
+      lengths.push_back(field.edge_length(points.back()));
+      CAPTURE(points.back().x);
+      CAPTURE(points.back().y);
+      const double ungraded = plain->edge_length(points.back());
+      CHECK(lengths.back() <= std::min(limit.above(points.back()), ungraded) / 0.95 * (1 + 1e-12));
+      CHECK(lengths.back() >= limit.below(points.back()) * (1 - 1e-12));
+      limited += lengths.back() < 0.9 * ungraded ? 1 : 0;
+    }
+    for (std::size_t k = points.size(); k-- > 0;) CHECK(backward.edge_length(points[k]) == lengths[k]);
+    for (std::size_t k = 0; k + 2 < points.size(); k += 3) {
+      const Corner t{points[k], points[k + 1], {points[k].x + uniform(random, -1, 1), points[k].y}};
+      const double at_corners =
+          std::min({lengths[k], lengths[k + 1], field.edge_length({std::clamp(t[2].x, 0.0, 100.0), t[2].y})});
+      if (!box.contains(t[2])) continue;
+      for (int m = 0; m < 10; ++m) {
+        double u = uniform(random, 0, 1), v = uniform(random, 0, 1);
+        if (u + v > 1) u = 1 - u, v = 1 - v;
+        const Point p{t[0].x + u * (t[1].x - t[0].x) + v * (t[2].x - t[0].x),
+                      t[0].y + u * (t[1].y - t[0].y) + v * (t[2].y - t[0].y)};
+        CHECK(field.edge_length(p) >= field.least_between(t, at_corners) * (1 - 1e-12));
+      }
+    }
+  }
+}
+
 TEST_CASE("a text grid that is edited at random is refused with its line, or has the values that it announces") {
   Random random = seeded_generator("edited grids");
   std::int64_t refused = 0, accepted = 0;
