@@ -89,20 +89,29 @@ class VectorReader {
     if (gdal_.OSRIsProjected(system) != 0 && gdal_.OSRGetLinearUnits(system, nullptr) == 1) {
       int north = 0;
       const int zone = gdal_.OSRGetUTMZone(system, &north);
-      return zone == 0 ? "meters" : "EPSG:" + std::to_string(UtmZone{zone, north != 0}.epsg());
+      if (zone == 0) return "meters";
+      const int code = UtmZone{zone, north != 0}.epsg();
+      transform(system, code);  // from another datum: the zone's number says nothing about that
+      return "EPSG:" + std::to_string(code);
     }
-    const OwnedByUs<OGRSpatialReferenceH> degrees(
-        gdal_.OSRNewSpatialReference(nullptr), [this](OGRSpatialReferenceH s) { gdal_.OSRDestroySpatialReference(s); });
     constexpr int kWgs84 = 4326;
-    gdal_.OSRImportFromEPSG(degrees.get(), kWgs84);
-    gdal_.OSRSetAxisMappingStrategy(degrees.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    transform(system, kWgs84);
+    return "";
+  }
+
+  /// Coordinates become those of the system with this EPSG code, if they are in another one.
+  void transform(OGRSpatialReferenceH system, int code) {
+    const OwnedByUs<OGRSpatialReferenceH> target(
+        gdal_.OSRNewSpatialReference(nullptr), [this](OGRSpatialReferenceH s) { gdal_.OSRDestroySpatialReference(s); });
+    gdal_.OSRImportFromEPSG(target.get(), code);
+    gdal_.OSRSetAxisMappingStrategy(target.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    if (gdal_.OSRIsSame(system, target.get()) != 0) return;
     transformation_ = OwnedByUs<OGRCoordinateTransformationH>(
-        gdal_.OCTNewCoordinateTransformation(system, degrees.get()),
+        gdal_.OCTNewCoordinateTransformation(system, target.get()),
         [this](OGRCoordinateTransformationH t) { gdal_.OCTDestroyCoordinateTransformation(t); });
     if (transformation_ == nullptr)
       throw InputError({file_}, quiet_.message("has an unknown coordinate system"),
-                       "reproject it with ogr2ogr -t_srs EPSG:4326");
-    return "";
+                       "reproject it with ogr2ogr -t_srs EPSG:" + std::to_string(code));
   }
 
   void read_features(OGRLayerH layer, Json& features) const {

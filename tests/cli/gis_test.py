@@ -239,6 +239,27 @@ class Vectors(Gis):
         self.assertEqual(self.features("feet.shp")["projection"], zone)
         self.assertNotIn("UTM", self.features("mercator.shp").get("projection") or "")
 
+    def test_other_datum(self):
+        """A UTM zone on another datum has other coordinates for the same places, by a hundred meters and more."""
+        self.tool("ogr2ogr", "-f", "GeoJSON", "-where", "OGR_GEOMETRY='POLYGON'", "water.geojson", BAY)
+        zone = self.features("water.geojson")["projection"]
+        here = self.corner("of.vtu")
+        code = 26700 + int(re.search(r"\d+", zone).group())  # NAD 27
+        for made in ("nad27.shp", "nad27.gpkg"):
+            self.tool("ogr2ogr", "-t_srs", f"EPSG:{code}", "-nlt", "PROMOTE_TO_MULTI", made, "water.geojson")
+            self.assertEqual(self.features(made)["projection"], zone)
+            self.assertLess(math.dist(self.corner("of.vtu"), here), 0.01, made)
+        self.tool("ogr2ogr", "-a_srs", "EPSG:3857", "-f", "GPKG", "as_is.gpkg", "nad27.gpkg")
+        self.features("as_is.gpkg")
+        self.assertGreater(math.dist(self.corner("of.vtu"), here), 50, "the two datums must differ for this test to mean anything")
+
+    def corner(self, mesh):
+        """The least coordinates of a mesh."""
+        self.succeed("convert", mesh, "corner.node")
+        points = [tuple(map(float, line.split()[1:3])) for line in (self.folder / "corner.node").read_text().splitlines()[1:]
+                  if not line.startswith("#")]
+        return tuple(map(min, zip(*points)))
+
     def test_attributes(self):
         """Fields of any case are tags; empty ones are none."""
         square = lambda x: [[[x, 0], [x + 1, 0], [x + 1, 1], [x, 1], [x, 0]]]
