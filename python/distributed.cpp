@@ -85,8 +85,9 @@ void add_ghosted_piece(py::module_& module) {
           "Number of each triangle in the whole mesh, whichever rank has it, shape (triangles,).")
       .def_property_readonly(
           "neighbors", &exchanged_triangles,
-          "For each rank with ghosts here: the indices of own triangles that are ghosts there, and of "
-          "the ghosts that it owns, in the same order on both sides.");
+          "For each rank with ghosts here two views: (sent, received), indices of own triangles that are ghosts there, "
+          "and of the ghosts here that it owns: a dictionary of pairs of arrays of shape (triangles,). What one rank "
+          "sends is in the order in which the other receives it: `sent` here is as long as `received` there.");
   module.def(
       "add_ghost_layer", &make_ghosts, py::arg("communicator"), py::arg("piece"),
       "add_ghost_layer(communicator, piece)\n\n"

@@ -59,9 +59,11 @@ template <class Class>
 void add_names(py::class_<Class>& to) {
   to.def_property_readonly(
       "marker_names", [](const Class& v) { return v.names.markers; },
-      "What markers of segments are called, by marker.");
+      "What markers of segments are called: a dictionary from markers. It is a copy: changing it changes nothing here; "
+      "names are given when the object is made.");
   to.def_property_readonly(
-      "region_names", [](const Class& v) { return v.names.regions; }, "What regions are called, by attribute.");
+      "region_names", [](const Class& v) { return v.names.regions; },
+      "What regions are called: a dictionary from attributes of regions. A copy, as marker_names is.");
 }
 
 template <class Class>

@@ -1,19 +1,17 @@
 #include "sizing/expression_field.hpp"
 
-#include <muParser.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <vector>
 
 #include "base/mix.hpp"
 #include "driftmesh/error.hpp"
+#include "sizing/expression_parser.hpp"
 #include "sizing/expression_range.hpp"
 #include "sizing/field_calls.hpp"
 #include "sizing/least_search.hpp"
@@ -23,7 +21,7 @@ namespace driftmesh {
 
 struct ExpressionField::Parser {
   std::string text;
-  mu::Parser expression;
+  mu::Parser expression = expression_parser();
   double x = 0;
   double y = 0;
   PlaneVariables variables;
@@ -171,9 +169,6 @@ ExpressionField::ExpressionField(const std::string& expression, double shortest,
   try {
     parser.DefineVar("x", &parser_->x);
     parser.DefineVar("y", &parser_->y);
-    parser.DefineConst("pi", std::numbers::pi);
-    parser.DefineConst("e", std::numbers::e);
-    parser.DefineFun("hypot", static_cast<double (*)(double, double)>(std::hypot));
     for (std::size_t k = 0; k < parser_->variables.size(); ++k)
       parser.DefineVar(parser_->variables[k].name, &parser_->values[k]);
     parser.SetExpr(calls.expression);

@@ -1,20 +1,15 @@
 #include "sizing/named_raster.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <utility>
 
 #include "raster/raster.hpp"
+#include "sizing/expression_parser.hpp"
 #include "sizing/field_calls.hpp"
 
 namespace driftmesh {
 namespace {
-
-constexpr std::array<std::string_view, 32> kKnown{"x",     "y",     "pi",   "_pi",   "e",    "_e",   "sin",  "cos",
-                                                  "tan",   "asin",  "acos", "atan",  "sinh", "cosh", "tanh", "asinh",
-                                                  "acosh", "atanh", "log2", "log10", "log",  "ln",   "exp",  "sqrt",
-                                                  "sign",  "rint",  "abs",  "min",   "max",  "sum",  "avg",  "atan2"};
 
 class RasterFunction final : public PlaneFunction {
  public:
@@ -43,7 +38,7 @@ bool can_name_raster(std::string_view name) {
   const auto may_begin = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
   if (name.empty() || !may_begin(static_cast<unsigned char>(name.front()))) return false;
   if (!std::ranges::all_of(name, [&](unsigned char c) { return may_begin(c) || std::isdigit(c) != 0; })) return false;
-  return name != "hypot" && !FieldCalls::reserves(name) && std::ranges::find(kKnown, name) == kKnown.end();
+  return !FieldCalls::reserves(name) && !is_known_to_expressions(std::string(name));
 }
 
 }  // namespace driftmesh
