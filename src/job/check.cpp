@@ -143,6 +143,7 @@ void check_pdr(const Request& request, Place place) {
           "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
   require(request.bounds.angle > 0, "run.method", "is pdr, which needs a bound on angles", "give bounds.angle");
   require(request.output.depth.empty(), "run.method", "is pdr, which knows no rasters", "remove output.depth");
+  require(!request.output.ghost_layer, "output.ghost-layer", "takes subdomains, which pdr has not", "remove it");
   const Request standard;
   const bool parts = request.decomposition != standard.decomposition || request.mapping != standard.mapping;
   require(!parts, "run.method", "is pdr, which has no subdomains to cut or map", "remove what sets them");

@@ -65,6 +65,9 @@ TEST_CASE("values set by a program have the ranges of the command line") {
 }
 
 TEST_CASE("contradictory values are rejected") {
+  CHECK(refused(kRanks, [](Request& r) {
+          r.run.method = Method::kPdr, r.bounds.angle = 20, r.output.ghost_layer = true;
+        }) == "output.ghost-layer");
   CHECK(refused(kOnePiece, [](Request& r) { r.bounds.area = r.bounds.triangles = 5; }) == "bounds.triangles");
   CHECK(refused(kOnePiece, [](Request& r) { r.sizing.gradation = 0.2; }) == "sizing.gradation");
   CHECK(refused(kOnePiece, [](Request& r) { r.sizing.shortest = 2, r.sizing.longest = 1; }) == "sizing.min");
