@@ -2,7 +2,8 @@
 """Compares writing by ranks with the speed of the disk, and their memory with an even share; prints a table in Markdown.
 
 Ranks make a mesh and write it, as .h5 into one file and as .pvtu into a file each. After each, dd writes as many bytes to the same
-folder: one process one file, and as many processes as ranks their parts of one file. Seconds include those of `sync`. Memory is the
+folder: one process one file, and as many processes as ranks their parts of one file, the latter also while as much memory is held as
+the ranks had, which the system cannot use to put off writing. Seconds include those of `sync`. Memory is the
 peak of each rank's process, from its start to its end.
 
 usage: disk.py [--program DRIFTMESH] [--triangles N] [--ranks N] [--rounds N] [--folder FOLDER]
@@ -10,6 +11,7 @@ usage: disk.py [--program DRIFTMESH] [--triangles N] [--ranks N] [--rounds N] [-
 
 import argparse
 import json
+import mmap
 import os
 import pathlib
 import statistics
@@ -48,8 +50,10 @@ def mesh(options, folder, extension):
     return seconds, total, [int(line.split()[1]) for line in done.stdout.splitlines() if line.startswith("PEAK")]
 
 
-def dd(folder, total, processes):
-    """Seconds of processes that write their parts of one file."""
+def dd(folder, total, processes, held=0):
+    """Seconds of processes that write their parts of one file, while this one holds some bytes of memory."""
+    memory = bytearray(held)
+    memory[::mmap.PAGESIZE] = bytes([1]) * len(range(0, held, mmap.PAGESIZE))
     target, each = folder / "dd.bin", total // processes // MEGABYTE
     subprocess.run(["sync"], check=True)
     start = time.monotonic()
@@ -77,14 +81,15 @@ def main():
         for _ in range(options.rounds):
             for extension, row in rows.items():
                 seconds, total, peaks = mesh(options, folder, extension)
-                row.append((seconds, dd(folder, total, 1), dd(folder, total, options.ranks), total,
+                row.append((seconds, dd(folder, total, 1), dd(folder, total, options.ranks),
+                            dd(folder, total, options.ranks, sum(peaks)), total,
                             max(peaks) * len(peaks) / sum(peaks), sum(peaks)))
     print(f"{options.triangles} triangles on {options.ranks} ranks, medians of {options.rounds} in turn:\n")
-    print("| file | GB | written in | dd, one process | dd, a process for each rank, one file | peak of all ranks | largest over even share |\n"
-          "|---|---|---|---|---|---|---|")
+    print("| file | GB | written in | dd, one process | dd, a process for each rank, one file | the same beside as much memory | peak of all ranks | largest over even share |\n"
+          "|---|---|---|---|---|---|---|---|")
     for extension, row in rows.items():
-        seconds, one, parts, total, share, peak = (statistics.median(column) for column in zip(*row))
-        print(f"| `.{extension}` | {total / 1e9:.2f} | {seconds:.1f} s | {one:.1f} s | {parts:.1f} s | {peak / 1e9:.2f} GB | {share:.3f} |")
+        seconds, one, parts, beside, total, share, peak = (statistics.median(column) for column in zip(*row))
+        print(f"| `.{extension}` | {total / 1e9:.2f} | {seconds:.1f} s | {one:.1f} s | {parts:.1f} s | {beside:.1f} s | {peak / 1e9:.2f} GB | {share:.3f} |")
 
 
 if __name__ == "__main__":
