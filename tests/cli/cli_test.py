@@ -840,16 +840,20 @@ class Experiments(Cli):
         "grand-4096": ["bounds.triangles-per-rank=30", "decomposition.subdomains-per-rank=2",
                        "balance.policy=[none, stealing]"],
         "two-ranks": ["bounds.triangles=2e4"],
-        "two-speeds": ["bounds.triangles-per-rank=5e3"],
+        "two-speeds": ["repetitions=1", "bounds.triangles-per-rank=5e3"],
         "corner-refinement": ["sizing.size=\"x < 0.45 && y < 0.45 ? 0.006 : 0.05\"",
                               "decomposition.subdomains-per-rank=10"],
-        "policies": ["bounds.triangles-per-rank=1e3", "decomposition.subdomains-per-rank=8"],
+        "policies": ["repetitions=1", "bounds.triangles-per-rank=1e3", "decomposition.subdomains-per-rank=8"],
         "migration-stress": ["bounds.triangles=3e4", "cluster.scale=100", "decomposition.subdomains=[24, 120]",
                              "cluster.groups=[{ranks: 6, speed: 8e4}, {ranks: 6, speed: 1e4}]"],
-        "changing-speeds": ["bounds.triangles=1e4", "decomposition.subdomains-per-rank=4"],
-        "late-hosts": ["bounds.triangles=1e4", "decomposition.subdomains-per-rank=4"],
-        "short-memory": ["bounds.triangles=1e5", "decomposition.subdomains-per-rank=20",
+        "changing-speeds": ["repetitions=1", "bounds.triangles=1e4", "decomposition.subdomains-per-rank=4"],
+        "late-hosts": ["repetitions=1", "bounds.triangles=1e4", "decomposition.subdomains-per-rank=4"],
+        "short-memory": ["repetitions=1", "bounds.triangles=1e5", "decomposition.subdomains-per-rank=20",
                          "cluster.memory=[0, 21e3]"],
+        "balancing/details": ["bounds.triangles=1e4", "decomposition.subdomains-per-rank=8", "mapping.method=graph"],
+        "balancing/nothing-to-balance": ["bounds.triangles-per-rank=2e3", "mapping.method=graph"],
+        "balancing/slow-network": ["repetitions=1", "bounds.triangles=2e4", "decomposition.subdomains-per-rank=4"],
+        "balancing/ten-to-one": ["repetitions=1", "bounds.triangles-per-rank=2e3"],
         "scaled-speedup": ["bounds.triangles-per-rank=3e3", "cluster.ranks=[1, 2, 8]"],
     }
 
@@ -919,7 +923,7 @@ class Experiments(Cli):
         self.assertEqual(re.findall(r'data-run="(.*?)"', page.read_text()), ["run-1", "run-2"])
 
     def test_moves_are_recorded(self):
-        self.run_config("two-speeds", "bounds.triangles-per-rank=2e5", "balance.policy=greedy", report=True)
+        self.run_config("two-speeds", "repetitions=1", "bounds.triangles-per-rank=2e5", "balance.policy=greedy", report=True)
         record = json.loads((self.folder / "results" / "run-1.json").read_text())
         owners, moves = record["cluster"]["owners_before"], record["cluster"]["moves"]
         self.assertGreater(len(moves), 0)
@@ -951,7 +955,7 @@ class Experiments(Cli):
                     "--set", "cluster.memory=1e4", code=3, says=["cluster.memory"])
 
     def test_late_ranks_begin_without_work_and_get_some(self):
-        self.run_config("late-hosts", "bounds.triangles=2e5", "decomposition.subdomains-per-rank=20", "cluster.speed=1e4",
+        self.run_config("late-hosts", "repetitions=1", "bounds.triangles=2e5", "decomposition.subdomains-per-rank=20", "cluster.speed=1e4",
                         "cluster.scale=790")
         rows = self.table()
         for row in rows:
@@ -970,7 +974,7 @@ class Experiments(Cli):
                     says=["mapping.to-late-ranks"])
 
     def test_a_recorded_run_is_replayed_with_other_policies(self):
-        self.run_config("changing-speeds", "bounds.triangles=2e5", "decomposition.subdomains-per-rank=20",
+        self.run_config("changing-speeds", "repetitions=1", "bounds.triangles=2e5", "decomposition.subdomains-per-rank=20",
                         "cluster.speed=1e4", "cluster.scale=790", "balance.policy=[none, greedy]")
         record = self.folder / "results" / "run-1.json"
         said = self.succeed("replay", record)
@@ -1017,7 +1021,7 @@ class Experiments(Cli):
 
     def test_decisions_explain_each_move(self):
         for policy in ("greedy", "zoltan", "diffusion", "stealing"):
-            self.run_config("two-speeds", "bounds.triangles-per-rank=5e4", "cluster.scale=20",
+            self.run_config("two-speeds", "repetitions=1", "bounds.triangles-per-rank=5e4", "cluster.scale=20",
                             "cluster.groups=[{ranks: 4, speed: 4e5}, {ranks: 4, speed: 2e5}]", f"balance.policy={policy}", folder=policy)
             record = json.loads((self.folder / policy / "run-1.json").read_text())
             lines = [json.loads(line) for line in (self.folder / policy / "run-1.decisions.jsonl").read_text().splitlines()]
