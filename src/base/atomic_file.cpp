@@ -18,7 +18,7 @@ namespace driftmesh {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
-constexpr std::size_t kLarge = kBufferBytes / 2;
+constexpr std::size_t kUnbuffered = kBufferBytes / 2;
 constexpr std::size_t kAtOnce = 8 * kBufferBytes;  // so that the disk can begin
 
 // Renaming over a device or a pipe would replace it by a plain file.
@@ -91,7 +91,7 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::write(const void* bytes, std::size_t count) {
   if (count == 0) return;
   errno = 0;
-  if (count >= kLarge)
+  if (count >= kUnbuffered)
     write_large(static_cast<const char*>(bytes), count);
   else if (std::fwrite(bytes, 1, count, stream_) != count)
     fail("cannot write");
