@@ -71,8 +71,9 @@ Cells all_cells(const Row& row, std::optional<double> recovered) {
   return cells;
 }
 
-/// `saved`: the text of what is recovered, if the table has this column.
-Cells telling_cells(const Row& row, bool repeated, const std::optional<std::string>& saved) {
+/// `saved`, `kept`: the texts of what is recovered and of whole plans, if the table has these columns.
+Cells telling_cells(const Row& row, bool repeated, const std::optional<std::string>& saved,
+                    const std::optional<std::string>& kept) {
   Cells cells(row.swept.begin(), row.swept.end());
   const auto add = [&](const char* name, std::string value) { cells.emplace_back(name, std::move(value)); };
   const auto percent = [&](const char* name, double share) { add(name, fmt::format("{:.2f}", 100 * share)); };
@@ -93,7 +94,7 @@ Cells telling_cells(const Row& row, bool repeated, const std::optional<std::stri
   add("SPLITs", grouped(row.splits));
   add("in messages", grouped(row.split_messages));
   add("moved", grouped(row.hand_offs));
-  add("whole plans kept", fmt::format("{} of {}", row.whole_plans_kept, row.whole_plans));
+  if (kept) add("whole plans kept", *kept);
   return cells;
 }
 
@@ -227,11 +228,14 @@ std::string ExperimentTable::markdown() const {
   const std::vector<Row> medians = medians_of(rows_);
   const bool repeated = medians.size() < rows_.size();
   const bool saved = std::ranges::any_of(medians, [&](const Row& row) { return recovered(row, medians).has_value(); });
+  const bool planned = std::ranges::any_of(medians, [](const Row& row) { return row.whole_plans > 0; });
   std::vector<Cells> rows;
   for (const Row& row : medians) {
     std::optional<std::string> share;
     if (saved) share = recovered(row, medians) ? fmt::format("{:.1f}", 100 * *recovered(row, medians)) : "";
-    rows.push_back(telling_cells(row, repeated, share));
+    std::optional<std::string> kept;
+    if (planned) kept = fmt::format("{} of {}", row.whole_plans_kept, row.whole_plans);
+    rows.push_back(telling_cells(row, repeated, share, kept));
   }
   const Cells common = take_common(rows, medians.front().swept.size());
   std::string text = markdown_of(rows);
