@@ -106,14 +106,19 @@ inline auto entry_points(EntryPoints which) {
   return [=](KeyInfo& key) { key.entry_points = which; };
 }
 
-template <class Owner, class Member, class... Rest>
-void describe(KeyInfo& info, const char* name, Member Owner::*member, const char* help, const Rest&... rest) {
+/// What every declaration says; it applies where its section does unless further attributes say otherwise.
+inline void describe(KeyInfo& info, const char* name, const char* help, Kind kind, Value standard) {
   info.name = name;
   info.help = help;
-  info.kind = kind_of<Member>();
-  info.standard = value_of(Owner{}.*member);
+  info.kind = kind;
+  info.standard = std::move(standard);
   info.places = kAsSection;
   info.entry_points = kAsSection;
+}
+
+template <class Owner, class Member, class... Rest>
+void describe(KeyInfo& info, const char* name, Member Owner::*member, const char* help, const Rest&... rest) {
+  describe(info, name, help, kind_of<Member>(), value_of(Owner{}.*member));
   (rest(info), ...);
 }
 
@@ -149,12 +154,7 @@ Key choice(const char* name, Section R::*section, Enum Section::*member, const N
         std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.first == value; })->second);
   };
   Key made;
-  made.name = name;
-  made.help = help;
-  made.kind = Kind::kChoice;
-  made.standard = name_of(Section{}.*member);
-  made.places = kAsSection;
-  made.entry_points = kAsSection;
+  describe(made, name, help, Kind::kChoice, name_of(Section{}.*member));
   for (const auto& [value, word] : names) made.choices.emplace_back(word);
   (rest(made), ...);
   made.store = [=](R& r, const Value& value) {
@@ -185,12 +185,7 @@ template <class Section, class Element, class... Members>
 Key list(const char* name, Section R::*section, std::vector<Element> Section::*member, const char* help,
          const Field<Element, Members>&... fields) {
   Key made;
-  made.name = name;
-  made.help = help;
-  made.kind = Kind::kList;
-  made.standard = std::vector<Record>();
-  made.places = kAsSection;
-  made.entry_points = kAsSection;
+  describe(made, name, help, Kind::kList, std::vector<Record>());
   made.fields = {fields.info...};
   made.store = [=](R& r, const Value& value) {
     (r.*section.*member).clear();
