@@ -29,6 +29,12 @@ struct ControllerOptions {
 
   /// From asking for work to having it, in seconds: a look at the load, the way to rank 0, to the giver and back.
   [[nodiscard]] double time_to_get_work() const { return look + 3 * cost.latency; }
+  /// How many triangles a rank makes before it looks at its messages again: at most that many, and on a slow rank no
+  /// more than it makes between two checks of its load, so that what it is asked or advised does not wait.
+  [[nodiscard]] double triangles_between_looks(double most, double speed) const {
+    constexpr double kLeast = 128, kWhileUnknown = 512;  // fewer cost more than they help
+    return std::min(most, speed > 0 ? std::max(kLeast, look * speed) : kWhileUnknown);
+  }
   /// How long before a rank runs out of work others should give it some, in seconds, if so much time is left and a plan
   /// takes so long. Not sooner: forecasts get better, and borders between what stays and what moves become settled.
   [[nodiscard]] double time_ahead(double left, double planning) const {

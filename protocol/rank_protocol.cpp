@@ -20,7 +20,11 @@ void RankProtocol::count_sent(Station station, std::size_t count) {
 }
 
 void RankProtocol::count_handled(Station station, std::size_t count) {
-  if (rules_->counts_as_handled(station)) termination_.work_handled(static_cast<std::int64_t>(count));
+  if (!rules_->counts_as_handled(station)) return;
+  if (station == Station::kArrives)
+    termination_.subdomain_handled();
+  else
+    termination_.work_handled(static_cast<std::int64_t>(count));
 }
 
 void RankProtocol::learn(SubdomainId s, const Location& news) {
@@ -159,12 +163,6 @@ void RankProtocol::take(Rank, Abandon&&, Delivery& delivery) {
 void RankProtocol::take(Rank, Advice&& advice, Delivery& delivery) {
   termination_.control_received();
   if (phase() == Termination::Phase::kWorking) delivery.advice = std::move(advice);
-}
-
-// A rank at work passes the question on at once: the ranks below need not wait for it.
-void RankProtocol::take(Rank source, Token&& token, Delivery&) {
-  termination_.receive(source, token);
-  termination_.advance(false, outgoing_);
 }
 
 void RankProtocol::refuse_work_after_the_end(Rank source) const {

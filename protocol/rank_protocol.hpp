@@ -81,8 +81,12 @@ class RankProtocol {
   /// no subdomain here has work, and no request or plan of this rank is pending.
   void rest(bool program_is_passive);
 
-  /// Messages to send since the last call.
-  [[nodiscard]] std::vector<Outgoing> take_outgoing() { return std::exchange(outgoing_, {}); }
+  /// Messages to send since the last call, with what a rank at work has to say about the end: rank 0 asks, questions
+  /// are passed on at once, and so are answers to a probe that fails anyway.
+  [[nodiscard]] std::vector<Outgoing> take_outgoing() {
+    termination_.advance(false, outgoing_);
+    return std::exchange(outgoing_, {});
+  }
 
  private:
   using Station = Rules::Station;
@@ -98,7 +102,7 @@ class RankProtocol {
   void take(Rank source, LocationUpdate&& update, Delivery& delivery);
   void take(Rank source, Advice&& advice, Delivery& delivery);
   void take(Rank source, Abandon&& abandon, Delivery& delivery);
-  void take(Rank source, Token&& token, Delivery&);
+  void take(Rank source, Token&& token, Delivery&) { termination_.receive(source, token); }
   void take(Rank source, Terminate&& terminate, Delivery&) { termination_.receive(source, terminate); }
   void take(Rank source, Finish&& finish, Delivery&) { termination_.receive(source, finish); }
   void take_group(Rank source, SplitGroup&& group, Delivery& delivery);

@@ -20,6 +20,12 @@ void Termination::work_handled(std::int64_t count) {
   resting_ = false;
 }
 
+// Hand-offs are rare. A rank that handles SPLITs all the time would have probes go around without end.
+void Termination::subdomain_handled() {
+  work_handled(1);
+  has_received_ = true;
+}
+
 void Termination::receive(Rank source, const Token& token) {
   probe_.receive(source, token);
 }
@@ -37,7 +43,7 @@ void Termination::advance(bool passive, std::vector<Outgoing>& out) {
   if (passive) resting_ = true;
   if (alone_) return advance_alone(passive);
   probe_.relay(out);
-  if (phase_ == Phase::kWorking && passive) answer_probe(out);
+  if (phase_ == Phase::kWorking) answer_probe(passive, out);
   if (phase_ == Phase::kDraining) answer_pass(out);
 }
 
@@ -49,25 +55,27 @@ void Termination::advance_alone(bool passive) {
 
 // What this rank adds to a probe; it turns white.
 Token Termination::own_token() {
+  has_received_ = false;
   return {probe_.round(), work_, std::exchange(black_, false)};
 }
 
-void Termination::answer_probe(std::vector<Outgoing>& out) {
+void Termination::answer_probe(bool passive, std::vector<Outgoing>& out) {
+  const bool fails_anyway = has_received_ || probe_.so_far().black;
+  const bool answers = probe_.due() && (passive || fails_anyway);
   if (!probe_.place().is_root()) {
-    if (probe_.due()) probe_.answer(own_token(), out);
+    if (answers) probe_.answer(own_token(), out);
     return;
   }
-  if (probe_.due()) {
-    const Token all = probe_.close(own_token());
-    if (!all.black && all.count == 0) {
-      phase_ = Phase::kDraining;
-      return;
-    }
-  }
-  if (probe_.asked()) return;  // the probe is on its way
+  if (answers) conclude(passive);
+  if (phase_ != Phase::kWorking || probe_.asked()) return;  // it is over, or the probe is on its way
   probe_.ask();
-  black_ = false;
   probe_.relay(out);
+}
+
+// At the root: a probe has come back.
+void Termination::conclude(bool passive) {
+  const Token all = probe_.close(own_token());
+  if (passive && !all.black && all.count == 0) phase_ = Phase::kDraining;
 }
 
 // When every rank has stopped sending control messages, a sum of 0 says that all have arrived.

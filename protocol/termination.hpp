@@ -11,10 +11,11 @@ namespace driftmesh::protocol {
 /// One rank's part in termination detection: Safra's algorithm (Dijkstra, EWD998) over a tree, then a fence.
 ///
 /// Detection. Every rank counts the SPLITs and hand-offs that it sent, less those that it handled, and is black after
-/// it handled one. Rank 0 sends tokens down a tree of all ranks; a rank answers only while passive and when the ranks
-/// below have answered, adds its count and its color, and turns white. The work is over when the sum is white and 0,
-/// with rank 0 passive and its own color and count included. After the last work this takes at most two probes beyond
-/// the current one.
+/// it handled one. Rank 0 sends tokens down a tree of all ranks; a rank answers only when the ranks below have
+/// answered, adds its count and its color, and turns white. It answers while passive, or where the probe fails anyway,
+/// so that the next one comes sooner: if a rank below is black, or it has received a subdomain. The work is over when
+/// the sum is white and 0, with rank 0 passive and its own color and count included. After the last work this takes at
+/// most two probes beyond the current one.
 ///
 /// Fence. Then Terminate goes down the same tree. A rank that has seen it sends no more control messages, and answers
 /// with the number of control messages it sent minus those it received. When a pass comes back with a total of 0, none
@@ -44,6 +45,8 @@ class Termination {
   void work_sent(std::int64_t count);
   /// `count` SPLITs or hand-offs reached the rank that holds their subdomain, and are now that rank's own work.
   void work_handled(std::int64_t count);
+  /// A subdomain came here: one hand-off was handled.
+  void subdomain_handled();
   void control_sent() { ++control_; }
   void control_received() { --control_; }
 
@@ -58,7 +61,8 @@ class Termination {
 
  private:
   void advance_alone(bool passive);
-  void answer_probe(std::vector<Outgoing>& out);
+  void answer_probe(bool passive, std::vector<Outgoing>& out);
+  void conclude(bool passive);
   void answer_pass(std::vector<Outgoing>& out);
   void finish(std::vector<Outgoing>& out);
   Token own_token();
@@ -70,7 +74,8 @@ class Termination {
   std::int64_t work_ = 0;     // SPLITs and hand-offs sent less handled
   std::int64_t control_ = 0;  // control messages sent less received
   bool black_ = false;
-  bool resting_ = false;  // was passive once, and has handled nothing since
+  bool has_received_ = false;  // a subdomain, since the last answer: it is black
+  bool resting_ = false;       // was passive once, and has handled nothing since
 
   Wave<Token> probe_;
   Wave<Terminate> pass_;

@@ -64,6 +64,9 @@ class Wave {
   /// Whether it can be answered: all ranks below have done so.
   [[nodiscard]] bool due() const { return asked_ && answered_.count() == place_.children(); }
 
+  /// The sum of the answers that have come from below.
+  [[nodiscard]] const Answer& so_far() const { return sum_; }
+
   /// Asks, at the root, the next question.
   void ask() { begin(round_ + 1); }
 

@@ -8,7 +8,7 @@
  * changes nothing, because a rank that does not look at a question yet is the same, and so is one that answers later.
  *
  * SHAPE is the tree of the three ranks: 0 a star (0 above 1 and 2), 1 a chain (0 above 1 above 2). MUTATION selects a
- * wrong rule; each must violate an assertion (1, 2, 4 to 9) or the formula `found` (3).
+ * wrong rule; each must violate an assertion (1, 2, 4 to 10) or the formula `found` (3).
  */
 #ifndef N
 #define N 3
@@ -88,6 +88,14 @@
 #endif
 
 #define PASSIVE(i) (IDLE(i) && AGGREGATOR_EMPTY(i) && NOTHING_HELD(i))
+/* At work, a rank may answer a probe that is black anyway. In fact it does so only if a rank below is black, or it has
+ * received a subdomain itself, which is less. */
+#define ANSWERS(i) (PASSIVE(i) || black[i] || token_black)
+#if MUTATION == 10  /* a rank that answers at work is not asked for its color */
+#define SAYS_BLACK(i) (black[i] && PASSIVE(i))
+#else
+#define SAYS_BLACK(i) black[i]
+#endif
 
 bool busy[N];
 byte aggregated[N];     /* SPLITs in the aggregator of a rank */
@@ -153,17 +161,17 @@ end:
        any_other(me, other); control_left--; control[me]++; control_wire[other]++; other = 0 }
   :: atomic { control_wire[me] > 0 -> control_wire[me]--; control[me]-- }
   /* A probe: rank 0 asks, the others answer, rank 0 concludes. */
-  :: atomic { me == 0 && !probing && !draining[0] && PASSIVE(0) ->
+  :: atomic { me == 0 && !probing && !draining[0] ->
        black[0] = false; token_count = 0; token_black = false; probing = true }
-  :: atomic { me != 0 && probing && !draining[0] && !answered[me] && DUE(me) && PASSIVE(me) ->
+  :: atomic { me != 0 && probing && !draining[0] && !answered[me] && DUE(me) && ANSWERS(me) ->
        token_count = token_count + count[me];
-       token_black = token_black || black[me];
+       token_black = token_black || SAYS_BLACK(me);
        black[me] = false;
        answered[me] = true }
-  :: atomic { me == 0 && probing && !draining[0] && DUE(0) && PASSIVE(0) ->
+  :: atomic { me == 0 && probing && !draining[0] && DUE(0) && ANSWERS(0) ->
        answered[1] = false; answered[2] = false;
        if
-       :: !token_black && RANK_0_WHITE && token_count + count[0] == 0 ->
+       :: PASSIVE(0) && !token_black && RANK_0_WHITE && token_count + count[0] == 0 ->
             assert(QUIET);
             draining[0] = true
        :: else -> probing = false

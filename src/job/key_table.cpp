@@ -195,7 +195,7 @@ Section parts_section() {
        choice("run.order", &R::run, &R::Run::order, orders,
               "Which subdomain a rank refines next: given (neighbors together), largest or backlog",
               option("order", "ORDER")),
-       key("run.slice", &R::run, &R::Run::slice, "Points inserted between polls of the network", in(1, 1e9),
+       key("run.slice", &R::run, &R::Run::slice, "Most points inserted between polls of the network", in(1, 1e9),
            option("slice", "N")),
        key("run.sleep", &R::run, &R::Run::sleep,
            "Compress finished subdomains to about 10 bytes per triangle, from 40, until a neighbor needs them; also "

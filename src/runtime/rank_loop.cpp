@@ -194,11 +194,18 @@ bool RankLoop::work() {
 Shift& RankLoop::begin(SubdomainId id) {
   Subdomain& subdomain = subdomains_.at(id);
   agenda_.remove(id);
-  const Shift shift{.subdomain = &subdomain,
-                    .insertions = plan_.work.slice,
-                    .finished = &observers_.finished,
-                    .sleep = plan_.work.sleep};
+  const Shift shift{
+      .subdomain = &subdomain, .insertions = slice(), .finished = &observers_.finished, .sleep = plan_.work.sleep};
   return out_.emplace(id, Out{shift, subdomain.triangles(), load_of(subdomain), {}}).first->second.shift;
+}
+
+// Insertions. Where nothing is balanced, only points of neighbors wait for its end.
+std::int64_t RankLoop::slice() const {
+  if (!controller_) return plan_.work.slice;
+  constexpr double kTrianglesPerPoint = 2;
+  const auto most = kTrianglesPerPoint * static_cast<double>(plan_.work.slice);
+  const double triangles = plan_.balancing.options.triangles_between_looks(most, speed_.value());
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(triangles / kTrianglesPerPoint));
 }
 
 void RankLoop::end(Shift& shift, double seconds) {
@@ -316,6 +323,7 @@ void RankLoop::tell_across(SubdomainId from, const SplitPoint<GlobalRootId>& spl
 }
 
 bool RankLoop::send() {
+  if (alone()) return false;
   const auto outgoing = protocol_.take_outgoing();
   for (const protocol::Outgoing& o : outgoing) {
     Bytes bytes = protocol::encode(o.message);

@@ -129,6 +129,7 @@ class RankLoop {
   void settle(const protocol::HandOff& arrival, Rank sender);
   bool work();
   [[nodiscard]] Shift& begin(SubdomainId id);
+  [[nodiscard]] std::int64_t slice() const;
   void end(Shift& shift, double seconds);
   void learn(const Subdomain& subdomain, const SliceWork& done, double seconds);
   bool balance(bool worked);

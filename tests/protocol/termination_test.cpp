@@ -35,6 +35,11 @@ void deliver(IdVector<Rank, Termination>& ranks, Rank source, const Outgoing& se
   if (const auto* finish = std::get_if<Finish>(&sent.message)) to.receive(source, *finish);
 }
 
+// What rank 0 asks reaches the others.
+void ask(IdVector<Rank, Termination>& ranks, bool passive) {
+  for (const Outgoing& question : advance(ranks[0_rank], passive)) deliver(ranks, 0_rank, question);
+}
+
 // Lets every rank advance, all passive, and carries what they send, until nothing moves. Returns the messages carried.
 int settle(IdVector<Rank, Termination>& ranks) {
   int carried = 0;
@@ -106,9 +111,8 @@ TEST_CASE("the end of work is detected within two more probes") {
 TEST_CASE("no termination while a message is under way or a rank is busy") {
   auto all = make(3);
   all[2_rank].work_sent(1);
-  CHECK(advance(all[0_rank], false).empty());
+  ask(all, false);
   for (int round = 0; round < 5; ++round) {
-    for (const Outgoing& question : advance(all[0_rank], true)) deliver(all, 0_rank, question);
     for (const Rank r : {2_rank, 1_rank}) {
       CHECK(advance(all[r], false).empty());
       CHECK(advance(all[0_rank], true).empty());
@@ -117,6 +121,7 @@ TEST_CASE("no termination while a message is under way or a rank is busy") {
       all[0_rank].receive(r, token);
     }
     CHECK(advance(all[0_rank], false).empty());
+    ask(all, true);
   }
   CHECK(all[0_rank].phase() == Phase::kWorking);
   all[0_rank].work_handled(1);
@@ -124,21 +129,65 @@ TEST_CASE("no termination while a message is under way or a rank is busy") {
   CHECK(all[0_rank].phase() == Phase::kFinished);
 }
 
-TEST_CASE("a rank at work passes a question on, and answers when the ranks below have") {
+TEST_CASE("a rank at work passes a question on, and answers when it is passive and the ranks below have answered") {
   auto all = make(11, 8);  // 9 and 10 are below 1
-  for (const Outgoing& question : advance(all[0_rank], true)) deliver(all, 0_rank, question);
+  ask(all, false);
   const auto asked = advance(all[1_rank], false);
   REQUIRE(asked.size() == 2);
   for (const Outgoing& question : asked) deliver(all, 1_rank, question);
   all[9_rank].work_sent(3);
-  all[10_rank].work_handled(1);
+  all[10_rank].work_sent(1);
   const auto nine = only<Token>(all[9_rank]);
   all[1_rank].receive(9_rank, nine);
   all[1_rank].receive(9_rank, nine);  // a copy is not a second answer
   CHECK(advance(all[1_rank], true).empty());
   all[1_rank].receive(10_rank, only<Token>(all[10_rank]));
   CHECK(advance(all[1_rank], false).empty());
-  CHECK(only<Token>(all[1_rank]) == Token{1, 2, true});
+  CHECK(only<Token>(all[1_rank]) == Token{1, 4, false});
+}
+
+TEST_CASE("a rank at work answers a probe that fails anyway") {
+  auto all = make(3, 1);  // 2 is below 1
+  ask(all, false);
+  for (const Outgoing& question : advance(all[1_rank], false)) deliver(all, 1_rank, question);
+  SUBCASE("since a rank below is black") {
+    all[2_rank].work_handled(1);
+    CHECK(advance(all[2_rank], false).empty());  // handling SPLITs goes on all the time
+    all[1_rank].receive(2_rank, only<Token>(all[2_rank]));
+    CHECK(only<Token>(all[1_rank], false) == Token{1, -1, true});
+  }
+  SUBCASE("since it has received a subdomain") {
+    all[2_rank].subdomain_handled();
+    all[1_rank].receive(2_rank, only<Token>(all[2_rank], false));
+    CHECK(only<Token>(all[1_rank], false) == Token{1, -1, true});
+  }
+  SUBCASE("once") {
+    all[2_rank].subdomain_handled();
+    all[1_rank].receive(2_rank, only<Token>(all[2_rank], false));
+    all[0_rank].receive(1_rank, only<Token>(all[1_rank], false));
+    CHECK(only<Token>(all[0_rank], false).round == 2);
+    all[1_rank].receive(0_rank, Token{2, 0, false});
+    all[2_rank].receive(1_rank, only<Token>(all[1_rank], false));
+    CHECK(advance(all[2_rank], false).empty());
+    CHECK(only<Token>(all[2_rank]) == Token{2, -1, false});
+  }
+}
+
+TEST_CASE("moves during the work do not delay its end") {
+  // Rank 3 is at work longest, and all others have received something before.
+  auto all = make(6);
+  ask(all, false);
+  for (const Rank r : {1_rank, 2_rank, 4_rank, 5_rank}) {
+    all[3_rank].work_sent(1);
+    all[r].subdomain_handled();
+  }
+  all[0_rank].work_sent(1);
+  all[3_rank].subdomain_handled();
+  for (int step = 0; step < 6; ++step)
+    for (const Rank source : ids_of(all))
+      for (const Outgoing& sent : advance(all[source], source != 3_rank)) deliver(all, source, sent);
+  CHECK(all[0_rank].phase() == Phase::kWorking);
+  CHECK(latencies(all) == 4);  // the answer, a pass there and back, and the farewell
 }
 
 TEST_CASE("a single rank waits for messages to itself") {
