@@ -105,7 +105,7 @@ struct MeshOptions {
     std::int64_t seed = 1;        ///< for skew
     Presplit presplit = Presplit::kAuto;
     WorkOrder order = WorkOrder::kGiven;
-    std::int64_t slice = 16384;  ///< points inserted between polls of the network
+    std::int64_t slice = 16384;  ///< most points inserted between polls of the network
     bool sleep = false;          ///< compress finished subdomains to 10 bytes per triangle until a neighbor needs them
   } subdomains{};
 
