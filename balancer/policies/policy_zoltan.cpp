@@ -5,17 +5,12 @@
 #include "balancer/remap_parts.hpp"
 #include "balancer/surplus.hpp"
 #include "balancer/zoltan/zoltan_partition.hpp"
+#include "base/letter_case.hpp"
 #include "driftmesh/policy.hpp"
 #include "driftmesh/policy_parameters.hpp"
 
 namespace driftmesh::balancer {
 namespace {
-
-std::string upper_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return text;
-}
 
 /// Whether graphs are partitioned by Zoltan itself. SCOTCH and ParMETIS keep nothing where it is, and number parts as
 /// they like.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "balancer/effort.hpp"
+#include "base/letter_case.hpp"
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
 
@@ -343,10 +344,7 @@ std::vector<Part> partition(MPI_Comm communicator, const LoadSnapshot& snapshot,
 // The method in small letters.
 std::string effort_kind(const ZoltanParameters& parameters) {
   const auto method = parameters.find("LB_METHOD");
-  std::string kind = method == parameters.end() ? "RCB" : method->second;
-  for (char& c : kind)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return kind;
+  return method == parameters.end() ? "rcb" : lower_case(method->second);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "balancer/remap_parts.hpp"
 #include "balancer/surplus.hpp"
 #include "balancer/zoltan/zoltan_partition.hpp"
+#include "base/letter_case.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -113,9 +114,7 @@ void measure_size(Measured& measured, std::int32_t side, std::int32_t ranks) {
   for (const char* method : {"RCB", "RIB", "HSFC", "GRAPH", "HYPERGRAPH"}) {
     ZoltanParameters parameters{{"LB_METHOD", method}, {"IMBALANCE_TOL", "1.03"}, {"PHG_EDGE_SIZE_THRESHOLD", "1.0"}};
     if (parameters["LB_METHOD"] == "GRAPH") parameters["GRAPH_PACKAGE"] = "PHG";
-    std::string kind;
-    for (const char* c = method; *c != 0; ++c) kind += static_cast<char>(*c - 'A' + 'a');
-    measured.add(kind, [&] { parts = zoltan_partition(snapshot, parameters); });
+    measured.add(lower_case(method), [&] { parts = zoltan_partition(snapshot, parameters); });
   }
   measured.add("remap", [&] { static_cast<void>(remap_parts(snapshot, parts, 0.02)); });
 }

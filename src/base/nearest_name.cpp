@@ -1,16 +1,16 @@
 #include "base/nearest_name.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <numeric>
 #include <utility>
+
+#include "base/letter_case.hpp"
 
 namespace driftmesh {
 namespace {
 
 bool same_letter(char a, char b) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  return lower(a) == lower(b);
+  return lower_case(a) == lower_case(b);
 }
 
 /// The number of letters to insert, remove, replace or swap with the next one to turn one word into the other.

@@ -1,9 +1,8 @@
 #include "cli/manual_page.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <sstream>
 
+#include "base/letter_case.hpp"
 #include "cli/help_text.hpp"
 
 namespace driftmesh::cli {
@@ -31,11 +30,6 @@ std::string bold(const std::string& text) {
 
 std::string italic(const std::string& text) {
   return "\\fI" + escaped(text) + "\\fR";
-}
-
-std::string upper_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
-  return text;
 }
 
 /// The paragraphs of a text whose lines may be broken anywhere.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/letter_case.hpp"
 #include "driftmesh/error.hpp"
 #include "gis/gdal_functions.hpp"
 #include "gis/transverse_mercator.hpp"
@@ -136,10 +137,7 @@ class VectorReader {
     for (int k = 0; k < gdal_.OGR_F_GetFieldCount(feature); ++k) {
       if (gdal_.OGR_F_IsFieldSetAndNotNull(feature, k) == 0) continue;
       const OGRFieldDefnH field = gdal_.OGR_F_GetFieldDefnRef(feature, k);
-      std::string name = gdal_.OGR_Fld_GetNameRef(field);
-      std::ranges::transform(name, name.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;  // bytes of UTF-8 stay as they are
-      });
+      const std::string name = lower_case(gdal_.OGR_Fld_GetNameRef(field));
       switch (gdal_.OGR_Fld_GetType(field)) {
         case OFTInteger:
         case OFTInteger64:

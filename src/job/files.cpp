@@ -1,9 +1,8 @@
 #include "job/files.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <vector>
 
+#include "base/letter_case.hpp"
 #include "geojson/read_input.hpp"
 #include "job/keys.hpp"
 #include "mapping/mapping_file.hpp"
@@ -13,10 +12,8 @@ namespace driftmesh::job {
 
 std::string called(const std::string& key, EntryPoint entry_point) {
   if (entry_point == kExperiment) return key;
-  std::string option = find_key(key).key->option;
-  if (key != "input.file") return "--" + option;
-  std::transform(option.begin(), option.end(), option.begin(), [](unsigned char c) { return std::toupper(c); });
-  return option;
+  const std::string& option = find_key(key).key->option;
+  return key == "input.file" ? upper_case(option) : "--" + option;
 }
 
 void register_reads(const Request& request, EntryPoint entry_point, FileRegistry& files) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/letter_case.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
@@ -25,12 +26,6 @@ std::string quoted(std::string_view word) {
   text += word.substr(0, kMost);
   text += word.size() > kMost ? "...'" : "'";
   return text;
-}
-
-std::string in_lower_case(std::string_view word) {
-  std::string name(word);
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-  return name;
 }
 
 }  // namespace
@@ -91,12 +86,12 @@ void AsciiGrid::read_header() {
     const std::string_view before = rest_;
     const std::size_t line = line_;
     const std::string_view name = next_word();
-    if (name.empty() || std::isalpha(static_cast<unsigned char>(name.front())) == 0 || in_lower_case(name) == "nan") {
+    if (name.empty() || std::isalpha(static_cast<unsigned char>(name.front())) == 0 || lower_case(name) == "nan") {
       rest_ = before;
       line_ = line;
       break;
     }
-    std::optional<double>* const entry = header.named(in_lower_case(name));
+    std::optional<double>* const entry = header.named(lower_case(name));
     if (entry == nullptr)
       fail(quoted(name) + " is not an entry of the header", "an ESRI ASCII grid begins with ncols and nrows");
     if (*entry) fail("the header has " + quoted(name) + " twice", "remove one of them");

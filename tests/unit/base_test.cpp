@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/letter_case.hpp"
 #include "base/narrow.hpp"
 #include "base/nearest_name.hpp"
 #include "driftmesh/error.hpp"
@@ -26,6 +27,13 @@ TEST_CASE("narrow rejects values that do not fit") {
   CHECK(narrow<std::int32_t>(std::size_t{2147483647}, "count") == 2147483647);
   CHECK_THROWS_AS((void)narrow<std::int32_t>(std::size_t{2147483648}, "count"), LimitError);
   CHECK_THROWS_AS((void)narrow<std::uint32_t>(-1, "count"), LimitError);
+}
+
+TEST_CASE("only letters of ASCII have a case") {
+  CHECK(lower_case("GRAPH_2 \xc3\x84z") == "graph_2 \xc3\x84z");  // U+00C4, which is a letter to locales
+  CHECK(upper_case("input \xc3\xa4Z") == "INPUT \xc3\xa4Z");
+  CHECK(lower_case("@[`{") == "@[`{");
+  CHECK(upper_case("@[`{") == "@[`{");
 }
 
 TEST_CASE("the nearest name is the one with the fewest changes") {
