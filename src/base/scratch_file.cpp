@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/temporary_files.hpp"
+#include "base/write_at.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
@@ -45,7 +46,7 @@ ScratchFile::Piece ScratchFile::put(std::initializer_list<std::span<const std::b
   Piece piece(*this, end_.fetch_add(bytes), bytes);
   std::uint64_t place = piece.begin_;
   for (const auto part : parts) {
-    write(place, part);
+    write_at(file_, place, part, folder_, "cannot write scratch data to");
     place += part.size();
   }
   return piece;
@@ -55,16 +56,6 @@ std::uint64_t ScratchFile::room() const {
   struct statvfs found {};
   if (::fstatvfs(file_, &found) != 0) fail("cannot tell the free space of");
   return static_cast<std::uint64_t>(found.f_bavail) * found.f_frsize;
-}
-
-void ScratchFile::write(std::uint64_t place, std::span<const std::byte> bytes) const {
-  while (!bytes.empty()) {
-    const ssize_t written = ::pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(place));
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail("cannot write scratch data to");
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-    place += static_cast<std::uint64_t>(written);
-  }
 }
 
 void ScratchFile::fail(const char* what) const {

@@ -51,7 +51,6 @@ class ScratchFile {
 
  private:
   [[noreturn]] void fail(const char* what) const;
-  void write(std::uint64_t place, std::span<const std::byte> bytes) const;
 
   std::string folder_;
   int file_ = -1;

@@ -7,10 +7,12 @@
 #include <initializer_list>
 #include <map>
 #include <numeric>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "base/atomic_file.hpp"
+#include "base/write_at.hpp"
 #include "base/write_behind.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/id_vector.hpp"
@@ -194,7 +196,7 @@ class RowWriter {
     for (std::size_t begin = 0; begin < count; begin += in_block) {
       const std::size_t now = std::min(in_block, count - begin);
       for (std::size_t i = 0; i < now; ++i) fill(begin + i, block.data() + i * columns);
-      for (Place& place : places) write(block.data(), now * columns * sizeof(T), place);
+      for (Place& place : places) write(std::as_bytes(std::span(block).first(now * columns)), place);
     }
   }
 
@@ -211,18 +213,10 @@ class RowWriter {
     WriteBehind behind;
   };
 
-  void write(const void* bytes, std::size_t count, Place& place) const {
-    const std::uint64_t begin = place.next;
-    const char* next = static_cast<const char*>(bytes);
-    while (count > 0) {
-      const ssize_t done = ::pwrite(file_, next, count, static_cast<off_t>(place.next));
-      if (done < 0 && errno == EINTR) continue;
-      if (done <= 0) throw FileError(path_, "cannot write");
-      next += done;
-      count -= static_cast<std::size_t>(done);
-      place.next += static_cast<std::uint64_t>(done);
-    }
-    place.behind.wrote(file_, begin, place.next - begin);
+  void write(std::span<const std::byte> bytes, Place& place) const {
+    write_at(file_, place.next, bytes, path_);
+    place.behind.wrote(file_, place.next, bytes.size());
+    place.next += bytes.size();
   }
 
   const std::string& path_;
