@@ -3,15 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include "balancer/controller.hpp"
-#include "balancer/policies/policy_factory.hpp"
+#include "controller_fixture.hpp"
 #include "driftmesh/error.hpp"
-#include "support/id_literals.hpp"
-#include "support/load_snapshots.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::balancer;
-using driftmesh::testing::grid_layout;
+using namespace driftmesh::testing;
 using Stage = balancer::JointRound::Stage;
 
 namespace {
@@ -29,20 +26,6 @@ class ScriptedCouncil final : public Council {
     return next;
   }
 };
-
-std::vector<ReportedLoad> loads_of(std::int32_t first, std::int32_t last, double each) {
-  std::vector<ReportedLoad> loads;
-  for (std::int32_t id = first; id <= last; ++id) loads.push_back({SubdomainId{id}, 0, each, 40});
-  return loads;
-}
-
-template <class T>
-std::vector<std::pair<Rank, T>> sent(const Decision& decision) {
-  std::vector<std::pair<Rank, T>> found;
-  for (const auto& m : decision.messages)
-    if (const T* const message = std::get_if<T>(&m.message)) found.emplace_back(m.destination, *message);
-  return found;
-}
 
 /// Twelve subdomains of 1,000 triangles on three ranks.
 struct Bench {

@@ -1,0 +1,109 @@
+// Work stealing: requests for work, and their answers.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "controller_fixture.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+using namespace driftmesh::testing;
+
+TEST_CASE("a rank asks for work when it begins its last subdomain, however long that takes, or a little earlier") {
+  const Layout layout = grid_layout(12, 1, 3);
+  const auto asks = [&](const Loads& own) {
+    Controller c = controller_of(1_rank, layout, "stealing");
+    return !sent<balancer::WorkRequest>(c.think(0, own, 1000)).empty();
+  };
+  CHECK(asks(loads_of(4, 4, 1e6)));
+  CHECK(!asks(loads_of(4, 5, 1000)));  // a second each
+  CHECK(asks(loads_of(4, 5, 5)));
+  // What is left in a finished subdomain whose neighbors have split its borders is no work to rely on.
+  CHECK(asks({{4_sub, 0, 1000, 40}, {5_sub, 0, 100, 40}}));
+  CHECK(!asks({{4_sub, 0, 1000, 40}, {5_sub, 0, 400, 40}}));
+}
+
+TEST_CASE("a rank that runs low sends a request and waits for the answer") {
+  const Layout layout = grid_layout(12, 1, 3);
+  Controller broker = controller_of(0_rank, layout, "stealing"), thief = controller_of(1_rank, layout, "stealing"),
+             victim = controller_of(2_rank, layout, "stealing");
+  broker.receive(2_rank, balancer::LoadNews{1, 4000, 3000, 100}, 1);
+  CHECK(broker.think(1, loads_of(0, 1, 1000), 1000).moves.empty());
+
+  const auto request = sent<balancer::WorkRequest>(thief.think(1, loads_of(4, 4, 10), 300));
+  REQUIRE(request.size() == 1);
+  CHECK(request[0].first == 0_rank);
+  CHECK(thief.waiting());
+
+  broker.receive(1_rank, request[0].second, 1);
+  CHECK(broker.waiting());
+  const auto passed_on = sent<balancer::WorkRequest>(broker.think(1, loads_of(0, 1, 1000), 1000));
+  CHECK(!broker.waiting());
+  REQUIRE(passed_on.size() == 1);
+  CHECK(passed_on[0].first == 2_rank);
+
+  victim.receive(0_rank, passed_on[0].second, 1);
+  const Decision gift = victim.think(1, loads_of(8, 11, 1000), 100);
+  const auto answer = sent<balancer::WorkAnswer>(gift);
+  REQUIRE(answer.size() == 1);
+  CHECK(answer[0].first == 1_rank);
+  CHECK(gift.moves.size() == 3);
+  for (const Move& move : gift.moves) CHECK(move.destination == 1_rank);
+
+  thief.receive(2_rank, answer[0].second, 1);
+  CHECK(!thief.waiting());
+  CHECK(sent<balancer::WorkRequest>(thief.think(1.5, loads_of(4, 4, 5), 300)).empty());  // there is some on its way
+}
+
+TEST_CASE("a rank asks again when all promised subdomains have arrived, even if they were finished at once") {
+  const Layout layout = grid_layout(12, 1, 3);
+  for (const bool answer_first : {true, false}) {
+    CAPTURE(answer_first);
+    Controller thief = controller_of(1_rank, layout, "stealing");
+    const auto request = sent<balancer::WorkRequest>(thief.think(1, loads_of(4, 4, 10), 300));
+    REQUIRE(request.size() == 1);
+    const balancer::WorkAnswer answer{request[0].second.round, {{8_sub, 1_rank}, {9_sub, 1_rank}}};
+    if (answer_first) thief.receive(2_rank, answer, 1);
+    thief.arrived(8_sub, 1, 1);
+    CHECK(sent<balancer::WorkRequest>(thief.think(1.01, {}, 300)).empty());
+    thief.arrived(9_sub, 1, 1);
+    if (!answer_first) thief.receive(2_rank, answer, 1);
+    CHECK(sent<balancer::WorkRequest>(thief.think(1.02, {}, 300)).size() == 1);
+  }
+}
+
+TEST_CASE("a refused rank stops asking and is served later") {
+  const Layout layout = grid_layout(12, 1, 2);
+  Controller broker = controller_of(0_rank, layout, "stealing"), thief = controller_of(1_rank, layout, "stealing");
+  const auto request = sent<balancer::WorkRequest>(thief.think(1, {}, 300));
+  REQUIRE(request.size() == 1);
+  broker.receive(1_rank, balancer::LoadNews{1, 0, 0, 300}, 1);
+  broker.receive(1_rank, request[0].second, 1);
+  const auto refusal = sent<balancer::WorkAnswer>(broker.think(1, {}, 1000));
+  REQUIRE(refusal.size() == 1);
+  CHECK(refusal[0].second.moves.empty());
+  thief.receive(0_rank, refusal[0].second, 1);
+  CHECK(!thief.waiting());
+  for (int i = 0; i < 100; ++i) CHECK(sent<balancer::WorkRequest>(thief.think(2 + i, {}, 300)).empty());
+
+  // SPLITs have created work at the broker.
+  CHECK(broker.think(200, loads_of(0, 4, 1000), 1000).moves.empty());
+  const Decision late = broker.think(200.1, loads_of(0, 4, 1000), 1000);
+  CHECK(!late.moves.empty());
+  CHECK(sent<balancer::WorkAnswer>(late).size() == 1);
+}
+
+TEST_CASE("a rank that was refused with some work left is not taken for idle") {
+  const Layout layout = grid_layout(12, 1, 3);
+  Controller broker = controller_of(0_rank, layout, "stealing");
+  broker.receive(2_rank, balancer::LoadNews{1, 0, 0, 300}, 1);
+  broker.receive(1_rank, balancer::LoadNews{1, 25, 20, 300}, 1);
+  broker.receive(1_rank, balancer::WorkRequest{1_rank, 1, 25, 300, 0}, 1);
+  CHECK(sent<balancer::WorkAnswer>(broker.think(1, {}, 300)).size() == 1);  // nobody has any
+  broker.receive(2_rank, balancer::LoadNews{2, 3000, 2000, 300}, 1.01);
+  const auto request = sent<balancer::WorkRequest>(broker.think(1.01, {}, 300));
+  const auto of_refused =
+      std::find_if(request.begin(), request.end(), [](const auto& r) { return r.second.thief == 1_rank; });
+  REQUIRE(of_refused != request.end());
+  CHECK(of_refused->second.remaining > 0);
+}
