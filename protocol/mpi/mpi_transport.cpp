@@ -33,6 +33,18 @@ bool begin_mpi(int* argc, char*** argv) {
   return initialized == 0;
 }
 
+/// A rank of Open MPI tells mpirun that it finalizes, and waits two seconds for the answer. If mpirun gets no processor
+/// for longer, it learns of that and of the end of the process at the same time, and may take the latter for a crash: a
+/// run that has done all its work would end with an error. So a rank that may not have been heard stays a little
+/// longer.
+void end_mpi() {
+  constexpr std::chrono::seconds kAnswer{2}, kHearing{2};
+  const auto start = std::chrono::steady_clock::now();
+  MPI_Finalize();
+  if (MpiSession::launched_as() && std::chrono::steady_clock::now() - start >= kAnswer)
+    std::this_thread::sleep_for(kHearing);
+}
+
 }  // namespace
 
 MpiSession::MpiSession() : began_(begin_mpi(nullptr, nullptr)) {}
@@ -40,7 +52,7 @@ MpiSession::MpiSession() : began_(begin_mpi(nullptr, nullptr)) {}
 MpiSession::MpiSession(int& argc, char**& argv) : began_(begin_mpi(&argc, &argv)) {}
 
 MpiSession::~MpiSession() {
-  if (began_) MPI_Finalize();
+  if (began_) end_mpi();
 }
 
 int MpiSession::world() {

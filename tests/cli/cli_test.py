@@ -747,7 +747,8 @@ class Mesh(Cli):
             self.assertRegex(checked, "subdomains +1, 0 interfaces")  # Delaunay between ranks, too
         for options in (["--size", "0.1"], ["-n", "8"], ["--balance", "greedy"], ["--threads", "2"]):
             with self.subTest(options=options):
-                self.assertEqual(self.on_ranks(2, *mesh, *options).returncode, 2)
+                refused = self.on_ranks(2, *mesh, *options)
+                self.assertEqual(refused.returncode, 2, refused.stderr)
         self.refuse(*mesh, "-n", "4", code=2, says=["--method", "mpirun"])
 
     def test_errors_on_many_ranks_are_printed_once(self):
@@ -1047,7 +1048,7 @@ class Experiments(Cli):
     def run_on_ranks(self, ranks, *settings, folder="results"):
         arguments = [word for setting in ("cluster.kind=real", *settings) for word in ("--set", setting)]
         result = self.on_ranks(ranks, "run", self.CONFIGS / "two-ranks.yaml", "-o", folder, *arguments)
-        self.assertEqual((result.returncode, without_progress(result.stderr)), (0, ""))
+        self.assertEqual((result.returncode, without_progress(result.stderr)), (0, ""), result.stderr)
         return result.stdout
 
     def test_real_ranks_make_the_same_files_and_the_same_mesh(self):

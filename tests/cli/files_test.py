@@ -62,7 +62,7 @@ class NothingReadIsOverwritten(Files):
         self.refuse_and_touch_nothing("mesh", "square.poly", "--decomposition", "d.txt", "--json", "d.txt",
                                       says=["d.txt", "--json", "--decomposition"])
         result = self.on_ranks(2, "mesh", "square.poly", "--decomposition", "d.txt", "--json", "./d.txt")
-        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("--decomposition", result.stderr)
         self.assertTrue((self.folder / "d.txt").read_text().startswith("# driftmesh decomposition"))
 
