@@ -1,16 +1,15 @@
 #include "config/experiment.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <set>
 
 #include "balancer/policies/policy_factory.hpp"
-#include "base/nearest_name.hpp"
 #include "base/read_file.hpp"
 #include "base/standard_streams.hpp"
+#include "config/yaml_origin.hpp"
+#include "config/yaml_values.hpp"
 #include "driftmesh/error.hpp"
 #include "job/check.hpp"
 #include "job/keys.hpp"
@@ -19,173 +18,10 @@ namespace driftmesh::config {
 namespace {
 
 using job::KeyError;
-using job::KeyInfo;
 using job::KeyPath;
-using job::Record;
 using job::Request;
 using job::Value;
 using Kind = job::KeyInfo::Kind;
-using Table = std::map<std::string, std::string>;
-
-/// The source of a YAML text: a file, or one --set of the command line.
-class Origin {
- public:
-  static Origin file(const std::string& path) {
-    return {path, std::filesystem::path(path).parent_path().string(), true};
-  }
-  static Origin setting(const std::string& text) { return {"--set " + text, "", false}; }
-
-  [[nodiscard]] std::string place(const YAML::Mark& mark) const {
-    if (!has_lines_ || mark.is_null()) return name_;
-    return name_ + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
-  }
-  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what, const std::string& next) const {
-    throw InputError({place(mark)}, what, next);
-  }
-  [[nodiscard]] std::string resolved(const std::string& file) const {
-    return file.empty() || is_standard_stream(file) || folder_.empty()
-               ? file
-               : (std::filesystem::path(folder_) / file).string();
-  }
-  [[nodiscard]] YAML::Node parse(const std::string& text) const {
-    refuse_control_characters(text);
-    try {
-      return YAML::Load(text);
-    } catch (const YAML::Exception& error) {
-      fail(error.mark, error.msg, "this is not YAML");
-    }
-  }
-
- private:
-  Origin(std::string name, std::string folder, bool has_lines)
-      : name_(std::move(name)), folder_(std::move(folder)), has_lines_(has_lines) {}
-
-  /// At some of them the parser would take the text for complete.
-  void refuse_control_characters(const std::string& text) const {
-    const auto found =
-        std::ranges::find_if(text, [](unsigned char c) { return c < ' ' && c != '\n' && c != '\r' && c != '\t'; });
-    if (found == text.end()) return;
-    const auto line = 1 + static_cast<std::size_t>(std::count(text.begin(), found, '\n'));
-    throw InputError({name_, has_lines_ ? line : 0}, "holds a control character", "this is not YAML");
-  }
-
-  std::string name_;
-  std::string folder_;
-  bool has_lines_;
-};
-
-/// Converts YAML nodes to values of a key.
-class Values {
- public:
-  explicit Values(const Origin& origin) : origin_(origin) {}
-
-  [[nodiscard]] Value value(const KeyInfo& key, const YAML::Node& node) const {
-    switch (key.kind) {
-      case Kind::kTable:
-        return table(key, node);
-      case Kind::kList:
-        return list(key, node);
-      case Kind::kNumbers:
-        return numbers(key, node);
-      case Kind::kOutputs:
-        return outputs(key, node);
-      case Kind::kFile:
-        return origin_.resolved(text(key, node));
-      default:
-        const Value one = single(key, node);
-        const auto* const name = std::get_if<std::string>(&one);
-        return name != nullptr && job::names_file(key, *name) ? Value(origin_.resolved(*name)) : one;
-    }
-  }
-
-  [[nodiscard]] Value value(const KeyPath& path, const YAML::Node& node) const {
-    if (path.entry.empty()) return value(*path.key, node);
-    const std::string own = text(path.key->name + "." + path.entry, node);
-    return job::names_file(*path.key, own) ? origin_.resolved(own) : own;
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& name, const YAML::Node& node, const std::string& what,
-                         const std::string& next) const {
-    origin_.fail(node.Mark(), "'" + name + "' " + what, next);
-  }
-
-  [[nodiscard]] std::string text(const std::string& name, const YAML::Node& node) const {
-    if (!node.IsScalar()) fail(name, node, "is not a single value", "give one");
-    return node.Scalar();
-  }
-  [[nodiscard]] std::string text(const KeyInfo& key, const YAML::Node& node) const { return text(key.name, node); }
-
-  [[nodiscard]] Value single(const KeyInfo& key, const YAML::Node& node) const {
-    try {
-      return job::read_value(key, text(key, node));
-    } catch (const KeyError& error) {
-      fail(key.name, node, error.problem(), error.next());
-    }
-  }
-
-  [[nodiscard]] Table table(const KeyInfo& key, const YAML::Node& node) const {
-    if (!node.IsMap()) fail(key.name, node, "is not a table", "write for example {name: value}");
-    Table table;
-    for (const auto& entry : node) {
-      const std::string name = text(key, entry.first);
-      const std::string own = text(key.name + "." + name, entry.second);
-      if (!table.emplace(name, job::names_file(key, own) ? origin_.resolved(own) : own).second)
-        fail(key.name, entry.first, "has '" + name + "' twice", "remove one of them");
-    }
-    return table;
-  }
-
-  [[nodiscard]] std::vector<double> numbers(const KeyInfo& key, const YAML::Node& node) const {
-    if (!node.IsSequence()) fail(key.name, node, "is not a list", "write for example [1, 0.5]");
-    std::vector<double> list;
-    for (const YAML::Node& item : node) list.push_back(single(key, item).as<double>());
-    return list;
-  }
-
-  [[nodiscard]] std::vector<std::string> outputs(const KeyInfo& key, const YAML::Node& node) const {
-    if (node.IsScalar()) return {node.Scalar()};
-    if (!node.IsSequence()) fail(key.name, node, "is not a list", "write for example [mesh.vtu, mesh.msh]");
-    std::vector<std::string> list;
-    for (const YAML::Node& item : node) list.push_back(text(key, item));
-    return list;
-  }
-
-  [[nodiscard]] std::vector<Record> list(const KeyInfo& key, const YAML::Node& node) const {
-    if (!node.IsSequence())
-      fail(key.name, node, "is not a list", "write for example [{" + key.fields[0].name + ": ...}]");
-    std::vector<Record> list;
-    for (const YAML::Node& item : node) list.push_back(record(key, item));
-    return list;
-  }
-
-  /// One item of a list: all fields, with defaults for those that are missing.
-  [[nodiscard]] Record record(const KeyInfo& key, const YAML::Node& node) const {
-    if (!node.IsMap())
-      fail(key.name, node, "has an item that is not a table", "write for example {ranks: 4, speed: 1e6}");
-    Record record;
-    for (const KeyInfo& field : key.fields) record.emplace_back(field.name, field.standard);
-    std::set<std::string> seen;
-    for (const auto& entry : node) {
-      const std::string name = text(key, entry.first);
-      const auto field = std::ranges::find(key.fields, name, &KeyInfo::name);
-      if (field == key.fields.end()) refuse_field(key, entry.first, name);
-      if (!seen.insert(name).second) fail(key.name, entry.first, "has '" + name + "' twice", "remove one of them");
-      KeyInfo info = *field;
-      info.name = key.name + ": " + name;
-      record[static_cast<std::size_t>(field - key.fields.begin())].second = value(info, entry.second);
-    }
-    return record;
-  }
-
-  [[noreturn]] void refuse_field(const KeyInfo& key, const YAML::Node& node, const std::string& name) const {
-    std::vector<std::string> known;
-    for (const KeyInfo& field : key.fields) known.push_back(field.name);
-    fail(key.name, node, "has no field '" + name + "'", "the nearest one is '" + nearest_name(name, known) + "'");
-  }
-
-  const Origin& origin_;
-};
 
 /// Does `work`; if it rejects a value, the error names the place where the value was given.
 template <class Work>
@@ -228,7 +64,7 @@ class KeyReader {
     if (&origin == &origin_ && !seen_.insert(full).second)
       origin.fail(mark, "'" + name + "' is given twice", "remove one of them");
     if (node.IsNull()) origin.fail(mark, "'" + name + "' has no value", "give one, or remove the key");
-    job::store(request_, path, Values(origin).value(path, node));
+    job::store(request_, path, value_of(path, node, origin));
     places_[path.key->name] = origin.place(node.Mark());
   }
 
@@ -322,7 +158,7 @@ class ExperimentReader {
     Experiment::Axis axis{full_name(path), {}};
     if (std::ranges::any_of(result_.sweep, [&](const auto& other) { return other.key == axis.key; }))
       origin.fail(mark, "sweep: '" + name + "' is given twice", "join the two");
-    for (const YAML::Node& value : values) axis.values.push_back(Values(origin).value(path, value));
+    for (const YAML::Node& value : values) axis.values.push_back(value_of(path, value, origin));
     result_.sweep.push_back(std::move(axis));
     result_.places[path.key->name] = origin.place(values.Mark());
   }

@@ -1,0 +1,142 @@
+#include "config/yaml_values.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/nearest_name.hpp"
+#include "driftmesh/error.hpp"
+
+namespace driftmesh::config {
+namespace {
+
+using job::KeyError;
+using job::KeyInfo;
+using job::KeyPath;
+using job::Record;
+using job::Value;
+using Kind = job::KeyInfo::Kind;
+using Table = std::map<std::string, std::string>;
+
+class Values {
+ public:
+  explicit Values(const Origin& origin) : origin_(origin) {}
+
+  [[nodiscard]] Value value(const KeyInfo& key, const YAML::Node& node) const {
+    switch (key.kind) {
+      case Kind::kTable:
+        return table(key, node);
+      case Kind::kList:
+        return list(key, node);
+      case Kind::kNumbers:
+        return numbers(key, node);
+      case Kind::kOutputs:
+        return outputs(key, node);
+      case Kind::kFile:
+        return origin_.resolved(text(key, node));
+      default:
+        const Value one = single(key, node);
+        const auto* const name = std::get_if<std::string>(&one);
+        return name != nullptr && job::names_file(key, *name) ? Value(origin_.resolved(*name)) : one;
+    }
+  }
+
+  [[nodiscard]] Value value(const KeyPath& path, const YAML::Node& node) const {
+    if (path.entry.empty()) return value(*path.key, node);
+    const std::string own = text(path.key->name + "." + path.entry, node);
+    return job::names_file(*path.key, own) ? origin_.resolved(own) : own;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& name, const YAML::Node& node, const std::string& what,
+                         const std::string& next) const {
+    origin_.fail(node.Mark(), "'" + name + "' " + what, next);
+  }
+
+  [[nodiscard]] std::string text(const std::string& name, const YAML::Node& node) const {
+    if (!node.IsScalar()) fail(name, node, "is not a single value", "give one");
+    return node.Scalar();
+  }
+  [[nodiscard]] std::string text(const KeyInfo& key, const YAML::Node& node) const { return text(key.name, node); }
+
+  [[nodiscard]] Value single(const KeyInfo& key, const YAML::Node& node) const {
+    try {
+      return job::read_value(key, text(key, node));
+    } catch (const KeyError& error) {
+      fail(key.name, node, error.problem(), error.next());
+    }
+  }
+
+  [[nodiscard]] Table table(const KeyInfo& key, const YAML::Node& node) const {
+    if (!node.IsMap()) fail(key.name, node, "is not a table", "write for example {name: value}");
+    Table table;
+    for (const auto& entry : node) {
+      const std::string name = text(key, entry.first);
+      const std::string own = text(key.name + "." + name, entry.second);
+      if (!table.emplace(name, job::names_file(key, own) ? origin_.resolved(own) : own).second)
+        fail(key.name, entry.first, "has '" + name + "' twice", "remove one of them");
+    }
+    return table;
+  }
+
+  [[nodiscard]] std::vector<double> numbers(const KeyInfo& key, const YAML::Node& node) const {
+    if (!node.IsSequence()) fail(key.name, node, "is not a list", "write for example [1, 0.5]");
+    std::vector<double> list;
+    for (const YAML::Node& item : node) list.push_back(single(key, item).as<double>());
+    return list;
+  }
+
+  [[nodiscard]] std::vector<std::string> outputs(const KeyInfo& key, const YAML::Node& node) const {
+    if (node.IsScalar()) return {node.Scalar()};
+    if (!node.IsSequence()) fail(key.name, node, "is not a list", "write for example [mesh.vtu, mesh.msh]");
+    std::vector<std::string> list;
+    for (const YAML::Node& item : node) list.push_back(text(key, item));
+    return list;
+  }
+
+  [[nodiscard]] std::vector<Record> list(const KeyInfo& key, const YAML::Node& node) const {
+    if (!node.IsSequence())
+      fail(key.name, node, "is not a list", "write for example [{" + key.fields[0].name + ": ...}]");
+    std::vector<Record> list;
+    for (const YAML::Node& item : node) list.push_back(record(key, item));
+    return list;
+  }
+
+  /// One item of a list: all fields, with defaults for those that are missing.
+  [[nodiscard]] Record record(const KeyInfo& key, const YAML::Node& node) const {
+    if (!node.IsMap())
+      fail(key.name, node, "has an item that is not a table", "write for example {ranks: 4, speed: 1e6}");
+    Record record;
+    for (const KeyInfo& field : key.fields) record.emplace_back(field.name, field.standard);
+    std::set<std::string> seen;
+    for (const auto& entry : node) {
+      const std::string name = text(key, entry.first);
+      const auto field = std::ranges::find(key.fields, name, &KeyInfo::name);
+      if (field == key.fields.end()) refuse_field(key, entry.first, name);
+      if (!seen.insert(name).second) fail(key.name, entry.first, "has '" + name + "' twice", "remove one of them");
+      KeyInfo info = *field;
+      info.name = key.name + ": " + name;
+      record[static_cast<std::size_t>(field - key.fields.begin())].second = value(info, entry.second);
+    }
+    return record;
+  }
+
+  [[noreturn]] void refuse_field(const KeyInfo& key, const YAML::Node& node, const std::string& name) const {
+    std::vector<std::string> known;
+    for (const KeyInfo& field : key.fields) known.push_back(field.name);
+    fail(key.name, node, "has no field '" + name + "'", "the nearest one is '" + nearest_name(name, known) + "'");
+  }
+
+  const Origin& origin_;
+};
+
+}  // namespace
+
+Value value_of(const KeyPath& path, const YAML::Node& node, const Origin& origin) {
+  return Values(origin).value(path, node);
+}
+
+}  // namespace driftmesh::config
