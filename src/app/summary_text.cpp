@@ -7,6 +7,7 @@
 
 #include "app/summary.hpp"
 #include "base/words.hpp"
+#include "protocol/counter_sum.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -131,13 +132,7 @@ void add_ranks(const RunRecord& run, Text out) {
   std::int64_t splits = 0;
   for (const RunRecord::Rank& r : run.ranks) {
     splits += r.interface_splits;
-    sum.hand_offs += r.counters.hand_offs;
-    sum.hand_off_bytes += r.counters.hand_off_bytes;
-    sum.splits_sent += r.counters.splits_sent;
-    sum.batches_sent += r.counters.batches_sent;
-    sum.forwarded += r.counters.forwarded;
-    sum.most_hops = std::max(sum.most_hops, r.counters.most_hops);
-    sum.held += r.counters.held;
+    sum += r.counters;
   }
   const std::int32_t threads = run.on_threads ? 1 : run.request.run.threads;
   if (run.request.run.method == job::Method::kPdr) {

@@ -3,38 +3,35 @@
 #include "pslg/names.hpp"
 
 namespace driftmesh {
+namespace {
+
+// The fields in one order for both directions: `stream` is a ByteWriter with a const mesh, or a ByteReader.
+template <class Stream, class M>
+void transfer(Stream& stream, M& mesh) {
+  stream.array(mesh.points);
+  stream.array(mesh.triangles);
+  stream.array(mesh.edges);
+  stream.array(mesh.point_markers);
+  stream.array(mesh.attributes);
+  stream.value(mesh.attributes_per_point);
+  stream.array(mesh.regions);
+  stream.array(mesh.numbers);
+  stream.array(mesh.subdomains);
+  stream.array(mesh.ranks);
+  transfer_names(stream, mesh.names);
+}
+
+}  // namespace
 
 Bytes mesh_to_bytes(const Mesh& mesh) {
   ByteWriter writer;
-  writer.array(mesh.points);
-  writer.array(mesh.triangles);
-  writer.array(mesh.edges);
-  writer.array(mesh.point_markers);
-  writer.array(mesh.attributes);
-  writer.value(mesh.attributes_per_point);
-  writer.array(mesh.regions);
-  writer.array(mesh.numbers);
-  writer.array(mesh.subdomains);
-  writer.array(mesh.ranks);
-  transfer_names(writer, mesh.names);
+  transfer(writer, mesh);
   return writer.take();
 }
 
 Mesh mesh_of(const Mail& mail) {
   Mesh mesh;
-  read_mail(mail, [&](ByteReader& reader) {
-    reader.array(mesh.points);
-    reader.array(mesh.triangles);
-    reader.array(mesh.edges);
-    reader.array(mesh.point_markers);
-    reader.array(mesh.attributes);
-    reader.value(mesh.attributes_per_point);
-    reader.array(mesh.regions);
-    reader.array(mesh.numbers);
-    reader.array(mesh.subdomains);
-    reader.array(mesh.ranks);
-    transfer_names(reader, mesh.names);
-  });
+  read_mail(mail, [&](ByteReader& reader) { transfer(reader, mesh); });
   return mesh;
 }
 

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <random>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
 #include "mesh/mesher.hpp"
+#include "protocol/counter_sum.hpp"
 #include "protocol/delaying_transport.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
@@ -108,13 +108,7 @@ void add_up(const std::vector<Bytes>& reports, std::size_t subdomains, Outcome& 
   const auto complain = [&](const std::string& what) { outcome.problems.push_back(what); };
   for (const Bytes& bytes : reports) {
     const Account rank = Account::unpack(bytes);
-    sum.splits_sent += rank.counters.splits_sent;
-    sum.splits_handled += rank.counters.splits_handled;
-    sum.hand_offs += rank.counters.hand_offs;
-    sum.arrivals += rank.counters.arrivals;
-    sum.forwarded += rank.counters.forwarded;
-    sum.held += rank.counters.held;
-    sum.most_hops = std::max(sum.most_hops, rank.counters.most_hops);
+    sum += rank.counters;
     balance += rank.balance;
     outcome.forced += rank.forced;
     for (const SubdomainId s : rank.owned) ++owners.at(s);

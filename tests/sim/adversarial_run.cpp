@@ -6,6 +6,7 @@
 #include "balancer/policies/policy_factory.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/digest.hpp"
+#include "protocol/counter_sum.hpp"
 #include "runtime/plan_run.hpp"
 #include "sim/mesh_oracles.hpp"
 #include "support/policy_called.hpp"
@@ -213,18 +214,7 @@ bool AdversarialRun::work_anywhere() {
 
 void AdversarialRun::count() {
   for (const auto& crew : crews_) outcome_.shifts += crew->performed();
-  for (const auto& loop : loops_) {
-    const protocol::ProtocolCounters& c = loop->protocol().counters();
-    outcome_.counters.splits_sent += c.splits_sent;
-    outcome_.counters.splits_handled += c.splits_handled;
-    outcome_.counters.batches_sent += c.batches_sent;
-    outcome_.counters.hand_offs += c.hand_offs;
-    outcome_.counters.hand_off_bytes += c.hand_off_bytes;
-    outcome_.counters.arrivals += c.arrivals;
-    outcome_.counters.forwarded += c.forwarded;
-    outcome_.counters.most_hops = std::max(outcome_.counters.most_hops, c.most_hops);
-    outcome_.counters.held += c.held;
-  }
+  for (const auto& loop : loops_) outcome_.counters += loop->protocol().counters();
   outcome_.effects = mover_.effects();
   outcome_.effects += witness_.effects();
   if (scenario_.balanced()) outcome_.effects.by_policy = outcome_.counters.hand_offs - outcome_.effects.by_chance;

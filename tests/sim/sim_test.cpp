@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "property/cases.hpp"
+#include "protocol/counter_sum.hpp"
 #include "sim/adversarial_run.hpp"
 #include "sim/tampering.hpp"
 #include "support/broken_rules.hpp"
@@ -73,11 +74,7 @@ TEST_CASE("the schedules are hard, on every domain and number of ranks") {
     smallest = std::min(smallest, o.triangles);
     asleep += o.asleep;
     shifts += o.shifts;
-    sum.splits_sent += o.counters.splits_sent;
-    sum.batches_sent += o.counters.batches_sent;
-    sum.hand_offs += o.counters.hand_offs;
-    sum.forwarded += o.counters.forwarded;
-    sum.held += o.counters.held;
+    sum += o.counters;
     network.reordered += o.network.reordered;
     network.copies += o.network.copies;
     network.starved += o.network.starved;
