@@ -121,7 +121,7 @@ class Runner {
     progress_.end();
     if (!command_.quiet)
       print(table_.markdown() + "\nresults in " + folder_.string() + "/" +
-            (reported ? fmt::format("; to look at: {}", (folder_ / kPageFile).string()) : "") + "\n");
+            (reported ? fmt::format("; open {} in a browser", (folder_ / kPageFile).string()) : "") + "\n");
   }
 
  private:
