@@ -52,6 +52,7 @@ void fields(auto& archive, MessageOf<WorkRequest> auto& m) {
   archive.number(m.rivals);
   archive.amount(m.doubt);
   archive.amount(m.free_memory);
+  archive.amount(m.horizon);
 }
 void fields(auto& archive, MessageOf<WorkAnswer> auto& m) {
   archive.number(m.round);

@@ -51,6 +51,9 @@ struct LoadNews {
   friend bool operator==(const LoadNews&, const LoadNews&) = default;
 };
 
+/// More seconds than any work takes.
+inline constexpr double kNoHorizon = 1e300;
+
 /// `thief` will soon be idle. It asks rank 0, which passes the request on to a rank with plenty of work. The thief gets
 /// one answer, from the rank that has the request in the end.
 struct WorkRequest {
@@ -61,6 +64,7 @@ struct WorkRequest {
   std::uint32_t rivals = 0;           ///< idle ranks that will compete for the giver's work
   double doubt = 0;                   ///< as in LoadNews
   double free_memory = kAmpleMemory;  ///< as in RankLoad
+  double horizon = kNoHorizon;        ///< seconds: what the thief would begin later others can do earlier
   friend bool operator==(const WorkRequest&, const WorkRequest&) = default;
 };
 

@@ -22,10 +22,13 @@ RankBoard::RankBoard(const RankNews& news, std::shared_ptr<const Layout> layout,
     able_.push_back(news.can_give(r, snapshot_.ranks[r]));
     givers_ += able_.back();
     idle_ += is_idle(snapshot_.ranks[r]);
+    work_ += snapshot_.ranks[r].remaining;
+    speed_ += news.known_or_mean(snapshot_.ranks[r].speed);
   }
 }
 
 void RankBoard::put(Rank rank, const RankLoad& state, bool able) {
+  work_ = std::max(0.0, work_ + state.remaining - snapshot_.ranks[rank].remaining);
   idle_ += is_idle(state);
   idle_ -= is_idle(std::exchange(snapshot_.ranks[rank], state));
   givers_ += able;

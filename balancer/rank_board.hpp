@@ -23,11 +23,14 @@ class RankBoard {
   [[nodiscard]] const IdVector<Rank, bool>& able() const { return able_; }
   /// Idle ranks per possible giver, not counting the one that asks.
   [[nodiscard]] std::uint32_t rivals() const;
+  /// Seconds in which all ranks could do all work, if it were arbitrarily divisible.
+  [[nodiscard]] double ideal_time() const { return work_ / speed_; }
 
  private:
   LoadSnapshot snapshot_;
   IdVector<Rank, bool> able_;
   std::size_t idle_ = 0, givers_ = 0;
+  double work_ = 0, speed_ = 0;  // of all ranks
 };
 
 }  // namespace driftmesh::balancer

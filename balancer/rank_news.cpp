@@ -21,7 +21,8 @@ RankNews::RankNews(const Layout& layout, double now) : ranks_(to_index(layout.ra
 bool RankNews::hear(Rank rank, const LoadNews& news, double now) {
   Heard& heard = ranks_[rank];
   if (news.round <= heard.news.round) return false;
-  const double believed = std::max(0.0, heard.news.remaining - heard.news.speed * std::max(0.0, now - heard.at));
+  reported_ += heard.news.round == 0 ? 1 : 0;
+  const double believed = state(rank, now).remaining;
   set_speed(rank, news.speed);
   heard = {news, now};
   return news.spare > 0 && news.remaining > kNotable * believed;
@@ -47,10 +48,6 @@ void RankNews::assume(const IdVector<Rank, RankLoad>& states, double now) {
     ranks_[r].news.free_memory = states[r].free_memory;
     ranks_[r].at = now;
   }
-}
-
-bool RankNews::complete() const {
-  return std::all_of(ranks_.begin(), ranks_.end(), [](const Heard& heard) { return heard.news.round > 0; });
 }
 
 IdVector<Rank, RankLoad> RankNews::states(double now) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -24,7 +25,7 @@ class RankNews {
   /// Sets the load of all ranks at `now`, whatever they reported before.
   void assume(const IdVector<Rank, RankLoad>& states, double now);
   /// Whether all ranks have reported.
-  [[nodiscard]] bool complete() const;
+  [[nodiscard]] bool complete() const { return reported_ == ranks_.size(); }
 
   /// All ranks at `now`: the last news minus what they must have done since.
   [[nodiscard]] IdVector<Rank, RankLoad> states(double now) const;
@@ -42,6 +43,7 @@ class RankNews {
   void set_speed(Rank rank, double speed);
 
   IdVector<Rank, Heard> ranks_;
+  std::size_t reported_ = 0;
   double sum_ = 0;  // of the speeds that are known
   int known_ = 0;
 };

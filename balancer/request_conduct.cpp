@@ -50,8 +50,7 @@ RequestConduct::RequestConduct(Rank self, std::shared_ptr<const Layout> layout, 
 
 void RequestConduct::receive(Rank source, Message advice, double now) {
   if (const auto* const news = std::get_if<LoadNews>(&advice)) {
-    if (news_ && news_->hear(source, *news, now)) surprised_ = true;
-    if (news->remaining > 0) hungry_.erase(source);
+    if (news_) take_news(source, *news, now);
   } else if (const auto* const request = std::get_if<WorkRequest>(&advice)) {
     requests_.push_back(*request);
   } else if (const auto* const answer = std::get_if<WorkAnswer>(&advice)) {
@@ -63,7 +62,11 @@ void RequestConduct::take_answer(Rank source, const WorkAnswer& answer, double n
   if (asked_ && answer.round == round_) {
     asked_ = false;
     // The broker refuses when nobody has anything to give; then the broker will come back to it.
-    refusals_ = !answer.moves.empty() ? 0 : source == kBroker ? options_.refusals : refusals_ + 1;
+    remembered_ = answer.moves.empty() && source == kBroker;
+    if (!remembered_) ++refusals_;
+  } else if (answer.round == 0) {
+    remembered_ = false;  // it came back, and this is what came of it
+    ++refusals_;
   }
   if (answer.moves.empty()) return;
   refusals_ = 0;
@@ -71,6 +74,12 @@ void RequestConduct::take_answer(Rank source, const WorkAnswer& answer, double n
     if (std::find(arrived_.begin(), arrived_.end(), move.subdomain) == arrived_.end())
       coming_.push_back(move.subdomain);
   promised_ = now;
+}
+
+void RequestConduct::take_news(Rank source, const LoadNews& news, double now) {
+  if (news_->hear(source, news, now)) surprised_ = true;
+  if (news.spare > crumbs_) hungry_.erase(source);
+  if (news.remaining <= 0 && hungry_.contains(source)) surprised_ = true;  // now it would gain more
 }
 
 void RequestConduct::arrived(SubdomainId id) {
@@ -82,6 +91,7 @@ Decision RequestConduct::think(const Situation& situation) {
   Decision decision;
   board_.reset();
   Loads own(situation.own.begin(), situation.own.end());
+  notice_end_of_work(own);
   for (const WorkRequest& request : std::exchange(requests_, {}))
     if (self_ == kBroker)
       place(request, situation, own, decision);
@@ -92,6 +102,13 @@ Decision RequestConduct::think(const Situation& situation) {
   forget_promises(situation.now);
   ask(situation, own, decision);
   return decision;
+}
+
+// Without any work a rank tries once more, even if givers have refused it often: it would gain more now.
+void RequestConduct::notice_end_of_work(const Loads& own) {
+  if (std::exchange(idle_, own.empty()) || !idle_) return;
+  refusals_ = std::min(refusals_, options_.refusals - 1);
+  if (hungry_.contains(self_)) surprised_ = true;
 }
 
 // Returns how much work is given.
@@ -111,8 +128,8 @@ double RequestConduct::give(const WorkRequest& request, const Situation& situati
   return before - total_work(own);
 }
 
-// The worthwhile part of what the policy gives, considering only the two ranks. To the policy, the giver appears as
-// fast as all ranks together that will share the rest.
+// The worthwhile part of what the policy gives, considering only the two ranks, without what the thief would begin
+// beyond the horizon. To the policy, the giver appears as fast as all ranks together that will share the rest.
 std::vector<Move> RequestConduct::gifts(const WorkRequest& request, const Situation& situation,
                                         const Loads& own) const {
   LoadSnapshot snapshot;
@@ -124,7 +141,14 @@ std::vector<Move> RequestConduct::gifts(const WorkRequest& request, const Situat
                                    request.free_memory};
   snapshot.ranks[self_] = {sharers * speed, total_work(own), situation.doubt};
   snapshot.subdomains = states_of(self_, own);
-  const std::vector<Move> moves = policy_->give(snapshot, self_, request.thief);
+  std::vector<Move> moves = policy_->give(snapshot, self_, request.thief);
+  double theirs = request.remaining;
+  const double most = request.horizon * snapshot.ranks[request.thief].speed;
+  std::erase_if(moves, [&](const Move& move) {
+    if (theirs > most) return true;
+    theirs += find(snapshot, move.subdomain)->remaining;
+    return false;
+  });
   snapshot.ranks[self_].speed = speed;
   return worth_moving(snapshot, moves, options_.cost, options_.worth);
 }
@@ -149,8 +173,9 @@ void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decis
   const double total = total_work(own);
   const double next = own.empty() ? 0 : total - own.front().remaining - crumbs_;
   const bool low = policy_->runs_low(seconds_of(next, situation.speed) - options_.time_to_get_work());
-  if (!low) refusals_ = 0;
-  if (!low || asked_ || !coming_.empty() || refusals_ >= options_.refusals || situation.free_memory <= 0) return;
+  if (!low) refusals_ = 0, remembered_ = false;
+  const bool tries = !remembered_ && refusals_ < options_.refusals;
+  if (!low || asked_ || !coming_.empty() || !tries || situation.free_memory <= 0) return;
   const WorkRequest request{self_, ++round_, total, situation.speed, 0, situation.doubt, situation.free_memory};
   arrived_.clear();
   if (self_ != kBroker) {
@@ -159,7 +184,7 @@ void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decis
   } else if (pass_on(request, situation, own, decision)) {
     asked_ = true;
   } else {
-    refusals_ = options_.refusals;
+    remembered_ = true;
     hungry_.insert(self_);
   }
 }
@@ -178,30 +203,51 @@ bool RequestConduct::pass_on(WorkRequest request, const Situation& situation, Lo
   const RankLoad thief{request.speed, request.remaining, request.doubt, request.free_memory};
   put(self_, news_->state(self_, now));
   put(request.thief, thief);
-  const auto victim = policy_->victim(board_->snapshot(), request.thief, board_->able());
+  request.rivals = board_->rivals();
+  request.horizon = horizon();
+  const auto [victim, share] = find_giver(request);
   if (is_logged())
     note({.subject = Deliberation::Subject::kRequest,
           .verdict = victim ? Verdict::kDone : Verdict::kNoGiver,
           .thief = request.thief,
           .giver = victim.value_or(request.thief)});
   if (victim) {
-    request.rivals = board_->rivals();
     hungry_.erase(request.thief);
     if (*victim == self_) {
       const double given = give(request, situation, own, decision);
       if (given <= 0) hungry_.insert(request.thief);
       news_->expect(self_, request.thief, given, now);
     } else {
-      const RankLoad& giver = board_->snapshot().ranks[*victim];
-      const double giver_speed = news_->known_or_mean(giver.speed) * (1 + std::min(request.rivals, kMostRivals));
-      news_->expect(*victim, request.thief, even_share(giver, giver_speed, thief, news_->known_or_mean(request.speed)),
-                    now);
+      news_->expect(*victim, request.thief, share, now);
       decision.messages.push_back({*victim, request});
     }
     put(*victim, news_->state(*victim, now));
   }
   put(request.thief, news_->state(request.thief, now));
   return victim.has_value();
+}
+
+// And about how much it will give. Nobody, if the thief has work up to the horizon, or an even load of the two would
+// save less than a move must.
+RequestConduct::Giver RequestConduct::find_giver(const WorkRequest& request) const {
+  const double thief_speed = news_->known_or_mean(request.speed);
+  const RankLoad& thief = board_->snapshot().ranks[request.thief];
+  if (thief.remaining > request.horizon * thief_speed) return {};
+  const auto victim = policy_->victim(board_->snapshot(), request.thief, board_->able());
+  if (!victim) return {};
+  const RankLoad& giver = board_->snapshot().ranks[*victim];
+  const double speed = news_->known_or_mean(giver.speed);
+  const double sharers = 1 + std::min(request.rivals, kMostRivals);
+  const double share = even_share(giver, sharers * speed, thief, thief_speed);
+  const double required = std::max(options_.worth.seconds, options_.worth.gain * giver.remaining / speed);
+  return share / speed < required ? Giver{} : Giver{victim, share};
+}
+
+// Not much more than the ideal time: what a slow rank would begin later would have to move again. How long that is can
+// be said when all ranks have told their speeds.
+double RequestConduct::horizon() const {
+  constexpr double kOfIdeal = 1.25;
+  return news_->complete() ? kOfIdeal * board_->ideal_time() : kNoHorizon;
 }
 
 // The broker repeats its own requests; it passes on all others without waiting for an answer.
@@ -211,7 +257,7 @@ void RequestConduct::feed_hungry(const Situation& situation, Loads& own, Decisio
   for (const Rank thief : hungry) {
     const RankLoad state = news_->state(thief, situation.now);
     if (thief == self_)
-      refusals_ = 0, hungry_.erase(thief);
+      refusals_ = 0, remembered_ = false, hungry_.erase(thief);
     else if (!pass_on({thief, 0, state.remaining, state.speed, 0, state.doubt, state.free_memory}, situation, own,
                       decision) &&
              state.remaining <= 0)

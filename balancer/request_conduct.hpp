@@ -16,8 +16,9 @@ namespace driftmesh::balancer {
 /// Behavior of a rank when work is requested (Placement::kRequests). Ranks report unexpected changes of their load to
 /// rank 0, the broker. A rank that runs low asks the broker, which passes the request on to a rank with plenty of work;
 /// that rank decides what to give, and answers. Every request is answered once, if only with a refusal. The broker
-/// remembers which ranks got nothing, and asks on their behalf when some rank turns out to have more work than was
-/// known.
+/// refuses at once if no more could be saved than a move must save, or the rank has work for about as long as all ranks
+/// together. It remembers whom it refused, and asks on their behalf when they are out of work, or some rank turns out
+/// to have more work than was known.
 class RequestConduct {
  public:
   RequestConduct(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
@@ -37,10 +38,16 @@ class RequestConduct {
 
  private:
   using Loads = std::vector<ReportedLoad>;
+  struct Giver {
+    std::optional<Rank> rank;
+    double share = 0;  // triangles
+  };
 
   void take_answer(Rank source, const WorkAnswer& answer, double now);
+  void take_news(Rank source, const LoadNews& news, double now);
 
   // Of every rank:
+  void notice_end_of_work(const Loads& own);
   double give(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] std::vector<Move> gifts(const WorkRequest& request, const Situation& situation, const Loads& own) const;
   void report(const Situation& situation, const Loads& own, Decision& decision);
@@ -50,6 +57,8 @@ class RequestConduct {
   // Of the broker:
   void place(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] bool pass_on(WorkRequest request, const Situation& situation, Loads& own, Decision& decision);
+  [[nodiscard]] double horizon() const;
+  [[nodiscard]] Giver find_giver(const WorkRequest& request) const;
   void feed_hungry(const Situation& situation, Loads& own, Decision& decision);
 
   Rank self_;
@@ -64,15 +73,17 @@ class RequestConduct {
 
   double crumbs_ = 0;   // triangles: no more is left in finished subdomains whose neighbors have split their borders
   bool asked_ = false;  // not yet answered
-  std::uint32_t round_ = 0;           // of the last request
-  int refusals_ = 0;                  // in a row
+  std::uint32_t round_ = 0;  // of the last request
+  int refusals_ = 0;         // by givers, in a row
+  bool remembered_ = false;  // by the broker, which has refused
+  bool idle_ = false;
   std::vector<SubdomainId> arrived_;  // since the last request; they may arrive before the answer that promises them
   std::vector<SubdomainId> coming_;   // promised, not yet here
   double promised_ = 0;               // when
 
   std::optional<RankNews> news_;    // of the broker
   std::optional<RankBoard> board_;  // made from it for the requests of one think()
-  bool surprised_ = false;          // by news since idle ranks were last served
+  bool surprised_ = false;          // by news since hungry ranks were last served
   std::set<Rank> hungry_;
 };
 

@@ -107,3 +107,114 @@ TEST_CASE("a rank that was refused with some work left is not taken for idle") {
   REQUIRE(of_refused != request.end());
   CHECK(of_refused->second.remaining > 0);
 }
+
+TEST_CASE("the broker refuses at once where less could be saved than a move must save") {
+  const Layout layout = grid_layout(12, 1, 3);
+  // The broker is idle, too: rank 1 would get a third of what rank 2 has.
+  const auto passes_on = [&](double work) {
+    Controller broker = controller_of(0_rank, layout, "stealing");
+    broker.receive(2_rank, balancer::LoadNews{1, work, work, 1000}, 1);
+    broker.receive(1_rank, balancer::LoadNews{1, 0, 0, 1000}, 1);
+    broker.receive(1_rank, balancer::WorkRequest{1_rank, 1, 0, 1000, 0}, 1);
+    const Decision decision = broker.think(1, {}, 1000);
+    const auto requests = sent<balancer::WorkRequest>(decision);
+    const bool passed = std::ranges::any_of(requests, [](const auto& r) { return r.second.thief == 1_rank; });
+    CHECK(passed == sent<balancer::WorkAnswer>(decision).empty());
+    return passed;
+  };
+  const double required = balancer::Worth{}.seconds;
+  CHECK(!passes_on(2.9 * required * 1000));
+  CHECK(passes_on(3.1 * required * 1000));
+}
+
+TEST_CASE("the broker tells until when work is worth giving, once all have told their speeds") {
+  const Layout layout = grid_layout(12, 1, 3);
+  const auto request_passed_on = [&](bool all, double thief_has) {
+    Controller broker = controller_of(0_rank, layout, "stealing");
+    CHECK(broker.think(1, {}, 2000).moves.empty());  // it tells itself its speed
+    broker.receive(2_rank, balancer::LoadNews{1, 6000, 5000, 1000}, 1);
+    if (all) broker.receive(1_rank, balancer::LoadNews{1, thief_has, 0, 1000}, 1);
+    broker.receive(1_rank, balancer::WorkRequest{1_rank, 1, thief_has, 1000, 0}, 1);
+    auto requests = sent<balancer::WorkRequest>(broker.think(1, {}, 2000));
+    std::erase_if(requests, [](const auto& r) { return r.second.thief != 1_rank; });
+    return requests;
+  };
+  const auto known = request_passed_on(true, 0);
+  REQUIRE(known.size() == 1);
+  CHECK(known[0].second.horizon == doctest::Approx(1.25 * 6000 / 4000));
+  const auto unknown = request_passed_on(false, 0);
+  REQUIRE(unknown.size() == 1);
+  CHECK(unknown[0].second.horizon == balancer::kNoHorizon);
+  // A rank that has more than all have on average needs none.
+  CHECK(request_passed_on(true, 4000).empty());
+}
+
+TEST_CASE("a giver keeps what the other rank would begin too late") {
+  const Layout layout = grid_layout(40, 1, 2);
+  const auto given = [&](double horizon) {
+    Controller giver = controller_of(1_rank, layout, "stealing");
+    giver.receive(0_rank, balancer::WorkRequest{0_rank, 1, 500, 1000, 0, 0, balancer::kAmpleMemory, horizon}, 1);
+    return giver.think(1, loads_of(20, 39, 1000), 1000).moves.size();
+  };
+  CHECK(given(balancer::kNoHorizon) == 10);
+  CHECK(given(4) == 4);  // begun after 0.5, 1.5, 2.5 and 3.5 seconds
+  CHECK(given(0.4) == 0);
+}
+
+TEST_CASE("a rank that turns out to be slow gives work to those that were refused") {
+  const Layout layout = grid_layout(12, 1, 3);
+  Controller broker = controller_of(0_rank, layout, "stealing");
+  broker.receive(1_rank, balancer::LoadNews{1, 0, 0, 1e6}, 0.5);
+  broker.receive(1_rank, balancer::WorkRequest{1_rank, 1, 0, 1e6, 0}, 1);
+  CHECK(sent<balancer::WorkAnswer>(broker.think(1, {}, 1e6)).size() == 1);  // at that speed all must be done
+  double left = 0;
+  for (const SubdomainId s : ids_of(layout.subdomains))
+    if (layout[s].owner == 2_rank) left += layout[s].predicted;
+  broker.receive(2_rank, balancer::LoadNews{1, left / 2, left / 4, left / 2}, 1.1);
+  const auto requests = sent<balancer::WorkRequest>(broker.think(1.1, {}, 1e6));
+  CHECK(std::ranges::any_of(requests, [](const auto& r) { return r.second.thief == 1_rank; }));
+}
+
+TEST_CASE("a rank that was refused with some work left is looked at again when that is done") {
+  const Layout layout = grid_layout(12, 1, 3);
+  Controller broker = controller_of(0_rank, layout, "stealing");
+  broker.receive(2_rank, balancer::LoadNews{1, 2000, 1900, 1000}, 1);
+  broker.receive(1_rank, balancer::LoadNews{1, 2000, 0, 1000}, 1);
+  broker.receive(1_rank, balancer::WorkRequest{1_rank, 1, 2000, 1000, 0}, 1);
+  CHECK(sent<balancer::WorkAnswer>(broker.think(1, {}, 1000)).size() == 1);  // both have as much
+  broker.receive(1_rank, balancer::LoadNews{2, 1500, 0, 1000}, 1.1);         // still its last subdomain
+  CHECK(sent<balancer::WorkRequest>(broker.think(1.1, {}, 1000)).empty());
+  broker.receive(1_rank, balancer::LoadNews{3, 0, 0, 1000}, 1.2);  // that was less than forecast
+  const auto requests = sent<balancer::WorkRequest>(broker.think(1.2, {}, 1000));
+  CHECK(std::ranges::any_of(requests, [](const auto& r) { return r.second.thief == 1_rank; }));
+}
+
+TEST_CASE("a rank on whose behalf the broker asked in vain asks again by itself") {
+  const Layout layout = grid_layout(12, 1, 3);
+  Controller thief = controller_of(1_rank, layout, "stealing");
+  REQUIRE(sent<balancer::WorkRequest>(thief.think(1, {}, 300)).size() == 1);
+  thief.receive(0_rank, balancer::WorkAnswer{1, {}}, 1);
+  CHECK(sent<balancer::WorkRequest>(thief.think(1.1, {}, 300)).empty());
+  thief.receive(2_rank, balancer::WorkAnswer{0, {}}, 1.2);
+  CHECK(sent<balancer::WorkRequest>(thief.think(1.2, {}, 300)).size() == 1);
+}
+
+TEST_CASE("a rank that givers refused often tries once more when it is out of work") {
+  const Layout layout = grid_layout(12, 1, 3);
+  Controller thief = controller_of(1_rank, layout, "stealing");
+  const auto last = loads_of(4, 4, 1000);
+  int asked = 0;
+  double now = 1;
+  const auto ask_and_be_refused = [&](std::span<const ReportedLoad> own) {
+    for (int i = 0; i < 20; ++i)
+      for (const auto& request : sent<balancer::WorkRequest>(thief.think(now += 0.1, own, 300))) {
+        ++asked;
+        thief.receive(2_rank, balancer::WorkAnswer{request.second.round, {}}, now);
+      }
+  };
+  ask_and_be_refused(last);
+  const int with_work = asked;
+  CHECK(with_work == balancer::ControllerOptions{}.refusals);
+  ask_and_be_refused({});
+  CHECK(asked == with_work + 1);
+}
