@@ -1,6 +1,7 @@
 #include "mesh/bound_forecast.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "geometry/midpoint.hpp"
 
@@ -10,29 +11,38 @@ namespace {
 /// The mean area of triangles relative to the bound, measured for area-bounded refinement.
 constexpr double kMeanArea = 0.645;
 
-/// How many triangles a size field asks for in a triangle: the integral of one over the mean area, by subdivision until
-/// the field varies little or the pieces are about as small as the triangles asked for. Where the field falls between
-/// the points that were looked at, so steeply that the mesh cannot follow, each piece counts at least like a triangle.
-double integrate_size(const SizeField& field, double twice_area_bound, const CornerPoints& corners, int depth = 0,
-                      bool steep = false) {
+constexpr double kNotAsked = 0;  // no value of a size field
+
+/// How many triangles a size field asks for in a triangle, with its values at the corners: the integral of one over the
+/// mean area, by subdivision until the field varies little or the pieces are about as small as the triangles asked for.
+/// Where the field falls between the points that were looked at, so steeply that the mesh cannot follow, each piece
+/// counts at least like a triangle. No point is asked for twice.
+double integrate_size(const SizeField& field, double twice_area_bound, const CornerPoints& corners,
+                      const std::array<double, 3>& at_corners, int depth = 0, bool steep = false) {
   const auto& [a, b, c] = corners;
-  const Point middle = centroid(corners);
-  const double h[4] = {field.edge_length(a), field.edge_length(b), field.edge_length(c), field.edge_length(middle)};
-  const auto [least, most] = std::minmax({h[0], h[1], h[2], h[3]});
+  const auto& [at_a, at_b, at_c] = at_corners;
+  const double in_middle = field.edge_length(centroid(corners));
+  const auto [least, most] = std::minmax({at_a, at_b, at_c, in_middle});
   const double twice = 2 * signed_area(a, b, c);
   constexpr int kDeepest = 8, kDeepestSteep = 14;
   constexpr double kSmooth = 1.2;
   if (depth >= kDeepest || most <= kSmooth * least || twice < 4 * twice_area_of_edge(least)) {
     const bool falls = depth < kDeepestSteep && field.falls_below(corners, std::min(least, edge_of_twice_area(twice)));
-    const double mean = (h[0] + h[1] + h[2] + 3 * h[3]) / 6;
+    const double mean = (at_a + at_b + at_c + 3 * in_middle) / 6;
     const double count = twice / (kMeanArea * std::min(twice_area_of_edge(mean), twice_area_bound));
     if (!falls) return steep ? std::max(count, 1 / kMeanArea) : count;
     steep = true;
   }
   const Point ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
+  const double at_ab = field.edge_length(ab), at_bc = field.edge_length(bc), at_ca = field.edge_length(ca);
+  const auto in = [&](const CornerPoints& part, const std::array<double, 3>& at) {
+    return integrate_size(field, twice_area_bound, part, at, depth + 1, steep);
+  };
   double sum = 0;
-  for (const CornerPoints& part : {CornerPoints{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}})
-    sum += integrate_size(field, twice_area_bound, part, depth + 1, steep);
+  sum += in({a, ab, ca}, {at_a, at_ab, at_ca});
+  sum += in({ab, b, bc}, {at_ab, at_b, at_bc});
+  sum += in({ca, bc, c}, {at_ca, at_bc, at_c});
+  sum += in({bc, ca, ab}, {at_bc, at_ca, at_ab});
   return sum;
 }
 
@@ -47,7 +57,15 @@ std::vector<double> twice_area_bounds(const QualityBounds& bounds) {
 }
 
 BoundForecast::BoundForecast(const Triangulation& mesh, const QualityBounds& bounds)
-    : mesh_(mesh), size_(bounds.size), twice_area_bounds_(twice_area_bounds(bounds)) {}
+    : mesh_(mesh), size_(bounds.size), twice_area_bounds_(twice_area_bounds(bounds)) {
+  if (size_ == nullptr) return;
+  at_vertices_.resize(mesh.points.size(), kNotAsked);
+  for (const TriangleId t : ids_of(mesh.triangles)) {
+    if (!mesh.triangles[t].alive()) continue;
+    for (const VertexId v : mesh.triangles[t].vertex)
+      if (at_vertices_[v] == kNotAsked) at_vertices_[v] = size_->edge_length(mesh.points[v]);
+  }
+}
 
 double BoundForecast::twice_area_bound(TriangleId t) const {
   return twice_area_bounds_.size() > 1 && !mesh_.region.empty() ? twice_area_bounds_[mesh_.region[t]]
@@ -56,7 +74,9 @@ double BoundForecast::twice_area_bound(TriangleId t) const {
 
 double BoundForecast::in(TriangleId t, double twice_area) const {
   if (size_ == nullptr) return twice_area / (kMeanArea * twice_area_bound(t));
-  return integrate_size(*size_, twice_area_bound(t), {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
+  const auto& v = mesh_.triangles[t].vertex;
+  return integrate_size(*size_, twice_area_bound(t), {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)},
+                        {at_vertices_[v[0]], at_vertices_[v[1]], at_vertices_[v[2]]});
 }
 
 double BoundForecast::total() const {

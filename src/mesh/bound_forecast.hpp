@@ -29,7 +29,8 @@ class BoundForecast {
 
   const Triangulation& mesh_;
   const SizeField* size_;
-  std::vector<double> twice_area_bounds_;  // by region label
+  std::vector<double> twice_area_bounds_;   // by region label
+  IdVector<VertexId, double> at_vertices_;  // of the size field, where there are triangles
 };
 
 /// Twice the largest area of triangles by region label, with a margin for rounding; the first is that of the request.

@@ -2,11 +2,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "driftmesh/pslg.hpp"
 #include "geometry/box.hpp"
-#include "geometry/box_tree.hpp"
+#include "sizing/nearest_cells.hpp"
 #include "sizing/plane_function.hpp"
 
 namespace driftmesh {
@@ -26,14 +25,8 @@ class SegmentDistance final : public PlaneFunction {
   [[nodiscard]] Interval over(const Box& box) const override;
 
  private:
-  struct Ends {
-    Point a, b;
-  };
-  [[nodiscard]] static double squared_distance(const Point& p, const Ends& segment);
-
-  std::vector<Ends> segments_;
-  BoxTree tree_;
-  double extent_ = 0;  // of all segments together
+  NearestCells segments_;
+  double extent_;  // of all segments together
 };
 
 }  // namespace driftmesh
