@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <numbers>
 #include <random>
 #include <vector>
 
+#include "driftmesh/pslg.hpp"
 #include "sizing/background_field.hpp"
 #include "sizing/expression_field.hpp"
 
@@ -60,11 +63,39 @@ void expression(benchmark::State& state) {
   ask(state, ExpressionField("0.01 + 0.1*hypot(x, y)"), random_points(0, 1));
 }
 
+/// A coast around the middle of the unit square, with bays within bays, as one closed line of so many segments.
+Pslg coast(int count) {
+  Pslg pslg;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    double radius = 0.3;
+    for (int k = 1; k <= 13; ++k) radius += 0.12 * std::pow(0.6, k) * std::sin((1 << k) * angle + k * k);
+    pslg.points.push_back({0.5 + radius * std::cos(angle), 0.5 + radius * std::sin(angle)});
+    pslg.segments.push_back({i, (i + 1) % count, 1});
+  }
+  return pslg;
+}
+
+/// In the order of a mesh, from square to square, so that caches help as they do there.
+std::vector<Point> points_in_rows() {
+  std::vector<Point> points;
+  for (int j = 0; j < 512; ++j)
+    for (int i = 0; i < 512; ++i) points.push_back({(i + 0.3) / 512, (j + 0.7) / 512});
+  return points;
+}
+
+/// The first questions make the squares that answer the others.
+void distance(benchmark::State& state) {
+  const Pslg pslg = coast(static_cast<int>(state.range(0)));
+  ask(state, ExpressionField("distance() + 1", 0, std::numeric_limits<double>::infinity(), &pslg), points_in_rows());
+}
+
 BENCHMARK_CAPTURE(vertex_field, inside, 1, 0, 1)->Arg(10)->Arg(100)->Arg(500);
 BENCHMARK_CAPTURE(vertex_field, inside_graded, 5, 0, 1)->Arg(500);
 BENCHMARK_CAPTURE(vertex_field, outside, 1, 1.1, 2)->Arg(500);
 BENCHMARK(area_field)->Arg(500);
 BENCHMARK(expression);
+BENCHMARK(distance)->Arg(1)->Arg(1000)->Arg(14'000)->Arg(200'000);
 
 }  // namespace
 

@@ -96,6 +96,19 @@ double BoundForecast::asked() const {
   return sum;
 }
 
+/// Pieces of a triangle are no smaller than a quarter of what the least length asks for unless the field varies there
+/// without falling that low, and each counts for what it asks or for a triangle.
+double most_in_total(const Triangulation& mesh, const QualityBounds& bounds) {
+  constexpr double kPiecesPerTriangle = 5;
+  const std::vector<double> by_region = twice_area_bounds(bounds);
+  const double of_least = bounds.size != nullptr ? twice_area_of_edge(bounds.size->least()) : kNoBound;
+  const double least = std::min(of_least, *std::ranges::min_element(by_region));
+  double twice = 0;
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) twice += 2 * signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  return static_cast<double>(mesh.live_triangles()) + kPiecesPerTriangle / kMeanArea * twice / least;
+}
+
 bool BoundForecast::any() const {
   return size_ != nullptr || std::ranges::any_of(twice_area_bounds_, [](double bound) { return bound < kNoBound; });
 }

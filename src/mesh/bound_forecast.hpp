@@ -33,6 +33,10 @@ class BoundForecast {
   IdVector<VertexId, double> at_vertices_;  // of the size field, where there are triangles
 };
 
+/// Not less than the total, and takes no more than a look at each triangle: with the least length that the size field
+/// has anywhere. Not a finite number if that is unknown.
+[[nodiscard]] double most_in_total(const Triangulation& mesh, const QualityBounds& bounds);
+
 /// Twice the largest area of triangles by region label, with a margin for rounding; the first is that of the request.
 [[nodiscard]] std::vector<double> twice_area_bounds(const QualityBounds& bounds);
 

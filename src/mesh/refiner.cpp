@@ -208,9 +208,9 @@ void Refiner::enter(Stage stage) {
 
 /// Whether the finished mesh will outgrow the cache by far, so that it pays to refine it block by block.
 bool Refiner::wants_coarse_stage() const {
-  const double final_size = BoundForecast(mesh_, bounds_).total();
-  return final_size > 4 * kFinePerBlock &&
-         final_size > kFinePerCoarse / 4 * static_cast<double>(mesh_.live_triangles());
+  const double large = std::max(4 * kFinePerBlock, kFinePerCoarse / 4 * static_cast<double>(mesh_.live_triangles()));
+  if (most_in_total(mesh_, bounds_) <= large) return false;  // such as nearly all subdomains
+  return BoundForecast(mesh_, bounds_).total() > large;
 }
 
 /// Splits the next given segment if its lens holds a vertex from the start. Done before anything else, this saves

@@ -12,11 +12,13 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::size_t kFew = 6;      // segments of a square that is not divided
-constexpr std::size_t kMany = 48;    // a square keeps no more
-constexpr std::uint32_t kOften = 4;  // questions before a square is improved, which takes about as long as they did
+constexpr std::size_t kFew = 6;    // segments of a square that is not divided
+constexpr std::size_t kMany = 48;  // a square keeps no more
+/// Questions before a square is improved, which takes about as long as they did: where the tree answers, and where
+/// there are segments to look at.
+constexpr std::uint32_t kOftenInTree = 8, kOften = 4;
 constexpr int kDeepest = 24;
-constexpr std::size_t kSquaresPerSegment = 6, kMoreSquares = 200;
+constexpr std::size_t kSquaresPerSegment = 6, kMoreSquares = 10'000;
 /// Relative to coordinates. What rounding does to distances and to the place of a point is a tenth of it.
 constexpr double kMargin = 0x1p-43;
 /// Squares of smaller and larger coordinates underflow and overflow.
@@ -105,7 +107,8 @@ class NearestCells::Square {
     const double dx = center_.x - nearest.x, dy = center_.y - nearest.y;
     const double distance = std::sqrt(dx * dx + dy * dy);
     if (!(distance > 0)) return true;
-    const Point direction{dx / distance, dy / distance};
+    const double scale = 1 / distance;
+    const Point direction{scale * dx, scale * dy};
     const double at_center = least_along(direction), x = half_ * direction.x, y = half_ * direction.y;
     return rival_[0] >= at_center - x - y || rival_[1] >= at_center + x - y || rival_[2] >= at_center - x + y ||
            rival_[3] >= at_center + x + y;
@@ -163,10 +166,11 @@ double NearestCells::squared_distance(const Point& p) const {
 
 /// Threads may count less than there were, which does no harm.
 void NearestCells::note_question(Node& node, Items near, const Place& place) const {
+  const std::uint32_t often = near.empty() ? kOftenInTree : kOften;
   const std::uint32_t asked = node.asked.load(std::memory_order_relaxed) + 1;
-  if (asked > kOften) return;
+  if (asked > often) return;
   node.asked.store(asked, std::memory_order_relaxed);
-  if (asked < kOften || place.depth == kDeepest) return;
+  if (asked < often || place.depth == kDeepest) return;
   if (near.empty())
     find_near(node, place);
   else if (take_room())
@@ -217,8 +221,14 @@ NearestCells::Square NearestCells::square(const Place& place, Items among) const
   const auto middle = [&](std::uint32_t i) { return (static_cast<double>(i >> shift) + 0.5) * (2 * half); };
   const Point center{low_.x + middle(place.i), low_.y + middle(place.j)};
   const auto distance = [&](std::int32_t item) { return squared_distance(center, segments_[item]); };
-  const std::int32_t rival =
-      among.empty() ? tree_.nearest(center, distance) : *std::ranges::min_element(among, {}, distance);
+  if (among.empty()) return {center, half, segments_[tree_.nearest(center, distance)], margin_};
+  std::int32_t rival = among.front();
+  double least = distance(rival);
+  for (const std::int32_t item : among.subspan(1))
+    if (const double here = distance(item); here < least) {
+      least = here;
+      rival = item;
+    }
   return {center, half, segments_[rival], margin_};
 }
 

@@ -14,10 +14,10 @@ namespace driftmesh {
 
 /// Finds the nearest of some segments, by squares that keep the few segments which can be nearest to a point in them.
 ///
-/// Squares are made where questions come, and divided where many do, so that making them never takes longer than what
-/// has been asked there so far; before, and outside of all squares, a tree of boxes answers. Which segments a square
-/// keeps follows from those of the square around it. Queries are const, depend on their arguments alone, and may run
-/// in several threads at once.
+/// Squares are made where questions come, and divided where many do, so that making them takes about as long at most as
+/// what has been asked there so far; before, and outside of all squares, a tree of boxes answers. Which segments a
+/// square keeps follows from those of the square around it. Queries are const, depend on their arguments alone, and may
+/// run in several threads at once.
 class NearestCells {
  public:
   struct Ends {
@@ -36,7 +36,7 @@ class NearestCells {
 
   /// Of all segments.
   [[nodiscard]] const Box& box() const { return box_; }
-  /// How many squares there are, at most six for each segment and 200.
+  /// How many squares there are, at most six for each segment and 10,000.
   [[nodiscard]] std::size_t size() const { return size_.load(std::memory_order_relaxed); }
 
  private:

@@ -177,13 +177,13 @@ TEST_CASE("the nearest of random segments is that of a look at each of them, to 
 
 TEST_CASE("there are no more squares than a number for each segment, and none without questions") {
   Random random = seeded_generator("number of squares");
-  const Segments segments = circle(random, 40);
+  const Segments segments = circle(random, 500);
   const NearestCells cells(segments);
   CHECK(cells.size() == 1);
-  const std::size_t most = 6 * segments.size() + 200;
+  const std::size_t most = 6 * segments.size() + 10'000;
   int wrong = 0;
-  for (int i = 0; i < 20'000; ++i) {
-    const Point p = around(random, {}, i % 2 == 0 ? 0.1 : 1e-5);
+  for (int i = 0; i < 100'000; ++i) {
+    const Point p = around(random, {}, i % 2 == 0 ? 0.3 : 1e-2);
     wrong += cells.squared_distance(p) != one_by_one(segments, p) ? 1 : 0;
   }
   CHECK(wrong == 0);
