@@ -10,7 +10,7 @@ namespace {
 
 using protocol::MessageOf;
 
-constexpr std::size_t kReportedLoadBytes = 24, kMoveBytes = 8, kRankBytes = 4, kAmountBytes = 8, kGuestBytes = 12;
+constexpr std::size_t kReportedLoadBytes = 24, kMoveBytes = 8, kRankBytes = 4, kGuestBytes = 12;
 
 void fields(auto& archive, MessageOf<ReportedLoad> auto& m) {
   archive.subdomain(m.subdomain);
@@ -35,7 +35,6 @@ void fields(auto& archive, MessageOf<Plan> auto& m) {
   archive.number(m.round);
   archive.list(m.moves, kMoveBytes, [](auto& a, auto& move) { fields(a, move); });
   archive.list(m.ask, kRankBytes, [](auto& a, auto& rank) { a.rank(rank); });
-  archive.list(m.speeds, kAmountBytes, [](auto& a, auto& speed) { a.amount(speed); });
 }
 void fields(auto& archive, MessageOf<LoadNews> auto& m) {
   archive.number(m.round);

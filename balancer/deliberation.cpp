@@ -37,8 +37,6 @@ const char* name_of(Verdict verdict) {
       return "costs more than its work";
     case Verdict::kNeedless:
       return "needless";
-    case Verdict::kSoonerHere:
-      return "sooner here";
     case Verdict::kGone:
       return "gone";
     case Verdict::kNoGiver:

@@ -26,7 +26,6 @@ enum class Verdict : std::int32_t {
   kNoMemory,        ///< for it where it would go
   kCostsMore,       ///< to move it takes longer than to finish it
   kNeedless,        ///< all finish as early without it
-  kSoonerHere,      ///< where it is, it is finished before it could be elsewhere
   kGone,            ///< it is no longer there, or finished
   kNoGiver,         ///< no rank has work to give
   kAsked,           ///< the rank where it would go is asked first

@@ -36,8 +36,7 @@ struct LoadReport {
 struct Plan {
   std::uint32_t round = 0;
   std::vector<Move> moves;
-  std::vector<Rank> ask;         ///< the destinations that may be short of memory: they are asked first (see Admission)
-  std::vector<double> speeds{};  ///< of the destination of each move, triangles a second; 0, or missing: not known
+  std::vector<Rank> ask;  ///< the destinations that may be short of memory: they are asked first (see Admission)
   friend bool operator==(const Plan&, const Plan&) = default;
 };
 

@@ -18,8 +18,7 @@ struct Candidate {
   Rank from{};
   double giver_saves = 0;  // seconds
   double taker_spends = 0;
-  double earliest = 0;  // seconds from now until the taker can have finished it
-  double price = 0;     // cost over work, in seconds per second
+  double price = 0;  // cost over work, in seconds per second
   bool kept = true;
 };
 
@@ -48,26 +47,16 @@ class Selection {
     const double received = s->remaining / taker_speed + taking;
     if (saved <= 0) return Verdict::kCostsMore;
     if (memory_for(*s) > free_memory_[move.destination]) return Verdict::kNoMemory;
-    candidates_.push_back(
-        {move, s->owner, saved, received, cost_.notice + received, (giving + taking) / s->remaining, true});
+    candidates_.push_back({move, s->owner, saved, received, (giving + taking) / s->remaining, true});
     times_[s->owner] -= saved;
     times_[move.destination] += received;
     free_memory_[move.destination] -= memory_for(*s);
     return Verdict::kDone;
   }
 
-  [[nodiscard]] double finish() const {
-    const IdVector<Rank, double> times = this->times();
-    return times.empty() ? 0 : *std::max_element(times.begin(), times.end());
-  }
+  [[nodiscard]] double finish() const { return times_.empty() ? 0 : *std::max_element(times_.begin(), times_.end()); }
 
-  /// With the moves that are kept. A rank without other work waits for what comes.
-  [[nodiscard]] IdVector<Rank, double> times() const {
-    IdVector<Rank, double> times = times_;
-    for (const Candidate& c : candidates_)
-      if (c.kept) times[c.move.destination] = std::max(times[c.move.destination], c.earliest);
-    return times;
-  }
+  [[nodiscard]] const IdVector<Rank, double>& times() const { return times_; }
 
   /// Drops moves that are not needed to finish by `time`.
   void drop_needless(double time) {
@@ -109,7 +98,7 @@ class Selection {
   const LoadSnapshot& snapshot_;
   const MoveCost& cost_;
   IdVector<Rank, double> speeds_;
-  IdVector<Rank, double> times_;        // of work, with the remaining moves
+  IdVector<Rank, double> times_;        // finishing times with the remaining moves
   IdVector<Rank, double> free_memory_;  // what leaves may do so after something else has come
   std::vector<Candidate> candidates_;
   std::vector<SubdomainId> taken_;  // ascending

@@ -14,7 +14,6 @@ namespace driftmesh::balancer {
 struct MoveCost {
   double latency = 1e-3;     ///< of any move, until the new owner can start
   double bandwidth = 1e9;    ///< bytes per second between two ranks
-  double notice = 0;         ///< seconds until the giver knows of a move that is planned now
   double pack_work = 0.015;  ///< triangles that a rank could make in the time to pack or unpack one byte
 
   [[nodiscard]] double for_giver(std::uint64_t bytes, double speed) const {

@@ -77,9 +77,8 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
     plan_seen_ = std::max(plan_seen_, plan.round);
     acted_ = true;
     Deliberation followed{.subject = Deliberation::Subject::kAdvice};
-    for (std::size_t i = 0; i < plan.moves.size(); ++i) {
-      const Move& move = plan.moves[i];
-      const Verdict verdict = judge(move, i < plan.speeds.size() ? plan.speeds[i] : 0, situation, own);
+    for (const Move& move : plan.moves) {
+      const Verdict verdict = judge(move, situation, own);
       followed.moves.push_back({move.subdomain, self_, move.destination, verdict});
       const bool asks = std::ranges::find(plan.ask, move.destination) != plan.ask.end();
       if (verdict == Verdict::kDone && take_out(own, move.subdomain))
@@ -90,19 +89,14 @@ void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Deci
   }
 }
 
-/// Whether a move that is advised still makes sense: advice that comes late may be about the last subdomain here.
-Verdict PlanningConduct::judge(const Move& move, double speed_there, const Situation& situation,
-                               const Loads& own) const {
+/// Whether a move that is advised still makes sense.
+Verdict PlanningConduct::judge(const Move& move, const Situation& situation, const Loads& own) const {
   const auto load = std::ranges::find(own, move.subdomain, &ReportedLoad::subdomain);
   if (load == own.end()) return Verdict::kGone;
   if (move.destination == self_) return Verdict::kInvalid;
-  if (situation.speed <= 0) return Verdict::kDone;
-  if (load->remaining / situation.speed <= options_.cost.for_giver(load->bytes, situation.speed))
-    return Verdict::kCostsMore;
-  const bool sooner_here =
-      speed_there > 0 && total_work(own) / situation.speed <=
-                             options_.cost.for_taker(load->bytes, speed_there) + load->remaining / speed_there;
-  return sooner_here ? Verdict::kSoonerHere : Verdict::kDone;
+  const bool nearly_done =
+      situation.speed > 0 && load->remaining / situation.speed <= options_.cost.for_giver(load->bytes, situation.speed);
+  return nearly_done ? Verdict::kCostsMore : Verdict::kDone;
 }
 
 void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& decision) {
@@ -145,10 +139,8 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
 /// not at all: it must end notably earlier, or leave less border between ranks for not too many moves.
 std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation) {
   const bool leads = policy_->placement() == Placement::kLeader;
-  MoveCost cost = options_.cost;
-  if (leads) cost.notice = options_.look + cost.latency;
   const auto needed = [&](const std::vector<Move>& moves) {
-    return worth_moving(leads ? snapshot : between(snapshot, self_, moves), moves, cost, options_.worth);
+    return worth_moving(leads ? snapshot : between(snapshot, self_, moves), moves, options_.cost, options_.worth);
   };
   if (!leads) {
     std::vector<Move> moves = policy_->plan(snapshot, self_);
@@ -162,10 +154,10 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot,
   planned_whole_ = true;
   whole_at_ = situation.now;
   if (plan == *single) return needed(plan);
-  std::vector<Move> whole = worth_moving(snapshot, plan, cost, options_.worth, Kept::kAll);
+  std::vector<Move> whole = worth_moving(snapshot, plan, options_.cost, options_.worth, Kept::kAll);
   std::vector<Move> few = needed(*single);
   const auto finish = [&](const std::vector<Move>& moves) {
-    return std::ranges::max(finishing_times(snapshot, moves, cost));
+    return std::ranges::max(finishing_times(snapshot, moves, options_.cost));
   };
   const double notable = options_.worth.gain * ideal_time(snapshot), later = finish(whole) - finish(few);
   const bool has_few_moves =
@@ -210,7 +202,6 @@ void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& sn
       Plan& plan = of_rank[owner];
       plan.round = plans_;
       plan.moves.push_back(move);
-      plan.speeds.push_back(snapshot.ranks[move.destination].speed);
       if (asks(move) && std::ranges::find(plan.ask, move.destination) == plan.ask.end())
         plan.ask.push_back(move.destination);
     } else if (take_out(own, move.subdomain)) {

@@ -38,7 +38,7 @@ class PlanningConduct {
 
   [[nodiscard]] bool plans() const { return knowledge_.has_value(); }
   void follow_advice(const Situation& situation, Loads& own, Decision& decision);
-  [[nodiscard]] Verdict judge(const Move& move, double speed_there, const Situation& situation, const Loads& own) const;
+  [[nodiscard]] Verdict judge(const Move& move, const Situation& situation, const Loads& own) const;
   void plan(const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] std::vector<Move> worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation);
   [[nodiscard]] bool affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const;

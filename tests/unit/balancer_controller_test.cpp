@@ -126,20 +126,6 @@ TEST_CASE("a rank without work sends none, whatever the plan") {
   }
 }
 
-TEST_CASE("late advice about the last subdomain is followed only if another rank would have finished it sooner") {
-  const Layout layout = grid_layout(12, 1, 3);
-  const auto moves = [&](std::int32_t last, double speed_there) {
-    Controller giver = controller_of(1_rank, layout, "greedy");
-    giver.receive(0_rank, balancer::Plan{1, {{4_sub, 2_rank}}, {}, {speed_there}}, 1);
-    return giver.think(1, loads_of(4, last, 1000), 100).moves.size();
-  };
-  CHECK(moves(4, 100) == 0);
-  CHECK(moves(4, 99) == 0);
-  CHECK(moves(4, 110) == 1);
-  CHECK(moves(4, 0) == 1);  // not known
-  CHECK(moves(5, 100) == 1);
-}
-
 TEST_CASE("the leader waits with a plan until a rank runs out of work soon") {
   const auto plans_when_left = [](double seconds) {
     Controller leader = controller_of(0_rank, grid_layout(12, 1, 2), "greedy");

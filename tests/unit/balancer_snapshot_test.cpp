@@ -204,22 +204,6 @@ TEST_CASE("packing that is cheap on a fast rank is costly on a slow one") {
   CHECK(moves(1e3) == 0);
 }
 
-TEST_CASE("a rank without work waits for what comes, as long as it takes to tell the giver") {
-  LoadSnapshot s = initial_snapshot(grid_layout(6, 1, 2), {1000, 1000});  // 3 s each
-  const auto moves = [&](double notice) {
-    MoveCost cost;
-    cost.notice = notice;
-    return worth_moving(s, std::vector<Move>{{0_sub, 1_rank}}, cost).size();
-  };
-  CHECK(moves(0) == 0);
-  for (SubdomainLoad& subdomain : s.subdomains)
-    if (subdomain.owner == 1_rank) subdomain.remaining = 0;
-  sum_up(s);
-  CHECK(moves(0) == 1);
-  CHECK(moves(1.9) == 1);
-  CHECK(moves(2.1) == 0);
-}
-
 TEST_CASE("of moves that are not needed, the costly ones are dropped") {
   LoadSnapshot s = initial_snapshot(grid_layout(6, 1, 3), {1000, 1000, 1000});
   s.subdomains[1].remaining = 100;
