@@ -327,7 +327,7 @@ TEST_CASE("on an adversarial network each question has one answer, and what is a
   }
   for (const auto& [policy, tally] : tallies) {
     tally.print(policy);
-    CHECK(40 * tally.overfilled <= tally.runs);  // 9 of 400 by stealing
+    CHECK(50 * tally.overfilled <= tally.runs);
   }
   CHECK(saw_all());
 }

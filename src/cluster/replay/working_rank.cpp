@@ -98,18 +98,15 @@ void WorkingRank::balance() {
   const std::vector<balancer::ReportedLoad> own = loads();
   const balancer::EffortLog planning;
   const double start = std::exchange(assembled_since_, std::nullopt).value_or(transport_.now());
+  const double speed = options_.given_speed > 0 ? options_.given_speed : speed_.value();
   const double free_memory =
       options_.memory < balancer::kAmpleMemory ? options_.memory - occupied() : balancer::kAmpleMemory;
-  auto decision = controller_.think(transport_.now(), own, speed(), experience_.doubt(own), free_memory);
+  auto decision = controller_.think(transport_.now(), own, speed, experience_.doubt(own), free_memory);
   if (decision.assembles) assembled_since_ = start;
   transport_.spend(balancer::PlanningCosts{}.seconds(planning.efforts()) * options_.planning_speed);
   if (decision.planned) controller_.took(std::max(transport_.now() - start, options_.planning_speed > 0 ? 0 : 1e-3));
   for (auto& message : decision.messages) protocol_.advise(message.destination, balancer::encode(message.message));
   for (const auto& move : decision.moves) hand_over(move);
-}
-
-double WorkingRank::speed() const {
-  return options_.given_speed > 0 ? options_.given_speed : speed_.value();
 }
 
 double WorkingRank::occupied() const {
@@ -134,7 +131,8 @@ bool WorkingRank::work() {
   const SubdomainId id = order.front();
   CountedWork& job = jobs_.at(id);
   const bool starts = job.done <= 0;
-  const double slice = balancing_.triangles_between_looks(options_.slice, speed());
+  const bool has_time = options_.given_speed <= 0;
+  const double slice = has_time ? balancing_.triangles_between_looks(options_.slice, speed_.value()) : options_.slice;
   const double amount = std::min(slice, job.work - job.done);
   const double before = transport_.now();
   transport_.spend(amount);  // speeds of the network are triangles a second

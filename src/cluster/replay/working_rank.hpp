@@ -35,7 +35,7 @@ class WorkingRank {
     double done = 0;
   };
   struct Options {
-    double slice = 16384;    ///< triangles, at most
+    double slice = 16384;    ///< triangles, at most; always that many where the speed is given
     double given_speed = 0;  ///< triangles a second, where there is no time to measure one; 0: it is measured
     double memory = balancer::kAmpleMemory;  ///< triangles that it has memory for
     double planning_speed = 0;  ///< triangles a second of the machine whose planning costs are charged; 0: none are
@@ -61,8 +61,6 @@ class WorkingRank {
   void balance();
   void hand_over(const balancer::Move& move);
   bool work();
-  /// Triangles a second; 0: not known yet.
-  [[nodiscard]] double speed() const;
 
   protocol::Transport& transport_;
   std::shared_ptr<const balancer::Layout> layout_;
