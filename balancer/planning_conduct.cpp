@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "balancer/admissions.hpp"
+#include "balancer/effort.hpp"
+#include "balancer/mend_plan.hpp"
 #include "balancer/partners.hpp"
+#include "balancer/within_memory.hpp"
 
 namespace driftmesh::balancer {
 namespace {
@@ -136,7 +139,7 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
 
 /// The plan of the policy as far as it is worth its moves. If the policy offers single moves as well, a plan is asked
 /// for only where it may pay off, and kept as a whole, since what makes it better than those would be lost in parts, or
-/// not at all: it must end notably earlier, or leave less border between ranks for not too many moves.
+/// not at all: mended, it must end notably earlier, or as early with less border between ranks and not too many moves.
 std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation) {
   const bool leads = policy_->placement() == Placement::kLeader;
   const auto needed = [&](const std::vector<Move>& moves) {
@@ -154,32 +157,55 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot,
   planned_whole_ = true;
   whole_at_ = situation.now;
   if (plan == *single) return needed(plan);
-  std::vector<Move> whole = worth_moving(snapshot, plan, options_.cost, options_.worth, Kept::kAll);
   std::vector<Move> few = needed(*single);
-  const auto finish = [&](const std::vector<Move>& moves) {
-    return std::ranges::max(finishing_times(snapshot, moves, options_.cost));
-  };
-  const double notable = options_.worth.gain * ideal_time(snapshot), later = finish(whole) - finish(few);
-  const bool has_few_moves =
-      static_cast<double>(whole.size()) <= policy_->most_moves() * static_cast<double>(few.size());
+  std::vector<Move> whole =
+      worth_moving(snapshot, mended(plan, few, snapshot), options_.cost, options_.worth, Kept::kAll);
+  const double ideal = ideal_time(within_memory(snapshot)), later = finish(snapshot, whole) - finish(snapshot, few);
   const auto border = [&](const std::vector<Move>& moves) { return border_between_ranks(after(snapshot, moves)); };
-  const bool takes_whole = later < -notable || (later <= notable && has_few_moves && border(whole) < border(few));
-  overrule(takes_whole ? 0 : 1);
-  overruled_gain_ = takes_whole ? 0 : possible_gain(snapshot);
+  const bool takes_whole =
+      later < -options_.worth.gain * ideal ||
+      (later <= options_.worth.slack * ideal && whole.size() <= most_moves(few) && border(whole) < border(few));
+  overrule(takes_whole ? 1 : 0);
+  overruled_gain_ = takes_whole ? 0 : possible_gain(within_memory(snapshot));
   return takes_whole ? whole : few;
+}
+
+/// Seconds until all have finished what they then have.
+double PlanningConduct::finish(const LoadSnapshot& snapshot, std::span<const Move> moves) const {
+  return std::ranges::max(finishing_times(snapshot, moves, options_.cost));
+}
+
+/// The plan, so that it ends about as early as the few single moves with no more moves than it may have then. One that
+/// ends notably earlier may have any number.
+std::vector<Move> PlanningConduct::mended(std::span<const Move> plan, std::span<const Move> few,
+                                          const LoadSnapshot& snapshot) const {
+  const double ideal = ideal_time(within_memory(snapshot)), slack = options_.worth.slack * ideal;
+  const double as_made = finish(snapshot, plan), singly = finish(snapshot, few);
+  const bool is_better = as_made < singly - options_.worth.gain * ideal;
+  const double latest = singly + (1 - 1e-9) * slack;  // sums are rounded
+  return mend_plan(
+      snapshot, plan, options_.cost,
+      {std::min(std::max(as_made, ideal + slack), latest), latest, is_better ? SIZE_MAX : most_moves(few)});
+}
+
+std::size_t PlanningConduct::most_moves(std::span<const Move> few) const {
+  const double most = policy_->most_moves() * static_cast<double>(few.size());
+  return most < 1e15 ? static_cast<std::size_t>(most) : SIZE_MAX;
 }
 
 /// Not if an even load would gain less than planning takes, or less than when single moves were preferred to the last
 /// whole plan: what was no use with more to gain will be none with less.
 bool PlanningConduct::affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const {
   if (situation.now < next_whole_) return false;
-  return possible_gain(snapshot) > std::max(cost_of_whole(snapshot, situation), overruled_gain_);
+  return possible_gain(within_memory(snapshot)) > std::max(cost_of_whole(snapshot, situation), overruled_gain_);
 }
 
-/// What a plan of the policy takes, in seconds: what one has taken, if that is more than expected.
+/// What a whole plan takes, in seconds, mended: what one has taken, if that is more than expected.
 double PlanningConduct::cost_of_whole(const LoadSnapshot& snapshot, const Situation& situation) const {
   const double slower = situation.speed > 0 ? options_.reference_speed / situation.speed : 1;
-  return std::max(whole_cost_, slower * policy_->planning_seconds(snapshot));
+  const double parts = policy_->planning_seconds(snapshot);
+  const double mending = parts > 0 ? PlanningCosts{}.seconds(effort_of_mending(snapshot)) : 0;
+  return std::max(whole_cost_, slower * (parts + mending));
 }
 
 // A plan that took long has just been sent, and is not to be forgotten before it can have been carried out.

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "balancer/conduct.hpp"
@@ -41,6 +42,10 @@ class PlanningConduct {
   [[nodiscard]] Verdict judge(const Move& move, const Situation& situation, const Loads& own) const;
   void plan(const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] std::vector<Move> worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation);
+  [[nodiscard]] double finish(const LoadSnapshot& snapshot, std::span<const Move> moves) const;
+  [[nodiscard]] std::vector<Move> mended(std::span<const Move> plan, std::span<const Move> few,
+                                         const LoadSnapshot& snapshot) const;
+  [[nodiscard]] std::size_t most_moves(std::span<const Move> few) const;
   [[nodiscard]] bool affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const;
   [[nodiscard]] double cost_of_whole(const LoadSnapshot& snapshot, const Situation& situation) const;
   void advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own, Decision& decision);

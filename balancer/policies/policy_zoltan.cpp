@@ -4,6 +4,7 @@
 #include "balancer/effort.hpp"
 #include "balancer/remap_parts.hpp"
 #include "balancer/surplus.hpp"
+#include "balancer/within_memory.hpp"
 #include "balancer/zoltan/zoltan_partition.hpp"
 #include "base/letter_case.hpp"
 #include "driftmesh/policy.hpp"
@@ -19,47 +20,58 @@ bool has_own_graphs(const ZoltanParameters& parameters) {
   return package == parameters.end() || upper_case(package->second) == "PHG";
 }
 
-/// The length of the open borders of `s` with subdomains of `rank`.
-double border_with(const LoadSnapshot& snapshot, const SubdomainLoad& s, Rank rank) {
+/// The length of the open borders of `s` with subdomains of its owner.
+double border_inside(const LoadSnapshot& snapshot, const SubdomainLoad& s) {
   double length = 0;
   for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors) {
     const SubdomainLoad* const other = find(snapshot, n.subdomain);
-    if (other && other->owner == rank && is_open_border(snapshot, s, *other)) length += n.length;
+    if (other && other->owner == s.owner && is_open_border(snapshot, s, *other)) length += n.length;
   }
   return length;
 }
 
-/// Takes back moves without which the owner still finishes in time and no more border lies between ranks.
-void take_back_needless(const LoadSnapshot& from, LoadSnapshot& planned, double tolerance) {
-  const IdVector<Rank, double> speeds = assumed_speeds(from.ranks);
-  const double time = std::max(finishing_time(planned), ideal_time(from) * (1 + tolerance));
-  for (bool any = true; std::exchange(any, false);)
-    for (std::size_t i = 0; i < planned.subdomains.size(); ++i) {
-      SubdomainLoad& s = planned.subdomains[i];
-      const Rank owner = from.subdomains[i].owner;
-      RankLoad& home = planned.ranks[owner];
-      if (s.owner == owner || home.remaining + s.remaining > time * speeds[owner]) continue;
-      note_effort("border", 2);
-      if (border_with(planned, s, owner) < border_with(planned, s, s.owner)) continue;
-      home.remaining += s.remaining;
-      planned.ranks[s.owner].remaining -= s.remaining;
-      s.owner = owner;
-      any = true;
-    }
+/// Leaves where it is what does not fit into the memory of its new rank, and counts the rest there.
+void keep_within_memory(const LoadSnapshot& from, LoadSnapshot& planned) {
+  std::vector<std::pair<double, std::size_t>> newcomers;
+  for (std::size_t i = 0; i < planned.subdomains.size(); ++i) {
+    SubdomainLoad& s = planned.subdomains[i];
+    if (s.owner != from.subdomains[i].owner) newcomers.emplace_back(-border_inside(planned, s), i);
+  }
+  std::ranges::sort(newcomers);
+  for (const auto& [border, i] : newcomers) {
+    SubdomainLoad& s = planned.subdomains[i];
+    double& free = planned.ranks[s.owner].free_memory;
+    if (memory_for(s) > free)
+      s.owner = from.subdomains[i].owner;
+    else
+      free -= memory_for(s);
+  }
+}
+
+/// How many subdomains a part has on average, where large ones count for what they are: as many as if all parts were
+/// made of subdomains of equal work and as uneven as these.
+double subdomains_per_part(const LoadSnapshot& snapshot) {
+  double work = 0, squares = 0;
+  for (const SubdomainLoad& s : snapshot.subdomains) {
+    work += s.remaining;
+    squares += s.remaining * s.remaining;
+  }
+  return squares > 0 ? work * work / squares / static_cast<double>(snapshot.ranks.size()) : 0;
 }
 
 /// Parts by Zoltan, in proportion to the speeds of the ranks: compact and, with the approach repartition or refine,
 /// close to the current distribution. Small imbalances are fixed by moving single subdomains instead of making new
-/// parts.
+/// parts, and so are those among few subdomains, of which no even parts can be made.
 class ZoltanPolicy final : public Policy {
  public:
   ZoltanPolicy(ZoltanParameters parameters, Placement placement, double touch_up, const Dealing& dealing,
-               double most_moves)
+               double most_moves, double part_size)
       : parameters_(std::move(parameters)),
         placement_(placement),
         touch_up_(touch_up),
         dealing_(dealing),
-        most_moves_(most_moves) {}
+        most_moves_(most_moves),
+        part_size_(part_size) {}
 
   [[nodiscard]] Placement placement() const override { return placement_; }
   // A touch-up only deals single subdomains.
@@ -69,15 +81,16 @@ class ZoltanPolicy final : public Policy {
 
   [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override {
     if (snapshot.subdomains.empty() || snapshot.ranks.size() < 2) return {};
-    if (wants_touch_up_alone(snapshot)) return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
-    const std::vector<Part> parts = zoltan_partition(snapshot, parameters_);
-    const auto owners = keeps_parts() ? owners_of(parts) : remap_parts(snapshot, parts, dealing_.tolerance);
-    LoadSnapshot planned = snapshot;
+    if (has_no_use_for_parts(snapshot)) return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
+    const LoadSnapshot possible = within_memory(snapshot);
+    const std::vector<Part> parts = zoltan_partition(possible, parameters_);
+    const auto owners = keeps_parts() ? owners_of(parts) : remap_parts(possible, parts, dealing_.tolerance);
+    LoadSnapshot planned = possible;
     for (std::size_t i = 0; i < owners.size(); ++i)
       if (!planned.subdomains[i].fixed) planned.subdomains[i].owner = owners[i];
+    keep_within_memory(snapshot, planned);
     sum_up(planned);
     if (dealing_.polish) planned = deal_surplus(planned, dealing_.tolerance);
-    take_back_needless(snapshot, planned, dealing_.tolerance);
     return moves_between(snapshot, planned);
   }
 
@@ -86,7 +99,7 @@ class ZoltanPolicy final : public Policy {
   }
 
   [[nodiscard]] double planning_seconds(const LoadSnapshot& snapshot) const override {
-    return wants_touch_up_alone(snapshot) ? 0 : PlanningCosts{}.seconds(effort_of_parts(snapshot, parameters_));
+    return has_no_use_for_parts(snapshot) ? 0 : PlanningCosts{}.seconds(effort_of_parts(snapshot, parameters_));
   }
 
   [[nodiscard]] double most_moves() const override { return most_moves_; }
@@ -107,6 +120,9 @@ class ZoltanPolicy final : public Policy {
     return owners;
   }
 
+  [[nodiscard]] bool has_no_use_for_parts(const LoadSnapshot& snapshot) const {
+    return wants_touch_up_alone(snapshot) || subdomains_per_part(snapshot) < part_size_;
+  }
   // Depends only on the states of ranks, which are equal everywhere.
   [[nodiscard]] bool wants_touch_up_alone(const LoadSnapshot& snapshot) const {
     return finishing_time(snapshot) <= (1 + touch_up_) * ideal_time(snapshot);
@@ -117,6 +133,7 @@ class ZoltanPolicy final : public Policy {
   double touch_up_;  // of the ideal time
   Dealing dealing_;
   double most_moves_;
+  double part_size_;  // subdomains
 };
 
 }  // namespace
@@ -150,8 +167,9 @@ std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
   dealing.tolerance = parameters.number("tolerance", dealing.tolerance, 0, 10);
   const double touch_up = parameters.number("touch-up", 0.1, 0, 10);
   const double most_moves = parameters.number("most-moves", 2, 0, 1e9);
+  const double part_size = parameters.number("part-size", 4, 0, 1e9);
   return std::make_unique<ZoltanPolicy>(std::move(all), collective ? Placement::kCollective : Placement::kLeader,
-                                        touch_up, dealing, most_moves);
+                                        touch_up, dealing, most_moves, part_size);
 }
 
 }  // namespace driftmesh::balancer

@@ -10,6 +10,7 @@
 #include "app/thread_seconds.hpp"
 #include "balancer/effort.hpp"
 #include "balancer/knowledge.hpp"
+#include "balancer/mend_plan.hpp"
 #include "balancer/move_cost.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "balancer/rank_board.hpp"
@@ -95,6 +96,13 @@ class Measured {
   std::map<std::string, Sum> sums_;
 };
 
+/// The same, and each part belongs to the rank of its number.
+LoadSnapshot in_parts(LoadSnapshot snapshot, const std::vector<Part>& parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) snapshot.subdomains[i].owner = Rank{to_int(parts[i])};
+  sum_up(snapshot);
+  return snapshot;
+}
+
 void measure_size(Measured& measured, std::int32_t side, std::int32_t ranks) {
   const auto layout = square(side, ranks);
   const Knowledge equal = knowledge_of(layout, 1e6), unequal = knowledge_of(layout, 0.5e6);
@@ -116,6 +124,9 @@ void measure_size(Measured& measured, std::int32_t side, std::int32_t ranks) {
     if (parameters["LB_METHOD"] == "GRAPH") parameters["GRAPH_PACKAGE"] = "PHG";
     measured.add(lower_case(method), [&] { parts = zoltan_partition(snapshot, parameters); });
   }
+  const std::vector<Move> whole = moves_between(snapshot, in_parts(snapshot, parts));
+  const double soon = 1.03 * ideal_time(snapshot);
+  measured.add("mend", [&] { static_cast<void>(mend_plan(snapshot, whole, {}, {soon, soon, whole.size() / 2})); });
   measured.add("remap", [&] { static_cast<void>(remap_parts(snapshot, parts, 0.02)); });
 }
 

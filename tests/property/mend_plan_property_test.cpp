@@ -1,0 +1,178 @@
+// Plans made at random, as bad as can be, and what mending makes of them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "balancer/mend_plan.hpp"
+#include "balancer/within_memory.hpp"
+#include "property/cases.hpp"
+#include "support/load_snapshots.hpp"
+
+using namespace driftmesh;
+using namespace driftmesh::balancer;
+using driftmesh::testing::random_snapshot;
+using driftmesh::testing::time_with;
+
+namespace {
+
+constexpr MoveCost kFree{.latency = 0, .bandwidth = 1e300, .pack_work = 0};
+
+/// Memory for what comes by the moves, and some more where ranks are lucky.
+IdVector<Rank, double> memory_needed(const LoadSnapshot& snapshot, const std::vector<Move>& moves) {
+  IdVector<Rank, double> needed(snapshot.ranks.size(), 0);
+  for (const Move& move : moves) needed[move.destination] += memory_for(*find(snapshot, move.subdomain));
+  return needed;
+}
+
+struct Case {
+  LoadSnapshot snapshot;
+  std::vector<Move> moves;
+  double finish = 0;  ///< of the moves
+};
+
+Case random_case(std::mt19937_64& random) {
+  Case c{random_snapshot(random), {}, 0};
+  const auto fixed = random() % 3, moving = random() % 11;  // in tenths
+  for (SubdomainLoad& s : c.snapshot.subdomains) {
+    s.fixed = random() % 10 < fixed;
+    const Rank to{static_cast<std::int32_t>(random() % c.snapshot.ranks.size())};
+    if (!s.fixed && to != s.owner && random() % 10 < moving) c.moves.push_back({s.id, to});
+  }
+  const IdVector<Rank, double> needed = memory_needed(c.snapshot, c.moves);
+  const bool scarce = random() % 2 == 0;
+  for (const Rank r : ids_of(needed))
+    if (scarce) c.snapshot.ranks[r].free_memory = needed[r] + static_cast<double>(random() % 2000);
+  c.finish = time_with(c.snapshot, c.moves);
+  return c;
+}
+
+void check_valid(const Case& c, const std::vector<Move>& moves) {
+  std::set<SubdomainId> moved;
+  for (const Move& move : moves) {
+    CAPTURE(to_int(move.subdomain));
+    const SubdomainLoad* const s = find(c.snapshot, move.subdomain);
+    REQUIRE(s != nullptr);
+    REQUIRE(!s->fixed);
+    REQUIRE(move.destination != s->owner);
+    REQUIRE(c.snapshot.ranks.has(move.destination));
+    REQUIRE(moved.insert(move.subdomain).second);
+  }
+  const IdVector<Rank, double> needed = memory_needed(c.snapshot, moves);
+  for (const Rank r : ids_of(needed)) REQUIRE(needed[r] <= c.snapshot.ranks[r].free_memory * (1 + 1e-12) + 1e-6);
+}
+
+double border(const Case& c, const std::vector<Move>& moves) {
+  return border_between_ranks(after(c.snapshot, moves));
+}
+
+}  // namespace
+
+TEST_CASE("a mended plan is valid, no later than it may be, and keeps to the number of moves") {
+  auto random = testing::seeded_generator("mend plan");
+  int fewer = 0, earlier = 0, shorter = 0;
+  for (std::int64_t i = testing::case_count(1000); i > 0; --i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 one(seed);
+    const Case c = random_case(one);
+    const double latest = c.finish * std::uniform_real_distribution<double>(0.5, 1.5)(one);
+    const double wanted = latest * std::uniform_real_distribution<double>(0.7, 1)(one);
+    const std::size_t most = one() % (c.moves.size() + 1);
+    const std::vector<Move> mended = mend_plan(c.snapshot, c.moves, kFree, {wanted, latest, most});
+    check_valid(c, mended);
+    const double finish = time_with(c.snapshot, mended);
+    REQUIRE(finish <= std::max(latest, c.finish) * (1 + 1e-9));
+    REQUIRE(mended == mend_plan(c.snapshot, c.moves, kFree, {wanted, latest, most}));
+    earlier += latest < c.finish && finish <= latest;
+
+    // With all the time in the world there need not be too many.
+    const std::vector<Move> few = mend_plan(c.snapshot, c.moves, kFree, {HUGE_VAL, HUGE_VAL, most});
+    check_valid(c, few);
+    REQUIRE(few.size() <= most);
+    fewer += few.size() < c.moves.size();
+
+    // If it may be as it is, it leaves no more border and has no more moves.
+    const std::vector<Move> all = mend_plan(c.snapshot, c.moves, kFree, {c.finish, c.finish, c.moves.size()});
+    check_valid(c, all);
+    REQUIRE(time_with(c.snapshot, all) <= c.finish * (1 + 1e-9));
+    REQUIRE(all.size() <= c.moves.size());
+    REQUIRE(border(c, all) <= border(c, c.moves) + 1e-9);
+    shorter += border(c, all) < border(c, c.moves) - 1e-9;
+  }
+  std::printf("fewer moves %d, earlier %d, less border %d\n", fewer, earlier, shorter);
+  CHECK(fewer > 0);
+  CHECK(earlier > 0);
+  CHECK(shorter > 0);
+}
+
+TEST_CASE("mending counts what moves cost") {
+  auto random = testing::seeded_generator("cost of mended plans");
+  for (std::int64_t i = testing::case_count(300); i > 0; --i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 one(seed);
+    Case c = random_case(one);
+    // finishing_times() leaves out moves that cost more than the work they move.
+    for (SubdomainLoad& s : c.snapshot.subdomains) s.bytes = static_cast<std::uint64_t>(s.remaining);
+    std::erase_if(c.moves, [&](const Move& move) { return find(c.snapshot, move.subdomain)->remaining < 1e-3; });
+    for (RankLoad& rank : c.snapshot.ranks) rank.free_memory = kAmpleMemory;
+    const MoveCost cost{.latency = 0.1, .bandwidth = 1e3, .pack_work = 0.2};
+    const auto finish = [&](const std::vector<Move>& moves) {
+      return std::ranges::max(finishing_times(c.snapshot, moves, cost));
+    };
+    const double latest = finish(c.moves);
+    const std::vector<Move> mended = mend_plan(c.snapshot, c.moves, cost, {latest, latest, c.moves.size()});
+    REQUIRE(finish(mended) <= latest * (1 + 1e-9));
+  }
+}
+
+TEST_CASE("chains and cycles of moves become short, and parts stay compact") {
+  // A strip on three ranks. Each has four; the first gives two to the second, which gives two to the third.
+  const LoadSnapshot strip = testing::initial_snapshot(testing::grid_layout(12, 1, 3), {100, 100, 100});
+  const std::vector<Move> cycle{{SubdomainId{0}, Rank{1}}, {SubdomainId{4}, Rank{2}}, {SubdomainId{8}, Rank{0}}};
+  CHECK(mend_plan(strip, cycle, kFree, {40, 40, 3}).empty());
+
+  LoadSnapshot lopsided = strip;
+  for (SubdomainLoad& s : lopsided.subdomains)
+    if (s.owner == Rank{2}) s.owner = Rank{to_int(s.id) < 10 ? 0 : 2};
+  sum_up(lopsided);  // 6, 4 and 2
+  const std::vector<Move> chain{
+      {SubdomainId{2}, Rank{1}}, {SubdomainId{3}, Rank{1}}, {SubdomainId{6}, Rank{2}}, {SubdomainId{7}, Rank{2}}};
+  const std::vector<Move> direct = mend_plan(lopsided, chain, kFree, {40, 40, 2});
+  CHECK(direct.size() == 2);
+  CHECK(time_with(lopsided, direct) == doctest::Approx(40));
+  for (const Move& move : direct) CHECK(move.destination == Rank{2});
+}
+
+TEST_CASE("what is in proportion to speeds within memory fits, and all work is done") {
+  auto random = testing::seeded_generator("within memory");
+  int slower = 0;
+  for (std::int64_t i = testing::case_count(1000); i > 0; --i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 one(seed);
+    LoadSnapshot snapshot = random_snapshot(one);
+    const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
+    CHECK(ideal_time(within_memory(snapshot)) == doctest::Approx(ideal_time(snapshot)));
+    for (RankLoad& rank : snapshot.ranks)
+      if (one() % 2 == 0) rank.free_memory = ideal_time(snapshot) * std::uniform_real_distribution<double>(0, 3)(one);
+    const bool someone_has_plenty =
+        std::ranges::any_of(snapshot.ranks, [](const RankLoad& rank) { return rank.free_memory == kAmpleMemory; });
+    const LoadSnapshot possible = within_memory(snapshot);
+    const double ideal = ideal_time(possible);
+    REQUIRE(ideal >= ideal_time(snapshot) * (1 - 1e-9));
+    for (const Rank r : ids_of(speeds)) {
+      REQUIRE(possible.ranks[r].speed <= speeds[r] * (1 + 1e-9));
+      if (!someone_has_plenty) continue;
+      const double share = ideal * possible.ranks[r].speed, has = snapshot.ranks[r].remaining;
+      REQUIRE(share <= std::max(has, has + snapshot.ranks[r].free_memory) * (1 + 1e-9));
+      if (possible.ranks[r].speed < speeds[r] * (1 - 1e-9)) {
+        ++slower;
+        REQUIRE(share >= (has + snapshot.ranks[r].free_memory) / 1.03 * (1 - 1e-9));
+      }
+    }
+  }
+  CHECK(slower > 0);
+}
