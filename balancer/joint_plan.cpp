@@ -6,7 +6,7 @@
 
 #include "balancer/remap_parts.hpp"
 #include "balancer/surplus.hpp"
-#include "protocol/messages.hpp"
+#include "protocol/packed_size.hpp"
 
 namespace driftmesh::balancer {
 namespace {

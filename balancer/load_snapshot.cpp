@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "balancer/effort.hpp"
+#include "protocol/packed_size.hpp"
 
 namespace driftmesh::balancer {
 namespace {
@@ -18,8 +19,7 @@ auto* find_in(States& states, SubdomainId id) {
 }  // namespace
 
 double memory_for(const SubdomainLoad& s) {
-  constexpr double kPackedTriangle = 40;  // bytes, at least
-  return s.remaining + static_cast<double>(s.bytes) / kPackedTriangle;
+  return s.remaining + static_cast<double>(s.bytes) / protocol::kBytesPerTriangle;
 }
 
 bool leaves_before(const SubdomainLoad& a, const SubdomainLoad& b) {

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "balancer/effort.hpp"
-#include "protocol/messages.hpp"
+#include "protocol/packed_size.hpp"
 
 namespace driftmesh::balancer {
 namespace {

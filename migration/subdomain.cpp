@@ -8,6 +8,7 @@
 #include "driftmesh/error.hpp"
 #include "mesh/forecast.hpp"
 #include "mesh/refiner.hpp"
+#include "protocol/packed_size.hpp"
 
 namespace driftmesh {
 namespace {
@@ -106,8 +107,8 @@ std::int64_t Subdomain::triangles() const {
 }
 
 std::uint64_t Subdomain::packed_bytes() const {
-  constexpr std::uint64_t kOverhead = 200, kTriangle = 40;  // with its half of a vertex, and what refinement has queued
-  return kOverhead + kTriangle * static_cast<std::uint64_t>(triangles()) +
+  constexpr std::uint64_t kOverhead = 200;
+  return kOverhead + protocol::kBytesPerTriangle * static_cast<std::uint64_t>(triangles()) +
          sizeof(SplitPoint<GlobalRootId>) * pending_.size();
 }
 

@@ -30,11 +30,7 @@ struct SplitBatch {
   friend bool operator==(const SplitBatch&, const SplitBatch&) = default;
 };
 
-/// Subdomains with a larger estimated packed size do not move: a message must stay below 2 GiB, and the estimate may be
-/// a quarter too low.
-inline constexpr std::uint64_t kMostPackedBytes = 1'600'000'000;
-
-/// Moves a subdomain to the receiver.
+/// Moves a subdomain to the receiver (packed_size.hpp: which ones).
 struct HandOff {
   SubdomainId subdomain{};
   Epoch epoch = 0;  ///< with the receiver as owner

@@ -7,6 +7,7 @@
 
 #include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
+#include "runtime/run_plan.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -80,7 +81,6 @@ void read_options(const Record& record, RecordedRun& run) {
   options.work_to_start /= scale;
   options.cost.latency = run.latency + 2 * run.message_overhead;
   options.cost.bandwidth = run.bandwidth;
-  constexpr double kTrianglesPerPoint = 2;
   run.slice = kTrianglesPerPoint * record.get<double>("/experiment/run.slice");
 }
 

@@ -8,8 +8,9 @@
 namespace driftmesh {
 
 double reference_speed(const CostModel& costs) {
-  constexpr double kTriangles = 5000, kTrianglesPerPoint = 1.886;
-  return kTriangles / (costs.start + kTriangles / kTrianglesPerPoint * costs.point);
+  constexpr double kTriangles = 5000, kPerPointWithBorders = 0.943 * kTrianglesPerPoint;
+  static_assert(kPerPointWithBorders == 1.886);
+  return kTriangles / (costs.start + kTriangles / kPerPointWithBorders * costs.point);
 }
 
 CostModel scaled(CostModel costs, double scale) {

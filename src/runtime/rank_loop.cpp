@@ -10,6 +10,7 @@
 #include "driftmesh/error.hpp"
 #include "geometry/midpoint.hpp"
 #include "protocol/codec.hpp"
+#include "protocol/packed_size.hpp"
 #include "protocol/protocol_error.hpp"
 
 namespace driftmesh {
@@ -202,7 +203,6 @@ Shift& RankLoop::begin(SubdomainId id) {
 // Insertions. Where nothing is balanced, only points of neighbors wait for its end.
 std::int64_t RankLoop::slice() const {
   if (!controller_) return plan_.work.slice;
-  constexpr double kTrianglesPerPoint = 2;
   const auto most = kTrianglesPerPoint * static_cast<double>(plan_.work.slice);
   const double triangles = plan_.balancing.options.triangles_between_looks(most, speed_.value());
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(triangles / kTrianglesPerPoint));

@@ -27,6 +27,9 @@ struct Balancing {
   balancer::ControllerOptions options;
 };
 
+/// That an insertion adds, but for points on borders.
+inline constexpr double kTrianglesPerPoint = 2;
+
 /// How each rank works, the same on all ranks.
 struct WorkSettings {
   std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;  ///< most SPLITs in one message

@@ -14,6 +14,7 @@
 #include "mesh/triangulation_fault.hpp"
 #include "migration/packed_form.hpp"
 #include "property/cases.hpp"
+#include "protocol/packed_size.hpp"
 #include "support/random_subdomains.hpp"
 
 // Subdomains that are packed and unpacked at random moments, compared with twins that stay in place: both must reach

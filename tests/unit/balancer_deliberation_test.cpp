@@ -5,7 +5,7 @@
 
 #include "balancer/deliberation.hpp"
 #include "balancer/move_cost.hpp"
-#include "protocol/messages.hpp"
+#include "protocol/packed_size.hpp"
 #include "support/id_literals.hpp"
 #include "support/load_snapshots.hpp"
 

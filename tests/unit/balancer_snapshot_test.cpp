@@ -4,7 +4,7 @@
 #include "balancer/remap_parts.hpp"
 #include "balancer/speed_estimate.hpp"
 #include "balancer/surplus.hpp"
-#include "protocol/messages.hpp"
+#include "protocol/packed_size.hpp"
 #include "support/id_literals.hpp"
 #include "support/load_snapshots.hpp"
 

@@ -7,6 +7,7 @@
 #include "balancer/codec.hpp"
 #include "balancer/effort.hpp"
 #include "protocol/codec.hpp"
+#include "protocol/packed_size.hpp"
 
 namespace driftmesh {
 namespace {
@@ -20,8 +21,8 @@ IdVector<SubdomainId, Rank> owners_of(const balancer::Layout& layout) {
 }  // namespace
 
 std::uint64_t CountedWork::bytes() const {
-  constexpr double kPackedTriangle = 40;
-  return 40 + static_cast<std::uint64_t>(kPackedTriangle * done);
+  constexpr std::uint64_t kOverhead = 40;
+  return kOverhead + static_cast<std::uint64_t>(protocol::kBytesPerTriangle * done);
 }
 
 WorkingRank::WorkingRank(protocol::Transport& transport, const std::shared_ptr<const balancer::Layout>& layout,
