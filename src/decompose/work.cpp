@@ -4,13 +4,6 @@
 
 namespace driftmesh {
 
-double area_bound(const QualityBounds& bounds, std::uint16_t region) {
-  double bound = bounds.max_area > 0 ? bounds.max_area : kNoBound;
-  if (region < bounds.region_max_area.size() && bounds.region_max_area[region] > 0)
-    bound = std::min(bound, bounds.region_max_area[region]);
-  return bound;
-}
-
 double work_density(const QualityBounds& bounds, std::uint16_t region) {
   if (const double bound = area_bound(bounds, region); bound < kNoBound) return kTrianglesPerBound / bound;
   double largest = 0;

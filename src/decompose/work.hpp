@@ -10,10 +10,6 @@ namespace driftmesh {
 /// The number of triangles that refinement makes, relative to area / bound (measured at 20 degrees).
 inline constexpr double kTrianglesPerBound = 1.55;
 
-/// The largest area that a triangle in the region with this label may have; kNoBound if there is no bound. Does not
-/// consider the size field.
-[[nodiscard]] double area_bound(const QualityBounds& bounds, std::uint16_t region);
-
 /// The density of work, per area, in the region with this label. 1 everywhere if there is no bound on size; if only
 /// some regions have one, the others count as a tenth of the least dense of these.
 [[nodiscard]] double work_density(const QualityBounds& bounds, std::uint16_t region);

@@ -48,16 +48,8 @@ double integrate_size(const SizeField& field, double twice_area_bound, const Cor
 
 }  // namespace
 
-std::vector<double> twice_area_bounds(const QualityBounds& bounds) {
-  const auto twice = [](double area) { return area > 0 ? 2 * area * (1 - 1e-12) : kNoBound; };
-  std::vector<double> by_region{twice(bounds.max_area)};
-  for (std::size_t r = 1; r < bounds.region_max_area.size(); ++r)
-    by_region.push_back(std::min(twice(bounds.max_area), twice(bounds.region_max_area[r])));
-  return by_region;
-}
-
 BoundForecast::BoundForecast(const Triangulation& mesh, const QualityBounds& bounds)
-    : mesh_(mesh), size_(bounds.size), twice_area_bounds_(twice_area_bounds(bounds)) {
+    : mesh_(mesh), size_(bounds.size), areas_(mesh, bounds, kMarginOfRefinement) {
   if (size_ == nullptr) return;
   at_vertices_.resize(mesh.points.size(), kNotAsked);
   for (const TriangleId t : ids_of(mesh.triangles)) {
@@ -67,15 +59,10 @@ BoundForecast::BoundForecast(const Triangulation& mesh, const QualityBounds& bou
   }
 }
 
-double BoundForecast::twice_area_bound(TriangleId t) const {
-  return twice_area_bounds_.size() > 1 && !mesh_.region.empty() ? twice_area_bounds_[mesh_.region[t]]
-                                                                : twice_area_bounds_[0];
-}
-
 double BoundForecast::in(TriangleId t, double twice_area) const {
-  if (size_ == nullptr) return twice_area / (kMeanArea * twice_area_bound(t));
+  if (size_ == nullptr) return twice_area / (kMeanArea * areas_.constant(t));
   const auto& v = mesh_.triangles[t].vertex;
-  return integrate_size(*size_, twice_area_bound(t), {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)},
+  return integrate_size(*size_, areas_.constant(t), {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)},
                         {at_vertices_[v[0]], at_vertices_[v[1]], at_vertices_[v[2]]});
 }
 
@@ -100,9 +87,8 @@ double BoundForecast::asked() const {
 /// without falling that low, and each counts for what it asks or for a triangle.
 double most_in_total(const Triangulation& mesh, const QualityBounds& bounds) {
   constexpr double kPiecesPerTriangle = 5;
-  const std::vector<double> by_region = twice_area_bounds(bounds);
   const double of_least = bounds.size != nullptr ? twice_area_of_edge(bounds.size->least()) : kNoBound;
-  const double least = std::min(of_least, *std::ranges::min_element(by_region));
+  const double least = std::min(of_least, AreaBounds(mesh, bounds, kMarginOfRefinement).least_constant());
   double twice = 0;
   for (const TriangleId t : ids_of(mesh.triangles))
     if (mesh.triangles[t].alive()) twice += 2 * signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
@@ -110,7 +96,7 @@ double most_in_total(const Triangulation& mesh, const QualityBounds& bounds) {
 }
 
 bool BoundForecast::any() const {
-  return size_ != nullptr || std::ranges::any_of(twice_area_bounds_, [](double bound) { return bound < kNoBound; });
+  return size_ != nullptr || areas_.least_constant() < kNoBound;
 }
 
 }  // namespace driftmesh

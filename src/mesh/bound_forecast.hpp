@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include "geometry/triangle_geometry.hpp"
+#include "mesh/area_bounds.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/triangulation.hpp"
 
@@ -11,7 +10,7 @@ namespace driftmesh {
 /// How many triangles the bounds on area and size ask for, by themselves: the area over the mean area of triangles.
 class BoundForecast {
  public:
-  /// Both must outlive it. `bounds` must be possible.
+  /// Mesh and size field must outlive it. `bounds` must be possible.
   BoundForecast(const Triangulation& mesh, const QualityBounds& bounds);
 
   /// The number in triangle t, which has this area, as a fraction: 0 without a bound.
@@ -25,19 +24,14 @@ class BoundForecast {
   [[nodiscard]] bool any() const;
 
  private:
-  [[nodiscard]] double twice_area_bound(TriangleId t) const;
-
   const Triangulation& mesh_;
   const SizeField* size_;
-  std::vector<double> twice_area_bounds_;   // by region label
+  AreaBounds areas_;
   IdVector<VertexId, double> at_vertices_;  // of the size field, where there are triangles
 };
 
 /// Not less than the total, and takes no more than a look at each triangle: with the least length that the size field
 /// has anywhere. Not a finite number if that is unknown.
 [[nodiscard]] double most_in_total(const Triangulation& mesh, const QualityBounds& bounds);
-
-/// Twice the largest area of triangles by region label, with a margin for rounding; the first is that of the request.
-[[nodiscard]] std::vector<double> twice_area_bounds(const QualityBounds& bounds);
 
 }  // namespace driftmesh

@@ -1,5 +1,6 @@
 #include "mesh/bounds.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "driftmesh/error.hpp"
@@ -11,6 +12,13 @@ void require_possible(const QualityBounds& bounds) {
     throw Error("the angle bound must lie between 0 and " + std::to_string(static_cast<int>(kMaxAngle)) +
                 " degrees: refinement may not terminate above that");
   if (std::isnan(bounds.max_area)) throw Error("the area bound is not a number");
+}
+
+double area_bound(const QualityBounds& bounds, std::uint16_t region) {
+  double bound = bounds.max_area > 0 ? bounds.max_area : kNoBound;
+  if (region < bounds.region_max_area.size() && bounds.region_max_area[region] > 0)
+    bound = std::min(bound, bounds.region_max_area[region]);
+  return bound;
 }
 
 }  // namespace driftmesh

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -38,5 +39,9 @@ void require_possible(const QualityBounds& bounds);
 }
 
 inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+/// The largest area that a triangle in the region with this label may have; kNoBound if there is no bound. Does not
+/// consider the size field.
+[[nodiscard]] double area_bound(const QualityBounds& bounds, std::uint16_t region);
 
 }  // namespace driftmesh

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "geometry/triangle_geometry.hpp"
+#include "mesh/area_bounds.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/shape_columns.hpp"
 
@@ -22,56 +23,28 @@ int apex_of_shortest_edge(const Triangulation& mesh, TriangleId t) {
   return static_cast<int>(std::min_element(squared.begin(), squared.end()) - squared.begin());
 }
 
-/// Decides which triangles are above their area bound.
-class AreaBounds {
+/// The values of a size field at vertices, each asked for once, when it is needed.
+class SizeAtVertices {
  public:
-  AreaBounds(const Triangulation& mesh, const QualityBounds& bounds) : mesh_(mesh), bounds_(bounds) {
-    if (bounds.size == nullptr) return;
-    twice_area_of_least_ = twice_area_of_edge(bounds.size->least());
-    size_.assign(mesh.points.size(), kNotAsked);
-  }
+  SizeAtVertices(const Triangulation& mesh, const SizeField* field)
+      : mesh_(mesh), field_(field), values_(field != nullptr ? mesh.points.size() : 0, kNotAsked) {}
 
-  /// Whether no triangle of this area, or of less, can be above its bound, wherever it is.
-  [[nodiscard]] bool surely_kept_below(double twice_area) const {
-    const bool one_bound = bounds_.size == nullptr && (bounds_.region_max_area.empty() || mesh_.region.empty());
-    return one_bound && twice_area <= 2 * greatest_bound();
-  }
-  [[nodiscard]] bool exceeded(TriangleId t, double twice_area) {
-    return twice_area > 2 * constant_bound(t) ||
-           (bounds_.size != nullptr && twice_area > twice_area_of_least_ && too_large_for_size(t, twice_area));
+  [[nodiscard]] double least_at_corners(TriangleId t) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const VertexId v : mesh_.triangles[t].vertex) least = std::min(least, at(v));
+    return least;
   }
 
  private:
-  [[nodiscard]] double greatest_bound() const { return bounds_.max_area > 0 ? bounds_.max_area : kNoBound; }
-
-  [[nodiscard]] double constant_bound(TriangleId t) const {
-    const double bound = greatest_bound();
-    if (bounds_.region_max_area.empty() || mesh_.region.empty()) return bound;
-    const double own = bounds_.region_max_area[mesh_.region[t]];
-    return own > 0 ? std::min(bound, own) : bound;
-  }
-
-  [[nodiscard]] bool too_large_for_size(TriangleId t, double twice_area) {
-    const CornerPoints corners{mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
-    if (twice_area <= twice_area_of_edge(bounds_.size->least_near(corners))) return false;
-    double h = std::numeric_limits<double>::infinity();
-    for (const VertexId v : mesh_.triangles[t].vertex) h = std::min(h, size_at(v));
-    if (twice_area > twice_area_of_edge(h)) return true;
-    if (twice_area <= twice_area_of_edge(bounds_.size->least_between(corners, h))) return false;
-    h = std::min(h, bounds_.size->edge_length(centroid(corners)));
-    return twice_area > twice_area_of_edge(h) || bounds_.size->falls_below(corners, edge_of_twice_area(twice_area));
-  }
-
-  [[nodiscard]] double size_at(VertexId v) {
-    if (size_[v] == kNotAsked) size_[v] = bounds_.size->edge_length(mesh_.points[v]);
-    return size_[v];
+  [[nodiscard]] double at(VertexId v) {
+    if (values_[v] == kNotAsked) values_[v] = field_->edge_length(mesh_.points[v]);
+    return values_[v];
   }
 
   static constexpr double kNotAsked = 0;  // no value of a size field
   const Triangulation& mesh_;
-  const QualityBounds& bounds_;
-  double twice_area_of_least_ = 0;
-  IdVector<VertexId, double> size_;  // of the field at each vertex, where it was needed
+  const SizeField* field_;
+  IdVector<VertexId, double> values_;
 };
 
 /// Calls visit(triangles, shapes) for the live triangles in their order, block by block. Corners are prefetched some
@@ -121,7 +94,15 @@ ExceptionCause cause_of(const Triangulation& mesh, TriangleId t) {
 Inspection inspect(const Triangulation& mesh, const QualityBounds& bounds) {
   Inspection found;
   const double sine = std::sin(bounds.min_angle / kDegrees);
-  AreaBounds areas(mesh, bounds);
+  const AreaBounds areas(mesh, bounds);
+  SizeAtVertices sizes(mesh, bounds.size);
+  const auto is_large = [&](TriangleId t, double twice_area) {
+    if (twice_area > areas.constant(t)) return true;
+    if (!areas.has_size()) return false;
+    const CornerPoints corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+    return areas.above_size(
+        corners, twice_area, [&] { return sizes.least_at_corners(t); }, true);
+  };
   double least_cosine = 1, greatest_cosine = -1;
   double least_area = kNoBound, greatest_area = 0;  // twice
   visit_blocks(mesh, [&](std::span<const TriangleId> block, ShapeColumns& shapes) {
@@ -135,9 +116,9 @@ Inspection inspect(const Triangulation& mesh, const QualityBounds& bounds) {
     if (sum.least_margin < 0)
       for (std::size_t k = 0; k < block.size(); ++k)
         if (shapes.is_skinny(k)) found.exceptions.skinny.push_back(skinny_item(mesh, block[k]));
-    if (areas.surely_kept_below(sum.greatest_twice_area)) return;
+    if (areas.surely_hold(sum.greatest_twice_area)) return;
     for (std::size_t k = 0; k < block.size(); ++k)
-      if (areas.exceeded(block[k], shapes.twice_area(k))) found.exceptions.large.push_back(block[k]);
+      if (is_large(block[k], shapes.twice_area(k))) found.exceptions.large.push_back(block[k]);
   });
   found.shape.smallest = degrees_of(greatest_cosine);
   found.shape.largest = degrees_of(least_cosine);

@@ -49,16 +49,13 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds)
     : Refiner(mesh, bounds, initial_state(mesh, bounds)) {}
 
 Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state)
-    : mesh_(mesh), bounds_(bounds), cavity_(mesh), state_(std::move(state)) {
+    : mesh_(mesh), bounds_(bounds), cavity_(mesh), areas_(mesh, bounds, kMarginOfRefinement), state_(std::move(state)) {
   require_possible(bounds);
   // The relative margin makes the bound hold for readers of the file, which may round differently.
   const double sine = std::sin(radians(bounds.min_angle));
   sin_squared_ = sine * sine * (1 + 1e-9);
   off_center_factor_ = bounds.min_angle > 0 ? off_center_factor(bounds.min_angle) : 0;
   lens_.cos_squared = cos_squared_of_lens(bounds.min_angle);
-
-  if (bounds.size != nullptr) twice_area_of_least_ = twice_area_of_edge(bounds.size->least());
-  twice_area_bounds_ = twice_area_bounds(bounds);
   if (const std::string fault = state_.fault(mesh, bounds); !fault.empty())
     throw Error("the state of refinement does not fit its mesh: " + fault);
   coarsening_ = state_.stage == Stage::kCoarse ? kFinePerCoarse : 1;
@@ -81,44 +78,25 @@ inline Refiner::Shape Refiner::shape_of(TriangleId t, double twice_area) const {
   return shape(twice_area, squared_distance(a, b), squared_distance(b, c), squared_distance(c, a));
 }
 
-/// The bound of the request and of the region, without the size field.
-inline double Refiner::constant_bound(TriangleId t) const {
-  return coarsening_ * (twice_area_bounds_.size() > 1 && !mesh_.region.empty() ? twice_area_bounds_[mesh_.region[t]]
-                                                                               : twice_area_bounds_[0]);
-}
-
 /// Whether a triangle with twice this area is too large.
 inline bool Refiner::is_large(TriangleId t, double twice_area) const {
-  return twice_area > constant_bound(t) || (bounds_.size != nullptr && is_large_for_size(t, twice_area));
+  return twice_area > coarsening_ * areas_.constant(t) || (areas_.has_size() && is_large_for_size(t, twice_area));
 }
 
-/// The size field is asked first what lets most triangles pass that are small enough.
 bool Refiner::is_large_for_size(TriangleId t, double twice_area) const {
-  const auto above = [&](double h) { return twice_area > twice_area_of_edge(h) * coarsening_; };
-  const CornerPoints at = corners(t);
-  if (!above(bounds_.size->least_near(at))) return false;
   const auto& v = mesh_.triangles[t].vertex;
-  const double at_corners = std::min({state_.size[v[0]], state_.size[v[1]], state_.size[v[2]]});
-  if (above(at_corners)) return true;
-  if (!above(bounds_.size->least_between(at, at_corners))) return false;
-  return above(bounds_.size->edge_length(centroid(at))) || (looks_between() && asks_between(t, twice_area));
+  const auto at_corners = [&] { return std::min({state_.size[v[0]], state_.size[v[1]], state_.size[v[2]]}); };
+  return areas_.above_size(corners(t), twice_area / coarsening_, at_corners, looks_between());
 }
 
 /// The bound on twice the area of a triangle that is not too large.
 double Refiner::twice_area_bound(TriangleId t) const {
-  double bound = constant_bound(t);
-  if (bounds_.size == nullptr) return bound;
+  double bound = coarsening_ * areas_.constant(t);
+  if (!areas_.has_size()) return bound;
   const auto limit = [&](double h) { bound = std::min(bound, twice_area_of_edge(h) * coarsening_); };
   for (const VertexId v : mesh_.triangles[t].vertex) limit(state_.size[v]);
   limit(bounds_.size->edge_length(centroid(corners(t))));
   return bound;
-}
-
-/// Whether the size field asks for a smaller triangle somewhere between corners and centroid.
-bool Refiner::asks_between(TriangleId t, double twice_area) const {
-  const double fine_area = twice_area / coarsening_;
-  if (fine_area <= twice_area_of_least_) return false;
-  return bounds_.size->falls_below(corners(t), edge_of_twice_area(fine_area));
 }
 
 /// Most triangles of the fine stage are to disappear again. What would be missed by far is found in the coarse stage,
@@ -131,7 +109,7 @@ bool Refiner::looks_between() const {
 void Refiner::look_between() {
   if (bounds_.size == nullptr) return;
   for (const TriangleId t : ids_of(mesh_.triangles))
-    if (mesh_.triangles[t].alive() && asks_between(t, twice_area(t))) state_.sweep.visit_again(t);
+    if (mesh_.triangles[t].alive() && areas_.above_size_between(corners(t), twice_area(t))) state_.sweep.visit_again(t);
 }
 
 // ---- The order of work ----

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/triangle_geometry.hpp"
+#include "mesh/area_bounds.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/cavity.hpp"
 #include "mesh/refiner_state.hpp"
@@ -83,11 +84,9 @@ class Refiner {
   [[nodiscard]] CornerPoints corners(TriangleId t) const {
     return {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
   }
-  [[nodiscard]] double constant_bound(TriangleId t) const;
   [[nodiscard]] bool is_large(TriangleId t, double twice_area) const;
   [[nodiscard]] bool is_large_for_size(TriangleId t, double twice_area) const;
   [[nodiscard]] double twice_area_bound(TriangleId t) const;
-  [[nodiscard]] bool asks_between(TriangleId t, double twice_area) const;
   [[nodiscard]] bool looks_between() const;
   void look_between();
   /// Whether the smallest angle is below the bound: its sine is twice the area over the product of the two longer
@@ -119,9 +118,8 @@ class Refiner {
   Lens lens_;
   double sin_squared_ = 0;  // of the angle bound, with a margin for rounding
   double off_center_factor_ = 0;
-  double coarsening_ = 1;                  // current factor on all area bounds
-  std::vector<double> twice_area_bounds_;  // by region label
-  double twice_area_of_least_ = 0;         // of the size field
+  AreaBounds areas_;
+  double coarsening_ = 1;  // current factor on all area bounds
   std::vector<TriangleId> changed_;
   std::vector<TriangleId>* touched_ = nullptr;  // see tell_changes
   RefinerState state_;
