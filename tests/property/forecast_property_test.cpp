@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -10,6 +12,8 @@
 #include <vector>
 
 #include "driftmesh/repair.hpp"
+#include "geometry/segment_geometry.hpp"
+#include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/forecast.hpp"
@@ -158,6 +162,68 @@ Pslg with_corners(std::mt19937_64& random) {
   return pslg;
 }
 
+/// Sizes that grow from some spots, slowly or steeply, up to a length far away; or that length alone.
+class Spots final : public SizeField {
+ public:
+  explicit Spots(std::mt19937_64& random) : far_(std::pow(10, std::uniform_real_distribution<double>(-2, 0)(random))) {
+    std::uniform_real_distribution<double> place(-0.2, 1.2), least(-3, 0), growth(-2, 4);
+    for (auto left = random() % 5; left > 0; --left) {
+      const Point at{place(random), place(random)};
+      spots_.push_back({at, far_ * std::pow(10, least(random)), std::pow(10, growth(random))});
+    }
+  }
+  [[nodiscard]] double edge_length(const Point& p) const override {
+    return least_where([&](const Spot& s) { return std::sqrt(squared_distance(p, s.at)); });
+  }
+  [[nodiscard]] bool falls_below(const CornerPoints& triangle, double length) const override {
+    return least_where([&](const Spot& s) { return distance(triangle, s.at); }) < length;
+  }
+  [[nodiscard]] double least() const override {
+    return least_where([](const Spot&) { return 0; });
+  }
+
+ private:
+  struct Spot {
+    Point at;
+    double least, growth;
+  };
+  template <class Distance>
+  [[nodiscard]] double least_where(const Distance& distance) const {
+    double length = far_;
+    for (const Spot& s : spots_) length = std::min(length, s.least + s.growth * distance(s));
+    return length;
+  }
+  static double distance(const CornerPoints& triangle, const Point& p) {
+    if (contains(triangle, p)) return 0;
+    double squared = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i)
+      squared = std::min(squared, squared_distance_to_segment(p, triangle[i], triangle[(i + 1) % 3]));
+    return std::sqrt(squared);
+  }
+
+  double far_;
+  std::vector<Spot> spots_;
+};
+
+/// Falls to its least length everywhere, but so narrowly that no point that is looked at shows it.
+class Needles final : public SizeField {
+ public:
+  Needles(double far, double least) : far_(far), least_(least) {}
+  [[nodiscard]] double edge_length(const Point&) const override { return far_; }
+  [[nodiscard]] bool falls_below(const CornerPoints&, double length) const override { return least_ < length; }
+  [[nodiscard]] double least() const override { return least_; }
+
+ private:
+  double far_, least_;
+};
+
+/// The share of the most that can be asked for which is asked for, where it is much more than there is.
+double share_of_most(const Triangulation& mesh, const QualityBounds& bounds) {
+  const double total = BoundForecast(mesh, bounds).total(), most = most_in_total(mesh, bounds);
+  CHECK(total <= most);
+  return total > 10 * static_cast<double>(mesh.live_triangles()) ? total / most : 0;
+}
+
 }  // namespace
 
 TEST_CASE("without a bound on size, the forecast is within a factor of 1.5 of the mesh on generated inputs") {
@@ -210,4 +276,27 @@ TEST_CASE("the forecast is within a factor of 1.5 on real inputs") {
     const Pslg pslg = read_poly((folder / file).string());
     for (const double angle : {20.0, 30.0, 33.0}) check_within(1.5, file, prepared(pslg, angle), angle_alone(angle));
   }
+}
+
+TEST_CASE("what the least length asks for everywhere is not less than what is asked for, nor far from the worst case") {
+  std::mt19937_64 random = seeded_generator("most in total");
+  std::uniform_real_distribution<double> exponent(-5, 0), fall(-1, -0.3);
+  double area = 0, spots = 0, needles = 0;
+  for (std::int64_t i = 0; more_cases(i, 60, area > 0.15 && spots > 0.05 && needles > 0.6); ++i) {
+    CAPTURE(i);
+    const Triangulation mesh = prepared(i % 2 == 0 ? with_gaps(random) : square(), 20);
+    QualityBounds bounds;
+    if (i % 3 == 0) bounds.max_area = std::pow(10, exponent(random));
+    area = std::max(area, share_of_most(mesh, bounds));
+    const Spots some(random);
+    bounds.size = &some;
+    spots = std::max(spots, share_of_most(mesh, bounds));
+    const double far = some.edge_length({0.5, 0.5});
+    const Needles all(far, far * std::pow(10, fall(random)));
+    bounds.size = &all;
+    needles = std::max(needles, share_of_most(mesh, bounds));
+  }
+  CHECK(area > 0.15);
+  CHECK(spots > 0.05);
+  CHECK(needles > 0.6);
 }

@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,4 +160,32 @@ TEST_CASE("without bounds the constrained Delaunay triangulation stays as it is"
     CHECK(refiner.counters().segment_points == 0);
     CHECK(mesh.live_triangles() == triangles);
   }
+}
+
+TEST_CASE("a mesh that is surely small begins without a forecast that asks its size field") {
+  class Counted final : public SizeField {
+   public:
+    explicit Counted(double least) : least_(least) {}
+    [[nodiscard]] double edge_length(const Point& p) const override {
+      ++asked;
+      return 0.05 + 0.5 * std::hypot(p.x, p.y);
+    }
+    [[nodiscard]] double least() const override { return least_; }
+    mutable std::int64_t asked = 0;
+
+   private:
+    double least_;
+  };
+  const auto asked_before_first_point = [](double least) {
+    const Counted size(least);
+    Triangulation mesh = triangulate(rectangle(2, 1));
+    QualityBounds bounds;
+    bounds.size = &size;
+    Refiner refiner(mesh, bounds);
+    refiner.refine(1);
+    return size.asked;
+  };
+  constexpr std::int64_t kAFew = 20;  // for corners, a centroid or two and the point itself
+  CHECK(asked_before_first_point(0.05) < kAFew);
+  CHECK(asked_before_first_point(0) > 3 * kAFew);  // nobody knows how fine it gets
 }
