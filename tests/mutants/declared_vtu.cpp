@@ -3,15 +3,14 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "mutants/declared_mesh.hpp"
+#include "mutants/joined_pieces.hpp"
+#include "mutants/vtu_values.hpp"
 #include "mutants/xml_tree.hpp"
 
 namespace driftmesh::mutants {
@@ -19,71 +18,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 32;
-
-struct Type {
-  const char* name;
-  std::size_t size;
-  bool is_real;
-  bool is_signed;
-  Field::Kind kind;
-};
-constexpr Type kTypes[] = {
-    {"Float64", 8, true, true, Field::Kind::kFloat64}, {"Float32", 4, true, true, Field::Kind::kFloat32},
-    {"Int8", 1, false, true, Field::Kind::kInt8},      {"UInt8", 1, false, false, Field::Kind::kInt8},
-    {"Int16", 2, false, true, Field::Kind::kInt8},     {"UInt16", 2, false, false, Field::Kind::kInt8},
-    {"Int32", 4, false, true, Field::Kind::kInt32},    {"UInt32", 4, false, false, Field::Kind::kInt32},
-    {"Int64", 8, false, true, Field::Kind::kInt64},    {"UInt64", 8, false, false, Field::Kind::kInt64}};
-
-const Type& type_of(const Element& array) {
-  for (const Type& type : kTypes)
-    if (array.attribute("type") == type.name) return type;
-  throw Undeclared("an array of unknown type");
-}
-
-/// The values of an array; of a type of whole numbers, in both forms.
-struct Values {
-  std::vector<double> reals;
-  std::vector<std::int64_t> integers;
-  bool has_too_large = false;  ///< for an integer here
-
-  void add(const Type& type, double real, std::int64_t integer) {
-    reals.push_back(real);
-    if (!type.is_real) integers.push_back(integer);
-  }
-};
-
-/// A value from its bytes, in little-endian order.
-void add_bytes(const Type& type, const char* bytes, Values& values) {
-  std::uint64_t word = 0;
-  std::memcpy(&word, bytes, type.size);
-  if (type.is_real) {
-    values.add(
-        type, type.size == 8 ? std::bit_cast<double>(word) : std::bit_cast<float>(static_cast<std::uint32_t>(word)), 0);
-    return;
-  }
-  const std::size_t unused = 64 - 8 * type.size;
-  const std::int64_t integer =
-      type.is_signed ? static_cast<std::int64_t>(word << unused) >> unused : static_cast<std::int64_t>(word);
-  const bool is_too_large = !type.is_signed && integer < 0;
-  values.has_too_large |= is_too_large;
-  values.add(type, is_too_large ? static_cast<double>(word) : static_cast<double>(integer), integer);
-}
-
-void add_text(const Type& type, std::string_view text, Values& values) {
-  if (type.is_real) {
-    const std::optional<double> real = real_number(text);
-    if (!real) throw Undeclared("no number");
-    values.add(type, type.size == 8 ? *real : std::strtof(std::string(text).c_str(), nullptr), 0);
-    return;
-  }
-  const std::optional<std::int64_t> integer = whole_number(text);
-  if (!integer) throw Undeclared("no whole number");
-  const double low = type.is_signed ? -std::ldexp(1, static_cast<int>(8 * type.size) - 1) : 0;
-  const double high = std::ldexp(1, static_cast<int>(8 * type.size) - (type.is_signed ? 1 : 0));
-  const auto real = static_cast<double>(*integer);
-  if (real < low || (type.size < 8 && real >= high)) throw Undeclared("a number that its type does not have");
-  values.add(type, real, *integer);
-}
 
 /// Bytes of a file, as they are or in base64.
 class Stored {
@@ -195,22 +129,22 @@ class VtuFile {
     }
   }
 
-  Values values(const std::string& section, const std::string& name, std::uint64_t tuples,
-                std::optional<std::uint64_t> components = 1) {
+  VtuValues values(const std::string& section, const std::string& name, std::uint64_t tuples,
+                   std::optional<std::uint64_t> components = 1) {
     const Element* const array = find(section, name);
     if (array == nullptr) throw Undeclared("no array " + name);
     if (components && components_of(*array) != *components) throw Undeclared("a wrong number of components");
     const std::uint64_t per_tuple = components_of(*array);
     if (per_tuple == 0 || tuples > kMostBytes / per_tuple) throw Undeclared("too many values");
-    const Type& type = type_of(*array);
-    Values values =
+    const VtuType& type = vtu_type_of(*array);
+    VtuValues values =
         array->attribute("format", "ascii") == "ascii" ? text_values(*array, type) : stored_values(*array, type);
     if (values.reals.size() != tuples * per_tuple) throw Undeclared("another number of values");
     return values;
   }
 
-  Values text_values(const Element& array, const Type& type) {
-    Values values;
+  VtuValues text_values(const Element& array, const VtuType& type) {
+    VtuValues values;
     for (Field field : text_fields(array.text)) {
       add_text(type, array.text.substr(field.begin, field.size), values);
       field.begin += place_of(array.text);
@@ -223,16 +157,16 @@ class VtuFile {
     return static_cast<std::size_t>(part.data() - bytes_.data());
   }
 
-  Values stored_values(const Element& array, const Type& type) {
+  VtuValues stored_values(const Element& array, const VtuType& type) {
     const std::string bytes = stored_bytes(array, &type);
     if (bytes.size() % type.size != 0) throw Undeclared("a part of a value");
-    Values values;
+    VtuValues values;
     for (std::size_t i = 0; i < bytes.size(); i += type.size) add_bytes(type, bytes.data() + i, values);
     return values;
   }
 
   /// The bytes of an array. Notes their fields if the type is given.
-  std::string stored_bytes(const Element& array, const Type* type) {
+  std::string stored_bytes(const Element& array, const VtuType* type) {
     const std::string format = array.attribute("format");
     if (format == "appended") {
       const std::uint64_t offset = array.count("offset");
@@ -253,7 +187,7 @@ class VtuFile {
     return bytes;
   }
 
-  void note(std::size_t begin, std::size_t size, bool is_raw, const Type* type) {
+  void note(std::size_t begin, std::size_t size, bool is_raw, const VtuType* type) {
     if (type == nullptr) return;
     if (!is_raw) {
       fields_.push_back({begin, size, Field::Kind::kBase64});
@@ -320,7 +254,7 @@ class VtuFile {
   }
 
   template <class T>
-  static std::vector<T> integers(const Values& values) {
+  static std::vector<T> integers(const VtuValues& values) {
     if (values.integers.size() != values.reals.size()) throw Undeclared("fractions where there are whole numbers");
     if (values.has_too_large) throw Undeclared("a number out of range");
     std::vector<T> result;
@@ -409,112 +343,6 @@ class VtuFile {
   Mesh mesh_;
 };
 
-/// The points and triangles of all pieces, as merge_pieces orders them.
-class Whole {
- public:
-  explicit Whole(std::vector<Mesh> pieces) : pieces_(std::move(pieces)) {}
-
-  Mesh merged() {
-    for (const Mesh& piece : pieces_)
-      if (piece.numbers.size() != piece.points.size()) throw Undeclared("points without numbers");
-    has_markers_ = all([](const Mesh& p) { return p.point_markers.size() == p.points.size(); });
-    for (const Mesh& piece : pieces_)
-      whole_.attributes_per_point = std::max(whole_.attributes_per_point, piece.attributes_per_point);
-    if (!all([&](const Mesh& p) { return p.points.empty() || p.attributes_per_point == whole_.attributes_per_point; }))
-      throw Undeclared("other attributes in other pieces");
-    merge_points();
-    merge_triangles();
-    merge_edges();
-    return std::move(whole_);
-  }
-
- private:
-  struct SharedPoint {
-    Point at;
-    std::int32_t marker = 0;
-    std::vector<double> attributes;
-
-    [[nodiscard]] bool same_as(const SharedPoint& other) const {
-      Mesh one, two;
-      one.points = {at}, two.points = {other.at};
-      one.attributes = attributes, two.attributes = other.attributes;
-      return difference(one, two).empty() && marker == other.marker;
-    }
-  };
-
-  template <class Tells>
-  bool all(Tells tells) const {
-    return std::ranges::all_of(pieces_, tells);
-  }
-
-  SharedPoint shared_point(const Mesh& piece, std::size_t v) const {
-    const auto width = static_cast<std::ptrdiff_t>(whole_.attributes_per_point);
-    const auto begin = piece.attributes.begin() + static_cast<std::ptrdiff_t>(v) * width;
-    return {piece.points[v], has_markers_ ? piece.point_markers[v] : 0, {begin, begin + width}};
-  }
-
-  void merge_points() {
-    std::map<std::int64_t, SharedPoint> points;
-    for (const Mesh& piece : pieces_) {
-      if (std::set(piece.numbers.begin(), piece.numbers.end()).size() != piece.numbers.size())
-        throw Undeclared("a number twice in a piece");
-      for (std::size_t v = 0; v < piece.points.size(); ++v) {
-        const SharedPoint point = shared_point(piece, v);
-        if (!points.emplace(piece.numbers[v], point).first->second.same_as(point))
-          throw Undeclared("pieces that contradict each other");
-      }
-    }
-    std::int64_t next = 0;
-    for (const auto& [number, point] : points) {
-      if (number != next++) throw Undeclared("a number is missing");
-      whole_.points.push_back(point.at);
-      if (has_markers_) whole_.point_markers.push_back(point.marker);
-      whole_.attributes.insert(whole_.attributes.end(), point.attributes.begin(), point.attributes.end());
-    }
-  }
-
-  void merge_triangles() {
-    const bool has_regions = all([](const Mesh& p) { return p.regions.size() == p.triangles.size(); });
-    const bool has_subdomains = all([](const Mesh& p) { return p.subdomains.size() == p.triangles.size(); });
-    const bool has_ranks = all([](const Mesh& p) { return p.ranks.size() == p.triangles.size(); });
-    std::vector<std::tuple<std::int32_t, std::size_t, std::size_t>> order;  // subdomain, piece, triangle
-    for (std::size_t k = 0; k < pieces_.size(); ++k)
-      for (std::size_t t = 0; t < pieces_[k].triangles.size(); ++t)
-        order.emplace_back(has_subdomains ? pieces_[k].subdomains[t] : 0, k, t);
-    std::sort(order.begin(), order.end());
-    for (const auto& [subdomain, k, t] : order) {
-      const Mesh& piece = pieces_[k];
-      auto& triangle = whole_.triangles.emplace_back();
-      for (std::size_t i = 0; i < 3; ++i) triangle[i] = number(piece, piece.triangles[t][i]);
-      if (has_regions) whole_.regions.push_back(piece.regions[t]);
-      if (has_subdomains) whole_.subdomains.push_back(piece.subdomains[t]);
-      if (has_ranks) whole_.ranks.push_back(piece.ranks[t]);
-    }
-  }
-
-  static std::int32_t number(const Mesh& piece, std::int32_t v) {
-    return static_cast<std::int32_t>(piece.numbers[static_cast<std::size_t>(v)]);
-  }
-
-  /// By their ends; what several pieces have, once.
-  void merge_edges() {
-    using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;
-    std::map<Key, std::vector<std::pair<std::size_t, Mesh::Edge>>> edges;
-    for (std::size_t k = 0; k < pieces_.size(); ++k)
-      for (const Mesh::Edge& edge : pieces_[k].edges) {
-        const Mesh::Edge e{number(pieces_[k], edge.a), number(pieces_[k], edge.b), edge.marker};
-        edges[{std::min(e.a, e.b), std::max(e.a, e.b), e.marker}].emplace_back(k, e);
-      }
-    for (const auto& [key, copies] : edges)
-      for (std::size_t i = 0; i < copies.size(); ++i)
-        if (i == 0 || copies[i].first == copies[i - 1].first) whole_.edges.push_back(copies[i].second);
-  }
-
-  std::vector<Mesh> pieces_;
-  bool has_markers_ = false;
-  Mesh whole_;
-};
-
 }  // namespace
 
 Mesh declared_vtu(std::string_view bytes, Fields& fields) {
@@ -544,7 +372,7 @@ Mesh declared_pvtu(const Files& files, const std::string& name) {
     pieces.push_back(file.mesh());
   }
   if (pieces.empty()) throw Undeclared("no pieces");
-  return Whole(std::move(pieces)).merged();
+  return joined(std::move(pieces));
 }
 
 }  // namespace driftmesh::mutants

@@ -7,10 +7,12 @@
 #include "balancer/partners.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "driftmesh/error.hpp"
+#include "support/error_text.hpp"
 #include "support/id_literals.hpp"
 #include "support/load_snapshots.hpp"
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 using namespace driftmesh::balancer;
 using driftmesh::testing::grid_layout;
 using driftmesh::testing::initial_snapshot;
@@ -19,12 +21,7 @@ using driftmesh::testing::time_with;
 namespace {
 
 std::string error_of(const std::string& name, const Parameters::Values& values = {}) {
-  try {
-    static_cast<void>(make_policy(name, values));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return error_text<InputError>([&] { static_cast<void>(make_policy(name, values)); });
 }
 
 double cut_length(const LoadSnapshot& snapshot) {
@@ -58,7 +55,7 @@ TEST_CASE("wrong names, parameters and values are errors that suggest what was m
         "policy zoltan: unknown parameter 'PHG_REPART_MULTIPLYER'; the nearest one is 'PHG_REPART_MULTIPLIER'");
   CHECK(error_of("zoltan", {{"IMBALANCE_TOL", "tight"}}) ==
         "policy zoltan: IMBALANCE_TOL: 'tight' cannot be used; Zoltan's user guide lists valid values");
-  for (const std::string& name : policy_names()) CHECK(error_of(name) == "");
+  for (const std::string& name : policy_names()) CHECK(error_of(name) == "no error");
 }
 
 TEST_CASE("the policy none moves nothing") {
@@ -127,7 +124,7 @@ TEST_CASE("zoltan's graphs can be partitioned by others, or it says at once that
                                       {"approach", approach},
                                       {"polish", "false"},
                                       {"touch-up", "0"}};
-      if (const std::string error = error_of("zoltan", values); !error.empty()) {
+      if (const std::string error = error_of("zoltan", values); error != "no error") {
         MESSAGE("without " << package);
         CHECK(error == "policy zoltan: GRAPH_PACKAGE: '" + package +
                            "' cannot be used; this Zoltan was built without it; PHG is always there");

@@ -8,7 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "support/error_text.hpp"
+
 using namespace driftmesh;
+using namespace driftmesh::testing;
 
 namespace {
 
@@ -22,14 +25,11 @@ std::vector<int> as_ints(const Bytes& bytes) {
 
 template <class Read>
 std::string error_of(const Bytes& bytes, const Read& read) {
-  try {
+  return error_text([&] {
     ByteReader reader(bytes);
     read(reader);
     reader.end();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ TEST_CASE("values, arrays and texts survive a round trip") {
 
 TEST_CASE("bytes that are too short, too long or announce too much are errors, and cost no memory") {
   const auto read_number = [](ByteReader& in) { static_cast<void>(in.number<std::uint32_t>()); };
-  CHECK(error_of(Bytes(4), read_number) == "");
+  CHECK(error_of(Bytes(4), read_number) == "no error");
   CHECK(error_of(Bytes(3), read_number) == "it ends too early");
   CHECK(error_of(Bytes(5), read_number) == "it goes on after its end");
   const auto read_array = [](ByteReader& in) {

@@ -8,12 +8,14 @@
 #include "io/mesh_file.hpp"
 #include "io/msh_groups.hpp"
 #include "support/damage.hpp"
+#include "support/error_text.hpp"
 #include "support/mesh_equality.hpp"
 #include "support/random_mesh.hpp"
 #include "support/round_trip.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 using namespace driftmesh::test;
 
 namespace {
@@ -78,12 +80,7 @@ Mesh mesh_of_gmsh_text() {
 
 std::string message_of(const std::string& path, const std::string& bytes) {
   replace_file(path, bytes);
-  try {
-    (void)read_mesh(path);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_text<InputError>([&] { (void)read_mesh(path); });
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

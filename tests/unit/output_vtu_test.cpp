@@ -7,12 +7,14 @@
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "support/damage.hpp"
+#include "support/error_text.hpp"
 #include "support/mesh_equality.hpp"
 #include "support/random_mesh.hpp"
 #include "support/round_trip.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 using namespace driftmesh::test;
 
 namespace {
@@ -78,12 +80,7 @@ class VtuOracle {
 };
 
 std::string message_of(const std::string& path) {
-  try {
-    (void)read_mesh(path);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return error_text<InputError>([&] { (void)read_mesh(path); });
 }
 
 }  // namespace

@@ -7,19 +7,16 @@
 #include "driftmesh/error.hpp"
 #include "pslg/poly_file.hpp"
 #include "pslg/triangle_files.hpp"
+#include "support/error_text.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 
 namespace {
 
 std::string message_of(const std::string& path) {
-  try {
-    (void)read_poly(path);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "accepted";
+  return error_text([&] { (void)read_poly(path); });
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {

@@ -10,8 +10,10 @@
 #include "geometry/predicates.hpp"
 #include "pslg/open_boundary.hpp"
 #include "pslg/poly_file.hpp"
+#include "support/error_text.hpp"
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 
 namespace {
 
@@ -25,12 +27,7 @@ Pslg square() {
 }
 
 std::string error_of(Pslg pslg) {
-  try {
-    (void)repair(pslg, "in.poly");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return error_text<InputError>([&] { (void)repair(pslg, "in.poly"); });
 }
 
 }  // namespace

@@ -11,11 +11,13 @@
 #include "raster/ascii_grid.hpp"
 #include "raster/nearest_values.hpp"
 #include "raster/open_raster.hpp"
+#include "support/error_text.hpp"
 #include "temporary_folder.hpp"
 
 // Grids in text, their values as functions of position, and their places on the globe.
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 
 namespace {
 
@@ -34,12 +36,7 @@ std::vector<std::vector<float>> rows_of(const std::string& text) {
 }
 
 std::string message_of(const std::string& text) {
-  try {
-    static_cast<void>(rows_of(text));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return error_text<InputError>([&] { static_cast<void>(rows_of(text)); });
 }
 
 const std::string kHeader = "ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 4\n";

@@ -15,8 +15,10 @@
 #include "sizing/field_calls.hpp"
 #include "sizing/make_size_field.hpp"
 #include "sizing/segment_distance.hpp"
+#include "support/error_text.hpp"
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 
 namespace {
 
@@ -72,16 +74,8 @@ Pslg square() {
 }
 
 std::string error_of(const std::string& expression, const Pslg* input) {
-  try {
-    const ExpressionField field(expression, 0, std::numeric_limits<double>::infinity(), input);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
-}
-
-bool mentions(const std::string& message, const std::string& part) {
-  return message.find(part) != std::string::npos;
+  return error_text<InputError>(
+      [&] { ExpressionField(expression, 0, std::numeric_limits<double>::infinity(), input); });
 }
 
 }  // namespace

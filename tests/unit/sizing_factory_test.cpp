@@ -8,8 +8,10 @@
 
 #include "driftmesh/error.hpp"
 #include "sizing/make_size_field.hpp"
+#include "support/error_text.hpp"
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 
 namespace {
 
@@ -44,16 +46,7 @@ void write_square(const Folder& folder, const char* header, std::initializer_lis
 }
 
 std::string message_of(const SizingOptions& options) {
-  try {
-    (void)make_size_field(options);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
-
-bool mentions(const std::string& message, const std::string& part) {
-  return message.find(part) != std::string::npos;
+  return error_text([&] { (void)make_size_field(options); });
 }
 
 }  // namespace
