@@ -10,6 +10,35 @@ namespace {
 
 using Op = ExpressionOp;
 
+/// What is on the stack after all steps, with the values of those that take nothing from it.
+template <class Value, class Constant, class Variable>
+Value run(const std::vector<ExpressionStep>& steps, const Value& x, const Value& y, const Constant& constant,
+          const Variable& variable) {
+  std::array<Value, kDeepestExpression> stack;
+  std::size_t size = 0;
+  for (const ExpressionStep& step : steps) {
+    size -= operands_of(step.op);
+    switch (step.op) {
+      case Op::kX:
+        stack[size] = x;
+        break;
+      case Op::kY:
+        stack[size] = y;
+        break;
+      case Op::kConstant:
+        stack[size] = constant(step);
+        break;
+      case Op::kVariable:
+        stack[size] = variable(step);
+        break;
+      default:
+        stack[size] = apply(step.op, &stack[size]);
+    }
+    ++size;
+  }
+  return stack[0];
+}
+
 }  // namespace
 
 std::optional<ExpressionRange> ExpressionRange::of(const std::string& expression, PlaneVariables variables) {
@@ -26,55 +55,15 @@ const PlaneFunction& ExpressionRange::function_of(const ExpressionStep& step) co
 }
 
 Interval ExpressionRange::over(const Box& box) const {
-  std::array<Interval, kDeepestExpression> stack;
-  std::size_t size = 0;
-  for (const ExpressionStep& step : steps_) {
-    size -= operands_of(step.op);
-    switch (step.op) {
-      case Op::kX:
-        stack[size] = {box.low.x, box.high.x};
-        break;
-      case Op::kY:
-        stack[size] = {box.low.y, box.high.y};
-        break;
-      case Op::kConstant:
-        stack[size] = step.constant;
-        break;
-      case Op::kVariable:
-        stack[size] = function_of(step).over(box);
-        break;
-      default:
-        stack[size] = apply(step.op, &stack[size]);
-    }
-    ++size;
-  }
-  return stack[0];
+  return run<Interval>(
+      steps_, {box.low.x, box.high.x}, {box.low.y, box.high.y}, [](const ExpressionStep& s) { return s.constant; },
+      [&](const ExpressionStep& s) { return function_of(s).over(box); });
 }
 
 double ExpressionRange::at(const Point& p) const {
-  std::array<double, kDeepestExpression> stack;
-  std::size_t size = 0;
-  for (const ExpressionStep& step : steps_) {
-    size -= operands_of(step.op);
-    switch (step.op) {
-      case Op::kX:
-        stack[size] = p.x;
-        break;
-      case Op::kY:
-        stack[size] = p.y;
-        break;
-      case Op::kConstant:
-        stack[size] = step.constant.low;
-        break;
-      case Op::kVariable:
-        stack[size] = function_of(step).at(p);
-        break;
-      default:
-        stack[size] = apply(step.op, &stack[size]);
-    }
-    ++size;
-  }
-  return stack[0];
+  return run<double>(
+      steps_, p.x, p.y, [](const ExpressionStep& s) { return s.constant.low; },
+      [&](const ExpressionStep& s) { return function_of(s).at(p); });
 }
 
 }  // namespace driftmesh

@@ -52,25 +52,13 @@ Parameters::Values collective(const std::string& method, const std::string& appr
 
 TEST_CASE("joint plans on real ranks end balanced, and all ranks agree on the result") {
   protocol::MpiTransport transport(protocol::MpiSession::world());
-  const auto ranks = to_index(transport.ranks());
   IdVector<Rank, double> speeds{1e5, 2e5, 3e5, 1e5};
-  speeds.resize(ranks);
-  for (const bool lopsided : {false, true})
-    for (const std::string method : {"rcb", "hsfc", "graph", "hypergraph"})
-      for (const std::string approach : {"repartition", "partition", "refine"}) {
-        CAPTURE(lopsided);
-        CAPTURE(method);
-        CAPTURE(approach);
-        Layout layout = grid_layout(30, 30, transport.ranks());
-        for (auto& s : layout.subdomains)
-          if (lopsided) s.owner = Rank{transport.ranks() - 1};
-        const LoadSnapshot snapshot = initial_snapshot(std::move(layout), speeds);
-        const auto contributions = contributions_of(snapshot);
-        const auto decisions = hold_round(transport, collective(method, approach), snapshot, contributions);
-        REQUIRE(problem_of(snapshot, contributions, decisions) == "");
-        CHECK(time_with(snapshot, all_moves(decisions)) < 1.05 * ideal_time(snapshot));
-        if (ranks > 1) CHECK(decisions[0].any_moves);
-      }
+  speeds.resize(to_index(transport.ranks()));
+  check_balanced(
+      grid_layout(30, 30, transport.ranks()), speeds,
+      [&](const std::string& method, const std::string& approach, const auto& snapshot, const auto& contributions) {
+        return hold_round(transport, collective(method, approach), snapshot, contributions);
+      });
   transport.close();
 }
 

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "balancer/council.hpp"
@@ -63,6 +67,28 @@ inline std::string problem_of(const LoadSnapshot& snapshot, const std::vector<ba
         return "the planned states are not those that the moves lead to";
   }
   return {};
+}
+
+/// Checks rounds with all of Zoltan's methods and approaches from this layout, and from one where the last rank has
+/// all: plans are valid and end balanced. `hold(method, approach, snapshot, contributions)` returns the decisions.
+template <class Hold>
+void check_balanced(const balancer::Layout& layout, const IdVector<Rank, double>& speeds, const Hold& hold) {
+  for (const bool lopsided : {false, true})
+    for (const std::string method : {"rcb", "hsfc", "graph", "hypergraph"})
+      for (const std::string approach : {"repartition", "partition", "refine"}) {
+        CAPTURE(lopsided);
+        CAPTURE(method);
+        CAPTURE(approach);
+        balancer::Layout start = layout;
+        for (auto& s : start.subdomains)
+          if (lopsided) s.owner = Rank{layout.ranks - 1};
+        const LoadSnapshot snapshot = initial_snapshot(std::move(start), speeds);
+        const auto contributions = contributions_of(snapshot);
+        const auto decisions = hold(method, approach, snapshot, contributions);
+        REQUIRE(problem_of(snapshot, contributions, decisions) == "");
+        CHECK(time_with(snapshot, all_moves(decisions)) < 1.05 * ideal_time(snapshot));
+        if (snapshot.ranks.size() > 1) CHECK(decisions[0].any_moves);
+      }
 }
 
 }  // namespace driftmesh::testing
