@@ -146,6 +146,18 @@ TEST_CASE("chains and cycles of moves become short, and parts stay compact") {
   for (const Move& move : direct) CHECK(move.destination == Rank{2});
 }
 
+TEST_CASE("late ranks give what leaves no more border") {
+  // Two ranks alternate on a strip. Nine of twelve at one of them are too many.
+  Layout layout = testing::grid_layout(12, 1, 2);
+  for (const SubdomainId s : ids_of(layout.subdomains)) layout.subdomains[s].owner = Rank{to_int(s) % 2};
+  Case c{testing::initial_snapshot(std::move(layout), {100, 100}), {}, 0};
+  for (const SubdomainLoad& s : c.snapshot.subdomains)
+    if (const Rank to{to_int(s.id) < 9 ? 0 : 1}; to != s.owner) c.moves.push_back({s.id, to});
+  const std::vector<Move> mended = mend_plan(c.snapshot, c.moves, kFree, {70, 70, 12});
+  CHECK(time_with(c.snapshot, mended) == doctest::Approx(70));
+  CHECK(border(c, mended) == doctest::Approx(1));
+}
+
 TEST_CASE("what is in proportion to speeds within memory fits, and all work is done") {
   auto random = testing::seeded_generator("within memory");
   int slower = 0;
