@@ -41,6 +41,26 @@ class CheckAlone(unittest.TestCase):
         self.assertIn("src/one/two.hpp does not compile alone", result.stdout)
         self.assertIn("2 files, 1 of which", result.stdout)
 
+    def test_header_that_gets_what_it_lacks_where_it_is_included(self):
+        self.write("src/one/two.hpp", "#pragma once\ninline std::string two() { return {}; }\n")
+        self.write("src/one/three.hpp", '#pragma once\n#include "one/one.hpp"\n#include "one/two.hpp"\n')
+        result = self.check()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("src/one/two.hpp does not compile alone", result.stdout)
+
+    def test_headers_that_include_each_other_in_a_row(self):
+        self.write("src/one/two.hpp", '#pragma once\n#include "one/one.hpp"\ninline std::string two() { return one(); }\n')
+        self.write("src/one/three.hpp", '#pragma once\n#include "one/two.hpp"\ninline auto three() { return two(); }\n')
+        self.assertEqual(self.check().stdout, "3 files, 0 of which do not compile alone\n")
+        self.write("src/one/three.hpp", '#pragma once\n#include "one/two.hpp"\ninline auto three() { return four(); }\n')
+        result = self.check()
+        self.assertIn("src/one/three.hpp does not compile alone", result.stdout)
+        self.assertIn("3 files, 1 of which", result.stdout)
+
+    def test_header_that_includes_what_it_needs_too_late(self):
+        self.write("src/one/two.hpp", '#pragma once\ninline std::string two();\n#include "one/one.hpp"\n')
+        self.assertIn("src/one/two.hpp does not compile alone", self.check().stdout)
+
     def test_header_without_a_guard(self):
         self.write("src/one/two.hpp", "inline int two() { return 2; }\n")
         self.assertIn("src/one/two.hpp does not compile alone", self.check().stdout)
