@@ -23,23 +23,28 @@ if(DRIFTMESH_FUZZ)
   target_compile_options(driftmesh_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# driftmesh_library(NAME [APART] SOURCES a.cpp ... DEPENDS other boxes LIBS outside libraries)
+# driftmesh_compile_together(TARGET): with DRIFTMESH_UNITY its sources are compiled together, 32 at a time: nothing that a file
+# defines for itself may have the name of such a thing in another file. Files that need the same name nevertheless are kept out
+# by the property SKIP_UNITY_BUILD_INCLUSION.
+function(driftmesh_compile_together TARGET)
+  if(DRIFTMESH_UNITY)
+    set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 32)
+  endif()
+endfunction()
+
+# driftmesh_library(NAME SOURCES a.cpp ... DEPENDS other boxes LIBS outside libraries)
 # One box, which is the folder that this is called in. It includes headers of each box that DEPENDS names, and of no other;
 # LIBS names the outside libraries (see OutsideLibraries.cmake) whose headers it includes or gets from another box's header.
 # tests/structure/check_includes.py holds the sources to these declarations.
-# With DRIFTMESH_UNITY the sources of a box are compiled together, eight at a time: nothing that a file defines for itself may
-# have the name of such a thing in another file of the box. APART: they have, and are compiled one by one.
 function(driftmesh_library NAME)
-  cmake_parse_arguments(ARG "APART" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
   if(ARG_SOURCES)
     add_library(dm_${NAME} STATIC ${ARG_SOURCES})
     if(DRIFTMESH_PYTHON)  # the module is a shared library, whose functions call each other directly all the same
       set_target_properties(dm_${NAME} PROPERTIES POSITION_INDEPENDENT_CODE ON)
       target_compile_options(dm_${NAME} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
     endif()
-    if(DRIFTMESH_UNITY AND NOT ARG_APART)
-      set_target_properties(dm_${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    endif()
+    driftmesh_compile_together(dm_${NAME})
     set(scope PUBLIC)
     set(own PRIVATE)
   else()

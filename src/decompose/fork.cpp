@@ -13,7 +13,7 @@ namespace {
 /// The worth of even parts, in units of the square root of the piece's area.
 constexpr double kEven = 2;
 /// To keep between a separator and other corners, in units of the spacing of stations.
-constexpr double kClearance = 0.2;
+constexpr double kCornerClearance = 0.2;
 
 Point centroid(const Loop& loop) {
   const Point o = loop.front().at;
@@ -78,7 +78,7 @@ class Search {
   }
   /// Whether a separator from `s` in direction (dx, dy) keeps away from the other corners.
   [[nodiscard]] bool keeps_clear(const Outline::Station& s, double dx, double dy) const {
-    const double length = std::sqrt(dx * dx + dy * dy), keep = kClearance * outline_.spacing * length;
+    const double length = std::sqrt(dx * dx + dy * dy), keep = kCornerClearance * outline_.spacing * length;
     for (const LoopSide& corner : outline_.loop) {
       const double ux = corner.at.x - s.at.x, uy = corner.at.y - s.at.y;
       const double along = ux * dx + uy * dy, across = std::fabs(ux * dy - uy * dx);

@@ -19,14 +19,14 @@
 #include "io/hdf5_format.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/msh_groups.hpp"
+#include "io/vtu_format.hpp"
 #include "mesh/mesh_edges.hpp"
 
 namespace driftmesh {
 namespace {
 
-// VTK's numbers of cell types, and where VTK begins an array on a page of its own.
+// VTK's number of the kind of cell that a line is, and where VTK begins an array on a page of its own.
 constexpr std::uint8_t kVtkLine = 3;
-constexpr std::uint8_t kVtkTriangle = 5;
 constexpr hsize_t kPage = 4096;
 
 /// Makes the groups and arrays of a file, and writes what is small.

@@ -15,7 +15,7 @@ void line(FileSink& sink, std::size_t first, Numbers... rest) {
   sink.character('\n');
 }
 
-void write_nodes(FileSink& sink, const Mesh& mesh) {
+void write_node_lines(FileSink& sink, const Mesh& mesh) {
   const std::size_t per_point = mesh.attributes_per_point;
   const bool has_markers = !mesh.point_markers.empty();
   line(sink, mesh.points.size(), 2, per_point, has_markers ? 1 : 0);
@@ -37,7 +37,7 @@ void write_nodes(FileSink& sink, const Mesh& mesh) {
   }
 }
 
-void write_triangles(FileSink& sink, const Mesh& mesh) {
+void write_ele_lines(FileSink& sink, const Mesh& mesh) {
   line(sink, mesh.triangles.size(), 3, mesh.regions.empty() ? 0 : 1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -110,8 +110,8 @@ void write_triangle_format(const Mesh& mesh, const std::string& stem, const std:
   FileSink segments(stem + ".poly");
   FileSink edges(stem + ".edge");
   FileSink neighbor_file(stem + ".neigh");
-  write_nodes(nodes, mesh);
-  write_triangles(triangles, mesh);
+  write_node_lines(nodes, mesh);
+  write_ele_lines(triangles, mesh);
   const TriangleNeighbors neighbors = triangle_neighbors(mesh);
   const ConstrainedEdgeIndex index(mesh);
   write_segments(segments, mesh, separator_edges(mesh, neighbors, index, kSeparatorMarker), holes);

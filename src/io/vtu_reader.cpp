@@ -18,7 +18,6 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::uint8_t kVtkTriangle = 5;
 constexpr std::uint64_t kMostTuples = std::uint64_t{1} << 48;  // of any array that a machine can hold
 
 /// The values of an array. Those that the file holds as they are needed stay there.

@@ -11,7 +11,6 @@ namespace driftmesh {
 namespace {
 
 constexpr std::uint8_t kLineCell = 3;
-constexpr std::uint8_t kTriangleCell = 5;
 
 // The header lists all arrays with their offsets; the arrays follow in the same order.
 class VtuFile {
@@ -195,7 +194,7 @@ void write_grid(VtuFile& file, const Mesh& mesh, const Counts& counts) {
   sink.raw_values(counts.triangles, [](std::size_t t) { return static_cast<Offset>(3 * (t + 1)); });
   sink.raw_values(counts.lines, [&](std::size_t e) { return static_cast<Offset>(3 * counts.triangles + 2 * (e + 1)); });
   file.begin_array<std::uint8_t>(counts.cells);
-  sink.raw_values(counts.triangles, [](std::size_t) { return kTriangleCell; });
+  sink.raw_values(counts.triangles, [](std::size_t) { return kVtkTriangle; });
   sink.raw_values(counts.lines, [](std::size_t) { return kLineCell; });
 }
 

@@ -7,7 +7,7 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffff;
+constexpr std::uint32_t kNoPoint = 0xffffffff;
 
 /// Connected sets of grid points with one sign.
 struct Components {
@@ -44,7 +44,7 @@ void flood(const Grid& grid, std::size_t start, Components& found) {
     ++size;
     on_frame = on_frame || grid.on_frame(i);
     visit_neighbors(grid, i, !negative, [&](std::size_t k) {
-      if (found.label[k] != kNone || grid.negative(k) != negative) return;
+      if (found.label[k] != kNoPoint || grid.negative(k) != negative) return;
       found.label[k] = label;
       open.push_back(k);
     });
@@ -56,9 +56,9 @@ void flood(const Grid& grid, std::size_t start, Components& found) {
 
 Components components_of(const Grid& grid) {
   Components found;
-  found.label.assign(grid.values.size(), kNone);
+  found.label.assign(grid.values.size(), kNoPoint);
   for (std::size_t i = 0; i < grid.values.size(); ++i)
-    if (found.label[i] == kNone) flood(grid, i, found);
+    if (found.label[i] == kNoPoint) flood(grid, i, found);
   return found;
 }
 
@@ -84,14 +84,14 @@ void drown_small_islands(Grid& grid, std::size_t least) {
 /// lower of them and the side's direction.
 class Tracer {
  public:
-  explicit Tracer(const Grid& grid) : grid_(grid), next_(2 * grid.values.size(), kNone) {}
+  explicit Tracer(const Grid& grid) : grid_(grid), next_(2 * grid.values.size(), kNoPoint) {}
 
   std::vector<ContourLoop> run() {
     for (std::size_t row = 0; row + 1 < grid_.rows; ++row)
       for (std::size_t column = 0; column + 1 < grid_.columns; ++column) link_cell(column, row);
     std::vector<ContourLoop> loops;
     for (std::size_t start = 0; start < next_.size(); ++start)
-      if (next_[start] != kNone) loops.push_back(take_loop(static_cast<std::uint32_t>(start)));
+      if (next_[start] != kNoPoint) loops.push_back(take_loop(static_cast<std::uint32_t>(start)));
     return loops;
   }
 
@@ -116,10 +116,10 @@ class Tracer {
   ContourLoop take_loop(std::uint32_t start) {
     ContourLoop loop;
     loop.outside = grid_.place(positive_end(start));
-    for (std::uint32_t at = start; next_[at] != kNone;) {
+    for (std::uint32_t at = start; next_[at] != kNoPoint;) {
       loop.vertices.push_back(vertex(at));
       const std::uint32_t following = next_[at];
-      next_[at] = kNone;
+      next_[at] = kNoPoint;
       at = following;
     }
     return loop;

@@ -15,9 +15,10 @@ struct Star {
   std::int32_t count = 0;
 };
 
-class Tracer {
+class LineTracer {
  public:
-  explicit Tracer(const Pslg& pslg) : pslg_(pslg), stars_(pslg.points.size()), traced_(pslg.segments.size(), false) {
+  explicit LineTracer(const Pslg& pslg)
+      : pslg_(pslg), stars_(pslg.points.size()), traced_(pslg.segments.size(), false) {
     for (std::size_t s = 0; s < pslg.segments.size(); ++s)
       for (const std::int32_t end : {pslg.segments[s].a, pslg.segments[s].b}) {
         Star& star = stars_[end];
@@ -93,7 +94,7 @@ class Tracer {
 }  // namespace
 
 std::vector<Polyline> polylines_of(const Pslg& pslg) {
-  return Tracer(pslg).lines();
+  return LineTracer(pslg).lines();
 }
 
 }  // namespace driftmesh

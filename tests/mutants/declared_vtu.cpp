@@ -16,7 +16,6 @@
 namespace driftmesh::mutants {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 32;
 
 /// Bytes of a file, as they are or in base64.
@@ -97,7 +96,7 @@ class VtuFile {
     const std::string encoding = tag.attribute("encoding");
     if (encoding != "raw" && encoding != "base64") throw Undeclared("an unknown encoding");
     is_raw_ = encoding == "raw";
-    const std::size_t begin = tree_.appended.find_first_not_of(kBlanks);
+    const std::size_t begin = tree_.appended.find_first_not_of(kXmlBlanks);
     if (begin == std::string_view::npos || tree_.appended[begin] != '_') throw Undeclared("no data behind their tag");
     appended_ = tree_.appended.substr(begin + 1);
   }
@@ -123,7 +122,7 @@ class VtuFile {
     if (tree_.appended.data() == nullptr) return;
     std::string_view rest = appended_.substr(end_);
     for (const std::string_view tag : {"</AppendedData>", "</VTKFile>", ""}) {
-      rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+      rest.remove_prefix(std::min(rest.find_first_not_of(kXmlBlanks), rest.size()));
       if (!rest.starts_with(tag) || (tag.empty() && !rest.empty())) throw Undeclared("a wrong end behind the data");
       rest.remove_prefix(tag.size());
     }
@@ -180,9 +179,9 @@ class VtuFile {
     if (format != "binary") throw Undeclared("an unknown format");
     Stored stored(array.text, false);
     std::string bytes = unpacked(stored);
-    if (array.text.find_first_not_of(kBlanks, stored.position()) != std::string_view::npos)
+    if (array.text.find_first_not_of(kXmlBlanks, stored.position()) != std::string_view::npos)
       throw Undeclared("more data than announced");
-    const std::size_t begin = std::min(array.text.find_first_not_of(kBlanks), array.text.size());
+    const std::size_t begin = std::min(array.text.find_first_not_of(kXmlBlanks), array.text.size());
     note(place_of(array.text) + begin, stored.position() - begin, false, type);
     return bytes;
   }

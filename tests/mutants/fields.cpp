@@ -8,7 +8,7 @@ namespace driftmesh::mutants {
 namespace {
 
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-constexpr std::string_view kBlanks = " \t\r\n\v\f";
+constexpr std::string_view kIgnored = " \t\r\n\v\f";
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void Base64Text::decode_four() {
   while (four.size() < 4) {
     if (position_ == text_.size()) throw Undeclared("base64 text ends early");
     const char c = text_[position_++];
-    if (kBlanks.find(c) == std::string_view::npos) four += c;
+    if (kIgnored.find(c) == std::string_view::npos) four += c;
   }
   const std::size_t digits = std::min<std::size_t>(four.find('='), 4);
   if (digits < 2 || four.find_first_not_of('=', digits) != std::string::npos) throw Undeclared("not base64");

@@ -91,10 +91,10 @@ class Table {
 
  private:
   void add(std::string_view line) {
-    constexpr std::string_view kBlanks = " \t\r\v\f";
+    constexpr std::string_view kBetweenWords = " \t\r\v\f";
     std::vector<std::string_view> fields;
-    for (std::size_t begin = 0; (begin = line.find_first_not_of(kBlanks, begin)) != std::string_view::npos;) {
-      const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
+    for (std::size_t begin = 0; (begin = line.find_first_not_of(kBetweenWords, begin)) != std::string_view::npos;) {
+      const std::size_t end = std::min(line.find_first_of(kBetweenWords, begin), line.size());
       fields.push_back(line.substr(begin, end - begin));
       begin = end;
     }

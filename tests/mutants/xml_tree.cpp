@@ -6,10 +6,8 @@
 namespace driftmesh::mutants {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
-
 bool is_blank(std::string_view text) {
-  return text.find_first_not_of(kBlanks) == std::string_view::npos;
+  return text.find_first_not_of(kXmlBlanks) == std::string_view::npos;
 }
 
 /// The characters that stand for themselves only when escaped.
@@ -60,7 +58,7 @@ class Parser {
     at_ = found + end.size();
     return true;
   }
-  void skip_blanks() { at_ = std::min(bytes_.find_first_not_of(kBlanks, at_), bytes_.size()); }
+  void skip_blanks() { at_ = std::min(bytes_.find_first_not_of(kXmlBlanks, at_), bytes_.size()); }
 
   void take_text() {
     const std::size_t end = std::min(bytes_.find('<', at_), bytes_.size());

@@ -9,6 +9,9 @@
 
 namespace driftmesh::mutants {
 
+/// What stands between words and numbers in XML.
+inline constexpr std::string_view kXmlBlanks = " \t\r\n";
+
 /// An element of an XML file.
 struct Element {
   std::string name;

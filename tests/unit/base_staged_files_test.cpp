@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
+struct StagingFolder {
   TemporaryFolder folder;
   [[nodiscard]] std::string operator/(const std::string& name) const { return (folder.path() / name).string(); }
   void put(const std::string& name, const std::string& text) const { std::ofstream(*this / name) << text; }
@@ -44,7 +44,7 @@ void write(const std::string& path, const std::string& text) {
 }  // namespace
 
 TEST_CASE("staged files appear on commit, or not at all") {
-  const Folder at;
+  const StagingFolder at;
   at.put("a", "old");
   {
     const StagedFiles files;
@@ -68,7 +68,7 @@ TEST_CASE("staged files appear on commit, or not at all") {
 }
 
 TEST_CASE("files that have appeared are removed if a later one fails") {
-  const Folder at;
+  const StagingFolder at;
   at.put("a", "old");
   StagedFiles files;
   for (const char* name : {"a", "b", "c"}) write(at / name, "new");
@@ -80,7 +80,7 @@ TEST_CASE("files that have appeared are removed if a later one fails") {
 }
 
 TEST_CASE("files that have appeared are removed unless all are finished") {
-  const Folder at;
+  const StagingFolder at;
   at.put("a", "old");
   {
     StagedFiles files;
@@ -95,7 +95,7 @@ TEST_CASE("files that have appeared are removed unless all are finished") {
 }
 
 TEST_CASE("commits of an inner stage wait for the outer one") {
-  const Folder at;
+  const StagingFolder at;
   StagedFiles outer;
   {
     StagedFiles inner;
@@ -112,7 +112,7 @@ TEST_CASE("commits of an inner stage wait for the outer one") {
 }
 
 TEST_CASE("a name that is staged twice gets the later file, or keeps the first one") {
-  const Folder at;
+  const StagingFolder at;
   at.put("a", "old");
   for (const bool finishes : {false, true}) {
     StagedFiles files;
@@ -130,7 +130,7 @@ TEST_CASE("remains of dead processes are removed, and nothing else") {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(0);
   ::waitpid(child, nullptr, 0);
-  const Folder at;
+  const StagingFolder at;
   const std::string own = fs::path(temporary_name(at / "a")).filename().string();
   const std::string process = "-" + std::to_string(::getpid()) + "-";
   const std::size_t place = own.rfind(process);
@@ -151,7 +151,7 @@ TEST_CASE("remains of dead processes are removed, and nothing else") {
 }
 
 TEST_CASE("held signals wait") {
-  const Folder at;
+  const StagingFolder at;
   at.put("temporary", "");
   const pid_t child = ::fork();
   if (child == 0) {

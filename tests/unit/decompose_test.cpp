@@ -14,13 +14,14 @@
 #include "driftmesh/repair.hpp"
 #include "geometry/predicates.hpp"
 #include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
 #include "pslg/poly_file.hpp"
 #include "sizing/make_size_field.hpp"
+#include "support/prepared_mesh.hpp"
 #include "support/refine_together.hpp"
 
 using namespace driftmesh;
+using driftmesh::testing::prepared;
 
 namespace {
 
@@ -55,12 +56,6 @@ Pslg with_holes() {
     pslg.holes.push_back(center);
   }
   return pslg;
-}
-
-Triangulation prepared(const Pslg& pslg) {
-  Triangulation mesh = triangulate(pslg);
-  prepare_corners(mesh);
-  return mesh;
 }
 
 double area_of(const Triangulation& mesh) {

@@ -18,19 +18,14 @@
 #include "decompose/same_segments.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
+#include "support/prepared_mesh.hpp"
 #include "support/varied_domain.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;
+using driftmesh::testing::prepared;
 
 namespace {
-
-Triangulation prepared(const Pslg& input) {
-  Triangulation mesh = triangulate(input);
-  prepare_corners(mesh);
-  return mesh;
-}
 
 Decomposition sample() {
   DecomposeOptions options;

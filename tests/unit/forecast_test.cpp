@@ -10,20 +10,14 @@
 #include "driftmesh/generate.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
 #include "mesh/refiner.hpp"
 #include "small_domains.hpp"
+#include "support/prepared_mesh.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
 
 namespace {
-
-Triangulation prepared(const Pslg& pslg) {
-  Triangulation mesh = triangulate(pslg);
-  prepare_corners(mesh);
-  return mesh;
-}
 
 QualityBounds bounds_with(double angle, double area) {
   QualityBounds bounds;

@@ -12,7 +12,7 @@ using namespace driftmesh;
 
 namespace {
 
-bool same(const Pslg& a, const Pslg& b) {
+bool identical(const Pslg& a, const Pslg& b) {
   return a.points == b.points && a.point_markers == b.point_markers && a.attributes == b.attributes &&
          a.attributes_per_point == b.attributes_per_point && a.segments == b.segments && a.holes == b.holes &&
          a.regions == b.regions && a.first_number == b.first_number;
@@ -48,7 +48,7 @@ TEST_CASE("files read back to the same bits") {
     std::mt19937_64 random(seed);
     const Pslg pslg = random_pslg(random);
     write_poly(pslg, path);
-    CHECK(same(read_poly(path), pslg));
+    CHECK(identical(read_poly(path), pslg));
   }
 }
 
@@ -75,6 +75,6 @@ TEST_CASE("the published models can be read, and survive a round trip") {
     CHECK(pslg.segments.size() == expected.segments);
     CHECK(pslg.holes.size() == expected.holes);
     write_poly(pslg, copy);
-    CHECK(same(read_poly(copy), pslg));
+    CHECK(identical(read_poly(copy), pslg));
   }
 }

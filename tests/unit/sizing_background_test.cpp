@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
@@ -12,14 +11,14 @@
 #include "sizing/background_field.hpp"
 #include "sizing/gradation.hpp"
 #include "sizing_mesh_fixture.hpp"
+#include "support/infinity.hpp"
 
 using namespace driftmesh;
 using driftmesh::testing::FlatMesh;
+using driftmesh::testing::kInfinity;
 using driftmesh::testing::square_mesh;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double linear(const Point& p) {
   return 10 + 0.75 * p.x - 0.3 * p.y;

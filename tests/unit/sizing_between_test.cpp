@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include "sizing/expression_field.hpp"
 #include "sizing/expression_range.hpp"
 #include "sizing/sampled_field.hpp"
+#include "support/infinity.hpp"
 #include "unit/sizing_mesh_fixture.hpp"
 
 // What size fields know of a triangle between its corners.
@@ -23,7 +23,6 @@ using namespace driftmesh::testing;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::array<Point, 3> kHalfSquare{{{0, 0}, {1, 0}, {1, 1}}};
 
 Interval range_of(const std::string& expression, const Box& box) {

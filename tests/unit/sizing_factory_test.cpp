@@ -3,19 +3,17 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <string>
 
 #include "driftmesh/error.hpp"
 #include "sizing/make_size_field.hpp"
 #include "support/error_text.hpp"
+#include "support/infinity.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A temporary folder of files.
 class Folder {

@@ -11,21 +11,16 @@
 #include "decompose/outline.hpp"
 #include "driftmesh/generate.hpp"
 #include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
+#include "support/prepared_mesh.hpp"
 
 // Separators after smoothing: short, with wide angles, and few interfaces.
 
 using namespace driftmesh;
+using driftmesh::testing::prepared;
 
 namespace {
 
 constexpr double kSixty = std::numbers::pi / 3;
-
-Triangulation prepared(const Pslg& pslg) {
-  Triangulation mesh = triangulate(pslg);
-  prepare_corners(mesh);
-  return mesh;
-}
 
 Pslg square() {
   Pslg pslg;
