@@ -22,13 +22,14 @@ if [[ ! -s $database ]]; then
   exit 2
 fi
 
-# The sources of the boxes: those that are compiled together are checked together, in a third of the time.
+# The sources of the boxes: those that are compiled together are checked together, in a third of the time. The most of them
+# come first, so that none is left to a single core at the end.
 sources() {
   python3 -c '
 import json, re, sys
-for entry in json.load(open(sys.argv[1])):
-    if re.search(r"-o \S*CMakeFiles/(dm_|driftmesh\.dir)", entry["command"]) and not entry["file"].endswith(".S"):
-        print(entry["file"])' "$database"
+found = [entry["file"] for entry in json.load(open(sys.argv[1]))
+         if re.search(r"-o \S*CMakeFiles/(dm_|driftmesh\.dir)", entry["command"]) and not entry["file"].endswith(".S")]
+print(*sorted(found, key=lambda file: -open(file).read().count("\n#include")), sep="\n")' "$database"
 }
 
 result=0
