@@ -67,15 +67,20 @@ class Tree:
         if path not in self.known:
             self.known[path] = [(number, *self.resolved(path, match.group(1), match.group(2)))
                                 for number, line in enumerate(path.read_text().splitlines(), 1)
-                                if (match := re.match(r'\s*#\s*include\b\s*(.)([^>"]*)', line))]
+                                if "include" in line and (match := re.match(r'\s*#\s*include\b\s*(.)([^>"]*)', line))]
         return self.known[path]
 
     def resolved(self, path, mark, header):
         if mark not in '<"':
             return mark + header, None
-        folders = [path.parent] * (mark == '"') + [self.root / folder for folder in INCLUDE_ROOTS]
-        found = next((folder / header for folder in folders if (folder / header).is_file()), None)
-        return header, found.resolve() if found else None
+        return header, self.found(header, path.parent if mark == '"' else None)
+
+    @functools.cache
+    def found(self, header, folder):
+        """The file of this name in the folder or in those that headers are named from, or None."""
+        folders = [folder] * bool(folder) + [self.root / top for top in INCLUDE_ROOTS]
+        found = next((place for top in folders if (place := top / header).is_file()), None)
+        return found.resolve() if found else None
 
     def reached(self, path):
         """{file of the project, or name of an outside header: the files on the way there}, transitively."""
