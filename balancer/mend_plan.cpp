@@ -5,7 +5,9 @@
 #include <functional>
 #include <optional>
 #include <queue>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "balancer/draft.hpp"
 
@@ -14,16 +16,14 @@ namespace {
 
 using OptionalChange = std::optional<Draft::Change>;
 
+/// All ranks, in the order in which they finish.
+using RanksInOrder = std::set<std::pair<double, Rank>>;
+
 /// Adjacent ranks, and some that finish first.
-std::vector<Rank> helpers_of(const Draft& draft, Rank rank) {
+std::vector<Rank> helpers_of(const Draft& draft, Rank rank, const RanksInOrder& ranks) {
   constexpr std::size_t kIdlest = 8;
-  const auto time_of = [&](Rank r) { return std::pair(draft.times()[r], r); };
   std::vector<Rank> helpers;
-  for (const Rank r : ids_of(draft.times())) helpers.push_back(r);
-  note_effort("search", static_cast<double>(helpers.size()));
-  const std::size_t idlest = std::min(kIdlest, helpers.size());
-  std::ranges::partial_sort(helpers, helpers.begin() + static_cast<std::ptrdiff_t>(idlest), {}, time_of);
-  helpers.resize(idlest);
+  for (auto r = ranks.begin(); r != ranks.end() && helpers.size() < kIdlest; ++r) helpers.push_back(r->second);
   for (const Draft::Index i : draft.held_by(rank))
     for (const Rank r : draft.ranks_around(i))
       if (std::ranges::find(helpers, r) == helpers.end()) helpers.push_back(r);
@@ -33,7 +33,7 @@ std::vector<Rank> helpers_of(const Draft& draft, Rank rank) {
 
 /// The change that lets `rank` finish by `latest` for the least border, or, if none does, the one by which it and its
 /// helper finish earliest.
-OptionalChange relief(const Draft& draft, Rank rank, double latest) {
+OptionalChange relief(const Draft& draft, Rank rank, double latest, const std::vector<Rank>& helpers) {
   const double now = draft.times()[rank];
   OptionalChange best;
   double best_finish = now;
@@ -46,7 +46,7 @@ OptionalChange relief(const Draft& draft, Rank rank, double latest) {
     best_finish = finish;
     best = change;
   };
-  for (const Rank to : helpers_of(draft, rank))
+  for (const Rank to : helpers)
     for (const Draft::Index i : draft.held_by(rank)) {
       const double here = now - draft.seconds(i, rank), there = draft.times()[to] + draft.seconds(i, to);
       consider(std::max(here, there), i, to, Draft::kNone);
@@ -57,13 +57,17 @@ OptionalChange relief(const Draft& draft, Rank rank, double latest) {
 }
 
 void relieve_late_ranks(Draft& draft, double latest) {
-  for (std::size_t rounds = draft.times().size(); rounds > 0; --rounds) {
-    note_effort("search", static_cast<double>(draft.times().size()));
-    const auto last = std::ranges::max_element(draft.times());
-    if (*last <= latest) return;
-    const auto change = relief(draft, Rank{static_cast<std::int32_t>(last - draft.times().begin())}, latest);
+  RanksInOrder ranks;
+  for (const Rank r : ids_of(draft.times())) ranks.emplace(draft.times()[r], r);
+  note_effort("search", static_cast<double>(ranks.size()));
+  for (std::size_t rounds = ranks.size(); rounds > 0 && ranks.rbegin()->first > latest; --rounds) {
+    const Rank last = ranks.rbegin()->second;
+    const auto change = relief(draft, last, latest, helpers_of(draft, last, ranks));
     if (!change) return;
+    const auto changing = {last, change->to};
+    for (const Rank r : changing) ranks.erase({draft.times()[r], r});
     draft.make(*change);
+    for (const Rank r : changing) ranks.emplace(draft.times()[r], r);
   }
 }
 
@@ -186,7 +190,7 @@ std::vector<Move> mend_plan(const LoadSnapshot& snapshot, std::span<const Move> 
 }
 
 Efforts effort_of_mending(const LoadSnapshot& snapshot) {
-  return {{"mend", 10 * static_cast<double>(snapshot.subdomains.size())}};
+  return {{"mend", 25 * static_cast<double>(snapshot.subdomains.size())}};
 }
 
 }  // namespace driftmesh::balancer

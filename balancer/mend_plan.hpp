@@ -29,7 +29,7 @@ struct MendingLimits {
 [[nodiscard]] std::vector<Move> mend_plan(const LoadSnapshot& snapshot, std::span<const Move> moves,
                                           const MoveCost& cost, const MendingLimits& limits);
 
-/// What that takes, roughly: some ten changes are considered for each subdomain.
+/// What that takes at most, roughly: 5 to 26 changes are considered for each subdomain.
 [[nodiscard]] Efforts effort_of_mending(const LoadSnapshot& snapshot);
 
 }  // namespace driftmesh::balancer

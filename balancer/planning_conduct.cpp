@@ -118,7 +118,8 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   news_ = false;
   if (leads) {
     const double cost = pace_.cost_of_planning();
-    const double ahead = options_.time_ahead(ideal_time(snapshot), std::max(cost, cost_of_whole(snapshot, situation)));
+    const double whole = affords_whole(snapshot, situation) ? cost_of_whole(snapshot, situation) : 0;
+    const double ahead = options_.time_ahead(ideal_time(snapshot), std::max(cost, whole));
     const Verdict verdict = outlook(snapshot, options_.worth, cost, ahead);
     news_ = verdict == Verdict::kTooEarly;  // it will be time without any
     if (verdict != Verdict::kDone) return;
@@ -194,10 +195,12 @@ std::size_t PlanningConduct::most_moves(std::span<const Move> few) const {
 }
 
 /// Not if an even load would gain less than planning takes, or less than when single moves were preferred to the last
-/// whole plan: what was no use with more to gain will be none with less.
+/// whole plan: what was no use with more to gain will be none with less. Nor if it takes more than an eighth of the
+/// time that is left: it would have to be begun so early (see time_ahead) that forecasts were of no use.
 bool PlanningConduct::affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const {
-  if (situation.now < next_whole_) return false;
-  return possible_gain(within_memory(snapshot)) > std::max(cost_of_whole(snapshot, situation), overruled_gain_);
+  const double cost = cost_of_whole(snapshot, situation);
+  if (situation.now < next_whole_ || 8 * cost > ideal_time(snapshot)) return false;
+  return possible_gain(within_memory(snapshot)) > std::max(cost, overruled_gain_);
 }
 
 /// What a whole plan takes, in seconds, mended: what one has taken, if that is more than expected.

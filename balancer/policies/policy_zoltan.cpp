@@ -22,6 +22,7 @@ bool has_own_graphs(const ZoltanParameters& parameters) {
 
 /// The length of the open borders of `s` with subdomains of its owner.
 double border_inside(const LoadSnapshot& snapshot, const SubdomainLoad& s) {
+  note_effort("border", 1);
   double length = 0;
   for (const Neighbor& n : (*snapshot.layout)[s.id].neighbors) {
     const SubdomainLoad* const other = find(snapshot, n.subdomain);
@@ -32,13 +33,23 @@ double border_inside(const LoadSnapshot& snapshot, const SubdomainLoad& s) {
 
 /// Leaves where it is what does not fit into the memory of its new rank, and counts the rest there.
 void keep_within_memory(const LoadSnapshot& from, LoadSnapshot& planned) {
-  std::vector<std::pair<double, std::size_t>> newcomers;
+  std::vector<std::size_t> newcomers;
+  IdVector<Rank, double> needed(planned.ranks.size(), 0);
   for (std::size_t i = 0; i < planned.subdomains.size(); ++i) {
-    SubdomainLoad& s = planned.subdomains[i];
-    if (s.owner != from.subdomains[i].owner) newcomers.emplace_back(-border_inside(planned, s), i);
+    const SubdomainLoad& s = planned.subdomains[i];
+    if (s.owner == from.subdomains[i].owner) continue;
+    newcomers.push_back(i);
+    needed[s.owner] += memory_for(s);
   }
-  std::ranges::sort(newcomers);
-  for (const auto& [border, i] : newcomers) {
+  // Where not all fit, those stay that have least border with the rest of the part.
+  std::vector<std::pair<double, std::size_t>> longest_border_first;
+  for (const std::size_t i : newcomers) {
+    const SubdomainLoad& s = planned.subdomains[i];
+    const bool all_fit = needed[s.owner] <= planned.ranks[s.owner].free_memory;
+    longest_border_first.emplace_back(all_fit ? 0 : -border_inside(planned, s), i);
+  }
+  std::ranges::sort(longest_border_first);
+  for (const auto& [border, i] : longest_border_first) {
     SubdomainLoad& s = planned.subdomains[i];
     double& free = planned.ranks[s.owner].free_memory;
     if (memory_for(s) > free)
@@ -48,8 +59,8 @@ void keep_within_memory(const LoadSnapshot& from, LoadSnapshot& planned) {
   }
 }
 
-/// How many subdomains a part has on average, where large ones count for what they are: as many as if all parts were
-/// made of subdomains of equal work and as uneven as these.
+/// How many subdomains a part has on average. Uneven ones count as the number of equal ones that would fill a part as
+/// unevenly.
 double subdomains_per_part(const LoadSnapshot& snapshot) {
   double work = 0, squares = 0;
   for (const SubdomainLoad& s : snapshot.subdomains) {
