@@ -24,10 +24,9 @@ Draft::Draft(const LoadSnapshot& before, std::span<const Move> moves, const Move
   }
   add_borders();
   for (const Move& move : moves) {
-    const auto place = std::ranges::lower_bound(before.subdomains, move.subdomain, {}, &SubdomainLoad::id);
-    const bool is_listed = place != before.subdomains.end() && place->id == move.subdomain;
-    if (is_listed && !place->fixed && slowness_.has(move.destination))
-      put(static_cast<Index>(place - before.subdomains.begin()), move.destination);
+    const SubdomainLoad* const s = find(before, move.subdomain);
+    if (s != nullptr && !s->fixed && slowness_.has(move.destination))
+      put(static_cast<Index>(s - before.subdomains.data()), move.destination);
   }
 }
 

@@ -69,10 +69,10 @@ class Draft {
   [[nodiscard]] bool has_memory(Index i, Rank to, Index j) const { return fits(i, to, j) && fits(j, owner(i), i); }
   /// What it means for `i` to go to another rank.
   [[nodiscard]] Change change(Index i, Rank to) const { return {i, to, kNone, more_border(i, to), moves_saved(i, to)}; }
-  /// How many changes these two have told of so far.
-  [[nodiscard]] std::uint64_t considered() const { return considered_; }
   /// The same, and `j` comes.
   [[nodiscard]] Change in_exchange(Change change, Index j) const;
+  /// How many changes these two have told of so far.
+  [[nodiscard]] std::uint64_t considered() const { return considered_; }
 
  private:
   /// Of a subdomain.

@@ -159,9 +159,10 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot,
   whole_at_ = situation.now;
   if (plan == *single) return needed(plan);
   std::vector<Move> few = needed(*single);
-  std::vector<Move> whole =
-      worth_moving(snapshot, mended(plan, few, snapshot), options_.cost, options_.worth, Kept::kAll);
-  const double ideal = ideal_time(within_memory(snapshot)), later = finish(snapshot, whole) - finish(snapshot, few);
+  const double ideal = ideal_time(within_memory(snapshot)), singly = finish(snapshot, few);
+  std::vector<Move> whole = worth_moving(snapshot, mended(plan, snapshot, ideal, singly, most_moves(few)),
+                                         options_.cost, options_.worth, Kept::kAll);
+  const double later = finish(snapshot, whole) - singly;
   const auto border = [&](const std::vector<Move>& moves) { return border_between_ranks(after(snapshot, moves)); };
   const bool takes_whole =
       later < -options_.worth.gain * ideal ||
@@ -176,17 +177,15 @@ double PlanningConduct::finish(const LoadSnapshot& snapshot, std::span<const Mov
   return std::ranges::max(finishing_times(snapshot, moves, options_.cost));
 }
 
-/// The plan, so that it ends about as early as the few single moves with no more moves than it may have then. One that
-/// ends notably earlier may have any number.
-std::vector<Move> PlanningConduct::mended(std::span<const Move> plan, std::span<const Move> few,
-                                          const LoadSnapshot& snapshot) const {
-  const double ideal = ideal_time(within_memory(snapshot)), slack = options_.worth.slack * ideal;
-  const double as_made = finish(snapshot, plan), singly = finish(snapshot, few);
+/// The plan, so that it ends about as early as single moves do, with no more moves than it may have then. One that ends
+/// notably earlier may have any number.
+std::vector<Move> PlanningConduct::mended(std::span<const Move> plan, const LoadSnapshot& snapshot, double ideal,
+                                          double singly, std::size_t most_moves) const {
+  const double slack = options_.worth.slack * ideal, as_made = finish(snapshot, plan);
   const bool is_better = as_made < singly - options_.worth.gain * ideal;
   const double latest = singly + (1 - 1e-9) * slack;  // sums are rounded
-  return mend_plan(
-      snapshot, plan, options_.cost,
-      {std::min(std::max(as_made, ideal + slack), latest), latest, is_better ? SIZE_MAX : most_moves(few)});
+  return mend_plan(snapshot, plan, options_.cost,
+                   {std::min(std::max(as_made, ideal + slack), latest), latest, is_better ? SIZE_MAX : most_moves});
 }
 
 std::size_t PlanningConduct::most_moves(std::span<const Move> few) const {

@@ -43,8 +43,8 @@ class PlanningConduct {
   void plan(const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] std::vector<Move> worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation);
   [[nodiscard]] double finish(const LoadSnapshot& snapshot, std::span<const Move> moves) const;
-  [[nodiscard]] std::vector<Move> mended(std::span<const Move> plan, std::span<const Move> few,
-                                         const LoadSnapshot& snapshot) const;
+  [[nodiscard]] std::vector<Move> mended(std::span<const Move> plan, const LoadSnapshot& snapshot, double ideal,
+                                         double singly, std::size_t most_moves) const;
   [[nodiscard]] std::size_t most_moves(std::span<const Move> few) const;
   [[nodiscard]] bool affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const;
   [[nodiscard]] double cost_of_whole(const LoadSnapshot& snapshot, const Situation& situation) const;

@@ -5,33 +5,22 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <set>
 
 #include "balancer/move_cost.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "balancer/ranks_by_finish.hpp"
 #include "property/cases.hpp"
 #include "support/load_snapshots.hpp"
+#include "support/planned_moves.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::balancer;
+using driftmesh::testing::check_valid;
+using driftmesh::testing::memory_needed;
 using driftmesh::testing::random_snapshot;
 using driftmesh::testing::time_with;
 
 namespace {
-
-void check_valid(const LoadSnapshot& snapshot, const std::vector<Move>& moves) {
-  std::set<SubdomainId> moved;
-  for (const Move& move : moves) {
-    CAPTURE(to_int(move.subdomain));
-    const SubdomainLoad* const s = find(snapshot, move.subdomain);
-    REQUIRE(s != nullptr);
-    REQUIRE(!s->fixed);
-    REQUIRE(move.destination != s->owner);
-    REQUIRE(snapshot.ranks.has(move.destination));
-    REQUIRE(moved.insert(move.subdomain).second);
-  }
-}
 
 // The moves of all ranks together, for a policy that plans on every rank.
 std::vector<Move> plan_of_all(const Policy& policy, const LoadSnapshot& snapshot) {
@@ -167,12 +156,10 @@ TEST_CASE("no plan is made beyond the memory of a rank") {
       CAPTURE(name);
       const auto plan = plan_of_all(*policy, snapshot);
       const auto worth = worth_moving(snapshot, plan, {});
-      IdVector<Rank, double> coming(snapshot.ranks.size(), 0);
-      for (const Move& move : worth) coming[move.destination] += memory_for(*find(snapshot, move.subdomain));
+      const IdVector<Rank, double> coming = memory_needed(snapshot, worth);
       for (const Rank r : ids_of(coming)) REQUIRE(coming[r] <= snapshot.ranks[r].free_memory * (1 + 1e-12));
       moved += !worth.empty();
-      IdVector<Rank, double> wanted(snapshot.ranks.size(), 0);
-      for (const Move& move : plan) wanted[move.destination] += memory_for(*find(snapshot, move.subdomain));
+      const IdVector<Rank, double> wanted = memory_needed(snapshot, plan);
       for (const Rank r : ids_of(wanted)) refused += wanted[r] > snapshot.ranks[r].free_memory;
       // These deal what they move to ranks that have memory for it, so nothing is refused.
       if (name == "greedy" || name.starts_with("zoltan"))
