@@ -8,9 +8,8 @@
 namespace driftmesh {
 
 double reference_speed(const CostModel& costs) {
-  constexpr double kTriangles = 5000, kPerPointWithBorders = 0.943 * kTrianglesPerPoint;
-  static_assert(kPerPointWithBorders == 1.886);
-  return kTriangles / (costs.start + kTriangles / kPerPointWithBorders * costs.point);
+  constexpr double kTriangles = 5000, kMeasuredPerPoint = 1.886;  // points on borders add fewer than kTrianglesPerPoint
+  return kTriangles / (costs.start + kTriangles / kMeasuredPerPoint * costs.point);
 }
 
 CostModel scaled(CostModel costs, double scale) {

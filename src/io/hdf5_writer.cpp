@@ -25,9 +25,7 @@
 namespace driftmesh {
 namespace {
 
-// VTK's number of the kind of cell that a line is, and where VTK begins an array on a page of its own.
-constexpr std::uint8_t kVtkLine = 3;
-constexpr hsize_t kPage = 4096;
+constexpr hsize_t kPage = 4096;  // VTK begins an array on a page of its own
 
 /// Makes the groups and arrays of a file, and writes what is small.
 class Hdf5Maker {

@@ -57,8 +57,8 @@ void for_each_cell_array(const VtuArrays& arrays, const Visit& visit) {
 inline constexpr const char* kMarkerOfName = "marker";
 inline constexpr const char* kRegionOfName = "region";
 
-/// VTK's number of the kind of cell that a triangle is.
-inline constexpr std::uint8_t kVtkTriangle = 5;
+/// VTK's numbers of kinds of cells.
+inline constexpr std::uint8_t kVtkLine = 3, kVtkTriangle = 5;
 
 /// VTK's name of the type.
 template <class T>

@@ -10,8 +10,6 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::uint8_t kLineCell = 3;
-
 // The header lists all arrays with their offsets; the arrays follow in the same order.
 class VtuFile {
  public:
@@ -195,7 +193,7 @@ void write_grid(VtuFile& file, const Mesh& mesh, const Counts& counts) {
   sink.raw_values(counts.lines, [&](std::size_t e) { return static_cast<Offset>(3 * counts.triangles + 2 * (e + 1)); });
   file.begin_array<std::uint8_t>(counts.cells);
   sink.raw_values(counts.triangles, [](std::size_t) { return kVtkTriangle; });
-  sink.raw_values(counts.lines, [](std::size_t) { return kLineCell; });
+  sink.raw_values(counts.lines, [](std::size_t) { return kVtkLine; });
 }
 
 template <class Offset>

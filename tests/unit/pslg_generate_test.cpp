@@ -177,36 +177,23 @@ TEST_CASE("bay: one coast with open sea, islands with their holes, about 10,000 
 }
 
 TEST_CASE("options out of range are named") {
-  CHECK(error_text<InputError>([] { (void)generate_pipe({.channels = 20}); }) ==
+  const auto refusal_of = [](const auto& make) { return error_text<InputError>(make); };
+  CHECK(refusal_of([] { (void)generate_pipe({.channels = 20}); }) ==
         "generate pipe: the channels do not fit side by side; take fewer or narrower ones");
-  CHECK(error_text<InputError>([] { (void)generate_pipe({.edge = -1}); }) ==
-        "generate pipe: the edge length must be positive");
-  CHECK(error_text<InputError>([] {
-          (void)generate_pipe({.outer_radius = std::nan("")});
-        }).starts_with("generate pipe: "));
-  CHECK(error_text<InputError>([] {
-          (void)generate_pipe({.edge = 1e-300});
-        }).starts_with("generate: the edge length is too small"));
-  CHECK(error_text<InputError>([] {
-          (void)generate_cylinder_flow({.radius = 40});
-        }).starts_with("generate cylinder-flow: "));
-  CHECK(error_text<InputError>([] {
-          (void)generate_fan({.wedges = 400});
-        }).starts_with("generate fan: the wedges must span"));
-  CHECK(error_text<InputError>([] { (void)generate_comb({.width = 0.2}); }).starts_with("generate comb: the width"));
-  CHECK(error_text<InputError>([] { (void)generate_holes({.radius = 0.6}); }).starts_with("generate holes: "));
-  CHECK(error_text<InputError>([] {
-          (void)generate_rectangle_hole({.sides = 2});
-        }).starts_with("generate rectangle-hole: "));
-  CHECK(error_text<InputError>([] {
-          (void)generate_random_polygon({.vertices = 3});
-        }).starts_with("generate random-polygon: "));
-  CHECK(error_text<InputError>([] {
+  CHECK(refusal_of([] { (void)generate_pipe({.edge = -1}); }) == "generate pipe: the edge length must be positive");
+  CHECK(refusal_of([] { (void)generate_pipe({.outer_radius = std::nan("")}); }).starts_with("generate pipe: "));
+  CHECK(
+      refusal_of([] { (void)generate_pipe({.edge = 1e-300}); }).starts_with("generate: the edge length is too small"));
+  CHECK(refusal_of([] { (void)generate_cylinder_flow({.radius = 40}); }).starts_with("generate cylinder-flow: "));
+  CHECK(refusal_of([] { (void)generate_fan({.wedges = 400}); }).starts_with("generate fan: the wedges must span"));
+  CHECK(refusal_of([] { (void)generate_comb({.width = 0.2}); }).starts_with("generate comb: the width"));
+  CHECK(refusal_of([] { (void)generate_holes({.radius = 0.6}); }).starts_with("generate holes: "));
+  CHECK(refusal_of([] { (void)generate_rectangle_hole({.sides = 2}); }).starts_with("generate rectangle-hole: "));
+  CHECK(refusal_of([] { (void)generate_random_polygon({.vertices = 3}); }).starts_with("generate random-polygon: "));
+  CHECK(refusal_of([] {
           (void)generate_random_points({.points = 100, .segments = 26});
         }).starts_with("generate random-"));
-  CHECK(error_text<InputError>([] {
-          (void)generate_bay({.resolution = 0});
-        }).starts_with("generate bay: the resolution"));
+  CHECK(refusal_of([] { (void)generate_bay({.resolution = 0}); }).starts_with("generate bay: the resolution"));
 }
 
 TEST_CASE("bounds on a sum of noise from some of its octaves hold for all of it") {
