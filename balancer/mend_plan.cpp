@@ -31,36 +31,41 @@ std::vector<Rank> helpers_of(const Draft& draft, Rank rank, const RanksInOrder& 
   return helpers;
 }
 
-/// The change that lets `rank` finish by `latest` for the least border, or, if none does, the one by which it and its
-/// helper finish earliest.
+/// The change that costs least border for each second by which `rank` and its helper are less late, together. It must
+/// take off a tenth of what the rank is late, and neither may finish later than the rank does now. Where nobody can be
+/// in time little changes: evening out what is late would cost border for nothing, as such a plan is not made.
 OptionalChange relief(const Draft& draft, Rank rank, double latest, const std::vector<Rank>& helpers) {
+  constexpr double kLeast = 0.1;
+  const auto late = [&](double finish) { return std::max(0.0, finish - latest); };
   const double now = draft.times()[rank];
   OptionalChange best;
-  double best_finish = now;
-  const auto consider = [&](double finish, Draft::Index i, Rank to, Draft::Index j) {
-    finish = std::max(finish, latest);
-    if (finish > best_finish || finish >= now || !draft.has_memory(i, to, j)) return;
+  double best_price = HUGE_VAL;
+  const auto consider = [&](double here, double there, Draft::Index i, Rank to, Draft::Index j) {
+    const double gain = late(now) + late(draft.times()[to]) - late(here) - late(there);
+    if (gain < kLeast * late(now) || std::max(here, there) >= now || !draft.has_memory(i, to, j)) return;
     Draft::Change change = draft.change(i, to);
     if (j != Draft::kNone) change = draft.in_exchange(change, j);
-    if (finish == best_finish && best && change.border >= best->border) return;
-    best_finish = finish;
+    const double price = change.border / gain;
+    if (price >= best_price) return;
+    best_price = price;
     best = change;
   };
   for (const Rank to : helpers)
     for (const Draft::Index i : draft.held_by(rank)) {
       const double here = now - draft.seconds(i, rank), there = draft.times()[to] + draft.seconds(i, to);
-      consider(std::max(here, there), i, to, Draft::kNone);
+      consider(here, there, i, to, Draft::kNone);
       for (const Draft::Index j : draft.held_by(to))
-        consider(std::max(here + draft.seconds(j, rank), there - draft.seconds(j, to)), i, to, j);
+        consider(here + draft.seconds(j, rank), there - draft.seconds(j, to), i, to, j);
     }
   return best;
 }
 
 void relieve_late_ranks(Draft& draft, double latest) {
+  constexpr std::size_t kChanges = 4;  // to a rank, on average
   RanksInOrder ranks;
   for (const Rank r : ids_of(draft.times())) ranks.emplace(draft.times()[r], r);
   note_effort("search", static_cast<double>(ranks.size()));
-  for (std::size_t rounds = ranks.size(); rounds > 0 && ranks.rbegin()->first > latest; --rounds) {
+  for (std::size_t rounds = kChanges * ranks.size(); rounds > 0 && ranks.rbegin()->first > latest; --rounds) {
     const Rank last = ranks.rbegin()->second;
     const auto change = relief(draft, last, latest, helpers_of(draft, last, ranks));
     if (!change) return;

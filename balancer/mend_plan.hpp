@@ -18,7 +18,8 @@ struct MendingLimits {
 
 /// A plan that was made as a whole, mended so that it ends by `latest` and has no more moves than it may, as far as
 /// that is possible, with little border between ranks:
-/// 1. Ranks that would finish later give subdomains to others, or exchange some with them.
+/// 1. Ranks that would finish later give subdomains to others, or exchange some with them: whatever costs least border
+///    for the time that it saves.
 /// 2. Subdomains return to the ranks that have them: those whose return leaves no more border, and while there are too
 ///    many moves, those that cost least border for each move that is saved. What returns may take the place of another
 ///    newcomer, which goes where the first was, so that chains and cycles of moves become short.

@@ -139,8 +139,9 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
 }
 
 /// The plan of the policy as far as it is worth its moves. If the policy offers single moves as well, a plan is asked
-/// for only where it may pay off, and kept as a whole, since what makes it better than those would be lost in parts, or
-/// not at all: mended, it must end notably earlier, or as early with less border between ranks and not too many moves.
+/// for only where some of those are worth making (where none is, what remains is too coarse for parts as well, or no
+/// rank has memory), and kept as a whole, since what makes it better than those would be lost in parts, or not at all:
+/// mended, it must end notably earlier, or as early with less border between ranks and not too many moves.
 std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation) {
   const bool leads = policy_->placement() == Placement::kLeader;
   const auto needed = [&](const std::vector<Move>& moves) {
@@ -152,13 +153,13 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot,
     return needed(moves);
   }
   const auto single = policy_->touch_up(snapshot);
-  if (single && !affords_whole(snapshot, situation)) return needed(*single);
+  if (!single) return needed(policy_->plan(snapshot, self_));
+  std::vector<Move> few = needed(*single);
+  if (few.empty() || !affords_whole(snapshot, situation)) return few;
   const std::vector<Move> plan = policy_->plan(snapshot, self_);
-  if (!single) return needed(plan);
   planned_whole_ = true;
   whole_at_ = situation.now;
-  if (plan == *single) return needed(plan);
-  std::vector<Move> few = needed(*single);
+  if (plan == *single) return few;
   const double ideal = ideal_time(within_memory(snapshot)), singly = finish(snapshot, few);
   std::vector<Move> whole = worth_moving(snapshot, mended(plan, snapshot, ideal, singly, most_moves(few)),
                                          options_.cost, options_.worth, Kept::kAll);

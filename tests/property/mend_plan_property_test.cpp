@@ -145,6 +145,20 @@ TEST_CASE("late ranks give what leaves no more border") {
   CHECK(border(c, mended) == doctest::Approx(1));
 }
 
+TEST_CASE("late ranks stay compact where nobody can finish in time") {
+  // A strip on two ranks, the first with seven of twelve subdomains of about the same work. Exchanges could make times
+  // very equal, and no rank early enough.
+  auto random = testing::seeded_generator("late and compact");
+  for (int i = 0; i < 100; ++i) {
+    LoadSnapshot strip = testing::initial_snapshot(testing::grid_layout(12, 1, 2), {100, 100});
+    for (SubdomainLoad& s : strip.subdomains) s.remaining = std::uniform_real_distribution<double>(950, 1050)(random);
+    sum_up(strip);
+    const std::vector<Move> seven{{SubdomainId{6}, Rank{0}}};
+    const std::vector<Move> mended = mend_plan(strip, seven, kFree, {50, 50, 12});
+    CHECK(border_between_ranks(after(strip, mended)) == doctest::Approx(1));
+  }
+}
+
 TEST_CASE("what is in proportion to speeds within memory fits, and all work is done") {
   auto random = testing::seeded_generator("within memory");
   int slower = 0;

@@ -14,41 +14,48 @@ using namespace driftmesh::testing;
 
 namespace {
 
-/// Plans of which each takes as long as it says, and single moves instead.
+/// The first that may move, to the other of two ranks.
+std::vector<Move> first_of(const LoadSnapshot& snapshot) {
+  const auto first = std::ranges::find(snapshot.subdomains, false, &SubdomainLoad::fixed);
+  return {{first->id, Rank{1 - to_int(first->owner)}}};
+}
+
+/// Plans of which each takes as long as it says, and single moves instead, which are the same if there are any.
 class SlowPlans final : public Policy {
  public:
   struct Asked {
     int plans = 0, touch_ups = 0;
   };
-  SlowPlans(double seconds, Asked& asked) : seconds_(seconds), asked_(asked) {}
+  SlowPlans(double seconds, bool has_moves, Asked& asked) : seconds_(seconds), has_moves_(has_moves), asked_(asked) {}
   [[nodiscard]] Placement placement() const override { return Placement::kLeader; }
-  [[nodiscard]] std::vector<Move> plan(const LoadSnapshot&, Rank) const override {
+  [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override {
     ++asked_.plans;
-    return {};
+    return first_of(snapshot);
   }
-  [[nodiscard]] std::optional<std::vector<Move>> touch_up(const LoadSnapshot&) const override {
+  [[nodiscard]] std::optional<std::vector<Move>> touch_up(const LoadSnapshot& snapshot) const override {
     ++asked_.touch_ups;
-    return std::vector<Move>{};
+    return has_moves_ ? first_of(snapshot) : std::vector<Move>{};
   }
   [[nodiscard]] double planning_seconds(const LoadSnapshot&) const override { return seconds_; }
 
  private:
   double seconds_;
+  bool has_moves_;
   Asked& asked_;
 };
 
-/// What a policy is asked in ten looks, a second apart, at a rank with all the work and one with none: 10 s can be
-/// gained.
-SlowPlans::Asked asked_in_ten_looks(double expected, double taken) {
+/// What a policy is asked in ten looks, a second apart, at a rank with all the work and one with none: at least 5 s can
+/// be gained.
+SlowPlans::Asked asked_in_ten_looks(double expected, double taken, bool has_moves = true) {
   SlowPlans::Asked asked;
   ControllerOptions options;
   options.reference_speed = 100;  // that of these ranks
-  Controller leader(0_rank, std::make_shared<Layout>(grid_layout(4, 1, 2)),
-                    std::make_shared<SlowPlans>(expected, asked), options, 0);
+  Controller leader(0_rank, std::make_shared<Layout>(grid_layout(40, 1, 2)),
+                    std::make_shared<SlowPlans>(expected, has_moves, asked), options, 0);
   for (int i = 1; i <= 10; ++i) {
     leader.receive(1_rank, LoadReport{static_cast<std::uint32_t>(i), 0, 100, {}}, i);
     const int plans = asked.plans;
-    if (leader.think(i, loads_of(0, 1, 1000), 100).planned) leader.took(asked.plans > plans ? taken : 1e-6);
+    if (leader.think(i, loads_of(0, 39, 50), 100).planned) leader.took(asked.plans > plans ? taken : 1e-6);
   }
   return asked;
 }
@@ -67,6 +74,12 @@ TEST_CASE("a plan that would take longer than it gains is not made, and single m
   const SlowPlans::Asked seldom = asked_in_ten_looks(0.04, 0.04);  // a hundredth of the time, so every fourth second
   CHECK(seldom.plans == 3);
   CHECK(seldom.touch_ups == 10);
+}
+
+TEST_CASE("where no single move is worth making, a whole plan is not asked for") {
+  const SlowPlans::Asked nothing = asked_in_ten_looks(1e-3, 1e-3, false);
+  CHECK(nothing.touch_ups == 10);
+  CHECK(nothing.plans == 0);
 }
 
 namespace {
@@ -114,7 +127,6 @@ TEST_CASE("a whole plan is made where it finishes earlier, or leaves less border
 }
 
 TEST_CASE("a whole plan that is not kept is asked for again when more is to be gained") {
-  const Layout layout = grid_layout(24, 1, 2);
   int plans = 0;
   class UselessPlans final : public Policy {
    public:
@@ -124,8 +136,8 @@ TEST_CASE("a whole plan that is not kept is asked for again when more is to be g
       ++plans_;
       return {{0_sub, 0_rank}};
     }
-    [[nodiscard]] std::optional<std::vector<Move>> touch_up(const LoadSnapshot&) const override {
-      return std::vector<Move>{};
+    [[nodiscard]] std::optional<std::vector<Move>> touch_up(const LoadSnapshot& snapshot) const override {
+      return first_of(snapshot);
     }
 
    private:
@@ -133,17 +145,18 @@ TEST_CASE("a whole plan that is not kept is asked for again when more is to be g
   };
   ControllerOptions options = planning_early();
   options.overhead = 1;
-  Controller leader(0_rank, std::make_shared<Layout>(layout), std::make_shared<UselessPlans>(plans), options, 0);
+  Controller leader(0_rank, std::make_shared<Layout>(grid_layout(40, 1, 2)), std::make_shared<UselessPlans>(plans),
+                    options, 0);
   const auto plans_at = [&](std::uint32_t second, std::int32_t subdomains) {
     leader.receive(1_rank, LoadReport{second, 0, 100, {}}, second);
-    static_cast<void>(leader.think(second, loads_of(0, subdomains - 1, 1000), 100));
+    static_cast<void>(leader.think(second, loads_of(0, subdomains - 1, 100), 100));
     return plans;
   };
-  CHECK(plans_at(1, 4) == 1);
-  CHECK(plans_at(5, 4) == 1);
-  CHECK(plans_at(9, 3) == 1);
-  CHECK(plans_at(13, 8) == 2);
-  CHECK(plans_at(17, 6) == 2);
+  CHECK(plans_at(1, 20) == 1);
+  CHECK(plans_at(5, 20) == 1);
+  CHECK(plans_at(9, 15) == 1);
+  CHECK(plans_at(13, 40) == 2);
+  CHECK(plans_at(17, 30) == 2);
 }
 
 TEST_CASE("mending a plan and comparing its borders with those of single moves is charged") {
