@@ -44,12 +44,13 @@ class Policy {
   /// once, and never to its owner.
   [[nodiscard]] virtual std::vector<Move> plan(const LoadSnapshot& snapshot, Rank self) const;
 
-  /// kLeader: moves of single subdomains, which are made where plan() would not pay off as a whole. Without them (the
-  /// default) plan() is reduced to those moves that do.
+  /// kLeader: moves of single subdomains, which are made where plan() would not pay off as a whole. If none of them is
+  /// worth making, plan() is not asked: what remains is too little for new parts. Without them (the default) it always
+  /// is, and reduced to those moves that pay off.
   [[nodiscard]] virtual std::optional<std::vector<Move>> touch_up(const LoadSnapshot& snapshot) const;
 
-  /// kLeader: how long plan() takes, in seconds on the machine in docs/benchmarks.md. It is asked only if more than
-  /// that can be gained; otherwise touch_up() alone is. 0, the default: it is always asked.
+  /// kLeader: how long plan() takes, in seconds on the machine in docs/benchmarks.md. Beside touch_up(), it is asked
+  /// only if more than that can be gained. 0, the default: that does not matter.
   [[nodiscard]] virtual double planning_seconds(const LoadSnapshot& snapshot) const;
 
   /// kLeader: how many times as many moves as touch_up() plan() may have and still be made where both finish about as

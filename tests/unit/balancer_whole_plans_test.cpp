@@ -1,6 +1,7 @@
 // When a leader asks for a whole plan, and when it is content with single moves.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
