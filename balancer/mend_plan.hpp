@@ -30,7 +30,8 @@ struct MendingLimits {
 [[nodiscard]] std::vector<Move> mend_plan(const LoadSnapshot& snapshot, std::span<const Move> moves,
                                           const MoveCost& cost, const MendingLimits& limits);
 
-/// What that takes, roughly: 5 to 42 changes are considered for each subdomain, and up to 130 where many ranks are late.
+/// What that takes, roughly: 5 to 42 changes are considered for each subdomain, and up to 130 where many ranks are
+/// late.
 [[nodiscard]] Efforts effort_of_mending(const LoadSnapshot& snapshot);
 
 }  // namespace driftmesh::balancer
