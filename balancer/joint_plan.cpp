@@ -203,6 +203,7 @@ JointPlan weigh(const IdVector<Rank, RankLoad>& states, std::span<const Transfer
                 const Worth& worth) {
   JointPlan plan{false, states, IdVector<Rank, JointPlan::Coming>(states.size())};
   LoadSnapshot before{nullptr, {}, states};
+  be_sure_of_idle_ranks(before);
   std::vector<Move> moves;
   for (const Transfer& t : transfers) {
     const auto id = static_cast<SubdomainId>(before.subdomains.size());

@@ -88,7 +88,8 @@ struct Transfer {
 };
 [[nodiscard]] std::vector<Transfer> transfers_of(const Contribution& contribution, std::span<const Move> moves);
 
-/// The common conclusion from all transfers: either all of them are made, or none.
+/// The common conclusion from all transfers: either all of them are made, or none. What is in doubt counts as in the
+/// call for the round: not at all once a rank has no work.
 struct JointPlan {
   struct Coming {
     double work = 0;

@@ -80,3 +80,17 @@ TEST_CASE("work under way counts, and nothing moves that is not worth it") {
   for (auto& s : contributions[1].own) s.bytes = 100'000'000;  // it takes longer to pack one than to finish it
   CHECK(all_moves(hold_round(zoltan({}), snapshot, contributions)).empty());
 }
+
+// As for plans of a leader. A round is called then, so one that doubts call off costs all ranks for nothing.
+TEST_CASE("doubts about the work of others do not keep a rank idle in a joint plan either") {
+  LoadSnapshot start = initial_snapshot(grid_layout(20, 20, 3), {1e5, 1e5, 1e5});
+  for (RankLoad& rank : start.ranks) rank.doubt = 2;
+  for (const bool idle : {true, false}) {
+    LoadSnapshot snapshot = start;
+    if (idle) std::erase_if(snapshot.subdomains, [](const SubdomainLoad& s) { return s.owner == Rank{2}; });
+    for (SubdomainLoad& s : snapshot.subdomains)
+      if (s.owner == Rank{0}) s.remaining *= 2;
+    sum_up(snapshot);
+    CHECK(all_moves(hold_round(zoltan({}), snapshot, contributions_of(snapshot))).empty() == !idle);
+  }
+}
