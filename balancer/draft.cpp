@@ -93,7 +93,6 @@ bool Draft::fits(Index i, Rank to, Index leaves) const {
 }
 
 double Draft::more_border(Index i, Rank to) const {
-  ++considered_;
   double more = 0;
   for (const Border& b : borders(i)) {
     if (owner(b.beyond) == owner(i)) more += b.length;
@@ -103,6 +102,7 @@ double Draft::more_border(Index i, Rank to) const {
 }
 
 Draft::Change Draft::in_exchange(Change change, Index j) const {
+  if (j == kNone) return change;
   change.comes = j;
   change.border += more_border(j, owner(change.goes));
   // Both have counted on the other one to stay where it is.

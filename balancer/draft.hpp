@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "balancer/move_cost.hpp"
@@ -67,11 +68,18 @@ class Draft {
   }
   /// Whether `i` fits there, and `j`, unless it is kNone, fits where `i` was.
   [[nodiscard]] bool has_memory(Index i, Rank to, Index j) const { return fits(i, to, j) && fits(j, owner(i), i); }
+  /// When its rank and the other one finish if `i` goes there, and `j`, unless it is kNone, comes.
+  [[nodiscard]] std::pair<double, double> times_after(Index i, Rank to, Index j) const {
+    ++considered_;
+    const Rank from = owner(i);
+    const double here = times_[from] - seconds(i, from), there = times_[to] + seconds(i, to);
+    return j == kNone ? std::pair(here, there) : std::pair(here + seconds(j, from), there - seconds(j, to));
+  }
   /// What it means for `i` to go to another rank.
   [[nodiscard]] Change change(Index i, Rank to) const { return {i, to, kNone, more_border(i, to), moves_saved(i, to)}; }
-  /// The same, and `j` comes.
+  /// The same, and `j`, unless it is kNone, comes.
   [[nodiscard]] Change in_exchange(Change change, Index j) const;
-  /// How many changes these two have told of so far.
+  /// Of how many changes times_after() has told so far.
   [[nodiscard]] std::uint64_t considered() const { return considered_; }
 
  private:

@@ -43,7 +43,7 @@ struct PlanningCosts {
                                         {"search", 2.5e-9},  // a rank that is considered for work, or asked for some
                                         {"weigh", 150e-9},   // a planned move
                                         {"remap", 65e-9},    // a subdomain of parts that are assigned to ranks
-                                        {"mend", 130e-9},    // a change of a plan that is considered
+                                        {"mend", 30e-9},     // a change of a plan that is considered
                                         {"border", 150e-9},  // a subdomain whose borders with other ranks are added up
                                         // By Zoltan, a subdomain and a level of bisection:
                                         {"rcb", 25e-9},

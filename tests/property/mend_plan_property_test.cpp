@@ -159,6 +159,28 @@ TEST_CASE("late ranks stay compact where nobody can finish in time") {
   }
 }
 
+TEST_CASE("borders become about as short as they can be, also where no single change saves any") {
+  // A square of equal subdomains on four ranks, dealt out at random: quarters would leave a border of twice its side.
+  auto random = testing::seeded_generator("short borders");
+  constexpr int kSide = 12;
+  double sum = 0;
+  const std::int64_t cases = testing::case_count(50);
+  for (std::int64_t i = cases; i > 0; --i) {
+    Layout layout = testing::grid_layout(kSide, kSide, 4);
+    std::vector<Rank> owners;
+    for (const auto& s : layout.subdomains) owners.push_back(s.owner);
+    std::ranges::shuffle(owners, random);
+    for (const SubdomainId s : ids_of(layout.subdomains)) layout.subdomains[s].owner = owners[to_index(s)];
+    Case c{testing::initial_snapshot(std::move(layout), {100, 100, 100, 100}), {}, 0};
+    const double even = time_with(c.snapshot, {});
+    const std::vector<Move> mended = mend_plan(c.snapshot, {}, kFree, {1.03 * even, 1.03 * even, SIZE_MAX});
+    CHECK(time_with(c.snapshot, mended) <= 1.03 * even);
+    sum += border(c, mended);
+  }
+  std::printf("mean border %.1f of at least %d\n", sum / static_cast<double>(cases), 2 * kSide);
+  CHECK(sum <= 1.7 * 2 * kSide * static_cast<double>(cases));
+}
+
 TEST_CASE("what is in proportion to speeds within memory fits, and all work is done") {
   auto random = testing::seeded_generator("within memory");
   int slower = 0;
