@@ -79,10 +79,11 @@ void note(Deliberation deliberation) {
   if (is_logged()) innermost_log->noted_.push_back(std::move(deliberation));
 }
 
-void overrule(std::size_t back) {
+void note_comparison(std::size_t back, double border, bool made) {
   if (!is_logged()) return;
   Deliberation& plan = innermost_log->noted_.rbegin()[static_cast<std::ptrdiff_t>(back)];
-  if (plan.verdict == Verdict::kDone) plan.verdict = Verdict::kOtherPlan;
+  plan.border = border;
+  if (!made && plan.verdict == Verdict::kDone) plan.verdict = Verdict::kOtherPlan;
 }
 
 std::vector<Deliberation::KnownLoad> known_loads(const LoadSnapshot& snapshot) {

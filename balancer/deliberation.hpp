@@ -63,6 +63,7 @@ struct Deliberation {
   double finish = 0, ideal = 0,
          noise = 0;                ///< of a load, in seconds from now: see finishing_time, ideal_time, noise_of
   double saves = 0;                ///< by a load made even, by a plan: seconds, beyond noise
+  double border = 0;               ///< between ranks after a plan, if it was compared with others
   bool whole = false;              ///< of a plan: its moves are all made, or none (Kept::kAll)
   std::vector<KnownLoad> loads{};  ///< of the ranks with work or a known speed
   std::vector<JudgedMove> moves{};
@@ -83,7 +84,7 @@ class DeliberationLog {
 
  private:
   friend void note(Deliberation deliberation);
-  friend void overrule(std::size_t back);
+  friend void note_comparison(std::size_t back, double border, bool made);
   DeliberationLog* outer_;
   std::vector<Deliberation> noted_;
 };
@@ -92,8 +93,9 @@ class DeliberationLog {
 [[nodiscard]] bool is_logged();
 /// To the innermost log of this thread, if there is one.
 void note(Deliberation deliberation);
-/// Of the plans noted, the one `back` before the last was worth its moves, but another one is made.
-void overrule(std::size_t back);
+/// The plan noted `back` before the last leaves this border between ranks, and is made, if it is worth its moves, or
+/// another one is.
+void note_comparison(std::size_t back, double border, bool made);
 
 /// The loads of the ranks that a planner knows something of.
 [[nodiscard]] std::vector<Deliberation::KnownLoad> known_loads(const LoadSnapshot& snapshot);

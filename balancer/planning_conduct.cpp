@@ -139,9 +139,8 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
 }
 
 /// The plan of the policy as far as it is worth its moves. If the policy offers single moves as well, a plan is asked
-/// for only where some of those are worth making (where none is, what remains is too coarse for parts as well, or no
-/// rank has memory), and kept as a whole, since what makes it better than those would be lost in parts, or not at all:
-/// mended, it must end notably earlier, or as early with less border between ranks and not too many moves.
+/// for only where some of those are worth making: where none is, what remains is too coarse for parts as well, or no
+/// rank has memory.
 std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation) {
   const bool leads = policy_->placement() == Placement::kLeader;
   const auto needed = [&](const std::vector<Move>& moves) {
@@ -159,18 +158,37 @@ std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot,
   const std::vector<Move> plan = policy_->plan(snapshot, self_);
   planned_whole_ = true;
   whole_at_ = situation.now;
-  if (plan == *single) return few;
+  return plan == *single ? few : better_of(plan, few, snapshot);
+}
+
+/// A plan is made as a whole, since what makes it better than single moves would be lost in parts, or not at all: it is
+/// mended, and must then end notably earlier than those, or as early with less border between ranks and not too many
+/// moves. Otherwise the single moves are made, mended if that leaves less border.
+std::vector<Move> PlanningConduct::better_of(const std::vector<Move>& plan, const std::vector<Move>& few,
+                                             const LoadSnapshot& snapshot) {
   const double ideal = ideal_time(within_memory(snapshot)), singly = finish(snapshot, few);
-  std::vector<Move> whole = worth_moving(snapshot, mended(plan, snapshot, ideal, singly, most_moves(few)),
-                                         options_.cost, options_.worth, Kept::kAll);
-  const double later = finish(snapshot, whole) - singly;
+  const auto worthwhile = [&](std::span<const Move> moves, std::size_t most, Kept kept) {
+    return worth_moving(snapshot, mended(moves, snapshot, ideal, singly, most), options_.cost, options_.worth, kept);
+  };
   const auto border = [&](const std::vector<Move>& moves) { return border_between_ranks(after(snapshot, moves)); };
-  const bool takes_whole =
-      later < -options_.worth.gain * ideal ||
-      (later <= options_.worth.slack * ideal && whole.size() <= most_moves(few) && border(whole) < border(few));
-  overrule(takes_whole ? 1 : 0);
+  const double border_singly = border(few);
+
+  const std::vector<Move> whole = worthwhile(plan, most_moves(few), Kept::kAll);
+  const double later = finish(snapshot, whole) - singly, border_whole = border(whole);
+  const bool is_earlier = later < -options_.worth.gain * ideal;
+  const bool is_as_early = later <= options_.worth.slack * ideal && whole.size() <= most_moves(few);
+  const bool takes_whole = is_earlier || (is_as_early && border_whole < border_singly);
+  note_comparison(0, border_whole, takes_whole);
+  note_comparison(1, border_singly, !takes_whole);
   overruled_gain_ = takes_whole ? 0 : possible_gain(within_memory(snapshot));
-  return takes_whole ? whole : few;
+  if (takes_whole) return whole;
+
+  const std::vector<Move> few_mended = worthwhile(few, few.size(), Kept::kNeeded);
+  const double border_mended = border(few_mended);
+  const bool takes_mended = !few_mended.empty() && border_mended < border_singly;
+  note_comparison(0, border_mended, takes_mended);
+  note_comparison(2, border_singly, !takes_mended);
+  return takes_mended ? few_mended : few;
 }
 
 /// Seconds until all have finished what they then have.

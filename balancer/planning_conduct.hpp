@@ -42,6 +42,8 @@ class PlanningConduct {
   [[nodiscard]] Verdict judge(const Move& move, const Situation& situation, const Loads& own) const;
   void plan(const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] std::vector<Move> worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation);
+  [[nodiscard]] std::vector<Move> better_of(const std::vector<Move>& plan, const std::vector<Move>& few,
+                                            const LoadSnapshot& snapshot);
   [[nodiscard]] double finish(const LoadSnapshot& snapshot, std::span<const Move> moves) const;
   [[nodiscard]] std::vector<Move> mended(std::span<const Move> plan, const LoadSnapshot& snapshot, double ideal,
                                          double singly, std::size_t most_moves) const;

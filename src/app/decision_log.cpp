@@ -50,6 +50,7 @@ config::Json json_of(const Deliberation& considered) {
       break;
     case Subject::kPlan:
       said.update({{"saves", considered.saves}, {"whole", considered.whole}, {"moves", moves_json(considered)}});
+      if (considered.border > 0) said["border"] = considered.border;
       break;
     case Subject::kAdvice:
     case Subject::kAdmission:

@@ -15,7 +15,7 @@ double remaining_on(const RankLoop& loop) {
 void write_deliberation(ByteWriter& writer, const balancer::Deliberation& d) {
   writer.value(d.subject);
   writer.value(d.verdict);
-  for (const double value : {d.time, d.finish, d.ideal, d.noise, d.saves}) writer.value(value);
+  for (const double value : {d.time, d.finish, d.ideal, d.noise, d.saves, d.border}) writer.value(value);
   writer.value(d.whole);
   for (const Rank rank : {d.rank, d.thief, d.giver}) writer.value(rank);
   writer.array(d.loads);
@@ -26,7 +26,7 @@ balancer::Deliberation read_deliberation(ByteReader& reader) {
   balancer::Deliberation d;
   reader.value(d.subject);
   reader.value(d.verdict);
-  for (double* value : {&d.time, &d.finish, &d.ideal, &d.noise, &d.saves}) reader.value(*value);
+  for (double* value : {&d.time, &d.finish, &d.ideal, &d.noise, &d.saves, &d.border}) reader.value(*value);
   reader.value(d.whole);
   for (Rank* rank : {&d.rank, &d.thief, &d.giver}) reader.value(*rank);
   reader.array(d.loads);

@@ -103,7 +103,7 @@ TEST_CASE("a plan that saves nothing, or has no moves, says so") {
 TEST_CASE("what is noted goes to the innermost log, or nowhere") {
   CHECK(!is_logged());
   note({.saves = 1});
-  overrule(0);
+  note_comparison(0, 5, false);
   DeliberationLog outer;
   note({.subject = Deliberation::Subject::kPlan, .saves = 2});
   {
@@ -112,10 +112,12 @@ TEST_CASE("what is noted goes to the innermost log, or nowhere") {
     CHECK(inner.take().size() == 1);
   }
   note({.subject = Deliberation::Subject::kPlan, .verdict = Verdict::kSmallSaving, .saves = 4});
-  overrule(1);
-  overrule(0);  // was not worth its moves anyway
+  note_comparison(1, 6, false);
+  note_comparison(0, 7, false);  // was not worth its moves anyway
   const auto noted = outer.take();
   REQUIRE(noted.size() == 2);
   CHECK(noted[0].verdict == Verdict::kOtherPlan);
+  CHECK(noted[0].border == 6);
   CHECK(noted[1].verdict == Verdict::kSmallSaving);
+  CHECK(noted[1].border == 7);
 }

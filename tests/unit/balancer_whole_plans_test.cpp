@@ -100,15 +100,20 @@ class TwoPlans final : public Policy {
   double most_moves_;
 };
 
-/// How many moves a leader with eight subdomains makes or advises when the other rank has four.
-std::size_t moves_made(const std::vector<Move>& whole, const std::vector<Move>& single, double most_moves) {
+/// The moves that a leader with eight subdomains makes or advises when the other rank has four.
+std::vector<Move> moves_of_leader(const std::vector<Move>& whole, const std::vector<Move>& single, double most_moves) {
   Controller leader(0_rank, std::make_shared<Layout>(grid_layout(12, 1, 2)),
                     std::make_shared<TwoPlans>(whole, single, most_moves), planning_early(), 0);
   leader.receive(1_rank, LoadReport{1, 0, 100, loads_of(8, 11, 1000)}, 1);
   const Decision decision = leader.think(1, loads_of(0, 7, 1000), 100);
-  std::size_t moves = decision.moves.size();
-  for (const auto& [to, plan] : sent<balancer::Plan>(decision)) moves += plan.moves.size();
+  std::vector<Move> moves = decision.moves;
+  for (const auto& [to, plan] : sent<balancer::Plan>(decision))
+    moves.insert(moves.end(), plan.moves.begin(), plan.moves.end());
   return moves;
+}
+
+std::size_t moves_made(const std::vector<Move>& whole, const std::vector<Move>& single, double most_moves) {
+  return moves_of_leader(whole, single, most_moves).size();
 }
 
 }  // namespace
@@ -125,6 +130,11 @@ TEST_CASE("a whole plan is made where it finishes earlier, or leaves less border
   CHECK(moves_made(ten, scattered, 4) == 2);
   CHECK(moves_made(ten, two, 5) == 2);
   CHECK(moves_made(six, one, 2) == 2);  // earlier by a ninth; the two that would be exchanged stay
+}
+
+TEST_CASE("single moves that are made in place of a whole plan are mended") {
+  const std::vector<Move> apart{{2_sub, 1_rank}, {5_sub, 1_rank}}, useless{{0_sub, 1_rank}};
+  CHECK(moves_of_leader(useless, apart, 1) == std::vector<Move>{{6_sub, 1_rank}, {7_sub, 1_rank}});
 }
 
 TEST_CASE("a whole plan that is not kept is asked for again when more is to be gained") {
