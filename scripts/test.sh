@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds and runs every test: optimized with warnings as errors, then under the address and undefined-behavior
-# sanitizers, then clang-tidy and the formatting. The last line is "N passed, N failed"; the exit code is 0 if none failed.
+# sanitizers, then clang-tidy. The last line is "N passed, N failed"; the exit code is 0 if none failed.
 #   scripts/test.sh [--quick]        --quick skips the sanitizers
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
@@ -63,18 +63,11 @@ run_preset() {
   failed=$((failed + bad))
 }
 
-formatted() {
-  find include src protocol migration balancer python examples tests bench \( -name '*.cpp' -o -name '*.hpp' \) -print0 |
-    xargs -0 clang-format --dry-run -Werror
-}
-
 scripts/setup.sh build gis report python test readers hosts site
 run_preset ci
 [[ $quick == yes ]] || run_preset asan-ubsan
 say "clang-tidy"
 one "clang-tidy" scripts/tidy.sh ci
-say "Formatting"
-one "formatting" formatted
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 ((failed == 0))
