@@ -60,19 +60,25 @@ OptionalChange relief(const Draft& draft, Rank rank, double latest, const std::v
   return best;
 }
 
+/// The last first. One that nobody can help may be helped once others are no longer late.
 void relieve_late_ranks(Draft& draft, double latest) {
-  constexpr std::size_t kChanges = 4;  // to a rank, on average
+  constexpr std::size_t kTries = 4;  // for a rank, on average
   RanksInOrder ranks;
   for (const Rank r : ids_of(draft.times())) ranks.emplace(draft.times()[r], r);
   note_effort("search", static_cast<double>(ranks.size()));
-  for (std::size_t rounds = kChanges * ranks.size(); rounds > 0 && ranks.rbegin()->first > latest; --rounds) {
-    const Rank last = ranks.rbegin()->second;
-    const auto change = relief(draft, last, latest, helpers_of(draft, last, ranks));
-    if (!change) return;
-    const auto changing = {last, change->to};
+  auto late = ranks.rbegin();
+  for (std::size_t left = kTries * ranks.size(); left > 0 && late != ranks.rend() && late->first > latest; --left) {
+    const Rank rank = late->second;
+    const auto change = relief(draft, rank, latest, helpers_of(draft, rank, ranks));
+    if (!change) {
+      ++late;
+      continue;
+    }
+    const auto changing = {rank, change->to};
     for (const Rank r : changing) ranks.erase({draft.times()[r], r});
     draft.make(*change);
     for (const Rank r : changing) ranks.emplace(draft.times()[r], r);
+    late = ranks.rbegin();
   }
 }
 

@@ -30,7 +30,8 @@ struct MendingLimits {
 [[nodiscard]] std::vector<Move> mend_plan(const LoadSnapshot& snapshot, std::span<const Move> moves,
                                           const MoveCost& cost, const MendingLimits& limits);
 
-/// What that takes, roughly: 220 to 340 changes are considered for each subdomain.
+/// What that takes, roughly: 220 to 340 changes are considered for each subdomain, and twice as many where many ranks
+/// are late.
 [[nodiscard]] Efforts effort_of_mending(const LoadSnapshot& snapshot);
 
 }  // namespace driftmesh::balancer

@@ -173,7 +173,7 @@ std::vector<Move> PlanningConduct::better_of(const std::vector<Move>& plan, cons
   const auto border = [&](const std::vector<Move>& moves) { return border_between_ranks(after(snapshot, moves)); };
   const double border_singly = border(few);
 
-  const std::vector<Move> whole = worthwhile(plan, most_moves(few), Kept::kAll);
+  std::vector<Move> whole = worthwhile(plan, most_moves(few), Kept::kAll);
   const double later = finish(snapshot, whole) - singly, border_whole = border(whole);
   const bool is_earlier = later < -options_.worth.gain * ideal;
   const bool is_as_early = later <= options_.worth.slack * ideal && whole.size() <= most_moves(few);
@@ -183,7 +183,7 @@ std::vector<Move> PlanningConduct::better_of(const std::vector<Move>& plan, cons
   overruled_gain_ = takes_whole ? 0 : possible_gain(within_memory(snapshot));
   if (takes_whole) return whole;
 
-  const std::vector<Move> few_mended = worthwhile(few, few.size(), Kept::kNeeded);
+  std::vector<Move> few_mended = worthwhile(few, few.size(), Kept::kNeeded);
   const double border_mended = border(few_mended);
   const bool takes_mended = !few_mended.empty() && border_mended < border_singly;
   note_comparison(0, border_mended, takes_mended);

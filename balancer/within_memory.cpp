@@ -31,10 +31,13 @@ LoadSnapshot within_memory(LoadSnapshot snapshot) {
     work -= seconds * speeds[r];
     speed -= speeds[r];
   }
+  IdVector<Rank, bool> is_short(speeds.size(), false);
   for (std::size_t i = 0; i < short_of_it; ++i) {
     const auto [seconds, r] = by_seconds[i];
     snapshot.ranks[r].speed *= seconds * speed / work;
+    is_short[r] = true;
   }
+  for (SubdomainLoad& s : snapshot.subdomains) s.fixed = s.fixed || is_short[s.owner];
   return snapshot;
 }
 

@@ -145,6 +145,18 @@ TEST_CASE("late ranks give what leaves no more border") {
   CHECK(border(c, mended) == doctest::Approx(1));
 }
 
+TEST_CASE("a rank that nobody can help is helped once others are no longer late") {
+  // A strip on three ranks that have 6, 9 and 2 subdomains. The last has no memory except for these two, which the
+  // first is to have. The second finishes after 90 s, and none of the others can take any: but those two return.
+  LoadSnapshot strip = testing::initial_snapshot(testing::grid_layout(17, 1, 3), {100, 100, 100});
+  for (SubdomainLoad& s : strip.subdomains) s.owner = Rank{to_int(s.id) < 6 ? 0 : to_int(s.id) < 15 ? 1 : 2};
+  sum_up(strip);
+  strip.ranks[Rank{2}].free_memory = 0;
+  const std::vector<Move> worse{{SubdomainId{15}, Rank{0}}, {SubdomainId{16}, Rank{0}}};
+  CHECK(time_with(strip, worse) == doctest::Approx(90));
+  CHECK(time_with(strip, mend_plan(strip, worse, kFree, {75, 75, 17})) == doctest::Approx(80));
+}
+
 TEST_CASE("late ranks stay compact where nobody can finish in time") {
   // A strip on two ranks, the first with seven of twelve subdomains of about the same work. Exchanges could make times
   // very equal, and no rank early enough.
@@ -183,7 +195,7 @@ TEST_CASE("borders become about as short as they can be, also where no single ch
 
 TEST_CASE("what is in proportion to speeds within memory fits, and all work is done") {
   auto random = testing::seeded_generator("within memory");
-  int slower = 0;
+  int slower = 0, fixed = 0;
   for (std::int64_t i = testing::case_count(1000); i > 0; --i) {
     const std::uint64_t seed = random();
     CAPTURE(seed);
@@ -198,6 +210,11 @@ TEST_CASE("what is in proportion to speeds within memory fits, and all work is d
     const LoadSnapshot possible = within_memory(snapshot);
     const double ideal = ideal_time(possible);
     REQUIRE(ideal >= ideal_time(snapshot) * (1 - 1e-9));
+    for (const SubdomainLoad& s : possible.subdomains) {
+      const bool is_short = possible.ranks[s.owner].speed < speeds[s.owner] * (1 - 1e-9);
+      REQUIRE((s.fixed || !is_short));
+      fixed += s.fixed;
+    }
     for (const Rank r : ids_of(speeds)) {
       REQUIRE(possible.ranks[r].speed <= speeds[r] * (1 + 1e-9));
       if (!someone_has_plenty) continue;
@@ -210,4 +227,5 @@ TEST_CASE("what is in proportion to speeds within memory fits, and all work is d
     }
   }
   CHECK(slower > 0);
+  CHECK(fixed > 0);
 }
