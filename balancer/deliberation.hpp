@@ -19,7 +19,7 @@ enum class Verdict : std::int32_t {
   kCostlyPlanning,  ///< it would gain less time than planning takes
   kNoMoves,         ///< the policy proposes none
   kSmallSaving,     ///< with their costs, the moves save less than moves are made for
-  kOtherPlan,       ///< another plan saves as much with fewer moves
+  kOtherPlan,       ///< another plan is made: it ends earlier, or leaves less border
   kInvalid,         ///< no such subdomain or rank, its owner, or its second move
   kFixed,           ///< it is on its way, has just moved, or is nearly finished
   kTooLarge,        ///< for one message
@@ -93,8 +93,7 @@ class DeliberationLog {
 [[nodiscard]] bool is_logged();
 /// To the innermost log of this thread, if there is one.
 void note(Deliberation deliberation);
-/// The plan noted `back` before the last leaves this border between ranks, and is made, if it is worth its moves, or
-/// another one is.
+/// Notes the border that the plan noted `back` before the last would leave. Unless it is `made`, another one is.
 void note_comparison(std::size_t back, double border, bool made);
 
 /// The loads of the ranks that a planner knows something of.

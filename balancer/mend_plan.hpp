@@ -16,7 +16,7 @@ struct MendingLimits {
   std::size_t moves = 0;  ///< this many may remain
 };
 
-/// A plan that was made as a whole, mended so that it ends by `latest` and has no more moves than it may, as far as
+/// A plan, mended so that it ends by `latest` and has no more moves than it may, as far as
 /// that is possible, with little border between ranks:
 /// 1. Ranks that would finish later give subdomains to others, or exchange some with them: whatever costs least border
 ///    for the time that it saves.

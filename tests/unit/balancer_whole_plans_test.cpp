@@ -176,5 +176,5 @@ TEST_CASE("mending a plan and comparing its borders with those of single moves i
   CHECK(moves_made(together, apart, 1) == 2);
   CHECK(moves_made(together, together, 1) == 2);  // the same: nothing to compare
   CHECK(log.efforts().at("border") == 3 * 12);
-  CHECK(log.efforts().at("mend") > 2);
+  CHECK(log.efforts().at("mend") >= 200 * 12);
 }
