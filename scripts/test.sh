@@ -64,6 +64,7 @@ run_preset() {
 }
 
 scripts/setup.sh build gis report python test readers hosts site
+one "clang-format-14, without which the formatting is not tested" command -v clang-format-14
 run_preset ci
 [[ $quick == yes ]] || run_preset asan-ubsan
 say "clang-tidy"

@@ -213,6 +213,7 @@ TEST_CASE("what is in proportion to speeds within memory fits, and all work is d
     for (const SubdomainLoad& s : possible.subdomains) {
       const bool is_short = possible.ranks[s.owner].speed < speeds[s.owner] * (1 - 1e-9);
       REQUIRE((s.fixed || !is_short));
+      if (possible.ranks[s.owner].speed == speeds[s.owner]) REQUIRE(!s.fixed);
       fixed += s.fixed;
     }
     for (const Rank r : ids_of(speeds)) {
