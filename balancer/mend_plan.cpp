@@ -177,7 +177,7 @@ double shorten_border(Draft& draft, double latest, std::size_t most_moves) {
   const double mean = draft.mean_border();
   std::mt19937 random;  // the same plan each time
   const std::size_t steps = kChanges * static_cast<std::size_t>(draft.size());
-  note_effort("mend", static_cast<double>(steps));
+  note_effort("mend", static_cast<double>(steps));  // besides those that are considered further
   double longer = 0;
   for (std::size_t left = steps; left > 0; --left) {
     const auto change = random_change(draft, latest, random);

@@ -11,8 +11,8 @@ namespace driftmesh::balancer {
 
 /// What a mended plan must keep to.
 struct MendingLimits {
-  double finish = 0;      ///< seconds until all finish, so that what is needless can be left out
-  double latest = 0;      ///< at least `finish`: the same, where there are too many moves
+  double finish = 0;      ///< seconds until all finish, so that what is needless can be left out and border saved
+  double latest = 0;      ///< at least `finish`: later ranks are relieved; the same, where there are too many moves
   std::size_t moves = 0;  ///< this many may remain
 };
 

@@ -44,9 +44,10 @@ class Policy {
   /// once, and never to its owner.
   [[nodiscard]] virtual std::vector<Move> plan(const LoadSnapshot& snapshot, Rank self) const;
 
-  /// kLeader: moves of single subdomains, which are made where plan() would not pay off as a whole. If none of them is
-  /// worth making, plan() is not asked: what remains is too little for new parts. Without them (the default) it always
-  /// is, and reduced to those moves that pay off.
+  /// kLeader: moves of single subdomains, which are made where plan() would not pay off as a whole. Either is mended
+  /// first (docs/balancing.md): other subdomains may move, and to other ranks. If none of these moves is worth making,
+  /// plan() is not asked: what remains is too little for new parts. Without them (the default) it always is, and
+  /// reduced to those moves that pay off.
   [[nodiscard]] virtual std::optional<std::vector<Move>> touch_up(const LoadSnapshot& snapshot) const;
 
   /// kLeader: how long plan() takes, in seconds on the machine in docs/benchmarks.md. Beside touch_up(), it is asked
