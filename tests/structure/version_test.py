@@ -26,9 +26,11 @@ class Version(unittest.TestCase):
         self.assertEqual(said.split()[:2], ["driftmesh", VERSION])
 
     def test_changelog(self):
-        """Its newest entry, which has a date."""
-        newest = re.search(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)[1]
-        self.assertRegex(newest, rf"^{re.escape(VERSION)} - \d{{4}}-\d{{2}}-\d{{2}}$")
+        """What is not released stands at most once, before the newest release, which has a date."""
+        entries = re.findall(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
+        released = entries[1:] if entries[0] == "Unreleased" else entries
+        self.assertNotIn("Unreleased", released)
+        self.assertRegex(released[0], rf"^{re.escape(VERSION)} - \d{{4}}-\d{{2}}-\d{{2}}$")
 
     def test_citation(self):
         citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
