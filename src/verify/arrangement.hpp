@@ -22,12 +22,14 @@ class Arrangement {
   static constexpr std::int32_t kUnbounded = 0;    ///< the face that reaches infinity
   static constexpr std::int32_t kOnBoundary = -1;  ///< a query point lies on a link or an end of one
 
-  /// Points are distinct, finite and in the range of the predicates; every link has two different ends. `queries` are
-  /// located in the arrangement but are not part of it. O(n log n).
+  /// Links name points that exist; what else may be wrong with points and links is a conflict. `queries` are located in
+  /// the arrangement but are not part of it; those outside the range of coordinates are in the unbounded face.
+  /// O(n log n).
   Arrangement(std::vector<Point> points, std::vector<Link> links, std::vector<Point> queries = {});
 
-  /// In words, two features that meet where they must not (crossing or overlapping links, a link through a point), if
-  /// there are any. If so, nothing below may be called.
+  /// In words, two features that meet where they must not (points in the same place, crossing or overlapping links, a
+  /// link through a point), a link without length, or a point outside the range of coordinates, if there are any. If
+  /// so, nothing below may be called.
   [[nodiscard]] const std::optional<std::string>& conflict() const { return conflict_; }
 
   [[nodiscard]] std::int32_t face_count() const { return static_cast<std::int32_t>(loops_of_face_.size()); }

@@ -7,7 +7,9 @@
 #include <numeric>
 #include <tuple>
 
+#include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
+#include "verify/words.hpp"
 
 namespace driftmesh {
 namespace {
@@ -16,9 +18,16 @@ bool lexicographically_less(const Point& a, const Point& b) {
   return std::tie(a.x, a.y) < std::tie(b.x, b.y);
 }
 
+bool in_range(const Point& p) {
+  return in_coordinate_range(p.x) && in_coordinate_range(p.y);
+}
+
+/// The points in range.
 std::vector<std::int32_t> sorted_order(std::span<const Point> points) {
-  std::vector<std::int32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<std::int32_t> order;
+  order.reserve(points.size());
+  for (const std::int32_t i : first_ids<std::int32_t>(points.size()))
+    if (in_range(points[i])) order.push_back(i);
   std::sort(order.begin(), order.end(),
             [&](std::int32_t a, std::int32_t b) { return lexicographically_less(points[a], points[b]); });
   return order;
@@ -59,7 +68,26 @@ ArrangementSweep::ArrangementSweep(std::span<const Point> points, std::span<cons
 }
 
 void ArrangementSweep::run() {
+  conflict_ = find_unfit();
+  if (!conflict_) sweep();
+}
+
+/// What the sweep cannot pass.
+std::optional<std::string> ArrangementSweep::find_unfit() const {
+  for (const Point& p : points_)
+    if (!in_range(p)) return "the point " + place_words(p) + " is outside the range of coordinates";
+  for (const Span& s : spans_)
+    if (at(s.low) == at(s.high)) return "a segment at " + place_words(at(s.low)) + " has no length";
+  return std::nullopt;
+}
+
+void ArrangementSweep::sweep() {
   const std::vector<std::int32_t> point_order = sorted_order(points_), query_order = sorted_order(queries_);
+  const auto twin = std::ranges::adjacent_find(point_order, {}, [&](std::int32_t i) { return at(i); });
+  if (twin != point_order.end()) {
+    conflict_ = "two points lie at " + place_words(at(*twin));
+    return;
+  }
   auto query = query_order.begin();
   for (const std::int32_t point : point_order) {
     const Point& p = at(point);

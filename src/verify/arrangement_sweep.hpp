@@ -44,12 +44,14 @@ class ArrangementSweep {
   };
   using Status = std::set<std::int32_t, BelowOrder>;  // active links, lowest first
 
+  [[nodiscard]] std::optional<std::string> find_unfit() const;
   [[nodiscard]] const Point& at(std::int32_t point) const { return points_[point]; }
   [[nodiscard]] const Span& span(std::int32_t link) const { return spans_[link]; }
   [[nodiscard]] double side_of(std::int32_t link, const Point& p) const;
   [[nodiscard]] bool link_below_link(std::int32_t a, std::int32_t b) const;
   [[nodiscard]] bool meet_wrongly(std::int32_t a, std::int32_t b) const;
 
+  void sweep();
   void locate_query(std::size_t query, bool on_point);
   void visit_point(std::int32_t point);
   void end_links(std::int32_t point);

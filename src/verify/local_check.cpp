@@ -27,6 +27,10 @@ bool check_arrays(const NamedMesh& names, Findings& findings) {
   if (!mesh.subdomains.empty())
     check_length(mesh.subdomains.size(), mesh.triangles.size(), "the array of subdomains", findings);
   if (!mesh.ranks.empty()) check_length(mesh.ranks.size(), mesh.triangles.size(), "the array of ranks", findings);
+  if (mesh.attributes_per_point < 0)
+    findings.add(Flaw::bad_array, [&] {
+      return fmt::format("points have {} attributes, expected at least 0", mesh.attributes_per_point);
+    });
   check_length(mesh.attributes.size(), n * std::max(0, mesh.attributes_per_point), "the array of point attributes",
                findings);
   const auto valid = [&](std::int32_t i) { return to_index(i) < n; };

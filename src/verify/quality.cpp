@@ -122,10 +122,10 @@ class Measurement {
     Quality& quality = measures_.shapes;
     for (const auto& of_corner : angles_)
       for (std::size_t d = 0; d < of_corner.size(); ++d) quality.angles[d] += of_corner[d];
-    if (quality.smallest_angle_triangle >= 0) {
+    // Triangles without area may have the one and not the other.
+    if (quality.smallest_angle_triangle >= 0)
       quality.smallest_angle = angles_of(quality.smallest_angle_triangle).front();
-      quality.largest_angle = angles_of(quality.largest_angle_triangle).back();
-    }
+    if (quality.largest_angle_triangle >= 0) quality.largest_angle = angles_of(quality.largest_angle_triangle).back();
     return std::move(measures_);
   }
 

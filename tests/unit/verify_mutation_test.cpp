@@ -44,6 +44,41 @@ TEST_CASE("arrays of the wrong length") {
   CHECK_ONLY(check(grid), Flaw::bad_array);
 }
 
+TEST_CASE("a negative number of attributes") {
+  GridCase grid;
+  grid.mesh.attributes_per_point = -1;
+  CHECK_ONLY(check(grid), Flaw::bad_array);
+}
+
+TEST_CASE("neighbors that coincide, with subsegments and without") {
+  for (const Point& other : {Point{2, 2}, Point{-2, 2}, Point{0, 2}, Point{2, 0}})
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const bool listed : {false, true}) {
+        Mesh mesh;
+        mesh.points.assign(3, {0, 0});
+        mesh.points[k] = other;
+        mesh.triangles = {{0, 1, 2}};
+        if (listed) mesh.edges = {{0, 1, 1}, {1, 2, 1}, {2, 0, 1}};
+        const VerifyReport report = verify(mesh, {});
+        CHECK(report.findings.count(Flaw::not_counterclockwise) == 1);
+        CHECK(report.findings.count(Flaw::duplicate_point) == 1);
+        CHECK(report.quality.smallest_area == 0);
+        mesh.points.assign(3, other);
+        CHECK_HAS(verify(mesh, {}), Flaw::duplicate_point);
+      }
+}
+
+TEST_CASE("each point of the boundary moved onto each other one") {
+  const GridCase grid;
+  for (const auto& [a, b, marker] : grid.mesh.edges)
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+      GridCase moved;
+      moved.mesh.points[from] = grid.mesh.points[to];
+      CHECK_HAS(check(moved), Flaw::duplicate_point);
+      CHECK_HAS(verify(moved.mesh, {}), Flaw::duplicate_point);
+    }
+}
+
 TEST_CASE("indices that name a missing point, or the same point twice") {
   GridCase grid;
   grid.mesh.triangles[7][1] = static_cast<std::int32_t>(grid.mesh.points.size());

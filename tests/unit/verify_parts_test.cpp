@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -66,6 +67,41 @@ TEST_CASE("an arrangement of nested squares: each ring is a face of two boundary
   CHECK(a.boundary_parts(a.face_of_query(0)) == 2);
   CHECK(a.boundary_parts(a.face_of_query(1)) == 4);
   CHECK(a.boundary_parts(a.face_of_query(2)) == 1);
+}
+
+TEST_CASE("points that coincide or are no places, and links without length, are conflicts wherever they are listed") {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Point> points = square(0, 0, 4);
+  const std::vector<Arrangement::Link> links{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (const Point& other : {points[(i + 1) % 4], points[(i + 2) % 4], Point{kNone, 1}, Point{1, kNone},
+                               Point{std::numeric_limits<double>::infinity(), 1}, Point{1e300, 0}, Point{1e-300, 0}}) {
+      std::vector<Point> moved = points;
+      moved[i] = other;
+      CAPTURE(i);
+      CAPTURE(other.x);
+      CHECK(Arrangement(moved, links).conflict());
+    }
+  points.push_back({2, 0});
+  CHECK(Arrangement(points, links).conflict());  // on a link
+  points.back() = {2, 2};
+  CHECK(!Arrangement(points, links).conflict());
+  CHECK(Arrangement(points, {{0, 1}, {1, 2}, {2, 2}}).conflict());
+  CHECK(Arrangement(points, {{0, 1}, {1, 2}, {1, 0}}).conflict());
+  points.push_back({2, 2});
+  CHECK(Arrangement(points, links).conflict());
+  points.back() = {-0.0, 0.0};
+  CHECK(Arrangement(points, links).conflict());
+}
+
+TEST_CASE("queries that are no places are outside of everything") {
+  const std::vector<Arrangement::Link> links{{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const Arrangement a(square(0, 0, 4), links, {{nan, 2}, {2, 2}, {2, nan}, {inf, 2}, {2, -inf}, {1e300, 2}, {3, 3}});
+  REQUIRE(!a.conflict());
+  for (const std::size_t query : {0, 2, 3, 4, 5}) CHECK(a.face_of_query(query) == Arrangement::kUnbounded);
+  CHECK(a.face_of_query(1) != Arrangement::kUnbounded);
+  CHECK(a.face_of_query(6) == a.face_of_query(1));
 }
 
 TEST_CASE("an arrangement with verticals, a dangling link and squares that share a corner") {
