@@ -3,23 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 #include "oracles/exact.hpp"
+#include "oracles/words.hpp"
 
 namespace driftmesh::oracles {
 namespace {
 
 std::vector<ExactPoint> exact_points(const std::vector<Point>& points) {
   return {points.begin(), points.end()};
-}
-
-template <class... Parts>
-std::string words(const Parts&... parts) {
-  std::ostringstream out;
-  out.precision(17);
-  (out << ... << parts);
-  return out.str();
 }
 
 using Corners = std::array<ExactPoint, 3>;

@@ -6,7 +6,10 @@
 
 #include "driftmesh/id_vector.hpp"
 #include "oracles/grid_mesh.hpp"
+#include "oracles/mesh_faults.hpp"
 #include "oracles/mesh_oracle.hpp"
+#include "oracles/polygon_areas.hpp"
+#include "oracles/random_polygons.hpp"
 #include "oracles/random_pslg.hpp"
 #include "verify/domain.hpp"
 
@@ -103,4 +106,104 @@ TEST_CASE("random inputs are planar, and the arrangement finds the boundary that
   CHECK(inner > 100);
   CHECK(dangling > 50);
   CHECK(points > 50);
+}
+
+namespace {
+
+GridRing rectangle(std::int64_t x, std::int64_t y, std::int64_t right, std::int64_t top) {
+  return {{x, y}, {right, y}, {right, top}, {x, top}};
+}
+
+double area_of(const std::vector<GridRing>& rings) {
+  return static_cast<double>(covered_areas({{rings, {}}}).total);
+}
+
+}  // namespace
+
+TEST_CASE("areas of polygons: holes that cross, overlap, leave and touch") {
+  const GridRing square = rectangle(0, 0, 10, 10);
+  CHECK(area_of({square}) == 100);
+  CHECK(area_of({square, rectangle(5, 4, 14, 6)}) == 90);
+  CHECK(area_of({square, rectangle(2, 4, 6, 8), rectangle(5, 3, 8, 7)}) == 75);
+  CHECK(area_of({square, rectangle(20, 20, 30, 30)}) == 100);
+  CHECK(area_of({square, rectangle(-1, -1, 11, 11)}) == 0);
+  CHECK(area_of({square, square}) == 0);
+  CHECK(area_of({rectangle(0, 0, 20, 25), {{2, 12}, {4, 23}, {5, 23}}, {{2, 12}, {6, 23}, {7, 23}}}) == 489);
+  CHECK(area_of({square, rectangle(2, 2, 4, 4), rectangle(4, 4, 6, 6)}) == 92);
+}
+
+TEST_CASE("areas of rings by even-odd: crossings, spikes, pockets and keyholes") {
+  CHECK(area_of({{{0, 0}, {10, 10}, {10, 0}, {0, 10}}}) == 50);
+  CHECK(area_of({{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 7}, {5, 7}, {5, 3}, {0, 3}, {0, 7}, {0, 3}}}) == 80);
+  CHECK(area_of({{{0, 0}, {10, 0}, {10, 10}, {5, 10}, {7, 5}, {3, 5}, {5, 10}, {0, 10}}}) == 90);
+  CHECK(area_of({{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}, {4, 4}, {4, 6}, {6, 6}, {6, 4}, {4, 4}}}) == 96);
+  CHECK(area_of({{{0, 0}, {10, 0}, {15, 5}, {10, 0}, {10, 10}, {0, 10}}}) == 100);
+  CHECK(area_of({{{0, 0}, {10, 0}, {5, 0}}}) == 0);
+  CHECK(area_of({{{3, 3}}}) == 0);
+  CHECK(area_of({rectangle(0, 0, 4, 4), {}}) == 16);
+  CHECK(area_of({{{0, 0}, {3, 1}, {1, 3}}}) == 4);
+  CHECK(static_cast<double>(covered_areas({{{{{0, 0}, {3, 1}, {0, 1}, {3, 0}}}, {}}}).total) == 1.5);
+}
+
+TEST_CASE("areas of sets of polygons, and of regions where they overlap") {
+  const GridPolygon one{{rectangle(4, 4, 11, 10), rectangle(5, 7, 10, 9)}, {}}, other{{rectangle(4, 5, 8, 12)}, {}};
+  CHECK(covered_areas({one, other}).total == 46);
+  GridPolygon first{{rectangle(0, 0, 6, 6)}, 1}, second{{rectangle(3, 3, 9, 9)}, 2};
+  PolygonAreas areas = covered_areas({first, second});
+  CHECK(areas.total == 63);
+  CHECK(areas.regions == std::map<double, long double>{{1, 27}, {2, 36}});
+  areas = covered_areas({second, first});
+  CHECK(areas.regions == std::map<double, long double>{{1, 36}, {2, 27}});
+  second.region.reset();  // says nothing
+  areas = covered_areas({first, second});
+  CHECK(areas.regions == std::map<double, long double>{{0, 27}, {1, 36}});
+  CHECK(covered_areas({}).total == 0);
+}
+
+TEST_CASE("areas far from the origin, up to coordinates of 2^52") {
+  for (const std::int64_t shift :
+       {std::int64_t{0}, std::int64_t{1} << 20, std::int64_t{1} << 40, (std::int64_t{1} << 52) - 20}) {
+    const GridRing outer = rectangle(shift, -shift, shift + 10, 10 - shift);
+    const GridRing crossing{{shift + 5, 1 - shift}, {shift + 15, 1 - shift}, {shift + 5, 11 - shift}};
+    CHECK(area_of({outer, crossing}) == 63);
+  }
+}
+
+TEST_CASE("areas do not depend on where rings begin, their direction, and a turn of the plane") {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    RandomPolygons set = make_random_polygons(seed);
+    const PolygonAreas areas = covered_areas(set.polygons);
+    for (GridPolygon& polygon : set.polygons)
+      for (GridRing& ring : polygon.rings) {
+        std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(seed % ring.size()), ring.end());
+        if (seed % 2 == 0) std::reverse(ring.begin(), ring.end());
+        for (GridPoint& p : ring) p = {-p.y, p.x};
+      }
+    const PolygonAreas turned = covered_areas(set.polygons);
+    CAPTURE(seed);
+    CHECK(static_cast<double>(turned.total) == doctest::Approx(static_cast<double>(areas.total)).epsilon(1e-12));
+    CHECK(turned.regions.size() == areas.regions.size());
+    for (const auto& [region, area] : areas.regions)
+      CHECK(static_cast<double>(turned.regions.at(region)) ==
+            doctest::Approx(static_cast<double>(area)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("faults of meshes") {
+  const GridCase grid;
+  CHECK(fault_of(grid.mesh, grid.input, grid.mesh).what == "");
+  const auto fault = [&](auto&& damage) {
+    GridCase damaged;
+    damage(damaged);
+    return fault_of(damaged.mesh, grid.input, grid.mesh).what;
+  };
+  CHECK(fault([](GridCase& g) { g.mesh.triangles.pop_back(); }) == "an array of the wrong length");
+  CHECK(fault([](GridCase& g) { g.mesh.triangles[3][1] = -1; }) == "a triangle of other points");
+  CHECK(fault([](GridCase& g) { g.mesh.points[5] = g.mesh.points[4]; }).find("lies on another") != std::string::npos);
+  CHECK(fault([](GridCase& g) { std::swap(g.mesh.triangles[3][1], g.mesh.triangles[3][2]); }) ==
+        "triangle 3 is not counterclockwise");
+  CHECK(fault([](GridCase& g) { g.mesh.points[g.at(2, 2)].x += 1e-15; }).find("Delaunay") != std::string::npos);
+  CHECK(fault([](GridCase& g) { g.mesh.edges[0].marker = 9; }).find("marker") != std::string::npos);
+  CHECK(fault([](GridCase& g) { g.mesh.edges.pop_back(); }).find("not covered") != std::string::npos);
+  CHECK(fault([](GridCase& g) { g.mesh.regions[7] = 9; }).find("region") != std::string::npos);
 }
