@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# The tests of threads under the thread sanitizer, the property tests with new seeds, 100,000 mutated files, read under the
-# other sanitizers by driftmesh-mutants, and a million adversarial schedules of real meshing with driftmesh-sim, on all
-# cores: prints the failing seeds, and totals. The exit code is 0 if none fails.
-#   scripts/nightly.sh [--mutants FIRST..LAST] [--seeds FIRST..LAST]      which mutants, and which schedules; 0..0: none
+# The tests of threads under the thread sanitizer, the property tests with new seeds, 100,000 mutated files and 20,000
+# mutated meshes, read and checked under the other sanitizers by driftmesh-mutants, and a million adversarial schedules of
+# real meshing with driftmesh-sim, on all cores: prints the failing seeds, and totals. The exit code is 0 if none fails.
+#   scripts/nightly.sh [--mutants FIRST..LAST] [--meshes FIRST..LAST]      which mutated files and meshes; 0..0: none
+#                      [--seeds FIRST..LAST]                              which schedules
 #                      [--properties N]                                   so many runs of the property tests (20; 0: none)
 #                      [--no-threads]                                     without the thread sanitizer
 #                      [--mutants-program PATH] [--program PATH]          without a build first
@@ -13,15 +14,16 @@ cd "$project_root"
 first=1
 last=1000000
 mutants=1..100000
+meshes=1..20000
 program=
 mutants_program=
 threads=yes
 properties=20
 while [[ $# -gt 0 ]]; do
   case "$1" in
-    --seeds | --mutants)
+    --seeds | --mutants | --meshes)
       [[ ${2-} =~ ^([0-9]+)\.\.([0-9]+)$ ]] || { echo "nightly.sh: $1 must be FIRST..LAST, such as 1..5000" >&2; exit 2; }
-      if [[ $1 == --mutants ]]; then mutants=$2; else first=${BASH_REMATCH[1]} last=${BASH_REMATCH[2]}; fi
+      if [[ $1 != --seeds ]]; then declare "${1#--}=$2"; else first=${BASH_REMATCH[1]} last=${BASH_REMATCH[2]}; fi
       shift
       ;;
     --properties)
@@ -39,7 +41,7 @@ while [[ $# -gt 0 ]]; do
       shift
       ;;
     -h | --help)
-      sed -n '2,8s/^# \{0,1\}//p' "$0"
+      sed -n '2,9s/^# \{0,1\}//p' "$0"
       exit 0
       ;;
     *)
@@ -62,13 +64,19 @@ if [[ $properties -gt 0 ]]; then
   say "Property tests with new seeds, $properties runs of each"
   DRIFTMESH_SEED=random ctest --preset release -L property -j "$jobs" --repeat "until-fail:$properties" || result=1
 fi
-if [[ $mutants != 0..0 ]]; then
+if [[ $mutants != 0..0 || $meshes != 0..0 ]]; then
   if [[ -z $mutants_program ]]; then
     cmake --preset asan-ubsan -Wno-dev && cmake --build --preset asan-ubsan -j "$jobs" --target driftmesh-mutants
     mutants_program=build/asan-ubsan/driftmesh-mutants
   fi
+fi
+if [[ $mutants != 0..0 ]]; then
   say "Mutated files $mutants on $jobs cores"
   "$mutants_program" --seeds "$mutants" --keep build/mutants || result=1
+fi
+if [[ $meshes != 0..0 ]]; then
+  say "Mutated meshes $meshes on $jobs cores"
+  "$mutants_program" --meshes --seeds "$meshes" --keep build/mutated-meshes || result=1
 fi
 [[ $last -gt 0 ]] || exit "$result"
 

@@ -37,7 +37,8 @@ bool holds(const std::array<Point, 3>& t, const Point& p) {
 
 }  // namespace
 
-SizeCheck::SizeCheck(const SizeField& field, double spacing) : field_(field), spacing_(spacing) {
+SizeCheck::SizeCheck(const SizeField& field, double spacing, double most_area)
+    : field_(field), spacing_(spacing), most_area_(most_area) {
   std::vector<Box> boxes;
   field.visit_marks([&](const Point& p) {
     marks_.push_back({p, 0});
@@ -72,7 +73,7 @@ std::optional<SizeCheck::Miss> SizeCheck::at_marks(const Triangle& t, double edg
 }
 
 std::optional<SizeCheck::Miss> SizeCheck::at_samples(const Triangle& t, double area, double edge) const {
-  const double dense = spacing_ > 0 ? kPerSquare * area / (spacing_ * spacing_) : 0;
+  const double dense = spacing_ > 0 ? kPerSquare * std::min(area, most_area_) / (spacing_ * spacing_) : 0;
   const auto count = static_cast<std::uint64_t>(std::max(kFewest, dense));
   for (std::uint64_t k = 1; k <= count; ++k) {
     const Point p = spread(t, k);

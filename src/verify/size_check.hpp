@@ -21,8 +21,9 @@ class SizeCheck {
   using Triangle = std::array<Point, 3>;
 
   /// Besides the marks, the field is looked up at 16 points of each triangle, and at four for each square of the
-  /// spacing if it has more. 0: no spacing. `field` must outlive the object.
-  SizeCheck(const SizeField& field, double spacing);
+  /// spacing if it has more, but no more than for `most_area`: a larger triangle, which does not fit into the domain,
+  /// must not take forever. 0: no spacing. `field` must outlive the object.
+  SizeCheck(const SizeField& field, double spacing, double most_area);
 
   /// The length that is asked for at the corners and the centroid.
   [[nodiscard]] double at_corners(const Triangle& triangle) const;
@@ -40,6 +41,7 @@ class SizeCheck {
 
   const SizeField& field_;
   double spacing_;
+  double most_area_;
   std::vector<Miss> marks_;
   BoxTree mark_tree_;
 };

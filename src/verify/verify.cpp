@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -72,12 +73,16 @@ class Verification {
   }
 
   void check_pieces() {
-    if (options_.size != nullptr) size_.emplace(*options_.size, options_.size_spacing);
+    if (options_.size != nullptr) size_.emplace(*options_.size, options_.size_spacing, largest_triangle());
     bounds_ = {options_.min_angle, options_.max_area, {}, size_ ? &*size_ : nullptr};
     check_all_pieces();
     if (whole_) return;
     shared_ = PieceNumbers(found_).shared();
     if (!shared_.empty()) check_all_pieces();
+  }
+
+  [[nodiscard]] double largest_triangle() const {
+    return domain_ ? domain_->area() : std::numeric_limits<double>::infinity();
   }
 
   void check_all_pieces() {

@@ -5,13 +5,17 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "mutants/edits.hpp"
 #include "mutants/judge.hpp"
+#include "mutants/mesh_edits.hpp"
+#include "mutants/mesh_judge.hpp"
 #include "mutants/watched.hpp"
+#include "oracles/mesh_faults.hpp"
 #include "temporary_folder.hpp"
 
 // That driftmesh-mutants sees what it is to find.
@@ -95,5 +99,54 @@ TEST_CASE("each sample is accepted, and another mesh than declared is a failure"
       CAPTURE(other.name);
       CHECK((judge(sample, other.files, place).failure == "") == (content_of(other) == content_of(sample)));
     }
+  }
+}
+
+TEST_CASE("edits of meshes depend on the seed alone, are of every kind, and make good and broken meshes") {
+  const TemporaryFolder folder;
+  const std::vector<MeshSample> samples = make_mesh_samples();
+  std::map<std::string, std::size_t> good, broken;  // after a single edit, by its kind
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    const MeshMutant mutant = mutant_of(samples, seed);
+    CHECK(!mutant.edits.empty());
+    CHECK(mutant.edits == mutant_of(samples, seed).edits);
+    const MeshSample& sample = sample_of(samples, seed);
+    if (mutant.edits.size() > 1 || sample.mesh.triangles.size() > 60) continue;
+    const bool is_good = oracles::fault_of(mutant.mesh, sample.input, sample.mesh).what.empty();
+    ++(is_good ? good : broken)[mutant.edits[0].substr(0, mutant.edits[0].find(':'))];
+  }
+  for (const std::string& kind : mesh_edit_kinds()) {
+    CAPTURE(kind);
+    CHECK(good[kind] + broken[kind] > 5);
+  }
+  for (const std::string kind : {"permute", "turn a subsegment", "negative zeros", "add an unused point"}) {
+    CAPTURE(kind);
+    CHECK(good[kind] > 5);
+    CHECK(broken[kind] == 0);
+  }
+  for (const std::string kind : {"double a triangle", "turn a triangle", "remove a triangle"}) {
+    CAPTURE(kind);
+    CHECK(good[kind] == 0);
+  }
+  for (const std::string kind : {"along subsegments", "flip an edge", "a little", "change a marker"}) {
+    CAPTURE(kind);
+    CHECK(good[kind] > 0);
+    CHECK(broken[kind] > 0);
+  }
+}
+
+TEST_CASE("each mesh is accepted, and a check that says something else than the oracle is a failure") {
+  const TemporaryFolder folder;
+  for (MeshSample sample : make_mesh_samples()) {
+    CAPTURE(sample.name);
+    const Mesh right = sample.mesh;
+    const MeshVerdict verdict = judge(sample, right, 1, folder.path().string());
+    CHECK(verdict.accepted);
+    CHECK(verdict.fault == "");
+    CHECK(verdict.failure == "");
+    // As if the checks did not know the domain.
+    sample.mesh.points.clear();
+    sample.mesh.triangles.clear();
+    CHECK(judge(sample, right, 1, folder.path().string()).failure.find("accepts a mesh, but") != std::string::npos);
   }
 }

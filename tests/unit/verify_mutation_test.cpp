@@ -79,6 +79,18 @@ TEST_CASE("each point of the boundary moved onto each other one") {
     }
 }
 
+TEST_CASE("a triangle far beyond the domain does not take forever where sizes are asked for") {
+  struct NoLimit : SizeField {
+    [[nodiscard]] double edge_length(const Point&) const override { return std::numeric_limits<double>::infinity(); }
+  };
+  const NoLimit field;
+  GridCase grid;
+  grid.mesh.points[grid.at(2, 2)] = {1e60, 2};
+  const VerifyReport report =
+      verify(grid.mesh, grid.input, {.region_areas = false, .size = &field, .size_spacing = 0.1});
+  CHECK(report.findings.count(Flaw::not_counterclockwise) > 0);
+}
+
 TEST_CASE("indices that name a missing point, or the same point twice") {
   GridCase grid;
   grid.mesh.triangles[7][1] = static_cast<std::int32_t>(grid.mesh.points.size());
