@@ -47,7 +47,8 @@ struct CheckReport {
 
 /// Also checks the mesh against its input, which is repaired first as by mesh(), with options.simplify and
 /// options.holes: it must cover its domain and nothing else, and have its segments, points, markers, attributes and
-/// regions. Throws InputError for an input that cannot be repaired.
+/// regions. Polygons are read a second time as they are, if they are not simplified. Throws InputError for an input
+/// that cannot be repaired.
 [[nodiscard]] CheckReport check(const Mesh& mesh, const Pslg& input, const MeshOptions& options = {});
 
 }  // namespace driftmesh

@@ -72,6 +72,7 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
   VerifyOptions asked{.min_angle = request.bounds.angle,
                       .max_area = request.bounds.area,
                       .region_areas = request.bounds.region_areas,
+                      .given = request.input.simplify == 0 ? input : nullptr,
                       .threads = threads_for(options)};
   if (options.size) {
     asked.size = &size;

@@ -40,6 +40,7 @@ struct CheckOptions {
   std::string mesh;
   std::string input;
   VerifyOptions verify;
+  Pslg given;  // the input before it is repaired, if needed
   std::unique_ptr<const SizeField> size;
   GivenKeys bounds;
   bool quiet = false;
@@ -47,9 +48,14 @@ struct CheckOptions {
   ReadOptions reading;
 };
 
-std::optional<InputFile> read_and_repair(const CheckOptions& options, const job::Request::Input& asked) {
+/// Keeps what has polygons as the file has it, too. Simplified ones are others.
+std::optional<InputFile> read_and_repair(CheckOptions& options, const job::Request::Input& asked) {
   if (options.input.empty()) return std::nullopt;
   InputFile input = read_input(options.input, asked.layers);
+  if (!input.pslg.polygons.empty() && asked.simplify == 0) {
+    options.given = input.pslg;
+    options.verify.given = &options.given;
+  }
   const RepairReport repairs = job::clean_input(asked, options.input, input.pslg);
   if (!options.quiet) print(repairs.summary());
   return input;

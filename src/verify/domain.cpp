@@ -8,6 +8,7 @@
 #include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/extended.hpp"
+#include "verify/face_cover.hpp"
 #include "verify/point_index.hpp"
 #include "verify/words.hpp"
 
@@ -45,25 +46,32 @@ std::vector<std::int32_t> convex_hull(const std::vector<Point>& points) {
 
 }  // namespace
 
-Domain::Domain(const Pslg& input) {
+Domain::Domain(const Pslg& input, std::span<const Point> places) {
   std::vector<std::int32_t> number;
   take_points(input, number);
   if (conflict_) return;
-  if (input.segments.empty())
+  if (input.segments.empty() && input.polygons.empty())
     take_hull();
   else
     take_segments(input, number);
+  if (!conflict_) take_polygons(input, number);
+  if (conflict_) return;
 
   std::vector<Arrangement::Link> links;
   links.reserve(segments_.size());
   for (const Segment& s : segments_) links.push_back({s.a, s.b});
   std::vector<Point> seeds = input.holes;
   for (const auto& region : input.regions) seeds.push_back(region.at);
+  const std::size_t seeds_count = seeds.size();
+  seeds.insert(seeds.end(), places.begin(), places.end());
   const Arrangement arrangement(points_, std::move(links), std::move(seeds));
   conflict_ = arrangement.conflict();
   if (conflict_) return;
   classify(input, arrangement);
   measure(arrangement);
+  if (!polygons_.empty()) measure_faces();
+  for (std::size_t i = seeds_count; i < seeds_count + places.size(); ++i)
+    face_of_place_.push_back(arrangement.face_of_query(i));
 }
 
 void Domain::take_points(const Pslg& input, std::vector<std::int32_t>& number) {
@@ -100,6 +108,36 @@ void Domain::take_segments(const Pslg& input, const std::vector<std::int32_t>& n
                    [&](const Segment& s, const Segment& t) { return ends(s) == ends(t); });
 }
 
+/// Corners that repeat the one before them are left out.
+void Domain::take_polygons(const Pslg& input, const std::vector<std::int32_t>& number) {
+  for (const Pslg::Polygon& given : input.polygons) {
+    Pslg::Polygon& polygon = polygons_.emplace_back();
+    polygon.region = to_index(given.region) < input.regions.size() ? given.region : kNoRegion;
+    for (const Pslg::Ring& given_ring : given.rings) {
+      Pslg::Ring& ring = polygon.rings.emplace_back();
+      for (const std::int32_t corner : given_ring) {
+        if (to_index(corner) >= number.size()) {
+          conflict_ = "a polygon names a point that does not exist";
+          return;
+        }
+        if (ring.empty() || ring.back() != number[corner]) ring.push_back(number[corner]);
+      }
+      while (!ring.empty() && ring.back() == ring.front()) ring.pop_back();
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        if (const std::int32_t a = ring[i], b = ring[(i + 1) % ring.size()]; !has_segment(a, b)) {
+          conflict_ = "no segment joins the corners " + place_words(points_[a]) + " and " + place_words(points_[b]) +
+                      " of a polygon";
+          return;
+        }
+    }
+  }
+}
+
+bool Domain::has_segment(std::int32_t a, std::int32_t b) const {
+  const auto ends = [](const Segment& s) { return std::pair(s.a, s.b); };
+  return std::ranges::binary_search(segments_, std::pair<std::int32_t, std::int32_t>(std::minmax(a, b)), {}, ends);
+}
+
 void Domain::take_hull() {
   const std::vector<std::int32_t> hull = convex_hull(points_);
   for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -111,17 +149,18 @@ void Domain::take_hull() {
 void Domain::classify(const Pslg& input, const Arrangement& arrangement) {
   inside_.assign(arrangement.face_count(), 1);
   inside_[Arrangement::kUnbounded] = 0;
+  region_of_face_.assign(inside_.size(), kNoRegion);
+  if (!polygons_.empty()) {
+    const FaceCover cover(arrangement, polygons_);
+    for (std::int32_t face = 0; face < face_count(); ++face) {
+      inside_[face] = cover.covered(face) ? 1 : 0;
+      region_of_face_[face] = cover.region(face);
+    }
+  }
   for (std::size_t hole = 0; hole < input.holes.size(); ++hole)
     if (const std::int32_t face = arrangement.face_of_query(hole); face != Arrangement::kOnBoundary) inside_[face] = 0;
 
-  regions_ = input.regions;
-  region_of_face_.assign(inside_.size(), kNoRegion);
-  for (std::size_t r = 0; r < regions_.size(); ++r) {
-    const std::int32_t face = arrangement.face_of_query(input.holes.size() + r);
-    if (face == Arrangement::kOnBoundary || !inside(face)) continue;
-    region_of_face_[face] = static_cast<std::int32_t>(r);
-    has_regions_ = true;
-  }
+  find_regions(input, arrangement);
 
   point_inside_.assign(points_.size(), 0);
   for (std::size_t i = 0; i < segments_.size(); ++i) {
@@ -134,6 +173,22 @@ void Domain::classify(const Pslg& input, const Arrangement& arrangement) {
     if (const std::int32_t face = arrangement.face_of_point(static_cast<std::int32_t>(p));
         face != Arrangement::kOnBoundary)
       point_inside_[p] = inside_[face];
+}
+
+/// Regions that no polygon names are seeds.
+void Domain::find_regions(const Pslg& input, const Arrangement& arrangement) {
+  regions_ = input.regions;
+  std::vector<char> is_seed(regions_.size(), 1);
+  for (const Pslg::Polygon& polygon : polygons_)
+    if (polygon.region != kNoRegion) is_seed[polygon.region] = 0;
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    const std::int32_t face = arrangement.face_of_query(input.holes.size() + r);
+    if (is_seed[r] != 0 && face != Arrangement::kOnBoundary) region_of_face_[face] = static_cast<std::int32_t>(r);
+  }
+  for (std::int32_t face = 0; face < face_count(); ++face) {
+    if (!inside(face)) region_of_face_[face] = kNoRegion;
+    has_regions_ = has_regions_ || region_of_face_[face] != kNoRegion;
+  }
 }
 
 // Euler number: points minus segments of the closed domain, plus for each open face 2 minus the parts of its boundary
@@ -155,6 +210,30 @@ void Domain::measure(const Arrangement& arrangement) {
   euler_number_ += std::count(point_inside_.begin(), point_inside_.end(), 1);
   for (std::int32_t face = 0; face < arrangement.face_count(); ++face)
     if (inside(face)) euler_number_ += 2 - arrangement.boundary_parts(face);
+}
+
+void Domain::measure_faces() {
+  double length = 0, largest = 0;
+  std::vector<CompensatedSum> of_faces(inside_.size());
+  for (const Segment& s : segments_) {
+    const Point &a = points_[s.a], &b = points_[s.b];
+    if (inside(s)) length += std::hypot(b.x - a.x, b.y - a.y);
+    largest = std::max(largest, split_tolerance(a, b));
+    const long double cross = cross_extended(points_.front(), a, b);
+    of_faces[s.left_face].add(cross);
+    of_faces[s.right_face].add(-cross);
+  }
+  border_tolerance_ = largest * length + 1e-14 * area_;
+  for (const CompensatedSum& twice : of_faces) area_of_face_.push_back(twice.value() / 2);
+}
+
+std::map<double, double> Domain::areas_of_regions() const {
+  std::map<double, double> areas;
+  for (std::int32_t face = 0; face < face_count(); ++face) {
+    const Pslg::Region* const region = region_of(face);
+    if (inside(face)) areas[region != nullptr ? region->attribute : 0] += area(face);
+  }
+  return areas;
 }
 
 // Each of two coordinates of a midpoint is rounded by half a unit in the last place; nested midpoints add up to a

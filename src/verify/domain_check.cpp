@@ -204,11 +204,9 @@ void DomainCheck::check_euler(std::int64_t triangles, std::int64_t used_points, 
   });
 }
 
-std::vector<std::int32_t> DomainCheck::find_faces(DisjointSets<std::int32_t>& parts) const {
-  std::vector<std::int32_t> face_of_part(mesh_.triangles.size(), kNone), faces;
-  const auto note = [&](std::int32_t triangle, std::int32_t face) {
-    if (triangle != kNone) face_of_part[parts.find(triangle)] = face;
-  };
+/// Calls visit(triangle, face) for the triangles beside all chains of segments, and the faces that lie there.
+template <class Visit>
+void DomainCheck::for_each_side(const Visit& visit) const {
   const Subsegments& subsegments = chains_.subsegments();
   for (std::size_t c = 0; c < chains_.all().size(); ++c) {
     if (segment_of_chain_[c] == kNone) continue;
@@ -217,14 +215,43 @@ std::vector<std::int32_t> DomainCheck::find_faces(DisjointSets<std::int32_t>& pa
     const bool reversed = vertex_of_point_[segment.a] != chain.vertices.front();
     for (std::size_t i = 0; i < chain.subsegments.size(); ++i) {
       const std::int32_t s = chain.subsegments[i], from = chain.vertices[i];
-      note(subsegments.left(s, from), reversed ? segment.right_face : segment.left_face);
-      note(subsegments.right(s, from), reversed ? segment.left_face : segment.right_face);
+      const std::int32_t left = subsegments.left(s, from), right = subsegments.right(s, from);
+      if (left != kNone) visit(left, reversed ? segment.right_face : segment.left_face);
+      if (right != kNone) visit(right, reversed ? segment.left_face : segment.right_face);
     }
   }
+}
+
+std::vector<std::int32_t> DomainCheck::find_faces(DisjointSets<std::int32_t>& parts) const {
+  std::vector<std::int32_t> face_of_part(mesh_.triangles.size(), kNone), faces;
+  for_each_side([&](std::int32_t triangle, std::int32_t face) { face_of_part[parts.find(triangle)] = face; });
   faces.reserve(face_of_part.size());
   for (const std::int32_t t : first_ids<std::int32_t>(face_of_part.size()))
     faces.push_back(face_of_part[parts.find(t)]);
   return faces;
+}
+
+std::vector<std::optional<Point>> DomainCheck::find_places() const {
+  std::vector<std::optional<Point>> places(domain_.face_count());
+  std::vector<long double> best(places.size());
+  for_each_side([&](std::int32_t triangle, std::int32_t face) {
+    const auto& [a, b, c] = mesh_.triangles[triangle];
+    const Point &p = mesh_.points[a], &q = mesh_.points[b], &r = mesh_.points[c];
+    const long double thick = thickness(triangle);
+    const double rounding = Domain::split_tolerance(p, q) + Domain::split_tolerance(q, r);
+    if (!(thick > 3 * rounding) || thick <= best[face]) return;
+    best[face] = thick;
+    places[face] = {p.x / 3 + q.x / 3 + r.x / 3, p.y / 3 + q.y / 3 + r.y / 3};
+  });
+  return places;
+}
+
+/// The least height of a triangle; not positive if it is not counterclockwise.
+long double DomainCheck::thickness(std::int32_t triangle) const {
+  const auto& [a, b, c] = mesh_.triangles[triangle];
+  const Point &p = mesh_.points[a], &q = mesh_.points[b], &r = mesh_.points[c];
+  const long double longest = std::max({dot_extended(p, q, q), dot_extended(q, r, r), dot_extended(r, p, p)});
+  return longest > 0 ? cross_extended(p, q, r) / std::sqrt(longest) : 0;
 }
 
 }  // namespace driftmesh

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/disjoint_sets.hpp"
@@ -36,6 +37,9 @@ class DomainCheck {
   /// The face of the domain that each triangle lies in, kNone if it is not known. `parts` has joined triangles that
   /// share an edge which is no subsegment.
   [[nodiscard]] std::vector<std::int32_t> find_faces(DisjointSets<std::int32_t>& parts) const;
+  /// For each face of the domain the centroid of the thickest triangle that lies in it along a segment, if one is so
+  /// thick that rounding cannot move it out of the face.
+  [[nodiscard]] std::vector<std::optional<Point>> find_places() const;
   /// For each point of a mesh whether it is one of the domain's points.
   [[nodiscard]] static std::vector<char> find_corners(const Mesh& mesh, const Domain& domain,
                                                       const PointIndex& mesh_points);
@@ -44,6 +48,9 @@ class DomainCheck {
   void check_chain(const Chains::Chain& chain, const Domain::Segment& segment, bool reversed);
   void check_straight(const Chains::Chain& chain);
   void check_side(std::int32_t subsegment, std::int32_t triangle, std::int32_t face);
+  template <class Visit>
+  void for_each_side(const Visit& visit) const;
+  [[nodiscard]] long double thickness(std::int32_t triangle) const;
   [[nodiscard]] std::string chain_words(const Chains::Chain& chain) const;
 
   NamedMesh names_;

@@ -52,6 +52,8 @@ const char* flaw_name(Flaw flaw) {
       return "outside filled";
     case Flaw::hole_filled:
       return "hole filled";
+    case Flaw::wrong_polygons:
+      return "not what the polygons say";
     case Flaw::wrong_area:
       return "wrong area";
     case Flaw::wrong_euler:

@@ -38,6 +38,7 @@ enum class Flaw : std::uint8_t {
   not_covered,         ///< a part of the domain along an input segment has no triangles
   outside_filled,      ///< a triangle lies outside the outer boundary
   hole_filled,         ///< a triangle lies in a hole
+  wrong_polygons,      ///< the repaired input has another domain, or other regions, than the polygons as given
   wrong_area,          ///< the triangles' areas do not sum to the area of the domain
   wrong_euler,         ///< counts of triangles, vertices and boundary edges do not fit the domain's topology
   wrong_region,        ///< a triangle does not carry the attribute of the region it lies in

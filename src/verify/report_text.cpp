@@ -42,6 +42,8 @@ void add_counts(const VerifyReport& report, Text out) {
   if (!report.subsegments_listed)
     fmt::format_to(out, "               the file lists no subsegments; the boundary was taken as constrained\n");
   if (!report.regions_listed) fmt::format_to(out, "regions        not listed by the mesh and not checked\n");
+  if (!report.polygons_judged)
+    fmt::format_to(out, "polygons       cross so closely that they are checked as repaired only\n");
   fmt::format_to(out, "area           {:.17g}", report.area);
   if (report.against_input) fmt::format_to(out, ", of the input {:.17g}", report.input_area);
   fmt::format_to(out, "\nareas          {:.6g} to {:.6g}\nangles         {:.4f} to {:.4f} degrees\n",

@@ -25,6 +25,7 @@
 #include "verify/piece_numbers.hpp"
 #include "verify/point_data_check.hpp"
 #include "verify/point_index.hpp"
+#include "verify/polygons_check.hpp"
 #include "verify/regions.hpp"
 #include "verify/size_check.hpp"
 #include "verify/subsegments.hpp"
@@ -205,11 +206,19 @@ class Verification {
     against.check_chains();
     against.check_euler(static_cast<std::int64_t>(report_.triangles), static_cast<std::int64_t>(used_points_),
                         static_cast<std::int64_t>(report_.boundary_edges));
+    check_given(against);
     if (has_regions_) faces_.emplace(frame_, against.find_faces(*parts_));
     take_quality(chains);
     against.check_area(report_.area);
     report_.against_input = true;
     report_.input_area = domain_->area();
+  }
+
+  /// Seeds and holes would need the segments that repair leaves.
+  void check_given(const DomainCheck& against) {
+    if (options_.given == nullptr || input_->polygons.empty() || same_polygons(*options_.given, *input_)) return;
+    if (input_->holes.empty() && !has_seeds(*input_))
+      report_.polygons_judged = check_polygons(*options_.given, *domain_, against.find_places(), findings_);
   }
 
   [[nodiscard]] Chains make_chains() const {

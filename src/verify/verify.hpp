@@ -21,6 +21,9 @@ struct VerifyOptions {
   const SizeField* size = nullptr;  ///< target edge lengths that bound areas, or null; must outlive the call
   /// Inside large triangles the size is looked up four times in each square of this side; 0: at 16 points only.
   double size_spacing = 0;
+  /// The input before it was repaired, or null. If it consists of polygons, these are read anew, in the verifier's own
+  /// way: what repair made of them must be the same up to rounding. Must outlive the call.
+  const Pslg* given = nullptr;
   bool check_delaunay = true;  ///< false for meshes that only need to be conforming
   std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
   /// Pieces are spread over them, and most of the work on a mesh in one piece. With several, `size` is asked by several
@@ -46,6 +49,7 @@ struct VerifyReport {
   double area = 0;                       ///< of all triangles
   bool against_input = false;            ///< whether the mesh was checked against its input
   double input_area = 0;                 ///< if against_input: of the domain that the input describes
+  bool polygons_judged = true;           ///< false: rounding keeps options.given from being read anew
   Quality quality;
   Findings findings;
 
@@ -72,7 +76,9 @@ struct VerifyReport {
 /// - every input segment in the domain is one chain of subsegments with its marker, in order along it and on it up to
 ///   the rounding of repeated midpoints; there are no other subsegments;
 /// - every input point in the domain is a vertex with its marker and attributes (if listed; see point_data_check.hpp);
-/// area, Euler number and region attributes (if listed) agree. An input without segments describes the convex hull of
+/// area, Euler number and region attributes (if listed) agree. The domain of an input with polygons is what they cover,
+/// found by walking from face to face and counting borders. With options.given, that is done a second time with the
+/// polygons as they were given; areas and regions must agree. An input without segments describes the convex hull of
 /// its points, with marker 1 all around.
 [[nodiscard]] VerifyReport verify(const Mesh& mesh, const Pslg& input, const VerifyOptions& options);
 

@@ -1,0 +1,105 @@
+#include "verify/polygons_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "driftmesh/id_vector.hpp"
+#include "verify/arrangement.hpp"
+#include "verify/cut_rings.hpp"
+#include "verify/words.hpp"
+
+namespace driftmesh {
+namespace {
+
+double attribute_of(const Domain& domain, std::int32_t face) {
+  const Pslg::Region* const region = domain.region_of(face);
+  return region != nullptr ? region->attribute : 0;
+}
+
+class PolygonsCheck {
+ public:
+  PolygonsCheck(const Domain& domain, const Domain& given, Findings& findings)
+      : domain_(domain),
+        given_(given),
+        findings_(findings),
+        tolerance_(domain.border_tolerance() + given.border_tolerance()) {}
+
+  void check_face(std::int32_t face, const Point& place, std::int32_t given_face) {
+    if (given_face == Arrangement::kOnBoundary) return;
+    const auto say = [&](const std::string& what) {
+      findings_.add(Flaw::wrong_polygons, [&] {
+        return fmt::format("the face of area {:.9g} around {} {}", domain_.area(face), place_words(place), what);
+      });
+    };
+    if (!given_.inside(given_face))
+      say("lies in no polygon of the input");
+    else if (const double actual = attribute_of(domain_, face), expected = attribute_of(given_, given_face);
+             actual != expected)
+      say(fmt::format("belongs to region {}, by the polygons of the input to {}", actual, expected));
+  }
+
+  void check_areas() {
+    check_area("the domain", domain_.area(), given_.area());
+    std::map<double, double> actual = domain_.areas_of_regions(), expected = given_.areas_of_regions();
+    for (const auto& [region, area] : expected) actual.try_emplace(region, 0);
+    for (const auto& [region, area] : actual) check_area(fmt::format("region {}", region), area, expected[region]);
+  }
+
+ private:
+  void check_area(const std::string& what, double actual, double expected) {
+    if (std::fabs(actual - expected) <= tolerance_) return;
+    findings_.add(Flaw::wrong_polygons, [&] {
+      return fmt::format("the area of {} is {:.17g}, by the polygons of the input {:.17g} (rounding explains {:.3g})",
+                         what, actual, expected, tolerance_);
+    });
+  }
+
+  const Domain& domain_;
+  const Domain& given_;
+  Findings& findings_;
+  double tolerance_;
+};
+
+}  // namespace
+
+bool same_polygons(const Pslg& given, const Pslg& repaired) {
+  return given.points == repaired.points && given.polygons == repaired.polygons && given.regions == repaired.regions;
+}
+
+bool has_seeds(const Pslg& input) {
+  std::vector<char> named(input.regions.size());
+  for (const Pslg::Polygon& polygon : input.polygons)
+    if (to_index(polygon.region) < named.size()) named[polygon.region] = 1;
+  return std::ranges::find(named, 0) != named.end();
+}
+
+bool check_polygons(const Pslg& input, const Domain& domain, const std::vector<std::optional<Point>>& places,
+                    Findings& findings) {
+  std::optional<Pslg> rings = rings_alone(input);
+  if (!rings) return false;
+  std::vector<std::int32_t> faces;
+  std::vector<Point> known;
+  for (const std::int32_t face : first_ids<std::int32_t>(places.size()))
+    if (places[face]) {
+      faces.push_back(face);
+      known.push_back(*places[face]);
+    }
+  Domain given(*rings, known);
+  if (given.conflict()) {
+    rings = cut_rings(std::move(*rings));
+    if (!rings) return false;
+    given = Domain(*rings, known);
+    if (given.conflict()) return false;
+  }
+  PolygonsCheck check(domain, given, findings);
+  for (std::size_t i = 0; i < faces.size(); ++i) check.check_face(faces[i], known[i], given.face_of_place(i));
+  check.check_areas();
+  return true;
+}
+
+}  // namespace driftmesh

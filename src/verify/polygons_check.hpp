@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "driftmesh/pslg.hpp"
+#include "verify/domain.hpp"
+#include "verify/findings.hpp"
+
+namespace driftmesh {
+
+/// Whether nothing was done to an input's polygons when it was repaired.
+[[nodiscard]] bool same_polygons(const Pslg& given, const Pslg& repaired);
+
+/// Whether there are regions that no polygon names.
+[[nodiscard]] bool has_seeds(const Pslg& input);
+
+/// Checks the domain of a repaired input against the polygons as they were given, which are cut and covered anew (see
+/// cut_rings, FaceCover): the area in total and of each region, as far as rounding does not explain the difference,
+/// and that each face whose place is given lies in them and has their region. `places`: for each face of `domain` a
+/// place that is well inside, if one is known. False if rounding keeps the polygons from being cut.
+[[nodiscard]] bool check_polygons(const Pslg& given, const Domain& domain,
+                                  const std::vector<std::optional<Point>>& places, Findings& findings);
+
+}  // namespace driftmesh

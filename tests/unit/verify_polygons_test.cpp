@@ -1,0 +1,174 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "driftmesh/id_vector.hpp"
+#include "oracles/random_polygons.hpp"
+#include "verify/cut_rings.hpp"
+#include "verify/domain.hpp"
+#include "verify/polygons_check.hpp"
+#include "verify/verify.hpp"
+
+// How the verifier reads polygons, against the exact areas of an oracle.
+
+using namespace driftmesh;
+using namespace driftmesh::oracles;
+
+namespace {
+
+/// Raw rings, with the segments that join their corners.
+Pslg given(const RandomPolygons& set) {
+  Pslg pslg;
+  for (const GridPolygon& polygon : set.polygons) {
+    Pslg::Polygon& taken = pslg.polygons.emplace_back();
+    if (polygon.region) {
+      taken.region = static_cast<std::int32_t>(pslg.regions.size());
+      pslg.regions.push_back({{}, *polygon.region, 0});
+    }
+    for (const GridRing& ring : polygon.rings) {
+      Pslg::Ring& corners = taken.rings.emplace_back();
+      const auto first = static_cast<std::int32_t>(pslg.points.size()), n = static_cast<std::int32_t>(ring.size());
+      for (std::int32_t i = 0; i < n; ++i) {
+        const GridPoint& p = ring[to_index(i)];
+        pslg.points.push_back(
+            {static_cast<double>(set.origin.x + p.x) * set.unit, static_cast<double>(set.origin.y + p.y) * set.unit});
+        corners.push_back(first + i);
+        pslg.segments.push_back({first + i, first + (i + 1) % n, 0});
+      }
+    }
+  }
+  return pslg;
+}
+
+Pslg given(const std::vector<GridPolygon>& polygons) {
+  return given(RandomPolygons{polygons, {}, 1});
+}
+
+GridRing rectangle(std::int64_t x, std::int64_t y, std::int64_t right, std::int64_t top) {
+  return {{x, y}, {right, y}, {right, top}, {x, top}};
+}
+
+Domain domain_of(const Pslg& input, const std::vector<Point>& places = {}) {
+  std::optional<Pslg> rings = rings_alone(input);
+  REQUIRE(rings);
+  if (Domain(*rings).conflict()) rings = cut_rings(*rings);
+  REQUIRE(rings);
+  Domain domain(*rings, places);
+  INFO(domain.conflict().value_or(""));
+  REQUIRE(!domain.conflict());
+  return domain;
+}
+
+/// A square in [0, 2]^2 and its right half in another region: points, and two or four triangles.
+Mesh halves() {
+  Mesh mesh;
+  mesh.points = {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 2}, {0, 2}};
+  mesh.triangles = {{0, 1, 4}, {0, 4, 5}, {1, 2, 3}, {1, 3, 4}};
+  mesh.regions = {1, 1, 2, 2};
+  mesh.edges = {{0, 1, 0}, {1, 2, 0}, {2, 3, 0}, {3, 4, 0}, {4, 5, 0}, {5, 0, 0}, {1, 4, 0}};
+  return mesh;
+}
+
+/// The same as two polygons, planar.
+Pslg halves_as_polygons() {
+  Pslg pslg;
+  pslg.points = halves().points;
+  for (const Mesh::Edge& edge : halves().edges) pslg.segments.push_back({edge.a, edge.b, 0});
+  pslg.regions = {{{}, 1, 0}, {{}, 2, 0}};
+  pslg.polygons = {{{{0, 1, 4, 5}}, 0, 1}, {{{1, 2, 3, 4}}, 1, 2}};
+  return pslg;
+}
+
+VerifyReport check(const Mesh& mesh, const Pslg& input, const Pslg& as_given) {
+  return verify(mesh, input, {.given = &as_given});
+}
+
+}  // namespace
+
+TEST_CASE("areas of random polygons and of their regions are those of the oracle") {
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const RandomPolygons set = make_random_polygons(seed);
+    const PolygonAreas expected = covered_areas(set.polygons);
+    const Domain domain = domain_of(given(set));
+    const double square = set.unit * set.unit, tolerance = domain.border_tolerance() + 1e-12 * domain.area();
+    CAPTURE(seed);
+    CHECK(std::fabs(domain.area() - static_cast<double>(expected.total) * square) <= tolerance);
+    auto areas = domain.areas_of_regions();
+    for (const auto& [region, area] : expected.regions)
+      CHECK(std::fabs(areas[region] - static_cast<double>(area) * square) <= tolerance);
+  }
+}
+
+TEST_CASE("places are found in polygons and their holes") {
+  const Pslg input = given(
+      {{{rectangle(0, 0, 10, 10), rectangle(2, 2, 6, 6), rectangle(4, 4, 8, 8)}, 1}, {{rectangle(5, 5, 20, 20)}, {}}});
+  const Domain domain = domain_of(input, {{1, 1}, {3, 3}, {7, 5.5}, {15, 15}, {4.5, 4.5}, {30, 1}, {9, 9}});
+  const std::vector<bool> inside{true, false, true, true, false, false, true};
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    CAPTURE(i);
+    CHECK(domain.inside(domain.face_of_place(i)) == inside[i]);
+  }
+  CHECK(domain.region_of(domain.face_of_place(6))->attribute == 1);  // the other has none
+  CHECK(domain.region_of(domain.face_of_place(3)) == nullptr);
+}
+
+TEST_CASE("a mesh of polygons is judged by them") {
+  const Pslg input = halves_as_polygons();
+  CHECK(verify(halves(), input, {}).accepted());
+  CHECK(check(halves(), input, input).accepted());
+  Mesh mesh = halves();
+  mesh.regions[2] = 1;
+  CHECK(verify(mesh, input, {}).findings.count(Flaw::wrong_region) == 1);
+  Pslg other = input;
+  other.polygons[1].rings.push_back({1, 3, 4});                                    // a hole
+  CHECK(verify(halves(), other, {}).findings.count(Flaw::input_not_planar) == 1);  // without a segment
+  other.polygons.pop_back();
+  CHECK(!verify(halves(), other, {}).accepted());
+}
+
+TEST_CASE("what repair made of polygons is judged by the polygons as they were given") {
+  const Pslg input = halves_as_polygons();
+  Pslg raw = given({{{rectangle(0, 0, 2, 2)}, 1}, {{rectangle(1, 0, 2, 2)}, 2}});
+  VerifyReport report = check(halves(), input, raw);
+  CHECK(report.accepted());
+  CHECK(report.polygons_judged);
+
+  raw = given({{{rectangle(1, 0, 2, 2)}, 2}, {{rectangle(0, 0, 2, 2)}, 1}});  // the last counts
+  report = check(halves(), input, raw);
+  CHECK(report.findings.total() == report.findings.count(Flaw::wrong_polygons));
+  CHECK(report.findings.count(Flaw::wrong_polygons) == 3);
+  CHECK(report.findings.messages(Flaw::wrong_polygons)[0] ==
+        "the face of area 2 around (1.6666666666666665, 0.6666666666666666) belongs to region 2, by the polygons of "
+        "the input to 1");
+  CHECK(report.findings.messages(Flaw::wrong_polygons)[1].starts_with(
+      "the area of region 1 is 2, by the polygons of the input 4 (rounding explains "));
+
+  raw = given({{{rectangle(0, 0, 1, 2)}, 1}, {{rectangle(0, 0, 2, 2), rectangle(0, 0, 2, 2)}, 2}});  // no right half
+  report = check(halves(), input, raw);
+  CHECK(report.findings.messages(Flaw::wrong_polygons)[0].ends_with(") lies in no polygon of the input"));
+
+  raw = given({{{rectangle(0, 0, 2, 2)}, 1}, {{rectangle(1, 0, 2, 3)}, 2}});  // more than is meshed
+  report = check(halves(), input, raw);
+  CHECK(report.findings.messages(Flaw::wrong_polygons)[0].starts_with("the area of the domain is 4, by"));
+}
+
+TEST_CASE("an unknown point, place or region of polygons is no crash") {
+  Pslg input = halves_as_polygons();
+  input.polygons[0].rings[0][2] = 77;
+  CHECK(!verify(halves(), input, {}).accepted());
+  CHECK(!rings_alone(input));
+  input = halves_as_polygons();
+  input.polygons[0].region = 5;
+  CHECK(!verify(halves(), input, {}).accepted());
+  input = halves_as_polygons();
+  input.polygons[0].rings = {{}, {}};
+  input.polygons.push_back({});
+  CHECK(!verify(halves(), input, {}).accepted());
+  input.points[0].x = std::nan("");
+  CHECK(!rings_alone(input));
+}
