@@ -9,7 +9,7 @@
 
 namespace driftmesh {
 
-/// Whether nothing was done to an input's polygons when it was repaired.
+/// Whether repair did no more to an input's polygons than to make one of points in the same place.
 [[nodiscard]] bool same_polygons(const Pslg& given, const Pslg& repaired);
 
 /// Whether there are regions that no polygon names.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "driftmesh/id_vector.hpp"
@@ -134,6 +135,7 @@ TEST_CASE("a mesh of polygons is judged by them") {
 TEST_CASE("what repair made of polygons is judged by the polygons as they were given") {
   const Pslg input = halves_as_polygons();
   Pslg raw = given({{{rectangle(0, 0, 2, 2)}, 1}, {{rectangle(1, 0, 2, 2)}, 2}});
+  CHECK(!same_polygons(raw, input));  // which cuts sides in halves
   VerifyReport report = check(halves(), input, raw);
   CHECK(report.accepted());
   CHECK(report.polygons_judged);
@@ -155,6 +157,19 @@ TEST_CASE("what repair made of polygons is judged by the polygons as they were g
   raw = given({{{rectangle(0, 0, 2, 2)}, 1}, {{rectangle(1, 0, 2, 3)}, 2}});  // more than is meshed
   report = check(halves(), input, raw);
   CHECK(report.findings.messages(Flaw::wrong_polygons)[0].starts_with("the area of the domain is 4, by"));
+}
+
+TEST_CASE("points in the same place make no other polygons") {
+  const Pslg input = halves_as_polygons();
+  const Pslg raw = given({{{rectangle(0, 0, 1, 2)}, 1}, {{rectangle(1, 0, 2, 2)}, 2}});
+  CHECK(same_polygons(raw, input));
+  CHECK(same_polygons(input, input));
+  Pslg other = raw;
+  other.points[5].x = 1.5;
+  CHECK(!same_polygons(other, input));
+  other = raw;
+  std::swap(other.polygons[0], other.polygons[1]);
+  CHECK(!same_polygons(other, input));
 }
 
 TEST_CASE("an unknown point, place or region of polygons is no crash") {
