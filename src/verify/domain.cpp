@@ -175,12 +175,16 @@ void Domain::classify(const Pslg& input, const Arrangement& arrangement) {
       point_inside_[p] = inside_[face];
 }
 
-/// Regions that no polygon names are seeds.
+/// Regions that no polygon names are seeds. Where polygons name some and none of these is left, all triangles have
+/// none.
 void Domain::find_regions(const Pslg& input, const Arrangement& arrangement) {
   regions_ = input.regions;
   std::vector<char> is_seed(regions_.size(), 1);
   for (const Pslg::Polygon& polygon : polygons_)
-    if (polygon.region != kNoRegion) is_seed[polygon.region] = 0;
+    if (polygon.region != kNoRegion) {
+      is_seed[polygon.region] = 0;
+      has_regions_ = true;
+    }
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     const std::int32_t face = arrangement.face_of_query(input.holes.size() + r);
     if (is_seed[r] != 0 && face != Arrangement::kOnBoundary) region_of_face_[face] = static_cast<std::int32_t>(r);

@@ -132,6 +132,21 @@ TEST_CASE("a mesh of polygons is judged by them") {
   CHECK(!verify(halves(), other, {}).accepted());
 }
 
+TEST_CASE("a mesh has no regions where those of the polygons are all taken away") {
+  Pslg input = halves_as_polygons();
+  for (const std::size_t k : {0, 1}) {
+    Pslg::Polygon& polygon = input.polygons[k];
+    Pslg::Polygon bare = polygon;
+    polygon.rings.push_back(polygon.rings[0]);  // a hole that takes all
+    bare.region = -1;
+    input.polygons.push_back(std::move(bare));
+  }
+  CHECK(verify(halves(), input, {}).findings.count(Flaw::wrong_region) == 4);
+  Mesh mesh = halves();
+  mesh.regions.assign(4, 0);
+  CHECK(verify(mesh, input, {}).accepted());
+}
+
 TEST_CASE("what repair made of polygons is judged by the polygons as they were given") {
   const Pslg input = halves_as_polygons();
   Pslg raw = given({{{rectangle(0, 0, 2, 2)}, 1}, {{rectangle(1, 0, 2, 2)}, 2}});
