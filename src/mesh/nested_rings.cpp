@@ -1,163 +1,193 @@
 #include "mesh/nested_rings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "base/disjoint_sets.hpp"
 #include "geometry/predicates.hpp"
-#include "geometry/triangle_geometry.hpp"
+#include "mesh/areas.hpp"
+#include "mesh/blocks.hpp"
 
 namespace driftmesh {
 namespace {
 
-/// An area without segments inside; kNone: removed, that is outside or a hole.
-enum class AreaId : std::int32_t {};
-/// Segments that are connected with each other.
-enum class GroupId : std::int32_t {};
+bool has_several_rings(const Triangulation& mesh) {
+  DisjointSets<VertexId> sets(mesh.points.size());
+  return std::ranges::count_if(mesh.roots,
+                               [&](const RootSegment& root) { return !sets.join(root.vertex[0], root.vertex[1]); }) > 1;
+}
 
+Blocks blocks_of_segments(const Triangulation& mesh) {
+  std::vector<std::array<std::int32_t, 2>> edges;
+  for (const RootSegment& root : mesh.roots) edges.push_back({to_int(root.vertex[0]), to_int(root.vertex[1])});
+  return blocks_of(mesh.points.size(), edges);
+}
+
+/// What rings enclose, by their blocks: rings that touch at a point are blocks of their own. A block has one area
+/// around it, and each area inside a block has one innermost block around itself.
 class Nesting {
  public:
-  explicit Nesting(const Triangulation& mesh) : mesh_(mesh), area_of_(mesh.triangles.size(), kNone) {
-    group_segments();
-    if (rings_ < 2) return;  // nothing but the outer boundary encloses anything
-    flood_areas();
+  explicit Nesting(const Triangulation& mesh) : mesh_(mesh), areas_(mesh), blocks_(blocks_of_segments(mesh)) {
     find_surroundings();
     note_enclosed();
+    for (const BlockId b : ids_of(blocks_.edges))
+      if (is_even(b)) alternate(b);
   }
 
-  [[nodiscard]] NestedRings rings() {
+  [[nodiscard]] NestedRings rings() const {
     NestedRings result;
-    if (rings_ < 2) return result;
-    for (const GroupId g : ids_of(leftmost_))
-      if (surrounding_[g] != kNone && encloses_[g] && !explained_[g]) result.unexplained.push_back(leftmost_[g]);
-    for (const AreaId a : ids_of(largest_))
-      if (!labeled(largest_[a]) && depth(a) % 2 == 0) result.alternating_holes.push_back(center(largest_[a]));
+    result.unexplained = unexplained();
+    for (const AreaId a : areas_.ids())
+      if (const TriangleId t = areas_.largest(a); !labeled(t) && is_hole(a))
+        result.alternating_holes.push_back(center_of(mesh_, t));
     return result;
   }
 
  private:
-  [[nodiscard]] std::size_t group_count() const { return leftmost_.size(); }
+  /// Of blocks that are connected with each other; none of them may be explained or border on the outside.
+  [[nodiscard]] std::vector<VertexId> unexplained() const {
+    struct Group {
+      VertexId leftmost = kNone;
+      bool encloses = false;
+      bool explained = false;
+    };
+    DisjointSets<VertexId> sets(mesh_.points.size());
+    for (const RootSegment& root : mesh_.roots) sets.join(root.vertex[0], root.vertex[1]);
+    IdVector<VertexId, std::int32_t> group_of(mesh_.points.size(), kNone);
+    std::vector<Group> groups;  // in the order of their first segments
+    for (const BlockId b : ids_of(blocks_.edges)) {
+      std::int32_t& known = group_of[sets.find(leftmost_[b])];
+      if (known == kNone) {
+        known = static_cast<std::int32_t>(groups.size());
+        groups.push_back({leftmost_[b]});
+      }
+      Group& group = groups[to_index(known)];
+      if (is_left_of(at(leftmost_[b]), at(group.leftmost))) group.leftmost = leftmost_[b];
+      group.encloses = group.encloses || encloses_[b];
+      group.explained = group.explained || explained_[b] || surrounding_[b] == kNone;
+    }
+    std::vector<VertexId> found;
+    for (const Group& group : groups)
+      if (group.encloses && !group.explained) found.push_back(group.leftmost);
+    return found;
+  }
+
   [[nodiscard]] const Point& at(VertexId v) const { return mesh_.points[v]; }
   [[nodiscard]] bool labeled(TriangleId t) const { return !mesh_.region.empty() && mesh_.region[t] != 0; }
-  [[nodiscard]] AreaId area(HalfEdge h) const { return h == kNone ? AreaId{kNone} : area_of_[triangle_of(h)]; }
-  [[nodiscard]] double size(TriangleId t) const {
-    return signed_area(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
+  [[nodiscard]] const RootSegment& root(std::int32_t edge) const { return mesh_.roots[RootId{edge}]; }
+  [[nodiscard]] const std::array<HalfEdge, 2>& halves(std::int32_t edge) const {
+    return mesh_.subsegments[root(edge).tree].half;
   }
-  [[nodiscard]] Point center(TriangleId t) const {
-    const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-    return {a.x + ((b.x - a.x) + (c.x - a.x)) / 3, a.y + ((b.y - a.y) + (c.y - a.y)) / 3};
+  /// The areas left and right of a segment in its direction.
+  [[nodiscard]] std::array<AreaId, 2> sides(std::int32_t edge) const {
+    return {areas_.of(halves(edge)[0]), areas_.of(halves(edge)[1])};
   }
 
   /// Or below, on one vertical line.
   static bool is_left_of(const Point& p, const Point& q) { return p.x != q.x ? p.x < q.x : p.y < q.y; }
 
-  void group_segments() {
-    DisjointSets<VertexId> sets(mesh_.points.size());
-    std::vector<VertexId> closed;  // a vertex of each ring
-    for (const RootSegment& root : mesh_.roots)
-      if (!sets.join(root.vertex[0], root.vertex[1])) closed.push_back(root.vertex[0]);
-    for (VertexId& v : closed) v = sets.find(v);
-    std::sort(closed.begin(), closed.end());
-    rings_ = std::unique(closed.begin(), closed.end()) - closed.begin();
-    if (rings_ < 2) return;
-    IdVector<VertexId, GroupId> group_of(mesh_.points.size(), kNone);
-    for (const RootSegment& root : mesh_.roots) {
-      GroupId& group = group_of[sets.find(root.vertex[0])];
-      if (group == kNone) {
-        group = leftmost_.next_id();
-        leftmost_.push_back(root.vertex[0]);
-      }
-      for (const VertexId v : root.vertex)
-        if (is_left_of(at(v), at(leftmost_[group]))) leftmost_[group] = v;
-      group_of_root_.push_back(group);
-    }
-  }
-
-  void flood_areas() {
-    std::vector<TriangleId> stack;
-    for (const TriangleId first : ids_of(mesh_.triangles)) {
-      if (!mesh_.triangles[first].alive() || area_of_[first] != kNone) continue;
-      const AreaId area = largest_.next_id();
-      largest_.push_back(first);
-      area_of_[first] = area;
-      stack.push_back(first);
-      double largest = 0;
-      while (!stack.empty()) {
-        const TriangleId t = stack.back();
-        stack.pop_back();
-        if (const double here = size(t); here > largest) {
-          largest = here;
-          largest_[area] = t;
-        }
-        for (const HalfEdge h : mesh_.triangles[t].neighbor)
-          if (!is_constrained(h) && area_of_[triangle_of(h)] == kNone) {
-            area_of_[triangle_of(h)] = area;
-            stack.push_back(triangle_of(h));
-          }
-      }
-    }
-  }
-
-  /// What lies west of a group's leftmost vertex lies around the group.
+  /// All segments of a block at its leftmost vertex lead east. What lies around the block is on the right of the
+  /// southernmost one.
   void find_surroundings() {
-    surrounding_.assign(group_count(), kNone);
-    IdVector<VertexId, GroupId> led_by(mesh_.points.size(), kNone);
-    for (const GroupId g : ids_of(leftmost_)) led_by[leftmost_[g]] = g;
-    for (const TriangleId t : ids_of(mesh_.triangles))
-      for (int i = 0; i < 3 && mesh_.triangles[t].alive(); ++i)
-        if (const GroupId g = led_by[mesh_.triangles[t].vertex[i]]; g != kNone && reaches_west(t, i))
-          surrounding_[g] = area_of_[t];
-  }
-
-  /// Whether the corner of a triangle opens to the west: upward and downward edges count as east of it.
-  [[nodiscard]] bool reaches_west(TriangleId t, int i) const {
-    const Point &o = mesh_.corner(t, i), &from = mesh_.corner(t, next(i)), &to = mesh_.corner(t, previous(i));
-    const Point west{o.x - std::max({std::abs(o.x), std::abs(from.x - o.x), std::abs(to.x - o.x)}) - 1e-300, o.y};
-    return west.x < o.x && orient2d(o, from, west) >= 0 && orient2d(o, west, to) > 0;
+    for (const std::vector<std::int32_t>& edges : blocks_.edges) {
+      VertexId left = root(edges[0]).vertex[0];
+      for (const std::int32_t e : edges)
+        for (const VertexId v : root(e).vertex)
+          if (is_left_of(at(v), at(left))) left = v;
+      std::int32_t lowest = -1;
+      VertexId end = kNone;
+      for (const std::int32_t e : edges) {
+        const auto [a, b] = root(e).vertex;
+        if (a != left && b != left) continue;
+        const VertexId other = a == left ? b : a;
+        if (lowest < 0 || orient2d(at(left), at(end), at(other)) < 0) lowest = e, end = other;
+      }
+      leftmost_.push_back(left);
+      surrounding_.push_back(sides(lowest)[root(lowest).vertex[0] == left ? 1 : 0]);
+    }
   }
 
   void note_enclosed() {
-    encloses_.assign(group_count(), false);
-    explained_.assign(group_count(), false);
-    enclosing_.assign(largest_.size(), kNone);
-    for (const RootId r : ids_of(mesh_.roots)) {
-      const GroupId g = group_of_root_[to_index(r)];
-      for (const HalfEdge h : mesh_.subsegments[mesh_.roots[r].tree].half) {
-        const AreaId side = area(h);
-        if (side == surrounding_[g]) continue;
-        encloses_[g] = true;
-        if (side == kNone || labeled(triangle_of(h))) explained_[g] = true;
-        if (side != kNone) enclosing_[side] = g;
+    encloses_.assign(blocks_.edges.size(), false);
+    explained_.assign(blocks_.edges.size(), false);
+    enclosing_.assign(areas_.count(), kNone);
+    odd_.assign(areas_.count(), true);
+    alternates_.assign(areas_.count(), false);
+    for (const BlockId b : ids_of(blocks_.edges))
+      for (const std::int32_t e : blocks_.edges[b])
+        for (const HalfEdge h : halves(e)) {
+          const AreaId side = areas_.of(h);
+          if (side == surrounding_[b]) continue;
+          encloses_[b] = true;
+          if (side == kNone || labeled(triangle_of(h))) explained_[b] = true;
+          if (side != kNone) enclosing_[side] = b;
+        }
+  }
+
+  /// Whether a block consists of several rings that touch or cross, but share no segment: it has more segments than
+  /// vertices, and an even number at each.
+  [[nodiscard]] bool is_even(BlockId b) const {
+    std::vector<VertexId> ends;
+    for (const std::int32_t e : blocks_.edges[b])
+      for (const VertexId v : root(e).vertex) ends.push_back(v);
+    std::ranges::sort(ends);
+    bool several = false;
+    for (auto first = ends.begin(); first != ends.end();) {
+      const auto last = std::upper_bound(first, ends.end(), *first);
+      if ((last - first) % 2 != 0) return false;
+      several = several || last - first > 2;
+      first = last;
+    }
+    return several;
+  }
+
+  /// Each segment of an even block has an even number of its rings around one side, and an odd number around the other.
+  void alternate(BlockId b) {
+    std::vector<std::pair<AreaId, AreaId>> steps;
+    for (const std::int32_t e : blocks_.edges[b]) {
+      const auto [left, right] = sides(e);
+      steps.emplace_back(left, right);
+      steps.emplace_back(right, left);
+    }
+    std::ranges::sort(steps);
+    std::vector<std::pair<AreaId, bool>> stack{{surrounding_[b], false}};
+    while (!stack.empty()) {
+      const auto [area, odd] = stack.back();
+      stack.pop_back();
+      for (const auto& [from, to] : std::ranges::equal_range(steps, area, {}, &std::pair<AreaId, AreaId>::first)) {
+        if (to == kNone || to == surrounding_[b] || alternates_[to]) continue;
+        alternates_[to] = true;
+        odd_[to] = !odd;
+        stack.emplace_back(to, !odd);
       }
     }
   }
 
-  /// The number of groups around an area.
-  [[nodiscard]] int depth(AreaId a) const {
-    int groups = 0;
-    while (a != kNone && enclosing_[a] != kNone) {
-      ++groups;
-      a = surrounding_[enclosing_[a]];
-    }
-    return groups;
+  [[nodiscard]] bool is_hole(AreaId a) const {
+    bool odd = false;
+    for (; a != kNone && enclosing_[a] != kNone; a = surrounding_[enclosing_[a]]) odd = odd != odd_[a];
+    return !odd;
   }
 
   const Triangulation& mesh_;
-  std::ptrdiff_t rings_ = 0;  // groups with a ring
-  std::vector<GroupId> group_of_root_;
-  IdVector<GroupId, VertexId> leftmost_;
-  IdVector<GroupId, AreaId> surrounding_;
-  IdVector<GroupId, bool> encloses_;   // an area, or a hole
-  IdVector<GroupId, bool> explained_;  // by a hole or a region point inside
-  IdVector<TriangleId, AreaId> area_of_;
-  IdVector<AreaId, TriangleId> largest_;  // triangle of each area
-  IdVector<AreaId, GroupId> enclosing_;
+  Areas areas_;
+  Blocks blocks_;
+  IdVector<BlockId, VertexId> leftmost_;
+  IdVector<BlockId, AreaId> surrounding_;
+  IdVector<BlockId, bool> encloses_;   // an area, or a hole
+  IdVector<BlockId, bool> explained_;  // by a hole or a region point inside
+  IdVector<AreaId, BlockId> enclosing_;
+  IdVector<AreaId, bool> odd_;         // whether an odd number of the rings of the block around it enclose it
+  IdVector<AreaId, bool> alternates_;  // whether that was decided segment by segment
 };
 
 }  // namespace
 
 NestedRings find_nested_rings(const Triangulation& carved) {
+  if (!has_several_rings(carved)) return {};  // nothing but the outer boundary encloses anything
   return Nesting(carved).rings();
 }
 
