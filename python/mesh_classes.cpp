@@ -96,8 +96,47 @@ std::vector<Edge> edges_from(py::handle pairs, py::handle markers, std::int32_t 
 using Markers = std::map<std::int32_t, std::string>;
 using Regions = std::map<double, std::string>;
 
+// The region and the feature may be left out.
+Pslg::Polygon polygon_from(py::handle given, std::size_t points) {
+  if (!py::isinstance<py::tuple>(given) || py::len(given) < 1 || py::len(given) > 3)
+    throw py::type_error("polygons has an item that is no tuple of rings, a region and a feature");
+  const auto parts = py::reinterpret_borrow<py::tuple>(given);
+  Pslg::Polygon polygon;
+  for (const py::handle ring : parts[0]) {
+    polygon.rings.push_back(integers_from(ring, "polygons"));
+    require_indices(polygon.rings.back(), points, "polygons");
+  }
+  const auto number = [&](std::size_t part, std::int32_t standard) {
+    if (part >= parts.size()) return standard;
+    const std::vector<std::int32_t> numbers = integers_from(py::make_tuple(parts[part]), "polygons");
+    return numbers.at(0);
+  };
+  polygon.region = number(1, -1);
+  polygon.feature = number(2, 0);
+  return polygon;
+}
+
+std::vector<Pslg::Polygon> polygons_from(const py::object& given, std::size_t points) {
+  std::vector<Pslg::Polygon> polygons;
+  if (given.is_none()) return polygons;
+  for (const py::handle item : given) polygons.push_back(polygon_from(item, points));
+  return polygons;
+}
+
+py::list polygons_of(const Pslg& pslg) {
+  py::list polygons;
+  for (const Pslg::Polygon& polygon : pslg.polygons) {
+    py::list rings;
+    for (const Pslg::Ring& ring : polygon.rings)
+      rings.append(py::array_t<std::int32_t>(static_cast<py::ssize_t>(ring.size()), ring.data()));
+    polygons.append(py::make_tuple(rings, polygon.region, polygon.feature));
+  }
+  return polygons;
+}
+
 Pslg make_pslg(py::handle points, py::handle segments, py::handle segment_markers, py::handle holes, py::handle regions,
-               py::handle point_markers, py::handle attributes, Markers marker_names, Regions region_names) {
+               py::handle point_markers, py::handle attributes, Markers marker_names, Regions region_names,
+               const py::object& polygons) {
   Pslg pslg;
   pslg.names = {std::move(marker_names), std::move(region_names)};
   pslg.points = points_from(points, "points");
@@ -112,6 +151,7 @@ Pslg make_pslg(py::handle points, py::handle segments, py::handle segment_marker
     }
   }
   take_point_data(pslg, point_markers, attributes);
+  pslg.polygons = polygons_from(polygons, pslg.points.size());
   pslg.first_number = 0;  // as Python counts, in messages too
   return pslg;
 }
@@ -145,26 +185,34 @@ void add_pslg(py::module_& module) {
   pslg.def(py::init(&make_pslg), py::arg("points"), py::arg("segments") = none, py::kw_only(),
            py::arg("segment_markers") = none, py::arg("holes") = none, py::arg("regions") = none,
            py::arg("point_markers") = none, py::arg("attributes") = none, py::arg("marker_names") = Markers{},
-           py::arg("region_names") = Regions{}, "A domain from arrays, which are copied.");
+           py::arg("region_names") = Regions{}, py::arg("polygons") = none, "A domain from arrays, which are copied.");
   add_point_views(pslg);
   add_edge_views(pslg, "segments", "Indices of the two ends of each segment, shape (segments, 2).", "segment_markers",
                  "Markers of the segments, shape (segments,).", &Pslg::segments);
   add_view(pslg, "holes", "A point in each hole, shape (holes, 2).", [](const Pslg& v, py::handle self) {
     return columns_of(v.holes, v.holes.empty() ? nullptr : &v.holes[0].x, 2, self);
   });
-  add_view(pslg, "regions",
-           "Seeds of regions, shape (regions, 4): x, y, attribute, largest area (0: no bound of its own).",
-           [](const Pslg& v, py::handle self) {
-             static_assert(sizeof(Pslg::Region) == 4 * sizeof(double));
-             return columns_of(v.regions, v.regions.empty() ? nullptr : &v.regions[0].at.x, 4, self);
-           });
+  add_view(
+      pslg, "regions",
+      "Seeds of regions, shape (regions, 4): x, y, attribute, largest area (0: no bound of its own). The place of a "
+      "region that polygons name has no meaning.",
+      [](const Pslg& v, py::handle self) {
+        static_assert(sizeof(Pslg::Region) == 4 * sizeof(double));
+        return columns_of(v.regions, v.regions.empty() ? nullptr : &v.regions[0].at.x, 4, self);
+      });
+  pslg.def_property_readonly(
+      "polygons", &polygons_of,
+      "Polygons as tuples: the list of their rings (arrays of indices of points, closed, the first one without the "
+      "others), the index of their region (-1: none), and the number of their feature (0: none). Without polygons, the "
+      "segments bound the domain.");
   add_names(pslg);
   pslg.def(
       "write", [](const Pslg& v, const std::filesystem::path& path) { write_poly(v, path.string()); }, py::arg("path"),
       py::call_guard<py::gil_scoped_release>(), "Write Triangle's .poly. The file appears only when it is complete.");
   pslg.def("__repr__", [](const Pslg& v) {
     return "<driftmesh.Pslg: " + counted(v.points.size(), "points, ") + counted(v.segments.size(), "segments, ") +
-           counted(v.holes.size(), "holes, ") + counted(v.regions.size(), "regions>");
+           (v.polygons.empty() ? "" : counted(v.polygons.size(), "polygons, ")) + counted(v.holes.size(), "holes, ") +
+           counted(v.regions.size(), "regions>");
   });
 }
 

@@ -40,7 +40,9 @@ struct InputFile {
 [[nodiscard]] bool holds_input(const std::string& path);
 
 /// Writes `pslg` as .poly, numbered from pslg.first_number. Numbers are the shortest that read back to the
-/// same bits; reading the file gives an equal Pslg. The file appears only once it is complete. Throws FileError.
+/// same bits; reading the file gives an equal Pslg. The format has no polygons: an input that has some is repaired
+/// first, and hole and region points take their place, so that the file means the same. The file appears only once it
+/// is complete. Throws FileError and, with polygons, what repair() throws, or Error if they cover nothing.
 void write_poly(const Pslg& pslg, const std::string& path);
 
 /// Optional content of a mesh file.

@@ -52,8 +52,8 @@ struct PlotOptions {
 /// impossible size, for a box with nothing in it, and for a color that shows what the mesh does not list; FileError.
 void plot(const Mesh& mesh, const std::string& path, const PlotOptions& options = {});
 
-/// Draws segments by marker, points (if there are not too many), holes as crosses and regions with their labels. Throws
-/// likewise.
+/// Draws segments by marker, points (if there are not too many), holes as crosses and regions with their labels; of an
+/// input with polygons, the domain that they describe. Throws likewise.
 void plot(const Pslg& input, const std::string& path, const PlotOptions& options = {});
 
 }  // namespace driftmesh

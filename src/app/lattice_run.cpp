@@ -72,6 +72,7 @@ BoundedDomain share_domain(const job::Request& request, const job::Use& use, job
     notes.run.forecast = found.forecast;
     area.number(found.bounds.max_area);
     pslg = std::move(domain.pslg);
+    pslg.holes = found.holes;
   });
   pslg = pslg_from_bytes(team.broadcast(team.leads() ? pslg_to_bytes(pslg) : Bytes()));
   const Bytes bytes = team.broadcast(area.take());

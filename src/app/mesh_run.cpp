@@ -76,6 +76,7 @@ Mesh converted(Triangulation mesh, const job::Domain& domain) {  // NOLINT(perfo
 
 int mesh_in_one_piece(const Told& told, const job::Domain& domain, job::Triangulated&& triangulated, RunNotes& notes) {
   const Request& request = told.request;
+  const std::vector<Point> holes = std::move(triangulated.holes);
   job::OnePiece made = job::mesh_in_one_piece(request, domain, std::move(triangulated), writes(request.output), notes);
   notes.run.forecast = made.forecast;
   notes.run.seconds_refine = made.result.seconds_refine;
@@ -95,7 +96,7 @@ int mesh_in_one_piece(const Told& told, const job::Domain& domain, job::Triangul
           exchange_directly(IdVector<Rank, Exchange*>{&writing});
         });
       });
-    if (writes_whole(request.output)) write_whole(request, piece.mesh, domain.pslg.holes, notes);
+    if (writes_whole(request.output)) write_whole(request, piece.mesh, holes, notes);
     notes.note_files(files_written(request, 1), files.files());
   }
   notes.finish();

@@ -52,6 +52,7 @@ job::Order order_of(const Request& request, job::Domain&& domain, const job::Tri
   check_capacity(request, prepared, use, processes);
   prepared.plan.work.sleep = use.sleeps;
   job::add_prepared(notes.run, prepared);
+  domain.pslg.holes = triangulated.holes;
   return {std::move(prepared.plan), std::move(domain.pslg),   request.sizing, request.limits, shares, use,
           request.run.scratch,      std::move(domain.rasters)};
 }

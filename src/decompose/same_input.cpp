@@ -75,6 +75,14 @@ std::int32_t input_digest(const Pslg& input) {
   for (const Point& p : input.holes) all.add(p);
   all.add(input.regions.size());
   for (const Pslg::Region& r : input.regions) all.add(r.at);
+  for (const Pslg::Polygon& polygon : input.polygons) {
+    all.add(polygon.rings.size());
+    all.add(static_cast<std::uint32_t>(polygon.region));
+    for (const Pslg::Ring& ring : polygon.rings) {
+      all.add(ring.size());
+      for (const std::int32_t corner : ring) all.add(static_cast<std::uint32_t>(corner));
+    }
+  }
   return all.value();
 }
 

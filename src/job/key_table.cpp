@@ -53,8 +53,8 @@ Section input_section() {
               "segments from the outside in, unless it has a region point)",
               option("holes", "RULE"), entry_points(kMeshers | kDecompose | kCheck)),
        key("input.strict", &R::input, &R::Input::strict,
-           "Whether warnings about the input are errors: segments outside the domain, regions that are not separated, "
-           "rings that are neither holes nor regions",
+           "Whether warnings about the input are errors: flaws of polygons, segments outside the domain, regions that "
+           "are not separated, rings that are neither holes nor regions",
            option("strict"), entry_points(kMeshers | kDecompose)),
        key("input.marker-names", &R::input, &R::Input::marker_names,
            "What a marker of segments is called in files that can hold names, such as 5=inlet",

@@ -1,5 +1,6 @@
 #include "job/record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -25,6 +26,13 @@ std::int64_t count_of(std::size_t size) {
   return static_cast<std::int64_t>(size);
 }
 
+/// Hole points, and rings of polygons other than the first.
+std::size_t holes_in(const Pslg& pslg) {
+  std::size_t holes = pslg.holes.size();
+  for (const Pslg::Polygon& polygon : pslg.polygons) holes += std::max<std::size_t>(polygon.rings.size(), 1) - 1;
+  return holes;
+}
+
 }  // namespace
 
 void record_domain(RunRecord& run, const Request& request, const Domain& domain) {
@@ -33,7 +41,7 @@ void record_domain(RunRecord& run, const Request& request, const Domain& domain)
   run.projection = domain.projection;
   run.input_points = count_of(domain.pslg.points.size());
   run.input_segments = count_of(domain.pslg.segments.size());
-  run.input_holes = count_of(domain.pslg.holes.size());
+  run.input_holes = count_of(holes_in(domain.pslg));
   run.input_regions = count_of(domain.pslg.regions.size());
   run.repairs = domain.repairs;
   run.simplified = domain.simplified;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "job/domain.hpp"
 #include "job/key.hpp"
@@ -26,8 +27,9 @@ struct Triangulated {
   Triangulation mesh;  ///< constrained Delaunay, acute corners prepared
   bool cut = false;    ///< whether it is to be cut, and its corners are prepared for that
   std::int32_t acute_corners = 0;
-  QualityBounds bounds;  ///< refers to the domain's size field
-  double forecast = 0;   ///< of the triangles after refinement
+  std::vector<Point> holes;  ///< a point in each hole, for formats that need one
+  QualityBounds bounds;      ///< refers to the domain's size field
+  double forecast = 0;       ///< of the triangles after refinement
 };
 
 /// Triangulates the domain, warns of what its author may not have meant, prepares its corners, and determines the

@@ -1,13 +1,20 @@
 #include "mesh/carve.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/disjoint_sets.hpp"
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/hilbert_sort.hpp"
+#include "geometry/midpoint.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/triangle_geometry.hpp"
+#include "mesh/areas.hpp"
+#include "pslg/polygons.hpp"
 
 namespace driftmesh {
 namespace {
@@ -117,6 +124,9 @@ std::vector<CarveReport::Meeting> label_regions(Triangulation& mesh, const std::
 }
 
 [[noreturn]] void nothing_left(const Pslg& pslg, bool before_holes) {
+  if (before_holes && !pslg.polygons.empty())
+    throw Error("the polygons cover no area (" + std::to_string(pslg.polygons.size()) +
+                " polygons); correct rings that are lines or empty, and holes that take all of their polygons");
   if (before_holes)
     throw Error("the segments enclose no area: the outer boundary is open or missing (" +
                 std::to_string(pslg.segments.size()) + " segments); close the boundary");
@@ -149,6 +159,95 @@ void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& side
   for (const TriangleId t : ids_of(label)) mesh.region[t] = label[t];
 }
 
+/// All that can be reached from the border of the box.
+void add_surroundings(const Triangulation& mesh, Flood& outside) {
+  for (const Subsegment& s : mesh.subsegments)
+    if ((s.half[0] == kNone) != (s.half[1] == kNone))  // of the frame
+      outside.add(triangle_of(s.half[0] == kNone ? s.half[1] : s.half[0]));
+}
+
+/// Carving by what polygons cover.
+class PolygonCarving {
+ public:
+  /// Before anything is removed. The segments are the roots from `first_root` on, those before are the frame's.
+  PolygonCarving(const Triangulation& mesh, const Pslg& pslg, std::size_t first_root)
+      : mesh_(mesh), pslg_(pslg), areas_(mesh) {
+    const auto& frame = mesh.subsegments[mesh.roots[RootId{0}].tree].half;
+    outside_ = areas_.of(frame[0] == kNone ? frame[1] : frame[0]);
+    for (std::size_t i = 0; i < pslg.segments.size(); ++i)
+      walls_.push_back(wall_of(pslg.segments[i], mesh.roots[static_cast<RootId>(first_root + i)]));
+    cover_ = cover_by_polygons(pslg, walls_, areas_.count(), outside_);
+  }
+
+  void add_uncovered(Flood& outside) const {
+    for (const AreaId area : areas_.ids())
+      if (!cover_.inside[area]) outside.add(areas_.largest(area));
+  }
+
+  /// Of what is outside in the end, before it is removed.
+  void report(const Flood& outside, CarveReport& report) const {
+    report.holes = holes(outside);
+    for (const PolygonFlaw& flaw : cover_.flaws) report.flaws.push_back({flaw, place_of(flaw)});
+  }
+
+  /// Labels the triangles that have no label yet.
+  void label(Triangulation& mesh) const {
+    if (std::ranges::all_of(cover_.region, [](std::int32_t region) { return region < 0; })) return;
+    mesh.region.resize(mesh.triangles.size(), 0);
+    for (const TriangleId t : ids_of(mesh.triangles))
+      if (mesh.triangles[t].alive() && mesh.region[t] == 0)
+        mesh.region[t] = narrow<std::uint16_t>(cover_.region[areas_.of(t)] + 1, "number of regions");
+  }
+
+ private:
+  [[nodiscard]] Wall wall_of(const Pslg::Segment& segment, const RootSegment& root) const {
+    const auto& half = mesh_.subsegments[root.tree].half;
+    if (half[0] == kNone) return {kNone, kNone};
+    const bool along = mesh_.origin[mesh_.edge_start(half[0])] == segment.a;
+    return {areas_.of(half[along ? 0 : 1]), areas_.of(half[along ? 1 : 0])};
+  }
+
+  [[nodiscard]] Point place_of(const PolygonFlaw& flaw) const {
+    if (flaw.area != kNone) return center_of(mesh_, areas_.largest(flaw.area));
+    if (flaw.segment == kNone) {
+      for (const Pslg::Ring& ring : pslg_.polygons[flaw.polygon].rings)
+        if (!ring.empty()) return pslg_.points[ring[0]];
+      return {};
+    }
+    const Pslg::Segment& s = pslg_.segments[flaw.segment];
+    return midpoint(pslg_.points[s.a], pslg_.points[s.b]);
+  }
+
+  /// A point in each group of areas outside that no segment of the domain separates, unless it lies around everything.
+  [[nodiscard]] std::vector<Point> holes(const Flood& outside) const {
+    const auto removed = [&](AreaId area) { return outside.reached(areas_.largest(area)); };
+    DisjointSets<AreaId> groups(areas_.count());
+    for (const Wall& wall : walls_)
+      if (wall.left != kNone && removed(wall.left) && removed(wall.right)) groups.join(wall.left, wall.right);
+    IdVector<AreaId, TriangleId> largest(areas_.count(), kNone);
+    for (const AreaId area : areas_.ids()) {
+      TriangleId& known = largest[groups.find(area)];
+      if (known == kNone || size(areas_.largest(area)) > size(known)) known = areas_.largest(area);
+    }
+    std::vector<Point> points;
+    for (const AreaId area : areas_.ids())
+      if (groups.find(area) == area && removed(area) && area != groups.find(outside_))
+        points.push_back(center_of(mesh_, largest[area]));
+    return points;
+  }
+
+  [[nodiscard]] double size(TriangleId t) const {
+    return signed_area(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
+  }
+
+  const Triangulation& mesh_;
+  const Pslg& pslg_;
+  Areas areas_;
+  AreaId outside_;
+  std::vector<Wall> walls_;
+  PolygonCover cover_;
+};
+
 /// The triangle of each point. Points that follow each other along a Hilbert curve are close, and so are the walks.
 std::vector<TriangleId> locate_all(const Triangulation& mesh, const std::vector<Point>& points) {
   std::vector<TriangleId> found(points.size(), kNone);
@@ -157,6 +256,19 @@ std::vector<TriangleId> locate_all(const Triangulation& mesh, const std::vector<
     found[i] = locate(mesh, points[i], near);
     if (found[i] != kNone) near = found[i];
   }
+  return found;
+}
+
+/// The triangle of the seed of each region; kNone for those of polygons, which have none.
+std::vector<TriangleId> locate_regions(const Triangulation& mesh, const Pslg& pslg) {
+  const std::vector<bool> named = regions_of_polygons(pslg);
+  std::vector<Point> seeds;
+  for (std::size_t r = 0; r < named.size(); ++r)
+    if (!named[r]) seeds.push_back(pslg.regions[r].at);
+  const std::vector<TriangleId> located = locate_all(mesh, seeds);
+  std::vector<TriangleId> found;
+  auto next = located.begin();
+  for (const bool by_polygon : named) found.push_back(by_polygon ? TriangleId{kNone} : *next++);
   return found;
 }
 
@@ -184,23 +296,29 @@ TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start) {
 }
 
 CarveReport carve(Triangulation& mesh, const Pslg& pslg, std::size_t first_root) {
-  std::vector<Point> regions;
-  for (const Pslg::Region& r : pslg.regions) regions.push_back(r.at);
-  const std::vector<TriangleId> region_seeds = locate_all(mesh, regions), hole_seeds = locate_all(mesh, pslg.holes);
+  const std::vector<TriangleId> region_seeds = locate_regions(mesh, pslg), hole_seeds = locate_all(mesh, pslg.holes);
+  std::optional<PolygonCarving> polygons;
+  if (!pslg.polygons.empty()) polygons.emplace(mesh, pslg, first_root);
 
   Flood outside(mesh);
-  for (const Subsegment& s : mesh.subsegments)
-    if ((s.half[0] == kNone) != (s.half[1] == kNone))  // of the frame
-      outside.add(triangle_of(s.half[0] == kNone ? s.half[1] : s.half[0]));
+  if (polygons)
+    polygons->add_uncovered(outside);
+  else
+    add_surroundings(mesh, outside);
   const bool open = outside.triangles().size() == mesh.triangles.size();
   for (const TriangleId t : hole_seeds)
     if (t != kNone) outside.add(t);
   if (outside.triangles().size() == mesh.triangles.size()) nothing_left(pslg, open);
-  remove_outside(mesh, outside);
   CarveReport report;
+  if (polygons) polygons->report(outside, report);
+  remove_outside(mesh, outside);
   for (const RootId r : drop_unused_segments(mesh))
     if (to_index(r) >= first_root) report.dropped.push_back(static_cast<std::int32_t>(to_index(r) - first_root));
   report.meetings = label_regions(mesh, region_seeds);
+  if (!polygons) return report;
+  polygons->label(mesh);
+  const std::vector<bool> on_ring = segments_of_rings(pslg);
+  std::erase_if(report.dropped, [&](std::int32_t s) { return on_ring[s]; });
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "driftmesh/pslg.hpp"
+#include "mesh/polygon_cover.hpp"
 #include "mesh/triangulation.hpp"
 
 namespace driftmesh {
@@ -15,17 +16,23 @@ namespace driftmesh {
 
 /// What carving found that the author of the input may not have meant. Indices are those of the PSLG.
 struct CarveReport {
-  std::vector<std::int32_t> dropped;  ///< segments that bound no part of the domain
+  std::vector<std::int32_t> dropped;  ///< segments that bound no part of the domain, without those of polygons
   struct Meeting {
     std::int32_t first, second;
   };
   std::vector<Meeting> meetings;  ///< regions whose points lie in one area; the second one's label holds there
+  struct Flaw {
+    PolygonFlaw what;
+    Point at;
+  };
+  std::vector<Flaw> flaws;   ///< of polygons, each with its place
+  std::vector<Point> holes;  ///< with polygons: a point in each bounded part of the plane that is not in the domain
 };
 
-/// Carves a domain out of the triangulation of a box around it: removes its outside (all that can be reached from the
-/// box's border without crossing a segment) and its holes, drops the segments that no longer bound a triangle, and
-/// labels the regions. The segments of the PSLG are the roots from `first_root` on; none are dropped if it has none.
-/// Throws Error if nothing is left.
+/// Carves a domain out of the triangulation of a box around it: removes what no polygon covers or, if there are no
+/// polygons, all that can be reached from the box's border without crossing a segment; removes what the hole points
+/// reach; drops the segments that no longer bound a triangle, and labels the regions. The segments of the PSLG are the
+/// roots from `first_root` on; none are dropped if it has none. Throws Error if nothing is left.
 CarveReport carve(Triangulation& mesh, const Pslg& pslg, std::size_t first_root);
 
 /// The region labels left and right of a segment, seen from its first point to its second; kNone outside the domain.

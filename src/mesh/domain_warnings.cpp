@@ -37,7 +37,17 @@ class Warnings {
       all.push_back(std::to_string(meetings.size() - kMostMeetings) + " more regions are not separated from others");
   }
 
-  void add_unexplained(const Triangulation& mesh, const std::vector<VertexId>& rings) {
+  void add_flaws(const std::vector<CarveReport::Flaw>& flaws) {
+    for (const CarveReport::Flaw& flaw : flaws) all.push_back(words_of(flaw));
+  }
+
+  /// Rings of polygons have a meaning.
+  void add_unexplained(const Triangulation& mesh, std::vector<VertexId> rings) {
+    std::vector<bool> of_polygons(pslg_.points.size(), false);
+    for (const Pslg::Polygon& polygon : pslg_.polygons)
+      for (const Pslg::Ring& ring : polygon.rings)
+        for (const std::int32_t corner : ring) of_polygons[corner] = true;
+    std::erase_if(rings, [&](VertexId v) { return of_polygons[mesh.origin[v]]; });
     if (rings.empty()) return;
     const std::string count =
         rings.size() == 1 ? "1 closed ring" : std::to_string(rings.size()) + " groups of closed rings";
@@ -59,6 +69,35 @@ class Warnings {
       for (const std::int32_t v : {pslg_.segments[s].a, pslg_.segments[s].b})
         if (std::binary_search(open_ends_.begin(), open_ends_.end(), v)) return v;
     return std::nullopt;
+  }
+
+  [[nodiscard]] std::string words_of(const CarveReport::Flaw& flaw) const {
+    using Kind = PolygonFlaw::Kind;
+    const PolygonFlaw& what = flaw.what;
+    const std::string polygon = polygon_name(pslg_, what.polygon), at = " at " + coordinates(flaw.at);
+    const std::string ring =
+        what.ring == 0 ? "the first ring of " + polygon : "ring " + std::to_string(what.ring + 1) + " of " + polygon;
+    switch (what.kind) {
+      case Kind::kCrossesItself:
+        return ring + " crosses itself; what it encloses an even number of times is outside it, for example" + at;
+      case Kind::kRepeatsEdge:
+        return ring + " runs more than once along one edge, which counts only if their number is odd," + at;
+      case Kind::kSharesEdge:
+        return ring + " shares an edge with " +
+               (what.other == 0 ? "the first" : "ring " + std::to_string(what.other + 1)) + at;
+      case Kind::kLeavesOuter:
+        return "a hole of " + polygon + " reaches outside its first ring, where it removes nothing," + at;
+      case Kind::kHolesOverlap:
+        return "holes of " + polygon + " overlap" + at + "; both are removed";
+      case Kind::kCoversNothing:
+        return polygon + at + " covers no area";
+      case Kind::kPartsOverlap:
+        return "polygons of " + polygon + " overlap" + at + "; both are meshed";
+      case Kind::kRegionsDiffer:
+        return polygon_name(pslg_, what.other) + " and " + polygon + " overlap" + at +
+               ", where the region is that of the latter";
+    }
+    return {};
   }
 
   /// The gap between two regions is where a chain of segments ends, most likely one near both.
@@ -90,6 +129,7 @@ class Warnings {
 std::vector<std::string> domain_warnings(const Pslg& pslg, const RepairReport& repairs, const CarveReport& report,
                                          const Triangulation& carved) {
   Warnings warnings(pslg, repairs);
+  warnings.add_flaws(report.flaws);
   warnings.add_dropped(report.dropped);
   warnings.add_meetings(report.meetings);
   warnings.add_unexplained(carved, find_nested_rings(carved).unexplained);

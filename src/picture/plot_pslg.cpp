@@ -5,6 +5,9 @@
 #include <map>
 #include <numbers>
 
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
+#include "mesh/with_seeds.hpp"
 #include "picture/plot.hpp"
 #include "picture/plot_canvas.hpp"
 #include "picture/plot_frame.hpp"
@@ -184,10 +187,26 @@ class PslgPlot {
   Canvas canvas_;
 };
 
+/// Only its domain is drawn if it has polygons; but all of it if they are too broken to have one.
+Pslg without_polygons(Pslg pslg) {
+  Pslg lines = pslg;
+  lines.polygons.clear();
+  lines.regions.clear();
+  try {
+    static_cast<void>(repair(pslg));
+    return with_seeds(pslg);
+  } catch (const Error&) {
+    return lines;
+  }
+}
+
 }  // namespace
 
 void plot_pslg(const Pslg& pslg, const std::string& path, const PlotOptions& options) {
-  PslgPlot(pslg, path, options).draw();
+  if (pslg.polygons.empty())
+    PslgPlot(pslg, path, options).draw();
+  else
+    PslgPlot(without_polygons(pslg), path, options).draw();
 }
 
 }  // namespace driftmesh

@@ -38,4 +38,11 @@ std::string segment_name(const Pslg& pslg, std::int32_t index) {
   return text;
 }
 
+std::string polygon_name(const Pslg& pslg, std::size_t index) {
+  const std::int32_t feature = pslg.polygons[index].feature;
+  std::string text = feature > 0 ? "feature " : "polygon ";
+  append(text, feature > 0 ? std::int64_t{feature} : static_cast<std::int64_t>(index) + 1);
+  return text;
+}
+
 }  // namespace driftmesh

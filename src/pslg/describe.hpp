@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -15,5 +16,7 @@ namespace driftmesh {
 [[nodiscard]] std::string vertex_name(const Pslg& pslg, std::int32_t index, const Point& p);
 /// "segment 12".
 [[nodiscard]] std::string segment_name(const Pslg& pslg, std::int32_t index);
+/// "feature 3", or "polygon 7" for one without a feature.
+[[nodiscard]] std::string polygon_name(const Pslg& pslg, std::size_t index);
 
 }  // namespace driftmesh

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <unordered_map>
 #include <utility>
 
 #include "base/narrow.hpp"
@@ -13,7 +15,9 @@
 #include "pslg/closeness.hpp"
 #include "pslg/convex_hull.hpp"
 #include "pslg/describe.hpp"
+#include "pslg/near_segment.hpp"
 #include "pslg/point_welder.hpp"
+#include "pslg/polygons.hpp"
 
 namespace driftmesh {
 namespace {
@@ -28,30 +32,10 @@ void note(RepairItem& item, Describe describe) {
   if (item.count++ < RepairItem::kMaxExamples) item.examples.push_back(describe());
 }
 
-/// Accepts the boxes near a segment: those that meet its bounding box and do not lie entirely on one side of its line.
-/// Rounding errors can only make it accept more.
-class NearSegment {
- public:
-  NearSegment(const Point& a, const Point& b)
-      : a_(a), dx_(b.x - a.x), dy_(b.y - a.y), box_(Box::around(a, b, closeness(a, b))) {
-    const double reach = std::fabs(dx_) + std::fabs(dy_);
-    slack_ = 2 * closeness(a, b) * reach + 1e-14 * reach * reach;
-  }
-  bool operator()(const Box& other) const {
-    if (!box_.overlaps(other)) return false;
-    const double x0 = std::max(box_.low.x, other.low.x) - a_.x, x1 = std::min(box_.high.x, other.high.x) - a_.x;
-    const double y0 = std::max(box_.low.y, other.low.y) - a_.y, y1 = std::min(box_.high.y, other.high.y) - a_.y;
-    const auto [low_y, high_y] = std::minmax({dx_ * y0, dx_ * y1});
-    const auto [low_x, high_x] = std::minmax({dy_ * x0, dy_ * x1});
-    return low_y - high_x <= slack_ && high_y - low_x >= -slack_;
-  }
-
- private:
-  Point a_;
-  double dx_, dy_;
-  double slack_ = 0;
-  Box box_;
-};
+// The index of a pair of points in either order.
+std::uint64_t pair_key(std::int32_t a, std::int32_t b) {
+  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
+}
 
 /// Works in rounds. Each round finds, for segments and points that are new since the last one, which points lie on
 /// which segments and which segments cross, then splits these. New points are rounded, so pieces may cross or touch
@@ -107,6 +91,7 @@ class Planarizer {
   void add_crossing(std::int32_t piece, std::int32_t other);
   void add_split(std::int32_t piece, std::int32_t vertex);
   void split_segments();
+  void split_rings();
   void copy_point_data(std::int32_t index);
   void interpolate_point_data(const Piece& piece, const Point& p);
   void finish();
@@ -158,6 +143,11 @@ void Planarizer::weld_points() {
     note(point(kept) == p ? report_.duplicate_points : report_.close_points,
          [&] { return vertex_name(pslg_, i, p) + " merged into " + name(kept); });
   }
+  for (Pslg::Polygon& polygon : pslg_.polygons)
+    for (Pslg::Ring& ring : polygon.rings) {
+      for (std::int32_t& corner : ring) corner = welded_[corner];
+      drop_repetitions(ring);
+    }
 }
 
 void Planarizer::copy_point_data(std::int32_t index) {
@@ -348,6 +338,7 @@ void Planarizer::split_segments() {
     if (l.piece != r.piece) return l.piece < r.piece;
     return l.along != r.along ? l.along < r.along : l.vertex < r.vertex;
   });
+  split_rings();
   std::vector<Piece> next;
   next.reserve(pieces_.size() + splits_.size());
   auto split = splits_.begin();
@@ -367,6 +358,35 @@ void Planarizer::split_segments() {
   pieces_ = std::move(next);
   fresh_exists_ = !splits_.empty();
   if (fresh_exists_) keep_once(report_.overlaps);
+}
+
+// Each edge of a ring is a piece, before and after.
+void Planarizer::split_rings() {
+  if (pslg_.polygons.empty() || splits_.empty()) return;
+  std::unordered_map<std::uint64_t, std::span<const Split>> splits_of;
+  for (auto split = splits_.begin(); split != splits_.end();) {
+    const auto end = std::find_if(split, splits_.end(), [&](const Split& s) { return s.piece != split->piece; });
+    const Pslg::Segment s = pieces_[split->piece].segment;
+    splits_of[pair_key(s.a, s.b)] = std::span(split, end);
+    split = end;
+  }
+  for (Pslg::Polygon& polygon : pslg_.polygons)
+    for (Pslg::Ring& ring : polygon.rings) {
+      Pslg::Ring next;
+      next.reserve(ring.size());
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        next.push_back(ring[i]);
+        const auto found = splits_of.find(pair_key(ring[i], ring[i + 1 == ring.size() ? 0 : i + 1]));
+        if (found == splits_of.end()) continue;
+        const auto& splits = found->second;
+        const std::size_t old = next.size();
+        for (const Split& split : splits) next.push_back(split.vertex);
+        if (pieces_[splits.front().piece].segment.a != ring[i])
+          std::reverse(next.begin() + static_cast<std::ptrdiff_t>(old), next.end());
+      }
+      drop_repetitions(next);
+      ring = std::move(next);
+    }
 }
 
 void Planarizer::finish() {

@@ -1,7 +1,11 @@
 #include "driftmesh/repair.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "driftmesh/error.hpp"
 #include "driftmesh/id_vector.hpp"
@@ -10,6 +14,8 @@
 #include "pslg/closeness.hpp"
 #include "pslg/describe.hpp"
 #include "pslg/planarize.hpp"
+#include "pslg/polygons.hpp"
+#include "pslg/segment_finder.hpp"
 
 namespace driftmesh {
 namespace {
@@ -53,6 +59,39 @@ void check_values(const Pslg& pslg, const std::string& file) {
     if (to_index(s.a) >= n || to_index(s.b) >= n)
       fail(segment_name(pslg, static_cast<std::int32_t>(i)) + " names a vertex that does not exist",
            "vertices are numbered as the points are");
+  }
+}
+
+/// The first edge of a ring that is no segment, if there is one.
+std::optional<std::pair<std::int32_t, std::int32_t>> loose_edge_of(const Pslg::Ring& ring,
+                                                                   const SegmentFinder& finder) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const std::int32_t from = ring[i], to = ring[i + 1 == ring.size() ? 0 : i + 1];
+    if (from != to && finder.between(from, to) < 0) return std::pair(from, to);
+  }
+  return std::nullopt;
+}
+
+void check_polygons(const Pslg& pslg, const std::string& file) {
+  if (pslg.polygons.empty()) return;
+  const SegmentFinder finder(pslg);
+  for (std::size_t p = 0; p < pslg.polygons.size(); ++p) {
+    const Pslg::Polygon& polygon = pslg.polygons[p];
+    const auto fail = [&](const std::string& what, const char* next) {
+      throw InputError({file, 0}, polygon_name(pslg, p) + " " + what, next);
+    };
+    if (polygon.region < -1 || (polygon.region >= 0 && to_index(polygon.region) >= pslg.regions.size()))
+      fail("names a region that does not exist", "regions are numbered from 0; -1 is none");
+    for (const Pslg::Ring& ring : polygon.rings) {
+      for (const std::int32_t corner : ring)
+        if (to_index(corner) >= pslg.points.size())
+          fail("has a ring that names a vertex that does not exist", "vertices are numbered as the points are");
+      if (const auto edge = loose_edge_of(ring, finder))
+        fail("has a ring with an edge that is no segment, from " +
+                 vertex_name(pslg, edge->first, pslg.points[edge->first]) + " to " +
+                 vertex_name(pslg, edge->second, pslg.points[edge->second]),
+             "add it to the segments");
+    }
   }
 }
 
@@ -139,16 +178,18 @@ void check_seeds(const Pslg& pslg, const std::string& file, RepairReport& report
   for (const Point& hole : pslg.holes)
     check_seed(check, hole, "hole " + std::to_string(++number) + " at " + coordinates(hole), file, "it removes nothing",
                report);
-  number = 0;
-  for (const Pslg::Region& region : pslg.regions)
-    check_seed(check, region.at, "region " + std::to_string(++number) + " at " + coordinates(region.at), file,
-               "it has no effect", report);
+  const std::vector<bool> named = regions_of_polygons(pslg);
+  for (std::size_t r = 0; r < named.size(); ++r)
+    if (const Point& at = pslg.regions[r].at; !named[r])
+      check_seed(check, at, "region " + std::to_string(r + 1) + " at " + coordinates(at), file, "it has no effect",
+                 report);
 }
 
 }  // namespace
 
 RepairReport repair(Pslg& pslg, const std::string& file) {
   check_values(pslg, file);
+  check_polygons(pslg, file);
   RepairReport report;
   round_coordinates(pslg, report);
   planarize(pslg, file, report);

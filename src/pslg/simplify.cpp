@@ -12,6 +12,7 @@
 #include "geometry/polygon.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/segment_geometry.hpp"
+#include "pslg/polygons.hpp"
 #include "pslg/polylines.hpp"
 
 namespace driftmesh {
@@ -34,7 +35,9 @@ class Obstacles {
   explicit Obstacles(const Pslg& pslg)
       : places_(pslg.points), seeds_begin_(static_cast<std::int32_t>(pslg.points.size())) {
     places_.insert(places_.end(), pslg.holes.begin(), pslg.holes.end());
-    for (const Pslg::Region& region : pslg.regions) places_.push_back(region.at);
+    const std::vector<bool> named = regions_of_polygons(pslg);
+    for (std::size_t r = 0; r < named.size(); ++r)
+      if (!named[r]) places_.push_back(pslg.regions[r].at);
     std::vector<Box> boxes;
     for (const Point& p : places_) boxes.push_back({p, p});
     tree_ = BoxTree(boxes);
@@ -295,7 +298,36 @@ class Thinning {
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> queue_;
 };
 
-/// Keeps the points, holes and regions that are there, and these segments.
+/// Keeps the corners that have a place, and numbers them by it. Drops rings that have none left, and polygons without
+/// a first ring.
+void keep_rings(Pslg& pslg, const std::vector<std::int32_t>& place) {
+  for (Pslg::Polygon& polygon : pslg.polygons) {
+    for (Pslg::Ring& ring : polygon.rings) {
+      for (std::int32_t& corner : ring) corner = place[corner];
+      std::erase(ring, -1);
+      drop_repetitions(ring);
+    }
+    const bool has_outer = !polygon.rings.empty() && !polygon.rings[0].empty();
+    std::erase_if(polygon.rings, [&](const Pslg::Ring& ring) { return !has_outer || ring.empty(); });
+  }
+  std::erase_if(pslg.polygons, [](const Pslg::Polygon& polygon) { return polygon.rings.empty(); });
+}
+
+/// Keeps the regions that polygons still name, and those of the seeds that are there.
+void keep_regions(Pslg& pslg, const std::vector<bool>& named_before, const Obstacles& obstacles, std::int32_t seed) {
+  const std::vector<bool> named = regions_of_polygons(pslg);
+  std::vector<Pslg::Region> kept;
+  std::vector<std::int32_t> number;  // of each region among those
+  for (std::size_t r = 0; r < named.size(); ++r) {
+    number.push_back(static_cast<std::int32_t>(kept.size()));
+    if (named_before[r] ? named[r] : obstacles.there(seed++)) kept.push_back(pslg.regions[r]);
+  }
+  for (Pslg::Polygon& polygon : pslg.polygons)
+    if (polygon.region >= 0) polygon.region = number[polygon.region];
+  pslg.regions = std::move(kept);
+}
+
+/// Keeps the points, polygons, holes and regions that are there, and these segments.
 std::vector<std::int32_t> keep(Pslg& pslg, const Obstacles& obstacles,
                                const std::vector<std::pair<std::int32_t, Pslg::Segment>>& segments) {
   std::vector<std::int32_t> kept, place(pslg.points.size(), -1);
@@ -318,7 +350,9 @@ std::vector<std::int32_t> keep(Pslg& pslg, const Obstacles& obstacles,
   for (const auto& [first, s] : segments) pslg.segments.push_back({place[s.a], place[s.b], s.marker});
   std::int32_t seed = obstacles.seeds_begin();
   std::erase_if(pslg.holes, [&](const Point&) { return !obstacles.there(seed++); });
-  std::erase_if(pslg.regions, [&](const Pslg::Region&) { return !obstacles.there(seed++); });
+  const std::vector<bool> named = regions_of_polygons(pslg);
+  keep_rings(pslg, place);
+  keep_regions(pslg, named, obstacles, seed);
   return kept;
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/bytes.hpp"
+#include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
 #include "pslg/names.hpp"
 #include "runtime/plan_run.hpp"
@@ -31,6 +32,51 @@ void transfer_plan(Stream& stream, Plan& plan) {
   stream.value(plan.balancing.options);
 }
 
+/// Polygons in plain numbers: of each its number of rings, its region and its feature, then the length of each ring,
+/// then all corners.
+struct PackedPolygons {
+  std::vector<std::int32_t> heads, lengths, corners;
+
+  template <class Stream>
+  void transfer(Stream& stream) {
+    stream.array(heads);
+    stream.array(lengths);
+    stream.array(corners);
+  }
+};
+
+void transfer_polygons(ByteWriter& writer, const std::vector<Pslg::Polygon>& polygons) {
+  PackedPolygons packed;
+  for (const Pslg::Polygon& polygon : polygons) {
+    for (const std::int32_t value :
+         {narrow<std::int32_t>(polygon.rings.size(), "rings"), polygon.region, polygon.feature})
+      packed.heads.push_back(value);
+    for (const Pslg::Ring& ring : polygon.rings) {
+      packed.lengths.push_back(narrow<std::int32_t>(ring.size(), "corners of a ring"));
+      packed.corners.insert(packed.corners.end(), ring.begin(), ring.end());
+    }
+  }
+  packed.transfer(writer);
+}
+
+void transfer_polygons(ByteReader& reader, std::vector<Pslg::Polygon>& polygons) {
+  PackedPolygons packed;
+  packed.transfer(reader);
+  std::size_t length = 0, corner = 0;
+  for (std::size_t i = 0; i + 3 <= packed.heads.size(); i += 3) {
+    Pslg::Polygon& polygon = polygons.emplace_back();
+    polygon.region = packed.heads[i + 1];
+    polygon.feature = packed.heads[i + 2];
+    for (std::int32_t ring = 0; ring < packed.heads[i]; ++ring) {
+      const auto count = to_index(packed.lengths.at(length++));
+      if (count > packed.corners.size() - corner) throw Error("its polygons are incomplete");
+      const auto first = packed.corners.begin() + static_cast<std::ptrdiff_t>(corner);
+      polygon.rings.emplace_back(first, first + static_cast<std::ptrdiff_t>(count));
+      corner += count;
+    }
+  }
+}
+
 template <class Stream, class Input>
 void transfer_pslg(Stream& stream, Input& pslg) {
   stream.array(pslg.points);
@@ -42,6 +88,7 @@ void transfer_pslg(Stream& stream, Input& pslg) {
   stream.array(pslg.regions);
   stream.value(pslg.first_number);
   transfer_names(stream, pslg.names);
+  transfer_polygons(stream, pslg.polygons);
 }
 
 /// About the size of the arrays that grow with the number of subdomains.

@@ -2,7 +2,9 @@
 
 #include "base/atomic_file.hpp"
 #include "base/line_writer.hpp"
-#include "pslg/poly_file.hpp"
+#include "driftmesh/files.hpp"
+#include "driftmesh/repair.hpp"
+#include "mesh/with_seeds.hpp"
 
 namespace driftmesh {
 namespace {
@@ -37,15 +39,28 @@ void write_seeds(const Pslg& pslg, LineWriter& line) {
     line.field(number++).field(r.at.x).field(r.at.y).field(r.attribute).field(r.max_area).end();
 }
 
-}  // namespace
+/// The format has seeds only.
+Pslg without_polygons(Pslg pslg) {
+  static_cast<void>(repair(pslg));
+  return with_seeds(pslg);
+}
 
-void write_poly(const Pslg& pslg, const std::string& path) {
+void write_seeded(const Pslg& pslg, const std::string& path) {
   AtomicFile file(path);
   LineWriter line(file);
   write_points(pslg, line);
   write_segments(pslg, line);
   write_seeds(pslg, line);
   file.commit();
+}
+
+}  // namespace
+
+void write_poly(const Pslg& pslg, const std::string& path) {
+  if (pslg.polygons.empty())
+    write_seeded(pslg, path);
+  else
+    write_seeded(without_polygons(pslg), path);
 }
 
 }  // namespace driftmesh
