@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "driftmesh/names.hpp"
-#include "geojson/interior_point.hpp"
+#include "geometry/polygon.hpp"
 
 namespace driftmesh {
 

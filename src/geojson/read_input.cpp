@@ -26,7 +26,7 @@ InputFile parse_geojson_input(const std::string& file, std::string_view text) {
   GeoFeatures features = parse_geojson(file, text);
   InputFile input;
   input.projection = features.in_degrees ? project(features, file) : features.projection;
-  input.pslg = to_pslg(features, file);
+  input.pslg = to_pslg(features);
   return input;
 }
 

@@ -9,7 +9,11 @@
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/box.hpp"
+#include "geometry/box_tree.hpp"
+#include "geometry/segment_geometry.hpp"
 #include "gis/transverse_mercator.hpp"
+#include "pslg/closeness.hpp"
+#include "pslg/near_segment.hpp"
 
 namespace driftmesh {
 namespace {
@@ -24,20 +28,38 @@ void for_each_point(GeoFeatures& features, const Visit& visit) {
   std::ranges::for_each(features.points, visit);
 }
 
-/// Numbers points and segments, each once.
+/// Numbers points, segments and regions, each once.
 class PslgBuilder {
  public:
-  void add_chain(const std::vector<Point>& points, bool closed, std::int32_t marker) {
-    for (std::size_t i = 0; i + (closed ? 0 : 1) < points.size(); ++i) {
-      const std::int32_t a = number(points[i]), b = number(points[i + 1 == points.size() ? 0 : i + 1]);
-      if (listed_.insert(std::minmax({a, b})).second) pslg_.segments.push_back({a, b, marker});
-    }
+  void add_line(const std::vector<Point>& points, std::int32_t marker) {
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) join(number(points[i]), number(points[i + 1]), marker);
+  }
+  void add_polygon(const GeoFeatures::Polygon& polygon) {
+    Pslg::Polygon& added = pslg_.polygons.emplace_back();
+    added.feature = narrow<std::int32_t>(polygon.feature, "features");
+    if (polygon.region) added.region = number(*polygon.region);
+    for (const PolygonRing& ring : polygon.rings)
+      added.rings.push_back(add_ring(ring, polygon.marker.value_or(added.rings.empty() ? kGeoLand : kGeoIsland)));
   }
   void add_point(Point p) { static_cast<void>(number(p)); }
 
   [[nodiscard]] Pslg& pslg() { return pslg_; }
 
  private:
+  Pslg::Ring add_ring(const PolygonRing& points, std::int32_t marker) {
+    Pslg::Ring ring;
+    for (const Point p : points) {
+      ring.push_back(number(p));
+      if (ring.size() > 1) join(ring[ring.size() - 2], ring.back(), marker);
+    }
+    join(ring.back(), ring.front(), marker);
+    return ring;
+  }
+
+  void join(std::int32_t a, std::int32_t b, std::int32_t marker) {
+    if (listed_.insert(std::minmax({a, b})).second) pslg_.segments.push_back({a, b, marker});
+  }
+
   std::int32_t number(Point p) {
     const auto [known, is_new] = numbers_.try_emplace({p.x, p.y}, 0);
     if (is_new) {
@@ -47,39 +69,63 @@ class PslgBuilder {
     return known->second;
   }
 
+  std::int32_t number(const GeoFeatures::Region& region) {
+    const auto [known, is_new] = regions_.try_emplace({region.attribute, region.max_area}, 0);
+    if (is_new) {
+      known->second = narrow<std::int32_t>(pslg_.regions.size(), "regions of the input");
+      pslg_.regions.push_back({{}, region.attribute, region.max_area});
+    }
+    return known->second;
+  }
+
   Pslg pslg_;
-  std::map<std::pair<double, double>, std::int32_t> numbers_;
+  std::map<std::pair<double, double>, std::int32_t> numbers_, regions_;
   std::set<std::pair<std::int32_t, std::int32_t>> listed_;
 };
 
-/// All rings by the left end of their boxes, to find those within another one.
-class RingIndex {
+/// Gives edges the vertices that lie on them, so that these stay on them wherever a projection takes their ends.
+class VerticesOnEdges {
  public:
-  explicit RingIndex(const GeoFeatures& features) {
-    for (const GeoFeatures::Polygon& polygon : features.polygons)
-      for (const PolygonRing& ring : polygon.rings) rings_.push_back({Box::of(ring), &ring});
-    std::ranges::sort(rings_, {}, &Entry::left);
+  explicit VerticesOnEdges(GeoFeatures& features) : features_(features) {
+    for_each_point(features, [&](const Point& p) { points_.push_back(p); });
+    std::ranges::sort(points_, {}, [](const Point& p) { return std::pair(p.x, p.y); });
+    points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
+    std::vector<Box> boxes;
+    for (const Point& p : points_) boxes.push_back({p, p});
+    tree_ = BoxTree(boxes);
   }
 
-  /// The ring, and those whose boxes lie within its box.
-  [[nodiscard]] std::vector<const PolygonRing*> with_those_inside(const PolygonRing& ring) const {
-    const Box box = Box::of(ring);
-    std::vector<const PolygonRing*> found{&ring};
-    for (auto at = std::ranges::lower_bound(rings_, box.low.x, {}, &Entry::left);
-         at != rings_.end() && at->left() <= box.high.x; ++at)
-      if (at->ring != &ring && at->box.high.x <= box.high.x && at->box.low.y >= box.low.y &&
-          at->box.high.y <= box.high.y)
-        found.push_back(at->ring);
-    return found;
+  void insert() {
+    for (GeoFeatures::Polygon& polygon : features_.polygons)
+      for (PolygonRing& ring : polygon.rings) insert_into(ring, true);
+    for (GeoFeatures::Line& line : features_.lines) insert_into(line.points, false);
   }
 
  private:
-  struct Entry {
-    Box box;
-    const PolygonRing* ring = nullptr;
-    [[nodiscard]] double left() const { return box.low.x; }
-  };
-  std::vector<Entry> rings_;
+  void insert_into(std::vector<Point>& corners, bool closed) const {
+    std::vector<Point> all;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      all.push_back(corners[i]);
+      if (closed || i + 1 < corners.size())
+        insert_between(corners[i], corners[i + 1 == corners.size() ? 0 : i + 1], all);
+    }
+    corners = std::move(all);
+  }
+
+  void insert_between(const Point& a, const Point& b, std::vector<Point>& all) const {
+    const auto first = static_cast<std::ptrdiff_t>(all.size());
+    tree_.search(NearSegment(a, b), [&](std::int32_t i) {
+      if (points_[i] != a && points_[i] != b && on_segment(points_[i], a, b) != OnSegment::no)
+        all.push_back(points_[i]);
+    });
+    std::sort(all.begin() + first, all.end(), [&](const Point& p, const Point& q) {
+      return nearest_on_segment(p, a, b) < nearest_on_segment(q, a, b);
+    });
+  }
+
+  GeoFeatures& features_;
+  std::vector<Point> points_;  // of all features
+  BoxTree tree_;
 };
 
 }  // namespace
@@ -101,39 +147,16 @@ std::string project(GeoFeatures& features, const std::string& file) {
     throw InputError(
         {file, 0}, "spans too many degrees of longitude for one UTM zone",
         "cut it at the antimeridian if it crosses that, or project it yourself and name the system in a \"crs\"");
+  VerticesOnEdges(features).insert();
   for_each_point(features, [&](Point& p) { p = utm(p.x, p.y, zone); });
   return zone.name();
 }
 
-Pslg to_pslg(const GeoFeatures& features, const std::string& file) {
+Pslg to_pslg(const GeoFeatures& features) {
   PslgBuilder builder;
   builder.pslg().names = features.names;
-  for (const GeoFeatures::Line& line : features.lines) builder.add_chain(line.points, false, line.marker);
-  const RingIndex index(features);
-  for (const GeoFeatures::Polygon& polygon : features.polygons) {
-    const auto fail = [&](const char* what) {
-      throw InputError({file, 0},
-                       "feature " + std::to_string(polygon.feature) + " has " + what + " without room inside",
-                       "remove it, or correct rings that cross");
-    };
-    std::vector<const PolygonRing*> own;
-    for (const PolygonRing& ring : polygon.rings) {
-      const bool is_hole = !own.empty();
-      builder.add_chain(ring, true, polygon.marker.value_or(is_hole ? kGeoIsland : kGeoLand));
-      if (is_hole) {
-        const auto rings = index.with_those_inside(ring);
-        if (const auto p = interior_point(rings))
-          builder.pslg().holes.push_back(*p);
-        else if (rings.size() == 1)  // otherwise other polygons fill it
-          fail("a hole");
-      }
-      own.push_back(&ring);
-    }
-    if (!polygon.region) continue;
-    const auto p = interior_point(own);
-    if (!p) fail("a region");
-    builder.pslg().regions.push_back({*p, polygon.region->attribute, polygon.region->max_area});
-  }
+  for (const GeoFeatures::Line& line : features.lines) builder.add_line(line.points, line.marker);
+  for (const GeoFeatures::Polygon& polygon : features.polygons) builder.add_polygon(polygon);
   for (const Point p : features.points) builder.add_point(p);
   return std::move(builder.pslg());
 }

@@ -7,14 +7,16 @@
 
 namespace driftmesh {
 
-/// Degrees to meters in the UTM zone of the middle of everything; returns its name. Throws InputError for `file` where
-/// coordinates are no longitudes and latitudes, lie beyond 84 degrees north or 80 south, or more than 40 degrees from
-/// the middle, where the projection is no longer true to scale.
+/// Degrees to meters in the UTM zone of the middle of everything; returns its name. Edges are straight in degrees,
+/// where vertices of others may lie on them, and remain straight in meters: so each first becomes several edges with
+/// these vertices between them. Throws InputError for `file` where coordinates are no longitudes and latitudes, lie
+/// beyond 84 degrees north or 80 south, or more than 40 degrees from the middle, where the projection is no longer true
+/// to scale.
 std::string project(GeoFeatures& features, const std::string& file);
 
-/// The domain: polygons without their holes, with lines and points as constraints. Lines come first: where segments
-/// coincide, theirs counts. The markers of outer rings without one are kGeoLand, of their holes kGeoIsland. Equal
-/// points are one point. Throws InputError for a hole or a region without room for a point inside.
-[[nodiscard]] Pslg to_pslg(const GeoFeatures& features, const std::string& file);
+/// The domain: polygons, with lines and points as constraints. Lines come first: where segments coincide, theirs
+/// counts. The markers of first rings without one are kGeoLand, of the others kGeoIsland. Equal points are one point,
+/// and equal regions one region.
+[[nodiscard]] Pslg to_pslg(const GeoFeatures& features);
 
 }  // namespace driftmesh

@@ -68,7 +68,8 @@ void transfer_polygons(ByteReader& reader, std::vector<Pslg::Polygon>& polygons)
     polygon.region = packed.heads[i + 1];
     polygon.feature = packed.heads[i + 2];
     for (std::int32_t ring = 0; ring < packed.heads[i]; ++ring) {
-      const auto count = to_index(packed.lengths.at(length++));
+      if (length == packed.lengths.size()) throw Error("its polygons are incomplete");
+      const auto count = to_index(packed.lengths[length++]);
       if (count > packed.corners.size() - corner) throw Error("its polygons are incomplete");
       const auto first = packed.corners.begin() + static_cast<std::ptrdiff_t>(corner);
       polygon.rings.emplace_back(first, first + static_cast<std::ptrdiff_t>(count));

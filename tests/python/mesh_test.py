@@ -54,6 +54,23 @@ class Options(unittest.TestCase):
         self.assertEqual(len(driftmesh.mesh(PLATE, max_area=None, size=None, progress=None).triangles),
                          len(driftmesh.mesh(PLATE).triangles))
 
+    def test_polygons(self):
+        points = [(0, 0), (3, 0), (3, 3), (0, 3), (1, 1), (2, 1), (4, 2), (1, 2)]  # a hole over the edge
+        rings = [0, 1, 2, 3], [4, 5, 6, 7]
+        sides = [(ring[k], ring[(k + 1) % 4]) for ring in rings for k in range(4)]
+        domain = driftmesh.Pslg(points, sides, polygons=[(rings, 0, 4)], regions=[(0, 0, 7, 0)])
+        (read, region, feature), = domain.polygons
+        self.assertEqual(([list(ring) for ring in read], region, feature), (list(rings), 0, 4))
+        with self.assertWarnsRegex(driftmesh.InputWarning, "a hole of feature 4 reaches outside"):
+            mesh = driftmesh.mesh(domain)
+        self.assertAlmostEqual(areas(mesh).sum(), 9 - 1.75)
+        self.assertEqual(set(mesh.regions), {7})
+        for wrong, error in (([7], TypeError), ([(rings, 0, 1, 2)], TypeError), ([([[0, 99]],)], driftmesh.Error)):
+            with self.assertRaises(error):
+                driftmesh.Pslg(points, sides, polygons=wrong)
+        with self.assertRaisesRegex(driftmesh.InputError, "an edge that is no segment"):
+            driftmesh.mesh(driftmesh.Pslg(points, sides, polygons=[([[0, 1, 2]],)]))
+
     def test_holes(self):
         rings = [(0, 0), (3, 0), (3, 3), (0, 3), (1, 1), (2, 1), (2, 2), (1, 2)]
         sides = [(k, (k + 1) % 4) for k in range(4)] + [(4 + k, 4 + (k + 1) % 4) for k in range(4)]

@@ -25,3 +25,19 @@ TEST_CASE("a plan is the same after a trip through bytes, and damaged bytes are 
   longer.push_back({});
   CHECK_THROWS_AS(plan_from_bytes(longer, 3), Error);
 }
+
+TEST_CASE("an input is the same after a trip through bytes") {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {1, 0}, {0, 1}, {5, 5}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 2}, {2, 0, 3}};
+  pslg.regions = {{{}, 7, 2}};
+  pslg.polygons = {{{{0, 1, 2}, {}}, 0, 3}, {}, {{{2, 1, 0}}, -1, 0}};
+  const Bytes bytes = pslg_to_bytes(pslg);
+  const Pslg copy = pslg_from_bytes(bytes);
+  CHECK(copy.points == pslg.points);
+  CHECK(copy.segments == pslg.segments);
+  CHECK(copy.regions == pslg.regions);
+  CHECK(copy.polygons == pslg.polygons);
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    CHECK_THROWS_AS((void)pslg_from_bytes(std::span(bytes).first(length)), Error);
+}
