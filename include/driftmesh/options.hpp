@@ -59,9 +59,9 @@ struct MeshOptions {
   double simplify = 0;  ///< by how much lines may move for fewer points (see simplify.hpp); 0: not at all
   HoleRule holes = HoleRule::kPoints;
   bool strict = false;  ///< whether warnings are errors: an InputError is thrown
-  /// Called for each thing that the author of the input may not have meant, with its place: segments outside the
-  /// domain, regions that are not separated, rings of segments that are neither holes nor regions. On many ranks, on
-  /// rank 0.
+  /// Called for each thing that the author of the input may not have meant, with its place: flaws of polygons,
+  /// segments outside the domain, regions that are not separated, rings of segments that are neither holes nor regions.
+  /// On many ranks, on rank 0.
   std::function<void(const std::string&)> warning{};
 
   // ---- Triangles ----

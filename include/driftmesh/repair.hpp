@@ -43,16 +43,18 @@ struct RepairReport {
 /// - no two points are equal, or within rounding error of each other (a few units in the last place);
 /// - no segment has length zero, no two join the same points;
 /// - no point lies in the interior of a segment, or within rounding error of it;
-/// - no two segments meet except at a common endpoint.
+/// - no two segments meet except at a common endpoint;
+/// - corners of rings that follow each other are different, and the ends of a segment. A ring may have none left.
 /// Points without segments get the edges of their convex hull as segments with marker 1, which counts as no change.
 /// A Pslg with these properties is left as it is, so a second repair changes nothing.
 /// Points, holes and regions keep their order, and so do segments and their pieces. New points lie where segments
 /// crossed; they take the marker of the first of the two segments, and their attributes are interpolated along it.
 ///
 /// Seeds of holes and regions that are certainly outside are reported as warnings. Throws InputError, naming `file`, if
-/// the intent is not clear: indices or coordinates out of range, fewer than three points or all on one line, a seed on
-/// a segment, more than kMaxSplits places where segments must be split, or crossings that rounding creates anew in each
-/// of kMaxRounds rounds (seen only where a fuzzer put long segments a few units in the last place apart).
+/// the intent is not clear: indices or coordinates out of range, edges of rings that are no segments, fewer than three
+/// points or all on one line, a seed on a segment, more than kMaxSplits places where segments must be split, or
+/// crossings that rounding creates anew in each of kMaxRounds rounds (seen only where a fuzzer put long segments a few
+/// units in the last place apart).
 RepairReport repair(Pslg& pslg, const std::string& file = "input");
 
 inline constexpr std::int64_t kMaxSplits = 20'000'000;

@@ -26,7 +26,8 @@ struct SimplifyReport {
 ///   turn sharper than 60 degrees where they did not.
 /// - Ends of lines, points where three or more meet, and those where the marker of segments or points changes, stay.
 /// - Closed rings without such points that fit into a square of side `tolerance`, with all that is inside, are dropped
-///   with the seeds of holes and regions inside them.
+///   with the seeds of holes and regions inside them. Rings of polygons lose the same points; a polygon without its
+///   first ring is dropped.
 /// Points, segments and seeds that remain keep their order, markers and attributes. Points with the smallest effect go
 /// first (M. Visvalingam and J. Whyatt, "Line generalisation by repeated elimination of points", The Cartographic
 /// Journal 30, 1993); the test whether one may go is local, since segments of a planar input can only cross a shortcut

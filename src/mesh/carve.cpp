@@ -207,12 +207,12 @@ class PolygonCarving {
     return {areas_.of(half[along ? 0 : 1]), areas_.of(half[along ? 1 : 0])};
   }
 
-  [[nodiscard]] Point place_of(const PolygonFlaw& flaw) const {
+  [[nodiscard]] std::optional<Point> place_of(const PolygonFlaw& flaw) const {
     if (flaw.area != kNone) return center_of(mesh_, areas_.largest(flaw.area));
     if (flaw.segment == kNone) {
       for (const Pslg::Ring& ring : pslg_.polygons[flaw.polygon].rings)
         if (!ring.empty()) return pslg_.points[ring[0]];
-      return {};
+      return std::nullopt;
     }
     const Pslg::Segment& s = pslg_.segments[flaw.segment];
     return midpoint(pslg_.points[s.a], pslg_.points[s.b]);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "driftmesh/pslg.hpp"
@@ -23,7 +24,7 @@ struct CarveReport {
   std::vector<Meeting> meetings;  ///< regions whose points lie in one area; the second one's label holds there
   struct Flaw {
     PolygonFlaw what;
-    Point at;
+    std::optional<Point> at;  ///< none of a polygon without corners
   };
   std::vector<Flaw> flaws;   ///< of polygons, each with its place
   std::vector<Point> holes;  ///< with polygons: a point in each bounded part of the plane that is not in the domain

@@ -74,7 +74,7 @@ class Warnings {
   [[nodiscard]] std::string words_of(const CarveReport::Flaw& flaw) const {
     using Kind = PolygonFlaw::Kind;
     const PolygonFlaw& what = flaw.what;
-    const std::string polygon = polygon_name(pslg_, what.polygon), at = " at " + coordinates(flaw.at);
+    const std::string polygon = polygon_name(pslg_, what.polygon), at = flaw.at ? " at " + coordinates(*flaw.at) : "";
     const std::string ring =
         what.ring == 0 ? "the first ring of " + polygon : "ring " + std::to_string(what.ring + 1) + " of " + polygon;
     switch (what.kind) {

@@ -9,7 +9,7 @@ namespace driftmesh {
 
 void drop_repetitions(Pslg::Ring& ring) {
   ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  while (!ring.empty() && ring.front() == ring.back()) ring.pop_back();
 }
 
 std::vector<bool> regions_of_polygons(const Pslg& pslg) {

@@ -6,7 +6,7 @@
 
 namespace driftmesh {
 
-/// Makes corners that follow each other different points.
+/// Makes corners that follow each other different points. No corner is left of a ring that stays at one point.
 void drop_repetitions(Pslg::Ring& ring);
 
 /// For each region, whether a polygon names it, so that it has no seed.

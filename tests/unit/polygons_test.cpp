@@ -231,3 +231,12 @@ TEST_CASE("the flood decides by the rings that the walls belong to, whatever the
   std::ranges::reverse(walls);
   CHECK(cover_by_polygons(pslg, walls, 4, AreaId{0}).inside == cover.inside);
 }
+
+TEST_CASE("a ring whose points are merged into one covers nothing") {
+  Pslg pslg = one({kSquare});
+  pslg.points.insert(pslg.points.end(), {{20, 20}, {20, 20}, {20, 20 + 1e-15}});
+  for (const auto& [a, b] : {std::pair(4, 5), std::pair(5, 6), std::pair(6, 4)}) pslg.segments.push_back({a, b, 1});
+  pslg.polygons.push_back({{{4, 5, 6}}, -1, 2});
+  CHECK(area(pslg) == doctest::Approx(100));
+  CHECK(warning(pslg) == "feature 2 covers no area");
+}
