@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 #include <random>
+#include <set>
 #include <utility>
 
 namespace driftmesh::oracles {
@@ -60,7 +61,15 @@ class Maker {
     return polygon;
   }
 
+  /// With at least three different corners: other rings are no rings.
   GridRing any_ring() {
+    for (;;) {
+      const GridRing ring = any_corners_in_a_row();
+      if (std::set(ring.begin(), ring.end()).size() >= 3) return ring;
+    }
+  }
+
+  GridRing any_corners_in_a_row() {
     GridRing ring;
     switch (below(6)) {
       case 0:
