@@ -114,8 +114,9 @@ class VerticesOnEdges {
 
   void insert_between(const Point& a, const Point& b, std::vector<Point>& all) const {
     const auto first = static_cast<std::ptrdiff_t>(all.size());
-    tree_.search(NearSegment(a, b), [&](std::int32_t i) {
-      if (points_[i] != a && points_[i] != b && on_segment(points_[i], a, b) != OnSegment::no)
+    const double margin = Closeness()(a, b);
+    tree_.search(NearSegment(a, b, margin), [&](std::int32_t i) {
+      if (points_[i] != a && points_[i] != b && on_segment(points_[i], a, b, margin) != OnSegment::no)
         all.push_back(points_[i]);
     });
     std::sort(all.begin() + first, all.end(), [&](const Point& p, const Point& q) {

@@ -31,8 +31,7 @@ double settle(double value, double a, double b, double c, double d) {
 
 }  // namespace
 
-OnSegment on_segment(const Point& p, const Point& a, const Point& b) {
-  const double margin = closeness(a, b);
+OnSegment on_segment(const Point& p, const Point& a, const Point& b, double margin) {
   if (!in_box(p, a, b, margin)) return OnSegment::no;
   if (in_box(p, a, b, 0) && orient2d(a, b, p) == 0) return OnSegment::exactly;
   const double dx = b.x - a.x, dy = b.y - a.y;

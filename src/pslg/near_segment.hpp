@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "geometry/box.hpp"
-#include "pslg/closeness.hpp"
 
 namespace driftmesh {
 
@@ -12,10 +11,11 @@ namespace driftmesh {
 /// Rounding errors can only make it accept more.
 class NearSegment {
  public:
-  NearSegment(const Point& a, const Point& b)
-      : a_(a), dx_(b.x - a.x), dy_(b.y - a.y), box_(Box::around(a, b, closeness(a, b))) {
+  /// Near: up to `margin`.
+  NearSegment(const Point& a, const Point& b, double margin)
+      : a_(a), dx_(b.x - a.x), dy_(b.y - a.y), box_(Box::around(a, b, margin)) {
     const double reach = std::fabs(dx_) + std::fabs(dy_);
-    slack_ = 2 * closeness(a, b) * reach + 1e-14 * reach * reach;
+    slack_ = 2 * margin * reach + 1e-14 * reach * reach;
   }
   bool operator()(const Box& other) const {
     if (!box_.overlaps(other)) return false;

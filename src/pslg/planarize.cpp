@@ -25,6 +25,10 @@ namespace {
 // The origin of a piece that does not come from a segment of the input.
 constexpr std::int32_t kHullEdge = -1, kDropped = -2;
 
+double extent(const Box& box) {
+  return std::max({box.high.x - box.low.x, box.high.y - box.low.y, 0.0});
+}
+
 constexpr std::int32_t kAhead = 16;  // points that the welder looks ahead: as long as memory takes to answer
 
 template <class Describe>
@@ -44,7 +48,11 @@ std::uint64_t pair_key(std::int32_t a, std::int32_t b) {
 class Planarizer {
  public:
   Planarizer(Pslg& pslg, const std::string& file, RepairReport& report)
-      : pslg_(pslg), file_(file), report_(report), welder_(pslg.points.size()) {}
+      : pslg_(pslg),
+        file_(file),
+        report_(report),
+        closeness_(Closeness::within(extent(Box::of(pslg.points)))),
+        welder_(pslg.points.size(), closeness_) {}
 
   void run() {
     weld_points();
@@ -74,6 +82,11 @@ class Planarizer {
 
   const std::vector<Point>& points() const { return welder_.points(); }
   const Point& point(std::int32_t v) const { return points()[v]; }
+  double margin(const Pslg::Segment& s) const { return closeness_(point(s.a), point(s.b)); }
+  NearSegment near(const Pslg::Segment& s) const { return {point(s.a), point(s.b), margin(s)}; }
+  OnSegment on_segment(const Point& p, const Pslg::Segment& s) const {
+    return driftmesh::on_segment(p, point(s.a), point(s.b), margin(s));
+  }
 
   void weld_points();
   void start_segments();
@@ -103,6 +116,7 @@ class Planarizer {
   Pslg& pslg_;
   const std::string& file_;
   RepairReport& report_;
+  Closeness closeness_;
   PointWelder welder_;
   std::vector<std::int32_t> welded_;  // for each point of the input its index in points()
   std::vector<std::int32_t> markers_;
@@ -248,7 +262,7 @@ std::vector<Box> Planarizer::piece_boxes() const {
   boxes.reserve(pieces_.size());
   for (const Piece& piece : pieces_) {
     const Point &a = point(piece.segment.a), &b = point(piece.segment.b);
-    boxes.push_back(Box::around(a, b, closeness(a, b)));
+    boxes.push_back(Box::around(a, b, closeness_(a, b)));
   }
   return boxes;
 }
@@ -272,7 +286,7 @@ void Planarizer::find_splits() {
 
 void Planarizer::find_loose_points_on(std::int32_t piece) {
   const Pslg::Segment s = pieces_[piece].segment;
-  loose_tree_.search(NearSegment(point(s.a), point(s.b)), [&](std::int32_t i) { test_point(loose_[i], piece); });
+  loose_tree_.search(near(s), [&](std::int32_t i) { test_point(loose_[i], piece); });
 }
 
 void Planarizer::find_segments_through(std::int32_t vertex, const BoxTree& tree) {
@@ -283,7 +297,7 @@ void Planarizer::find_segments_through(std::int32_t vertex, const BoxTree& tree)
 
 void Planarizer::find_meetings_of(std::int32_t piece, const BoxTree& tree) {
   const Pslg::Segment s = pieces_[piece].segment;
-  tree.search(NearSegment(point(s.a), point(s.b)), [&](std::int32_t other) {
+  tree.search(near(s), [&](std::int32_t other) {
     for (const std::int32_t end : {pieces_[other].segment.a, pieces_[other].segment.b})
       if (finder_[end] == other) test_point(end, piece);
     if (other > piece || !pieces_[other].fresh) test_pair(piece, other);
@@ -293,7 +307,7 @@ void Planarizer::find_meetings_of(std::int32_t piece, const BoxTree& tree) {
 void Planarizer::test_point(std::int32_t vertex, std::int32_t piece) {
   const Piece& p = pieces_[piece];
   if (vertex == p.segment.a || vertex == p.segment.b) return;
-  const OnSegment where = on_segment(point(vertex), point(p.segment.a), point(p.segment.b));
+  const OnSegment where = on_segment(point(vertex), p.segment);
   if (where == OnSegment::no) return;
   add_split(piece, vertex);
   note(where == OnSegment::exactly ? report_.points_on_segments : report_.points_close_segments,
@@ -306,10 +320,8 @@ void Planarizer::test_pair(std::int32_t piece, std::int32_t other) {
   if (s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b) return;
   const Point &a = point(s.a), &b = point(s.b), &c = point(t.a), &d = point(t.b);
   if (!cross_properly(a, b, c, d)) return;
-  const auto touches = [](const Point& p, const Point& u, const Point& v) {
-    return on_segment(p, u, v) != OnSegment::no;
-  };
-  if (touches(a, c, d) || touches(b, c, d) || touches(c, a, b) || touches(d, a, b)) return;
+  const auto touches = [&](const Point& p, const Pslg::Segment& on) { return on_segment(p, on) != OnSegment::no; };
+  if (touches(a, t) || touches(b, t) || touches(c, s) || touches(d, s)) return;
   add_crossing(piece, other);
 }
 

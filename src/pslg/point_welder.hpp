@@ -5,17 +5,18 @@
 #include <vector>
 
 #include "driftmesh/point.hpp"
+#include "pslg/closeness.hpp"
 
 namespace driftmesh {
 
-/// A growing set of points no two of which are close (see closeness.hpp). Constant expected time per point for
-/// any distribution: cells are 64 times as large as what counts as close there.
+/// A growing set of points no two of which are close. Constant expected time per point for any distribution: the points
+/// lie in cells that are 32 to 64 times as large as what counts as close there.
 class PointWelder {
  public:
-  explicit PointWelder(std::size_t expected);
+  explicit PointWelder(std::size_t expected, const Closeness& closeness = Closeness());
 
-  /// The index of a point of the set that `p` is close to (an equal one if there is one); otherwise adds `p` and
-  /// returns its index.
+  /// The index of the point of the set that is nearest to `p` and close to it, the first of several; if there is none,
+  /// adds `p` and returns its index.
   std::int32_t add(const Point& p);
   /// Speeds up an add() of `p` that follows some others.
   void prefetch(const Point& p) const { __builtin_prefetch(&slots_[hash(cell_of(p)) & (slots_.size() - 1)]); }
@@ -25,7 +26,7 @@ class PointWelder {
   struct Cell {
     std::int64_t x = 0;
     std::int64_t y = 0;
-    int exponent = 0;
+    int level = 0;  // cells of one level are of one size
     friend bool operator==(const Cell&, const Cell&) = default;
   };
   /// Where a point is found: most that are not close differ in the tag, and need not be looked at.
@@ -33,13 +34,20 @@ class PointWelder {
     std::uint32_t tag = 0;  // of the cell
     std::int32_t index = -1;
   };
-  static Cell cell_of(const Point& p);
+  struct Nearest {
+    std::int32_t index = -1;
+    double squared = 0;  // of the distance
+  };
+  static int level_of(double close);
+  [[nodiscard]] Cell cell_of(const Point& p) const;
   static std::uint64_t hash(const Cell& cell);
   static std::uint32_t tag_of(std::uint64_t hash) { return static_cast<std::uint32_t>(hash >> 32); }
-  void search(const Cell& cell, const Point& p, std::int32_t& best) const;
+  void search_level(int level, const Point& p, double reach, Nearest& nearest) const;
+  void search(const Cell& cell, const Point& p, Nearest& nearest) const;
   void insert(std::int32_t index);
   void grow();
 
+  Closeness closeness_;
   std::vector<Point> points_;
   std::vector<Slot> slots_;  // open addressing; index -1: free
 };
