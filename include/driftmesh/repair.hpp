@@ -15,6 +15,15 @@ struct RepairItem {
   std::vector<std::string> examples;
 };
 
+/// What repair() does beyond what a mesh needs.
+struct RepairOptions {
+  /// Joins what is at most this far apart: vertices to vertices, and segments to vertices. 0: only what is within
+  /// rounding error. Not negative, finite.
+  double snap = 0;
+  /// Adds the edges of the convex hull of all points as segments, with marker 1 where there is no segment yet.
+  bool hull = false;
+};
+
 /// What repair() changed in a Pslg.
 struct RepairReport {
   RepairItem rounded_points;          ///< coordinates below 7.5e-37 rounded to multiples of 2^-172 (1.7e-52)
@@ -26,7 +35,10 @@ struct RepairReport {
   RepairItem points_close_segments;   ///< segments bent to pass through a vertex within rounding error of them
   RepairItem crossings;               ///< both segments split at a new vertex
   RepairItem overlaps;                ///< pieces that two overlapping segments share, kept once
+  RepairItem collapsed;               ///< pieces of rings dropped since snapping left no area between them
   RepairItem marker_conflicts;        ///< merged segments with different markers; the first marker is kept
+  double snap = 0;                    ///< the length by which close points and segments were judged; 0: rounding error
+  double largest_move = 0;            ///< of a close point that was merged, or a segment that was bent
   std::vector<std::string> warnings;  ///< left unchanged, but possibly unintended
 
   /// For each point of the result, its index in the input; -1 for a new one.
@@ -45,7 +57,14 @@ struct RepairReport {
 /// - no point lies in the interior of a segment, or within rounding error of it;
 /// - no two segments meet except at a common endpoint;
 /// - corners of rings that follow each other are different, and the ends of a segment. A ring may have none left.
-/// Points without segments get the edges of their convex hull as segments with marker 1, which counts as no change.
+/// Points without segments get the edges of their convex hull as segments with marker 1, which counts as no change; so
+/// do others if options.hull is set.
+///
+/// With options.snap, points are merged if they are that near, each into the nearest of those before it, and segments
+/// are bent to pass through points that near. So no point moves by more than options.snap, no two of the result are
+/// nearer to each other, and a point nearer to a segment is beside an end of it. What is left of rings without area
+/// between their sides is dropped.
+///
 /// A Pslg with these properties is left as it is, so a second repair changes nothing.
 /// Points, holes and regions keep their order, and so do segments and their pieces. New points lie where segments
 /// crossed; they take the marker of the first of the two segments, and their attributes are interpolated along it.
@@ -55,7 +74,7 @@ struct RepairReport {
 /// points or all on one line, a seed on a segment, more than kMaxSplits places where segments must be split, or
 /// crossings that rounding creates anew in each of kMaxRounds rounds (seen only where a fuzzer put long segments a few
 /// units in the last place apart).
-RepairReport repair(Pslg& pslg, const std::string& file = "input");
+RepairReport repair(Pslg& pslg, const std::string& file = "input", const RepairOptions& options = {});
 
 inline constexpr std::int64_t kMaxSplits = 20'000'000;
 inline constexpr int kMaxRounds = 40;

@@ -19,8 +19,8 @@ class Closeness {
 
   /// `least`: the distance that counts as zero everywhere.
   explicit Closeness(double least = 0) : least_(least) {}
-  /// For points in a box whose longer side has this length.
-  static Closeness within(double extent) { return Closeness(rounding_at(extent / 2)); }
+  /// For points in a box whose longer side has this length, where `snap` counts as zero, too.
+  static Closeness within(double extent, double snap) { return Closeness(std::max(snap, rounding_at(extent / 2))); }
 
   /// The distance that counts as zero at `p`; for a segment, the larger of those at its ends.
   [[nodiscard]] double operator()(const Point& p) const {

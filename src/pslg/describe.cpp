@@ -32,6 +32,11 @@ std::string vertex_name(const Pslg& pslg, std::int32_t index, const Point& p) {
   return text += coordinates(p);
 }
 
+std::string length_text(double length) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, length, std::chars_format::general, 3).ptr};
+}
+
 std::string segment_name(const Pslg& pslg, std::int32_t index) {
   std::string text = "segment ";
   append(text, std::int64_t{index} + pslg.first_number);

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "base/narrow.hpp"
@@ -15,6 +17,7 @@
 #include "pslg/closeness.hpp"
 #include "pslg/convex_hull.hpp"
 #include "pslg/describe.hpp"
+#include "pslg/free_branches.hpp"
 #include "pslg/near_segment.hpp"
 #include "pslg/point_welder.hpp"
 #include "pslg/polygons.hpp"
@@ -41,28 +44,72 @@ std::uint64_t pair_key(std::int32_t a, std::int32_t b) {
   return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
 }
 
+double distance_to_line(const Point& p, const Point& a, const Point& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  return std::fabs(dx * (p.y - a.y) - dy * (p.x - a.x)) / std::hypot(dx, dy);
+}
+
+/// For each segment whether it is on a ring, or between rings: not on a line with a free end.
+std::vector<bool> segments_on_rings(const Pslg& pslg) {
+  PointWelder welder(pslg.points.size());
+  std::vector<std::int32_t> welded;
+  for (const Point& p : pslg.points) welded.push_back(welder.add(p));
+  std::vector<Pslg::Segment> segments;
+  for (const Pslg::Segment& s : pslg.segments) segments.push_back({welded[s.a], welded[s.b]});
+  std::vector<bool> on_rings =
+      free_branches(segments, welder.points().size(), std::vector<bool>(segments.size(), true));
+  on_rings.flip();
+  return on_rings;
+}
+
+template <class T>
+void remove_entries(std::vector<T>& values, const std::vector<bool>& gone, std::size_t stride = 1) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!gone[i / stride]) values[kept++] = values[i];
+  values.resize(kept);
+}
+
+/// Removes points that no segment has. `also`: one entry for each point, likewise.
+void remove_points(Pslg& pslg, const std::vector<bool>& gone, std::vector<std::int32_t>& also) {
+  std::vector<std::int32_t> number(gone.size());
+  std::int32_t next = 0;
+  for (std::size_t i = 0; i < gone.size(); ++i) number[i] = gone[i] ? kNone : next++;
+  for (Pslg::Segment& s : pslg.segments) s = {number[s.a], number[s.b], s.marker};
+  for (Pslg::Polygon& polygon : pslg.polygons)
+    for (Pslg::Ring& ring : polygon.rings) {
+      std::erase_if(ring, [&](std::int32_t corner) { return gone[to_index(corner)]; });  // all that was left of it
+      for (std::int32_t& corner : ring) corner = number[corner];
+    }
+  remove_entries(pslg.points, gone);
+  remove_entries(pslg.point_markers, gone);
+  remove_entries(pslg.attributes, gone, static_cast<std::size_t>(std::max(1, pslg.attributes_per_point)));
+  remove_entries(also, gone);
+}
+
 /// Works in rounds. Each round finds, for segments and points that are new since the last one, which points lie on
 /// which segments and which segments cross, then splits these. New points are rounded, so pieces may cross or touch
 /// what the whole segment did not; the next round handles that. A round that finds nothing proves that the graph is
 /// planar.
 class Planarizer {
  public:
-  Planarizer(Pslg& pslg, const std::string& file, RepairReport& report)
+  Planarizer(Pslg& pslg, const std::string& file, const RepairOptions& options, RepairReport& report)
       : pslg_(pslg),
         file_(file),
+        options_(options),
         report_(report),
-        closeness_(Closeness::within(extent(Box::of(pslg.points)))),
+        closeness_(Closeness::within(extent(Box::of(pslg.points)), options.snap)),
         welder_(pslg.points.size(), closeness_) {}
 
   void run() {
     weld_points();
     start_segments();
-    if (pieces_.empty()) start_hull();
-    for (int round = 0; fresh_exists_; ++round) {
-      if (round == kMaxRounds) fail_to_end();
-      find_splits();
-      split_segments();
+    make_planar();
+    if (pieces_.empty() || options_.hull) {
+      add_hull();
+      make_planar();
     }
+    if (options_.snap > 0) drop_collapsed();
     finish();
   }
 
@@ -72,6 +119,8 @@ class Planarizer {
     Pslg::Segment segment;
     std::int32_t origin = 0;  // kHullEdge: an edge of the hull
     bool fresh = true;
+    bool of_rings = false;  // whether all segments that it stands for were on rings
+    bool merged = false;    // whether it stands for several
   };
   /// Segment `piece` passes through `vertex`, at this place along it.
   struct Split {
@@ -90,8 +139,12 @@ class Planarizer {
 
   void weld_points();
   void start_segments();
-  void start_hull();
+  void make_planar();
+  void add_hull();
+  void drop_collapsed();
+  void retract_rings();
   void keep_once(RepairItem& item);
+  void erase_dropped();
   void find_splits();
   void note_finders();
   void index_loose_points();
@@ -107,14 +160,17 @@ class Planarizer {
   void split_rings();
   void copy_point_data(std::int32_t index);
   void interpolate_point_data(const Piece& piece, const Point& p);
+  std::vector<bool> bare_points() const;
   void finish();
   [[noreturn]] void fail_to_end() const;
 
+  void note_move(double distance) { report_.largest_move = std::max(report_.largest_move, distance); }
   std::string name(std::int32_t vertex) const;
   std::string name(const Piece& piece) const;
 
   Pslg& pslg_;
   const std::string& file_;
+  const RepairOptions& options_;
   RepairReport& report_;
   Closeness closeness_;
   PointWelder welder_;
@@ -154,6 +210,7 @@ void Planarizer::weld_points() {
       continue;
     }
     if (!markers_.empty() && markers_[kept] == 0) markers_[kept] = pslg_.point_markers[i];
+    note_move(std::hypot(p.x - point(kept).x, p.y - point(kept).y));
     note(point(kept) == p ? report_.duplicate_points : report_.close_points,
          [&] { return vertex_name(pslg_, i, p) + " merged into " + name(kept); });
   }
@@ -185,9 +242,11 @@ void Planarizer::interpolate_point_data(const Piece& piece, const Point& p) {
 
 void Planarizer::start_segments() {
   pieces_.reserve(pslg_.segments.size());
+  const std::vector<bool> on_rings = options_.snap > 0 ? segments_on_rings(pslg_) : std::vector<bool>{};
   std::int32_t origin = 0;
   for (const Pslg::Segment& s : pslg_.segments) {
-    const Piece piece{{welded_[s.a], welded_[s.b], s.marker}, origin++, true};
+    const bool of_rings = !on_rings.empty() && on_rings[to_index(origin)];
+    const Piece piece{{welded_[s.a], welded_[s.b], s.marker}, origin++, true, of_rings};
     if (piece.segment.a != piece.segment.b)
       pieces_.push_back(piece);
     else
@@ -197,10 +256,24 @@ void Planarizer::start_segments() {
   fresh_exists_ = !pieces_.empty();
 }
 
-// Points without segments stand for their convex hull. Like any segment, its edges may pass close to other points.
-void Planarizer::start_hull() {
-  for (const Pslg::Segment& s : convex_hull(points())) pieces_.push_back({s, kHullEdge, true});
-  fresh_exists_ = !pieces_.empty();
+void Planarizer::make_planar() {
+  for (int round = 0; fresh_exists_; ++round) {
+    if (round == kMaxRounds) fail_to_end();
+    find_splits();
+    split_segments();
+  }
+}
+
+// Like any segment, an edge of the hull may pass close to other points.
+void Planarizer::add_hull() {
+  const auto ends = [](const Pslg::Segment& s) { return std::minmax(s.a, s.b); };
+  std::set<std::pair<std::int32_t, std::int32_t>> present;
+  for (const Piece& piece : pieces_) present.insert(ends(piece.segment));
+  for (const Pslg::Segment& s : convex_hull(points())) {
+    if (present.contains(ends(s))) continue;
+    pieces_.push_back({s, kHullEdge, true});
+    fresh_exists_ = true;
+  }
 }
 
 // Of several pieces between the same two points, keeps the first.
@@ -228,12 +301,18 @@ void Planarizer::keep_once(RepairItem& item) {
     Pslg::Segment& first = pieces_[kept].segment;
     dropped.push_back(keys[i].piece);
     note(item, [&] { return name(other) + " repeats " + name(pieces_[kept]); });
+    pieces_[kept].merged = true;
+    pieces_[kept].of_rings = pieces_[kept].of_rings && other.of_rings;
     if (first.marker == 0) first.marker = other.segment.marker;
     if (other.segment.marker != 0 && other.segment.marker != first.marker)
       note(report_.marker_conflicts, [&] { return name(other) + " and " + name(pieces_[kept]); });
   }
   if (dropped.empty()) return;
   for (const std::int32_t i : dropped) pieces_[i].origin = kDropped;
+  erase_dropped();
+}
+
+void Planarizer::erase_dropped() {
   std::erase_if(pieces_, [](const Piece& piece) { return piece.origin == kDropped; });
 }
 
@@ -310,6 +389,7 @@ void Planarizer::test_point(std::int32_t vertex, std::int32_t piece) {
   const OnSegment where = on_segment(point(vertex), p.segment);
   if (where == OnSegment::no) return;
   add_split(piece, vertex);
+  note_move(distance_to_line(point(vertex), point(p.segment.a), point(p.segment.b)));
   note(where == OnSegment::exactly ? report_.points_on_segments : report_.points_close_segments,
        [&] { return name(vertex) + " on " + name(p); });
 }
@@ -401,14 +481,80 @@ void Planarizer::split_rings() {
     }
 }
 
+// Where both sides of a ring have fallen together, they bound no area, and go from their free ends on. Lines that were
+// open before stay.
+void Planarizer::drop_collapsed() {
+  std::vector<Pslg::Segment> segments;
+  std::vector<bool> may_go;
+  for (const Piece& piece : pieces_) {
+    segments.push_back(piece.segment);
+    may_go.push_back(piece.merged && piece.of_rings);
+  }
+  const std::vector<bool> free = free_branches(segments, points().size(), may_go);
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    if (!free[i]) continue;
+    note(report_.collapsed,
+         [&] { return name(pieces_[i]) + " from " + name(segments[i].a) + " to " + name(segments[i].b); });
+    pieces_[i].origin = kDropped;
+  }
+  retract_rings();
+  erase_dropped();
+}
+
+// A piece with a free end is walked there and back: its rings turn before it.
+void Planarizer::retract_rings() {
+  std::unordered_set<std::uint64_t> gone;
+  for (const Piece& piece : pieces_)
+    if (piece.origin == kDropped) gone.insert(pair_key(piece.segment.a, piece.segment.b));
+  if (gone.empty()) return;
+  for (Pslg::Polygon& polygon : pslg_.polygons)
+    for (Pslg::Ring& ring : polygon.rings) {
+      // A turn may lie where the ring begins: so it begins elsewhere, at a corner that stays, if there is one.
+      const auto stays = [&](std::size_t i) { return !gone.contains(pair_key(ring[i], ring[(i + 1) % ring.size()])); };
+      std::size_t first = 0;
+      while (first < ring.size() && !stays(first)) ++first;
+      if (first == ring.size()) {
+        ring.clear();
+        continue;
+      }
+      std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(first));
+      Pslg::Ring kept;
+      for (const std::int32_t corner : ring) {
+        const bool turns =
+            kept.size() > 1 && kept[kept.size() - 2] == corner && gone.contains(pair_key(kept.back(), corner));
+        if (turns)
+          kept.pop_back();
+        else
+          kept.push_back(corner);
+      }
+      const bool turns_at_end = kept.size() > 1 && gone.contains(pair_key(kept.back(), kept.front()));
+      if (turns_at_end) kept.pop_back();
+      drop_repetitions(kept);
+      ring = std::move(kept);
+    }
+}
+
+// Points whose segments snapping has taken, to the last, go as well.
+std::vector<bool> Planarizer::bare_points() const {
+  std::vector<bool> bare(points().size(), false);
+  if (options_.snap == 0) return bare;
+  for (const Pslg::Segment& s : pslg_.segments)
+    for (const std::int32_t end : {s.a, s.b}) bare[to_index(welded_[end])] = true;
+  for (const Piece& piece : pieces_)
+    for (const std::int32_t end : {piece.segment.a, piece.segment.b}) bare[to_index(end)] = false;
+  return bare;
+}
+
 void Planarizer::finish() {
   std::vector<Pslg::Segment> segments;
   segments.reserve(pieces_.size());
   for (const Piece& piece : pieces_) segments.push_back(piece.segment);
+  const std::vector<bool> bare = bare_points();
   pslg_.segments = std::move(segments);
   pslg_.points = points();
   pslg_.point_markers = std::move(markers_);
   pslg_.attributes = std::move(attributes_);
+  if (std::ranges::count(bare, true) > 0) remove_points(pslg_, bare, report_.original_point);
 }
 
 void Planarizer::fail_to_end() const {
@@ -416,13 +562,14 @@ void Planarizer::fail_to_end() const {
   throw InputError({file_, 0},
                    "segments near " + coordinates(point(last.vertex)) + " still cross after " +
                        std::to_string(kMaxRounds) + " rounds of repair, because rounding moves them each time",
-                   "simplify the input there or give it coordinates with fewer digits");
+                   options_.snap > 0 ? "snap by another length, or simplify the input there"
+                                     : "simplify the input there or give it coordinates with fewer digits");
 }
 
 }  // namespace
 
-void planarize(Pslg& pslg, const std::string& file, RepairReport& report) {
-  Planarizer(pslg, file, report).run();
+void planarize(Pslg& pslg, const std::string& file, const RepairOptions& options, RepairReport& report) {
+  Planarizer(pslg, file, options, report).run();
 }
 
 }  // namespace driftmesh

@@ -8,6 +8,6 @@
 namespace driftmesh {
 
 /// The part of repair() that makes points and segments planar; indices and coordinates have been checked.
-void planarize(Pslg& pslg, const std::string& file, RepairReport& report);
+void planarize(Pslg& pslg, const std::string& file, const RepairOptions& options, RepairReport& report);
 
 }  // namespace driftmesh

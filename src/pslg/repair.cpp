@@ -13,6 +13,7 @@
 #include "geometry/predicates.hpp"
 #include "pslg/closeness.hpp"
 #include "pslg/describe.hpp"
+#include "pslg/enclosing_ring.hpp"
 #include "pslg/planarize.hpp"
 #include "pslg/polygons.hpp"
 #include "pslg/segment_finder.hpp"
@@ -185,14 +186,75 @@ void check_seeds(const Pslg& pslg, const std::string& file, RepairReport& report
                  report);
 }
 
+/// What encloses the seeds of holes and regions before snapping, and what does afterward.
+class SeedWatch {
+ public:
+  SeedWatch(const Pslg& pslg, const std::string& file) {
+    if (pslg.holes.empty() && pslg.regions.empty()) return;
+    Pslg plain = pslg;
+    RepairReport ignored;
+    planarize(plain, file, {}, ignored);
+    const EnclosingRings rings(plain);
+    for (const Point& hole : plain.holes) holes_.push_back(rings.around(hole));
+    const std::vector<bool> named = regions_of_polygons(plain);
+    for (std::size_t r = 0; r < named.size(); ++r)
+      regions_.push_back(named[r] ? std::nullopt : rings.around(plain.regions[r].at));
+  }
+
+  /// Drops the seeds whose areas are gone: what encloses them now is larger.
+  void drop_lost(Pslg& pslg, RepairReport& report) const {
+    if (pslg.holes.empty() && pslg.regions.empty()) return;
+    const EnclosingRings rings(pslg);
+    const auto at_hole = [](const Point& hole) { return hole; };
+    const auto at_region = [](const Pslg::Region& region) { return region.at; };
+    keep_found(rings, holes_, pslg.holes, at_hole, "hole ", report);
+    keep_found(rings, regions_, pslg.regions, at_region, "region ", report);
+  }
+
+ private:
+  using Ring = std::optional<EnclosingRing>;
+
+  template <class Seed, class At>
+  static void keep_found(const EnclosingRings& rings, const std::vector<Ring>& before, std::vector<Seed>& seeds, At at,
+                         const char* kind, RepairReport& report) {
+    std::vector<Seed> kept;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      const Ring now = rings.around(at(seeds[i]));
+      const std::string name = kind + std::to_string(i + 1) + " at " + coordinates(at(seeds[i]));
+      const double slack = before[i] ? 2 * report.snap * before[i]->length : 0;
+      if (before[i] && (!now || now->area > before[i]->area + slack)) {
+        report.warnings.push_back(name +
+                                  " is left out: snapping has left nothing of its area, or moved a segment past it");
+        continue;
+      }
+      if (before[i] && now->area < before[i]->area - slack)
+        report.warnings.push_back(name + " has lost parts of its area that snapping has cut off");
+      kept.push_back(seeds[i]);
+    }
+    seeds = std::move(kept);
+  }
+
+  std::vector<Ring> holes_, regions_;
+};
+
+void make_planar(Pslg& pslg, const std::string& file, const RepairOptions& options, RepairReport& report) {
+  if (options.snap == 0) return planarize(pslg, file, options, report);
+  const SeedWatch seeds(pslg, file);
+  planarize(pslg, file, options, report);
+  seeds.drop_lost(pslg, report);
+}
+
 }  // namespace
 
-RepairReport repair(Pslg& pslg, const std::string& file) {
+RepairReport repair(Pslg& pslg, const std::string& file, const RepairOptions& options) {
+  if (!(options.snap >= 0 && std::isfinite(options.snap)))
+    throw Error("the length by which to snap is negative or not finite");
   check_values(pslg, file);
   check_polygons(pslg, file);
   RepairReport report;
+  report.snap = options.snap;
   round_coordinates(pslg, report);
-  planarize(pslg, file, report);
+  make_planar(pslg, file, options, report);
   check_spans_plane(pslg, file);
   check_seeds(pslg, file, report);
   return report;

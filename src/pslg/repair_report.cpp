@@ -1,25 +1,30 @@
 #include <array>
+#include <string>
 #include <utility>
 
 #include "driftmesh/repair.hpp"
+#include "pslg/describe.hpp"
 
 namespace driftmesh {
 namespace {
 
 constexpr std::size_t kMaxWarnings = 10;
 
-using NamedItem = std::pair<const RepairItem*, const char*>;
+using NamedItem = std::pair<const RepairItem*, std::string>;
 
-std::array<NamedItem, 10> items_of(const RepairReport& r) {
+std::array<NamedItem, 11> items_of(const RepairReport& r) {
+  const std::string close = r.snap > 0 ? length_text(r.snap) : "rounding error";
+  const std::string moved = r.snap > 0 ? " (the largest move is " + length_text(r.largest_move) + ")" : "";
   return {{{&r.rounded_points, "vertices with coordinates below 7.5e-37 rounded to multiples of 1.7e-52"},
            {&r.duplicate_points, "duplicate vertices merged"},
-           {&r.close_points, "vertices within rounding error of another merged"},
+           {&r.close_points, "vertices within " + close + " of another merged" + moved},
            {&r.zero_length_segments, "segments of length zero dropped"},
            {&r.duplicate_segments, "duplicate segments dropped"},
            {&r.points_on_segments, "segments split at a vertex on them"},
-           {&r.points_close_segments, "segments bent to pass through a vertex within rounding error"},
+           {&r.points_close_segments, "segments bent to pass through a vertex within " + close + moved},
            {&r.crossings, "crossings of segments turned into vertices"},
            {&r.overlaps, "shared pieces of overlapping segments kept once"},
+           {&r.collapsed, "pieces of rings without area left between them dropped"},
            {&r.marker_conflicts, "conflicting markers of merged segments, the first kept"}}};
 }
 

@@ -272,3 +272,164 @@ TEST_CASE("the oracle sees every kind of fault") {
   pslg.points[4] = {0, 2};
   CHECK(planarity_fault(pslg) == "points 2 and 4 are equal");
 }
+
+namespace {
+
+/// Rings, lines and points with gaps, slivers and steps of about the length by which they are snapped.
+Pslg rough_outlines(Random& random, double length) {
+  Pslg pslg;
+  const auto noise = [&] { return real(random, -1.2, 1.2) * length; };
+  const int rings = integer(random, 1, 4);
+  for (int r = 0; r < rings; ++r) {
+    const auto first = static_cast<std::int32_t>(pslg.points.size());
+    const double x = integer(random, 0, 3), y = integer(random, 0, 3), w = integer(random, 1, 3),
+                 h = integer(random, 1, 3);
+    for (const Point& corner : {Point{x, y}, Point{x + w, y}, Point{x + w, y + h}, Point{x, y + h}}) {
+      const int repeats = integer(random, 1, 3);
+      for (int i = 0; i < repeats; ++i) pslg.points.push_back({corner.x + noise(), corner.y + noise()});
+    }
+    const auto count = static_cast<std::int32_t>(pslg.points.size()) - first;
+    const bool open = integer(random, 0, 2) == 0;
+    for (std::int32_t i = 0; i + (open ? 1 : 0) < count; ++i)
+      pslg.segments.push_back({first + i, first + (i + 1) % count, r});
+  }
+  const int lines = integer(random, 0, 4);
+  for (int i = 0; i < lines; ++i) {
+    const auto first = static_cast<std::int32_t>(pslg.points.size());
+    pslg.points.push_back({real(random, 0, 5), real(random, 0, 5)});
+    pslg.points.push_back({real(random, 0, 5), real(random, 0, 5)});
+    pslg.segments.push_back({first, first + 1, 9});
+  }
+  for (int i = integer(random, 0, 4); i > 0; --i) pslg.points.push_back({real(random, 0, 5), real(random, 0, 5)});
+  return pslg;
+}
+
+double total_length(const Pslg& pslg) {
+  double sum = 0;
+  for (const Pslg::Segment& s : pslg.segments) {
+    const Point &a = pslg.points[static_cast<std::size_t>(s.a)], &b = pslg.points[static_cast<std::size_t>(s.b)];
+    sum += std::hypot(b.x - a.x, b.y - a.y);
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("snapping leaves no two vertices within its length, and moves none by more") {
+  std::int64_t merged = 0, bent = 0, collapsed = 0;
+  for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const double length = std::exp2(integer(random, -12, -2)) * real(random, 0.5, 1);
+    CAPTURE(length);
+    const Pslg input = rough_outlines(random, length);
+    Pslg snapped = input;
+    const RepairReport report = repair(snapped, "input", {.snap = length});
+    REQUIRE(planarity_fault(snapped) == "");
+    const double most = length * (1 + 1e-9);
+    CHECK(report.largest_move <= most);
+    for (std::size_t i = 0; i < snapped.points.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        CHECK(std::hypot(snapped.points[i].x - snapped.points[j].x, snapped.points[i].y - snapped.points[j].y) >
+              length);
+    for (const Pslg::Segment& s : snapped.segments) {
+      const Point a = snapped.points[static_cast<std::size_t>(s.a)], b = snapped.points[static_cast<std::size_t>(s.b)];
+      const double along = std::hypot(b.x - a.x, b.y - a.y);
+      for (const Point& p : snapped.points) {
+        const double t = ((p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y)) / along;
+        if (t <= most || t >= along - most) continue;
+        CHECK(distance(p, a, b) > length * (1 - 1e-9));
+      }
+    }
+    // Each point that stays is one of the input, where it was, or a crossing.
+    for (std::size_t i = 0; i < snapped.points.size(); ++i)
+      if (const std::int32_t original = report.original_point[i]; original >= 0)
+        CHECK(snapped.points[i] == input.points[static_cast<std::size_t>(original)]);
+    // Segments are bent by the length, and pieces of them again.
+    CHECK(one_sided_distance(snapped, input) <= 3 * length);
+    CHECK(total_length(snapped) <= 1.5 * total_length(input));
+    Pslg twice = snapped;
+    CHECK_FALSE(repair(twice, "input", {.snap = length}).changed());
+    CHECK(same(snapped, twice));
+    merged += report.close_points.count;
+    bent += report.points_close_segments.count;
+    collapsed += report.collapsed.count;
+  }
+  CHECK(merged > 1000);
+  CHECK(bent > 100);
+  CHECK(collapsed > 10);
+}
+
+TEST_CASE("rings that snapping closes vanish; lines, borders and the rest of a ring stay") {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
+  const auto add = [&](const std::vector<Point>& chain, bool closed, std::int32_t marker) {
+    const auto first = static_cast<std::int32_t>(pslg.points.size()), count = static_cast<std::int32_t>(chain.size());
+    pslg.points.insert(pslg.points.end(), chain.begin(), chain.end());
+    for (std::int32_t i = 0; i + (closed ? 0 : 1) < count; ++i)
+      pslg.segments.push_back({first + i, first + (i + 1) % count, marker});
+  };
+  add({{1, 1}, {2, 1}, {2, 1.01}, {1, 1.01}}, true, 2);  // a thin island
+  add({{3, 3}, {3.01, 3}, {3, 3.01}}, true, 3);          // a tiny one
+  add({{1, 2}, {2, 2}}, false, 4);                       // two lines side by side
+  add({{1, 2.01}, {2, 2.01}}, false, 5);
+  add({{4.01, 0}, {6, 0}, {6, 4}, {4.01, 4}}, true, 6);                              // a neighbor with a gap
+  add({{0.5, 2}, {0.51, 3}, {0.52, 2}, {0.8, 2}, {0.8, 1.5}, {0.5, 1.5}}, true, 7);  // an island with a spike
+  const RepairReport report = repair(pslg, "input", {.snap = 0.05});
+  std::multiset<std::int32_t> markers;
+  for (const Pslg::Segment& s : pslg.segments) markers.insert(s.marker);
+  CHECK(markers.count(1) == 4);
+  CHECK(markers.count(2) == 0);
+  CHECK(markers.count(3) == 0);
+  CHECK(markers.count(4) == 1);
+  CHECK(markers.count(5) == 0);
+  CHECK(markers.count(6) == 3);
+  CHECK(markers.count(7) == 4);
+  CHECK(report.collapsed.count == 2);
+  CHECK(pslg.points.size() == 4 + 2 + 2 + 4);
+  CHECK(report.summary().find("within 0.05 of another merged (the largest move is ") != std::string::npos);
+}
+
+TEST_CASE("a hole whose ring is closed by snapping removes nothing") {
+  for (const double height : {0.001, 0.5}) {
+    Pslg pslg;
+    pslg.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 1}, {2, 1}, {2, 1 + height}, {1, 1 + height}};
+    pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}, {4, 5, 2}, {5, 6, 2}, {6, 7, 2}, {7, 4, 2}};
+    pslg.holes = {{1.5, 1 + height / 2}};
+    pslg.regions = {{{3, 3}, 5, 0}};
+    const RepairReport report = repair(pslg, "input", {.snap = 0.01});
+    CHECK(pslg.holes.size() == (height == 0.5 ? 1 : 0));
+    CHECK(pslg.regions.size() == 1);
+    REQUIRE(report.warnings.size() == (height == 0.5 ? 0 : 1));
+    if (height != 0.5) CHECK(report.warnings[0].find("hole 1 at (1.5, 1.0005) is left out") == 0);
+  }
+}
+
+TEST_CASE("the hull is added to segments where there are none, and counts as no change") {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    Pslg input = kKinds[seed % 2].make(random);
+    Pslg plain = input;
+    const RepairReport without = repair(plain);
+    Pslg hulled = input;
+    const RepairReport with = repair(hulled, "input", {.hull = true});
+    REQUIRE(planarity_fault(hulled) == "");
+    CHECK(with.overlaps.count == without.overlaps.count);
+    CHECK(with.duplicate_segments.count == without.duplicate_segments.count);
+    // The input's segments first, as they are without the hull, and then what closes the hull.
+    REQUIRE(hulled.segments.size() >= plain.segments.size());
+    for (std::size_t i = 0; i < plain.segments.size(); ++i) CHECK(hulled.segments[i] == plain.segments[i]);
+    for (const Point& p : hulled.points) {
+      bool outside = false;
+      for (std::size_t i = plain.segments.size(); i < hulled.segments.size(); ++i) {
+        const Pslg::Segment& s = hulled.segments[i];
+        CHECK(s.marker == 1);
+        outside = outside || turn(exact(hulled.points[static_cast<std::size_t>(s.a)]),
+                                  exact(hulled.points[static_cast<std::size_t>(s.b)]), exact(p)) < 0;
+      }
+      CHECK_FALSE(outside);
+    }
+  }
+}
