@@ -14,6 +14,7 @@
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/areas.hpp"
+#include "pslg/open_boundary.hpp"
 #include "pslg/polygons.hpp"
 
 namespace driftmesh {
@@ -127,9 +128,7 @@ std::vector<CarveReport::Meeting> label_regions(Triangulation& mesh, const std::
   if (before_holes && !pslg.polygons.empty())
     throw Error("the polygons cover no area (" + std::to_string(pslg.polygons.size()) +
                 " polygons); correct rings that are lines or empty, and holes that take all of their polygons");
-  if (before_holes)
-    throw Error("the segments enclose no area: the outer boundary is open or missing (" +
-                std::to_string(pslg.segments.size()) + " segments); close the boundary");
+  if (before_holes) throw Error(describe_open_boundary(pslg));
   throw Error("the hole points remove the whole domain: each of them must lie inside a closed ring of segments");
 }
 

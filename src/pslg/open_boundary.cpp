@@ -1,14 +1,16 @@
 #include "pslg/open_boundary.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "pslg/describe.hpp"
 
 namespace driftmesh {
 namespace {
-
-constexpr std::size_t kMaxNamed = 4;
 
 std::int32_t root(std::vector<std::int32_t>& parent, std::int32_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -34,22 +36,35 @@ OpenBoundary find_open_boundary(const Pslg& pslg) {
   return result;
 }
 
-std::string describe_open_boundary(const Pslg& pslg, const RepairReport& report) {
-  const OpenBoundary boundary = find_open_boundary(pslg);
-  if (pslg.segments.empty()) return "there are no segments that bound an area";
-  if (boundary.open_ends.empty())
-    return "every chain of segments is closed, but the holes remove everything they enclose";
-  std::string text =
-      boundary.has_loop ? "the boundary is open at " : "no segments form a closed boundary; it is open at ";
-  const std::size_t named = std::min(boundary.open_ends.size(), kMaxNamed);
-  for (std::size_t i = 0; i < named; ++i) {
-    const std::int32_t v = boundary.open_ends[i];
-    if (i > 0) text += i + 1 == boundary.open_ends.size() ? " and " : ", ";
-    text += vertex_name(pslg, report.original_point[v], pslg.points[v]);
-  }
-  if (named < boundary.open_ends.size())
-    text += " and at " + std::to_string(boundary.open_ends.size() - named) + " more";
-  return text;
+std::optional<Gap> find_gap(const Pslg& pslg, const std::vector<std::int32_t>& open_ends) {
+  std::set<std::pair<std::int32_t, std::int32_t>> joined;
+  for (const Pslg::Segment& s : pslg.segments) joined.insert(std::minmax(s.a, s.b));
+  std::vector<std::int32_t> by_x = open_ends;
+  const auto at = [&](std::int32_t v) -> const Point& { return pslg.points[v]; };
+  std::sort(by_x.begin(), by_x.end(),
+            [&](std::int32_t a, std::int32_t b) { return std::pair(at(a).x, a) < std::pair(at(b).x, b); });
+  std::optional<Gap> narrowest;
+  double least = std::numeric_limits<double>::infinity();
+  for (auto a = by_x.begin(); a != by_x.end(); ++a)
+    for (auto b = a + 1; b != by_x.end() && at(*b).x - at(*a).x < least; ++b) {
+      const double width = std::hypot(at(*b).x - at(*a).x, at(*b).y - at(*a).y);
+      if (!(width < least) || joined.contains(std::minmax(*a, *b))) continue;
+      least = width;
+      narrowest = {std::min(*a, *b), std::max(*a, *b), width};
+    }
+  return narrowest;
+}
+
+std::string describe_open_boundary(const Pslg& pslg) {
+  const std::string what = "the segments enclose no area: the outer boundary is open";
+  const std::vector<std::int32_t> ends = find_open_boundary(pslg).open_ends;
+  const std::optional<Gap> gap = find_gap(pslg, ends);
+  if (!gap) return what + " or missing (" + std::to_string(pslg.segments.size()) + " segments); close the boundary";
+  const std::string which =
+      ends.size() == 2 ? "its ends " : "the nearest of its " + std::to_string(ends.size()) + " free ends, ";
+  return what + ", and " + which + coordinates(pslg.points[gap->a]) + " and " + coordinates(pslg.points[gap->b]) +
+         (ends.size() == 2 ? " are " : ", are ") + length_text(gap->width) +
+         " apart; close the gap, or have the input snapped by more than that";
 }
 
 }  // namespace driftmesh

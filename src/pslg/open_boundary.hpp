@@ -1,10 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "driftmesh/pslg.hpp"
-#include "driftmesh/repair.hpp"
 
 namespace driftmesh {
 
@@ -17,9 +18,16 @@ struct OpenBoundary {
 /// `pslg` must have been repaired.
 [[nodiscard]] OpenBoundary find_open_boundary(const Pslg& pslg);
 
-/// The explanation for the error that nothing is left after carving: which chains are open and where, with the vertex
-/// numbers of the user's file (`report` is that of the repair), or that all chains are closed but the holes remove
-/// everything.
-[[nodiscard]] std::string describe_open_boundary(const Pslg& pslg, const RepairReport& report);
+/// Where a boundary is most likely meant to be closed.
+struct Gap {
+  std::int32_t a, b;  ///< indices of points
+  double width;       ///< their distance
+};
+
+/// The nearest two of these open ends that no segment joins; empty if there are none.
+[[nodiscard]] std::optional<Gap> find_gap(const Pslg& pslg, const std::vector<std::int32_t>& open_ends);
+
+/// Why a planar graph encloses no area, and what to do: where its boundary is open, and how wide the gap is.
+[[nodiscard]] std::string describe_open_boundary(const Pslg& pslg);
 
 }  // namespace driftmesh

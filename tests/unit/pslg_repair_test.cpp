@@ -1,9 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "driftmesh/error.hpp"
 #include "driftmesh/repair.hpp"
@@ -222,16 +225,40 @@ TEST_CASE("the published models need no repair") {
 TEST_CASE("an open boundary is located and described") {
   Pslg pslg = square();
   pslg.segments.pop_back();
-  const RepairReport report = repair(pslg);
+  repair(pslg);
   const OpenBoundary boundary = find_open_boundary(pslg);
   CHECK_FALSE(boundary.has_loop);
   CHECK(boundary.open_ends == std::vector<std::int32_t>{0, 3});
-  CHECK(describe_open_boundary(pslg, report) ==
-        "no segments form a closed boundary; it is open at vertex 1 (0, 0) and vertex 4 (0, 4)");
-  CHECK(describe_open_boundary(square(), report) ==
-        "every chain of segments is closed, but the holes remove everything they enclose");
-  pslg.segments.clear();
-  CHECK(describe_open_boundary(pslg, report) == "there are no segments that bound an area");
+  CHECK(describe_open_boundary(pslg) ==
+        "the segments enclose no area: the outer boundary is open, and its ends (0, 0) and (0, 4) are 4 apart; close "
+        "the gap, or have the input snapped by more than that");
+  pslg.segments.erase(pslg.segments.begin() + 1);  // a chain of one segment is not to be closed upon itself
+  CHECK(describe_open_boundary(pslg).find("the nearest of its 4 free ends, (0, 0) and (0, 4), are 4 apart") !=
+        std::string::npos);
+  pslg.segments.resize(1);
+  CHECK(describe_open_boundary(pslg).ends_with("open or missing (1 segments); close the boundary"));
+}
+
+TEST_CASE("the narrowest gap is the nearest pair of free ends that no segment joins") {
+  Pslg pslg;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(0, 1);
+  for (std::int32_t i = 0; i < 60; ++i) {
+    pslg.points.push_back({coordinate(random), coordinate(random)});
+    if (i % 2 == 1) pslg.segments.push_back({i - 1, i, 0});
+  }
+  const std::vector<std::int32_t> ends = find_open_boundary(pslg).open_ends;
+  REQUIRE(ends.size() == 60);
+  double least = 2;
+  for (const std::int32_t a : ends)
+    for (const std::int32_t b : ends)
+      if (a / 2 != b / 2)
+        least = std::min(
+            least, std::hypot(pslg.points[static_cast<std::size_t>(a)].x - pslg.points[static_cast<std::size_t>(b)].x,
+                              pslg.points[static_cast<std::size_t>(a)].y - pslg.points[static_cast<std::size_t>(b)].y));
+  const auto gap = find_gap(pslg, ends);
+  REQUIRE(gap);
+  CHECK(gap->width == least);
 }
 
 TEST_CASE("input that would take forever fails early") {
