@@ -1,9 +1,14 @@
 #include "job/triangulated.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/words.hpp"
 #include "decompose/presplit.hpp"
 #include "decompose/work.hpp"
 #include "geometry/triangle_geometry.hpp"
@@ -13,6 +18,7 @@
 #include "mesh/domain_warnings.hpp"
 #include "mesh/forecast.hpp"
 #include "mesh/mesher.hpp"
+#include "mesh/narrow_place.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -48,6 +54,33 @@ std::vector<std::string> background_warnings(const Domain& domain, const Triangu
   return {};
 }
 
+/// The edge length that the bounds ask for there, except for bounds of regions.
+double asked_edge(const QualityBounds& bounds, const Point& at) {
+  double edge = std::numeric_limits<double>::infinity();
+  if (bounds.max_area > 0) edge = edge_of_twice_area(2 * bounds.max_area);
+  if (bounds.size != nullptr) edge = std::min(edge, bounds.size->edge_length(at));
+  return edge;
+}
+
+/// Distances between segments that cost many triangles, unless the bounds ask for as small ones there.
+std::vector<std::string> narrow_warnings(const Triangulation& mesh, const QualityBounds& bounds, double forecast) {
+  constexpr double kMany = 10'000;
+  if (bounds.min_angle == 0) return {};
+  std::vector<NarrowPlace> places = find_narrow_places(mesh);
+  std::erase_if(places, [&](const NarrowPlace& place) { return asked_edge(bounds, place.at) <= place.width; });
+  if (places.empty()) return {};
+  double all = 0;
+  for (const NarrowPlace& place : places) all += place.triangles;
+  const NarrowPlace& worst = places.front();
+  if (worst.triangles < kMany && (all < kMany || all < forecast / 2)) return {};
+  const std::string others =
+      places.size() == 1 ? "" : fmt::format(", and {} for {} such places together", estimate_words(all), places.size());
+  return {fmt::format(
+      "near ({:.10g}, {:.10g}) two segments of the input that do not touch are {:.3g} apart and run side by side for "
+      "{:.3g}, which takes about {} triangles at any area bound{}; move them apart there, or have the input snapped",
+      worst.at.x, worst.at.y, worst.width, worst.length, estimate_words(worst.triangles), others)};
+}
+
 /// Large meshes are made in subdomains if a bound on size says where their triangles will be. Depends on neither the
 /// machine nor the number of threads.
 bool is_large(const Triangulation& mesh, double forecast) {
@@ -80,6 +113,7 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     result.acute_corners =
         prepare_corners(result.mesh, result.cut ? CornerUse{} : CornerUse{request.bounds.angle, false});
     if (!if_large || result.acute_corners > 0) count();
+    warn(request, narrow_warnings(result.mesh, result.bounds, result.forecast), watch);
   });
   return result;
 }

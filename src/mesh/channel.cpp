@@ -59,8 +59,9 @@ Facing facing_segments(const Triangulation& mesh, HalfEdge base, double length) 
     if (!(std::fabs(rise) <= kSteepest)) continue;
     const Channel channel{std::max(0.0, std::min(at_c, at_d)), std::min(length, std::max(at_c, at_d)),
                           width_c - rise * at_c, rise};
-    if (channel.from < channel.to && channel.least_width() > kResolution * length)
-      facing.channels[facing.count++] = channel;
+    if (!(channel.from < channel.to && channel.least_width() > kResolution * length)) continue;
+    facing.segments[facing.count] = segment;
+    facing.channels[facing.count++] = channel;
   }
   return facing;
 }

@@ -116,7 +116,8 @@ std::vector<Group> groups_below(const Sectors& sectors, double angle) {
   return in_order;
 }
 
-/// Chooses circles around each apex, and turns them into cuts.
+/// Chooses circles around each apex, and turns them into cuts. The circles of a segment between two acute corners end
+/// in its first third, except where shorter neighbors end farther away (see grant_wishes).
 class Planner {
  public:
   Planner(const Sectors& sectors, const CornerUse& use)
@@ -139,6 +140,7 @@ class Planner {
       }
     for (const Group& bundle : groups_below(sectors_, kBundled))
       if (!whole_[bundle.ends.front()]) add_tips(bundle);
+    for (const RootId root : roots_with_wishes()) grant_wishes(segment_end(root, 0), segment_end(root, 1));
     for (auto& [e, circles] : circles_) cut(e, circles);
     return std::move(plan_);
   }
@@ -148,6 +150,7 @@ class Planner {
     double radius;
     std::int32_t name;    // shared by all that are cut at it
     std::int32_t vertex;  // name of the new vertex
+    double width = 0;     // of the narrowest sector there
   };
 
   [[nodiscard]] bool clustered(SegmentEnd e) const { return apex_[e] != kNone; }
@@ -183,7 +186,10 @@ class Planner {
       any = false;
       const std::int32_t name = names_++;
       for (const SegmentEnd e : cluster.ends) {
-        if (radius > reach(e)) continue;
+        if (radius > reach(e)) {
+          if (sharp && clustered(other_end(e))) spare_[e].push_back({radius, name, name});
+          continue;
+        }
         circles_[e].push_back({radius, name, sharp ? name : names_++});
         any = sharp;
       }
@@ -232,10 +238,75 @@ class Planner {
       }
       for (std::size_t k = i; k < ends.size(); ++k) {
         drop_powers_near(ends[k], radius);
-        const double most = sectors_.length(ends[k]) * (clustered(other_end(ends[k])) ? 1.0 / 3 : 1.0);
-        if (radius < most) circles_[ends[k]].push_back({radius, name, name});
+        const Circle circle{radius, name, name, radius * bundle.smallest_angle};
+        (clustered(other_end(ends[k])) ? wishes_ : circles_)[ends[k]].push_back(circle);
       }
     }
+  }
+
+  [[nodiscard]] std::vector<RootId> roots_with_wishes() const {
+    std::vector<RootId> roots;
+    for (const auto& [e, circles] : wishes_)
+      if (roots.empty() || roots.back() != root_of(e)) roots.push_back(root_of(e));
+    return roots;
+  }
+
+  /// A segment between two acute corners is also cut where shorter neighbors end beyond its first third, as far as the
+  /// cuts from both ends leave each other room.
+  void grant_wishes(SegmentEnd e, SegmentEnd f) {
+    std::vector<Circle>&from_e = wishes_[e], &from_f = wishes_[f];
+    while (!from_e.empty() && !from_f.empty()) {
+      const Circle &r = from_e.back(), &s = from_f.back();
+      const double gap = sectors_.length(e) - r.radius - s.radius;
+      if (std::fabs(gap) <= kSameCircle * std::min(r.width, s.width)) return cut_at_common_place(e, f);
+      if (gap > 0) break;
+      (r.radius > s.radius ? from_e : from_f).pop_back();
+    }
+    grant(e, f);
+    grant(f, e);
+  }
+
+  /// Where neighbors of both corners end at one place, as the other two sides of a sliver do, one cut serves both. Each
+  /// corner cuts up to there.
+  void cut_at_common_place(SegmentEnd e, SegmentEnd f) {
+    tip_circle_[f] = wishes_[f].back().name;
+    for (const SegmentEnd end : {e, f}) {
+      const double place = wishes_[end].back().radius;
+      std::erase_if(circles_[end], [&](const Circle& c) { return c.radius > place; });
+      add_spare_powers(end, place);
+      if (end == f) wishes_[end].pop_back();
+      circles_[end].insert(circles_[end].end(), wishes_[end].begin(), wishes_[end].end());
+    }
+  }
+
+  /// Cuts at the powers of two up to a wish as well, like the neighbor that ends there.
+  void add_spare_powers(SegmentEnd e, double most) {
+    for (const Circle& power : spare_[e]) {
+      const auto near = [&](const Circle& wish) {
+        return power.radius > 2.0 / 3 * wish.radius && power.radius < 4.0 / 3 * wish.radius;
+      };
+      if (power.radius < most && std::ranges::none_of(wishes_[e], near)) circles_[e].push_back(power);
+    }
+    spare_[e].clear();
+  }
+
+  /// Cuts at the wishes of `e`: those in its first third, and farther ones that come off well from the cuts of the
+  /// other end, which gives up those that are too near, but not its last.
+  void grant(SegmentEnd e, SegmentEnd f) {
+    std::vector<Circle>& others = circles_[f];
+    std::vector<Circle>& wishes = wishes_[e];
+    const auto first_third = [&](const Circle& wish) { return wish.radius < sectors_.length(e) / 3; };
+    while (!wishes.empty() && !first_third(wishes.back())) {
+      const double most = 2.0 / 3 * (sectors_.length(e) - wishes.back().radius);
+      const auto too_near = [&](const Circle& c) { return c.radius > most; };
+      if (others.empty() || !std::ranges::all_of(others, too_near)) {
+        std::erase_if(others, too_near);
+        add_spare_powers(e, wishes.back().radius);
+        break;
+      }
+      wishes.pop_back();
+    }
+    circles_[e].insert(circles_[e].end(), wishes.begin(), wishes.end());
   }
 
   void drop_powers_near(SegmentEnd e, double radius) {
@@ -267,6 +338,8 @@ class Planner {
   const Sectors& sectors_;
   CornerUse use_;
   std::map<SegmentEnd, std::vector<Circle>> circles_;  // of the ends that are cut
+  std::map<SegmentEnd, std::vector<Circle>> wishes_;   // of ends in a bundle, nearest first, not yet granted
+  std::map<SegmentEnd, std::vector<Circle>> spare_;    // powers of two beyond the reach of an end
   IdVector<SegmentEnd, std::int32_t> tip_circle_;      // of each end: the circle that the other end lies on
   IdVector<SegmentEnd, std::int32_t> apex_;  // of each end: the name of its cluster's apex, kNone if it is in none
   IdVector<SegmentEnd, bool> whole_;         // of each end: whether its cluster needs no cuts
