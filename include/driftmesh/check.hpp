@@ -45,10 +45,10 @@ struct CheckReport {
 /// What is wrong with the mesh is reported, never thrown. Throws Error for options that are out of range.
 [[nodiscard]] CheckReport check(const Mesh& mesh, const MeshOptions& options = {});
 
-/// Also checks the mesh against its input, which is repaired first as by mesh(), with options.simplify and
-/// options.holes: it must cover its domain and nothing else, and have its segments, points, markers, attributes and
-/// regions. Polygons are read a second time as they are, if they are not simplified. Throws InputError for an input
-/// that cannot be repaired.
+/// Also checks the mesh against its input, which is repaired first as by mesh(), with options.snap, options.hull,
+/// options.simplify and options.holes: it must cover its domain and nothing else, and have its segments, points,
+/// markers, attributes and regions. Polygons are read a second time as they are, unless they are snapped or simplified.
+/// Throws InputError for an input that cannot be repaired.
 [[nodiscard]] CheckReport check(const Mesh& mesh, const Pslg& input, const MeshOptions& options = {});
 
 }  // namespace driftmesh

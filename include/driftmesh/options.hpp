@@ -56,6 +56,8 @@ enum class MappingMethod {
 /// Lengths and areas are in the units of the input, angles in degrees, times in seconds, memory in bytes.
 struct MeshOptions {
   // ---- The domain ----
+  double snap = 0;      ///< vertices and segments at most this far apart are joined (see repair.hpp); 0: none
+  bool hull = false;    ///< whether the convex hull of all points is the outline: its edges become segments
   double simplify = 0;  ///< by how much lines may move for fewer points (see simplify.hpp); 0: not at all
   HoleRule holes = HoleRule::kPoints;
   bool strict = false;  ///< whether warnings are errors: an InputError is thrown

@@ -18,7 +18,9 @@ namespace {
 
 /// The request for a mesh as such: how it was made does not matter.
 job::Request requirements_of(const MeshOptions& options) {
-  const MeshOptions only{.simplify = options.simplify,
+  const MeshOptions only{.snap = options.snap,
+                         .hull = options.hull,
+                         .simplify = options.simplify,
                          .holes = options.holes,
                          .min_angle = options.min_angle,
                          .max_area = options.max_area,
@@ -72,7 +74,7 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
   VerifyOptions asked{.min_angle = request.bounds.angle,
                       .max_area = request.bounds.area,
                       .region_areas = request.bounds.region_areas,
-                      .given = request.input.simplify == 0 ? input : nullptr,
+                      .given = request.input.simplify == 0 && request.input.snap == 0 ? input : nullptr,
                       .threads = threads_for(options)};
   if (options.size) {
     asked.size = &size;

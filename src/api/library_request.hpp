@@ -13,6 +13,8 @@ namespace driftmesh {
 /// a member of MeshOptions, its value, and its place in a request. `Options` is MeshOptions, const or not.
 template <class Options, class Visit>
 void visit_options(Options&& o, job::Request& r, const Visit& visit) {
+  visit("input.snap", "snap", o.snap, r.input.snap);
+  visit("input.hull", "hull", o.hull, r.input.hull);
   visit("input.simplify", "simplify", o.simplify, r.input.simplify);
   visit("input.holes", "holes", o.holes, r.input.holes);
   visit("input.strict", "strict", o.strict, r.input.strict);

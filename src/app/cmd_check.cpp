@@ -48,11 +48,11 @@ struct CheckOptions {
   ReadOptions reading;
 };
 
-/// Keeps what has polygons as the file has it, too. Simplified ones are others.
+/// Keeps what has polygons as the file has it, too. Snapped or simplified ones are others.
 std::optional<InputFile> read_and_repair(CheckOptions& options, const job::Request::Input& asked) {
   if (options.input.empty()) return std::nullopt;
   InputFile input = read_input(options.input, asked.layers);
-  if (!input.pslg.polygons.empty() && asked.simplify == 0) {
+  if (!input.pslg.polygons.empty() && asked.simplify == 0 && asked.snap == 0) {
     options.given = input.pslg;
     options.verify.given = &options.given;
   }

@@ -31,6 +31,8 @@ Json input_json(const RunRecord& run) {
             {"points_close_segments", r.points_close_segments.count},
             {"crossings", r.crossings.count},
             {"overlaps", r.overlaps.count},
+            {"collapsed", r.collapsed.count},
+            {"largest_move", r.largest_move},
             {"marker_conflicts", r.marker_conflicts.count}}},
           {"simplified", {{"points", run.simplified.points}, {"rings", run.simplified.rings}}},
           {"warnings", run.warnings}};

@@ -23,7 +23,7 @@ std::int64_t repair_count(const RepairReport& r) {
   std::int64_t count = 0;
   for (const RepairItem* item :
        {&r.rounded_points, &r.duplicate_points, &r.close_points, &r.zero_length_segments, &r.duplicate_segments,
-        &r.points_on_segments, &r.points_close_segments, &r.crossings, &r.overlaps})
+        &r.points_on_segments, &r.points_close_segments, &r.crossings, &r.overlaps, &r.collapsed})
     count += item->count;
   return count;
 }

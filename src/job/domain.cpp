@@ -23,6 +23,10 @@ InputFile raw_input(const Request::Input& input, const Given& given) {
   return {generate(input.generator, input.parameters), {}};
 }
 
+RepairOptions repairs_asked(const Request::Input& asked) {
+  return {.snap = asked.snap, .hull = asked.hull};
+}
+
 /// What simplification left of the repaired points; `left`: their indices.
 void keep_original_points(RepairReport& repairs, const std::vector<std::int32_t>& left) {
   std::vector<std::int32_t> original;
@@ -79,7 +83,8 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   domain.pslg = std::move(input.pslg);
   domain.projection = std::move(input.projection);
   name_markers_and_regions(request, domain.pslg);
-  domain.repairs = timed(watch, "repair", [&] { return repair(domain.pslg, input_name(request)); });
+  domain.repairs =
+      timed(watch, "repair", [&] { return repair(domain.pslg, input_name(request), repairs_asked(request.input)); });
   const std::vector<std::string> warnings = std::exchange(domain.repairs.warnings, {});
   watch.repaired(domain.repairs);
   warn(request, warnings, watch);
@@ -98,7 +103,7 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
 }
 
 RepairReport clean_input(const Request::Input& asked, const std::string& name, Pslg& pslg) {
-  RepairReport repairs = repair(pslg, name);
+  RepairReport repairs = repair(pslg, name, repairs_asked(asked));
   if (asked.simplify > 0) simplify(pslg, asked.simplify, name);
   add_nested_holes(asked.holes, pslg);
   return repairs;

@@ -30,7 +30,7 @@ Section input_section() {
       kMesh | kExperiment,
       {key("input.file", &R::input, &R::Input::file,
            "The domain: GeoJSON, a shapefile or another file that GDAL reads (.gpkg, .fgb, .gml, .kml, .gmt), "
-           "Triangle's .poly (with its .node next to it), or .node",
+           "Triangle's .poly (with its .node next to it), .node, or a mesh, whose outline it is",
            file(), option("input"), entry_points(kMesh | kDecompose | kExperiment)),
        key("input.generate", &R::input, &R::Input::generator,
            "Generate the domain instead of reading a file (see driftmesh generate --help)", option("generate", "KIND"),
@@ -44,6 +44,14 @@ Section input_section() {
            "A raster, by a name that size expressions and depths use, such as depth=bathymetry.asc: an ESRI ASCII "
            "grid (.asc), or what GDAL reads (GeoTIFF, netCDF)",
            of_files(), option("raster", "NAME=FILE"), entry_points(kMesh | kDecompose | kCheck | kExperiment)),
+       key("input.snap", &R::input, &R::Input::snap,
+           "Join vertices at most this far apart, and vertices with segments that near: closes gaps and slivers of the "
+           "input. No vertex moves by more; the report has the largest move. 0: join nothing",
+           from(0), option("snap", "LENGTH"), entry_points(kMeshers | kDecompose | kCheck)),
+       key("input.hull", &R::input, &R::Input::hull,
+           "Make the convex hull of all vertices the outline: its edges become segments with marker 1 where there are "
+           "none",
+           option("hull"), entry_points(kMeshers | kDecompose | kCheck)),
        key("input.simplify", &R::input, &R::Input::simplify,
            "Remove points of lines where these then move by at most this length, and rings that fit into a square "
            "with this side; lines never cross. 0: keep all",

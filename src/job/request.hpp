@@ -37,6 +37,8 @@ struct Request {
     std::string file;
     std::string generator;
     std::map<std::string, std::string> parameters;  ///< of the generator
+    double snap = 0;                                ///< what is that near is joined; 0: nothing
+    bool hull = false;                              ///< whether the convex hull is the outline
     double simplify = 0;                            ///< by how much lines may move; 0: nothing is simplified
     HoleRule holes = HoleRule::kPoints;
     bool strict = false;                              ///< warnings about the input are errors
