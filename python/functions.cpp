@@ -11,6 +11,7 @@
 #include "driftmesh/files.hpp"
 #include "driftmesh/generate.hpp"
 #include "driftmesh/mesher.hpp"
+#include "driftmesh/outline.hpp"
 #include "options.hpp"
 
 namespace driftmesh::python {
@@ -73,7 +74,8 @@ const std::string kCheckDoc =
     "sizes.\n"
     "If its input is given, it must also cover its domain and have its segments, points, markers and regions. What is\n"
     "wrong is reported, not raised: the report is true if the mesh was accepted.\n\n"
-    "Takes the options of mesh() and looks at min_angle, max_area, region_areas, size, simplify, holes and threads.";
+    "Takes the options of mesh() and looks at min_angle, max_area, region_areas, size, snap, hull, simplify, holes and "
+    "threads.";
 
 const std::string kGenerateDoc =
     "generate(kind, /, **parameters) -> Pslg\n\n"
@@ -97,12 +99,16 @@ void add_functions(py::module_& module) {
       "read_input(path, layers='') -> Pslg\n\nRead a domain: GeoJSON, a shapefile or another file that GDAL reads, of "
       "which\nlayers may name some with commas between them (projected to meters), Triangle's .poly, or the points of "
       "a "
-      ".node. "
+      ".node, or the outline of a mesh. "
       "Raises InputError with file and line.");
   module.def(
       "read_poly", [](const Path& path) { return read_poly(path.string()); }, py::arg("path"), Unlocked(),
       "read_poly(path) -> Pslg\n\nRead Triangle's .poly, or the points of a .node. Raises InputError with file and "
       "line, FileError.");
+  module.def(
+      "outline", [](const Mesh& mesh) { return outline(mesh); }, py::arg("mesh"), Unlocked(),
+      "outline(mesh) -> Pslg\n\nThe domain that a mesh covers, to be meshed anew: its boundary, constrained edges and "
+      "borders of regions as\nsegments with their markers, and seeds of its holes and regions. Raises InputError.");
   module.def(
       "read_mesh",
       [](const Path& path, bool allow_outside) { return read_mesh(path.string(), {.allow_outside = allow_outside}); },

@@ -10,6 +10,7 @@
 #include "driftmesh/mesher.hpp"
 #include "driftmesh/names.hpp"
 #include "driftmesh/options.hpp"
+#include "driftmesh/outline.hpp"
 #include "driftmesh/point.hpp"
 #include "driftmesh/policy.hpp"
 #include "driftmesh/pslg.hpp"

@@ -28,8 +28,9 @@ struct InputFile {
 /// Reads a domain: GeoJSON (.geojson, .json), by GDAL shapefiles and others that GIS have (.shp, .gpkg, .fgb, .gml,
 /// .kml, .gmt), or what read_poly reads. Polygons of GeoJSON and its like are the domain and their holes are holes;
 /// lines and points are constraints; properties have markers and regions (docs/file-formats.md). Longitudes and
-/// latitudes become meters in the UTM zone of their middle. `layers`: of a file that has several, names with commas
-/// between them. Throws FileError for a file that is not there or cannot be read, and InputError: with up to ten
+/// latitudes become meters in the UTM zone of their middle. A mesh (.vtu, .msh, .14 or another that read_mesh reads, of
+/// Triangle's files the .ele) stands for its outline (outline.hpp). `layers`: of a file that has several, names with
+/// commas between them. Throws FileError for a file that is not there or cannot be read, and InputError: with up to ten
 /// messages as read_poly does; naming the feature of what is wrong in a GIS file; for coordinates that are no
 /// longitudes and latitudes, or reach too far for a UTM zone; for layers that the file has not, or several of which
 /// none is named; and where GDAL is needed and not there.

@@ -16,14 +16,14 @@ import tempfile as _tempfile
 from ._errors import Cancelled, Error, FileError, InputError, InputWarning, LimitError
 from ._native import (CheckReport, Decomposition, DistributedPiece, GhostedPiece, Load, Mesh, Progress, Pslg,
                       SimulatedRun, SizeField, __version__, add_ghost_layer, check, cut_domain, generate, generator_names, mesh, mesh_distributed, option_table,
-                      plot, read_decomposition, read_input, read_mesh, read_poly, simulate, size_on_mesh, write_distributed)
+                      outline, plot, read_decomposition, read_input, read_mesh, read_poly, simulate, size_on_mesh, write_distributed)
 from ._native import holds_input as _holds_input
 from ._progress import ProgressLine
 
 __all__ = ["Cancelled", "CheckReport", "Decomposition", "DistributedPiece", "Error", "FileError", "GhostedPiece", "InputError",
            "InputWarning", "LimitError", "Load", "Mesh", "Progress", "ProgressLine", "Pslg", "SimulatedRun",
            "SizeField", "__version__", "add_ghost_layer", "check", "convert", "cut_domain", "generate", "generator_names", "mesh",
-           "mesh_distributed", "option_table", "plot", "read", "read_decomposition", "read_input", "read_mesh", "read_poly",
+           "mesh_distributed", "option_table", "outline", "plot", "read", "read_decomposition", "read_input", "read_mesh", "read_poly",
            "simulate", "size_on_mesh", "write_distributed"]
 
 

@@ -10,8 +10,8 @@
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
-#include "geojson/read_input.hpp"
 #include "io/mesh_file.hpp"
+#include "job/input_file.hpp"
 #include "picture/plot.hpp"
 
 namespace driftmesh::app {

@@ -30,14 +30,14 @@ InputFile parse_geojson_input(const std::string& file, std::string_view text) {
   return input;
 }
 
-InputFile read_input(const std::string& path, const std::string& layers) {
+InputFile read_geometry(const std::string& path, const std::string& layers) {
   if (is_vector_file(path)) return parse_geojson_input(path, vector_as_geojson(path, layers));
   if (!layers.empty()) throw InputError({path}, "has no layers", "name layers of files that have some, such as .gpkg");
   if (is_geojson(path)) return parse_geojson_input(path, read_file(path));
   return {read_poly(path), {}};
 }
 
-std::vector<std::string> input_files(const std::string& path) {
+std::vector<std::string> geometry_files(const std::string& path) {
   if (is_geojson(path)) return {path};
   if (is_vector_file(path)) return vector_files(path);
   return poly_files(path);

@@ -14,7 +14,10 @@ namespace driftmesh {
 /// read_input of GeoJSON in memory; `file` is for messages.
 [[nodiscard]] InputFile parse_geojson_input(const std::string& file, std::string_view text);
 
-/// The files that read_input reads, or may read.
-[[nodiscard]] std::vector<std::string> input_files(const std::string& path);
+/// read_input of a file that holds no mesh.
+[[nodiscard]] InputFile read_geometry(const std::string& path, const std::string& layers = "");
+
+/// The files that read_geometry reads, or may read.
+[[nodiscard]] std::vector<std::string> geometry_files(const std::string& path);
 
 }  // namespace driftmesh

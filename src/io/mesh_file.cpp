@@ -1,6 +1,7 @@
 #include "io/mesh_file.hpp"
 
 #include <filesystem>
+#include <optional>
 
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
@@ -19,9 +20,8 @@ namespace {
 
 enum class Format { kTriangle, kVtu, kPvtu, kMsh, kHdf5, kSu2, kMfem, kMfemParts, kFort14 };
 
-Format named_format(const std::string& path) {
-  if (names_no_format(path)) return Format::kVtu;
-  const std::string extension = std::filesystem::path(path).extension().string();
+/// Empty for another extension, or none.
+std::optional<Format> format_called(const std::string& extension) {
   if (extension == ".vtu") return Format::kVtu;
   if (extension == ".pvtu") return Format::kPvtu;
   if (extension == ".msh") return Format::kMsh;
@@ -33,6 +33,17 @@ Format named_format(const std::string& path) {
     if (extension == of_fort14) return Format::kFort14;
   for (const char* of_triangle : {".node", ".ele", ".poly", ".edge", ".neigh"})
     if (extension == of_triangle) return Format::kTriangle;
+  return std::nullopt;
+}
+
+std::string extension_of(const std::string& path) {
+  return std::filesystem::path(path).extension().string();
+}
+
+Format named_format(const std::string& path) {
+  if (names_no_format(path)) return Format::kVtu;
+  const std::string extension = extension_of(path);
+  if (const auto format = format_called(extension)) return *format;
   throw InputError({path, 0}, extension.empty() ? "has no extension" : "has an unknown extension '" + extension + "'",
                    std::string("a mesh file is ") + kMeshFiles);
 }
@@ -98,6 +109,11 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) {
       return read_triangle_format(without_extension(path));
   }
   return {};
+}
+
+bool is_mesh_file(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension != ".poly" && extension != ".node" && format_called(extension).has_value();
 }
 
 bool is_in_pieces(const std::string& path) {

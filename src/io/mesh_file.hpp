@@ -15,6 +15,8 @@ namespace driftmesh {
 inline constexpr const char* kMeshFiles =
     ".vtu, .pvtu, .msh, .h5, .su2, .14, .grd, .gr3, or any file of Triangle's .node/.ele set";
 
+/// Whether the extension is that of a mesh and not of a domain as well, as .poly and .node are.
+[[nodiscard]] bool is_mesh_file(const std::string& path);
 /// Whether the extension is that of a mesh in pieces: .pvtu. Error: InputError for an unknown extension.
 [[nodiscard]] bool is_in_pieces(const std::string& path);
 /// Whether only ranks can write it, each a file of its own: .pmesh. Error: as is_in_pieces.

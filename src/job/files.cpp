@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/letter_case.hpp"
-#include "geojson/read_input.hpp"
+#include "job/input_file.hpp"
 #include "job/keys.hpp"
 #include "mapping/mapping_file.hpp"
 #include "sizing/make_size_field.hpp"

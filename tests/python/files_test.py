@@ -33,6 +33,25 @@ class Files(unittest.TestCase):
             np.testing.assert_array_equal(again.triangles, mesh.triangles)
             self.assertTrue(driftmesh.check(again, PLATE, max_area=1e-3), name)
 
+    def test_outlines_of_meshes(self):
+        mesh = driftmesh.mesh(PLATE, max_area=1e-2)
+        mesh.write(self.folder / "plate.vtu")
+        for outline in (driftmesh.outline(mesh), driftmesh.read_input(self.folder / "plate.vtu")):
+            self.assertEqual(len(outline.holes), 1)
+            anew = driftmesh.mesh(outline, max_area=1e-3)
+            self.assertGreater(len(anew.triangles), len(mesh.triangles))
+            self.assertEqual(set(anew.edge_markers), set(mesh.edge_markers))
+            self.assertTrue(driftmesh.check(anew, PLATE, max_area=1e-3))
+
+    def test_outlines_with_gaps_and_without_a_border(self):
+        corners = [(0, 0), (4, 0), (4, 4), (0, 4), (0, 0.1)]
+        line = driftmesh.Pslg(corners, [(0, 1), (1, 2), (2, 3), (3, 4)])
+        with self.assertRaisesRegex(driftmesh.Error, "0.1 apart"):
+            driftmesh.mesh(line)
+        self.assertTrue(driftmesh.check(driftmesh.mesh(line, snap=0.2), line, snap=0.2))
+        notch = driftmesh.Pslg([(0, 0), (4, 0), (4, 4), (2, 1)], [(0, 1), (1, 2), (2, 3)])
+        self.assertTrue(driftmesh.check(driftmesh.mesh(notch, hull=True), notch, hull=True))
+
     def test_a_node_file_alone_is_a_domain(self):
         driftmesh.mesh(PLATE).write(self.folder / "plate.node")
         self.assertIsInstance(driftmesh.read(self.folder / "plate.node"), driftmesh.Mesh)
