@@ -141,12 +141,15 @@ TEST_CASE("mesher and check agree on details of any size, at the origin and else
   std::uniform_real_distribution<double> in(0, 1);
   std::size_t exceptions = 0;
   for (std::uint64_t i = 0; i < 400 / kFewer; ++i) {
-    const double size = std::pow(10, -1 - 35 * in(random));
+    // Any size, or a cluster at the limit: what lies within 1e-15 of the square is one point.
+    const bool cluster = i / 4 % 2 == 1;
+    const double size = std::pow(10, cluster ? -15 + 0.5 * in(random) : -1 - 35 * in(random));
     const Point& place = kPlaces[i % 4];
     Pslg input;
     input.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     input.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}, {4, 5, 2}};
-    for (int k = 0; k < 2; ++k)
+    if (cluster) input.segments.push_back({6, 7, 3});
+    for (int k = 0; k < (cluster ? 6 : 2); ++k)
       input.points.push_back({place.x + size * (1 + 4 * in(random)), place.y + size * (1 + 4 * in(random))});
     CAPTURE(poly_text(input));
     MeshRequest request;
