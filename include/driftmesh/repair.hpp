@@ -20,7 +20,8 @@ struct RepairOptions {
   /// Joins what is at most this far apart: vertices to vertices, and segments to vertices. 0: only what is within
   /// rounding error. Not negative, finite.
   double snap = 0;
-  /// Adds the edges of the convex hull of all points as segments, with marker 1 where there is no segment yet.
+  /// Adds the edges of the convex hull of all points as segments, with marker 1 where there is no segment yet. An
+  /// InputError with polygons, which say themselves what the domain is.
   bool hull = false;
 };
 

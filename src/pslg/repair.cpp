@@ -251,6 +251,9 @@ RepairReport repair(Pslg& pslg, const std::string& file, const RepairOptions& op
     throw Error("the length by which to snap is negative or not finite");
   check_values(pslg, file);
   check_polygons(pslg, file);
+  if (options.hull && !pslg.polygons.empty())
+    throw InputError({file, 0}, "has polygons, which are the domain, and a convex hull would be another",
+                     "leave out the hull, or give the outline as lines");
   RepairReport report;
   report.snap = options.snap;
   round_coordinates(pslg, report);

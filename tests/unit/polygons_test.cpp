@@ -122,6 +122,43 @@ TEST_CASE("rings that touch, cross or repeat themselves enclose what is inside a
   CHECK(area(twice) == doctest::Approx(64));
 }
 
+TEST_CASE("snapping takes spikes and slits off rings, which stay chains of segments") {
+  const auto snapped = [](Pslg pslg) {
+    static_cast<void>(repair(pslg, "input", {.snap = 0.1}));
+    Pslg again = pslg;
+    CHECK_FALSE(repair(again, "input", {.snap = 0.1}).changed());
+    CHECK(again.polygons == pslg.polygons);
+    return pslg;
+  };
+  // A spike to the right, wherever the ring begins.
+  const Corners spiked{{0, 0}, {10, 0}, {10, 5}, {13, 5.02}, {10, 5.04}, {10, 10}, {0, 10}};
+  for (std::size_t first = 0; first < spiked.size(); ++first) {
+    CAPTURE(first);
+    Corners turned = spiked;
+    std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(first), turned.end());
+    const Pslg found = snapped(one({turned}));
+    CHECK(area(found) == doctest::Approx(100).epsilon(0.01));
+    for (const Point& p : found.points) CHECK(p.x <= 10.1);
+  }
+  // A slit is closed, a thin hole goes, and so does a thin polygon.
+  CHECK(area(snapped(one({{{0, 0}, {10, 0}, {10, 5}, {4, 5}, {10, 5.05}, {10, 10}, {0, 10}}}))) ==
+        doctest::Approx(100).epsilon(0.01));
+  CHECK(area(snapped(one({kSquare, box(2, 4, 5, 0.05)}))) == doctest::Approx(100).epsilon(0.01));
+  Pslg beside = one({kSquare});
+  add(beside, {box(20, 0, 5, 0.05)});
+  const Pslg found = snapped(beside);
+  CHECK(area(found) == doctest::Approx(100).epsilon(0.01));
+  CHECK(found.points.size() == 4);
+}
+
+TEST_CASE("a convex hull in place of polygons is refused") {
+  Pslg square = one({kSquare});
+  CHECK_THROWS_WITH_AS(static_cast<void>(repair(square, "x", {.hull = true})),
+                       "x: has polygons, which are the domain, and a convex hull would be another; leave out the hull, "
+                       "or give the outline as lines",
+                       InputError);
+}
+
 TEST_CASE("polygons that overlap are one domain, in the region of the last that has one") {
   Pslg two;
   two.regions = {{{}, 5, 0}, {{}, 6, 0}};
