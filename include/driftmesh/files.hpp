@@ -23,6 +23,7 @@ struct InputFile {
   /// "UTM zone 18N": of coordinates that the file has in degrees, or that it names. Empty: it is not known, and
   /// coordinates are those of the file.
   std::string projection;
+  std::vector<std::string> warnings{};  ///< about what the author of the file may not have meant
 };
 
 /// Reads a domain: GeoJSON (.geojson, .json), by GDAL shapefiles and others that GIS have (.shp, .gpkg, .fgb, .gml,

@@ -1,13 +1,13 @@
 #include "geojson/geojson.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "driftmesh/error.hpp"
+#include "gis/geographic_system.hpp"
 #include "gis/transverse_mercator.hpp"
 
 namespace driftmesh {
@@ -57,13 +57,9 @@ class FeatureReader {
   void read_system(const Json& root) {
     const auto name = Json::json_pointer("/crs/properties/name");
     if (!root.is_object() || !root.contains(name) || !root[name].is_string()) return;
-    const auto& text = root[name].get_ref<const std::string&>();
-    found_.in_degrees = text.find("CRS84") != std::string::npos || text.ends_with(":4326");
-    int code = 0;
-    const std::size_t colon = text.rfind(':');
-    if (text.find("EPSG") == std::string::npos || colon == std::string::npos) return;
-    std::from_chars(text.data() + colon + 1, text.data() + text.size(), code);
-    if (const auto zone = utm_zone_of_epsg(code)) found_.projection = zone->name();
+    found_.system = root[name].get<std::string>();
+    found_.in_degrees = is_geographic_system(found_.system);
+    if (const auto zone = utm_zone_of_epsg(epsg_code_in(found_.system))) found_.projection = zone->name();
   }
 
   [[nodiscard]] std::string type_of(const Json& object) const {

@@ -36,6 +36,7 @@ struct GeoFeatures {
   Names names;             ///< of markers and regions
   bool in_degrees = true;  ///< longitudes and latitudes, as the format has it, unless an old "crs" says otherwise
   std::string projection;  ///< the UTM zone that the "crs" names by its EPSG code; empty: none
+  std::string system;      ///< what the "crs" names; empty: nothing
 };
 
 // The markers that the property "boundary" stands for: "land", "island", "open".

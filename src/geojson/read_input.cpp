@@ -1,9 +1,11 @@
 #include "geojson/read_input.hpp"
 
+#include <cmath>
 #include <filesystem>
 
 #include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
+#include "geojson/each_point.hpp"
 #include "geojson/geojson.hpp"
 #include "geojson/rings_to_pslg.hpp"
 #include "gis/vector_file.hpp"
@@ -22,9 +24,25 @@ bool holds_input(const std::string& path) {
   return !std::filesystem::exists(std::filesystem::path(path).replace_extension(".ele"));
 }
 
+namespace {
+
+/// Whether plane coordinates could as well be longitudes and latitudes, in a system that is known neither as one of
+/// them nor as one of meters.
+bool could_be_degrees(GeoFeatures& features) {
+  bool could_be = !features.in_degrees && features.projection.empty() && features.system != kInMeters;
+  for_each_point(features, [&](const Point& p) { could_be = could_be && std::abs(p.x) <= 180 && std::abs(p.y) <= 90; });
+  return could_be;
+}
+
+}  // namespace
+
 InputFile parse_geojson_input(const std::string& file, std::string_view text) {
   GeoFeatures features = parse_geojson(file, text);
   InputFile input;
+  if (could_be_degrees(features))
+    input.warnings.push_back("coordinates in the system '" + features.system +
+                             "' are taken for those of a plane, but look like degrees; if they are, convert the file: "
+                             "ogr2ogr -t_srs EPSG:4326");
   input.projection = features.in_degrees ? project(features, file) : features.projection;
   input.pslg = to_pslg(features);
   return input;
@@ -34,7 +52,7 @@ InputFile read_geometry(const std::string& path, const std::string& layers) {
   if (is_vector_file(path)) return parse_geojson_input(path, vector_as_geojson(path, layers));
   if (!layers.empty()) throw InputError({path}, "has no layers", "name layers of files that have some, such as .gpkg");
   if (is_geojson(path)) return parse_geojson_input(path, read_file(path));
-  return {read_poly(path), {}};
+  return {read_poly(path), {}, {}};
 }
 
 std::vector<std::string> geometry_files(const std::string& path) {

@@ -8,6 +8,8 @@
 
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
+#include "geojson/dateline.hpp"
+#include "geojson/each_point.hpp"
 #include "geometry/box.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/segment_geometry.hpp"
@@ -19,14 +21,6 @@ namespace driftmesh {
 namespace {
 
 constexpr double kFarthest = 40;  // degrees from the middle
-
-template <class Visit>
-void for_each_point(GeoFeatures& features, const Visit& visit) {
-  for (GeoFeatures::Polygon& polygon : features.polygons)
-    for (PolygonRing& ring : polygon.rings) std::ranges::for_each(ring, visit);
-  for (GeoFeatures::Line& line : features.lines) std::ranges::for_each(line.points, visit);
-  std::ranges::for_each(features.points, visit);
-}
 
 /// Numbers points, segments and regions, each once.
 class PslgBuilder {
@@ -132,22 +126,24 @@ class VerticesOnEdges {
 }  // namespace
 
 std::string project(GeoFeatures& features, const std::string& file) {
-  Box box;
-  for_each_point(features, [&](Point& p) {
-    if (std::abs(p.x) > 180 || std::abs(p.y) > 90)
+  for_each_point(features, [&](const Point& p) {
+    if (std::abs(p.x) > 360 || std::abs(p.y) > 90)
       throw InputError({file, 0}, "has coordinates that are no longitude and latitude",
                        "GeoJSON is in degrees; for other coordinates, name their system in a \"crs\"");
     if (p.y > 84 || p.y < -80)
       throw InputError({file, 0}, "reaches beyond 84 degrees north or 80 degrees south, where UTM ends",
                        "project it yourself, and name the system in a \"crs\"");
-    box.extend(p);
   });
+  unwrap_longitudes(features);
+  join_at_dateline(features);
+  Box box;
+  for_each_point(features, [&](const Point& p) { box.extend(p); });
   const double middle = (box.low.x + box.high.x) / 2;
   const UtmZone zone = utm_zone_of(middle, (box.low.y + box.high.y) / 2);
-  if (box.high.x - zone.central_meridian() > kFarthest || zone.central_meridian() - box.low.x > kFarthest)
-    throw InputError(
-        {file, 0}, "spans too many degrees of longitude for one UTM zone",
-        "cut it at the antimeridian if it crosses that, or project it yourself and name the system in a \"crs\"");
+  const double off = std::remainder(middle - zone.central_meridian(), 360), half = (box.high.x - box.low.x) / 2;
+  if (half + std::abs(off) > kFarthest)
+    throw InputError({file, 0}, "spans too many degrees of longitude for one UTM zone",
+                     "project it yourself and name the system in a \"crs\"");
   VerticesOnEdges(features).insert();
   for_each_point(features, [&](Point& p) { p = utm(p.x, p.y, zone); });
   return zone.name();

@@ -43,11 +43,14 @@ class GdalRaster final : public RasterRows {
         gdal_.OCTNewCoordinateTransformation(system.get(), own),
         [&gdal = gdal_](OGRCoordinateTransformationH t) { gdal.OCTDestroyCoordinateTransformation(t); });
     if (to_own == nullptr) fail(quiet.message("lies in an unknown coordinate system"), "reproject it with gdalwarp");
-    return [this, to_own](const Point& p) {
+    const bool in_degrees = gdal_.OSRIsGeographic(own) != 0;
+    const double middle = frame_.first.x + frame_.dx * static_cast<double>(frame_.columns - 1) / 2;
+    return [this, to_own, in_degrees, middle](const Point& p) {
       const QuietGdal quiet_here(gdal_);
       Point place = p;
       if (gdal_.OCTTransform(to_own.get(), 1, &place.x, &place.y, nullptr) == 0)
         fail("cannot be placed in the domain's zone", "reproject it with gdalwarp");
+      if (in_degrees) place.x = middle + std::remainder(place.x - middle, 360);  // as the raster counts longitudes
       return place;
     };
   }

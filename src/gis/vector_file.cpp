@@ -90,7 +90,7 @@ class VectorReader {
     if (gdal_.OSRIsProjected(system) != 0 && gdal_.OSRGetLinearUnits(system, nullptr) == 1) {
       int north = 0;
       const int zone = gdal_.OSRGetUTMZone(system, &north);
-      if (zone == 0) return "meters";
+      if (zone == 0) return kInMeters;
       const int code = UtmZone{zone, north != 0}.epsg();
       transform(system, code);  // from another datum: the zone's number says nothing about that
       return "EPSG:" + std::to_string(code);

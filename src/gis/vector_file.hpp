@@ -11,6 +11,9 @@ namespace driftmesh {
 /// The files that are read for it: those beside a shapefile, too, as far as they exist.
 [[nodiscard]] std::vector<std::string> vector_files(const std::string& path);
 
+/// What the "crs" of vector_as_geojson names for coordinates in meters that no code of UTM stands for.
+inline constexpr const char* kInMeters = "meters";
+
 /// The features of such a file as the text of GeoJSON, in order, with their fields as properties in lower case. Fields
 /// without a value and empty texts are left out. Coordinates in a UTM zone become those of the zone on WGS 84, which a
 /// "crs" names by its code; in another projection in meters, and where the system is not known, they remain as they

@@ -18,9 +18,9 @@ namespace driftmesh::job {
 namespace {
 
 InputFile raw_input(const Request::Input& input, const Given& given) {
-  if (given.input != nullptr) return {*given.input, {}};
+  if (given.input != nullptr) return {*given.input, {}, {}};
   if (input.generator.empty()) return read_input(input.file, input.layers);
-  return {generate(input.generator, input.parameters), {}};
+  return {generate(input.generator, input.parameters), {}, {}};
 }
 
 RepairOptions repairs_asked(const Request::Input& asked) {
@@ -83,6 +83,7 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   domain.pslg = std::move(input.pslg);
   domain.projection = std::move(input.projection);
   name_markers_and_regions(request, domain.pslg);
+  warn(request, input.warnings, watch);
   domain.repairs =
       timed(watch, "repair", [&] { return repair(domain.pslg, input_name(request), repairs_asked(request.input)); });
   const std::vector<std::string> warnings = std::exchange(domain.repairs.warnings, {});

@@ -73,6 +73,12 @@ double narrowing(const Box& window) {
   return std::max(std::cos((window.low.y + window.high.y) / 2 * std::numbers::pi / 180), 0.01);
 }
 
+/// Whether longitudes jump in an image of a domain, which is never so wide.
+bool wraps(const Box& window) {
+  return window.low.y > -91 && window.high.y < 91 && window.low.x > -370 && window.high.x < 370 &&
+         window.high.x - window.low.x > 180;
+}
+
 /// Throws LimitError with the name of the file if its values are absurdly dense.
 std::shared_ptr<const Raster> resampled(const Raster& raster, const PlaceMap& to_source, const Box& domain,
                                         const std::string& path) {
@@ -96,6 +102,9 @@ OpenedRaster open_raster(const std::string& path, const RasterPlace& place) {
   if (place.zone) to_source = rows->from_zone(*place.zone);
   const Box domain = widened(place.domain);
   const Box window = to_source ? image_of(domain, to_source) : domain;
+  if (to_source && wraps(window))
+    throw InputError({path}, "ends within the domain, where longitudes go once around the globe",
+                     "give one whose longitudes count on there: gdalwarp -t_srs '+proj=longlat +lon_wrap=180'");
   const Box extent = extent_of(rows->frame());
   if (!window.overlaps(extent))
     throw InputError({path}, "lies elsewhere than the domain",
