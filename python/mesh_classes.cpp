@@ -243,8 +243,16 @@ void add_mesh(py::module_& module) {
            [](const Mesh& v, py::handle self) { return view(v.ranks, self); });
   add_names(mesh);
   mesh.def(
-      "write", [](const Mesh& v, const std::filesystem::path& path) { write_mesh(v, path.string()); }, py::arg("path"),
-      py::call_guard<py::gil_scoped_release>(),
+      "write",
+      [](const Mesh& v, const std::filesystem::path& path) {
+        std::vector<std::string> warnings;
+        {
+          const py::gil_scoped_release others_run;
+          write_mesh(v, path.string(), {.warn = [&](const std::string& text) { warnings.push_back(text); }});
+        }
+        for (const std::string& text : warnings) py::module_::import("driftmesh._errors").attr("warn")(text);
+      },
+      py::arg("path"),
       "Write the format that the extension names: .vtu, .msh, or Triangle's .node, .ele, ... Files appear only when "
       "complete.");
   mesh.def("__repr__", [](const Mesh& v) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -49,10 +50,13 @@ void write_poly(const Pslg& pslg, const std::string& path);
 
 /// Optional content of a mesh file.
 struct WriteOptions {
-  std::vector<Point> holes{};                 ///< a point in each hole, for Triangle's .poly; other formats need none
-  bool ascii = false;                         ///< .msh as text, for programs that read no binary one
-  std::vector<std::int32_t> open_boundary{};  ///< markers of edges that are open sea, for .14, .grd and .gr3
-  bool ghost_layer = false;                   ///< pieces of .pvtu with a ring of ghost triangles; a whole mesh has none
+  std::vector<Point> holes{};  ///< a point in each hole, for Triangle's .poly; other formats need none
+  bool ascii = false;          ///< .msh as text, for programs that read no binary one
+  /// Markers of edges that are open sea, for .14, .grd and .gr3. None: those of markers that are called "open".
+  std::vector<std::int32_t> open_boundary{};
+  bool ghost_layer = false;  ///< pieces of .pvtu with a ring of ghost triangles; a whole mesh has none
+  /// Is told what the format cannot hold of the boundaries of a mesh, and what its solvers will refuse.
+  std::function<void(const std::string&)> warn{};
 };
 
 /// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, .h5 (with an .xdmf beside it), .su2,

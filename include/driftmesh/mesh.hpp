@@ -24,6 +24,14 @@ struct Mesh {
     std::int32_t marker = 0;  ///< that of the segment
     friend bool operator==(const Edge&, const Edge&) = default;
   };
+  /// Edges of the boundary that water flows over, one after the other, as ADCIRC has them.
+  struct Weir {
+    std::int32_t type = 0;             ///< ADCIRC's IBTYPE: 3, 13, 23; with two sides 4, 24, 64; with pipes 5, 25
+    std::vector<std::int32_t> points;  ///< indices of the points along it
+    std::vector<std::int32_t> across;  ///< empty, or the point on the other side for each
+    std::vector<double> values;        ///< for each point its 2, 3 or 6 heights, coefficients and diameters
+    friend bool operator==(const Weir&, const Weir&) = default;
+  };
 
   std::vector<Point> points;                           ///< in the coordinates of the input
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< vertex indices, counterclockwise
@@ -33,6 +41,7 @@ struct Mesh {
   std::int32_t attributes_per_point = 0;
   std::vector<double> regions;  ///< empty, or the attribute of each triangle's region; 0 outside all regions
   Names names;                  ///< of markers and regions, also of those that do not occur
+  std::vector<Weir> weirs;      ///< of a grid of ADCIRC that was read; only .14 and .grd hold them
 
   // Only for a mesh made in subdomains, or a rank's piece of one.
   std::vector<std::int64_t> numbers;     ///< empty, or the number of each point of a piece in the whole mesh

@@ -1,4 +1,5 @@
 #include <cstddef>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -55,58 +56,62 @@ void run_convert(const ConvertOptions& options) {
   names.regions.merge(mesh.names.regions);
   mesh.names = std::move(names);
   if (options.boundary_only) keep_boundary(mesh);
-  write_mesh(mesh, options.output, options.writing);
+  WriteOptions writing = options.writing;
+  writing.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
+  write_mesh(mesh, options.output, writing);
 }
 
 }  // namespace
 
 cli::Command convert_command() {
   const auto options = std::make_shared<ConvertOptions>();
-  return {.name = "convert",
-          .summary = "Write a mesh in another format",
-          .options = {{.kind = cli::Option::Kind::kPositional,
-                       .name = "input",
-                       .value = "INPUT",
-                       .help = std::string("The mesh: ") + kMeshFiles,
-                       .required = true,
-                       .completes = cli::Option::Completes::kFile,
-                       .take = cli::into(options->input)},
-                      {.kind = cli::Option::Kind::kPositional,
-                       .name = "output",
-                       .value = "OUTPUT",
-                       .help = "The new file; its extension selects the format",
-                       .required = true,
-                       .completes = cli::Option::Completes::kFile,
-                       .take = cli::into(options->output)},
-                      {.kind = cli::Option::Kind::kFlag,
-                       .name = "ascii",
-                       .help = "Write .msh as text, for programs that read no binary one (deal.II)",
-                       .take = cli::into(options->writing.ascii)},
-                      {.kind = cli::Option::Kind::kFlag,
-                       .name = "boundary-only",
-                       .help = "Leave out segments inside of the domain, for programs that refuse them (deal.II)",
-                       .take = cli::into(options->boundary_only)},
-                      {.name = "open-boundary",
-                       .value = "MARKERS",
-                       .help = "Markers of the segments that are open sea, in .14, .grd and .gr3; others are land",
-                       .take = cli::into(options->writing.open_boundary)},
-                      {.name = "marker-name",
-                       .value = "MARKER=NAME",
-                       .help = "What a marker of segments is called in files that can hold names, such as 5=inlet",
-                       .repeats = true,
-                       .take = into_names(options->names.markers, marker_from)},
-                      {.name = "region-name",
-                       .value = "REGION=NAME",
-                       .help = "What a region is called in files that can hold names, such as 10=land",
-                       .repeats = true,
-                       .take = into_names(options->names.regions, region_from)},
-                      allow_outside_option(options->reading)},
-          .examples = {"driftmesh convert bay.vtu bay.msh"},
-          .exit_codes = "0 done, 1 error, 2 wrong usage",
-          .run = [options](cli::Call&) {
-            run_convert(*options);
-            return 0;
-          }};
+  return {
+      .name = "convert",
+      .summary = "Write a mesh in another format",
+      .options = {{.kind = cli::Option::Kind::kPositional,
+                   .name = "input",
+                   .value = "INPUT",
+                   .help = std::string("The mesh: ") + kMeshFiles,
+                   .required = true,
+                   .completes = cli::Option::Completes::kFile,
+                   .take = cli::into(options->input)},
+                  {.kind = cli::Option::Kind::kPositional,
+                   .name = "output",
+                   .value = "OUTPUT",
+                   .help = "The new file; its extension selects the format",
+                   .required = true,
+                   .completes = cli::Option::Completes::kFile,
+                   .take = cli::into(options->output)},
+                  {.kind = cli::Option::Kind::kFlag,
+                   .name = "ascii",
+                   .help = "Write .msh as text, for programs that read no binary one (deal.II)",
+                   .take = cli::into(options->writing.ascii)},
+                  {.kind = cli::Option::Kind::kFlag,
+                   .name = "boundary-only",
+                   .help = "Leave out segments inside of the domain, for programs that refuse them (deal.II)",
+                   .take = cli::into(options->boundary_only)},
+                  {.name = "open-boundary",
+                   .value = "MARKERS",
+                   .help =
+                       "Markers of the segments that are open sea, in .14, .grd and .gr3 (default: those called open)",
+                   .take = cli::into(options->writing.open_boundary)},
+                  {.name = "marker-name",
+                   .value = "MARKER=NAME",
+                   .help = "What a marker of segments is called in files that can hold names, such as 5=inlet",
+                   .repeats = true,
+                   .take = into_names(options->names.markers, marker_from)},
+                  {.name = "region-name",
+                   .value = "REGION=NAME",
+                   .help = "What a region is called in files that can hold names, such as 10=land",
+                   .repeats = true,
+                   .take = into_names(options->names.regions, region_from)},
+                  allow_outside_option(options->reading)},
+      .examples = {"driftmesh convert bay.vtu bay.msh"},
+      .exit_codes = "0 done, 1 error, 2 wrong usage",
+      .run = [options](cli::Call&) {
+        run_convert(*options);
+        return 0;
+      }};
 }
 
 }  // namespace driftmesh::app

@@ -65,7 +65,8 @@ void report(job::Team& team, job::RankRun& run, RunNotes& notes) {
 
 void write_pieces(const Request& request, const DistributedPiece& piece, ExchangeRunner& ranks,
                   const std::vector<Point>& holes, RunNotes& notes) {
-  timed(notes, "write", [&] { write_distributed(ranks, piece, request.output.meshes, writing_of(request, holes)); });
+  timed(notes, "write",
+        [&] { write_distributed(ranks, piece, request.output.meshes, writing_of(request, holes, notes)); });
   if (!request.output.picture.empty())
     timed(notes, "plot", [&] {
       GatherPieces gathering(piece);

@@ -45,9 +45,13 @@ std::vector<std::string> files_written(const Request& request, std::int32_t piec
   return files;
 }
 
-WriteOptions writing_of(const Request& request, const std::vector<Point>& holes) {
+WriteOptions writing_of(const Request& request, const std::vector<Point>& holes, job::Watch& watch) {
   const std::vector<double>& open = request.output.open_boundary;
-  return {holes, request.output.ascii, {open.begin(), open.end()}, request.output.ghost_layer};
+  return {holes,
+          request.output.ascii,
+          {open.begin(), open.end()},
+          request.output.ghost_layer,
+          [&watch](const std::string& warning) { watch.warn(warning); }};
 }
 
 void draw(const Request& request, const Mesh& mesh) {

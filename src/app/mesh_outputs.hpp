@@ -7,6 +7,7 @@
 #include "driftmesh/files.hpp"
 #include "driftmesh/mesh.hpp"
 #include "job/request.hpp"
+#include "job/watch.hpp"
 
 /// The files that `driftmesh mesh` was told to write.
 namespace driftmesh::app {
@@ -31,8 +32,8 @@ void register_files(const Told& told, std::int32_t pieces);
 /// The files of the mesh in so many pieces and of its picture, but not the record.
 [[nodiscard]] std::vector<std::string> files_written(const job::Request& request, std::int32_t pieces);
 
-/// Everything but the mesh that a file of it needs.
-[[nodiscard]] WriteOptions writing_of(const job::Request& request, const std::vector<Point>& holes);
+/// Everything but the mesh that a file of it needs. Warnings go to `watch`, which must outlive the result.
+[[nodiscard]] WriteOptions writing_of(const job::Request& request, const std::vector<Point>& holes, job::Watch& watch);
 
 /// Draws the picture.
 void draw(const job::Request& request, const Mesh& mesh);

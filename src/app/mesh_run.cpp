@@ -61,7 +61,7 @@ void write_whole(const Request& request, Mesh& mesh, const std::vector<Point>& h
   mesh.ranks = {};
   timed(notes, "write", [&] {
     for (const std::string& output : request.output.meshes)
-      if (!is_in_pieces(output)) write_mesh(mesh, output, writing_of(request, holes));
+      if (!is_in_pieces(output)) write_mesh(mesh, output, writing_of(request, holes, notes));
   });
   if (!request.output.picture.empty()) timed(notes, "plot", [&] { draw(request, mesh); });
 }

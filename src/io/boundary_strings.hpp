@@ -8,23 +8,37 @@
 
 namespace driftmesh {
 
-/// Consecutive edges of the boundary, with the domain on their left: counterclockwise around the domain, clockwise
-/// around its islands.
+/// Consecutive edges of the boundary that are of one type, with the domain on their left: counterclockwise around the
+/// domain, clockwise around its islands.
 struct BoundaryString {
-  enum class Kind : std::int32_t {
-    kOpen,    ///< open sea
-    kLand,    ///< of the ring around the domain, or what an open string leaves of an island
-    kIsland,  ///< a whole ring inside of the domain; its first vertex follows the last one
-  };
-  Kind kind = Kind::kLand;
-  /// From end to end, where the next string begins. A ring of one string that is no island ends with its first vertex.
-  std::vector<std::int32_t> vertices;
+  std::int32_t type = 0;
+  bool closed = false;                 ///< a whole ring: the first vertex follows the last one
+  std::vector<std::int32_t> vertices;  ///< each once; at least two
 };
 
-/// The boundary of a mesh in strings, ring by ring in the order of their first edges in the mesh. Each edge with a
-/// triangle on one side only is in exactly one string. Where rings touch in a vertex, each keeps to its own triangles.
-/// `is_open` tells for the marker of an edge whether it is open sea; edges that are not in mesh.edges have marker 0.
-[[nodiscard]] std::vector<BoundaryString> boundary_strings(const Mesh& mesh,
-                                                           const std::function<bool(std::int32_t marker)>& is_open);
+// The types that are told apart here; others are numbers of ADCIRC's (IBTYPE).
+inline constexpr std::int32_t kOpenType = -1;
+inline constexpr std::int32_t kMainlandType = 0;
+inline constexpr std::int32_t kIslandType = 1;
+
+/// Whether boundaries of the type are whole rings: 1, 11, 21.
+[[nodiscard]] bool is_closed_type(std::int32_t type);
+
+struct Boundary {
+  std::vector<BoundaryString> strings;
+  std::vector<std::int32_t> touched;  ///< vertices in which boundaries touch each other or themselves, ascending
+};
+
+/// The type of an edge of the boundary: from `from` to `to`, with the index into mesh.edges, or -1 if it is not there.
+using TypeOfEdge = std::function<std::int32_t(std::int32_t from, std::int32_t to, std::int32_t edge)>;
+
+/// The boundary of a mesh in strings, in the order of the first of their edges in mesh.edges. Each edge with a triangle
+/// on one side only is in exactly one string. The strings make up rings that pass no vertex twice: islands that touch
+/// the shore or each other are rings of their own.
+///
+/// A ring of one type is one closed string if it is an island: of type 1, 11 or 21, as is a ring of type 0 that runs
+/// clockwise. Any other is two strings, joined at both ends, as is every ring of several types: its strings end where
+/// the next one begins, and what is of an island's type is mainland (0, 10, 20) there.
+[[nodiscard]] Boundary boundary_of(const Mesh& mesh, const TypeOfEdge& type_of);
 
 }  // namespace driftmesh

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/read_file.hpp"
+#include "io/boundary_types.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/fort14_format.hpp"
 #include "io/read_checks.hpp"
@@ -36,6 +37,12 @@ class Fields {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) fail(word, what);
     return value;
+  }
+
+  /// Whether another number follows, and no comment.
+  [[nodiscard]] bool has_number() const {
+    const std::size_t begin = line_.find_first_not_of(" \t,\r");
+    return begin != std::string_view::npos && std::string_view("+-.0123456789").find(line_[begin]) != line_.npos;
   }
 
   [[noreturn]] void reject(const std::string& what, const char* next = kDamaged) const {
@@ -141,7 +148,8 @@ class Fort14Parser {
     next_line("the number of nodes on open boundaries");
     for (std::int32_t k = 0; k < strings; ++k) {
       Fields header = next_line("all open boundaries are listed");
-      read_string(count(header, "the number of nodes of an open boundary"), kOpenMarker, false);
+      const std::int32_t nodes = count(header, "the number of nodes of an open boundary");
+      add_string(read_nodes(nodes), marker_of(kOpenType));
     }
   }
 
@@ -154,22 +162,62 @@ class Fort14Parser {
       Fields header = next_line("all land boundaries are listed");
       const std::int32_t nodes = count(header, "the number of nodes of a land boundary");
       const std::int32_t type = header.integer("the type of a land boundary");
-      const bool is_island = type == 1 || type == 11 || type == 21;
-      read_string(nodes, is_island ? kIslandMarker : kLandMarker, is_island);
+      if (type < 0 || type > kLargestType)
+        header.reject("has " + std::to_string(type) + " as the type of a boundary", "types are those of ADCIRC");
+      if (const auto columns = weir_columns(type))
+        read_weir(nodes, type, *columns);
+      else
+        read_land(nodes, type);
     }
   }
 
-  void read_string(std::int32_t nodes, std::int32_t marker, bool closed) {
+  void read_land(std::int32_t nodes, std::int32_t type) {
+    std::vector<std::int32_t> string = read_nodes(nodes);
+    if (is_closed_type(type) && string.size() > 2 && string.front() != string.back()) string.push_back(string.front());
+    add_string(string, marker_of(type));
+  }
+
+  void read_weir(std::int32_t nodes, std::int32_t type, WeirColumns columns) {
+    Mesh::Weir weir{type, {}, {}, {}};
+    bool is_bare = false;  // as in files for SCHISM, which reads the nodes alone
+    for (std::int32_t k = 0; k < nodes; ++k) {
+      Fields line = next_line("all nodes of a boundary are listed");
+      weir.points.push_back(vertex(line));
+      is_bare = is_bare || (k == 0 && !line.has_number());
+      if (is_bare) continue;
+      if (columns.has_pairs) weir.across.push_back(vertex(line));
+      for (std::size_t i = 0; i < columns.numbers; ++i)
+        weir.values.push_back(line.real("a height or a coefficient of a weir"));
+    }
+    if (weir.points.empty()) return;
+    add_string(weir.points, marker_of(type));
+    add_string({weir.across.rbegin(), weir.across.rend()}, marker_of(type));
+    if (!is_bare) mesh_.weirs.push_back(std::move(weir));
+  }
+
+  std::vector<std::int32_t> read_nodes(std::int32_t nodes) {
     std::vector<std::int32_t> string;
     for (std::int32_t k = 0; k < nodes; ++k) {
       Fields line = next_line("all nodes of a boundary are listed");
       string.push_back(vertex(line));
     }
-    if (closed && string.size() > 2 && string.front() != string.back()) string.push_back(string.front());
+    return string;
+  }
+
+  void add_string(const std::vector<std::int32_t>& string, std::int32_t marker) {
     for (std::size_t i = 1; i < string.size(); ++i)
       if (const auto ends = std::minmax(string[i - 1], string[i]);
           ends.first != ends.second && listed_.emplace(ends.first, ends.second).second)
         mesh_.edges.push_back({string[i - 1], string[i], marker});
+  }
+
+  /// Gives the marker its name.
+  std::int32_t marker_of(std::int32_t type) {
+    if (type == kMainlandType) return kLandMarker;
+    if (type == kIslandType) return kIslandMarker;
+    const std::int32_t marker = type == kOpenType ? kOpenMarker : kTypeMarkers + type;
+    mesh_.names.markers[marker] = name_of_type(type);
+    return marker;
   }
 
   const std::string& file_;

@@ -1,10 +1,15 @@
 #include <algorithm>
 #include <initializer_list>
+#include <map>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "io/boundary_strings.hpp"
+#include "io/boundary_types.hpp"
 #include "io/file_sink.hpp"
 #include "io/fort14_format.hpp"
+#include "pslg/describe.hpp"
 
 namespace driftmesh {
 namespace {
@@ -67,33 +72,76 @@ void write_open(FileSink& sink, const Strings& open) {
   }
 }
 
-void write_land(FileSink& sink, const Strings& land) {
-  write_line(sink, {land.size()}, "number of land boundaries");
-  write_line(sink, {nodes_of(land)}, "number of nodes on land boundaries");
+void write_weir(FileSink& sink, const Mesh::Weir& weir) {
+  write_line(sink, {weir.points.size(), static_cast<std::size_t>(weir.type)}, "number of nodes on this weir, type");
+  const std::size_t width = weir.values.size() / weir.points.size();
+  for (std::size_t i = 0; i < weir.points.size(); ++i) {
+    sink.number(weir.points[i] + 1);
+    if (!weir.across.empty()) {
+      sink.character(' ');
+      sink.number(weir.across[i] + 1);
+    }
+    for (std::size_t k = 0; k < width; ++k) {
+      sink.character(' ');
+      sink.number(weir.values[i * width + k]);
+    }
+    sink.character('\n');
+  }
+}
+
+/// Weirs come last. ADCIRC counts the nodes on both of their sides.
+void write_land(FileSink& sink, const Strings& land, std::span<const Mesh::Weir> weirs) {
+  std::size_t nodes = nodes_of(land);
+  for (const Mesh::Weir& weir : weirs) nodes += weir.points.size() + weir.across.size();
+  write_line(sink, {land.size() + weirs.size()}, "number of land boundaries");
+  write_line(sink, {nodes}, "number of nodes on land boundaries");
   for (const BoundaryString& string : land) {
-    const bool is_island = string.kind == BoundaryString::Kind::kIsland;
-    write_line(sink, {string.vertices.size(), is_island ? std::size_t{1} : std::size_t{0}},
-               is_island ? "number of nodes of this island, type" : "number of nodes on this land boundary, type");
+    write_line(sink, {string.vertices.size(), static_cast<std::size_t>(string.type)},
+               string.closed ? "number of nodes of this island, type" : "number of nodes on this land boundary, type");
     write_vertices(sink, string);
   }
+  for (const Mesh::Weir& weir : weirs) write_weir(sink, weir);
+}
+
+/// Tells what the file does not hold, or its readers refuse.
+void warn(const Mesh& mesh, const std::string& path, const Boundary& boundary, bool has_weirs,
+          const WriteOptions& options) {
+  if (!options.warn) return;
+  if (const auto& touched = boundary.touched; !touched.empty()) {
+    const std::string more = touched.size() > 1 ? " and in " + std::to_string(touched.size() - 1) + " more" : "";
+    options.warn(path + ": boundaries touch in node " + std::to_string(touched.front() + 1) + " " +
+                 coordinates(mesh.points[static_cast<std::size_t>(touched.front())]) + more +
+                 "; SCHISM stops at such nodes, so move the boundaries apart");
+  }
+  std::map<std::int32_t, std::size_t> lost = count_types(mesh);
+  std::erase_if(lost, [](const auto& count) { return !weir_columns(count.first); });
+  if (has_weirs)
+    for (const Mesh::Weir& weir : mesh.weirs) lost.erase(weir.type);
+  if (!lost.empty())
+    options.warn(path + ": weirs become land: " + list_of_types(lost) + "; " +
+                 (has_weirs ? "the mesh has no heights for them" : "SCHISM has none"));
 }
 
 }  // namespace
 
-void write_fort14(const Mesh& mesh, const std::string& path, std::span<const std::int32_t> open) {
-  Strings strings =
-      boundary_strings(mesh, [&](std::int32_t marker) { return std::ranges::find(open, marker) != open.end(); });
-  const auto land = std::stable_partition(strings.begin(), strings.end(), [](const BoundaryString& string) {
-    return string.kind == BoundaryString::Kind::kOpen;
-  });
+void write_fort14(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
+  const bool has_weirs = !path.ends_with(".gr3");
+  const EdgeTypes types(mesh, options.open_boundary, has_weirs);
+  const Boundary boundary = boundary_of(
+      mesh, [&](std::int32_t from, std::int32_t to, std::int32_t edge) { return types.of(from, to, edge); });
+  Strings open, land;
+  for (const BoundaryString& string : boundary.strings)
+    if (string.type != EdgeTypes::kWeirType) (string.type == kOpenType ? open : land).push_back(string);
+  std::ranges::stable_partition(land, [](const BoundaryString& string) { return !string.closed; });  // islands last
   FileSink sink(path);
   sink.text("driftmesh\n");
   write_line(sink, {mesh.triangles.size(), mesh.points.size()}, "number of elements and nodes");
   write_nodes(sink, mesh);
   write_triangles(sink, mesh);
-  write_open(sink, {strings.begin(), land});
-  write_land(sink, {land, strings.end()});
+  write_open(sink, open);
+  write_land(sink, land, has_weirs ? std::span<const Mesh::Weir>(mesh.weirs) : std::span<const Mesh::Weir>());
   sink.commit();
+  warn(mesh, path, boundary, has_weirs, options);
 }
 
 }  // namespace driftmesh

@@ -1,10 +1,12 @@
 #include "io/mesh_file.hpp"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
+#include "io/boundary_types.hpp"
 #include "io/fort14_format.hpp"
 #include "io/hdf5_format.hpp"
 #include "io/mfem_format.hpp"
@@ -57,6 +59,18 @@ Format format_of(const std::string& path) {
   return format;
 }
 
+/// Tells what the format has no place for of the types of boundaries.
+void warn_of_lost_types(const Mesh& mesh, Format format, const std::string& path, const WriteOptions& options) {
+  if (!options.warn || format == Format::kFort14) return;
+  std::map<std::int32_t, std::size_t> lost = count_types(mesh);
+  const bool has_names = format != Format::kTriangle && format != Format::kMfem;
+  if (!lost.empty() && !has_names)
+    options.warn(path + ": has no place for types of boundaries, of which markers remain: " + list_of_types(lost));
+  std::erase_if(lost, [](const auto& count) { return !weir_columns(count.first); });
+  if (!mesh.weirs.empty() && has_names)
+    options.warn(path + ": has no place for the heights and coefficients of weirs: " + list_of_types(lost));
+}
+
 std::string without_extension(const std::string& path) {
   return std::filesystem::path(path).replace_extension().string();
 }
@@ -65,7 +79,9 @@ std::string without_extension(const std::string& path) {
 
 void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
   check_names(mesh.names, path);
-  switch (format_of(path)) {
+  const Format format = format_of(path);
+  warn_of_lost_types(mesh, format, path, options);
+  switch (format) {
     case Format::kVtu:
       return write_vtu(mesh, path);
     case Format::kPvtu:
@@ -81,7 +97,7 @@ void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& o
     case Format::kMfemParts:
       throw InputError({path, 0}, "is for a mesh on ranks", "this mesh is in one piece; write a .mesh");
     case Format::kFort14:
-      return write_fort14(mesh, path, options.open_boundary);
+      return write_fort14(mesh, path, options);
     case Format::kTriangle:
       return write_triangle_format(mesh, without_extension(path), options.holes);
   }

@@ -315,7 +315,7 @@ Section output_section() {
                "Write the pieces of .pvtu with a ring of triangles of their neighbors, marked as ghosts",
                option("ghost-layer")),
            key("output.open-boundary", &R::output, &R::Output::open_boundary,
-               "Markers of the segments that are open sea, in .14, .grd and .gr3; other segments are land",
+               "Markers of the segments that are open sea, in .14, .grd and .gr3 (none: those of markers called open)",
                in(INT32_MIN, INT32_MAX), option("open-boundary", "MARKERS")),
            key("output.depth", &R::output, &R::Output::depth,
                "Give each point the value of the raster of this name as its attribute, the depth in .14, .grd and .gr3",
