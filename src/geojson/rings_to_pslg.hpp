@@ -7,7 +7,8 @@
 
 namespace driftmesh {
 
-/// Degrees to meters in the UTM zone of the middle of everything; returns its name. Edges are straight in degrees,
+/// Degrees to meters in the UTM zone of the middle of everything; returns its name. Across the 180th meridian
+/// longitudes count on, and polygons that were cut there are joined (dateline.hpp). Edges are straight in degrees,
 /// where vertices of others may lie on them, and remain straight in meters: so each first becomes several edges with
 /// these vertices between them. Throws InputError for `file` where coordinates are no longitudes and latitudes, lie
 /// beyond 84 degrees north or 80 south, or more than 40 degrees from the middle, where the projection is no longer true
