@@ -133,13 +133,17 @@ DormantMesh::DormantMesh(const SubdomainMesh& part) {
     }
   names_ = names_of(part, number, given_.size());
   BitWriter bits(trees_);
+  std::vector<HalfEdge> entrances;
   for (const RootSegment& root : mesh.roots)
     visit_tree(mesh, root.tree, [&](SubsegmentId s) {
       const Subsegment& segment = mesh.subsegments[s];
       bits.put(!segment.is_leaf());
-      if (!segment.is_leaf()) number[mesh.subsegments[segment.child].vertex[1]] = VertexId{fixed++};
+      if (!segment.is_leaf())
+        number[mesh.subsegments[segment.child].vertex[1]] = VertexId{fixed++};
+      else if ((segment.half[0] == kNone) != (segment.half[1] == kNone))
+        entrances.push_back(segment.half[0] == kNone ? segment.half[1] : segment.half[0]);
     });
-  triangles_ = encode_triangles(mesh, number, fixed, border());
+  triangles_ = encode_triangles(mesh, number, fixed, border(), entrances);
   has_regions_ = mesh.region.empty() ? 0 : 1;
   free_.resize(to_index(triangles_.vertices - fixed));
   for (const VertexId v : ids_of(number))

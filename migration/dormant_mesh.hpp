@@ -14,9 +14,9 @@ namespace driftmesh {
 /// compressed form until it is needed again. Triangles are coded in one byte each (triangle_code.hpp); points on
 /// segments are given by the shape of their root's tree, two bits each, since their coordinates follow from it; given
 /// data (corners, roots) are stored as numbers of a few bytes. Vertices are renumbered: given ones in their order, then
-/// those on segments, root by root and each after its parent, then the free ones. Slots, and with them the order of
-/// further refinement, are not preserved; the mesh is: triangles, constrained edges with roots and paths, regions,
-/// origins, to the last bit.
+/// those on segments, root by root and each after its parent, then the free ones. The mesh is preserved to the last
+/// bit: triangles, constrained edges with roots and paths, regions, origins. Slots are not: waking puts everything into
+/// one canonical order, which depends on the mesh alone and not on how its slots came about.
 class DormantMesh {
  public:
   DormantMesh() = default;

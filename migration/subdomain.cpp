@@ -115,6 +115,10 @@ std::uint64_t Subdomain::packed_bytes() const {
 SliceWork Subdomain::work(std::int64_t insertions, std::vector<SplitPoint<GlobalRootId>>& said) {
   SliceWork done;
   if (dormant_) done.woken = triangles();
+  if (body_ && refined_ && !pending_.empty()) {
+    reorder();
+    done.reordered = triangles();
+  }
   wake();
   if (!body_) {
     make_body();
@@ -141,18 +145,31 @@ SliceWork Subdomain::work(std::int64_t insertions, std::vector<SplitPoint<Global
 
 void Subdomain::sleep() {
   if (!body_ || active()) return;
-  const RefinerState& refiner = body_->refiner.state();
-  auto dormant = std::make_unique<DormantBody>();
-  dormant->mesh = DormantMesh(body_->part);
-  const auto waking = DormantMesh::waking_subsegments(body_->part.mesh);
-  for (const SubsegmentId s : refiner.unsplittable) dormant->unsplittable.push_back(waking[s]);
-  std::ranges::sort(dormant->unsplittable);
-  dormant->max_triangles = refiner.max_triangles;
-  dormant->counters = refiner.counters;
-  dormant->forecast = body_->forecast;
+  auto dormant = std::make_unique<DormantBody>(body_at_rest());
   if (context_->scratch != nullptr) stored_.emplace(*context_->scratch, dormant->mesh.take());
   dormant_ = std::move(dormant);
   body_.reset();
+}
+
+/// Puts everything into the order that it would have after sleep.
+void Subdomain::reorder() {
+  DormantBody rest = body_at_rest();
+  body_.reset();  // its memory is that of the new one
+  body_ = std::make_unique<Body>(std::move(rest), context_->bounds);
+}
+
+/// The dormant form of an awake subdomain that has met its bounds.
+DormantBody Subdomain::body_at_rest() const {
+  const RefinerState& refiner = body_->refiner.state();
+  DormantBody dormant;
+  dormant.mesh = DormantMesh(body_->part);
+  const auto waking = DormantMesh::waking_subsegments(body_->part.mesh);
+  for (const SubsegmentId s : refiner.unsplittable) dormant.unsplittable.push_back(waking[s]);
+  std::ranges::sort(dormant.unsplittable);
+  dormant.max_triangles = refiner.max_triangles;
+  dormant.counters = refiner.counters;
+  dormant.forecast = body_->forecast;
+  return dormant;
 }
 
 SubdomainMesh Subdomain::woken() const {
@@ -178,11 +195,15 @@ void Subdomain::wake() {
 }
 
 /// Whether it already has the point.
-bool Subdomain::sleeps_through(const SplitPoint<GlobalRootId>& split) const {
+bool Subdomain::has(const SplitPoint<GlobalRootId>& split) const {
+  if (!started()) return false;
   const auto roots = context_->decomposition->roots_of(id_);
   const auto place = std::ranges::lower_bound(roots, split.root);
-  return place != roots.end() && *place == split.root &&
-         dormant_->mesh.holds(static_cast<RootId>(place - roots.begin()), split.path);
+  if (place == roots.end() || *place != split.root) return false;
+  const auto root = static_cast<RootId>(place - roots.begin());
+  if (dormant_) return dormant_->mesh.holds(root, split.path);
+  const Triangulation& mesh = body_->part.mesh;
+  return !mesh.subsegments[mesh.descend(root, split.path)].is_leaf();
 }
 
 Bytes Subdomain::pack() const {

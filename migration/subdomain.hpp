@@ -33,6 +33,7 @@ struct SliceWork {
   std::int64_t triangles = 0;  ///< more than before
   std::int64_t prepared = 0;   ///< triangles of the initial triangulation, if it was made in this slice
   std::int64_t woken = 0;      ///< triangles of the dormant mesh, if it was woken in this slice
+  std::int64_t reordered = 0;  ///< triangles put into canonical order, if it was awake and refines on after rest
 };
 
 /// One subdomain: it refines itself, reports the points it inserts on shared edges, and inserts those of its neighbors.
@@ -42,6 +43,9 @@ struct SliceWork {
 /// and any number of times: the points on a shared edge are a set that only grows (docs/protocol.md). When it has
 /// nothing to do it can be put to sleep: it then takes a third of the memory, or less, and wakes by itself when it
 /// receives a point that it does not have.
+///
+/// Sleep, moves and pauses change no bit of the mesh: a subdomain that has met its bounds refines on in the canonical
+/// order of its mesh, which it has after waking and takes on if it never slept.
 class Subdomain {
  public:
   Subdomain(SubdomainId id, const SubdomainContext& context);
@@ -68,7 +72,7 @@ class Subdomain {
 
   /// A neighbor has inserted a point on a shared edge.
   void tell(const SplitPoint<GlobalRootId>& split) {
-    if (!dormant_ || !sleeps_through(split)) pending_.push_back(split);
+    if (!has(split)) pending_.push_back(split);
   }
 
   /// Works for about this many insertions. Points inserted on shared edges are appended to `said`, each after its
@@ -77,8 +81,7 @@ class Subdomain {
   SliceWork work(std::int64_t insertions, std::vector<SplitPoint<GlobalRootId>>& said);
 
   /// Shrinks to the dormant form (see dormant_mesh.hpp), if it has worked and has nothing to do; with a scratch file
-  /// most of it goes there. Refinement after waking, if any, meets the same bounds but need not be bit-identical to
-  /// that without sleep.
+  /// most of it goes there. Refinement after waking, if any, is bit for bit that without sleep.
   void sleep();
   void wake();
   [[nodiscard]] bool dormant() const { return dormant_ != nullptr; }
@@ -104,7 +107,9 @@ class Subdomain {
 
   void make_body();
   [[nodiscard]] DormantBody whole_dormant() const;
-  [[nodiscard]] bool sleeps_through(const SplitPoint<GlobalRootId>& split) const;
+  void reorder();
+  [[nodiscard]] DormantBody body_at_rest() const;
+  [[nodiscard]] bool has(const SplitPoint<GlobalRootId>& split) const;
   void take_in(const SplitPoint<GlobalRootId>& split);
   void say_new_points(std::vector<SplitPoint<GlobalRootId>>& said);
 

@@ -108,11 +108,9 @@ class Encoder {
 }  // namespace
 
 CodedTriangles encode_triangles(const Triangulation& mesh, IdVector<VertexId, VertexId>& number, std::int32_t fixed,
-                                std::span<const BorderEdge> border) {
+                                std::span<const BorderEdge> border, std::span<const HalfEdge> entrances) {
   Encoder encoder(mesh, number, fixed, border);
-  for (const Subsegment& s : mesh.subsegments)
-    if (s.is_leaf() && (s.half[0] == kNone) != (s.half[1] == kNone))
-      encoder.walk_from(s.half[0] == kNone ? s.half[1] : s.half[0]);
+  for (const HalfEdge entrance : entrances) encoder.walk_from(entrance);
   if (to_index(encoder.triangles()) != mesh.live_triangles())
     throw Error("some triangles of a mesh cannot be reached from its border");
   return encoder.take();

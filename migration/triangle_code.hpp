@@ -47,10 +47,11 @@ struct CodedTriangles {
 };
 
 /// Codes the live triangles of `mesh`. `number` gives fixed vertices their numbers and is kNone for the others, which
-/// receive theirs. `border` is that of the domain in these numbers. Throws Error if some triangles cannot be reached
-/// from the domain's border.
+/// receive theirs. `border` is that of the domain in these numbers, `entrances` are its half-edges; the walk starts
+/// from each whose triangle it has not reached yet. Throws Error if it reaches some triangles from none of them.
 [[nodiscard]] CodedTriangles encode_triangles(const Triangulation& mesh, IdVector<VertexId, VertexId>& number,
-                                              std::int32_t fixed, std::span<const BorderEdge> border);
+                                              std::int32_t fixed, std::span<const BorderEdge> border,
+                                              std::span<const HalfEdge> entrances);
 
 /// Calls visit(corners counterclockwise, region label) for each triangle, in the order of the walk. Throws Error for
 /// code that encode_triangles did not make, if it would leave the range of vertices or triangles.

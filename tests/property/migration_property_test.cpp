@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <set>
 #include <string>
@@ -11,11 +12,15 @@
 #include "driftmesh/generate.hpp"
 #include "mesh/digest.hpp"
 #include "mesh/exceptions.hpp"
+#include "mesh/refiner.hpp"
+#include "mesh/renumber.hpp"
 #include "mesh/triangulation_fault.hpp"
+#include "migration/dormant_mesh.hpp"
 #include "migration/packed_form.hpp"
 #include "property/cases.hpp"
 #include "protocol/packed_size.hpp"
 #include "support/random_subdomains.hpp"
+#include "support/restless_rounds.hpp"
 
 // Subdomains that are packed and unpacked at random moments, compared with twins that stay in place: both must reach
 // the same mesh, by the same steps, with the same bytes at every moment.
@@ -197,6 +202,67 @@ TEST_CASE("a subdomain that sleeps whenever it can finishes, and has all points 
   CHECK(woken > slept / 5);
   CHECK(slept_through > slept / 5);
   CHECK(moved > slept / 10);
+}
+
+TEST_CASE("sleep, moves and pauses change no bit of what is refined afterwards") {
+  auto seeds = seeded_generator("one order of refinement");
+  Unrest all;
+  std::int64_t triangles = 0;
+  const auto seen_all = [&] {
+    return std::min({all.pauses, all.slept, all.moved, all.moved_asleep, all.woken, all.told_after_waking,
+                     all.told_without_sleep}) > 20;
+  };
+  for (std::int64_t i = 0; more_cases(i, 40, seen_all()); ++i) {
+    const std::uint64_t seed = seeds() % 100'000;
+    CAPTURE(seed);
+    RandomSubdomains world(seed, static_cast<int>(2 + seed % 9), 1500);
+    SubdomainContext context = world.context();
+    context.presplit = false;
+    context.bounds.min_angle = seed % 3 == 0 ? 26 : 30;
+    RestlessRounds quiet(context, 0), restless(context, seed + 1);
+    for (const SubdomainId k : first_ids<SubdomainId>(world.size())) {
+      quiet.add(k);
+      restless.add(k);
+    }
+    quiet.run();
+    restless.run();
+    CHECK(quiet.states() == restless.states());
+    triangles += quiet.triangles();
+    const Unrest& more = restless.unrest();
+    for (const auto count : {&Unrest::pauses, &Unrest::slept, &Unrest::moved, &Unrest::moved_asleep, &Unrest::woken,
+                             &Unrest::told_after_waking, &Unrest::told_without_sleep})
+      all.*count += more.*count;
+  }
+  MESSAGE(triangles << " triangles, " << all.pauses << " pauses, " << all.slept << " slept, " << all.moved << " moved, "
+                    << all.moved_asleep << " moved asleep, " << all.woken << " woken, " << all.told_after_waking
+                    << " told after waking, " << all.told_without_sleep << " told without sleep");
+  CHECK(seen_all());
+}
+
+TEST_CASE("the order of a mesh that slept depends on the mesh alone") {
+  auto seeds = seeded_generator("canonical order");
+  for (std::int64_t i = case_count(40); i > 0; --i) {
+    const std::uint64_t seed = seeds() % 100'000;
+    CAPTURE(seed);
+    RandomSubdomains world(seed, 2, 500);
+    SubdomainMesh part = subdomain_triangulation(*world.context().decomposition, SubdomainId{0});
+    Refiner(part.mesh, world.context().bounds).refine();
+    const SubdomainMesh woken = DormantMesh(part).wake();
+    CHECK(part.mesh.triangles.size() > 0);
+    for (const SubdomainMesh& again : {DormantMesh(woken).wake(), [&] {
+                                         SubdomainMesh renumbered = part;
+                                         renumber(renumbered.mesh, GivenVertices::kFirst);
+                                         return DormantMesh(renumbered).wake();
+                                       }()}) {
+      const auto same = [](const auto& a, const auto& b) {
+        return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(*a.data())) == 0;
+      };
+      CHECK(same(again.mesh.triangles, woken.mesh.triangles));
+      CHECK(same(again.mesh.points, woken.mesh.points));
+      CHECK(same(again.mesh.region, woken.mesh.region));
+      CHECK(same(again.mesh.subsegments, woken.mesh.subsegments));
+    }
+  }
 }
 
 TEST_CASE("large subdomains that move while refined in blocks end the same") {

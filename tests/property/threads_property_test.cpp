@@ -46,7 +46,7 @@ using Sizes = std::vector<std::unique_ptr<const SizeField>>;
 
 struct Outcome {
   std::uint64_t digest = 0;
-  std::int64_t triangles = 0, moves = 0, splits = 0;
+  std::int64_t triangles = 0, moves = 0, splits = 0, asleep = 0;
   int rounds = 0;
 };
 
@@ -97,9 +97,10 @@ class Case {
     return digest;
   }
 
-  [[nodiscard]] Outcome by_threads(std::int32_t threads, Presplit presplit,
-                                   const RefinementInRounds::Watch& watch = {}) const {
-    const PlanOptions options = options_for(threads, slice_, presplit);
+  [[nodiscard]] Outcome by_threads(std::int32_t threads, Presplit presplit, const RefinementInRounds::Watch& watch = {},
+                                   bool sleep = false) const {
+    PlanOptions options = options_for(threads, slice_, presplit);
+    options.work.sleep = sleep;
     const RunPlan plan = plan_run(decomposition_, bounds_, options, balancer::make_policy);
     const Sizes sizes = fields(threads);
     std::vector<const SizeField*> borrowed;
@@ -109,7 +110,10 @@ class Case {
     check_mesh(refinement.subdomains(), presplit);
     Outcome outcome;
     outcome.rounds = refinement.rounds();
-    for (const auto& [id, subdomain] : refinement.subdomains()) outcome.digest += mesh_digest(subdomain.mesh().mesh);
+    for (const auto& [id, subdomain] : refinement.subdomains()) {
+      outcome.asleep += subdomain.dormant();
+      outcome.digest += mesh_digest(subdomain.dormant() ? subdomain.woken().mesh : subdomain.mesh().mesh);
+    }
     for (const RankOutcome& thread : refinement.outcomes()) {
       outcome.moves += thread.counters.hand_offs;
       outcome.triangles += thread.triangles;
@@ -182,9 +186,9 @@ class Case {
 
 }  // namespace
 
-TEST_CASE("any number of threads makes the mesh that one makes") {
+TEST_CASE("any number of threads makes the mesh that one makes, also of subdomains that sleep") {
   std::mt19937_64 random = seeded_generator("threads");
-  std::int64_t moves = 0, later_rounds = 0, triangles = 0;
+  std::int64_t moves = 0, later_rounds = 0, triangles = 0, asleep = 0;
   for (std::int64_t i = 0; more_cases(i, 150, moves > 50 && later_rounds > 10); ++i) {
     const Case c(random);
     const std::uint64_t expected = c.digest_without_threads();
@@ -194,6 +198,10 @@ TEST_CASE("any number of threads makes the mesh that one makes") {
       const Outcome made = c.by_threads(threads, Presplit::kOff);
       CHECK(made.digest == expected);
       CHECK(c.by_threads(threads, Presplit::kAuto).digest == presplit.digest);
+      if (threads > 2) continue;
+      const Outcome slept = c.by_threads(threads, Presplit::kOff, {}, true);
+      CHECK(slept.digest == expected);
+      asleep += slept.asleep;
       moves += made.moves;
       later_rounds += made.rounds - 1;
       triangles += made.triangles;
@@ -203,6 +211,7 @@ TEST_CASE("any number of threads makes the mesh that one makes") {
               static_cast<long long>(moves), static_cast<long long>(later_rounds));
   CHECK(moves > 50);
   CHECK(later_rounds > 10);
+  CHECK(asleep > 100);
 }
 
 TEST_CASE("crews help their ranks, and where no interface is split by refinement the mesh does not tell") {

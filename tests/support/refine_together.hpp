@@ -5,17 +5,20 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "decompose/subdomain_mesh.hpp"
 #include "mesh/refiner.hpp"
+#include "migration/dormant_mesh.hpp"
 #include "support/split_points.hpp"
 
 namespace driftmesh::testing {
 
 /// Refines all subdomains of a decomposition in one process, as ranks would: each on its own, then split points on
-/// shared roots are exchanged until nothing changes.
+/// shared roots are exchanged until nothing changes. Before a subdomain takes in points of others, it takes on the
+/// canonical order of its mesh.
 struct RefinedTogether {
   IdVector<SubdomainId, SubdomainMesh> parts;
   int rounds = 0;             ///< exchanges with new points
@@ -23,6 +26,17 @@ struct RefinedTogether {
   std::size_t refused = 0;    ///< split points that the other side could not insert
   std::vector<std::string> not_conforming;
 };
+
+/// A refiner of the same mesh that is at rest like `done`, with everything in canonical order.
+inline std::unique_ptr<Refiner> reordered(SubdomainMesh& part, const QualityBounds& bounds, const Refiner& done) {
+  const auto waking = DormantMesh::waking_subsegments(part.mesh);
+  std::unordered_set<SubsegmentId> unsplittable;
+  for (const SubsegmentId s : done.state().unsplittable) unsplittable.insert(waking[s]);
+  part = DormantMesh(part).wake();
+  RefinerState state = RefinerState::at_rest(part.mesh, bounds);
+  state.unsplittable = std::move(unsplittable);
+  return std::make_unique<Refiner>(part.mesh, bounds, std::move(state));
+}
 
 inline RefinedTogether refine_together(const Decomposition& d, const QualityBounds& bounds, int most_rounds = 100) {
   RefinedTogether result;
@@ -41,14 +55,17 @@ inline RefinedTogether refine_together(const Decomposition& d, const QualityBoun
       for (const auto& [root, points] : own.back())
         for (const auto& point : points) all[root].insert(point.first);
     }
-    for (const SubdomainId i : ids_of(d.subdomains))
+    for (const SubdomainId i : ids_of(d.subdomains)) {
+      bool told = false;
       for (const RootId r : ids_of(result.parts[i].roots))
         for (const dyadic::Path path : all[result.parts[i].roots[r]]) {
           if (own[i][result.parts[i].roots[r]].contains(path)) continue;
+          if (!std::exchange(told, true)) refiners[i] = reordered(result.parts[i], bounds, *refiners[i]);
           result.refused += !refiners[i]->add_split_point(r, path);
           ++result.exchanged;
-          changed = true;
         }
+      changed |= told;
+    }
     if (changed) ++result.rounds;
     for (auto& refiner : refiners) refiner->refine();
   }

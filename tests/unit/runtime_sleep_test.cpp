@@ -66,8 +66,9 @@ TEST_CASE("subdomains that sleep when finished make one conforming mesh, in memo
         std::vector<const Subdomain*> all;
         for (const Subdomain& s : awake) all.push_back(&s);
         check_mesh(plan, all);
+        const bool moves = seed % 2 != 0;  // sleepers alone, so that what arrives when depends on who sleeps
         if (!sleep) digest = digest_of(all);
-        if (presplit == Presplit::kOn) CHECK(digest_of(all) == digest);
+        if (presplit == Presplit::kOn || !moves) CHECK(digest_of(all) == digest);
         if (bed == Bed::kMemory) asleep_in_memory = digest_of(all);
         if (bed == Bed::kDisk) CHECK(digest_of(all) == asleep_in_memory);
       }
