@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "decompose/separator_room.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/midpoint.hpp"
 #include "geometry/triangle_geometry.hpp"
@@ -104,42 +105,118 @@ bool halve_shell(Triangulation& mesh, Cavity& cavity, std::int32_t shell) {
   return any;
 }
 
+/// Whether an edge has the room that a separator needs. Walls that meet it are left to angle_at_start.
+class RoomOfEdge {
+ public:
+  RoomOfEdge(const WalledMesh& walled, HalfEdge edge)
+      : walled_(walled),
+        from_(walled.mesh.edge_start(edge)),
+        to_(walled.mesh.edge_end(edge)),
+        room_(walled.at(from_), walled.at(to_)),
+        is_free_(is_free_across(edge) && is_free_across(walled.mesh.twin(edge))) {}
+
+  [[nodiscard]] bool is_free() const { return is_free_; }
+  /// The wall that reaches into the room; kNone if none does, or a point was found first.
+  [[nodiscard]] HalfEdge wall() const { return wall_; }
+
+ private:
+  /// In the triangle of `h`, and beyond its other sides.
+  bool is_free_across(HalfEdge h) {
+    return !room_.contains(walled_.at(walled_.mesh.apex(h))) &&
+           is_free_beyond(half_edge(triangle_of(h), next(index_of(h)))) &&
+           is_free_beyond(half_edge(triangle_of(h), previous(index_of(h))));
+  }
+  bool is_free_beyond(HalfEdge h) {
+    const VertexId u = walled_.mesh.edge_start(h), v = walled_.mesh.edge_end(h);
+    if (!room_.is_entered_by(walled_.at(u), walled_.at(v))) return true;
+    if (!walled_.is_wall(h)) return is_free_across(walled_.mesh.twin(h));
+    if (is_end(u) || is_end(v)) return true;
+    wall_ = h;
+    return false;
+  }
+  [[nodiscard]] bool is_end(VertexId v) const { return v == from_ || v == to_; }
+
+  const WalledMesh& walled_;
+  VertexId from_, to_;
+  SeparatorRoom room_;
+  HalfEdge wall_ = kNone;
+  bool is_free_;
+};
+
 /// The segments next to points that no bridge connects to them yet.
 struct Unreached {
   std::map<SubsegmentId, std::pair<double, Point>> feet;  ///< of each leaf: squared distance and foot of the nearest
   std::set<std::int32_t> shells;                          ///< of segments that cannot be cut at a foot
 };
 
-Unreached find_unreached(const Triangulation& mesh, ConnectedVertices& sets) {
-  Unreached found;
-  for (const TriangleId t : ids_of(mesh.triangles))
-    for (int i = 0; i < 3 && mesh.triangles[t].alive(); ++i) {
-      const HalfEdge h = half_edge(t, i);
-      if (!is_constrained(mesh.twin(h)) || sets.find(mesh.apex(h)) == sets.find(mesh.edge_start(h))) continue;
-      const SubsegmentId s = subsegment_of(mesh.twin(h));
-      const Point &a = mesh.points[mesh.edge_start(h)], &b = mesh.points[mesh.edge_end(h)];
-      const Point& w = mesh.points[mesh.apex(h)];
-      const double along = ((w.x - a.x) * (b.x - a.x) + (w.y - a.y) * (b.y - a.y)) / squared_distance(a, b);
-      if (!(along > 0.02 && along < 0.98)) continue;
-      const std::int32_t shell = mesh.roots[mesh.subsegments[s].root].shell;
-      if (shell != kNone) found.shells.insert(shell);
-      if (shell != kNone) continue;
-      const Point foot{snap_to_zero(a.x + along * (b.x - a.x)), snap_to_zero(a.y + along * (b.y - a.y))};
-      const double distance = squared_distance(w, foot);
-      const auto [entry, is_new] = found.feet.try_emplace(s, distance, foot);
-      if (!is_new && distance < entry->second.first) entry->second = {distance, foot};
-    }
-  return found;
+/// Whether the perpendicular from w to segment ab meets it, and not so near to an end that a bridge to the end, which
+/// makes an angle of at least `angle` with the segment, is as good.
+bool deserves_foot(double along, const Point& w, const Point& a, const Point& b, double angle) {
+  if (along > 0.02 && along < 0.98) return true;
+  const double length = std::sqrt(squared_distance(a, b)), to_end = std::min(along, 1 - along) * length;
+  return to_end > 0 && std::fabs(rounded_cross(a, b, w)) < std::tan(angle) * to_end * length;
 }
 
+class UnreachedSearch {
+ public:
+  UnreachedSearch(const WalledMesh& walled, ConnectedVertices& sets, double angle)
+      : walled_(walled), mesh_(walled.mesh), sets_(sets), angle_(angle) {}
+
+  Unreached run() {
+    for (const TriangleId t : ids_of(mesh_.triangles))
+      for (int i = 0; i < 3 && mesh_.triangles[t].alive(); ++i) {
+        const HalfEdge h = half_edge(t, i);
+        if (is_constrained(mesh_.twin(h)))
+          consider(h, mesh_.apex(h));
+        else if (sets_.find(mesh_.edge_start(h)) != sets_.find(mesh_.edge_end(h)))
+          consider_wall_beside(h);
+      }
+    return std::move(found_);
+  }
+
+ private:
+  /// A perpendicular from vertex v to the segment of half-edge h.
+  void consider(HalfEdge h, VertexId v) {
+    if (sets_.find(v) == sets_.find(mesh_.edge_start(h))) return;
+    const SubsegmentId s = subsegment_of(mesh_.twin(h));
+    const Point &a = mesh_.points[mesh_.edge_start(h)], &b = mesh_.points[mesh_.edge_end(h)];
+    const Point& w = mesh_.points[v];
+    const double along = ((w.x - a.x) * (b.x - a.x) + (w.y - a.y) * (b.y - a.y)) / squared_distance(a, b);
+    if (!deserves_foot(along, w, a, b, angle_)) return;
+    const std::int32_t shell = mesh_.roots[mesh_.subsegments[s].root].shell;
+    if (shell != kNone) found_.shells.insert(shell);
+    if (shell != kNone) return;
+    const Point foot{snap_to_zero(a.x + along * (b.x - a.x)), snap_to_zero(a.y + along * (b.y - a.y))};
+    const double distance = squared_distance(w, foot);
+    const auto [entry, is_new] = found_.feet.try_emplace(s, distance, foot);
+    if (!is_new && distance < entry->second.first) entry->second = {distance, foot};
+  }
+
+  /// The ends of an edge that is no bridge because of a segment beside it may reach that segment.
+  void consider_wall_beside(HalfEdge edge) {
+    const HalfEdge wall = RoomOfEdge(walled_, edge).wall();
+    if (wall == kNone || !is_constrained(mesh_.twin(wall))) return;
+    consider(wall, mesh_.edge_start(edge));
+    consider(wall, mesh_.edge_end(edge));
+  }
+
+  const WalledMesh& walled_;
+  const Triangulation& mesh_;
+  ConnectedVertices& sets_;
+  double angle_;
+  Unreached found_;
+};
+
 /// Cuts segments at the feet of perpendiculars from points that no bridge connects to them yet: the shortest connection
-/// of two parts of the border ends at such a foot or at a convex corner. Shell pieces are halved instead. Returns
-/// whether there were any.
-bool refine_unreached(Triangulation& mesh, ConnectedVertices& sets) {
-  const Unreached found = find_unreached(mesh, sets);
+/// of two parts of the border ends at such a foot or at a convex corner. Shell pieces are halved instead, if at all.
+/// Returns whether anything was cut.
+bool refine_unreached(WalledMesh& walled, ConnectedVertices& sets, double angle, bool may_halve_shells) {
+  const Unreached found = UnreachedSearch(walled, sets, angle).run();
+  Triangulation& mesh = walled.mesh;
   Cavity cavity(mesh);
   bool any = false;
   for (const auto& [s, foot] : found.feet) any |= cut_leaf(mesh, cavity, s, foot.second);
+  if (!may_halve_shells) return any;
   for (const std::int32_t shell : found.shells) any |= halve_shell(mesh, cavity, shell);
   return any;
 }
@@ -166,8 +243,14 @@ double angle_at_start(const WalledMesh& walled, HalfEdge edge) {
   return std::min(smallest, opening(mesh.edge_end(wall), -1));
 }
 
-/// Adds bridges, the shortest first, that keep an angle of at least `bound`.
-void choose_bridges(WalledMesh& walled, ConnectedVertices& sets, double bound) {
+/// What bridges must keep.
+struct BridgeRule {
+  double angle;      ///< with what they meet, at least; radians
+  bool room = true;  ///< whether they need that of separators
+};
+
+/// Adds bridges that keep the rule, the shortest first.
+void choose_bridges(WalledMesh& walled, ConnectedVertices& sets, const BridgeRule& rule) {
   const Triangulation& mesh = walled.mesh;
   struct Candidate {
     double squared_length;
@@ -190,27 +273,30 @@ void choose_bridges(WalledMesh& walled, ConnectedVertices& sets, double bound) {
     const VertexId u = mesh.edge_start(c.edge), v = mesh.edge_end(c.edge);
     const HalfEdge back = mesh.twin(c.edge);
     if (sets.find(u) == sets.find(v)) continue;
-    if (std::min(angle_at_start(walled, c.edge), angle_at_start(walled, back)) < bound) continue;
+    if (std::min(angle_at_start(walled, c.edge), angle_at_start(walled, back)) < rule.angle) continue;
+    if (rule.room && !RoomOfEdge(walled, c.edge).is_free()) continue;
     sets.join(u, v);
     walled.bridge[c.edge] = walled.bridge[back] = true;
   }
 }
 
-/// Adds bridges until everything is connected. Where none keeps the angle, the border is refined further; smaller
-/// angles are the last resort.
+/// Adds bridges until everything is connected. Where none keeps the rule, the border is refined further; smaller
+/// angles, and in the end no rule at all, are the last resort. A leaf gets one foot in a round, so many points beside
+/// one take many rounds. Each round in which shells are halved doubles their pieces.
 void build_bridges(WalledMesh& walled, double angle) {
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 100, kRoundsOfShells = 7;
   ConnectedVertices sets(0);
   for (int round = 0; round < kRounds; ++round) {
     sets = ConnectedVertices(walled.mesh.points.size());
     for (const Subsegment& s : walled.mesh.subsegments)
       if (s.is_leaf()) sets.join(s.vertex[0], s.vertex[1]);
     walled.bridge.assign(4 * walled.mesh.triangles.size(), false);
-    choose_bridges(walled, sets, angle);
+    choose_bridges(walled, sets, {angle});
     if (!needs_bridges(walled.mesh, sets)) return;
-    if (round + 1 < kRounds && !refine_unreached(walled.mesh, sets)) break;
+    if (round + 1 < kRounds && !refine_unreached(walled, sets, angle, round < kRoundsOfShells)) break;
   }
-  for (const double part : {0.9, 0.75, 0.5, 0.0}) choose_bridges(walled, sets, part * angle);
+  for (const double part : {0.9, 0.75, 0.5, 0.25}) choose_bridges(walled, sets, {part * angle});
+  if (needs_bridges(walled.mesh, sets)) choose_bridges(walled, sets, {0, false});
 }
 
 /// Turns the walls of a triangulation into a map. Points that were put on segments as ends for bridges, but became

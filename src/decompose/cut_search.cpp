@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/wide.hpp"
+#include "decompose/separator_room.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
 
@@ -131,9 +132,9 @@ bool CutSearch::stays_inside(std::size_t i, std::size_t j) const {
   const auto& stations = outline_->stations;
   const auto &s = stations[i], &t = stations[j];
   const Point &a = s.at, &b = t.at;
-  const double dx = b.x - a.x, dy = b.y - a.y, squared_length = dx * dx + dy * dy;
-  const double keep = goal_.clearance * std::min(outline_->spacing, std::sqrt(squared_length));
-  const double keep_cross = keep * std::sqrt(squared_length);
+  const double length = std::sqrt(squared_distance(a, b));
+  const SeparatorRoom room(a, b, goal_.clearance * std::min(outline_->spacing, length));
+  const double keep = room.height();
   const Point low{std::min(a.x, b.x) - keep, std::min(a.y, b.y) - keep};
   const Point high{std::max(a.x, b.x) + keep, std::max(a.y, b.y) + keep};
   const auto touches_end = [&](const Outline::Station& end, const Point& u, const Point& v, SideId side) {
@@ -146,13 +147,9 @@ bool CutSearch::stays_inside(std::size_t i, std::size_t j) const {
     if (std::max(u.x, v.x) < low.x || std::min(u.x, v.x) > high.x || std::max(u.y, v.y) < low.y ||
         std::min(u.y, v.y) > high.y)
       continue;
-    const double along = (u.x - a.x) * dx + (u.y - a.y) * dy;
-    const double across = (u.y - a.y) * dx - (u.x - a.x) * dy;
-    if (std::fabs(across) < keep_cross && along > 0 && along < squared_length && !(u == a) && !(u == b)) {
-      const double nearest = std::min(squared_distance(u, a), squared_distance(u, b));
-      if (across * across < 0.12 * nearest * squared_length) return false;
-    }
+    if (!(u == a) && !(u == b) && room.contains(u)) return false;
     if (touches_end(s, u, v, side) || touches_end(t, u, v, side)) continue;
+    if (room.is_entered_by(u, v)) return false;
     const double at_u = orient2d(a, b, u), at_v = orient2d(a, b, v);
     if ((at_u > 0 && at_v > 0) || (at_u < 0 && at_v < 0)) continue;
     const double at_a = orient2d(u, v, a), at_b = orient2d(u, v, b);

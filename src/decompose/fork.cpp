@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "decompose/separator_room.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
 
@@ -74,15 +75,17 @@ class Search {
   }
   [[nodiscard]] bool may_end_at(const Outline::Station& s) const {
     const double dx = center_.x - s.at.x, dy = center_.y - s.at.y;
-    return s.usable && Outline::allows(s, dx, dy) && keeps_clear(s, dx, dy);
+    return s.usable && Outline::allows(s, dx, dy) && has_room(s);
   }
-  /// Whether a separator from `s` in direction (dx, dy) keeps away from the other corners.
-  [[nodiscard]] bool keeps_clear(const Outline::Station& s, double dx, double dy) const {
-    const double length = std::sqrt(dx * dx + dy * dy), keep = kCornerClearance * outline_.spacing * length;
-    for (const LoopSide& corner : outline_.loop) {
-      const double ux = corner.at.x - s.at.x, uy = corner.at.y - s.at.y;
-      const double along = ux * dx + uy * dy, across = std::fabs(ux * dy - uy * dx);
-      if (along > 0 && along < length * length && across < keep) return false;
+  /// Whether a separator from `s` to the center has room.
+  [[nodiscard]] bool has_room(const Outline::Station& s) const {
+    const SeparatorRoom room(s.at, center_, kCornerClearance * outline_.spacing);
+    const Loop& loop = outline_.loop;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Point &u = loop[k].at, &v = loop[k + 1 < loop.size() ? k + 1 : 0].at;
+      if (!(u == s.at) && room.contains(u)) return false;
+      const bool meets = u == s.at || v == s.at || (!s.corner && loop[k].side == s.side);
+      if (!meets && room.is_entered_by(u, v)) return false;
     }
     return true;
   }

@@ -39,15 +39,6 @@ class Angle {
   double dot_, squares_;
 };
 
-/// Whether corner c lies near wall pn, at a narrow angle from its nearer end.
-bool is_near(const Point& p, const Point& n, const Point& c, double keep) {
-  constexpr double kNarrow = 0.12;  // squared sine
-  const Point d = difference(n, p), to = difference(c, p), back = difference(c, n);
-  const double along = dot(to, d), squared_length = dot(d, d), across = cross(d, to);
-  if (along <= 0 || along >= squared_length || across * across >= keep * keep * squared_length) return false;
-  return across * across < kNarrow * std::min(dot(to, to), dot(back, back)) * squared_length;
-}
-
 /// Whether p lies beside wall uw, nearer than `keep`.
 bool is_beside(const Point& p, const Point& u, const Point& w, double keep) {
   const Point d = difference(w, u), to = difference(p, u);
@@ -57,7 +48,7 @@ bool is_beside(const Point& p, const Point& u, const Point& w, double keep) {
 
 /// Whether two walls meet other than at n.
 bool crosses(const Point& p, const Point& n, const Point& u, const Point& w) {
-  if (u == n || w == n || std::max(u.x, w.x) < std::min(p.x, n.x) || std::min(u.x, w.x) > std::max(p.x, n.x) ||
+  if (std::max(u.x, w.x) < std::min(p.x, n.x) || std::min(u.x, w.x) > std::max(p.x, n.x) ||
       std::max(u.y, w.y) < std::min(p.y, n.y) || std::min(u.y, w.y) > std::max(p.y, n.y))
     return false;
   const Point d = difference(n, p), e = difference(w, u);
@@ -163,8 +154,9 @@ bool Star::allows(const Point& p, const Room& room) {
   }
   has_limits_ = true;
   if (!keeps_angles(p)) return false;
+  const double reach = set_rooms(p, room.clearance);
   for (std::size_t k = 0; k < count_; ++k)
-    if (sectors_[k].piece != kNone && !stays_clear(k, p, room.clearance)) return false;
+    if (sectors_[k].piece != kNone && !stays_clear(k, p, room.clearance, reach)) return false;
   return true;
 }
 
@@ -187,13 +179,31 @@ bool Star::keeps_angles(const Point& p) const {
   return true;
 }
 
+/// Returns the largest height of a room, at least `keep`.
+double Star::set_rooms(const Point& p, double keep) {
+  double reach = keep;
+  for (std::size_t k = 0; k < count_; ++k) {
+    if (!spokes_[k].separates) continue;
+    rooms_[k] = SeparatorRoom(p, spokes_[k].end, keep);
+    reach = std::max(reach, rooms_[k].height());
+  }
+  return reach;
+}
+
+/// Whether wall uw neither crosses spoke k, with the center at p, nor reaches into its room.
+bool Star::leaves_room(std::size_t k, const Point& p, const Point& u, const Point& w) const {
+  const Point& n = spokes_[k].end;
+  if (u == n || w == n) return w != n || !rooms_[k].contains(u);
+  return !crosses(p, n, u, w) && !rooms_[k].contains(u) && !rooms_[k].is_entered_by(u, w);
+}
+
 /// Whether the walls at the center keep away from the other corners and walls of sector k's piece. Most of these are
 /// beyond the line from one spoke's end to the next, which is a quick test.
-bool Star::stays_clear(std::size_t k, const Point& p, double keep) const {
+bool Star::stays_clear(std::size_t k, const Point& p, double keep, double reach) const {
   const Spoke &from = spokes_[k], &to = after(k);
   const Point& a = from.end;
   const Point d = difference(to.end, a);
-  const double margin = keep * std::sqrt(dot(d, d));
+  const double margin = reach * std::sqrt(dot(d, d));
   const bool before_line = cross(d, difference(from.start, a)) >= 0 && cross(d, difference(to.start, a)) >= 0 &&
                            cross(d, difference(p, a)) >= margin;
   const auto is_beyond = [&](const Point& c) { return before_line && cross(d, difference(c, a)) <= -margin; };
@@ -205,8 +215,8 @@ bool Star::stays_clear(std::size_t k, const Point& p, double keep) const {
     const bool last = map_.side(h).next == home, w_beyond = last ? before_line : is_beyond(w);
     if (!u_beyond || !w_beyond) {
       if (is_beside(p, u, w, keep)) return false;
-      for (const Spoke& s : spokes())
-        if (s.separates && (crosses(p, s.end, u, w) || (!(u == a) && is_near(p, s.end, u, keep)))) return false;
+      for (std::size_t i = 0; i < count_; ++i)
+        if (spokes_[i].separates && !leaves_room(i, p, u, w)) return false;
     }
     u = w;
     u_beyond = w_beyond;

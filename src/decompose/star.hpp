@@ -7,6 +7,7 @@
 
 #include "decompose/pieces.hpp"
 #include "decompose/planar_map.hpp"
+#include "decompose/separator_room.hpp"
 
 namespace driftmesh {
 
@@ -36,7 +37,7 @@ class Star {
   };
   /// Lengths.
   struct Room {
-    double clearance;  ///< to keep between a wall at the center and others
+    double clearance;  ///< wanted between a wall at the center and others (see SeparatorRoom)
     double length;     ///< that walls at the center should have
   };
 
@@ -74,7 +75,9 @@ class Star {
   void set_limit(std::size_t k);
   [[nodiscard]] bool keeps_lengths(const Point& p, double least) const;
   [[nodiscard]] bool keeps_angles(const Point& p) const;
-  [[nodiscard]] bool stays_clear(std::size_t k, const Point& p, double keep) const;
+  double set_rooms(const Point& p, double keep);
+  [[nodiscard]] bool leaves_room(std::size_t k, const Point& p, const Point& u, const Point& w) const;
+  [[nodiscard]] bool stays_clear(std::size_t k, const Point& p, double keep, double reach) const;
   [[nodiscard]] bool is_input(SideId side) const { return map_.wall(side).kind == PlanarMap::Kind::kInput; }
   [[nodiscard]] Point relative(MapVertexId v) const {
     const Point& p = map_.at(v);
@@ -89,6 +92,7 @@ class Star {
   std::size_t count_ = 0;
   bool has_limits_ = false;  ///< they are set when they are first needed
   std::array<Spoke, kMostSpokes> spokes_;
+  std::array<SeparatorRoom, kMostSpokes> rooms_;  // of the spokes that separate, for the place that is being judged
   std::array<Sector, kMostSpokes> sectors_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "decompose/presplit.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "mesh/refiner.hpp"
 #include "migration/dormant_mesh.hpp"
@@ -16,15 +18,19 @@
 
 namespace driftmesh::testing {
 
-/// Refines all subdomains of a decomposition in one process, as ranks would: each on its own, then split points on
-/// shared roots are exchanged until nothing changes. Before a subdomain takes in points of others, it takes on the
-/// canonical order of its mesh.
+struct RefineTogether {
+  int most_rounds = 100;
+  bool presplit = false;                        ///< whether interfaces are split to size first
+  std::int64_t most_triangles = kMaxTriangles;  ///< of a subdomain; all stop when one has as many
+};
+
 struct RefinedTogether {
   IdVector<SubdomainId, SubdomainMesh> parts;
   int rounds = 0;             ///< exchanges with new points
   std::size_t exchanged = 0;  ///< split points that one side had before the other
   std::size_t refused = 0;    ///< split points that the other side could not insert
   std::vector<std::string> not_conforming;
+  bool complete = true;  ///< false: stopped at the limit of triangles
 };
 
 /// A refiner of the same mesh that is at rest like `done`, with everything in canonical order.
@@ -38,15 +44,27 @@ inline std::unique_ptr<Refiner> reordered(SubdomainMesh& part, const QualityBoun
   return std::make_unique<Refiner>(part.mesh, bounds, std::move(state));
 }
 
-inline RefinedTogether refine_together(const Decomposition& d, const QualityBounds& bounds, int most_rounds = 100) {
+/// Refines all subdomains of a decomposition in one process, as ranks would: each on its own, then split points on
+/// shared roots are exchanged until nothing changes. Before a subdomain takes in points of others, it takes on the
+/// canonical order of its mesh.
+inline RefinedTogether refine_together(const Decomposition& d, const QualityBounds& bounds,
+                                       const RefineTogether& how = {}) {
   RefinedTogether result;
   IdVector<SubdomainId, std::unique_ptr<Refiner>> refiners;
   for (const SubdomainId i : ids_of(d.subdomains)) result.parts.push_back(subdomain_triangulation(d, i));
   for (SubdomainMesh& part : result.parts) {
     refiners.push_back(std::make_unique<Refiner>(part.mesh, bounds));
-    refiners.back()->refine();
+    refiners.back()->limit_triangles(how.most_triangles);
+    for (const RootId r : ids_of(part.roots))
+      for (const dyadic::Path path :
+           how.presplit ? presplit_paths(d, part.roots[r], bounds) : std::vector<dyadic::Path>{})
+        (void)refiners.back()->add_split_point(r, path);
   }
-  for (bool changed = true; changed && result.rounds < most_rounds;) {
+  const auto refine_all = [&] {
+    for (auto& refiner : refiners) result.complete = result.complete && refiner->refine() == Refiner::Status::kDone;
+  };
+  refine_all();
+  for (bool changed = true; changed && result.complete && result.rounds < how.most_rounds;) {
     changed = false;
     std::map<GlobalRootId, std::set<dyadic::Path>> all;
     IdVector<SubdomainId, SplitPoints> own;
@@ -60,14 +78,17 @@ inline RefinedTogether refine_together(const Decomposition& d, const QualityBoun
       for (const RootId r : ids_of(result.parts[i].roots))
         for (const dyadic::Path path : all[result.parts[i].roots[r]]) {
           if (own[i][result.parts[i].roots[r]].contains(path)) continue;
-          if (!std::exchange(told, true)) refiners[i] = reordered(result.parts[i], bounds, *refiners[i]);
+          if (!std::exchange(told, true)) {
+            refiners[i] = reordered(result.parts[i], bounds, *refiners[i]);
+            refiners[i]->limit_triangles(how.most_triangles);
+          }
           result.refused += !refiners[i]->add_split_point(r, path);
           ++result.exchanged;
         }
       changed |= told;
     }
     if (changed) ++result.rounds;
-    for (auto& refiner : refiners) refiner->refine();
+    refine_all();
   }
   SplitPoints first;
   for (const SubdomainId i : ids_of(d.subdomains))
