@@ -45,6 +45,20 @@ TEST_CASE("the nearest name is the one with the fewest changes") {
   CHECK(nearest_name("x", {}) == "");
 }
 
+TEST_CASE("a name that contains the word is nearer than one that looks like it") {
+  const std::vector<std::string> known{"size", "max_area", "region_areas", "ranks.map_by_area", "max-memory", "gap"};
+  CHECK(nearest_name("area", known) == "max_area");
+  CHECK(nearest_name("AREA", known) == "max_area");
+  CHECK(nearest_name("memory", known) == "max-memory");
+  CHECK(nearest_name("size", known) == "size");
+  CHECK(nearest_name("map", known) == "ranks.map_by_area");
+  CHECK(nearest_name("by_area", known) == "ranks.map_by_area");
+  CHECK(nearest_name("pie", {"piece", "pipe"}) == "pipe");  // not a word of it
+  CHECK(nearest_name("", known) == "gap");
+  CHECK(probable_name("memory", known) == "max-memory");
+  CHECK(probable_name("by", known) == "ranks.map_by_area");
+}
+
 TEST_CASE("two letters in the wrong order are one change") {
   CHECK(nearest_name("ab", {"abc", "xb", "ba"}) == "abc");
   CHECK(nearest_name("bya", {"bay", "pipe"}) == "bay");
