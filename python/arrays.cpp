@@ -7,8 +7,28 @@
 namespace driftmesh::python {
 namespace {
 
+/// Whether this is of a class of numpy. Python's own numbers are asked for most, and are none.
+bool is_class(py::handle given, const char* module, const char* name) {
+  if (PyFloat_Check(given.ptr()) || PyLong_Check(given.ptr())) return false;
+  return py::isinstance(given, py::module_::import(module).attr(name));
+}
+
+/// Throws TypeError for a masked array and for a list with True, False or a masked array somewhere in it: numpy would
+/// make numbers of them.
+void refuse_what_is_no_number(py::handle given, const std::string& name, const char* wanted) {
+  if (PyList_Check(given.ptr()) || PyTuple_Check(given.ptr())) {
+    for (const py::handle entry : given) refuse_what_is_no_number(entry, name, wanted);
+    return;
+  }
+  if (is_masked(given))
+    throw py::type_error(name + " is a masked array, or has one in it; give " + wanted +
+                         ", such as its filled() or compressed()");
+  if (is_truth_value(given)) throw py::type_error(name + " has entries of type bool; give " + wanted);
+}
+
 /// As an array of one of numpy's kinds of numbers: "fiu" or "iu". An empty list is of any kind.
 py::array array_from(py::handle given, const std::string& name, const std::string& kinds, const char* wanted) {
+  refuse_what_is_no_number(given, name, wanted);
   py::array array = py::module_::import("numpy").attr("asarray")(given);
   const auto kind = array.dtype().attr("kind").cast<std::string>();
   if (array.size() > 0 && kinds.find(kind) == std::string::npos)
@@ -45,6 +65,14 @@ std::vector<std::int64_t> whole_from(py::handle given, const std::string& name, 
 }
 
 }  // namespace
+
+bool is_truth_value(py::handle given) {
+  return PyBool_Check(given.ptr()) || is_class(given, "numpy", "bool_");
+}
+
+bool is_masked(py::handle given) {
+  return is_class(given, "numpy.ma", "MaskedArray");
+}
 
 Numbers numbers_from(py::handle given, const std::string& name, py::ssize_t columns) {
   const py::array array = array_from(given, name, "fiu", "numbers");

@@ -41,8 +41,13 @@ py::array column_of(const std::vector<Record>& records, const T* first, py::hand
   return view(first, {static_cast<py::ssize_t>(records.size())}, {static_cast<py::ssize_t>(sizeof(Record))}, owner);
 }
 
+/// Whether this is True or False, of Python or of numpy. They would pass for numbers.
+[[nodiscard]] bool is_truth_value(py::handle given);
+/// Whether this is a masked array of numpy, or a masked number: without their masks they would pass for numbers.
+[[nodiscard]] bool is_masked(py::handle given);
+
 /// Numbers from anything that numpy makes an array of. `name`: the argument, for errors. TypeError for what is not
-/// numbers, ValueError for another shape.
+/// numbers, such as bool, and for masked arrays, ValueError for another shape.
 struct Numbers {
   std::vector<double> values;  ///< row by row
   std::size_t rows = 0;

@@ -6,11 +6,13 @@
 
 #include "classes.hpp"
 #include "options.hpp"
+#include "table.hpp"
 
 namespace driftmesh::python {
 namespace {
 
-CutDomain cut(const Pslg& input, std::int32_t ranks, const py::kwargs& options) {
+CutDomain cut(const Pslg& input, py::handle for_ranks, const py::kwargs& options) {
+  const std::int32_t ranks = short_integer_from("for_ranks", for_ranks);
   return {with_options(options, [&](const MeshOptions& values) { return cut_domain(input, values, ranks); })};
 }
 

@@ -12,6 +12,7 @@
 #include "driftmesh/mesh.hpp"
 #include "driftmesh/options.hpp"
 #include "driftmesh/pslg.hpp"
+#include "table.hpp"
 
 namespace driftmesh::python {
 namespace {
@@ -93,8 +94,20 @@ std::vector<Edge> edges_from(py::handle pairs, py::handle markers, std::int32_t 
   return edges;
 }
 
-using Markers = std::map<std::int32_t, std::string>;
-using Regions = std::map<double, std::string>;
+/// Names by number, which number(what, key) makes of a key.
+template <class Number>
+auto names_from(const py::dict& given, const std::string& what, const Number& number) {
+  std::map<decltype(number(what, py::handle())), std::string> names;
+  for (const auto& [key, name] : given) {
+    if (!py::isinstance<py::str>(name)) refuse(what, "texts", name);
+    names[number("a key of " + what, key)] = name.template cast<std::string>();
+  }
+  return names;
+}
+
+Names names_from(const py::dict& markers, const py::dict& regions) {
+  return {names_from(markers, "marker_names", short_integer_from), names_from(regions, "region_names", number_from)};
+}
 
 // The region and the feature may be left out.
 Pslg::Polygon polygon_from(py::handle given, std::size_t points) {
@@ -135,10 +148,10 @@ py::list polygons_of(const Pslg& pslg) {
 }
 
 Pslg make_pslg(py::handle points, py::handle segments, py::handle segment_markers, py::handle holes, py::handle regions,
-               py::handle point_markers, py::handle attributes, Markers marker_names, Regions region_names,
-               const py::object& polygons) {
+               py::handle point_markers, py::handle attributes, const py::dict& marker_names,
+               const py::dict& region_names, const py::object& polygons) {
   Pslg pslg;
-  pslg.names = {std::move(marker_names), std::move(region_names)};
+  pslg.names = names_from(marker_names, region_names);
   pslg.points = points_from(points, "points");
   pslg.segments =
       edges_from<Pslg::Segment>(segments, segment_markers, 1, "segments", "segment_markers", pslg.points.size());
@@ -157,10 +170,10 @@ Pslg make_pslg(py::handle points, py::handle segments, py::handle segment_marker
 }
 
 Mesh make_mesh(py::handle points, py::handle triangles, py::handle edges, py::handle edge_markers,
-               py::handle point_markers, py::handle attributes, py::handle regions, Markers marker_names,
-               Regions region_names) {
+               py::handle point_markers, py::handle attributes, py::handle regions, const py::dict& marker_names,
+               const py::dict& region_names) {
   Mesh mesh;
-  mesh.names = {std::move(marker_names), std::move(region_names)};
+  mesh.names = names_from(marker_names, region_names);
   mesh.points = points_from(points, "points");
   const std::vector<std::int32_t> corners = integers_from(triangles, "triangles", 3);
   require_indices(corners, mesh.points.size(), "triangles");
@@ -184,8 +197,9 @@ void add_pslg(py::module_& module) {
   const py::object none = py::none();
   pslg.def(py::init(&make_pslg), py::arg("points"), py::arg("segments") = none, py::kw_only(),
            py::arg("segment_markers") = none, py::arg("holes") = none, py::arg("regions") = none,
-           py::arg("point_markers") = none, py::arg("attributes") = none, py::arg("marker_names") = Markers{},
-           py::arg("region_names") = Regions{}, py::arg("polygons") = none, "A domain from arrays, which are copied.");
+           py::arg("point_markers") = none, py::arg("attributes") = none, py::arg("marker_names") = py::dict(),
+           py::arg("region_names") = py::dict(), py::arg("polygons") = none,
+           "A domain from arrays, which are copied.");
   add_point_views(pslg);
   add_edge_views(pslg, "segments", "Indices of the two ends of each segment, shape (segments, 2).", "segment_markers",
                  "Markers of the segments, shape (segments,).", &Pslg::segments);
@@ -222,7 +236,7 @@ void add_mesh(py::module_& module) {
   const py::object none = py::none();
   mesh.def(py::init(&make_mesh), py::arg("points"), py::arg("triangles"), py::kw_only(), py::arg("edges") = none,
            py::arg("edge_markers") = none, py::arg("point_markers") = none, py::arg("attributes") = none,
-           py::arg("regions") = none, py::arg("marker_names") = Markers{}, py::arg("region_names") = Regions{},
+           py::arg("regions") = none, py::arg("marker_names") = py::dict(), py::arg("region_names") = py::dict(),
            "A mesh from arrays, which are copied: to check it, draw it, or write it to a file.");
   add_point_views(mesh);
   add_view(mesh, "triangles", "Indices of the corners, counterclockwise, shape (triangles, 3).",

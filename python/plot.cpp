@@ -4,14 +4,15 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <optional>
 #include <string>
+#include <vector>
 
+#include "arrays.hpp"
 #include "base/nearest_name.hpp"
 #include "classes.hpp"
 #include "driftmesh/error.hpp"
+#include "table.hpp"
 
 namespace driftmesh::python {
 namespace {
@@ -28,7 +29,8 @@ Value named(const PlotNames<Value>& names, const std::string& option, const std:
 }
 
 /// x0, y0, x1, y1.
-PlotBox box_from(const std::array<double, 4>& box) {
+PlotBox box_from(const std::vector<double>& box) {
+  if (box.size() != 4) throw Error("box has " + std::to_string(box.size()) + " numbers; give x0, y0, x1, y1");
   if (!(box[0] < box[2] && box[1] < box[3]))
     throw Error("box is not x0, y0, x1, y1 with x0 < x1 and y0 < y1; reorder it");
   return {{box[0], box[1]}, {box[2], box[3]}};
@@ -36,14 +38,15 @@ PlotBox box_from(const std::array<double, 4>& box) {
 
 template <class Shown>
 void draw(const Shown& shown, const std::filesystem::path& path, const std::string& color, const std::string& edges,
-          int width, int height, const std::optional<std::array<double, 4>>& box, const std::string& title) {
+          py::handle width, py::handle height, py::handle box, const std::string& title) {
   PlotOptions options{.name = std::is_same_v<Shown, Mesh> ? "the mesh" : "the input",
-                      .width = width,
-                      .height = height,
+                      .width = short_integer_from("width", width),
+                      .height = short_integer_from("height", height),
                       .color = named(plot_colors(), "color", color),
                       .edges = named(plot_edges(), "edges", edges),
                       .title = title};
-  if (box) options.box = box_from(*box);
+  if (!box.is_none()) options.box = box_from(numbers_from(box, "box").values);
+  const py::gil_scoped_release unlocked;
   plot(shown, path.string(), options);
 }
 
@@ -53,7 +56,7 @@ void add_plot_of(py::module_& module, const char* doc) {
   module.def("plot", &draw<Shown>, py::arg("what"), py::arg("path"), py::kw_only(),
              py::arg("color") = plot_colors().front().first, py::arg("edges") = plot_edges().front().first,
              py::arg("width") = standard.width, py::arg("height") = standard.height, py::arg("box") = py::none(),
-             py::arg("title") = standard.title, py::call_guard<py::gil_scoped_release>(), doc);
+             py::arg("title") = standard.title, doc);
 }
 
 }  // namespace

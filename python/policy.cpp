@@ -7,6 +7,7 @@
 
 #include "arrays.hpp"
 #include "classes.hpp"
+#include "table.hpp"
 
 namespace driftmesh::python {
 namespace {
@@ -20,9 +21,8 @@ struct Load {
   std::vector<double> speeds;
 };
 
-template <class T>
-T entry(const py::handle& pair, std::size_t k) {
-  return pair[py::int_(k)].template cast<T>();
+std::int32_t entry(const py::handle& pair, std::size_t k) {
+  return short_integer_from("a move", pair[py::int_(k)]);
 }
 
 /// The moves that Python's plan lists. ValueError for one that cannot be made.
@@ -31,7 +31,7 @@ std::vector<Move> moves_from(const py::object& plan, const LoadSnapshot& snapsho
   if (plan.is_none()) return moves;
   std::set<std::int32_t> moved;
   for (const py::handle& pair : plan) {
-    const auto subdomain = entry<std::int32_t>(pair, 0), rank = entry<std::int32_t>(pair, 1);
+    const auto subdomain = entry(pair, 0), rank = entry(pair, 1);
     const std::string move = "the move of subdomain " + std::to_string(subdomain) + " to rank " + std::to_string(rank);
     const balancer::SubdomainLoad* listed = balancer::find(snapshot, SubdomainId{subdomain});
     if (listed == nullptr) throw py::value_error(move + ": the load does not list this subdomain");
@@ -122,7 +122,8 @@ void add_load_class(py::module_& module) {
       "Triangles per second of each rank, as measured, shape (ranks,); the mean of the others where it is not known.");
   load.def(
       "neighbors",
-      [](const Load& self, std::int32_t subdomain) {
+      [](const Load& self, py::handle given) {
+        const std::int32_t subdomain = short_integer_from("subdomain", given);
         const auto& all = self.snapshot.layout->subdomains;
         if (subdomain < 0 || std::cmp_greater_equal(subdomain, all.size())) throw py::index_error("no such subdomain");
         py::dict lengths;

@@ -3,14 +3,16 @@
 #include "arrays.hpp"
 #include "classes.hpp"
 #include "driftmesh/size_on_mesh.hpp"
+#include "table.hpp"
 
 namespace driftmesh::python {
 namespace {
 
-FieldObject make_size_on_mesh(const Mesh& mesh, py::handle lengths, double gradation) {
+FieldObject make_size_on_mesh(const Mesh& mesh, py::handle lengths, py::handle gradation) {
   std::vector<double> values = numbers_from(lengths, "lengths").values;
+  const double growth = number_from("gradation", gradation);
   const py::gil_scoped_release unlocked;
-  return {size_on_mesh(mesh, std::move(values), gradation)};
+  return {size_on_mesh(mesh, std::move(values), growth)};
 }
 
 }  // namespace
@@ -21,8 +23,8 @@ void add_size_class(py::module_& module) {
   py::class_<FieldObject>(module, "SizeField", "Target edge lengths that the library knows by itself, for `size`.")
       .def(
           "__call__",
-          [](const FieldObject& self, double x, double y) {
-            return self.field->edge_length({x, y});
+          [](const FieldObject& self, py::handle x, py::handle y) {
+            return self.field->edge_length({number_from("x", x), number_from("y", y)});
           },
           py::arg("x"), py::arg("y"), "The length at a point.");
   module.def(

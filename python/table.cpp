@@ -1,6 +1,7 @@
 #include "table.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "base/nearest_name.hpp"
 
@@ -30,6 +31,8 @@ void refuse(const std::string& name, const char* wanted, py::handle given) {
 }
 
 double number_from(const std::string& name, py::handle given) {
+  if (PyFloat_Check(given.ptr())) return PyFloat_AS_DOUBLE(given.ptr());  // what sizes return, for each point
+  if (is_truth_value(given) || is_masked(given)) refuse(name, "a number", given);
   const double number = PyFloat_AsDouble(given.ptr());
   if (number != -1 || PyErr_Occurred() == nullptr) return number;
   PyErr_Clear();
@@ -37,6 +40,7 @@ double number_from(const std::string& name, py::handle given) {
 }
 
 std::int64_t integer_from(const std::string& name, py::handle given) {
+  if (is_truth_value(given) || is_masked(given)) refuse(name, "a whole number", given);
   const py::object whole = PyFloat_Check(given.ptr()) && std::floor(given.cast<double>()) == given.cast<double>()
                                ? py::reinterpret_steal<py::object>(PyNumber_Long(given.ptr()))
                                : py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
@@ -46,6 +50,12 @@ std::int64_t integer_from(const std::string& name, py::handle given) {
   if (!whole) refuse(name, "a whole number", given);
   if (overflow != 0) throw py::value_error(name + " is out of range");
   return number;
+}
+
+std::int32_t short_integer_from(const std::string& name, py::handle given) {
+  const std::int64_t number = integer_from(name, given);
+  if (!std::in_range<std::int32_t>(number)) throw py::value_error(name + " is out of range");
+  return static_cast<std::int32_t>(number);
 }
 
 std::map<std::string, std::string> texts_from(const std::string& name, py::handle given) {

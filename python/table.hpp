@@ -33,8 +33,12 @@ void refuse_rest(const Given& given, const std::vector<std::string>& known);
 /// Throws TypeError: `name` takes what is wanted, not a thing of this type.
 [[noreturn]] void refuse(const std::string& name, const char* wanted, py::handle given);
 
+/// Throws TypeError for all that is no number, such as True.
 [[nodiscard]] double number_from(const std::string& name, py::handle given);
+/// Throws ValueError for one of more than 64 bits.
 [[nodiscard]] std::int64_t integer_from(const std::string& name, py::handle given);
+/// Throws ValueError for one of more than 32 bits.
+[[nodiscard]] std::int32_t short_integer_from(const std::string& name, py::handle given);
 /// The values of a table by their names: policies read them as text.
 [[nodiscard]] std::map<std::string, std::string> texts_from(const std::string& name, py::handle given);
 

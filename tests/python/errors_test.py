@@ -5,6 +5,7 @@ import tempfile
 import unittest
 
 import driftmesh
+import numpy as np
 
 PLATE = driftmesh.generate("rectangle-hole")
 
@@ -68,12 +69,50 @@ class Errors(unittest.TestCase):
         self.refuse_options(TypeError, "min_angel", "'min_angle'", min_angel=20)
         self.refuse_options(TypeError, "subdomains.cuont", "'subdomains.count'", subdomains={"cuont": 2})
         self.refuse_options(TypeError, "dictionary", subdomains=2)
+        for given, meant in (("area", "max_area"), ("angle", "min_angle"), ("memory", "max_memory"), ("sleep", "subdomains.sleep"),
+                             ("resolution", "size_resolution"), ("policy", "balance.policy")):
+            self.refuse_options(TypeError, f"'{given}'; the nearest one is '{meant}'", **{given: 1})
 
     def test_kinds_of_options(self):
         for options in ({"min_angle": [20]}, {"max_area": object()}, {"threads": 1.5}, {"strict": 1}, {"holes": 1},
                         {"subdomains": {"count": []}}, {"balance": {"parameters": 3}}, {"size": 0.1}, {"progress": 1}):
             self.refuse_options(TypeError, "takes", **options)
         self.refuse_options(TypeError, "speeds", ranks={"speeds": ["fast"]})
+
+    def test_truth_values_are_no_numbers(self):
+        for true in (True, False, np.True_):
+            for name in ("max_triangles", "max_memory", "max_area", "min_angle", "triangles", "threads", "size_resolution", "simplify"):
+                self.refuse_options(TypeError, name, "bool", **{name: true})
+            self.refuse_options(TypeError, "subdomains.count", "bool", subdomains={"count": true})
+            self.refuse_options(TypeError, "balance.gap", "bool", balance={"gap": true})
+            self.refuse_options(TypeError, "speeds", "bool", ranks={"speeds": [1.0, true]})
+            self.refuse_options(TypeError, "bool", size=lambda x, y: true)
+            mesh = driftmesh.mesh(PLATE)
+            for call in (lambda: driftmesh.plot(mesh, "x.png", width=true), lambda: driftmesh.plot(mesh, "x.png", height=true),
+                         lambda: driftmesh.plot(mesh, "x.png", box=[0, 0, true, 2]), lambda: driftmesh.cut_domain(PLATE, true),
+                         lambda: driftmesh.size_on_mesh(mesh, np.ones(len(mesh.points)), gradation=true),
+                         lambda: driftmesh.simulate(PLATE, {"ranks": true}), lambda: driftmesh.Pslg([(0, 0), (1, true)]),
+                         lambda: driftmesh.Mesh(mesh.points, [(0, 1, true)]),
+                         lambda: driftmesh.Pslg([(0, 0)], marker_names={true: "shore"})):
+                self.refuse(TypeError, "bool", call=call)
+
+    def test_masked_arrays(self):
+        """Their masked entries would be taken for numbers, whatever is stored there."""
+        mesh = driftmesh.mesh(PLATE)
+        masked = lambda values: np.ma.array(values, mask=np.zeros(np.shape(values), bool))
+        three = [(0, 0), (1, 0), (0, 1)]
+        for call in (lambda: driftmesh.Pslg(masked(three)), lambda: driftmesh.Pslg(three, masked([(0, 1)])),
+                     lambda: driftmesh.Pslg(three, holes=masked([(0.1, 0.1)])), lambda: driftmesh.Pslg([masked([0, 0]), masked([1, 0])]),
+                     lambda: driftmesh.Pslg(three, regions=masked([(0.1, 0.1, 1, 0)])),
+                     lambda: driftmesh.Pslg(three, point_markers=masked([1, 2, 3])), lambda: driftmesh.Pslg(three, attributes=masked([1, 2, 3])),
+                     lambda: driftmesh.Pslg(three, [(0, 1)], segment_markers=masked([1])),
+                     lambda: driftmesh.Mesh(three, masked([(0, 1, 2)])), lambda: driftmesh.Mesh(three, [(0, 1, 2)], regions=masked([1.0])),
+                     lambda: driftmesh.size_on_mesh(mesh, masked(np.ones(len(mesh.points)))),
+                     lambda: driftmesh.mesh(PLATE, ranks={"speeds": masked([1.0, 2.0])}), lambda: driftmesh.Pslg([(0, 0), (1, np.ma.masked)]),
+                     lambda: driftmesh.plot(mesh, "x.png", box=masked([0, 0, 1, 1]))):
+            self.refuse(TypeError, "masked", call=call)
+        self.refuse_options(TypeError, "Masked", size=lambda x, y: np.ma.masked)
+        self.refuse_options(TypeError, "Masked", max_area=np.ma.array(0.01))
 
     def test_ranges_of_options(self):
         self.refuse_options(driftmesh.Error, "min_angle is 50", "34", min_angle=50)
