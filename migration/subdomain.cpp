@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "decompose/presplit.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/forecast.hpp"
 #include "mesh/refiner.hpp"
@@ -238,11 +237,16 @@ Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainCon
 }
 
 void Subdomain::make_body() {
-  const Decomposition& d = *context_->decomposition;
-  body_ = std::make_unique<Body>(subdomain_triangulation(d, id_), context_->bounds);
+  body_ = std::make_unique<Body>(subdomain_triangulation(*context_->decomposition, id_), context_->bounds);
   if (!context_->presplit) return;
   for (const GlobalRootId root : body_->part.roots)
-    for (const dyadic::Path path : presplit_paths(d, root, context_->bounds)) take_in({root, path});
+    for (const dyadic::Path path : presplit_of(root)) take_in({root, path});
+}
+
+std::vector<dyadic::Path> Subdomain::presplit_of(GlobalRootId root) const {
+  if (context_->presplit_paths == nullptr) return presplit_paths(*context_->decomposition, root, context_->bounds);
+  const auto found = context_->presplit_paths->find(root);
+  return found == context_->presplit_paths->end() ? std::vector<dyadic::Path>() : found->second;
 }
 
 void Subdomain::take_in(const SplitPoint<GlobalRootId>& split) {

@@ -9,6 +9,7 @@
 
 #include "base/bytes.hpp"
 #include "decompose/decomposition.hpp"
+#include "decompose/presplit.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "driftmesh/ids.hpp"
 #include "mesh/bounds.hpp"
@@ -24,7 +25,8 @@ struct SubdomainContext {
   const Decomposition* decomposition = nullptr;
   QualityBounds bounds;
   bool presplit = false;  ///< cut interfaces to the bounds' size before refinement (see decompose/presplit.hpp)
-  ScratchFile* scratch = nullptr;  ///< where those that sleep keep most of their bytes; null: in memory
+  ScratchFile* scratch = nullptr;                 ///< where those that sleep keep most of their bytes; null: in memory
+  const PresplitPaths* presplit_paths = nullptr;  ///< those to take; null: those of the bounds
 };
 
 /// Result of a slice of work.
@@ -106,6 +108,7 @@ class Subdomain {
   struct Body;  // the mesh and its refiner
 
   void make_body();
+  [[nodiscard]] std::vector<dyadic::Path> presplit_of(GlobalRootId root) const;
   [[nodiscard]] DormantBody whole_dormant() const;
   void reorder();
   [[nodiscard]] DormantBody body_at_rest() const;

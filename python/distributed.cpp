@@ -4,11 +4,18 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <exception>
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
 
+#include "api/mpi/fail_together.hpp"
 #include "arrays.hpp"
 #include "classes.hpp"
+#include "driftmesh/error.hpp"
 #include "options.hpp"
+#include "table.hpp"
 
 namespace driftmesh::python {
 namespace {
@@ -21,18 +28,60 @@ MPI_Comm communicator_from(const py::object& given) {
   return MPI_Comm_f2c(given.attr("py2f")().cast<MPI_Fint>());
 }
 
-DistributedPiece make_piece(const py::object& given, const Pslg* input, const py::kwargs& options) {
-  MPI_Comm communicator = communicator_from(given);
-  const Pslg none;  // the input is that of rank 0
-  return with_options(options, [&](const MeshOptions& values) {
-    return mesh_distributed(communicator, input != nullptr ? *input : none, values);
-  });
+/// What `make` returns, for a function that all ranks call. If it fails on one of them, the others raise an Error.
+template <class Make>
+auto made_together(MPI_Comm communicator, const Make& make) {
+  const auto tell_others = [&](const std::exception_ptr& failure) {
+    const py::gil_scoped_release unlocked;
+    try {
+      fail_together(communicator, failure);
+    } catch (const std::exception&) {  // the failure of the first rank that has one; this rank raises its own
+    }
+  };
+  try {
+    return make();
+  } catch (const py::error_already_set& raised) {
+    tell_others(std::make_exception_ptr(Error(raised.what())));
+    throw;
+  } catch (const std::exception&) {
+    tell_others(std::current_exception());
+    throw;
+  }
 }
 
-void write_pieces(const py::object& given, const DistributedPiece& piece, const std::filesystem::path& path) {
+/// An argument that is of one of the package's own classes.
+template <class Class>
+const Class& object_from(const py::object& given, const char* name, const char* wanted) {
+  if (!py::isinstance<Class>(given)) refuse(name, wanted, given);
+  return given.cast<const Class&>();
+}
+
+const DistributedPiece& piece_from(const py::object& given) {
+  return object_from<DistributedPiece>(given, "piece", "a DistributedPiece");
+}
+
+std::string path_from(const py::object& given) {
+  const auto path = py::reinterpret_steal<py::object>(PyOS_FSPath(given.ptr()));
+  if (!path) throw py::error_already_set();
+  return path.cast<std::filesystem::path>().string();
+}
+
+DistributedPiece make_piece(const py::object& given, const py::object& input, const py::kwargs& options) {
   MPI_Comm communicator = communicator_from(given);
+  const Pslg none;  // the input is that of rank 0
+  const auto [domain, own] = made_together(communicator, [&] {
+    const Pslg* pslg = input.is_none() ? &none : &object_from<Pslg>(input, "input", "a Pslg");
+    return std::pair(pslg, std::make_unique<Options>(options));
+  });
+  return with_options(
+      *own, [&, pslg = domain](const MeshOptions& values) { return mesh_distributed(communicator, *pslg, values); });
+}
+
+void write_pieces(const py::object& given, const py::object& piece, const py::object& path) {
+  MPI_Comm communicator = communicator_from(given);
+  const auto [own, name] = made_together(communicator, [&] { return std::pair(&piece_from(piece), path_from(path)); });
   const py::gil_scoped_release unlocked;
-  write_distributed(communicator, piece, path.string());
+  write_distributed(communicator, *own, name);
 }
 
 /// For each neighbor the shared points: a view.
@@ -43,10 +92,11 @@ py::dict shared_points(const py::object& self) {
   return shared;
 }
 
-GhostedPiece make_ghosts(const py::object& given, const DistributedPiece& piece) {
+GhostedPiece make_ghosts(const py::object& given, const py::object& piece) {
   MPI_Comm communicator = communicator_from(given);
+  const DistributedPiece* own = made_together(communicator, [&] { return &piece_from(piece); });
   const py::gil_scoped_release unlocked;
-  return add_ghost_layer(communicator, piece);
+  return add_ghost_layer(communicator, *own);
 }
 
 /// For each neighbor two views: triangles that it has as ghosts, and that it owns.
@@ -119,9 +169,10 @@ void add_distributed(py::module_& module) {
       "mesh_distributed", &make_piece, py::arg("communicator"), py::arg("input"), py::pos_only(),
       ("mesh_distributed(communicator, input, /, **options) -> DistributedPiece\n\n"
        "Make a mesh on all ranks of an mpi4py communicator, each of which gets its piece. Collective.\n\n"
-       "Input and options are those of rank 0, and input may be None elsewhere, but every rank gives its own\n"
-       "`size` and `balance[\"own\"]`, which must behave the same everywhere, and its own `progress`. Errors are\n"
-       "those of mesh(), raised on all ranks: an exception of a callable on one rank is an Error on the others." +
+       "The input is that of rank 0, and may be None elsewhere. Options must be the same on all ranks. Every rank\n"
+       "gives its own `size` and `balance[\"own\"]`, which must behave the same everywhere, and its own `progress`.\n"
+       "Errors are those of mesh(), raised on all ranks: what is wrong or raised on one rank alone is an Error on the\n"
+       "others." +
        std::string(kOptionsHead) + option_lines())
           .c_str());
   module.def(

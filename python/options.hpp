@@ -34,8 +34,7 @@ class Options {
 /// What `work(options)` returns. It runs without the lock, and ends early if Python has a signal to handle. Raises what
 /// callables raised.
 template <class Work>
-auto with_options(const py::kwargs& given, const Work& work) {
-  Options options(given);
+auto with_options(Options& options, const Work& work) {
   try {
     const py::gil_scoped_release unlocked;
     return work(options.values());
@@ -43,6 +42,12 @@ auto with_options(const py::kwargs& given, const Work& work) {
     options.callbacks().raise_first();
     throw;
   }
+}
+
+template <class Work>
+auto with_options(const py::kwargs& given, const Work& work) {
+  Options options(given);
+  return with_options(options, work);
 }
 
 /// The options of the table, in its order: a dictionary for each, with name, kind, unit, default, least, most, choices

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "decompose/decomposition.hpp"
@@ -17,13 +18,16 @@ inline constexpr double kPresplitSpacing = 1.5196;
 /// The split points that a root gets before refinement starts, each after its ancestors, so that its subsegments are at
 /// most kPresplitSpacing times the square root of the area bound there: of the smaller bound of its two sides, and of
 /// the size field at the ends and the middle of each subsegment. They depend only on the root and the bounds, so both
-/// sides get the same points without communication. Empty for roots that are no interfaces, and if there are no bounds
-/// on size.
+/// sides get the same points without communication if their size fields agree to the last bit. Empty for roots that are
+/// no interfaces, and if there are no bounds on size.
 ///
 /// With a uniform area bound, refinement then splits interfaces only where features or small angles ask for more; after
 /// Linardakis and Chrisochoides (2006), who decouple subdomains by discretizing interfaces beforehand.
 [[nodiscard]] std::vector<dyadic::Path> presplit_paths(const Decomposition& decomposition, GlobalRootId root,
                                                        const QualityBounds& bounds);
+
+/// Those of all interfaces that have some.
+using PresplitPaths = std::map<GlobalRootId, std::vector<dyadic::Path>>;
 
 /// Whether there is any bound on size. Presplitting needs one.
 [[nodiscard]] bool bounds_size(const QualityBounds& bounds);

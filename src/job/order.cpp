@@ -7,6 +7,7 @@
 #include "base/bytes.hpp"
 #include "base/failure.hpp"
 #include "job/domain.hpp"
+#include "job/failure.hpp"
 #include "runtime/plan_bytes.hpp"
 
 namespace driftmesh::job {
@@ -81,6 +82,18 @@ std::optional<Order> give(Team& team, const std::function<std::optional<Order>()
     static_cast<void>(team.broadcast(pslg_to_bytes(order->pslg)));
     order->plan.bounds.size = nullptr;
   });
+  if (order) agree_on_failure(team, nullptr);
+  return order;
+}
+
+Order taken(Team& team, ByteReader& head, const balancer::PolicyMaker& policies) {
+  Order order = by_itself(team, [&] { return order_from(head); });
+  const Bytes plan = team.broadcast({}), pslg = team.broadcast({});
+  agree(team, [&] {
+    order.plan = plan_from_bytes(plan, team.ranks(), policies);
+    order.pslg = pslg_from_bytes(pslg);
+    open_all(order.rasters, box_of(order.pslg), {});
+  });
   return order;
 }
 
@@ -89,13 +102,7 @@ std::optional<Order> take(Team& team, const balancer::PolicyMaker& policies) {
   ByteReader head(bytes);
   switch (head.value<Letter>()) {
     case Letter::kOrder:
-      return by_itself(team, [&] {
-        Order order = order_from(head);
-        order.plan = plan_from_bytes(team.broadcast({}), team.ranks(), policies);
-        order.pslg = pslg_from_bytes(team.broadcast({}));
-        open_all(order.rasters, box_of(order.pslg), {});
-        return std::optional(std::move(order));
-      });
+      return std::optional(taken(team, head, policies));
     case Letter::kNothing:
       return std::nullopt;
     case Letter::kError:

@@ -32,7 +32,8 @@ struct Order {
 
 /// Shares the order that rank 0 makes with all ranks; empty if it makes none because there is no more work. Collective;
 /// only rank 0 calls `make`. An exception from it is thrown there, and an error of the same type and with the same
-/// message on the others. `policies` makes the plan's policy separately on each rank.
+/// message on the others; one that prevents another rank from following the order is thrown on all. `policies` makes
+/// the plan's policy separately on each rank.
 [[nodiscard]] std::optional<Order> share(Team& team, const std::function<std::optional<Order>()>& make,
                                          const balancer::PolicyMaker& policies = nullptr);
 

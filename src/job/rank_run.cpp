@@ -10,6 +10,7 @@
 #include "job/drag.hpp"
 #include "job/failure.hpp"
 #include "job/memory.hpp"
+#include "job/same_on_ranks.hpp"
 #include "job/sleeping_room.hpp"
 #include "protocol/rank_step.hpp"
 #include "runtime/plan_run.hpp"
@@ -33,7 +34,7 @@ std::unique_ptr<const SizeField> size_for_threads(const Order& order, const Size
 
 RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
     : team_(team), order_(std::move(order)), watch_(watch), book_(order_.plan.decomposition) {
-  by_itself(team_, [&] {
+  agree(team_, [&] {
     size_ = size_for_threads(order_, size);
     order_.plan.bounds.size = size_.get();
     limits_ = find_limits(order_.limits, order_.pslg, order_.use, processes_of(team_));
@@ -41,6 +42,15 @@ RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
     scratch_ = open_scratch(order_.scratch, forecast_of(order_.plan, team_.rank()) * team_.ranks_on_machine());
     order_.plan.scratch = scratch_.get();
   });
+  agree_on_size();
+}
+
+/// Makes sure that both sides of each interface start alike.
+void RankRun::agree_on_size() {
+  if (team_.alone() || size_ == nullptr) return;
+  require_same_size(team_, order_.plan.decomposition, *size_);
+  if (order_.plan.presplit)
+    order_.plan.presplit_paths = std::make_shared<const PresplitPaths>(share_presplit(team_, order_.plan));
 }
 
 RankRun::~RankRun() {

@@ -28,12 +28,12 @@ struct RankHooks {
   std::function<void(const RankLoop::Slice&)> after_slice;
 };
 
-/// One rank's part in the refinement of a mesh by a team, and its results. An error on a rank outside its work on
-/// subdomains ends the job (see by_itself).
+/// One rank's part in the refinement of a mesh by a team, and its results. Once it has begun to refine, an error on a
+/// rank outside its work on subdomains ends the job (see by_itself).
 class RankRun {
  public:
   /// `size`: replaces the size field that the order describes, unless null; not owned. `team` and `watch` outlive the
-  /// object.
+  /// object. Collective; an error on one rank, or a size field that differs between ranks, is thrown on all.
   RankRun(Team& team, Order order, const SizeField* size, Watch& watch);
   ~RankRun();
   RankRun(const RankRun&) = delete;
@@ -55,6 +55,7 @@ class RankRun {
   [[nodiscard]] DistributedPiece assemble(ExchangeRunner& ranks) const;
 
  private:
+  void agree_on_size();
   [[nodiscard]] double share_of_time() const;
   [[nodiscard]] RankLoop::Observers observers(const RankHooks& hooks);
   void run_loop(const RankHooks& hooks);

@@ -32,7 +32,7 @@ RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, IdSpan<S
                    Observers observers, const protocol::Rules& rules)
     : transport_(transport),
       plan_(plan),
-      own_context_{&plan.decomposition, plan.bounds, plan.presplit, plan.scratch},
+      own_context_{&plan.decomposition, plan.bounds, plan.presplit, plan.scratch, plan.presplit_paths.get()},
       observers_(std::move(observers)),
       rules_(rules),
       protocol_(transport.rank(), transport.ranks(), owners, plan.work.aggregation, rules),

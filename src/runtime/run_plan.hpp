@@ -10,6 +10,7 @@
 #include "balancer/policy_list.hpp"
 #include "base/scratch_file.hpp"
 #include "decompose/decomposition.hpp"
+#include "decompose/presplit.hpp"
 #include "driftmesh/ids.hpp"
 #include "driftmesh/load_snapshot.hpp"
 #include "driftmesh/policy.hpp"
@@ -48,6 +49,7 @@ struct RunPlan {
   IdVector<SubdomainId, Rank> owners;  ///< at the start
   QualityBounds bounds;
   bool presplit = false;
+  std::shared_ptr<const PresplitPaths> presplit_paths;  ///< null: each side of an interface computes them
   WorkSettings work;
   std::int64_t max_triangles = INT64_MAX;  ///< on one rank; more is a LimitError
   ScratchFile* scratch = nullptr;          ///< of this process, for subdomains that sleep; not owned; null: memory

@@ -4,12 +4,17 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <new>
 #include <numbers>
+#include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "decompose/decompose.hpp"
+#include "decompose/presplit.hpp"
 #include "driftmesh/decomposition.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/files.hpp"
@@ -17,6 +22,10 @@
 #include "driftmesh/mpi/distributed.hpp"
 #include "driftmesh/policy.hpp"
 #include "driftmesh/size_field.hpp"
+#include "job/mpi/mpi_team.hpp"
+#include "job/same_on_ranks.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
 #include "mesh/digest.hpp"
 #include "temporary_folder.hpp"
 #include "verify/verify.hpp"
@@ -56,6 +65,15 @@ std::string common_error(Call call) {
   return said;
 }
 
+class Constant final : public SizeField {
+ public:
+  explicit Constant(double length) : length_(length) {}
+  [[nodiscard]] double edge_length(const Point&) const override { return length_; }
+
+ private:
+  double length_;
+};
+
 class Halving final : public SizeField {
  public:
   [[nodiscard]] double edge_length(const Point& p) const override { return p.x < 1 ? 0.1 : 0.05; }
@@ -65,6 +83,12 @@ int own_rank() {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   return rank;
+}
+
+int rank_count() {
+  int ranks = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return ranks;
 }
 
 }  // namespace
@@ -205,12 +229,120 @@ TEST_CASE("a callable that only some ranks have is an error on all") {
   for (const int one : {0, ranks - 1}) {
     MeshOptions options;
     if (own_rank() == one) options.size = [](const Point& p) { return p.x < 1 ? 0.1 : 0.05; };
-    CHECK(error_with(options).starts_with("MeshOptions::size "));
+    CHECK(error_with(options).starts_with("MeshOptions::size differs between ranks: "));
     options.size = {};
     if (own_rank() == one)
       options.balance.own = balancer::leader_policy([](const auto&) { return std::vector<balancer::Move>(); });
-    CHECK(error_with(options).starts_with("MeshOptions::size and MeshOptions::balance.own "));
+    CHECK(error_with(options).starts_with("MeshOptions::balance.own differs between ranks: "));
   }
+}
+
+TEST_CASE("an option that differs on any rank is an error on all, before it is looked at") {
+  const int ranks = rank_count();
+  if (ranks == 1) return;
+  using Change = std::function<void(MeshOptions&)>;
+  const std::vector<std::pair<std::string, Change>> changes{
+      {"min_angle", [](MeshOptions& o) { o.min_angle = 50; }},
+      {"min_angle", [](MeshOptions& o) { o.min_angle = std::nextafter(o.min_angle, 0.0); }},
+      {"max_area", [](MeshOptions& o) { o.max_area = -1; }},
+      {"triangles", [](MeshOptions& o) { o.triangles = 1000; }},
+      {"size_resolution", [](MeshOptions& o) { o.size_resolution = 100; }},
+      {"max_triangles", [](MeshOptions& o) { o.max_triangles = 1; }},
+      {"strict", [](MeshOptions& o) { o.strict = true; }},
+      {"subdomains.count", [](MeshOptions& o) { o.subdomains.count = 7; }},
+      {"subdomains.seed", [](MeshOptions& o) { o.subdomains.seed = 7; }},
+      {"subdomains.presplit", [](MeshOptions& o) { o.subdomains.presplit = Presplit::kOff; }},
+      {"subdomains.sleep", [](MeshOptions& o) { o.subdomains.sleep = true; }},
+      {"ranks.speeds",
+       [](MeshOptions& o) {
+         o.ranks.speeds = {1, 2, 3, 4, 5};
+       }},
+      {"balance.policy", [](MeshOptions& o) { o.balance.policy = "by hand"; }},
+      {"balance.parameters", [](MeshOptions& o) { o.balance.parameters["methd"] = "rcb"; }},
+      {"balance.gap", [](MeshOptions& o) { o.balance.gap = -3; }},
+  };
+  for (const auto& [name, change] : changes) {
+    CAPTURE(name);
+    for (const int one : {0, ranks - 1}) {
+      MeshOptions options{.max_area = 0.01};
+      if (own_rank() == one) change(options);
+      const std::string said =
+          common_error([&] { (void)mesh_distributed(MPI_COMM_WORLD, generate_rectangle_hole({}), options); });
+      CHECK(said.starts_with("MeshOptions::" + name + " differs between ranks: "));
+      CHECK(said.find(" on rank " + std::to_string(one == 0 ? 1 : one)) != std::string::npos);
+      CHECK(said.find('\n') == std::string::npos);
+    }
+  }
+  const DistributedPiece piece = mesh_distributed(MPI_COMM_WORLD, generate_rectangle_hole({}), {.max_area = 0.01});
+  CHECK(common_error([&] {
+          write_distributed(MPI_COMM_WORLD, piece, own_rank() == 0 ? "mesh.vtu" : "mesh.pvtu");
+        }).starts_with("the path differs between ranks: mesh.vtu on rank 0, mesh.pvtu on rank 1"));
+}
+
+TEST_CASE("communicators without a group of ranks are errors, and MPI goes on") {
+  const Pslg input = generate_rectangle_hole({});
+  const DistributedPiece piece = mesh_distributed(MPI_COMM_WORLD, input, {.max_area = 0.01});
+  const auto errors_on = [&](MPI_Comm communicator) {
+    return std::vector{common_error([&] { (void)mesh_distributed(communicator, input, {}); }),
+                       common_error([&] { (void)add_ghost_layer(communicator, piece); }),
+                       common_error([&] { write_distributed(communicator, piece, "mesh.vtu"); })};
+  };
+  for (const std::string& said : errors_on(MPI_COMM_NULL)) CHECK(said.starts_with("the communicator is MPI_COMM_NULL"));
+  if (rank_count() == 1) return;
+  MPI_Comm half = MPI_COMM_NULL, between = MPI_COMM_NULL;
+  MPI_Comm_split(MPI_COMM_WORLD, own_rank() % 2, 0, &half);
+  MPI_Intercomm_create(half, 0, MPI_COMM_WORLD, 1 - own_rank() % 2, 0, &between);
+  for (const std::string& said : errors_on(between))
+    CHECK(said.starts_with("the communicator is an intercommunicator"));
+  MPI_Comm_free(&between);
+  MPI_Comm_free(&half);
+}
+
+TEST_CASE("size functions that differ between ranks are an error on all that names a point and both values") {
+  const int ranks = rank_count();
+  if (ranks == 1) return;
+  for (const Presplit presplit : {Presplit::kAuto, Presplit::kOff})
+    for (const int one : {0, ranks - 1}) {
+      MeshOptions options{.subdomains = {.presplit = presplit}};
+      options.size = [&](const Point&) { return own_rank() == one ? 0.05 : 0.0625; };
+      const std::string said =
+          common_error([&] { (void)mesh_distributed(MPI_COMM_WORLD, generate_rectangle_hole({}), options); });
+      CHECK(said.starts_with("the size field differs between ranks: at ("));
+      CHECK(said.find(one == 0 ? "it is 0.05 on rank 0 and 0.0625 on rank 1; "
+                               : "it is 0.0625 on rank 0 and 0.05 on rank " + std::to_string(one) + "; ") !=
+            std::string::npos);
+    }
+}
+
+TEST_CASE("each interface is presplit as the owner of its left side says, whatever sizes others have") {
+  job::MpiTeam team(MPI_Comm_c2f(MPI_COMM_WORLD));
+  Triangulation mesh = triangulate(generate_rectangle_hole({}));
+  prepare_corners(mesh);
+  DecomposeOptions cutting;
+  cutting.subdomains = 12;
+  RunPlan plan;
+  plan.decomposition = decompose(mesh, cutting);
+  for (const SubdomainId s : ids_of(plan.decomposition.subdomains))
+    plan.owners.push_back(Rank{to_int(s) % team.ranks()});
+  const auto size_of = [](Rank r) { return Constant(0.1 / (1 + to_int(r))); };
+  const Constant own = size_of(team.rank());
+  plan.bounds.size = &own;
+  const PresplitPaths shared = job::share_presplit(team, plan);
+  const std::size_t ranks = to_index(team.ranks());
+  team.close();
+  std::set<Rank> deciding;
+  for (const GlobalRootId r : ids_of(plan.decomposition.roots)) {
+    const Decomposition::Root& root = plan.decomposition.roots[r];
+    CHECK(shared.contains(r) == root.is_interface());
+    if (!root.is_interface()) continue;
+    const Rank owner = plan.owners[root.left];
+    const Constant size = size_of(owner);
+    QualityBounds bounds = plan.bounds;
+    bounds.size = &size;
+    CHECK(shared.at(r) == presplit_paths(plan.decomposition, r, bounds));
+    deciding.insert(owner);
+  }
+  CHECK(deciding.size() == ranks);
 }
 
 TEST_CASE("progress is reported on every rank") {

@@ -1,6 +1,7 @@
 """Meshes on the ranks that mpiexec has started. Every rank runs every test."""
 
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -123,6 +124,77 @@ class Callables(unittest.TestCase):
         policy = (lambda load: []) if WORLD.size > 1 else None
         piece = piece_of(balance={"own": policy, "look": 1e-4, "gap": 1e-4})
         self.assertEqual(piece.total_triangles, piece_of().total_triangles)
+
+    def test_one_exception_for_all(self):
+        """What is wrong on one rank alone is that rank's exception, and an error with its words on the others."""
+        if WORLD.size == 1:
+            return
+        wrong = [({"max_area": "small"}, driftmesh.Error, "max_area"), ({"min_angle": []}, TypeError, "takes a number, not list"),
+                 ({"max_triangles": True}, TypeError, "takes a whole number, not bool"), ({"area": 1}, TypeError, "max_area"),
+                 ({"size": 3}, TypeError, "a callable"), ({"subdomains": 3}, TypeError, "dictionary"),
+                 ({"balance": {"own": 3}}, TypeError, "method plan")]
+        for guilty in (0, WORLD.size - 1):
+            for options, kind, words in wrong:
+                mine = WORLD.rank == guilty
+                with self.assertRaises(kind if mine else driftmesh.Error, msg=options) as caught:
+                    piece_of(**(options if mine else {}))
+                self.assertIn(words, str(caught.exception))
+                self.assertTrue(mine or f"rank {guilty}: " in str(caught.exception), caught.exception)
+        self.assertGreater(piece_of().total_triangles, 0)
+
+    def test_arguments_that_are_wrong_on_one_rank(self):
+        if WORLD.size == 1:
+            return
+        piece = piece_of()
+        last = WORLD.rank == WORLD.size - 1
+        for call in (lambda: driftmesh.mesh_distributed(WORLD, [1] if last else PIPE),
+                     lambda: driftmesh.write_distributed(WORLD, 3 if last else piece, "x.pvtu"),
+                     lambda: driftmesh.write_distributed(WORLD, piece, 3 if last else "x.pvtu"),
+                     lambda: driftmesh.add_ghost_layer(WORLD, None if last else piece)):
+            with self.assertRaises(TypeError if last else driftmesh.Error):
+                call()
+        self.assertFalse(pathlib.Path("x.pvtu").exists())
+
+    def test_options_that_differ(self):
+        if WORLD.size == 1:
+            return
+        for name, options in (("max_area", {"max_area": 50.0 + WORLD.rank}), ("min_angle", {"min_angle": 20 + WORLD.rank % 2}),
+                              ("subdomains.count", {"subdomains": {"count": 12 + WORLD.rank}}),
+                              ("size", {"size": (lambda x, y: 9.0) if FIRST else None})):
+            with self.assertRaisesRegex(driftmesh.Error, f"^{name} differs between ranks: .* on rank 0, .* on rank 1"):
+                piece_of(**options)
+
+    def test_sizes_that_differ(self):
+        """Sizes on the piece of each rank alone, the natural way to adapt, are not those of the other ranks."""
+        mesh = piece_of().mesh
+        size = driftmesh.size_on_mesh(mesh, 8 + np.abs(mesh.points[:, 0]) / 20)
+        if WORLD.size == 1:
+            self.assertGreater(piece_of(max_area=0, size=size).total_triangles, 0)
+            return
+        pattern = r"^the size field differs between ranks: at \((\S+), (\S+)\) it is (\S+) on rank 0 and (\S+) on rank (\d+); "
+        with self.assertRaisesRegex(driftmesh.Error, pattern) as caught:
+            piece_of(max_area=0, size=size)
+        x, y, first, other, rank = map(float, re.match(pattern, str(caught.exception)).groups())
+        self.assertEqual(len(set(WORLD.allgather(str(caught.exception)))), 1)
+        if WORLD.rank in (0, rank):
+            self.assertEqual(size(x, y), first if FIRST else other)
+
+    def test_communicators(self):
+        piece = piece_of()
+        calls = (lambda c: driftmesh.mesh_distributed(c, PIPE), lambda c: driftmesh.add_ghost_layer(c, piece),
+                 lambda c: driftmesh.write_distributed(c, piece, "x.pvtu"))
+        for call in calls:
+            with self.assertRaisesRegex(driftmesh.Error, "MPI_COMM_NULL"):
+                call(MPI.COMM_NULL)
+        if WORLD.size == 1:
+            return
+        half = WORLD.Split(WORLD.rank % 2)
+        between = half.Create_intercomm(0, WORLD, 1 - WORLD.rank % 2)
+        for call in calls:
+            with self.assertRaisesRegex(driftmesh.Error, "intercommunicator"):
+                call(between)
+        between.Free()
+        half.Free()
 
     def test_errors(self):
         with self.assertRaisesRegex(driftmesh.Error, "min_angle is 50"):

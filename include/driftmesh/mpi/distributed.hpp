@@ -14,13 +14,16 @@ namespace driftmesh {
 /// Makes a mesh of `input` on all ranks of a communicator, each of which gets its piece. Collective; to be called after
 /// MPI_Init. Messages travel on duplicates of the communicator, so they cannot interfere with the caller's.
 ///
-/// Input and options are those of rank 0, except for callables: every rank uses its own MeshOptions::size and
-/// MeshOptions::balance.own, which must behave identically everywhere. Every rank's own MeshOptions::progress is called
-/// for its subdomains, and can cancel the work of all ranks. The pieces together have the properties of mesh(); in
-/// addition, ranks agree on every shared point.
+/// The input, and a given decomposition, are those of rank 0. All other options must be the same on every rank, or all
+/// throw an Error that names the option and the ranks. Every rank uses its own MeshOptions::size and
+/// MeshOptions::balance.own, which must behave identically everywhere: where sizes are found to differ, at an end or
+/// the middle of a line between subdomains, all ranks throw an Error with the point and both values. Every rank's own
+/// MeshOptions::progress is called for its subdomains, and can cancel the work of all ranks. The pieces together have
+/// the properties of mesh(); in addition, ranks agree on every shared point.
 ///
 /// Errors are those of mesh(), thrown on all ranks: an error on a single rank, even in a callable, ends the work of all
-/// ranks in an orderly way, with an error of the same type that names the rank. Only if memory runs out between
+/// ranks in an orderly way, with an error of the same type that names the rank. Error also if MPI is not running, and
+/// for MPI_COMM_NULL and intercommunicators. Only if memory runs out between
 /// refinement and the finished pieces, MPI fails, or the caller's own policy throws in the middle of a joint plan
 /// (Placement::kCollective), does the job end with a message.
 [[nodiscard]] DistributedPiece mesh_distributed(MPI_Comm communicator, const Pslg& input,

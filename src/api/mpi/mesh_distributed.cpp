@@ -1,3 +1,4 @@
+#include <exception>
 #include <memory>
 #include <optional>
 #include <span>
@@ -7,15 +8,18 @@
 
 #include "api/call.hpp"
 #include "api/library_request.hpp"
+#include "api/mpi/fail_together.hpp"
 #include "balancer/policies/policy_factory.hpp"
-#include "base/bytes.hpp"
 #include "distributed/ghost_layer.hpp"
 #include "distributed/write_distributed.hpp"
 #include "driftmesh/error.hpp"
-#include "driftmesh/ids.hpp"
 #include "driftmesh/mpi/distributed.hpp"
+#include "job/failure.hpp"
+#include "job/keys.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/rank_run.hpp"
+#include "job/same_on_ranks.hpp"
+#include "job/value.hpp"
 
 namespace driftmesh {
 namespace {
@@ -42,10 +46,32 @@ class LibraryTeam final : public job::MpiTeam {
   }
 };
 
+/// Throws Error for a communicator without a group of ranks that could work together: its use would end the process.
+void require_usable(MPI_Comm communicator) {
+  int began = 0, ended = 0, between_groups = 0;
+  MPI_Initialized(&began);
+  MPI_Finalized(&ended);
+  if (began == 0 || ended != 0)
+    throw Error(std::string("MPI ") + (began == 0 ? "has not been initialized" : "has been finalized") +
+                "; call the functions for ranks between MPI_Init and MPI_Finalize");
+  if (communicator == MPI_COMM_NULL)
+    throw Error("the communicator is MPI_COMM_NULL; give one that this process belongs to");
+  MPI_Comm_test_inter(communicator, &between_groups);
+  if (between_groups != 0)
+    throw Error(
+        "the communicator is an intercommunicator, which joins two groups of ranks; give one of a single group, "
+        "such as MPI_Intercomm_merge makes of it");
+}
+
+/// What `work` returns with the ranks of the communicator, unless one of them has `failed` before: then all throw that.
 template <class Work>
-auto with_team(MPI_Comm communicator, const Work& work) {
+auto with_team(MPI_Comm communicator, const Work& work, const std::exception_ptr& failed = nullptr) {
+  require_usable(communicator);
   LibraryTeam team(communicator);
-  return then_close(team, [&] { return work(team); });
+  return then_close(team, [&] {
+    job::agree_on_failure(team, failed);
+    return work(team);
+  });
 }
 
 template <class Work>
@@ -57,20 +83,19 @@ auto with_channel(job::Team& team, const Work& work) {
   });
 }
 
-/// Which of the callables that affect the mesh the caller gives on this rank.
-Bytes callables_of(const MeshOptions& options) {
-  ByteWriter writer;
-  writer.value(static_cast<bool>(options.size));
-  writer.value(static_cast<bool>(options.balance.own));
-  return writer.take();
-}
-
-/// Ranks with different size functions would not agree on the points that they share.
-void check_callables(const std::vector<Bytes>& of_ranks) {
-  for (const Rank r : first_ids<Rank>(of_ranks.size()))
-    if (of_ranks[to_index(r)] != of_ranks.front())
-      throw Error("MeshOptions::size and MeshOptions::balance.own are for all ranks or for none, and ranks 0 and " +
-                  to_string(r) + " differ; give the same on each rank");
+/// The options as this rank has them. Of a callable, only whether there is one.
+std::vector<job::RankSetting> settings_of(const MeshOptions& options, const job::Request& request) {
+  std::vector<job::RankSetting> settings;
+  const auto add = [&](const std::string& member, const std::string& value) {
+    settings.push_back({"MeshOptions::" + member, value});
+  };
+  job::Request unused;
+  visit_options(options, unused, [&](const char* key, const char* member, const auto&, const auto&) {
+    add(member, job::text_of(job::find_key(key).key->load(request)));
+  });
+  add("size", options.size ? "a function" : "none");
+  add("balance.own", options.balance.own ? "a policy" : "none");
+  return settings;
 }
 
 job::Order order_for(const job::Team& team, Call& call) {
@@ -83,14 +108,9 @@ job::Order order_for(const job::Team& team, Call& call) {
 }
 
 DistributedPiece mesh_on(job::Team& team, Call& call, const MeshOptions& options) {
-  const std::vector<Bytes> callables = team.gather(callables_of(options));
+  job::require_same(team, settings_of(options, call.request()));
   // Rephrase the error where it occurs: only its message travels to the other ranks.
-  const auto make = [&] {
-    return with_words_of_options([&] {
-      check_callables(callables);
-      return std::optional(order_for(team, call));
-    });
-  };
+  const auto make = [&] { return with_words_of_options([&] { return std::optional(order_for(team, call)); }); };
   std::optional<job::Order> order = job::share(team, make, call.given().policies);
   job::RankRun run(team, std::move(*order), call.given().size, call.watch());
   run.refine();
@@ -118,11 +138,17 @@ GhostedPiece add_ghost_layer(MPI_Comm communicator, const DistributedPiece& piec
 
 void write_distributed(MPI_Comm communicator, const DistributedPiece& piece, const std::string& path) {
   static_cast<void>(with_team(communicator, [&](job::Team& team) {
+    job::require_same(team, {{"the path", path}});
     return with_channel(team, [&](ExchangeRunner& ranks) {
       write_distributed(ranks, piece, std::span(&path, 1));
       return true;
     });
   }));
+}
+
+void fail_together(MPI_Comm communicator, const std::exception_ptr& failure) {
+  static_cast<void>(with_team(
+      communicator, [](job::Team&) { return true; }, failure));
 }
 
 }  // namespace driftmesh
