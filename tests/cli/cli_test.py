@@ -771,6 +771,19 @@ class Mesh(Cli):
         self.assertEqual((result.returncode, result.stdout), (1, ""))
         self.assertIn("no.yaml: cannot open", result.stderr)
 
+    def test_a_file_that_some_ranks_lack_is_one_error(self):
+        self.write("square.poly", SQUARE)
+        self.write("sizes.node", "3 2 1 0\n1 -9 -9 1\n2 20 -9 1\n3 -9 20 1\n")
+        self.write("sizes.ele", "1 3 0\n1 1 2 3\n")
+        mesh = [program.PATH, "mesh", "square.poly", "-n", "8", "--size-mesh", "sizes.node"]
+        (self.folder / "elsewhere").mkdir()
+        result = subprocess.run(["mpiexec", "-n", "1", *mesh, ":", "-n", "2", "--wdir", str(self.folder / "elsewhere"), *mesh],
+                                cwd=self.folder, text=True, capture_output=True, timeout=MESHER_SECONDS, check=False,
+                                env=RANKS_ENVIRONMENT)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertEqual(result.stderr.count("driftmesh: "), 1, result.stderr)
+        self.assertIn("driftmesh: rank 1: sizes.node: cannot open", result.stderr)
+
     def test_attributes_of_added_points_are_interpolated(self):
         lines = SQUARE.splitlines()
         lines[0] = "4 2 1 0"
