@@ -10,9 +10,9 @@
 
 namespace driftmesh {
 
-FileBytes::FileBytes(const std::string& path) {
+FileBytes::FileBytes(const std::string& path, std::string_view first) {
   if (!is_standard_stream(path) && map(path)) return;
-  read_ = read_file(path);
+  read_ = read_file(path, first);
   view_ = read_;
 }
 
@@ -21,7 +21,7 @@ FileBytes::~FileBytes() {
 }
 
 bool FileBytes::map(const std::string& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // does not wait for a pipe
   if (file < 0) return false;
   struct stat status {};
   if (fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {

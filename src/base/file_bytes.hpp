@@ -7,11 +7,11 @@
 namespace driftmesh {
 
 /// The contents of a file, to be read once from the beginning to the end. A file on disk is mapped, which spares a copy
-/// in fresh memory; another program must not shorten it meanwhile. Standard input and pipes are read.
+/// in fresh memory; another program must not shorten it meanwhile. Standard input and pipes are read, by read_file.
 class FileBytes {
  public:
-  /// Throws FileError.
-  explicit FileBytes(const std::string& path);
+  /// `first`, and errors: as read_file.
+  explicit FileBytes(const std::string& path, std::string_view first = {});
   ~FileBytes();
   FileBytes(const FileBytes&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;

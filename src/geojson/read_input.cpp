@@ -51,7 +51,7 @@ InputFile parse_geojson_input(const std::string& file, std::string_view text) {
 InputFile read_geometry(const std::string& path, const std::string& layers) {
   if (is_vector_file(path)) return parse_geojson_input(path, vector_as_geojson(path, layers));
   if (!layers.empty()) throw InputError({path}, "has no layers", "name layers of files that have some, such as .gpkg");
-  if (is_geojson(path)) return parse_geojson_input(path, read_file(path));
+  if (is_geojson(path)) return parse_geojson_input(path, read_file(path, kBeginsJson));
   return {read_poly(path), {}, {}};
 }
 

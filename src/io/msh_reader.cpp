@@ -226,7 +226,7 @@ Mesh parse_msh(const std::string& file, std::string_view bytes) {
 }
 
 Mesh read_msh(const std::string& path) {
-  return parse_msh(path, read_file(path));
+  return parse_msh(path, read_file(path, "$"));
 }
 
 }  // namespace driftmesh

@@ -132,7 +132,7 @@ Pvtu parse_pvtu(const std::string& file, std::string_view bytes, const ReadOptio
 }
 
 Pvtu read_pvtu_header(const std::string& path, const ReadOptions& options) {
-  return parse_pvtu(path, read_file(path), options);
+  return parse_pvtu(path, read_file(path, kBeginsXml), options);
 }
 
 PieceFiles::PieceFiles(const std::string& path, const ReadOptions& options) {

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
+#include <utility>
 
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
-#include "io/encoded_bytes.hpp"
 #include "io/read_checks.hpp"
 
 namespace driftmesh {
@@ -22,9 +23,12 @@ VtuData::VtuData(const std::string& file, const VtuHeader& header) : file_(file)
   check_appended();
 }
 
+std::uint64_t VtuData::Blocks::size_of(std::size_t block) const {
+  return block + 1 == compressed.size() && last != 0 ? last : size;
+}
+
 std::uint64_t VtuData::Blocks::total() const {
-  if (compressed.empty()) return 0;
-  return last == 0 ? compressed.size() * size : (compressed.size() - 1) * size + last;
+  return compressed.empty() ? 0 : (compressed.size() - 1) * size + size_of(compressed.size() - 1);
 }
 
 void VtuData::fail(const VtuHeader::Array& array, const std::string& what) const {
@@ -97,50 +101,139 @@ void VtuData::check_appended() const {
   if (rest.remaining() > 0) throw InputError({file_, 0}, "has more behind </VTKFile>", kDamaged);
 }
 
-void VtuData::require_count(const VtuHeader::Array& array, std::uint64_t actual, std::uint64_t expected) const {
-  if (actual != expected)
-    fail(array, "holds " + std::to_string(actual) + " bytes of " + array.type + ", not " + std::to_string(expected));
+std::uint64_t VtuData::announced(const VtuHeader::Array& array) const {
+  EncodedBytes in = encoded(array);
+  return header_.compressed ? blocks(in, array).total() : length(in, array);
 }
 
-std::string_view VtuData::bytes(const VtuHeader::Array& array, std::uint64_t count, std::string& storage) const {
-  EncodedBytes in = encoded(array);
-  std::string_view view;
-  if (header_.compressed) {
-    const Blocks stored = blocks(in, array);
-    require_count(array, stored.total(), count);
-    inflate(in, stored, array, storage);
-    view = storage;
-  } else {
-    require_count(array, length(in, array), count);
-    if (!in.take_view(count, view)) {
-      if (!in.take(count, storage)) fail(array, "is cut off");
-      view = storage;
+/// Unpacks blocks one after the other.
+class VtuBytes::Inflater {
+ public:
+  Inflater(VtuData::Blocks blocks, const VtuData& data, const VtuHeader::Array& array)
+      : blocks_(std::move(blocks)), data_(data), array_(array) {
+    for (std::size_t i = 0; i < blocks_.compressed.size(); ++i)
+      if (blocks_.size_of(i) / kMostShrunk > blocks_.compressed[i])
+        data_.fail(array_, "has a block of impossible size");
+    if (inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
+  }
+  ~Inflater() { inflateEnd(&stream_); }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+
+  /// Appends `wanted` bytes to `out`.
+  void unpack(EncodedBytes& in, std::size_t wanted, std::string& out) {
+    while (wanted > 0) {
+      if (left_ == 0) begin_block(in);
+      const std::size_t here = std::min<std::uint64_t>(left_, wanted);
+      inflate_into(out, here);
+      wanted -= here;
+      if ((left_ -= here) == 0) end_block();
     }
   }
-  if (array.format != VtuHeader::Format::kAppended &&
-      !std::all_of(array.text.begin() + static_cast<std::ptrdiff_t>(in.position()), array.text.end(),
-                   ByteCursor::is_blank))
-    fail(array, "has more data than announced");
-  return view;
+
+ private:
+  void begin_block(EncodedBytes& in) {
+    if (!in.take_view(blocks_.compressed[next_], packed_)) {
+      if (!in.take(blocks_.compressed[next_], decoded_)) data_.fail(array_, "is cut off");
+      packed_ = decoded_;
+    }
+    inflateReset(&stream_);
+    left_ = blocks_.size_of(next_++);
+  }
+
+  void inflate_into(std::string& out, std::size_t count) {
+    const std::size_t begin = out.size();
+    out.resize(begin + count);
+    if (step(out.data() + begin, count) != count) fail();
+  }
+
+  /// The stream must end here, which takes reading what follows the last byte.
+  void end_block() {
+    char behind = 0;
+    if (step(&behind, 1) != 0 || !at_end_ || !packed_.empty()) fail();
+  }
+
+  /// Inflates up to `count` bytes to `to`; returns how many.
+  std::size_t step(char* to, std::size_t count) {
+    constexpr std::size_t kMost = std::size_t{1} << 30;  // zlib counts with 32 bits
+    const std::size_t wanted = count;
+    at_end_ = false;
+    while (!at_end_) {
+      const std::size_t given = std::min(packed_.size(), kMost);
+      stream_.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(packed_.data()));  // NOLINT: zlib reads only
+      stream_.avail_in = static_cast<uInt>(given);
+      stream_.next_out = reinterpret_cast<Bytef*>(to);
+      stream_.avail_out = static_cast<uInt>(count);
+      const int result = ::inflate(&stream_, Z_NO_FLUSH);
+      packed_.remove_prefix(given - stream_.avail_in);
+      to += count - stream_.avail_out;
+      count = stream_.avail_out;
+      at_end_ = result == Z_STREAM_END;
+      if (count == 0 || (result != Z_OK && !at_end_)) break;
+    }
+    return wanted - count;
+  }
+
+  [[noreturn]] void fail() const {
+    data_.fail(array_,
+               "has block " + std::to_string(next_ - 1) + " (counted from 0) that zlib cannot unpack as announced");
+  }
+
+  VtuData::Blocks blocks_;
+  const VtuData& data_;
+  const VtuHeader::Array& array_;
+  z_stream stream_{};
+  std::size_t next_ = 0;    // block
+  std::uint64_t left_ = 0;  // of the present one, unpacked
+  std::string_view packed_;
+  std::string decoded_;
+  bool at_end_ = false;
+};
+
+VtuBytes::VtuBytes(const VtuData& data, const VtuHeader::Array& array, std::uint64_t count)
+    : data_(data), array_(array), in_(data.encoded(array)), left_(count) {
+  std::uint64_t announced = 0;
+  if (data.header_.compressed) {
+    VtuData::Blocks blocks = data.blocks(in_, array);
+    announced = blocks.total();
+    for (const std::uint64_t size : blocks.compressed) stored_ += size;
+    if (announced == count) inflater_ = std::make_unique<Inflater>(std::move(blocks), data, array);
+  } else {
+    announced = stored_ = data.length(in_, array);
+  }
+  if (announced != count)
+    data.fail(array,
+              "holds " + std::to_string(announced) + " bytes of " + array.type + ", not " + std::to_string(count));
+  if (count == 0) require_end();
 }
 
-void VtuData::inflate(EncodedBytes& in, const Blocks& blocks, const VtuHeader::Array& array, std::string& out) const {
-  out.clear();
-  std::string packed;
-  for (std::size_t i = 0; i < blocks.compressed.size(); ++i) {
-    const bool is_last = i + 1 == blocks.compressed.size();
-    const std::uint64_t size = is_last && blocks.last != 0 ? blocks.last : blocks.size;
-    if (size / kMostShrunk > blocks.compressed[i]) fail(array, "has a block of impossible size");
-    if (!in.take(blocks.compressed[i], packed)) fail(array, "is cut off");
-    const std::size_t begin = out.size();
-    out.resize(begin + size);
-    uLongf made = size;
-    uLong taken = packed.size();
-    const int result = ::uncompress2(reinterpret_cast<Bytef*>(out.data() + begin), &made,
-                                     reinterpret_cast<const Bytef*>(packed.data()), &taken);
-    if (result != Z_OK || made != size || taken != packed.size())
-      fail(array, "has block " + std::to_string(i) + " (counted from 0) that zlib cannot unpack as announced");
+VtuBytes::~VtuBytes() = default;
+
+std::string_view VtuBytes::next() {
+  const std::size_t wanted = std::min<std::uint64_t>(left_, kPart);
+  std::string_view part;
+  if (wanted == 0) return part;
+  if (inflater_ != nullptr || !in_.take_view(wanted, part)) {
+    unpack(wanted);
+    part = part_;
   }
+  left_ -= wanted;
+  if (left_ == 0) require_end();
+  return part;
+}
+
+void VtuBytes::unpack(std::size_t wanted) {
+  part_.clear();
+  if (inflater_ != nullptr)
+    inflater_->unpack(in_, wanted, part_);
+  else if (!in_.take(wanted, part_))
+    data_.fail(array_, "is cut off");
+}
+
+void VtuBytes::require_end() const {
+  if (array_.format == VtuHeader::Format::kAppended) return;
+  const std::string_view rest = array_.text.substr(in_.position());
+  if (!std::all_of(rest.begin(), rest.end(), ByteCursor::is_blank)) data_.fail(array_, "has more data than announced");
 }
 
 }  // namespace driftmesh

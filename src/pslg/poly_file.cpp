@@ -129,7 +129,7 @@ Pslg parse_poly(const std::string& file, std::string_view text) {
 }
 
 Pslg read_poly(const std::string& path) {
-  const std::string text = read_file(path);
+  const std::string text = read_file(path, kBeginsNumbers);
   refuse_other_files(path, text);
   if (path.ends_with(".node")) return pslg_of_points(path, parse_node(path, text));
   return parse_poly(path, text);

@@ -8,8 +8,10 @@ usage: limits_test.py DRIFTMESH [unittest options]
 import os
 import random
 import re
+import struct
 import subprocess
 import unittest
+import zlib
 
 import program
 
@@ -117,6 +119,93 @@ class Ceiling(program.Cli):
             with self.subTest(seed=seed):
                 self.hold(limit, *choose.choice((area, [*area, "--size", "0.001+0.1*y"])), *parts, *sleep, *output,
                           ranks=ranks)
+
+
+class Bombs(program.Cli):
+    """A .vtu takes the memory of the mesh that it holds, not that of what its data unpack to."""
+
+    UNPACKED = 72 * MEGABYTE
+    MOST = 56 * MEGABYTE
+
+    def packed(self, unit, total, block):
+        """Repetitions of some bytes as VTK's compressed data, and how many bytes these are."""
+        block -= block % len(unit)
+        whole, rest = divmod(total - total % len(unit), block)
+        packs = [self.deflated(unit, block)] * whole + ([self.deflated(unit, rest)] if rest else [])
+        return struct.pack(f"<{3 + len(packs)}Q", len(packs), block, rest, *map(len, packs)) + b"".join(packs), whole * block + rest
+
+    @staticmethod
+    def deflated(unit, size):
+        part = unit * (65536 // len(unit))
+        deflater, made = zlib.compressobj(6), []
+        for _ in range(size // len(part)):
+            made.append(deflater.compress(part))
+        return b"".join([*made, deflater.compress(unit * (size % len(part) // len(unit))), deflater.flush()])
+
+    def bomb(self, points, cells, arrays):
+        """`arrays`: section, name, type, components, unit, size, size of a block."""
+        text, data = {"PointData": "", "CellData": "", "Points": "", "Cells": ""}, b""
+        for section, name, kind, components, unit, size, block in arrays:
+            text[section] += (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="appended" '
+                              f'offset="{len(data)}"/>')
+            data += self.packed(unit, size, block)[0]
+        inside = "".join(f"<{section}>{lines}</{section}>" for section, lines in text.items())
+        self.write("bomb.vtu", f'<?xml version="1.0"?><VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" '
+                   f'header_type="UInt64" compressor="vtkZLibDataCompressor"><UnstructuredGrid><Piece NumberOfPoints="{points}" '
+                   f'NumberOfCells="{cells}">{inside}</Piece></UnstructuredGrid><AppendedData encoding="raw">_'.encode()
+                   + data + b"</AppendedData></VTKFile>")
+
+    def test_what_is_unpacked_takes_no_memory(self):
+        seed = random.randrange(1 << 32)
+        print(f"seed {seed}", flush=True)
+        draw = random.Random(seed)
+        zero, total = bytes(8), self.UNPACKED
+        place = ("Points", "Points", "Float64", 3)
+        cells = [("Cells", "connectivity", "Int64", 1), ("Cells", "offsets", "Int64", 1), ("Cells", "types", "UInt8", 1)]
+        block = lambda: draw.choice([1 << 15, 1 << 20, total])
+        one_cell = [(*cells[0], zero, 24, 24), (*cells[1], struct.pack("<q", 3), 8, 8), (*cells[2], b"\5", 1, 1)]
+        three = (*place, zero, 72, 72)
+        small = draw.choice(["UInt8", "Int8"])
+        bombs = {
+            "points": (total // 24, 1, [(*place, struct.pack("<3d", draw.random(), 1, 0), total, block()), *one_cell]),
+            "small points": (total // 12, 1, [("Points", "Points", "Float32", 3, bytes(12), total, block()), *one_cell]),
+            "types": (3, total, [three, (*cells[0], zero, 24, 24), (*cells[1], zero, 24, 24), (*cells[2], b"\5", total, block())]),
+            "offsets": (3, total // 2, [three, ("Cells", "connectivity", small, 1, b"\0", total, block()),
+                                        ("Cells", "offsets", small, 1, b"\3", total // 2, block()),
+                                        (*cells[2], b"\5", total // 2, block())]),
+            "corners": (3, 1, [three, ("Cells", "connectivity", small, 1, b"\1", total, block()), *one_cell[1:]]),
+            "attributes": (3, 1, [three, ("PointData", "attribute", "Float64", total // 24, zero, total - total % 24, block()), *one_cell]),
+            "markers": (3, 1, [three, ("PointData", "marker", "Int32", total // 12, bytes(4), total - total % 12, block()), *one_cell]),
+            "regions": (3, 1, [three, ("CellData", "region", "Float64", total // 8, zero, total, block()), *one_cell]),
+            "another": (3, 1, [three, ("CellData", "other", "Float64", 1, zero, total, block()), *one_cell]),
+        }
+        for what, (points, count, arrays) in bombs.items():
+            with self.subTest(what=what):
+                self.bomb(points, count, arrays)
+                process = subprocess.Popen([program.PATH, "convert", "bomb.vtu", "x.msh"], cwd=self.folder, stderr=subprocess.PIPE)
+                errors = process.stderr.read().decode(errors="replace")
+                process.stderr.close()
+                _, status, usage = os.wait4(process.pid, 0)
+                process.returncode = os.waitstatus_to_exitcode(status)
+                self.assertEqual(process.returncode, 0 if what == "another" else 1, errors)
+                self.assertLess(usage.ru_maxrss * 1024, self.MOST, what)
+                self.assertLessEqual(errors.count("\n"), 1)
+
+    def test_streams_that_never_end(self):
+        """Given up as soon as they cannot be what is expected, and long before the memory is full."""
+        for source in ("cat /dev/zero", "yes", "yes '<'"):
+            for command in ("mesh -", "mesh -.geojson", "check -", "convert - x.vtu", "convert -.msh x.vtu", "plot - -o x.png"):
+                if source == "yes '<'" and command in ("check -", "convert - x.vtu", "plot - -o x.png"):
+                    continue  # like a file, so that it is read up to the limit
+                process = subprocess.Popen(["bash", "-c", f"{source} | exec '{program.PATH}' {command}"], cwd=self.folder,
+                                           stderr=subprocess.PIPE)
+                errors = process.stderr.read().decode(errors="replace")
+                process.stderr.close()
+                _, status, usage = os.wait4(process.pid, 0)
+                process.returncode = os.waitstatus_to_exitcode(status)
+                self.assertIn(process.returncode, (1, 2), (source, command, errors))
+                self.assertIn("does not begin like", errors)
+                self.assertLess(usage.ru_maxrss * 1024, self.MOST)
 
 
 if __name__ == "__main__":
