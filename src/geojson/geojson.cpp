@@ -8,6 +8,7 @@
 
 #include "driftmesh/error.hpp"
 #include "gis/geographic_system.hpp"
+#include "gis/mercator.hpp"
 #include "gis/transverse_mercator.hpp"
 
 namespace driftmesh {
@@ -59,7 +60,15 @@ class FeatureReader {
     if (!root.is_object() || !root.contains(name) || !root[name].is_string()) return;
     found_.system = root[name].get<std::string>();
     found_.in_degrees = is_geographic_system(found_.system);
-    if (const auto zone = utm_zone_of_epsg(epsg_code_in(found_.system))) found_.projection = zone->name();
+    const int code = epsg_code_in(found_.system);
+    if (const auto zone = utm_zone_of_epsg(code)) found_.projection = zone->name();
+    use_mercator(code);
+  }
+
+  /// Positions in Mercator's projection become degrees when they are read.
+  void use_mercator(int code) {
+    mercator_ = mercator_of_code(code);
+    if (mercator_) found_.in_degrees = true;
   }
 
   [[nodiscard]] std::string type_of(const Json& object) const {
@@ -154,7 +163,8 @@ class FeatureReader {
   [[nodiscard]] Point position(const Json& p) const {
     if (!p.is_array() || p.size() < 2 || !p[0].is_number() || !p[1].is_number())
       fail("has a position that is no array of two numbers");
-    return {p[0].get<double>(), p[1].get<double>()};
+    const Point place{p[0].get<double>(), p[1].get<double>()};
+    return mercator_ ? geographic(place, *mercator_) : place;
   }
 
   [[nodiscard]] std::optional<double> number_in(const Json& properties, const char* name) const {
@@ -185,7 +195,8 @@ class FeatureReader {
   }
 
   const std::string& file_;
-  std::size_t feature_ = 0;  // the one at hand; 0: none
+  std::size_t feature_ = 0;           // the one at hand; 0: none
+  std::optional<Mercator> mercator_;  // that positions are in
   GeoFeatures found_;
 };
 

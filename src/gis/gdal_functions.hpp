@@ -3,10 +3,14 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #ifdef DRIFTMESH_GDAL_LIBRARY
+#include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_http.h>
+#include <cpl_minixml.h>
 #include <gdal.h>
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
@@ -19,22 +23,24 @@ namespace driftmesh {
 // Each name is a member, its type, and what it is found by.
 // clang-format off
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage)
-#define DRIFTMESH_GDAL_FUNCTIONS(USE)                                                                               \
-  USE(CPLErrorReset) USE(CPLGetLastErrorMsg) USE(CPLGetLastErrorType) USE(CPLPopErrorHandler)                       \
-  USE(CPLPushErrorHandler) USE(CPLQuietErrorHandler) USE(GDALAllRegister) USE(GDALClose)                            \
+#define DRIFTMESH_GDAL_FUNCTIONS(USE)                                                                              \
+  USE(CPLCalloc) USE(CPLDestroyXMLNode) USE(CPLErrorReset) USE(CPLGetLastErrorMsg) USE(CPLGetLastErrorType) \
+  USE(CPLParseXMLFile) USE(CPLStrdup)                                                                               \
+  USE(CPLHTTPPopFetchCallback) USE(CPLHTTPPushFetchCallback) USE(CPLPopErrorHandler) USE(CPLPushErrorHandler)       \
+  USE(CPLQuietErrorHandler) USE(CPLSetThreadLocalConfigOption) USE(GDALAllRegister) USE(GDALClose)                  \
   USE(GDALDatasetGetLayer) USE(GDALDatasetGetLayerByName) USE(GDALDatasetGetLayerCount) USE(GDALFlushCache)         \
   USE(GDALGetGeoTransform) USE(GDALGetRasterBand) USE(GDALGetRasterCount) USE(GDALGetRasterNoDataValue)             \
   USE(GDALGetRasterOffset) USE(GDALGetRasterScale) USE(GDALGetRasterXSize) USE(GDALGetRasterYSize)                  \
   USE(GDALGetSpatialRef) USE(GDALOpenEx) USE(GDALRasterIO) USE(OCTDestroyCoordinateTransformation)                  \
   USE(OCTNewCoordinateTransformation) USE(OCTTransform) USE(OGR_F_Destroy) USE(OGR_F_GetFieldAsDouble)              \
-  USE(OGR_F_GetFieldAsInteger64) USE(OGR_F_GetFieldAsString) USE(OGR_F_GetFieldCount)                               \
-  USE(OGR_F_GetFieldDefnRef) USE(OGR_F_GetGeometryRef) USE(OGR_F_IsFieldSetAndNotNull) USE(OGR_Fld_GetNameRef)      \
-  USE(OGR_Fld_GetType) USE(OGR_GT_Flatten) USE(OGR_G_DestroyGeometry) USE(OGR_G_GetGeometryCount)                   \
-  USE(OGR_G_GetGeometryRef) USE(OGR_G_GetGeometryType) USE(OGR_G_GetLinearGeometry) USE(OGR_G_GetPointCount)        \
-  USE(OGR_G_GetX) USE(OGR_G_GetY) USE(OGR_G_Transform) USE(OGR_L_GetName) USE(OGR_L_GetNextFeature)                 \
-  USE(OGR_L_GetSpatialRef) USE(OGR_L_ResetReading) USE(OSRDestroySpatialReference) USE(OSRGetLinearUnits)           \
-  USE(OSRGetUTMZone) USE(OSRImportFromEPSG) USE(OSRIsGeographic) USE(OSRIsProjected) USE(OSRIsSame)                 \
-  USE(OSRNewSpatialReference) USE(OSRSetAxisMappingStrategy)
+  USE(OGR_F_GetFieldAsInteger64) USE(OGR_F_GetFieldAsString) USE(OGR_F_GetFieldCount) USE(OGR_F_GetFieldDefnRef)    \
+  USE(OGR_F_GetGeometryRef) USE(OGR_F_IsFieldSetAndNotNull) USE(OGR_Fld_GetNameRef) USE(OGR_Fld_GetType)            \
+  USE(OGR_GT_Flatten) USE(OGR_G_DestroyGeometry) USE(OGR_G_GetGeometryCount) USE(OGR_G_GetGeometryRef)              \
+  USE(OGR_G_GetGeometryType) USE(OGR_G_GetLinearGeometry) USE(OGR_G_GetPointCount) USE(OGR_G_GetX) USE(OGR_G_GetY)  \
+  USE(OGR_G_Transform) USE(OGR_L_GetName) USE(OGR_L_GetNextFeature) USE(OGR_L_GetSpatialRef)                        \
+  USE(OGR_L_ResetReading) USE(OSRDestroySpatialReference) USE(OSRGetAttrValue) USE(OSRGetLinearUnits)               \
+  USE(OSRGetPROJEnableNetwork) USE(OSRGetUTMZone) USE(OSRImportFromEPSG) USE(OSRIsGeographic) USE(OSRIsProjected)   \
+  USE(OSRIsSame) USE(OSRNewSpatialReference) USE(OSRSetAxisMappingStrategy) USE(OSRSetPROJEnableNetwork)
 // clang-format on
 
 /// The functions of GDAL that are used here. The library is loaded when they are first asked for.
@@ -48,6 +54,11 @@ struct GdalFunctions {
   [[nodiscard]] bool is_on_globe(OGRSpatialReferenceH system) const {
     return OSRIsGeographic(system) != 0 || OSRIsProjected(system) != 0;
   }
+  /// Whether it is one of Mercator's whose meters are none (see Mercator), not a transverse or oblique one.
+  [[nodiscard]] bool is_mercator(OGRSpatialReferenceH system) const {
+    const char* const projection = OSRIsProjected(system) != 0 ? OSRGetAttrValue(system, "PROJECTION", 0) : nullptr;
+    return projection != nullptr && std::string_view(projection).starts_with("Mercator");
+  }
 };
 
 /// To read this file. Throws InputError that says how to get GDAL where it cannot be loaded.
@@ -57,9 +68,25 @@ struct GdalFunctions {
 template <class Handle>
 using OwnedByUs = std::unique_ptr<std::remove_pointer_t<Handle>, std::function<void(Handle)>>;
 
-/// Opens a file for reading, as GDAL_OF_VECTOR or GDAL_OF_RASTER. Throws FileError where it is not there or may not be
-/// read, and InputError for what GDAL does not know.
+/// Opens a file for reading, as GDAL_OF_VECTOR or GDAL_OF_RASTER, by the drivers for its extension alone: GDAL itself
+/// goes by the content, and some formats are descriptions of other files, of servers and of databases. Throws FileError
+/// where the file is not there or may not be read, and InputError for an extension without a driver, a file that is
+/// something else than its extension says, one that is no regular file, and one that leads to others.
 [[nodiscard]] OwnedByUs<GDALDatasetH> open_by_gdal(const GdalFunctions& gdal, const std::string& file, unsigned kind);
+
+/// While it exists, no file leads GDAL into a network in this thread. (Requests of PROJ for grids are off in all.) To
+/// be destroyed in the reverse order.
+class OfflineGdal {
+ public:
+  explicit OfflineGdal(const GdalFunctions& gdal);
+  ~OfflineGdal();
+  OfflineGdal(const OfflineGdal&) = delete;
+  OfflineGdal& operator=(const OfflineGdal&) = delete;
+
+ private:
+  const GdalFunctions& gdal_;
+  int grids_from_network_;
+};
 
 /// While it exists, errors of GDAL are not printed in this thread, only kept for message().
 class QuietGdal {

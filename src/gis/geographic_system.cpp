@@ -63,7 +63,8 @@ int epsg_code_in(std::string_view name) {
   std::string upper(name);
   std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   const std::size_t last = upper.find_last_not_of("0123456789");
-  if (upper.find("EPSG") == std::string::npos || last == std::string::npos) return 0;
+  const bool has_authority = upper.find("EPSG") != std::string::npos || upper.find("ESRI") != std::string::npos;
+  if (!has_authority || last == std::string::npos) return 0;
   int code = 0;
   std::from_chars(upper.data() + last + 1, upper.data() + upper.size(), code);
   return code;

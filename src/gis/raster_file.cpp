@@ -22,7 +22,7 @@ constexpr std::int64_t kRowsKept = 1024;
 class GdalRaster final : public RasterRows {
  public:
   explicit GdalRaster(const std::string& file)
-      : file_(file), gdal_(gdal_for(file)), data_(open_by_gdal(gdal_, file, GDAL_OF_RASTER)) {
+      : file_(file), gdal_(gdal_for(file)), offline_(gdal_), data_(open_by_gdal(gdal_, file, GDAL_OF_RASTER)) {
     if (gdal_.GDALGetRasterCount(data_.get()) == 0)
       fail("holds no raster by itself, but maybe several", "extract one with gdal_translate; gdalinfo lists them");
     set_frame();
@@ -53,6 +53,11 @@ class GdalRaster final : public RasterRows {
       if (in_degrees) place.x = middle + std::remainder(place.x - middle, 360);  // as the raster counts longitudes
       return place;
     };
+  }
+
+  [[nodiscard]] bool in_mercator() const override {
+    const OGRSpatialReferenceH own = gdal_.GDALGetSpatialRef(data_.get());
+    return own != nullptr && gdal_.is_mercator(own);
   }
 
   void read(std::int64_t j, std::int64_t first, std::span<float> values) override {
@@ -104,6 +109,7 @@ class GdalRaster final : public RasterRows {
 
   std::string file_;
   const GdalFunctions& gdal_;
+  OfflineGdal offline_;
   OwnedByUs<GDALDatasetH> data_;
   GDALRasterBandH band_ = nullptr;
   RasterFrame frame_;

@@ -24,6 +24,8 @@ class RasterRows {
   /// From places in a UTM zone to the raster's coordinates; null: they are the same. A file that does not name its
   /// system has longitudes and latitudes if all its coordinates could be some, and is in the zone otherwise.
   [[nodiscard]] virtual std::function<Point(const Point&)> from_zone(const UtmZone& zone) const;
+  /// Whether the coordinates are Mercator's, whose meters are none (see Mercator).
+  [[nodiscard]] virtual bool in_mercator() const { return false; }
   /// Values of row `j` from column `first` on, NaN where there are none. Rows are asked for in descending order, each
   /// at most once. Throws InputError.
   virtual void read(std::int64_t j, std::int64_t first, std::span<float> values) = 0;

@@ -39,7 +39,11 @@ using Json = nlohmann::json;
 class VectorReader {
  public:
   explicit VectorReader(const std::string& file)
-      : file_(file), gdal_(gdal_for(file)), quiet_(gdal_), data_(open_by_gdal(gdal_, file, GDAL_OF_VECTOR)) {}
+      : file_(file),
+        gdal_(gdal_for(file)),
+        quiet_(gdal_),
+        offline_(gdal_),
+        data_(open_by_gdal(gdal_, file, GDAL_OF_VECTOR)) {}
 
   Json read(const std::string& names) {
     Json collection = {{"type", "FeatureCollection"}, {"features", Json::array()}};
@@ -87,7 +91,8 @@ class VectorReader {
     transformation_ = nullptr;
     const OGRSpatialReferenceH system = gdal_.OGR_L_GetSpatialRef(layer);
     if (system == nullptr || !gdal_.is_on_globe(system)) return "unknown";
-    if (gdal_.OSRIsProjected(system) != 0 && gdal_.OSRGetLinearUnits(system, nullptr) == 1) {
+    if (gdal_.OSRIsProjected(system) != 0 && gdal_.OSRGetLinearUnits(system, nullptr) == 1 &&
+        !gdal_.is_mercator(system)) {
       int north = 0;
       const int zone = gdal_.OSRGetUTMZone(system, &north);
       if (zone == 0) return kInMeters;
@@ -214,6 +219,7 @@ class VectorReader {
   const std::string& file_;
   const GdalFunctions& gdal_;
   QuietGdal quiet_;
+  OfflineGdal offline_;
   OwnedByUs<GDALDatasetH> data_;
   OwnedByUs<OGRCoordinateTransformationH> transformation_;  // null: coordinates remain
 };

@@ -55,7 +55,7 @@ void write_xdmf(const std::string& path, const Hdf5Shape& shape);
 void write_hdf5(const Mesh& mesh, const std::string& path);
 
 /// Reads what these functions write. A file that ranks wrote gives the same mesh whichever rank held what (see
-/// merge_pieces). Errors: InputError, FileError.
+/// merge_pieces), and nothing from other files (see require_own_content). Errors: InputError, FileError.
 [[nodiscard]] Mesh read_hdf5(const std::string& path);
 
 }  // namespace driftmesh

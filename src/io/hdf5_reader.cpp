@@ -8,8 +8,9 @@
 #include "base/narrow.hpp"
 #include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
+#include "hdf5/hdf5_handle.hpp"
+#include "hdf5/own_content.hpp"
 #include "io/hdf5_format.hpp"
-#include "io/hdf5_handle.hpp"
 #include "io/read_checks.hpp"
 #include "mesh/merge_pieces.hpp"
 #include "pslg/names.hpp"
@@ -201,6 +202,7 @@ Mesh in_order(Mesh mesh, const std::string& path) {
 Mesh read_hdf5(const std::string& path) {
   const QuietHdf5 quiet;
   if (!std::filesystem::is_regular_file(path)) (void)read_file(path);  // says why not
+  require_own_content(path);
   Mesh mesh = Hdf5Reader(path).read();
   check_read_mesh(mesh, path);
   return in_order(std::move(mesh), path);

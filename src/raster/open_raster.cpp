@@ -98,6 +98,10 @@ OpenedRaster open_raster(const std::string& path, const RasterPlace& place) {
     rows = std::make_unique<AsciiGrid>(path, bytes.emplace(path).view());
   else
     rows = open_raster_file(path);
+  if (!place.zone && rows->in_mercator())
+    throw InputError(
+        {path}, "is in Mercator's projection, whose meters are none, and the domain does not say where it is",
+        "give the domain in degrees or in a UTM zone (GeoJSON, .shp), or reproject the raster with gdalwarp");
   PlaceMap to_source;
   if (place.zone) to_source = rows->from_zone(*place.zone);
   const Box domain = widened(place.domain);

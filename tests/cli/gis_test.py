@@ -4,13 +4,16 @@
 usage: gis_test.py DRIFTMESH GDAL(ON or OFF: whether it is built with GDAL) [unittest options]
 """
 
+import http.server
 import json
 import math
 import pathlib
+import random
 import re
 import shutil
 import subprocess
 import sys
+import threading
 import unittest
 
 from program import SQUARE, Cli, main
@@ -233,11 +236,34 @@ class Vectors(Gis):
         zone = degrees["projection"]
         code = (32600 if zone.endswith("N") else 32700) + int(re.search(r"\d+", zone).group())
         self.tool("ogr2ogr", "-t_srs", f"EPSG:{code}", *where, "utm.shp", BAY)
-        self.tool("ogr2ogr", "-t_srs", "EPSG:3857", *where, "mercator.shp", BAY)
         self.tool("ogr2ogr", "-t_srs", "EPSG:2284", *where, "feet.shp", BAY)
         self.assertEqual({**self.features("utm.shp"), "file": ""}, {**degrees, "file": ""})
         self.assertEqual(self.features("feet.shp")["projection"], zone)
-        self.assertNotIn("UTM", self.features("mercator.shp").get("projection") or "")
+        self.tool("ogr2ogr", "-t_srs", "EPSG:3035", *where, "laea.shp", BAY)
+        self.assertNotIn("UTM", self.features("laea.shp").get("projection") or "")
+
+    def test_mercator(self):
+        """Its meters are none: areas would be 58 % too large here. It becomes meters by way of degrees."""
+        where = ["-where", "OGR_GEOMETRY='POLYGON'"]
+        self.tool("ogr2ogr", "-f", "GeoJSON", *where, "water.geojson", BAY)
+        degrees = self.features("water.geojson")
+        area = self.area("of.vtu")
+        for code in ("EPSG:3857", "EPSG:3395", "ESRI:102100", "EPSG:3832"):
+            for made in ("mercator.shp", "mercator.gpkg"):
+                self.tool("ogr2ogr", "-overwrite", "-t_srs", code, *where, made, BAY)
+                self.assertEqual(self.features(made)["projection"], degrees["projection"], (code, made))
+                self.assertAlmostEqual(self.area("of.vtu") / area, 1, delta=1e-6)
+        for code in (3857, 3395, 900913, 102100):
+            named = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:EPSG::{code}"}}
+            (self.folder / "own.geojson").unlink(missing_ok=True)
+            source = "EPSG:3395" if code == 3395 else "EPSG:3857"
+            self.tool("ogr2ogr", "-f", "GeoJSON", "-lco", "COORDINATE_PRECISION=6", "-t_srs", source, *where, "own.geojson", BAY)
+            self.file("own.geojson", json.dumps({**json.loads((self.folder / "own.geojson").read_text()), "crs": named}))
+            self.assertEqual(self.features("own.geojson")["projection"], degrees["projection"], code)
+            self.assertAlmostEqual(self.area("of.vtu") / area, 1, delta=1e-6)
+
+    def area(self, mesh):
+        return float(re.search(r"(?m)^area +([0-9.e+]+)$", self.succeed("check", mesh)).group(1))
 
     def test_other_datum(self):
         """A UTM zone on another datum has other coordinates for the same places, by a hundred meters and more."""
@@ -249,7 +275,7 @@ class Vectors(Gis):
             self.tool("ogr2ogr", "-t_srs", f"EPSG:{code}", "-nlt", "PROMOTE_TO_MULTI", made, "water.geojson")
             self.assertEqual(self.features(made)["projection"], zone)
             self.assertLess(math.dist(self.corner("of.vtu"), here), 0.01, made)
-        self.tool("ogr2ogr", "-a_srs", "EPSG:3857", "-f", "GPKG", "as_is.gpkg", "nad27.gpkg")
+        self.tool("ogr2ogr", "-a_srs", "EPSG:3035", "-f", "GPKG", "as_is.gpkg", "nad27.gpkg")
         self.features("as_is.gpkg")
         self.assertGreater(math.dist(self.corner("of.vtu"), here), 50, "the two datums must differ for this test to mean anything")
 
@@ -286,6 +312,129 @@ class Vectors(Gis):
         self.file("text.gpkg", "no database")
         self.refuse("mesh", "text.gpkg", says=["text.gpkg"])
         self.refuse("mesh", "none.shp", says=["none.shp", "No such file"])
+
+
+class Listener(http.server.BaseHTTPRequestHandler):
+    """A server that remembers what it was asked for."""
+
+    asked = []
+
+    def do_GET(self):  # pylint: disable=invalid-name
+        self.asked.append(self.path)
+        self.send_response(404)
+        self.end_headers()
+
+    do_HEAD = do_POST = do_GET
+
+    def log_message(self, *_):  # pylint: disable=arguments-differ
+        pass
+
+
+@needs_gdal
+class Doors(Gis):
+    """A file is what its extension says, and leads neither to other folders nor into a network."""
+
+    VECTORS = ("shp", "gpkg", "fgb", "gml", "kml", "gmt")
+    RASTERS = ("tif", "tiff", "nc", "grd", "dem", "hgt", "bil", "grb", "xyz", "bag", "vrt")
+
+    def setUp(self):
+        super().setUp()
+        Listener.asked.clear()
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Listener)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        self.server = f"http://127.0.0.1:{server.server_port}"
+        (self.folder / "elsewhere").mkdir()
+        shutil.copy(BAY, self.folder / "elsewhere/secret.geojson")
+        self.file("elsewhere/depth.asc", grid_text(81, 81, 0.05))
+        self.tool("gdal_translate", "-q", "elsewhere/depth.asc", "elsewhere/depth.tif")
+        (self.folder / "here").mkdir()
+        self.square()
+
+    def leads(self):
+        """Texts that GDAL takes for descriptions of data elsewhere, whatever their files are called."""
+        vector = ["../elsewhere/secret.geojson", str(self.folder / "elsewhere/secret.geojson"), f"/vsicurl/{self.server}/a.geojson",
+                  f"{self.server}/a.geojson", f"/vsicurl_streaming/{self.server}/b.json", f"WFS:{self.server}/wfs"]
+        raster = ["../elsewhere/depth.tif", str(self.folder / "elsewhere/depth.tif"), f"/vsicurl/{self.server}/a.tif"]
+        for source in vector:
+            yield (f'<OGRVRTDataSource><OGRVRTLayer name="secret"><SrcDataSource>{source}</SrcDataSource></OGRVRTLayer></OGRVRTDataSource>')
+        yield f'<OGRWFSDataSource><URL>{self.server}/wfs</URL></OGRWFSDataSource>'
+        for source in raster:
+            yield ('<VRTDataset rasterXSize="81" rasterYSize="81"><GeoTransform>0,0.05,0,4,0,-0.05</GeoTransform>'
+                   f'<VRTRasterBand dataType="Float32" band="1"><SimpleSource><SourceFilename>{source}</SourceFilename>'
+                   '<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>')
+        yield (f'<GDAL_WMS><Service name="TMS"><ServerUrl>{self.server}/${{z}}/${{x}}/${{y}}.png</ServerUrl></Service><DataWindow>'
+               '<UpperLeftX>0</UpperLeftX><UpperLeftY>4</UpperLeftY><LowerRightX>4</LowerRightX><LowerRightY>0</LowerRightY>'
+               '<TileLevel>1</TileLevel></DataWindow><Projection>EPSG:3857</Projection><BandsCount>1</BandsCount></GDAL_WMS>')
+        yield f'<WCS_GDAL><ServiceURL>{self.server}/wcs?</ServiceURL><CoverageName>a</CoverageName></WCS_GDAL>'
+        yield f'{{"type": "FeatureCollection", "features": [], "links": [{{"rel": "next", "href": "{self.server}/next"}}]}}'
+
+    def nothing_was_asked(self):
+        self.assertEqual(Listener.asked, [])
+
+    def test_a_file_is_what_its_extension_says(self):
+        """Every description, by a random name of every kind."""
+        seed = random.randrange(1 << 32)
+        print(f"seed {seed}", flush=True)
+        draw = random.Random(seed)
+        for text in self.leads():
+            for extension in draw.sample(self.VECTORS, 1):
+                self.file(f"here/a.{extension}", text)
+                self.refuse("mesh", f"here/a.{extension}", says=[f"here/a.{extension}"])
+            for extension in draw.sample(self.RASTERS, 1):
+                self.file(f"here/a.{extension}", text)
+                self.refuse("mesh", "square.poly", "--raster", f"depth=here/a.{extension}", "--size", "0.3*depth",
+                            says=[f"here/a.{extension}"])
+        self.nothing_was_asked()
+
+    def test_names_are_those_of_files(self):
+        source = self.folder / "elsewhere/secret.geojson"
+        for name in (f"/vsicurl/{self.server}/a.gpkg", f"{self.server}/a.shp", "/vsistdin/a.kml", f"/vsizip/{source}.zip/a.shp",
+                     f"WFS:{self.server}/a.gml", "none.gpkg"):
+            self.refuse("mesh", name, says=["No such file"])
+        for name in (f"/vsicurl/{self.server}/a.tif", f"{self.server}/a.nc", f"NETCDF:{self.server}/a.nc", "none.tif"):
+            self.refuse("mesh", "square.poly", "--raster", f"depth={name}", "--size", "depth", says=["No such file"])
+        self.refuse("mesh", "square.poly", "--raster", "depth=square.poly", "--size", "depth", says=["'.poly'", ".tif", ".nc"])
+        self.nothing_was_asked()
+
+    def test_mosaics_join_tiffs_of_their_folder(self):
+        size = ["--size", "0.3*depth", "--area", "0.1"]
+        self.tool("gdal_translate", "-q", "-srcwin", "0", "0", "41", "81", "elsewhere/depth.tif", "here/west.tif")
+        self.tool("gdal_translate", "-q", "-srcwin", "41", "0", "40", "81", "elsewhere/depth.tif", "here/east.tif")
+        self.tool("gdalbuildvrt", "-q", "here/all.vrt", "here/west.tif", "here/east.tif")
+        self.assertEqual(self.digest("square.poly", "--raster", "depth=here/all.vrt", *size),
+                         self.digest("square.poly", "--raster", "depth=elsewhere/depth.tif", *size))
+        whole = (self.folder / "here/all.vrt").read_text()
+        (self.folder / "here/link.tif").symlink_to("../elsewhere/depth.tif")
+        self.file("here/text.tif", whole)
+        for source in ("../elsewhere/depth.tif", str(self.folder / "elsewhere/depth.tif"), f"/vsicurl/{self.server}/a.tif", "link.tif", "text.tif",
+                       f"{self.server}/a.tif", "all.vrt", "none.tif", "west.nc", "GTIFF_DIR:1:west.tif"):
+            self.file("here/bad.vrt", whole.replace("west.tif", source))
+            self.refuse("mesh", "square.poly", "--raster", "depth=here/bad.vrt", *size, says=["here/", source])
+        for old, new in (('band="1"', 'band="1" subClass="VRTDerivedRasterBand"'), ("</VRTRasterBand>", "<PixelFunctionType>sum</PixelFunctionType></VRTRasterBand>"),
+                         ("</VRTRasterBand>", "<Overview><SourceFilename>west.tif</SourceFilename></Overview></VRTRasterBand>"),
+                         ("<GeoTransform>", f"<SRS>{self.server}/srs</SRS><GeoTransform>"), ("<GeoTransform>", "<SRS>../elsewhere/a.prj</SRS><GeoTransform>"),
+                         ("<GeoTransform>", "<GDALWarpOptions/><GeoTransform>"), ("<GeoTransform>", "<Metadata domain='GEOLOCATION'/><GeoTransform>")):
+            self.assertIn(old, whole)
+            self.file("here/bad.vrt", whole.replace(old, new))
+            self.refuse("mesh", "square.poly", "--raster", "depth=here/bad.vrt", *size, says=["here/bad.vrt", "own folder"])
+        self.nothing_was_asked()
+
+    def test_schemas_are_not_fetched(self):
+        self.file("here/a.gml", f"""<?xml version="1.0"?>
+<wfs:FeatureCollection xmlns:wfs="http://www.opengis.net/wfs" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"
+ xsi:schemaLocation="http://ogr.maptools.org/ {self.server}/w?SERVICE=WFS&amp;VERSION=1.0.0&amp;REQUEST=DescribeFeatureType&amp;TYPENAME=ogr:a"
+ xmlns:ogr="http://ogr.maptools.org/" xmlns:gml="http://www.opengis.net/gml"><gml:featureMember><ogr:a><ogr:geometryProperty>
+<gml:Polygon><gml:outerBoundaryIs><gml:LinearRing><gml:coordinates>0,0 4,0 4,4 0,0</gml:coordinates></gml:LinearRing></gml:outerBoundaryIs>
+</gml:Polygon></ogr:geometryProperty></ogr:a></gml:featureMember></wfs:FeatureCollection>""")
+        self.succeed("mesh", "here/a.gml", "-o", "a.vtu")
+        self.nothing_was_asked()
+        self.assertEqual(sorted(path.name for path in (self.folder / "here").iterdir()), ["a.gml"])
+
+    def test_mercator_needs_a_domain_with_a_place(self):
+        self.tool("gdal_translate", "-q", "-a_srs", "EPSG:3857", "elsewhere/depth.asc", "m.tif")
+        self.refuse("mesh", "square.poly", "--raster", "depth=m.tif", "--size", "0.3*depth", says=["m.tif", "Mercator", "gdalwarp"])
 
 
 if __name__ == "__main__":

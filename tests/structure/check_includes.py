@@ -26,7 +26,7 @@ LIBRARIES = {
     "cli11": (r"CLI/.*", ["cli"]),
     "fmt": (r"fmt/.*", None),
     "gdal": (r"(gdal|ogr|cpl)\w*\.h", ["gis"]),
-    "hdf5": (r"hdf5\.h", ["io"]),
+    "hdf5": (r"hdf5\.h", ["hdf5", "io"]),
     "json": (r"nlohmann/.*", None),
     "metis": (r"metis\.h", ["decompose"]),
     "mpi": (r"mpi\.h", ["api_mpi", "partition_zoltan", "public_mpi", "python", "transport_mpi"]),  # Zoltan's own header needs it

@@ -493,7 +493,43 @@ TEST_CASE("a system that is a UTM zone is known by its name, and coordinates rem
   };
   CHECK(in_system("urn:ogc:def:crs:EPSG::32618").projection == "UTM zone 18N");
   CHECK(in_system("EPSG:32733").projection == "UTM zone 33S");
-  CHECK(in_system("EPSG:3857").projection.empty());
+  CHECK(in_system("EPSG:3035").projection.empty());
   CHECK(in_system("EPSG:32733").pslg.points[1] == Point{10, 0});
   CHECK(in_system("EPSG:4326").projection == "UTM zone 31N");
+}
+
+TEST_CASE("Web Mercator's meters, which are none, become meters") {
+  // 10 km on a side around 76 degrees west, 37 degrees north; corners by the formulas of the projection.
+  const auto area = [](const std::string& name, auto&& project) {
+    std::string text =
+        R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": ")" + name + R"("}}, "coordinates": [[)";
+    for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}) {
+      const auto [x, y] = project(-76 + 0.1124 * dx, 37 + 0.0901 * dy);
+      char position[80];
+      std::snprintf(position, sizeof position, "[%.9f,%.9f],", x, y);
+      text += position;
+    }
+    text.pop_back();
+    const InputFile input = parse_geojson_input("x.json", text + "]]}");
+    CHECK(input.projection == "UTM zone 18N");
+    double doubled = 0;
+    const auto& p = input.pslg.points;
+    for (std::size_t i = 0; i < 4; ++i) doubled += p[i].x * p[(i + 1) % 4].y - p[(i + 1) % 4].x * p[i].y;
+    return doubled / 2;
+  };
+  constexpr double kRadius = 6378137, kRadians = std::numbers::pi / 180, kEccentricity = 0.0818191908426215;
+  const auto degrees = [](double x, double y) { return std::pair{x, y}; };
+  const auto web = [](double x, double y) {
+    return std::pair{kRadius * kRadians * x, kRadius * std::asinh(std::tan(kRadians * y))};
+  };
+  const auto world = [](double x, double y) {
+    const double sine = std::sin(kRadians * y);
+    return std::pair{kRadius * kRadians * x,
+                     kRadius * (std::atanh(sine) - kEccentricity * std::atanh(kEccentricity * sine))};
+  };
+  const double right = area("EPSG:4326", degrees);
+  CHECK(right == doctest::Approx(1e8).epsilon(1e-3));
+  for (const char* name : {"EPSG:3857", "urn:ogc:def:crs:EPSG::3857", "EPSG:900913", "ESRI:102100", "EPSG:3785"})
+    CHECK(area(name, web) == doctest::Approx(right).epsilon(1e-9));
+  CHECK(area("urn:ogc:def:crs:EPSG::3395", world) == doctest::Approx(right).epsilon(1e-9));
 }
