@@ -4,6 +4,7 @@
 #include "app/commands.hpp"
 #include "app/mesh_run.hpp"
 #include "app/request_line.hpp"
+#include "app/run_files.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
@@ -17,6 +18,7 @@ namespace {
 struct MeshCommand {
   GivenKeys given;
   std::string config;
+  bool allow_code = false;
 };
 
 /// Runs the request of the command line and its settings file.
@@ -29,6 +31,8 @@ int run(const MeshCommand& command) {
   int code = 0;
   in_words_of_options(command.given, settings.places, [&] {
     command.given.apply(settings.request);
+    for (const GivenKeys::Item& item : command.given.items) settings.places.erase(item.key->name);
+    if (!command.allow_code) config::refuse_code_of_file(settings.request, settings.places);
     const job::Request& request = settings.request;
     const job::Request::Input& input = request.input;
     if (input.file.empty() && input.generator.empty() && input.parameters.empty())
@@ -51,6 +55,7 @@ cli::Command mesh_command() {
                              "[a.vtu]) or as in experiments; the command line takes precedence",
                      .completes = cli::Option::Completes::kFile,
                      .take = cli::into(command->config)});
+  options.push_back(allow_code_option(command->allow_code));
   return {.name = "mesh",
           .summary = "Generate a quality mesh of a domain",
           .options = std::move(options),

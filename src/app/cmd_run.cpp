@@ -39,6 +39,7 @@ struct RunCommand {
   std::vector<std::string> settings;
   std::string folder;
   bool allow_outside = false;
+  bool allow_code = false;
   bool dry = false;
   bool quiet = false;
 };
@@ -204,7 +205,7 @@ void run_experiment(const RunCommand& command) {
   std::optional<RealCluster> cluster;
   if (protocol::MpiSession::launched_as()) cluster.emplace();
   if (cluster && !cluster->leads()) return cluster->serve();
-  const config::Experiment file = config::read_experiment(command.file, command.settings);
+  const config::Experiment file = config::read_experiment(command.file, command.settings, command.allow_code);
   const auto runs = file.points.size() * static_cast<std::size_t>(file.base.repetitions);
   if (command.dry) {
     print(config::experiment_text(file) + fmt::format("# {} {}\n", runs, runs == 1 ? "run" : "runs"));
@@ -245,6 +246,7 @@ cli::Command run_command() {
                    .name = "allow-outside",
                    .help = "Let the experiment's name, and links in the folder of the results, lead to other folders",
                    .take = cli::into(command->allow_outside)},
+                  allow_code_option(command->allow_code),
                   {.kind = cli::Option::Kind::kFlag,
                    .name = "dry-run",
                    .help = "Print the experiment with all its values without running it",

@@ -44,6 +44,13 @@ cli::Option allow_outside_option(ReadOptions& options) {
           .take = cli::into(options.allow_outside)};
 }
 
+cli::Option allow_code_option(bool& allowed) {
+  return {.kind = cli::Option::Kind::kFlag,
+          .name = "allow-code",
+          .help = "Let the YAML file name a policy in a shared library, which is code that runs",
+          .take = cli::into(allowed)};
+}
+
 void register_mesh_input(FileRegistry& files, const std::string& path, const std::string& use,
                          const ReadOptions& options) {
   for (const std::string& file : files_to_read(path, options)) files.reads(file, use);

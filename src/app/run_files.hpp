@@ -16,6 +16,9 @@ inline constexpr const char* kTraceEnding = ".trace.json";
 /// --allow-outside of the commands that read meshes.
 [[nodiscard]] cli::Option allow_outside_option(ReadOptions& options);
 
+/// --allow-code of the commands that read YAML files.
+[[nodiscard]] cli::Option allow_code_option(bool& allowed);
+
 /// The files written for a mesh at `path` by this number of ranks: a .pvtu has one piece per rank.
 [[nodiscard]] std::vector<std::string> files_of_output(const std::string& path, std::int32_t ranks);
 

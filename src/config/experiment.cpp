@@ -121,8 +121,9 @@ class KeyReader {
 /// Reads the file of an experiment and the settings of the command line.
 class ExperimentReader {
  public:
-  explicit ExperimentReader(const std::string& path)
-      : origin_(Origin::file(path)),
+  ExperimentReader(const std::string& path, bool allow_code)
+      : allow_code_(allow_code),
+        origin_(Origin::file(path)),
         keys_(origin_, job::kExperiment, result_.base, result_.places,
               [this](const std::string& name, const YAML::Node&, const YAML::Node& value) {
                 if (name != "sweep") return false;
@@ -171,6 +172,9 @@ class ExperimentReader {
     const std::string text = setting.substr(equals + 1);
     YAML::Node value = origin.parse(text);
     const KeyPath path = keys_.known_key(origin, name, YAML::Mark::null_mark());
+    if (const auto before = set_.try_emplace(full_name(path), text).first; before->second != text)
+      origin.fail({}, "'" + name + "' is given twice, and was " + before->second,
+                  "remove one of them; [list, of, values] makes a sweep");
     // YAML takes `a ? b : c` for a table because of its colon.
     if (value.IsMap() && path.key->kind == Kind::kText) value = YAML::Node(text);
     std::erase_if(result_.sweep, [&](const Experiment::Axis& axis) { return axis.key == full_name(path); });
@@ -199,14 +203,17 @@ class ExperimentReader {
     });
   }
 
-  static void check_point(const Request& request) {
+  void check_point(const Request& request) const {
     if (request.input.file.empty() && request.input.generator.empty())
       throw KeyError("input.file", "is missing",
                      "name a file with input.file, or what to generate with input.generate");
+    if (!allow_code_) refuse_code_of_file(request, result_.places);
     job::check(request, job::place_of(request, job::kExperiment, false), balancer::make_policy);
   }
 
+  bool allow_code_;
   Experiment result_;
+  std::map<std::string, std::string> set_;  // keys, by --set
   Origin origin_;
   KeyReader keys_;
 };
@@ -220,8 +227,16 @@ Settings read_settings(const std::string& path) {
   return settings;
 }
 
-Experiment read_experiment(const std::string& path, const std::vector<std::string>& settings) {
-  return ExperimentReader(path).read(settings);
+Experiment read_experiment(const std::string& path, const std::vector<std::string>& settings, bool allow_code) {
+  return ExperimentReader(path, allow_code).read(settings);
+}
+
+void refuse_code_of_file(const Request& request, const SourcePlaces& places) {
+  const job::Key* const key = job::key_with_code(request);
+  const auto place = key == nullptr ? places.end() : places.find(key->name);
+  if (place == places.end() || Origin::is_setting(place->second)) return;
+  throw KeyError(key->name, "is code, " + key->load(request).as<std::string>() + ", which would run",
+                 "if you trust it, give --allow-code, or name it on the command line");
 }
 
 void check_processes(const Experiment& experiment, std::int32_t processes) {

@@ -49,7 +49,12 @@ struct Experiment {
 /// Reads an experiment. `settings` are "key=value" with values as in a file, or "key=[list]" for a sweep; they replace
 /// the file's value of that key, or its sweep over it. Throws like read_settings, and for values that cannot be
 /// combined.
-[[nodiscard]] Experiment read_experiment(const std::string& path, const std::vector<std::string>& settings);
+/// A file may name code (see key_with_code) only with `allow_code`, `settings` always.
+[[nodiscard]] Experiment read_experiment(const std::string& path, const std::vector<std::string>& settings,
+                                         bool allow_code = false);
+
+/// Throws KeyError if the value of a key is code, and a file gave it, by its place, instead of the command line.
+void refuse_code_of_file(const job::Request& request, const SourcePlaces& places);
 
 /// Throws InputError, with the place of the setting to change, if not all runs can be made by this number of processes,
 /// which mpirun has started (1 without it).

@@ -4,10 +4,16 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/file_identity.hpp"
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh::config {
+namespace {
+
+const std::string kSetting = "--set ";
+
+}  // namespace
 
 Origin::Origin(std::string name, std::string folder, bool has_lines)
     : name_(std::move(name)), folder_(std::move(folder)), has_lines_(has_lines) {}
@@ -17,7 +23,11 @@ Origin Origin::file(const std::string& path) {
 }
 
 Origin Origin::setting(const std::string& text) {
-  return {"--set " + text, "", false};
+  return {kSetting + text, "", false};
+}
+
+bool Origin::is_setting(const std::string& place) {
+  return place.starts_with(kSetting);
 }
 
 std::string Origin::place(const YAML::Mark& mark) const {
@@ -32,6 +42,12 @@ void Origin::fail(const YAML::Mark& mark, const std::string& what, const std::st
 std::string Origin::resolved(const std::string& file) const {
   return file.empty() || is_standard_stream(file) || folder_.empty() ? file
                                                                      : (std::filesystem::path(folder_) / file).string();
+}
+
+std::string Origin::resolved_output(const std::string& file) const {
+  std::string path = resolved(file);
+  const bool inside = is_standard_stream(file) || lies_within(path, folder_.empty() ? "." : folder_);
+  return inside ? path : "";
 }
 
 YAML::Node Origin::parse(const std::string& text) const {

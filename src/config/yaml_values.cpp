@@ -35,6 +35,8 @@ class Values {
         return numbers(key, node);
       case Kind::kOutputs:
         return outputs(key, node);
+      case Kind::kOutput:
+        return output(key, node);
       case Kind::kFile:
         return origin_.resolved(text(key, node));
       default:
@@ -90,11 +92,21 @@ class Values {
   }
 
   [[nodiscard]] std::vector<std::string> outputs(const KeyInfo& key, const YAML::Node& node) const {
-    if (node.IsScalar()) return {node.Scalar()};
+    if (node.IsScalar()) return {output(key, node)};
     if (!node.IsSequence()) fail(key.name, node, "is not a list", "write for example [mesh.vtu, mesh.msh]");
     std::vector<std::string> list;
-    for (const YAML::Node& item : node) list.push_back(text(key, item));
+    for (const YAML::Node& item : node) list.push_back(output(key, item));
     return list;
+  }
+
+  /// Inputs may be anywhere, but a file does not choose what is overwritten elsewhere.
+  [[nodiscard]] std::string output(const KeyInfo& key, const YAML::Node& node) const {
+    const std::string name = text(key, node);
+    std::string path = origin_.resolved_output(name);
+    if (path.empty() && !name.empty())
+      fail(key.name, node, "would be written to '" + name + "', outside of the folder of this file",
+           "give a name in that folder, or name it on the command line: --" + key.option);
+    return path;
   }
 
   [[nodiscard]] std::vector<Record> list(const KeyInfo& key, const YAML::Node& node) const {

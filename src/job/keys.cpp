@@ -81,6 +81,12 @@ bool names_file(const KeyInfo& key, const std::string& text) {
   return !key.or_file.empty() && text.ends_with(key.or_file);
 }
 
+const Key* key_with_code(const Request& request) {
+  for (const Key& k : keys())
+    if (!k.or_file.empty() && k.load(request).as<std::string>().ends_with(k.or_file)) return &k;
+  return nullptr;
+}
+
 Value read_value(const KeyInfo& key, const std::string& text) {
   switch (key.kind) {
     case Kind::kText:

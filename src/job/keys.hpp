@@ -28,6 +28,9 @@ struct KeyPath {
 /// Whether this value of the key is the name of a file that is read.
 [[nodiscard]] bool names_file(const KeyInfo& key, const std::string& text);
 
+/// The key whose value is a file of code, which runs when it is loaded, or null: a policy in a shared library.
+[[nodiscard]] const Key* key_with_code(const Request& request);
+
 /// Reads the text of a value, for keys with a single value: kText, kFile, kOutput, kNumber, kInteger, kFlag or kChoice;
 /// for a kNumbers key, reads one of its numbers, as double. Throws KeyError for an invalid value.
 [[nodiscard]] Value read_value(const KeyInfo& key, const std::string& text);

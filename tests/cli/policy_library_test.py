@@ -37,7 +37,7 @@ class PolicyLibrary(Cli):
         (self.folder / "sub").mkdir()
         shutil.move(self.folder / "plugins", self.folder / "sub" / "plugins")
         self.write("sub/x.yaml", EXPERIMENT)
-        self.succeed("run", "sub/x.yaml", "-o", "x", "--quiet")
+        self.succeed("run", "sub/x.yaml", "-o", "x", "--quiet", "--allow-code")
         with open(self.folder / "x" / "table.csv", encoding="utf-8") as file:
             seconds = [float(row["seconds"]) for row in csv.DictReader(file)]
         self.assertEqual(len(seconds), 3)
@@ -45,11 +45,11 @@ class PolicyLibrary(Cli):
         record = json.loads((self.folder / "x" / "run-3.json").read_text())
         self.assertGreater(len(record["cluster"]["moves"]), 0)
         # What it was given tells: with another share it moves something else.
-        self.succeed("run", "sub/x.yaml", "-o", "y", "--quiet", "--set", "balance.parameters={pairs.so.share: 0.1}")
+        self.succeed("run", "sub/x.yaml", "-o", "y", "--quiet", "--allow-code", "--set", "balance.parameters={pairs.so.share: 0.1}")
         other = json.loads((self.folder / "y" / "run-3.json").read_text())
         self.assertNotEqual(len(record["cluster"]["moves"]), len(other["cluster"]["moves"]))
         # The experiment that is written beside the results names it from anywhere.
-        self.succeed("run", "x/experiment.yaml", "-o", "z", "--quiet")
+        self.succeed("run", "x/experiment.yaml", "-o", "z", "--quiet", "--allow-code")
         said = self.succeed("replay", "x/run-1.json", "--policy", "none", "--policy", "sub/plugins/pairs.so")
         self.assertIn(" pairs.so |", said)
 
@@ -60,6 +60,27 @@ class PolicyLibrary(Cli):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("accepted", self.succeed("check", "m.pvtu", "in.poly", "--area", "0.0005"))
 
+    def test_a_file_does_not_run_code_by_itself(self):
+        """text.so would be refused in other words if it were opened."""
+        self.write("plugins/text.so", "no library")
+        for library in ("plugins/pairs.so", "plugins/text.so", "none.so"):
+            for policy in (f"balance: {{policy: {library}}}\n", f"sweep: {{balance.policy: [none, {library}]}}\n"):
+                self.write("x.yaml", "input: {generate: pipe}\nbounds: {triangles: 2000}\ncluster: {ranks: 2}\n" + policy)
+                for more in ((), ("--dry-run",), ("--set", "bounds.angle=25")):
+                    self.refuse("run", "x.yaml", *more, says=["x.yaml:4:", "'balance.policy' is code", library, "--allow-code"])
+            self.write("c.yaml", f"input: in.poly\nn: 4\nbalance: {library}\n".replace("n: 4", "subdomains: 4"))
+            self.write("in.poly", SQUARE)
+            result = self.on_ranks(2, "mesh", "--config", "c.yaml", "-o", "m.pvtu")
+            self.assertNotEqual(result.returncode, 0)
+            for word in ("c.yaml:3:", "'balance.policy' is code", library, "--allow-code"):
+                self.assertIn(word, result.stderr)
+        self.write("x.yaml", EXPERIMENT)
+        self.succeed("run", "x.yaml", "--quiet", "-o", "set", "--set", "balance.policy=plugins/pairs.so")
+        self.write("c.yaml", "input: in.poly\nsubdomains: 4\nbalance: plugins/pairs.so\n")
+        for more in (("--allow-code",), ("--balance", "plugins/pairs.so"), ("--balance", "none")):
+            result = self.on_ranks(2, "mesh", "--config", "c.yaml", "-o", "m.pvtu", *more)
+            self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_what_is_no_policy_is_refused(self):
         self.write("x.yaml", EXPERIMENT)
         self.write("text.so", "no library")
@@ -67,7 +88,7 @@ class PolicyLibrary(Cli):
                                ("plugins/pairs_of_another_version.so", ["was built for driftmesh 0.0.0"]),
                                ("text.so", ["text.so", "cannot be loaded"]), ("none.so", ["none.so", "cannot be loaded"])):
             self.refuse("run", "x.yaml", "-o", "x", "--set", f"balance.policy={library}", says=words)
-        self.refuse("run", "x.yaml", "-o", "x", "--set", "balance.parameters={pairs.so.shares: 1}",
+        self.refuse("run", "x.yaml", "-o", "x", "--allow-code", "--set", "balance.parameters={pairs.so.shares: 1}",
                     says=["policy pairs", "unknown parameter 'shares'"])
         self.assertFalse((self.folder / "x").exists())
 

@@ -40,7 +40,7 @@ bool matches_text(const Json& value, const std::string& text, const std::string&
   if (value.is_boolean()) return text == (value.get<bool>() ? "true" : "false");
   if (value.is_number()) return is_number(text, value);
   if (value.is_string()) return value == text || value == folder + "/" + text;
-  return value.is_array() && value.size() == 1 && value[0] == text;
+  return value.is_array() && value.size() == 1 && value[0].is_string() && matches_text(value[0], text, folder);
 }
 
 bool matches(const Json& value, const YamlNode& node, const std::string& folder) {

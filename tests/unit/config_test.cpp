@@ -296,10 +296,12 @@ TEST_CASE("settings of one mesh name keys in full or by their options") {
   CHECK(request.bounds.area == 5000);
   CHECK(request.bounds.angle == 25);
   CHECK(!request.bounds.region_areas);
-  CHECK(request.output.meshes == std::vector<std::string>{"a.vtu", "b.msh"});
+  const std::string a = (folder.path() / "a.vtu").string(), b = (folder.path() / "b.msh").string();
+  CHECK(request.output.meshes == std::vector<std::string>{a, b});
   CHECK(request.balance.gain == 0.1);
   CHECK(request.limits.max_memory == std::int64_t{2} << 30);
-  CHECK(read("output: one.vtu\n").output.meshes == std::vector<std::string>{"one.vtu"});
+  CHECK(read("output: a.vtu\n").output.meshes == std::vector<std::string>{a});
+  CHECK(read("output: '-'\n").output.meshes == std::vector<std::string>{"-"});
   const auto refusal = [&](const std::string& yaml) {
     try {
       static_cast<void>(read(yaml));
