@@ -180,7 +180,7 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
       {.kind = cli::Option::Kind::kPositional,
        .name = "mesh",
        .value = "MESH",
-       .help = std::string("The mesh: ") + kMeshFiles,
+       .help = "The mesh: " + mesh_files_read(),
        .required = true,
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(options.mesh)},

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,6 +13,7 @@
 #include "app/commands.hpp"
 #include "app/run_files.hpp"
 #include "cli/values.hpp"
+#include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "mesh/mesh_edges.hpp"
 #include "pslg/names.hpp"
@@ -42,8 +46,28 @@ cli::Take into_names(std::map<Value, std::string>& names, std::optional<Value> (
     const std::size_t equals = text.find('=');
     const auto number = number_from(text.substr(0, equals));
     if (equals == std::string::npos || !number) throw cli::UsageError("is '" + text + "', which is not NUMBER=NAME");
-    names[*number] = text.substr(equals + 1);
+    const auto name = names.try_emplace(*number, text.substr(equals + 1)).first;
+    if (name->second != text.substr(equals + 1))
+      throw cli::UsageError("gives " + text.substr(0, equals) + " two names, '" + name->second + "' and '" +
+                            text.substr(equals + 1) + "'; remove one of them");
   };
+}
+
+/// Throws InputError if the options speak of markers or regions that the mesh has not.
+void require_known(const ConvertOptions& options, const Mesh& mesh) {
+  std::set<std::int32_t> markers{0};  // of edges that are not listed
+  for (const Mesh::Edge& edge : mesh.edges) markers.insert(edge.marker);
+  const std::set<double> regions(mesh.regions.begin(), mesh.regions.end());
+  const auto fail = [&](const std::string& what, const char* option) {
+    throw InputError({options.input}, "has no " + what + ", which " + option + " names",
+                     "driftmesh check lists what it has");
+  };
+  for (const std::int32_t marker : options.writing.open_boundary)
+    if (!markers.contains(marker)) fail("segment with marker " + std::to_string(marker), "--open-boundary");
+  for (const auto& [marker, name] : options.names.markers)
+    if (!markers.contains(marker)) fail("segment with marker " + std::to_string(marker), "--marker-name");
+  for (const auto& [region, name] : options.names.regions)
+    if (!regions.contains(region)) fail(fmt::format("region {}", region), "--region-name");
 }
 
 void run_convert(const ConvertOptions& options) {
@@ -51,6 +75,7 @@ void run_convert(const ConvertOptions& options) {
   register_mesh_input(files, options.input, "INPUT", options.reading);
   register_mesh_output(files, options.output, "OUTPUT");
   Mesh mesh = read_mesh(options.input, options.reading);
+  require_known(options, mesh);
   Names names = options.names;
   names.markers.merge(mesh.names.markers);
   names.regions.merge(mesh.names.regions);
@@ -71,14 +96,14 @@ cli::Command convert_command() {
       .options = {{.kind = cli::Option::Kind::kPositional,
                    .name = "input",
                    .value = "INPUT",
-                   .help = std::string("The mesh: ") + kMeshFiles,
+                   .help = "The mesh: " + mesh_files_read(),
                    .required = true,
                    .completes = cli::Option::Completes::kFile,
                    .take = cli::into(options->input)},
                   {.kind = cli::Option::Kind::kPositional,
                    .name = "output",
                    .value = "OUTPUT",
-                   .help = "The new file; its extension selects the format",
+                   .help = "The new file; its extension selects the format: " + mesh_files_written(),
                    .required = true,
                    .completes = cli::Option::Completes::kFile,
                    .take = cli::into(options->output)},

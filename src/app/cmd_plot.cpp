@@ -86,7 +86,7 @@ std::vector<cli::Option> plot_options(PlotCommand& command) {
       {.kind = cli::Option::Kind::kPositional,
        .name = "input",
        .value = "INPUT",
-       .help = std::string("A mesh (") + kMeshFiles +
+       .help = "A mesh (" + mesh_files_read() +
                ") or an input (.poly, or a .node without .ele). - reads a .vtu from standard input, -.msh and -.poly "
                "the other formats",
        .required = true,

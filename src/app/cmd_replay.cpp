@@ -27,6 +27,9 @@ balancer::Parameters::Values parameters_for(const std::string& policy, const std
     if (equals == std::string::npos)
       throw cli::UsageError("--parameter '" + setting + "' has no value; give NAME=VALUE");
     const auto [named, name] = balancer::split_parameter(setting.substr(0, equals));
+    for (const std::string& other : given)
+      if (other != setting && other.starts_with(setting.substr(0, equals + 1)))
+        throw cli::UsageError("--parameter '" + setting + "' contradicts '" + other + "'; remove one of them");
     if (named.empty() || named == balancer::short_name(policy)) values[name] = setting.substr(equals + 1);
   }
   return values;

@@ -68,7 +68,7 @@ cli::Command report_command() {
             .take = cli::into(command->inputs)},
            {.name = "mesh",
             .value = "FILE",
-            .help = std::string("A mesh to look at: ") + kMeshFiles,
+            .help = "A mesh to look at: " + mesh_files_read(),
             .completes = cli::Option::Completes::kFile,
             .take = cli::into(command->mesh)},
            {.name = "output",

@@ -37,7 +37,11 @@ Value given_value(const Key& key, const std::string& text, const Value& old) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) throw KeyError(key.name, "is '" + text + "'", "write NAME=VALUE");
     auto table = old.as<Table>();
-    table[text.substr(0, equals)] = text.substr(equals + 1);
+    const std::string own = text.substr(equals + 1);
+    const auto entry = table.try_emplace(text.substr(0, equals), own).first;
+    if (entry->second != own)
+      throw KeyError(key.name, "gives " + entry->first + " twice, as '" + entry->second + "' and as '" + own + "'",
+                     "remove one of them");
     return table;
   }
   if (key.kind == Kind::kFlag) return !key.option.starts_with("no-");

@@ -7,6 +7,7 @@
 
 #include "app/summary.hpp"
 #include "base/words.hpp"
+#include "io/mesh_file.hpp"
 #include "protocol/counter_sum.hpp"
 
 namespace driftmesh::app {
@@ -166,6 +167,8 @@ void add_files(const RunRecord& run, Text out) {
     fmt::format_to(out, "{:<12} {}, {}\n", label, file.name, bytes_words(file.bytes));
     label = "";
   }
+  if (run.request.output.meshes.empty() && run.request.output.picture.empty())
+    fmt::format_to(out, "written      no mesh; -o FILE writes one: {}\n", mesh_files_written());
   fmt::format_to(out, "digest       {:016x}\nrepeat       {}\n", run.digest, run.command);
 }
 

@@ -1,5 +1,6 @@
 #include "io/mesh_file.hpp"
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -22,19 +23,48 @@ namespace {
 
 enum class Format { kTriangle, kVtu, kPvtu, kMsh, kHdf5, kSu2, kMfem, kMfemParts, kFort14 };
 
+struct Extension {
+  const char* text;
+  Format format;
+};
+
+constexpr std::array<Extension, 15> kExtensions{{{".vtu", Format::kVtu},
+                                                 {".pvtu", Format::kPvtu},
+                                                 {".msh", Format::kMsh},
+                                                 {".h5", Format::kHdf5},
+                                                 {".su2", Format::kSu2},
+                                                 {".mesh", Format::kMfem},
+                                                 {".pmesh", Format::kMfemParts},
+                                                 {".14", Format::kFort14},
+                                                 {".grd", Format::kFort14},
+                                                 {".gr3", Format::kFort14},
+                                                 {".node", Format::kTriangle},
+                                                 {".ele", Format::kTriangle},
+                                                 {".poly", Format::kTriangle},
+                                                 {".edge", Format::kTriangle},
+                                                 {".neigh", Format::kTriangle}}};
+
+bool is_read(Format format) {
+  return format != Format::kMfem && format != Format::kMfemParts;
+}
+
+/// ".a, .b or .c"
+template <class Wanted>
+std::string list_of_extensions(const Wanted& wanted) {
+  std::string list;
+  std::size_t last = 0;
+  for (const Extension& extension : kExtensions) {
+    if (!wanted(extension.format)) continue;
+    last = list.size();
+    list += (list.empty() ? "" : ", ") + std::string(extension.text);
+  }
+  return list.replace(last, 1, " or");
+}
+
 /// Empty for another extension, or none.
 std::optional<Format> format_called(const std::string& extension) {
-  if (extension == ".vtu") return Format::kVtu;
-  if (extension == ".pvtu") return Format::kPvtu;
-  if (extension == ".msh") return Format::kMsh;
-  if (extension == ".su2") return Format::kSu2;
-  if (extension == ".h5") return Format::kHdf5;
-  if (extension == ".mesh") return Format::kMfem;
-  if (extension == ".pmesh") return Format::kMfemParts;
-  for (const char* of_fort14 : {".14", ".grd", ".gr3"})
-    if (extension == of_fort14) return Format::kFort14;
-  for (const char* of_triangle : {".node", ".ele", ".poly", ".edge", ".neigh"})
-    if (extension == of_triangle) return Format::kTriangle;
+  for (const Extension& known : kExtensions)
+    if (extension == known.text) return known.format;
   return std::nullopt;
 }
 
@@ -47,7 +77,7 @@ Format named_format(const std::string& path) {
   const std::string extension = extension_of(path);
   if (const auto format = format_called(extension)) return *format;
   throw InputError({path, 0}, extension.empty() ? "has no extension" : "has an unknown extension '" + extension + "'",
-                   std::string("a mesh file is ") + kMeshFiles);
+                   "a mesh file is " + mesh_files_written());
 }
 
 Format format_of(const std::string& path) {
@@ -76,6 +106,16 @@ std::string without_extension(const std::string& path) {
 }
 
 }  // namespace
+
+const std::string& mesh_files_read() {
+  static const std::string list = list_of_extensions(is_read);
+  return list;
+}
+
+const std::string& mesh_files_written() {
+  static const std::string list = list_of_extensions([](Format) { return true; });
+  return list;
+}
 
 void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
   check_names(mesh.names, path);
@@ -118,7 +158,7 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) {
     case Format::kMfem:
     case Format::kMfemParts:
       throw InputError({path, 0}, "is in a format that is written, but not read",
-                       std::string("keep the mesh in one of ") + kMeshFiles);
+                       "keep the mesh in one of " + mesh_files_read());
     case Format::kFort14:
       return read_fort14(path);
     case Format::kTriangle:

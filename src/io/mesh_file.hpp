@@ -11,9 +11,10 @@
 
 namespace driftmesh {
 
-/// The files that hold a mesh, for messages and help: "the mesh: " + kMeshFiles.
-inline constexpr const char* kMeshFiles =
-    ".vtu, .pvtu, .msh, .h5, .su2, .14, .grd, .gr3, or any file of Triangle's .node/.ele set";
+/// The files that read_mesh reads, for messages and help: "the mesh: .vtu, .pvtu, ... or .neigh".
+[[nodiscard]] const std::string& mesh_files_read();
+/// Those that write_mesh writes, or ranks.
+[[nodiscard]] const std::string& mesh_files_written();
 
 /// Whether the extension is that of a mesh and not of a domain as well, as .poly and .node are.
 [[nodiscard]] bool is_mesh_file(const std::string& path);

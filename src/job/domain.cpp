@@ -1,12 +1,15 @@
 #include "job/domain.hpp"
 
 #include <algorithm>
+#include <ranges>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "driftmesh/error.hpp"
 #include "driftmesh/files.hpp"
 #include "driftmesh/repair.hpp"
+#include "job/files.hpp"
 #include "job/key.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/nested_rings.hpp"
@@ -41,6 +44,38 @@ void add_nested_holes(HoleRule rule, Pslg& pslg) {
   pslg.holes.insert(pslg.holes.end(), holes.begin(), holes.end());
 }
 
+/// Throws InputError if a request speaks of markers or regions that its input has not. `keys`: what it calls them.
+template <class Value, class Asked>
+void require_known(const Request& request, const std::set<Value>& known, const Asked& asked, const std::string& what,
+                   const char* key) {
+  const auto missing = std::ranges::find_if(asked, [&](const Value& value) { return !known.contains(value); });
+  if (missing == std::end(asked)) return;
+  constexpr std::size_t kMost = 20;
+  std::string list;
+  for (const Value& value : std::views::take(known, kMost))
+    list += (list.empty() ? "" : ", ") + shortest_text(static_cast<double>(value));
+  if (known.size() > kMost) list += " and " + std::to_string(known.size() - kMost) + " more";
+  throw InputError({input_name(request)},
+                   "has no " + what + " " + shortest_text(static_cast<double>(*missing)) + ", which " +
+                       called(key, kMesh) + " names",
+                   list.empty() ? "it has none" : "it has " + list);
+}
+
+void check_markers_and_regions(const Request& request, const Pslg& pslg) {
+  std::set<std::int32_t> markers;
+  for (const Pslg::Segment& segment : pslg.segments) markers.insert(segment.marker);
+  if (pslg.segments.empty()) markers.insert(0);  // the hull of the points
+  const std::vector<double>& open = request.output.open_boundary;
+  require_known(request, markers, std::vector<std::int32_t>(open.begin(), open.end()), "segment with marker",
+                "output.open-boundary");
+  std::set<double> regions;
+  for (const Pslg::Region& region : pslg.regions) regions.insert(region.attribute);
+  if (!regions.empty()) regions.insert(0);  // the rest of the domain
+  const Names names = names_of(request.input);
+  require_known(request, markers, std::views::keys(names.markers), "segment with marker", "input.marker-names");
+  require_known(request, regions, std::views::keys(names.regions), "region", "input.region-names");
+}
+
 /// Names that the request gives replace those that the input has.
 void name_markers_and_regions(const Request& request, Pslg& pslg) {
   Names names = names_of(request.input);
@@ -67,12 +102,14 @@ Names names_of(const Request::Input& asked) {
   for (const auto& [number, name] : asked.marker_names) {
     const auto marker = marker_from(number);
     if (!marker) throw KeyError("input.marker-names", "has '" + number + "' as a marker", "markers are whole numbers");
-    names.markers[*marker] = name;
+    if (!names.markers.emplace(*marker, name).second)
+      throw KeyError("input.marker-names", "names marker " + number + " twice", "remove one of them");
   }
   for (const auto& [number, name] : asked.region_names) {
     const auto region = region_from(number);
     if (!region) throw KeyError("input.region-names", "has '" + number + "' as a region", "regions are numbers");
-    names.regions[*region] = name;
+    if (!names.regions.emplace(*region, name).second)
+      throw KeyError("input.region-names", "names region " + number + " twice", "remove one of them");
   }
   return names;
 }
@@ -82,6 +119,7 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   InputFile input = timed(watch, "read", [&] { return raw_input(request.input, given); });
   domain.pslg = std::move(input.pslg);
   domain.projection = std::move(input.projection);
+  check_markers_and_regions(request, domain.pslg);
   name_markers_and_regions(request, domain.pslg);
   warn(request, input.warnings, watch);
   domain.repairs =

@@ -6,7 +6,9 @@ usage: files_test.py DRIFTMESH [unittest options]
 
 import json
 import os
+import random
 import shutil
+import socket
 import subprocess
 import time
 
@@ -319,6 +321,154 @@ class NoWayOut(Files):
         os.rename(elsewhere, self.folder / "sub/m_0.vtu")
         self.write("m.pvtu", pvtu.replace('Source="m_0.vtu"', 'Source="sub/m_0.vtu"'))
         self.succeed("check", "m.pvtu")
+
+
+class Settings(Cli):
+    """A settings file does not choose what is overwritten: its outputs stay in its folder."""
+
+    KEYS = {"output": "'output.meshes'", "plot": "'output.picture'", "json": "'output.record'"}
+
+    def test_outputs_stay_in_the_folder_of_the_file(self):
+        seed = random.randrange(1 << 32)
+        print(f"seed {seed}", flush=True)
+        draw = random.Random(seed)
+        (self.folder / "sub/deeper").mkdir(parents=True)
+        (self.folder / "outside").mkdir()
+        self.write("sub/square.poly", SQUARE)
+        for _ in range(25):
+            key, in_list = draw.choice(list(self.KEYS)), draw.random() < 0.5
+            name = {"output": "m.vtu", "plot": "m.png", "json": "m.json"}[key]
+            victim = draw.choice([self.folder / "outside" / name, self.folder / name])
+            victim.write_text("precious")
+            link, folder_link = self.folder / "sub" / ("link-" + name), self.folder / "sub/way"
+            for path in (link, folder_link):
+                path.unlink(missing_ok=True)
+            link.symlink_to(victim)
+            folder_link.symlink_to(victim.parent)
+            spelled = draw.choice([str(victim), os.path.relpath(victim, self.folder / "sub"), f"deeper/../../{os.path.relpath(victim, self.folder)}",
+                                   link.name, f"way/{name}", f"./deeper/../way/./{name}"])
+            value = f"[ok.msh, '{spelled}']" if key == "output" and in_list else f"'{spelled}'"
+            self.write("sub/run.yaml", f"input: square.poly\narea: 0.5\n{key}: {value}\n")
+            self.refuse("mesh", "--config", "sub/run.yaml", says=["sub/run.yaml:3:", self.KEYS[key], spelled, "outside", "command line"])
+            self.assertEqual(victim.read_text(), "precious", spelled)
+        self.assertFalse((self.folder / "sub/ok.msh").exists())
+
+    def test_names_are_relative_to_the_file(self):
+        (self.folder / "sub/deeper").mkdir(parents=True)
+        self.write("sub/square.poly", SQUARE)
+        self.write("m.vtu", "precious")
+        self.write("sub/run.yaml", "input: square.poly\noutput: [m.vtu, deeper/m.msh]\njson: m.json\n")
+        self.succeed("mesh", "--config", "sub/run.yaml")
+        self.assertEqual((self.folder / "m.vtu").read_text(), "precious")
+        for made in ("sub/m.vtu", "sub/deeper/m.msh", "sub/m.json"):
+            self.assertTrue((self.folder / made).exists(), made)
+        self.succeed("mesh", "--config", "sub/run.yaml", "-o", "m.vtu", "--json", "outer.json")
+        self.assertNotEqual((self.folder / "m.vtu").read_bytes(), b"precious")
+        piped = subprocess.run([program.PATH, "mesh", "--config", "-"], cwd=self.folder / "sub", check=False, capture_output=True, text=True,
+                               input="input: square.poly\noutput: [../m.vtu]\n")
+        self.assertEqual(piped.returncode, 1, piped.stderr)
+        self.assertIn("outside", piped.stderr)
+
+
+class Contradictions(Cli):
+    """What is given twice, or asked for and not there."""
+
+    def test_a_name_given_twice(self):
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "square.poly", "-o", "m.vtu")
+        for raster in ("a.asc", "b.asc"):
+            self.write(raster, "ncols 2\nnrows 2\nxllcorner -1\nyllcorner -1\ncellsize 3\n1 1\n1 1\n")
+        self.write("e.yaml", "input: {generate: pipe}\nbounds: {triangles: 1000}\ncluster: {ranks: 2}\nreport: false\n")
+        self.succeed("run", "e.yaml", "--quiet")
+        twice = [(("mesh", "square.poly", "--size", "c"), "--raster", "c", "a.asc", "b.asc"),
+                 (("check", "m.vtu", "square.poly", "--size", "c"), "--raster", "c", "a.asc", "b.asc"),
+                 (("decompose", "square.poly", "-n", "2", "--size", "c"), "--raster", "c", "a.asc", "b.asc"),
+                 (("mesh", "square.poly"), "--marker-name", "1", "a", "b"), (("mesh", "--generate", "pipe"), "--generate-with", "radius", "1", "2"),
+                 (("mesh", "square.poly"), "--balance-with", "gain", "1", "2"), (("convert", "m.vtu", "n.vtu"), "--marker-name", "1", "a", "b"),
+                 (("convert", "m.vtu", "n.vtu"), "--region-name", "0", "a", "b"), (("replay", "e.runs/run-1.json"), "--parameter", "x", "1", "2"),
+                 (("run", "e.yaml", "-o", "f"), "--set", "bounds.angle", "20", "25")]
+        for call, option, name, one, other in twice:
+            with self.subTest(call=call, option=option):
+                result = self.refuse(*call, option, f"{name}={one}", option, f"{name}={other}", code=1 if call[0] == "run" else 2,
+                                     says=[option, name, one, "remove one of them"])
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        self.refuse("mesh", "square.poly", "--marker-name", "1=a", "--marker-name", "01=b", code=2, says=["--marker-name", "twice"])
+        self.succeed("mesh", "square.poly", "--marker-name", "1=a", "--marker-name", "1=a", "-o", "m.vtu")
+
+    def test_markers_and_regions_that_are_not_there(self):
+        self.write("square.poly", SQUARE)  # markers 1 to 4, no regions
+        self.succeed("mesh", "square.poly", "-o", "m.vtu")
+        for option, value, what in (("--open-boundary", "9", "marker 9"), ("--open-boundary", "2,9", "marker 9"), ("--marker-name", "7=x", "marker 7"),
+                                    ("--region-name", "10=x", "region 10")):
+            for call in (("mesh", "square.poly", "-o", "m.14"), ("mesh", "square.poly", "-n", "3", "-o", "m.14"), ("convert", "m.vtu", "m.14")):
+                result = self.refuse(*call, option, value, says=["has no ", what])
+                self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        self.refuse("mesh", "square.poly", "--open-boundary", "9", says=["1, 2, 3, 4"])
+        self.assertFalse((self.folder / "m.14").exists())
+        self.succeed("mesh", "square.poly", "--open-boundary", "2,3", "--marker-name", "4=wall", "-o", "m.14")
+        self.succeed("convert", "m.vtu", "m.14", "--open-boundary", "2,3", "--marker-name", "4=wall")
+
+    def test_unknown_extensions(self):
+        """The list has each extension that there is."""
+        self.write("square.poly", SQUARE)
+        known = [".vtu", ".pvtu", ".msh", ".h5", ".su2", ".mesh", ".pmesh", ".14", ".grd", ".gr3", ".node", ".ele", ".poly", ".edge", ".neigh"]
+        for call in (("mesh", "square.poly", "-o", "m.docx"), ("convert", "m.docx", "m.vtu"), ("convert", "m.vtu", "m.docx")):
+            self.refuse(*call, says=["m.docx", "unknown extension", *known])
+        for wrong in ("m.docx", "m"):
+            said = self.run_program("check", wrong).stderr
+            for extension in known:
+                self.assertIn(extension, said)
+
+    def test_a_run_that_writes_nothing_says_so(self):
+        self.write("square.poly", SQUARE)
+        for more in ((), ("-n", "3"), ("--json", "r.json")):
+            said = self.succeed("mesh", "square.poly", *more)
+            self.assertRegex(said, r"(?m)^written +no mesh; -o FILE writes one: \.vtu, ")
+        self.assertNotIn("no mesh", self.succeed("mesh", "square.poly", "-o", "m.vtu"))
+        self.assertNotIn("no mesh", self.succeed("mesh", "square.poly", "--plot", "m.png"))
+
+
+class NoFiles(Cli):
+    """What is no file cannot be read: one error, at once."""
+
+    READERS = (("mesh", "{}.poly"), ("mesh", "{}.geojson"), ("mesh", "{}.gpkg"), ("mesh", "--config", "{}.yaml"), ("run", "{}.yaml"),
+               ("check", "{}.vtu"), ("convert", "{}.msh", "x.vtu"), ("convert", "{}.h5", "x.vtu"), ("convert", "{}.su2", "x.vtu"),
+               ("convert", "{}.14", "x.vtu"), ("convert", "{}.pvtu", "x.vtu"), ("convert", "{}.node", "x.vtu"),
+               ("plot", "{}.vtu", "-o", "x.png"), ("mesh", "square.poly", "--size-mesh", "{}.node"),
+               ("mesh", "square.poly", "--decomposition", "{}.txt"), ("replay", "{}.json"),
+               ("mesh", "square.poly", "--raster", "a={}.asc", "--size", "a"), ("mesh", "square.poly", "--raster", "a={}.tif", "--size", "a"))
+
+    def test_pipes_devices_and_folders(self):
+        self.write("square.poly", SQUARE)
+        self.write("square.ele", "0 3 0\n")
+        makers = {"pipe": os.mkfifo, "device": lambda path: path.symlink_to("/dev/zero"), "folder": lambda path: path.mkdir(),
+                  "socket": lambda path: socket.socket(socket.AF_UNIX).bind(str(path))}
+        for what, make in makers.items():
+            for reader in self.READERS:
+                call = [word.format("odd") for word in reader]
+                name = next(word for word in call if "odd" in word).split("=")[-1]
+                with self.subTest(what=what, call=call):
+                    if not (self.folder / name).is_symlink() and not (self.folder / name).exists():
+                        make(self.folder / name)
+                    if name == "odd.node":
+                        self.write("odd.ele", "0 3 0\n")
+                    result = subprocess.run([program.PATH, *call], cwd=self.folder, capture_output=True, text=True, timeout=20, check=False,
+                                            env=program.RANKS_ENVIRONMENT)
+                    self.assertIn(result.returncode, (1, 2), result.stderr)
+                    self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                    self.assertIn(name, result.stderr)
+                    self.assertIn(f"is a {what}", result.stderr)
+            for path in self.folder.glob("odd.*"):
+                path.rmdir() if path.is_dir() and not path.is_symlink() else path.unlink()
+
+    def test_pipes_of_the_shell_are_read(self):
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "square.poly", "-o", "m.vtu")
+        whole = subprocess.run(["bash", "-c", f"'{program.PATH}' check <(cat m.vtu)"], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertIn("has no extension", whole.stderr)  # as always: a pipe has no name that tells its format
+        meshed = subprocess.run(["bash", "-c", f"'{program.PATH}' mesh --config <(echo 'input: {self.folder}/square.poly')"], cwd=self.folder,
+                                capture_output=True, text=True, check=False)
+        self.assertEqual(meshed.returncode, 0, meshed.stderr)
 
 
 if __name__ == "__main__":
