@@ -44,9 +44,12 @@ driftmesh plot bay.vtu -o bay.png
 driftmesh plot bay.vtu -o bay.svg
 driftmesh plot bay.vtu --box 43000,17000,52000,25000 -o bay-detail.png
 
-say "Fine along all shores: edges of 25 meters there, and longer ones in open water"
-driftmesh mesh bay.poly --size '25 + 0.04*distance()' --angle 20 -o bay-fine.vtu
-driftmesh check bay-fine.vtu bay.poly --size '25 + 0.04*distance()' --angle 20 --quiet
+say "Fine along all shores: edges of 25 meters there, and longer ones in open water and toward the open sea, whose marker is 2"
+shores=$(awk '!/^#/ && NF == 4 && segments { print $4 } NF == 2 && NR > 1 { segments = !segments }' "$folder/bay.poly" |
+  sort -nu | grep -vx 2 | paste -sd,)
+size="25 + 0.04*distance($shores)"
+driftmesh mesh bay.poly --size "$size" --angle 20 -o bay-fine.vtu
+driftmesh check bay-fine.vtu bay.poly --size "$size" --angle 20 --quiet
 driftmesh plot bay-fine.vtu -o bay-fine.png
 
 say "Two million triangles of at most 1,000 square meters in 60 subdomains on two ranks, which share out the work as they go"
