@@ -9,6 +9,7 @@ usage: cases_test.py DRIFTMESH [unittest options]
 
 import math
 import pathlib
+import re
 import unittest
 
 import program
@@ -48,7 +49,10 @@ def area_in_utm(meridian, *corners):
 
 
 AREAS = [
-    Case("A-duplicate-f.poly", 3),
+    Case("A-duplicate-f.poly", 2),
+    Case("A-duplicate-h.poly", 16 - 2 * 0.15),
+    Case("B-near-origin.poly", 1.5),
+    Case("D-sliver-1mm.geojson", 2 * 1000 * 1000 - 0.001 * 1000 / 2, triangles=1000),
     Case("F-hole-crosses.geojson", 90),
     Case("F-holes-overlap.geojson", 75),
     Case("F-polygon-over-hole.geojson", 46),
@@ -107,6 +111,35 @@ class Cases(program.Cli):
                     run = self.on_ranks(ranks, "mesh", case.path, *case.options, "-n", 3 * ranks, "-o", "mesh.vtu")
                     self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
                     self.judge(case, f"on {ranks}")
+
+
+    def in_parts(self, path, pieces):
+        """The triangles of a mesh in parts, and the edges on separators."""
+        self.succeed("mesh", path, "-n", pieces, "-o", "mesh.node", "--max-triangles", 100_000)
+        self.succeed("check", "mesh.node", path, "--quiet")
+        separator = re.compile(r"\s-1000000$", re.MULTILINE)  # their marker
+        return (int((self.folder / "mesh.ele").read_text().split()[0]),
+                len(separator.findall((self.folder / "mesh.poly").read_text())))
+
+    def test_separators_leave_no_slits(self):
+        for name, alone in [("C-slit-best3.node", 434), ("C-slit-best4.node", 179), ("C-turned-grid-mm.node", 4856),
+                            ("C-turned-grid-nm.node", 9534)]:
+            for pieces in (2, 16, 60):
+                with self.subTest(case=name, pieces=pieces):
+                    triangles, separators = self.in_parts(CASES / name, pieces)
+                    self.assertLessEqual(triangles, 1.1 * alone + 4 * separators)
+
+    def test_slits_are_announced_before_the_work(self):
+        needles = self.run_program("mesh", CASES / "D-needles.poly", "--max-triangles", 100_000, "-o", "mesh.vtu")
+        self.assertNotEqual(needles.returncode, 0)
+        self.assertRegex(needles.stderr, r"near \(.*apart")
+        self.succeed("mesh", CASES / "D-needles.poly", "--snap", 1e-5, "-o", "mesh.vtu")
+
+    def test_a_gap_is_named_and_closed(self):
+        self.refuse("mesh", CASES / "N-gap.geojson", "-o", "mesh.vtu", says=["apart"])
+        self.succeed("mesh", CASES / "N-gap.geojson", "--snap", 0.02, "-o", "mesh.vtu")
+        area = area_in_utm(-69, (-70, 41), (-69.9, 41), (-69.9, 41.1), (-70, 41.1))
+        self.assertAlmostEqual(self.area_of("mesh.vtu")[0] / area, 1, places=6)
 
 
 if __name__ == "__main__":
