@@ -47,10 +47,15 @@ bool has_word(const std::string& name, const std::string& word) {
   return false;
 }
 
+/// As a plural does.
+bool has_one_letter_more(const std::string& name, const std::string& word) {
+  return name.size() == word.size() + 1 && name.starts_with(word);
+}
+
 std::vector<std::string> names_with_word(const std::string& word, const std::vector<std::string>& names) {
   std::vector<std::string> with_word;
   std::copy_if(names.begin(), names.end(), std::back_inserter(with_word),
-               [&](const std::string& name) { return has_word(name, word); });
+               [&](const std::string& name) { return has_word(name, word) || has_one_letter_more(name, word); });
   return with_word;
 }
 

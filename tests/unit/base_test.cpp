@@ -54,6 +54,7 @@ TEST_CASE("a name that contains the word is nearer than one that looks like it")
   CHECK(nearest_name("map", known) == "ranks.map_by_area");
   CHECK(nearest_name("by_area", known) == "ranks.map_by_area");
   CHECK(nearest_name("pie", {"piece", "pipe"}) == "pipe");  // not a word of it
+  CHECK(nearest_name("rank", {"rank-speeds", "ranks"}) == "ranks");
   CHECK(nearest_name("", known) == "gap");
   CHECK(probable_name("memory", known) == "max-memory");
   CHECK(probable_name("by", known) == "ranks.map_by_area");
