@@ -159,8 +159,11 @@ TEST_CASE("a late rank with subdomains finds them, and all messages to them") {
           const LateRun run(plan, ranks, late.rank, moment);
           run.check_mesh();
           CHECK(run.makespan() > moment);
-          CHECK(run.loop(late.rank).times().computing > 0);
-          CHECK(run.loop(late.rank).protocol().counters().splits_handled > 0);
+          // It finds the advice of others, too, and may give away its only subdomain before it works.
+          const auto& counters = run.loop(late.rank).protocol().counters();
+          const bool gave_all = counters.hand_offs > 0 && start == Start::kOneSubdomain;
+          CHECK((run.loop(late.rank).times().computing > 0 || gave_all));
+          CHECK(counters.splits_handled > 0);
           if (start == Start::kOneSubdomain && share < 1)
             CHECK((run.loop(late.rank).protocol().counters().arrivals > 0) == (late.policy != "none"));
         }
