@@ -205,9 +205,13 @@ class VtuArrayReader {
     return {path_, data_, array, tuples * array.components};
   }
 
-  /// As many values as the array has by itself.
+  /// As many values as the array has by itself, of one component.
   template <class T>
   [[nodiscard]] VtuValues<T> open_all(const VtuHeader::Array& array) const {
+    if (array.components != 1)
+      throw InputError({path_, array.line},
+                       "a DataArray of " + std::to_string(array.components) + " components where one is meant",
+                       kDamaged);
     if (array.format == VtuHeader::Format::kAscii) return {path_, data_, array, words_in(array.text)};
     const std::size_t size = VtuValues<T>::value_bytes(array);
     return {path_, data_, array, size == 0 ? 0 : data_.announced(array) / size};
