@@ -172,9 +172,6 @@ class ExperimentReader {
     const std::string text = setting.substr(equals + 1);
     YAML::Node value = origin.parse(text);
     const KeyPath path = keys_.known_key(origin, name, YAML::Mark::null_mark());
-    if (const auto before = set_.try_emplace(full_name(path), text).first; before->second != text)
-      origin.fail({}, "'" + name + "' is given twice, and was " + before->second,
-                  "remove one of them; [list, of, values] makes a sweep");
     // YAML takes `a ? b : c` for a table because of its colon.
     if (value.IsMap() && path.key->kind == Kind::kText) value = YAML::Node(text);
     std::erase_if(result_.sweep, [&](const Experiment::Axis& axis) { return axis.key == full_name(path); });
@@ -213,7 +210,6 @@ class ExperimentReader {
 
   bool allow_code_;
   Experiment result_;
-  std::map<std::string, std::string> set_;  // keys, by --set
   Origin origin_;
   KeyReader keys_;
 };
