@@ -198,8 +198,7 @@ void add_pslg(py::module_& module) {
   pslg.def(py::init(&make_pslg), py::arg("points"), py::arg("segments") = none, py::kw_only(),
            py::arg("segment_markers") = none, py::arg("holes") = none, py::arg("regions") = none,
            py::arg("point_markers") = none, py::arg("attributes") = none, py::arg("marker_names") = py::dict(),
-           py::arg("region_names") = py::dict(), py::arg("polygons") = none,
-           "A domain from arrays, which are copied.");
+           py::arg("region_names") = py::dict(), py::arg("polygons") = none, "A domain from arrays, which are copied.");
   add_point_views(pslg);
   add_edge_views(pslg, "segments", "Indices of the two ends of each segment, shape (segments, 2).", "segment_markers",
                  "Markers of the segments, shape (segments,).", &Pslg::segments);

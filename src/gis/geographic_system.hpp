@@ -12,8 +12,8 @@ namespace driftmesh {
 /// The same for a code of the EPSG.
 [[nodiscard]] bool is_geographic_code(int code);
 
-/// The number at the end of a name that speaks of the EPSG, or of Esri, which has numbers of its own beyond those of the
-/// EPSG; 0: there is none.
+/// The number at the end of a name that speaks of the EPSG, or of Esri, which has numbers of its own beyond those of
+/// the EPSG; 0: there is none.
 [[nodiscard]] int epsg_code_in(std::string_view name);
 
 }  // namespace driftmesh

@@ -65,7 +65,7 @@ class Options(unittest.TestCase):
             mesh = driftmesh.mesh(domain)
         self.assertAlmostEqual(areas(mesh).sum(), 9 - 1.75)
         self.assertEqual(set(mesh.regions), {7})
-        for wrong, error in (([7], TypeError), ([(rings, 0, 1, 2)], TypeError), ([([[0, 99]],)], driftmesh.Error)):
+        for wrong, error in (([7], TypeError), ([(rings, 0, 1, 2)], TypeError), ([([[0, 99]],)], ValueError)):
             with self.assertRaises(error):
                 driftmesh.Pslg(points, sides, polygons=wrong)
         with self.assertRaisesRegex(driftmesh.InputError, "an edge that is no segment"):

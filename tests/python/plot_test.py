@@ -41,7 +41,7 @@ class Plot(unittest.TestCase):
         mesh = driftmesh.mesh(PLATE)
         for error, words, options in (
                 (driftmesh.Error, "'area'", {"color": "aera"}), (driftmesh.Error, "'on'", {"edges": "of"}),
-                (driftmesh.Error, "x0 < x1", {"box": (1, 1, 0, 0)}), (TypeError, "", {"box": (1, 1)}),
+                (driftmesh.Error, "x0 < x1", {"box": (1, 1, 0, 0)}), (driftmesh.Error, "2 numbers", {"box": (1, 1)}),
                 (driftmesh.InputError, "rank", {"color": "rank"}), (driftmesh.InputError, "from .0, 0.", {"box": (5, 5, 6, 6)})):
             with self.assertRaisesRegex(error, words):
                 driftmesh.plot(mesh, self.folder / "plate.png", **options)
