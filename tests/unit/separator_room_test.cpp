@@ -4,21 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
-#include <optional>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "decompose/bridges.hpp"
-#include "decompose/fork.hpp"
+#include "decompose/pieces.hpp"
+#include "decompose/star.hpp"
 #include "driftmesh/repair.hpp"
 #include "geometry/segment_geometry.hpp"
 #include "support/prepared_mesh.hpp"
 
-// What separators keep away from, and that bridges and forks keep away from it.
+// What separators keep away from, and that bridges and smoothing keep away from it.
 
 using namespace driftmesh;
 
@@ -56,21 +55,6 @@ std::string narrow_bridge(const PlanarMap& map) {
     }
   }
   return "";
-}
-
-Outline outline_with(const std::vector<Point>& corners, double spacing) {
-  Pslg pslg;
-  pslg.points = corners;
-  const auto count = static_cast<std::int32_t>(corners.size());
-  for (std::int32_t i = 0; i < count; ++i) pslg.segments.push_back({i, (i + 1) % count, 1});
-  const PlanarMap map = connected_walls(testing::prepared(pslg), 10, kBridgeAngle);
-  SideId inside = kNone;
-  for (const SideId h : ids_of(map.sides))
-    if (map.side(h).in_domain()) inside = h;
-  Outline outline;
-  read_loop(map, inside, outline.loop);
-  place_stations(map, spacing, kBridgeAngle, outline);
-  return outline;
 }
 
 }  // namespace
@@ -123,30 +107,31 @@ TEST_CASE("bridges do not run beside a wall") {
   }
 }
 
-TEST_CASE("forks do not run beside a wall") {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> unit(0, 1);
-  int forks = 0;
-  for (int k = 0; k < 2000; ++k) {
-    CAPTURE(k);
-    std::vector<Point> corners;
-    const int count = 9 + static_cast<int>(random() % 12);
-    for (int i = 0; i < count; ++i) {
-      const double angle = 2 * std::numbers::pi * (i + 0.9 * unit(random)) / count;
-      const double radius = random() % 2 == 0 ? 1 : 0.1 + 0.9 * unit(random);
-      corners.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
-    const Outline outline = outline_with(corners, 0.1);
-    const std::optional<Fork> fork = find_fork(outline, kBridgeAngle);
-    if (!fork) continue;
-    ++forks;
-    for (const Outline::Station& end : fork->ends)
-      for (std::size_t i = 0; i < outline.loop.size(); ++i) {
-        const Point &u = outline.loop[i].at, &w = outline.loop[i + 1 < outline.loop.size() ? i + 1 : 0].at;
-        const bool meets = u == end.at || w == end.at || (!end.corner && outline.loop[i].side == end.side);
-        const bool is_near = !meets && comes_near(fork->center, end.at, u, w);
-        CHECK(!is_near);
-      }
+TEST_CASE("smoothing does not move a separator beside a wall") {
+  // Separators from the middle of a square down, up and to the right; left of the lower one a wall that stands on the
+  // border ends just below the middle, so that no corner is in the room.
+  for (const Point& tip : {Point{0.995, 0.9995}, Point{0.995, 0.5}}) {
+    Pslg pslg;
+    pslg.points = {{0, 0}, {0.995, 0}, {2, 0}, {2, 2}, {0, 2}, tip};
+    pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 4, 1}, {4, 0, 1}, {1, 5, 2}};
+    PlanarMap map = connected_walls(testing::prepared(pslg), 10, kBridgeAngle);
+    const auto split = [&](const Point& a, const Point& b, const Point& m) -> SideId {
+      for (const SideId h : ids_of(map.sides))
+        if (map.side(h).in_domain() && map.at(map.start(h)) == a && map.at(map.end(h)) == b)
+          return map.split(h, map.add_point(m, kNone));
+      FAIL("there is no such side");
+      return kNone;
+    };
+    const SideId bottom = split({0.995, 0}, {2, 0}, {1, 0}), top = split({2, 2}, {0, 2}, {1, 2});
+    (void)map.connect(bottom, top, PlanarMap::Kind::kSeparator);
+    const SideId right = split({2, 0}, {2, 2}, {2, 1}), middle = split({1, 2}, {1, 0}, {1, 1});
+    (void)map.connect(middle, right, PlanarMap::Kind::kSeparator);
+    const IdVector<PieceId, Piece> pieces = find_pieces(map, {});
+    const IdVector<SideId, PieceId> piece_of = label_sides(map, pieces);
+    Star star(map, piece_of, kBridgeAngle);
+    REQUIRE(star.read(middle));
+    CHECK(star.allows({0.3, 0}, {0, 0}));
+    CHECK(!star.allows({0, 0}, {0, 0}));
+    CHECK(!star.allows({0.002, 0}, {0, 0}));
   }
-  CHECK(forks > 50);
 }
