@@ -77,7 +77,7 @@ std::string probable_name(const std::string& name, const std::vector<std::string
   const auto longer =
       std::find_if(known.begin(), known.end(), [&](const std::string& k) { return k.starts_with(name); });
   if (longer != known.end()) return *longer;
-  const std::string nearest = nearest_name(name, known);
+  std::string nearest = nearest_name(name, known);
   if (has_word(nearest, name)) return nearest;
   return 3 * edit_distance(name, nearest) <= nearest.size() + 1 ? nearest : "";
 }

@@ -194,7 +194,7 @@ Placed chain(const Ring& ring, std::size_t begin, std::size_t count) {
 
 /// A ring whose edges are all of one type.
 void append_whole(const Mesh& mesh, Ring ring, std::vector<Placed>& strings) {
-  std::ranges::rotate(ring, std::ranges::min_element(ring, {}, &BorderEdge::order));
+  std::rotate(ring.begin(), std::ranges::min_element(ring, {}, &BorderEdge::order), ring.end());
   std::int32_t type = ring.front().type;
   if (type == kMainlandType && doubled_area(mesh, ring) < 0) type = kIslandType;
   if (!is_closed_type(type)) {

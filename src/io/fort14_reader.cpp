@@ -42,7 +42,8 @@ class Fields {
   /// Whether another number follows, and no comment.
   [[nodiscard]] bool has_number() const {
     const std::size_t begin = line_.find_first_not_of(" \t,\r");
-    return begin != std::string_view::npos && std::string_view("+-.0123456789").find(line_[begin]) != line_.npos;
+    return begin != std::string_view::npos &&
+           std::string_view("+-.0123456789").find(line_[begin]) != std::string_view::npos;
   }
 
   [[noreturn]] void reject(const std::string& what, const char* next = kDamaged) const {

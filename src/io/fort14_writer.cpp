@@ -132,7 +132,8 @@ void write_fort14(const Mesh& mesh, const std::string& path, const WriteOptions&
   Strings open, land;
   for (const BoundaryString& string : boundary.strings)
     if (string.type != EdgeTypes::kWeirType) (string.type == kOpenType ? open : land).push_back(string);
-  std::ranges::stable_partition(land, [](const BoundaryString& string) { return !string.closed; });  // islands last
+  std::stable_partition(land.begin(), land.end(),
+                        [](const BoundaryString& string) { return !string.closed; });  // islands last
   FileSink sink(path);
   sink.text("driftmesh\n");
   write_line(sink, {mesh.triangles.size(), mesh.points.size()}, "number of elements and nodes");

@@ -1,7 +1,7 @@
 #include "job/domain.hpp"
 
 #include <algorithm>
-#include <ranges>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -44,6 +44,13 @@ void add_nested_holes(HoleRule rule, Pslg& pslg) {
   pslg.holes.insert(pslg.holes.end(), holes.begin(), holes.end());
 }
 
+template <class Key, class Value>
+std::vector<Key> keys_of(const std::map<Key, Value>& map) {
+  std::vector<Key> keys;
+  for (const auto& [key, value] : map) keys.push_back(key);
+  return keys;
+}
+
 /// Throws InputError if a request speaks of markers or regions that its input has not. `keys`: what it calls them.
 template <class Value, class Asked>
 void require_known(const Request& request, const std::set<Value>& known, const Asked& asked, const std::string& what,
@@ -52,8 +59,9 @@ void require_known(const Request& request, const std::set<Value>& known, const A
   if (missing == std::end(asked)) return;
   constexpr std::size_t kMost = 20;
   std::string list;
-  for (const Value& value : std::views::take(known, kMost))
-    list += (list.empty() ? "" : ", ") + shortest_text(static_cast<double>(value));
+  std::size_t listed = 0;
+  for (const Value& value : known)
+    if (listed++ < kMost) list += (list.empty() ? "" : ", ") + shortest_text(static_cast<double>(value));
   if (known.size() > kMost) list += " and " + std::to_string(known.size() - kMost) + " more";
   throw InputError({input_name(request)},
                    "has no " + what + " " + shortest_text(static_cast<double>(*missing)) + ", which " +
@@ -72,8 +80,8 @@ void check_markers_and_regions(const Request& request, const Pslg& pslg) {
   for (const Pslg::Region& region : pslg.regions) regions.insert(region.attribute);
   if (!regions.empty()) regions.insert(0);  // the rest of the domain
   const Names names = names_of(request.input);
-  require_known(request, markers, std::views::keys(names.markers), "segment with marker", "input.marker-names");
-  require_known(request, regions, std::views::keys(names.regions), "region", "input.region-names");
+  require_known(request, markers, keys_of(names.markers), "segment with marker", "input.marker-names");
+  require_known(request, regions, keys_of(names.regions), "region", "input.region-names");
 }
 
 /// Names that the request gives replace those that the input has.

@@ -103,7 +103,10 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     CarveReport carved;
     result.mesh = triangulate(domain.pslg, &carved);
     warn(request, domain_warnings(domain.pslg, domain.repairs, carved, result.mesh), watch);
-    result.holes = domain.pslg.polygons.empty() ? domain.pslg.holes : std::move(carved.holes);
+    if (domain.pslg.polygons.empty())
+      result.holes = domain.pslg.holes;
+    else
+      result.holes = std::move(carved.holes);
     warn(request, background_warnings(domain, result.mesh), watch);
     result.bounds = bounds_of(request, domain, result.mesh, ranks);
     const auto count = [&] { result.forecast = forecast_triangles(result.mesh, result.bounds); };

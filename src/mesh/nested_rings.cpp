@@ -157,7 +157,9 @@ class Nesting {
     while (!stack.empty()) {
       const auto [area, odd] = stack.back();
       stack.pop_back();
-      for (const auto& [from, to] : std::ranges::equal_range(steps, area, {}, &std::pair<AreaId, AreaId>::first)) {
+      for (auto step = std::ranges::lower_bound(steps, area, {}, &std::pair<AreaId, AreaId>::first);
+           step != steps.end() && step->first == area; ++step) {
+        const AreaId to = step->second;
         if (to == kNone || to == surrounding_[b] || alternates_[to]) continue;
         alternates_[to] = true;
         odd_[to] = !odd;

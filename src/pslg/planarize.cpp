@@ -517,7 +517,7 @@ void Planarizer::retract_rings() {
         ring.clear();
         continue;
       }
-      std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(first));
+      std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(first), ring.end());
       Pslg::Ring kept;
       for (const std::int32_t corner : ring) {
         const bool turns =

@@ -85,8 +85,10 @@ class RingCutter {
 
   /// Notes where two edges are to be cut; false if they need not be.
   bool meet(std::int32_t e, std::int32_t f) {
-    const bool at_ends = cut_at_end(e, edges_[f].first) | cut_at_end(e, edges_[f].second) |
-                         cut_at_end(f, edges_[e].first) | cut_at_end(f, edges_[e].second);
+    bool at_ends = false;
+    for (const auto& [edge, other] : {std::pair(e, f), std::pair(f, e)})
+      for (const auto end : {edges_[other].first, edges_[other].second})
+        if (cut_at_end(edge, end)) at_ends = true;
     return at_ends || cut_at_crossing(e, f);
   }
 

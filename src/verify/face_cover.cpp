@@ -145,8 +145,9 @@ class Walk {
   [[nodiscard]] std::int32_t right(std::int32_t link) const { return arrangement_.right_face(link); }
 
   void cross(std::int32_t link) {
-    for (const Change& change : std::ranges::equal_range(changes_, link, {}, &Change::link))
-      place_.change_sides(change);
+    for (auto change = std::ranges::lower_bound(changes_, link, {}, &Change::link);
+         change != changes_.end() && change->link == link; ++change)
+      place_.change_sides(*change);
   }
 
   const Arrangement& arrangement_;
