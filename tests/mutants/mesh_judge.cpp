@@ -140,9 +140,10 @@ MeshVerdict judge(const MeshSample& sample, const Mesh& mesh, std::uint64_t seed
   const std::vector<Mesh> pieces = pieces_of(mesh, seed);
   compare.expect("verify_pieces by themselves", verify_pieces(pieces, nullptr, options), alone);
   compare.expect("verify_pieces", verify_pieces(pieces, &sample.input, options), truth);
+  if (seed % 8 != 0) return verdict;  // files wait for the disk
   constexpr std::array kFiles{"/mesh.vtu", "/mesh.ele", "/mesh.msh"};
   std::filesystem::create_directories(folder);
-  check_file(sample, mesh, folder + kFiles[seed % 3], options, compare);
+  check_file(sample, mesh, folder + kFiles[seed / 8 % 3], options, compare);
   return verdict;
 }
 

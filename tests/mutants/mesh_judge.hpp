@@ -15,8 +15,8 @@ struct MeshVerdict {
 };
 
 /// Checks a mesh in every way there is: by itself and against the input of its sample; in one piece and in several, of
-/// which the seed tells how they are cut; by the library; and read back from a file in the folder. Each must accept it
-/// if tests/oracles/mesh_faults.hpp finds no fault, and reject it otherwise.
+/// which the seed tells how they are cut; by the library; and, for one seed in eight, read back from a file in the
+/// folder. Each must accept it if tests/oracles/mesh_faults.hpp finds no fault, and reject it otherwise.
 [[nodiscard]] MeshVerdict judge(const MeshSample& sample, const Mesh& mesh, std::uint64_t seed,
                                 const std::string& folder);
 
