@@ -18,7 +18,9 @@
 #include "pslg/convex_hull.hpp"
 #include "pslg/describe.hpp"
 #include "pslg/free_branches.hpp"
+#include "pslg/keep_points.hpp"
 #include "pslg/near_segment.hpp"
+#include "pslg/pair_key.hpp"
 #include "pslg/point_welder.hpp"
 #include "pslg/polygons.hpp"
 
@@ -39,11 +41,6 @@ void note(RepairItem& item, Describe describe) {
   if (item.count++ < RepairItem::kMaxExamples) item.examples.push_back(describe());
 }
 
-// The index of a pair of points in either order.
-std::uint64_t pair_key(std::int32_t a, std::int32_t b) {
-  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
-}
-
 double distance_to_line(const Point& p, const Point& a, const Point& b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   return std::fabs(dx * (p.y - a.y) - dy * (p.x - a.x)) / std::hypot(dx, dy);
@@ -60,31 +57,6 @@ std::vector<bool> segments_on_rings(const Pslg& pslg) {
       free_branches(segments, welder.points().size(), std::vector<bool>(segments.size(), true));
   on_rings.flip();
   return on_rings;
-}
-
-template <class T>
-void remove_entries(std::vector<T>& values, const std::vector<bool>& gone, std::size_t stride = 1) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!gone[i / stride]) values[kept++] = values[i];
-  values.resize(kept);
-}
-
-/// Removes points that no segment has. `also`: one entry for each point, likewise.
-void remove_points(Pslg& pslg, const std::vector<bool>& gone, std::vector<std::int32_t>& also) {
-  std::vector<std::int32_t> number(gone.size());
-  std::int32_t next = 0;
-  for (std::size_t i = 0; i < gone.size(); ++i) number[i] = gone[i] ? kNone : next++;
-  for (Pslg::Segment& s : pslg.segments) s = {number[s.a], number[s.b], s.marker};
-  for (Pslg::Polygon& polygon : pslg.polygons)
-    for (Pslg::Ring& ring : polygon.rings) {
-      std::erase_if(ring, [&](std::int32_t corner) { return gone[to_index(corner)]; });  // all that was left of it
-      for (std::int32_t& corner : ring) corner = number[corner];
-    }
-  remove_entries(pslg.points, gone);
-  remove_entries(pslg.point_markers, gone);
-  remove_entries(pslg.attributes, gone, static_cast<std::size_t>(std::max(1, pslg.attributes_per_point)));
-  remove_entries(also, gone);
 }
 
 /// Works in rounds. Each round finds, for segments and points that are new since the last one, which points lie on
@@ -508,30 +480,7 @@ void Planarizer::retract_rings() {
     if (piece.origin == kDropped) gone.insert(pair_key(piece.segment.a, piece.segment.b));
   if (gone.empty()) return;
   for (Pslg::Polygon& polygon : pslg_.polygons)
-    for (Pslg::Ring& ring : polygon.rings) {
-      // A turn may lie where the ring begins: so it begins elsewhere, at a corner that stays, if there is one.
-      const auto stays = [&](std::size_t i) { return !gone.contains(pair_key(ring[i], ring[(i + 1) % ring.size()])); };
-      std::size_t first = 0;
-      while (first < ring.size() && !stays(first)) ++first;
-      if (first == ring.size()) {
-        ring.clear();
-        continue;
-      }
-      std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(first), ring.end());
-      Pslg::Ring kept;
-      for (const std::int32_t corner : ring) {
-        const bool turns =
-            kept.size() > 1 && kept[kept.size() - 2] == corner && gone.contains(pair_key(kept.back(), corner));
-        if (turns)
-          kept.pop_back();
-        else
-          kept.push_back(corner);
-      }
-      const bool turns_at_end = kept.size() > 1 && gone.contains(pair_key(kept.back(), kept.front()));
-      if (turns_at_end) kept.pop_back();
-      drop_repetitions(kept);
-      ring = std::move(kept);
-    }
+    for (Pslg::Ring& ring : polygon.rings) retract(ring, gone);
 }
 
 // Points whose segments snapping has taken, to the last, go as well.
@@ -554,7 +503,10 @@ void Planarizer::finish() {
   pslg_.points = points();
   pslg_.point_markers = std::move(markers_);
   pslg_.attributes = std::move(attributes_);
-  if (std::ranges::count(bare, true) > 0) remove_points(pslg_, bare, report_.original_point);
+  if (std::ranges::count(bare, true) == 0) return;
+  std::vector<std::int32_t> original;
+  for (const std::int32_t kept : keep_points(pslg_, bare)) original.push_back(report_.original_point[to_index(kept)]);
+  report_.original_point = std::move(original);
 }
 
 void Planarizer::fail_to_end() const {

@@ -12,6 +12,8 @@
 #include "geometry/polygon.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/segment_geometry.hpp"
+#include "pslg/keep_points.hpp"
+#include "pslg/pair_key.hpp"
 #include "pslg/polygons.hpp"
 #include "pslg/polylines.hpp"
 
@@ -212,12 +214,9 @@ class Thinning {
       nodes_.back().stays = !line.closed && (i == 0 || last);
     }
     for (std::int32_t i = first; i < first + count; ++i)
-      if (nodes_[i].next >= 0) joined_.insert(key(nodes_[i].point, nodes_[nodes_[i].next].point));
+      if (nodes_[i].next >= 0) joined_.insert(pair_key(nodes_[i].point, nodes_[nodes_[i].next].point));
   }
 
-  static std::uint64_t key(std::int32_t a, std::int32_t b) {
-    return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
-  }
   [[nodiscard]] const Point& at(std::int32_t node) const { return pslg_.points[nodes_[node].point]; }
 
   void offer(std::int32_t i) {
@@ -236,7 +235,7 @@ class Thinning {
   [[nodiscard]] bool may_go(std::int32_t i) const {
     const std::int32_t from = nodes_[i].previous, to = nodes_[i].next;
     const std::int32_t a = nodes_[from].point, b = nodes_[to].point;
-    return a != b && !joined_.contains(key(a, b)) && keeps_blunt(nodes_[from].previous, from, i, to) &&
+    return a != b && !joined_.contains(pair_key(a, b)) && keeps_blunt(nodes_[from].previous, from, i, to) &&
            keeps_blunt(nodes_[to].next, to, i, from) && is_close(from, to) && is_free(a, nodes_[i].point, b);
   }
 
@@ -277,9 +276,9 @@ class Thinning {
   void remove(std::int32_t i) {
     Node& node = nodes_[i];
     const std::int32_t from = node.previous, to = node.next;
-    joined_.erase(key(nodes_[from].point, node.point));
-    joined_.erase(key(node.point, nodes_[to].point));
-    joined_.insert(key(nodes_[from].point, nodes_[to].point));
+    joined_.erase(pair_key(nodes_[from].point, node.point));
+    joined_.erase(pair_key(node.point, nodes_[to].point));
+    joined_.insert(pair_key(nodes_[from].point, nodes_[to].point));
     nodes_[from].next = to;
     nodes_[to].previous = from;
     node.removed = true;
@@ -298,15 +297,9 @@ class Thinning {
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> queue_;
 };
 
-/// Keeps the corners that have a place, and numbers them by it. Drops rings that have none left, and polygons without
-/// a first ring.
-void keep_rings(Pslg& pslg, const std::vector<std::int32_t>& place) {
+/// Drops rings that have no corner left, and polygons without a first ring.
+void keep_rings(Pslg& pslg) {
   for (Pslg::Polygon& polygon : pslg.polygons) {
-    for (Pslg::Ring& ring : polygon.rings) {
-      for (std::int32_t& corner : ring) corner = place[corner];
-      std::erase(ring, -1);
-      drop_repetitions(ring);
-    }
     const bool has_outer = !polygon.rings.empty() && !polygon.rings[0].empty();
     std::erase_if(polygon.rings, [&](const Pslg::Ring& ring) { return !has_outer || ring.empty(); });
   }
@@ -330,28 +323,15 @@ void keep_regions(Pslg& pslg, const std::vector<bool>& named_before, const Obsta
 /// Keeps the points, polygons, holes and regions that are there, and these segments.
 std::vector<std::int32_t> keep(Pslg& pslg, const Obstacles& obstacles,
                                const std::vector<std::pair<std::int32_t, Pslg::Segment>>& segments) {
-  std::vector<std::int32_t> kept, place(pslg.points.size(), -1);
-  for (std::int32_t p = 0; p < obstacles.seeds_begin(); ++p)
-    if (obstacles.there(p)) {
-      place[p] = static_cast<std::int32_t>(kept.size());
-      kept.push_back(p);
-    }
-  const auto width = static_cast<std::size_t>(pslg.attributes_per_point);
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    const auto from = static_cast<std::size_t>(kept[i]);
-    pslg.points[i] = pslg.points[from];
-    if (!pslg.point_markers.empty()) pslg.point_markers[i] = pslg.point_markers[from];
-    for (std::size_t k = 0; k < width; ++k) pslg.attributes[i * width + k] = pslg.attributes[from * width + k];
-  }
-  pslg.points.resize(kept.size());
-  if (!pslg.point_markers.empty()) pslg.point_markers.resize(kept.size());
-  pslg.attributes.resize(kept.size() * width);
+  std::vector<bool> gone;
+  for (std::int32_t p = 0; p < obstacles.seeds_begin(); ++p) gone.push_back(!obstacles.there(p));
   pslg.segments.clear();
-  for (const auto& [first, s] : segments) pslg.segments.push_back({place[s.a], place[s.b], s.marker});
+  for (const auto& [first, s] : segments) pslg.segments.push_back(s);
+  const std::vector<bool> named = regions_of_polygons(pslg);
+  std::vector<std::int32_t> kept = keep_points(pslg, gone);
   std::int32_t seed = obstacles.seeds_begin();
   std::erase_if(pslg.holes, [&](const Point&) { return !obstacles.there(seed++); });
-  const std::vector<bool> named = regions_of_polygons(pslg);
-  keep_rings(pslg, place);
+  keep_rings(pslg);
   keep_regions(pslg, named, obstacles, seed);
   return kept;
 }
