@@ -10,12 +10,9 @@
 #include "driftmesh/error.hpp"
 #include "geojson/dateline.hpp"
 #include "geojson/each_point.hpp"
+#include "geojson/vertices_on_edges.hpp"
 #include "geometry/box.hpp"
-#include "geometry/box_tree.hpp"
-#include "geometry/segment_geometry.hpp"
 #include "gis/transverse_mercator.hpp"
-#include "pslg/closeness.hpp"
-#include "pslg/near_segment.hpp"
 
 namespace driftmesh {
 namespace {
@@ -77,52 +74,6 @@ class PslgBuilder {
   std::set<std::pair<std::int32_t, std::int32_t>> listed_;
 };
 
-/// Gives edges the vertices that lie on them, so that these stay on them wherever a projection takes their ends.
-class VerticesOnEdges {
- public:
-  explicit VerticesOnEdges(GeoFeatures& features) : features_(features) {
-    for_each_point(features, [&](const Point& p) { points_.push_back(p); });
-    std::ranges::sort(points_, {}, [](const Point& p) { return std::pair(p.x, p.y); });
-    points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
-    std::vector<Box> boxes;
-    for (const Point& p : points_) boxes.push_back({p, p});
-    tree_ = BoxTree(boxes);
-  }
-
-  void insert() {
-    for (GeoFeatures::Polygon& polygon : features_.polygons)
-      for (PolygonRing& ring : polygon.rings) insert_into(ring, true);
-    for (GeoFeatures::Line& line : features_.lines) insert_into(line.points, false);
-  }
-
- private:
-  void insert_into(std::vector<Point>& corners, bool closed) const {
-    std::vector<Point> all;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      all.push_back(corners[i]);
-      if (closed || i + 1 < corners.size())
-        insert_between(corners[i], corners[i + 1 == corners.size() ? 0 : i + 1], all);
-    }
-    corners = std::move(all);
-  }
-
-  void insert_between(const Point& a, const Point& b, std::vector<Point>& all) const {
-    const auto first = static_cast<std::ptrdiff_t>(all.size());
-    const double margin = Closeness()(a, b);
-    tree_.search(NearSegment(a, b, margin), [&](std::int32_t i) {
-      if (points_[i] != a && points_[i] != b && on_segment(points_[i], a, b, margin) != OnSegment::no)
-        all.push_back(points_[i]);
-    });
-    std::sort(all.begin() + first, all.end(), [&](const Point& p, const Point& q) {
-      return nearest_on_segment(p, a, b) < nearest_on_segment(q, a, b);
-    });
-  }
-
-  GeoFeatures& features_;
-  std::vector<Point> points_;  // of all features
-  BoxTree tree_;
-};
-
 }  // namespace
 
 std::string project(GeoFeatures& features, const std::string& file) {
@@ -144,8 +95,7 @@ std::string project(GeoFeatures& features, const std::string& file) {
   if (half + std::abs(off) > kFarthest)
     throw InputError({file, 0}, "spans too many degrees of longitude for one UTM zone",
                      "project it yourself and name the system in a \"crs\"");
-  VerticesOnEdges(features).insert();
-  for_each_point(features, [&](Point& p) { p = utm(p.x, p.y, zone); });
+  project_with_edges(features, [&](const Point& p) { return utm(p.x, p.y, zone); });
   return zone.name();
 }
 

@@ -8,9 +8,8 @@
 namespace driftmesh {
 
 /// Degrees to meters in the UTM zone of the middle of everything; returns its name. Across the 180th meridian
-/// longitudes count on, and polygons that were cut there are joined (dateline.hpp). Edges are straight in degrees,
-/// where vertices of others may lie on them, and remain straight in meters: so each first becomes several edges with
-/// these vertices between them. Throws InputError for `file` where coordinates are no longitudes and latitudes, lie
+/// longitudes count on, and polygons that were cut there are joined (dateline.hpp). What touches in degrees touches in
+/// meters (vertices_on_edges.hpp). Throws InputError for `file` where coordinates are no longitudes and latitudes, lie
 /// beyond 84 degrees north or 80 south, or more than 40 degrees from the middle, where the projection is no longer true
 /// to scale.
 std::string project(GeoFeatures& features, const std::string& file);

@@ -417,6 +417,38 @@ TEST_CASE("edges take the vertices that lie on them in degrees") {
   CHECK(corners_of(sloped + "," + line("[[-70.67,40.21],[-70.5,40]]")) == 4);
 }
 
+TEST_CASE("lines and points on the edge of a polygon leave it where it is, and polygons bend it") {
+  const auto collection = [](const std::string& features) {
+    return parse_geojson_input("x.json", R"({"type": "FeatureCollection", "features": [)" + features + "]}").pslg;
+  };
+  const auto line = [](const std::string& points) {
+    return R"({"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": )" + points +
+           "}}";
+  };
+  const auto area = [](const Pslg& pslg) {  // of the first polygon
+    const auto& ring = pslg.polygons.at(0).rings.at(0);
+    const Point o = pslg.points[ring[0]];
+    double sum = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point &a = pslg.points[ring[i]], &b = pslg.points[ring[(i + 1) % ring.size()]];
+      sum += ((a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x)) / 2;
+    }
+    return sum;
+  };
+  const std::string large = polygon("[[[-71,40],[-69,40],[-69,41],[-71,41],[-71,40]]]");
+  const double alone = area(collection(large));
+  CHECK(area(collection(large + "," + line("[[-71,40],[-70,40],[-69,40]]"))) == doctest::Approx(alone).epsilon(1e-14));
+  CHECK(area(collection(line("[[-70.5,40.5],[-70.3,40]]") + "," + large + "," + line("[[-70.2,42],[-70.2,40]]"))) ==
+        doctest::Approx(alone).epsilon(1e-14));
+  const std::string south = polygon("[[[-70.5,40],[-70,39],[-69.5,40],[-70.5,40]]]");
+  const double bent = area(collection(large + "," + south));
+  CHECK(bent > alone * 1.001);
+  // On the part of the edge between the corners of the other polygon.
+  const Pslg all = collection(large + "," + south + "," + line("[[-70,40],[-69.75,40],[-69.75,41]]"));
+  CHECK(all.polygons.at(0).rings.at(0).size() == 9);
+  CHECK(area(all) == doctest::Approx(bent).epsilon(1e-14));
+}
+
 TEST_CASE("names belong to the region or the marker that a feature has by its number") {
   const auto names = [](const std::string& first, const std::string& second) {
     const std::string text =
