@@ -40,7 +40,7 @@ class Plot(unittest.TestCase):
     def test_errors(self):
         mesh = driftmesh.mesh(PLATE)
         for error, words, options in (
-                (driftmesh.Error, "'area'", {"color": "aera"}), (driftmesh.Error, "'on'", {"edges": "of"}),
+                (driftmesh.Error, "'area'", {"color": "aera"}), (driftmesh.Error, "'off'", {"edges": "of"}),
                 (driftmesh.Error, "x0 < x1", {"box": (1, 1, 0, 0)}), (driftmesh.Error, "2 numbers", {"box": (1, 1)}),
                 (driftmesh.InputError, "rank", {"color": "rank"}), (driftmesh.InputError, "from .0, 0.", {"box": (5, 5, 6, 6)})):
             with self.assertRaisesRegex(error, words):
