@@ -6,9 +6,7 @@
 #include "api/library_request.hpp"
 #include "driftmesh/error.hpp"
 #include "job/check.hpp"
-#include "job/limits.hpp"
-#include "job/prepare.hpp"
-#include "job/thread_run.hpp"
+#include "job/here.hpp"
 
 namespace driftmesh {
 
@@ -37,7 +35,7 @@ Call::Call(const Pslg& input, const MeshOptions& options, const balancer::Policy
   if (const auto& own = options.balance.own) given_.policies = [own](const std::string&, const auto&) { return own; };
 }
 
-job::Place Call::place() const {
+job::PlaceKind Call::place() const {
   return given_.decomposition != nullptr ? job::kSubdomains : job::place_of(request_, job::kLibrary, false);
 }
 
@@ -46,23 +44,14 @@ std::int32_t Call::threads() const {
   return only_this_one ? 1 : job::threads_of(request_);
 }
 
-void Call::check(job::Place place, const job::Request& request) const {
+job::Asked Call::asked(job::PlaceKind place, const job::Request& request) const {
   if (options_.balance.own && (place & job::kMany) == 0)
     throw Error("MeshOptions::balance.own is for many ranks, but this process is alone; remove it");
   if (options_.balance.own && options_.balance.policy != MeshOptions{}.balance.policy)
     throw Error("MeshOptions::balance.own is given along with the name of another policy; remove one");
   if (options_.subdomains.given && options_.subdomains.count != 0)
     throw Error("MeshOptions::subdomains.count cannot be combined with a given decomposition; remove one");
-  job::check(request, place, given_.policies);
-}
-
-job::Order Call::order(job::Domain domain, const job::Triangulated& triangulated, job::Place place, std::int32_t ranks,
-                       const job::Processes& processes) {
-  const job::Use use{.by = job::kLibrary, .in_subdomains = true, .sleeps = request_.run.sleep, .writes = true};
-  const job::Limits limits = job::find_limits(request_.limits, domain.pslg, use, processes);
-  job::Prepared prepared =
-      job::prepare(request_, domain, triangulated, given_, place, job::shares_of_time(request_, ranks), limits, watch_);
-  return {std::move(prepared.plan), std::move(domain.pslg), request_.sizing, request_.limits, {}, use};
+  return {request, job::kLibrary, given_, {.mesh = place != job::kSimulated, .whole = true}};
 }
 
 }  // namespace driftmesh

@@ -3,16 +3,13 @@
 #include <cstdint>
 #include <functional>
 
-#include "decompose/decomposition.hpp"
 #include "driftmesh/options.hpp"
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/size_field.hpp"
 #include "job/domain.hpp"
 #include "job/key.hpp"
-#include "job/limits.hpp"
-#include "job/order.hpp"
+#include "job/make.hpp"
 #include "job/request.hpp"
-#include "job/triangulated.hpp"
 #include "job/watch.hpp"
 
 namespace driftmesh {
@@ -36,6 +33,7 @@ class CallerWatch final : public job::Watch {
   void warned(const std::string& warning) override;
   /// Throws Cancelled if the caller cancels.
   void refining(std::int64_t triangles, double forecast) override;
+  void stalled(const std::string& why) override { warned(why); }
 
  private:
   const MeshOptions& options_;
@@ -50,22 +48,18 @@ class Call {
   Call& operator=(const Call&) = delete;
 
   [[nodiscard]] const job::Request& request() const { return request_; }
-  [[nodiscard]] const job::Given& given() const { return given_; }
+  [[nodiscard]] const balancer::PolicyMaker& policies() const { return given_.policies; }
   [[nodiscard]] job::Watch& watch() { return watch_; }
 
   /// Where a process by itself makes the mesh: in subdomains if they are requested.
-  [[nodiscard]] job::Place place() const;
+  [[nodiscard]] job::PlaceKind place() const;
   /// The number of threads for that.
   [[nodiscard]] std::int32_t threads() const;
-  /// Throws Error for options that are out of range or have no meaning at this place.
-  void check(job::Place place) const { check(place, request_); }
-  /// The same for a request that says more than the options do.
-  void check(job::Place place, const job::Request& request) const;
-  /// Throws what reading the input throws.
-  [[nodiscard]] job::Domain read_domain() { return job::read_domain(request_, given_, watch_); }
-  /// The domain, triangulated to be cut, prepared for this number of ranks. Throws like the job.
-  [[nodiscard]] job::Order order(job::Domain domain, const job::Triangulated& triangulated, job::Place place,
-                                 std::int32_t ranks, const job::Processes& processes = {});
+  /// What the caller asks for at a place of this kind. Throws Error for options that contradict each other or have no
+  /// meaning there; those of keys the job checks.
+  [[nodiscard]] job::Asked asked(job::PlaceKind place) const { return asked(place, request_); }
+  /// The same for a request, which outlives the result, that says more than the options do.
+  [[nodiscard]] job::Asked asked(job::PlaceKind place, const job::Request& request) const;
 
  private:
   const MeshOptions& options_;

@@ -8,8 +8,7 @@
 #include "api/library_request.hpp"
 #include "decompose/decomposition_file.hpp"
 #include "driftmesh/repair.hpp"
-#include "job/prepare.hpp"
-#include "job/triangulated.hpp"
+#include "job/make.hpp"
 
 namespace driftmesh {
 namespace {
@@ -24,11 +23,8 @@ Pslg repaired(Pslg input) {
 std::shared_ptr<const Decomposition> cut_domain(const Pslg& input, const MeshOptions& options, std::int32_t ranks) {
   return with_words_of_options([&] {
     Call call(input, options);
-    call.check(ranks > 1 ? job::kRanks : job::kSubdomains);
-    const job::Domain domain = job::read_domain(call.request(), call.given(), call.watch());
-    const job::Triangulated triangulated =
-        job::triangulate_domain(call.request(), domain, ranks, job::Cut::kAlways, call.watch());
-    return std::make_shared<const Decomposition>(job::cut(call.request(), triangulated, ranks));
+    const job::Asked asked = call.asked(ranks > 1 ? job::kRanks : job::kSubdomains);
+    return std::make_shared<const Decomposition>(job::make_cut(asked, ranks, call.watch()).decomposition);
   });
 }
 

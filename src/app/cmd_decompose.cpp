@@ -13,17 +13,14 @@
 #include "app/run_files.hpp"
 #include "base/staged_files.hpp"
 #include "base/standard_streams.hpp"
-#include "base/stopwatch.hpp"
 #include "cli/values.hpp"
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decomposition_file.hpp"
 #include "decompose/presplit.hpp"
 #include "driftmesh/error.hpp"
 #include "job/check.hpp"
-#include "job/domain.hpp"
 #include "job/files.hpp"
-#include "job/prepare.hpp"
-#include "job/triangulated.hpp"
+#include "job/make.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -87,11 +84,7 @@ void run_decompose(const DecomposeCommand& command) {
   const job::Request request = request_of(command.given);
   register_files(command, request);
   RepairView view(command.quiet);
-  const job::Domain domain = job::read_domain(request, {}, view);
-  const job::Triangulated triangulated = job::triangulate_domain(request, domain, 1, job::Cut::kAlways, view);
-  const Stopwatch watch;
-  const Decomposition d = job::cut(request, triangulated, 1);
-  const double seconds = watch.seconds();
+  const auto [domain, d, seconds] = job::make_cut({request, job::kDecompose, job::Given{}}, 1, view);
   const DecompositionReport report = check_decomposition(d);
   if (!report.valid()) throw Error("the decomposition is broken (please report this): " + report.problems[0]);
   StagedFiles files;

@@ -37,7 +37,7 @@ int run(const MeshCommand& command) {
     const job::Request::Input& input = request.input;
     if (input.file.empty() && input.generator.empty() && input.parameters.empty())
       throw cli::UsageError("INPUT is missing");
-    const job::Place place = job::place_of(request, job::kMesh, launched);
+    const job::PlaceKind place = job::place_of(request, job::kMesh, launched);
     job::check(request, place, balancer::make_policy);
     code = run_mesh(request, place, command_line_of("driftmesh mesh", request, job::kMesh), command.config);
   });

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/json_text.hpp"
-#include "app/lattice_run.hpp"
+#include "app/lattice_place.hpp"
 #include "app/summary.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/stopwatch.hpp"
@@ -12,10 +12,8 @@
 #include "config/costs_file.hpp"
 #include "config/value_json.hpp"
 #include "job/check.hpp"
-#include "job/prepare.hpp"
-#include "job/rank_report.hpp"
-#include "job/simulated/run_simulated.hpp"
-#include "job/triangulated.hpp"
+#include "job/make.hpp"
+#include "job/simulated/simulated_ranks.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh::app {
@@ -43,10 +41,6 @@ IdVector<Rank, double> known_speeds(const job::Request& request, const RealClust
                             : job::shares_of_time(request, cluster->ranks());
 }
 
-job::Use use_of(const job::Request& request) {
-  return {.by = job::kExperiment, .in_subdomains = true, .sleeps = request.run.sleep};
-}
-
 /// Empty if none does.
 IdVector<Rank, protocol::SpeedSchedule> changing_speeds(const job::Request& request) {
   if (request.cluster.changes.empty()) return {};
@@ -57,63 +51,52 @@ double ideal_of(const ExperimentRun& run, const IdVector<Rank, protocol::SpeedSc
   return schedules.empty() ? ideal_seconds(run.outcome, run.speeds) : ideal_seconds(run.outcome, run.speeds, schedules);
 }
 
-void end_preparation(ExperimentRun& run, const Stopwatch& since, job::Watch& watch) {
-  run.record.warnings = watch.take_warnings();
-  run.record.stages.push_back({"prepare", since.seconds()});
-}
+/// Tells a watch of the run, and notes the stages.
+class StageNotes final : public job::Watch {
+ public:
+  StageNotes(job::Watch& watch, job::RunRecord& record) : watch_(watch), record_(record) {}
 
-void run_real(ExperimentRun& run, RealCluster& cluster, job::Prepared&& prepared, job::Domain&& domain,
-              job::Watch& watch) {
-  run.plan = prepared.plan;
-  run.outcome = cluster.run({std::move(prepared.plan),
-                             std::move(domain.pslg),
-                             run.request.sizing,
-                             run.request.limits,
-                             run.speeds,
-                             use_of(run.request),
-                             {},
-                             std::move(domain.rasters)},
-                            run.record, watch);
-  run.speeds = measured_speeds(run.outcome, run.speeds);
-}
-
-/// `since`: the run began.
-void run_in_subdomains(ExperimentRun& run, RealCluster* cluster, job::Domain&& domain, const job::Limits& limits,
-                       const Stopwatch& since, job::Watch& watch) {
-  const job::Request& request = run.request;
-  const bool real = cluster != nullptr;
-  const auto ranks = static_cast<std::int32_t>(run.speeds.size());
-  job::Prepared prepared = job::prepare(
-      request, domain, job::triangulate_domain(request, domain, ranks, job::Cut::kAlways, watch),
-      {.policies = balancer::make_policy}, real ? job::kRanks : job::kSimulated, run.speeds, limits, watch);
-  job::add_prepared(run.record, prepared);
-  end_preparation(run, since, watch);
-  const Stopwatch running;
-  if (real) {
-    run_real(run, *cluster, std::move(prepared), std::move(domain), watch);
-  } else {
-    run.outcome = job::run_simulated(request, prepared, limits, costs_of(request), run.record, watch);
-    run.plan = std::move(prepared.plan);
+  void begins(const std::string& stage) override { watch_.begins(stage); }
+  void ends(const std::string& stage, double seconds) override {
+    watch_.ends(stage, seconds);
+    record_.stages.push_back({stage, seconds});
   }
-  const auto schedules = changing_speeds(request);
-  run.ideal = ideal_of(run, schedules);
+  void repaired(const RepairReport& repairs) override { watch_.repaired(repairs); }
+  void warned(const std::string& warning) override { watch_.warned(warning); }
+  void refining(std::int64_t triangles, double forecast) override { watch_.refining(triangles, forecast); }
+  void stalled(const std::string& why) override { watch_.stalled(why); }
+
+ private:
+  job::Watch& watch_;
+  job::RunRecord& record_;
+};
+
+std::unique_ptr<job::Refined> made_at(job::Place& place, const job::Asked& asked, job::RunRecord& record,
+                                      job::Watch& watch) {
+  std::unique_ptr<job::Refined> made = job::make(asked, place, record, watch);
+  made->report(record);
+  return made;
+}
+
+std::unique_ptr<job::Refined> simulated(const job::Asked& asked, job::RunRecord& record, job::Watch& watch) {
+  const ClusterSpec cluster = job::cluster_of(asked.request);
+  const CostModel costs = costs_of(asked.request);
+  if (asked.request.run.method == job::Method::kPdr) {
+    SimulatedLattice lattice(cluster, costs);
+    return made_at(lattice, asked, record, watch);
+  }
+  job::SimulatedRanks ranks(cluster, costs);
+  return made_at(ranks, asked, record, watch);
+}
+
+/// Where subdomains were moved, how much better they could have been mapped: on a lattice there is nothing to map, and
+/// the ideal is that of the oracle, too.
+void compare_with_ideal(ExperimentRun& run) {
+  const auto schedules = changing_speeds(run.request);
+  run.ideal = run.oracle = ideal_of(run, schedules);
+  if (run.outcome.owners.empty()) return;
   run.work = work_done(run.outcome, run.speeds, schedules);
   run.oracle = oracle_seconds(run.work, run.speeds, schedules);
-  run.record.stages.push_back({real ? "run" : "simulate", running.seconds()});
-  run.plan.bounds.size = nullptr;
-}
-
-/// There is nothing to map better: the ideal is that of the oracle, too.
-void run_on_lattice(ExperimentRun& run, const job::Domain& domain, const job::Limits& limits, const Stopwatch& since,
-                    job::Watch& watch) {
-  const job::Request& request = run.request;
-  job::Triangulated triangulated =
-      job::triangulate_domain(request, domain, static_cast<std::int32_t>(run.speeds.size()), job::Cut::kNever, watch);
-  end_preparation(run, since, watch);
-  const Stopwatch running;
-  run.outcome = simulate_on_lattice(request, std::move(triangulated), limits, costs_of(request), run.record, watch);
-  run.oracle = run.ideal = ideal_of(run, changing_speeds(request));
-  run.record.stages.push_back({"simulate", running.seconds()});
 }
 
 /// The remaining work of all ranks together over time.
@@ -169,20 +152,22 @@ Json subdomains_json(const ExperimentRun& run) {
 
 void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   const job::Request& request = run.request;
-  job::cap_memory(request.limits);
   const bool real = request.cluster.kind == job::ClusterKind::kReal;
-  if (!real) cluster = nullptr;
-  run.speeds = known_speeds(request, cluster);
-  const Stopwatch preparing;
-  job::Domain domain = job::read_domain(request, {}, watch);
-  job::record_domain(run.record, request, domain);
-  const job::Limits limits =
-      job::find_limits(request.limits, domain.pslg, use_of(request), real ? cluster->processes() : job::Processes{});
-  if (!real && request.run.method == job::Method::kPdr)
-    run_on_lattice(run, domain, limits, preparing, watch);
-  else
-    run_in_subdomains(run, cluster, std::move(domain), limits, preparing, watch);
-  run.record.seconds = preparing.seconds();
+  run.speeds = known_speeds(request, real ? cluster : nullptr);
+  const Stopwatch running;
+  const job::Given given{.policies = balancer::make_policy};
+  const job::Asked asked{request, job::kExperiment, given};
+  StageNotes notes(watch, run.record);
+  const auto made = real ? cluster->make(asked, run.record, notes) : simulated(asked, run.record, notes);
+  run.outcome = made->history();
+  if (made->plan() != nullptr) {
+    run.plan = *made->plan();
+    run.plan.bounds.size = nullptr;
+  }
+  if (real) run.speeds = measured_speeds(run.outcome, run.speeds);
+  compare_with_ideal(run);
+  run.record.warnings = notes.take_warnings();
+  run.record.seconds = running.seconds();
   run.record.seconds_refine = run.outcome.makespan;
 }
 

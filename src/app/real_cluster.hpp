@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
-#include "cluster/cluster_run.hpp"
+#include "app/lattice_place.hpp"
+#include "job/make.hpp"
 #include "job/mpi/mpi_team.hpp"
-#include "job/order.hpp"
+#include "job/on_ranks.hpp"
 #include "job/record.hpp"
 #include "job/watch.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
@@ -23,17 +25,20 @@ class RealCluster {
 
   [[nodiscard]] bool leads() const { return team_.leads(); }
   [[nodiscard]] std::int32_t ranks() const { return team_.ranks(); }
-  [[nodiscard]] job::Processes processes() const { return job::processes_of(team_); }
 
-  /// Rank 0: makes a run with all ranks. Their reports go into the record; `watch` sees rank 0's part.
-  [[nodiscard]] ClusterRun run(job::Order&& order, job::RunRecord& record, job::Watch& watch);
+  /// Rank 0: makes a mesh with all ranks, whose reports go into the record; `watch` sees rank 0's part.
+  [[nodiscard]] std::unique_ptr<job::Refined> make(const job::Asked& asked, job::RunRecord& record, job::Watch& watch);
 
   /// The other ranks: takes part in runs until rank 0 has no more.
   void serve();
 
  private:
+  [[nodiscard]] job::Place& place_for(job::Method method);
+
   protocol::MpiSession session_;
   job::MpiTeam team_;
+  job::OnRanks subdomains_;
+  LatticeOnRanks lattice_;
 };
 
 }  // namespace driftmesh::app

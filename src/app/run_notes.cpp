@@ -14,9 +14,14 @@
 
 namespace driftmesh::app {
 
-RunNotes::RunNotes(const job::Request& request, std::string command, bool silent)
-    : wanted_(request.output), silent_(silent || request.output.quiet), progress_(!silent_) {
-  run.command = std::move(command);
+RunNotes::RunNotes(const Told& told, const std::string& start, bool silent)
+    : told_(told), silent_(silent || told.request.output.quiet), progress_(!silent_) {
+  run.command = start + told.command;
+}
+
+void RunNotes::pieces(std::int32_t count) {
+  pieces_ = count;
+  if (count > 1) register_files(told_, count);
 }
 
 void RunNotes::repaired(const RepairReport& repairs) {
@@ -35,10 +40,10 @@ void RunNotes::stalled(const std::string& why) {
   fmt::print(stderr, "driftmesh: {}\n", why);
 }
 
-void RunNotes::note_files(const std::vector<std::string>& files, const std::vector<StagedFiles::Listed>& staged) {
+void RunNotes::note_files(const std::vector<StagedFiles::Listed>& staged) {
   std::map<std::string, std::uint64_t> sizes;
   for (const StagedFiles::Listed& file : staged) sizes[file.path] = file.bytes;
-  for (const std::string& file : files)
+  for (const std::string& file : files_written(told_.request, pieces_))
     if (!is_standard_stream(file)) run.files.push_back({file, sizes[file]});
 }
 
@@ -47,8 +52,9 @@ void RunNotes::finish() {
   run.warnings = take_warnings();
   run.peak = std::max(run.peak, job::peak_memory());
   progress_.end();
-  if (wanted_.record.empty()) return;
-  AtomicFile file(wanted_.record);
+  const std::string& record = told_.request.output.record;
+  if (record.empty()) return;
+  AtomicFile file(record);
   file.write(summary_json(run));
   file.commit();
 }

@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "base/key_error.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
@@ -9,12 +10,16 @@ namespace driftmesh {
 void Failure::write(ByteWriter& writer) const {
   writer.value(kind);
   writer.text(message);
+  writer.text(key);
+  writer.text(next);
 }
 
 Failure Failure::read(ByteReader& reader) {
   Failure failure;
   reader.value(failure.kind);
   failure.message = reader.text();
+  failure.key = reader.text();
+  failure.next = reader.text();
   return failure;
 }
 
@@ -32,13 +37,16 @@ Failure failure_of(const std::exception_ptr& error) {
     return {Failure::Kind::kLimit, kOutOfMemory};
   } catch (const Cancelled& e) {
     return {Failure::Kind::kCancelled, e.what()};
+  } catch (const KeyError& e) {
+    return {Failure::Kind::kKey, e.problem(), e.key(), e.next()};
   } catch (const std::exception& e) {
     return {Failure::Kind::kOther, e.what()};
   }
 }
 
 Failure met_by(Rank rank, Failure failure) {
-  if (failure.kind != Failure::Kind::kNothing) failure.message.insert(0, "rank " + to_string(rank) + ": ");
+  if (failure.kind != Failure::Kind::kNothing && failure.kind != Failure::Kind::kKey)
+    failure.message.insert(0, "rank " + to_string(rank) + ": ");
   return failure;
 }
 
@@ -52,6 +60,8 @@ void raise(const Failure& failure) {
       throw LimitError(failure.message);
     case Failure::Kind::kCancelled:
       throw Cancelled(failure.message);
+    case Failure::Kind::kKey:
+      throw KeyError(failure.key, failure.message, failure.next);
     default:
       throw Error(failure.message);
   }

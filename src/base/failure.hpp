@@ -16,9 +16,10 @@ inline constexpr const char* kOutOfMemory =
 
 /// An error in the form in which a rank sends it to the others, which throw it too.
 struct Failure {
-  enum class Kind : std::uint8_t { kNothing, kInput, kFile, kLimit, kCancelled, kOther };
+  enum class Kind : std::uint8_t { kNothing, kInput, kFile, kLimit, kCancelled, kKey, kOther };
   Kind kind = Kind::kNothing;
   std::string message;
+  std::string key{}, next{};  ///< kKey: of the KeyError, whose problem is the message
 
   void write(ByteWriter& writer) const;
   [[nodiscard]] static Failure read(ByteReader& reader);
@@ -27,7 +28,7 @@ struct Failure {
 /// The failure that an exception represents; kNothing for null.
 [[nodiscard]] Failure failure_of(const std::exception_ptr& error);
 
-/// The failure with the rank that met it in its message. Nothing stays nothing.
+/// The failure with the rank that met it in its message, except for a KeyError. Nothing stays nothing.
 [[nodiscard]] Failure met_by(Rank rank, Failure failure);
 
 /// Throws an exception of the failure's kind.

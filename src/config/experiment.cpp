@@ -238,7 +238,7 @@ void refuse_code_of_file(const Request& request, const SourcePlaces& places) {
 void check_processes(const Experiment& experiment, std::int32_t processes) {
   place_errors(experiment, [&] {
     for (const SweepPoint& point : experiment.points) {
-      const job::Place place = job::place_of(point.request, job::kExperiment, false);
+      const job::PlaceKind place = job::place_of(point.request, job::kExperiment, false);
       if (place != job::kSimulated)
         job::check_ranks(point.request, place, processes);
       else if (processes > 1)

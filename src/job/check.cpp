@@ -34,7 +34,7 @@ void check_value(const Key& key, const Value& value) {
 
 // ---- Where it applies ------------------------------------------------------------------------------------------
 
-[[noreturn]] void refuse_at(const Key& key, Place place) {
+[[noreturn]] void refuse_at(const Key& key, PlaceKind place) {
   if (key.places == kOnePiece)
     throw KeyError(key.name, "applies only to a mesh in one piece: incomplete subdomains would not fit together",
                    "remove it");
@@ -48,7 +48,7 @@ void check_value(const Key& key, const Value& value) {
                  "cut the domain with --subdomains, or remove it");
 }
 
-void check_places(const Request& request, Place place) {
+void check_places(const Request& request, PlaceKind place) {
   for (const Key& key : keys())
     if ((key.places & place) == 0 && key.load(request) != key.standard) refuse_at(key, place);
 }
@@ -134,16 +134,14 @@ void check_method(const Request& request) {
 }
 
 /// What partially coupled refinement does without.
-void check_pdr(const Request& request, Place place) {
+void check_pdr(const Request& request, PlaceKind place) {
   if (request.run.method != Method::kPdr) return;
-  require(place == kRanks || place == kSimulated, "run.method", "is pdr, which needs ranks of MPI",
-          "start it with mpirun");
+  require(place == kRanks || place == kSimulated, "run.method", "is pdr, which only experiments have",
+          "use driftmesh run");
   require(request.sizing.expression.empty() && request.sizing.background.empty() && request.sizing.longest == 0,
           "run.method", "is pdr, which needs the same bound on size everywhere, but lengths vary",
           "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
   require(request.bounds.angle > 0, "run.method", "is pdr, which needs a bound on angles", "give bounds.angle");
-  require(request.output.depth.empty(), "run.method", "is pdr, which knows no rasters", "remove output.depth");
-  require(!request.output.ghost_layer, "output.ghost-layer", "takes subdomains, which pdr has not", "remove it");
   const Request standard;
   const bool parts = request.decomposition != standard.decomposition || request.mapping != standard.mapping;
   require(!parts, "run.method", "is pdr, which has no subdomains to cut or map", "remove what sets them");
@@ -192,13 +190,13 @@ void check_cluster(const Request& request) {
 
 }  // namespace
 
-Place place_of(const Request& request, EntryPoint entry_point, bool launched) {
+PlaceKind place_of(const Request& request, EntryPoint entry_point, bool launched) {
   if (entry_point == kExperiment) return request.cluster.kind == ClusterKind::kSimulated ? kSimulated : kRanks;
   if (launched) return kRanks;
   return request.decomposition.subdomains > 1 || !request.decomposition.file.empty() ? kSubdomains : kOnePiece;
 }
 
-void check(const Request& request, Place place, const balancer::PolicyMaker& policies) {
+void check(const Request& request, PlaceKind place, const balancer::PolicyMaker& policies) {
   for (const Key& key : keys()) check_value(key, key.load(request));
   check_places(request, place);
   check_input(request.input);
@@ -217,7 +215,7 @@ void check(const Request& request, Place place, const balancer::PolicyMaker& pol
   }
 }
 
-void check_ranks(const Request& request, Place place, std::int32_t ranks) {
+void check_ranks(const Request& request, PlaceKind place, std::int32_t ranks) {
   const std::int32_t wanted = request.cluster.ranks;
   if (place != kSimulated && wanted > 0 && wanted != ranks)
     throw KeyError("cluster.ranks",

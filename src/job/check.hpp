@@ -14,15 +14,15 @@ namespace driftmesh::job {
 /// Where the mesh of a request is made. `launched`: whether this is one of the processes started by mpirun or the like.
 /// Experiments name their place (cluster.kind); other meshes are made on ranks if launched, in subdomains if the
 /// request has several, and in one piece otherwise, unless it is large (see Cut).
-[[nodiscard]] Place place_of(const Request& request, EntryPoint entry_point, bool launched);
+[[nodiscard]] PlaceKind place_of(const Request& request, EntryPoint entry_point, bool launched);
 
 /// Throws KeyError for values that are missing, out of range, contradictory, or do not apply at `place`: a key that
 /// would be ignored there is rejected unless it has its default value. Files are not examined; parameters of the policy
 /// are, if `policies` is given.
-void check(const Request& request, Place place, const balancer::PolicyMaker& policies = nullptr);
+void check(const Request& request, PlaceKind place, const balancer::PolicyMaker& policies = nullptr);
 
 /// Throws KeyError for values that do not fit the actual number of ranks.
-void check_ranks(const Request& request, Place place, std::int32_t ranks);
+void check_ranks(const Request& request, PlaceKind place, std::int32_t ranks);
 
 /// The parameters for the request's policy: of those that name a policy, as zoltan.method does, only those that name
 /// this one. Throws KeyError for an unknown policy.

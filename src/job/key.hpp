@@ -5,13 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "base/key_error.hpp"
 #include "job/request.hpp"
 #include "job/value.hpp"
 
 namespace driftmesh::job {
 
+using driftmesh::KeyError;
+
 /// Where a mesh is made; sets of places are sums.
-enum Place : unsigned {
+enum PlaceKind : unsigned {
   kOnePiece = 1,    ///< the whole domain as one piece, in this process
   kSubdomains = 2,  ///< in subdomains, in this process
   kRanks = 4,       ///< in subdomains, on the ranks of a communicator
@@ -70,7 +73,7 @@ struct KeyInfo {
   std::string option;       ///< its long name without dashes; empty: none. "no-..." sets a flag to false
   char letter = 0;          ///< its short name
   std::string value_name;   ///< the name of its value in the help: "AREA"
-  std::string option_help;  ///< replaces `help`, for an option that sets a flag to false
+  std::string option_help;  ///< replaces `help`, where an option says something else
   std::string group;        ///< its heading in the help
 };
 
@@ -78,23 +81,6 @@ struct KeyInfo {
 struct Key : KeyInfo {
   std::function<void(Request&, const Value&)> store;  ///< a value of the right kind and range
   std::function<Value(const Request&)> load;
-};
-
-/// A value that is invalid, or invalid in combination with others or at the place where it was given: the key
-/// concerned, the problem ("is -5"), and what to do. The message names keys by their full names; callers that know
-/// better words, such as a place in a file or an option, replace them.
-class KeyError : public Error {
- public:
-  KeyError(std::string key, const std::string& what, const std::string& next)
-      : Error(key + " " + what + "; " + next), key_(std::move(key)), what_(what), next_(next) {}
-  [[nodiscard]] const std::string& key() const { return key_; }
-  [[nodiscard]] const std::string& problem() const { return what_; }
-  [[nodiscard]] const std::string& next() const { return next_; }
-
- private:
-  std::string key_;
-  std::string what_;
-  std::string next_;
 };
 
 }  // namespace driftmesh::job

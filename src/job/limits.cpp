@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/keep_memory.hpp"
 #include "base/words.hpp"
 #include "driftmesh/error.hpp"
 #include "job/files.hpp"
@@ -108,6 +109,10 @@ Limits find_limits(const Request::Limits& asked, const Pslg& pslg, const Use& us
 void cap_memory(const Request::Limits& asked) {
   const auto bytes = static_cast<std::uint64_t>(asked.max_memory);
   cap_memory(bytes + bytes / kSlack);
+}
+
+void reuse_memory(const Request::Limits& asked) {
+  if (asked.max_memory == 0) keep_freed_memory();
 }
 
 bool memory_is_full(const Limits& limits, std::int64_t triangles) {

@@ -59,6 +59,10 @@ struct Processes {
 /// asks for it throws std::bad_alloc.
 void cap_memory(const Request::Limits& asked);
 
+/// For programs: every subdomain takes the memory that the one before has freed. Under a ceiling, free memory counts as
+/// well as any other, so there nothing is kept.
+void reuse_memory(const Request::Limits& asked);
+
 /// Whether a process that has made this many triangles cannot make more, if it is to finish them within its memory.
 [[nodiscard]] bool memory_is_full(const Limits& limits, std::int64_t triangles);
 

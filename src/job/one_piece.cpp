@@ -1,27 +1,111 @@
 #include "job/one_piece.hpp"
 
+#include <algorithm>
+#include <numeric>
 #include <utility>
-namespace driftmesh::job {
 
-OnePiece mesh_in_one_piece(const Request& request, const Domain& domain, Triangulated&& triangulated, bool writes,
-                           Watch& watch, bool may_keep) {
-  OnePiece made;
-  made.limits = find_limits(request.limits, domain.pslg, {.writes = writes});
-  made.forecast = triangulated.forecast;
-  MeshResult& result = made.result;
-  result.mesh = std::move(triangulated.mesh);
-  result.acute_corners = triangulated.acute_corners;
-  result.bounds = std::move(triangulated.bounds);
-  if (!request.limits.keep_incomplete)
-    check_forecast(made.limits, made.forecast, may_keep, [&] { return find_narrow_place(result.mesh); });
-  timed(watch, "refine", [&] {
-    refine_domain(result, made.limits.triangles, made.forecast, [&](std::int64_t triangles, double forecast) {
+#include "distributed/exchange.hpp"
+#include "distributed/write_distributed.hpp"
+#include "io/mesh_file.hpp"
+#include "job/memory.hpp"
+#include "job/write_files.hpp"
+#include "mesh/cdt.hpp"
+#include "mesh/interpolate_attributes.hpp"
+#include "mesh/mesher.hpp"
+#include "mesh/narrow_place.hpp"
+#include "mesh/to_piece.hpp"
+
+namespace driftmesh::job {
+namespace {
+
+/// A whole mesh as the only piece. `numbered`: for a file in pieces.
+DistributedPiece as_piece(Mesh mesh, bool numbered) {
+  DistributedPiece piece;
+  piece.has_regions = !mesh.regions.empty();
+  if (numbered) {
+    mesh.numbers.resize(mesh.points.size());
+    std::iota(mesh.numbers.begin(), mesh.numbers.end(), 0);
+    mesh.subdomains.resize(mesh.triangles.size());
+    mesh.ranks.resize(mesh.triangles.size());
+  }
+  piece.mesh = std::move(mesh);
+  return piece;
+}
+
+class OnePiece final : public Refined {
+ public:
+  OnePiece(Order&& order, const Limits& limits, std::int32_t threads, Watch& watch)
+      : domain_(std::move(order.whole->domain)),
+        limits_(limits),
+        holes_(std::move(order.whole->triangulated.holes)),
+        forecast_(order.whole->triangulated.forecast),
+        threads_(threads) {
+    result_.mesh = std::move(order.whole->triangulated.mesh);
+    result_.acute_corners = order.whole->triangulated.acute_corners;
+    result_.bounds = std::move(order.whole->triangulated.bounds);
+    refine_domain(result_, limits_.triangles, forecast_, [&](std::int64_t triangles, double forecast) {
       watch.refining(triangles, forecast);
-      made.by_memory = memory_is_full(made.limits, triangles);
-      return !made.by_memory;
+      by_memory_ = memory_is_full(limits_, triangles);
+      return !by_memory_;
     });
-  });
-  return made;
+    triangles_ = static_cast<std::int64_t>(result_.mesh.live_triangles());
+  }
+
+  void report(RunRecord& record) override {
+    record.forecast = forecast_;
+    record.seconds_refine = result_.seconds_refine;
+    record.peak_refining = peak_memory();
+    record.stopped_by = limits_.called(by_memory_);
+    record_mesh(record, result_, threads_);
+  }
+
+  [[nodiscard]] const RunPlan* plan() const override { return nullptr; }
+
+  [[nodiscard]] std::string shortfall(bool kept) override {
+    if (result_.complete) return {};
+    result_.mesh = {};  // its memory is needed
+    return stopped_message(limits_, by_memory_, triangles_, kept, find_narrow_place(triangulate(domain_.pslg)));
+  }
+
+  void write(const Request::Output& files, const Draw& draw, Watch& watch) override {
+    const bool in_pieces = std::ranges::any_of(files.meshes, is_in_pieces);
+    DistributedPiece piece = as_piece(timed(watch, "convert", [&] { return converted(); }), in_pieces);
+    if (in_pieces)
+      timed(watch, "write", [&] {
+        for_each_in_pieces(files, [&](const std::string& path) {
+          WritePieces writing(piece, path);
+          exchange_directly(IdVector<Rank, Exchange*>{&writing});
+        });
+      });
+    write_whole(files, piece.mesh, holes_, draw, watch);
+  }
+
+  [[nodiscard]] DistributedPiece take_piece(Watch& watch) override {
+    return as_piece(timed(watch, "convert", [&] { return converted(); }), false);
+  }
+
+ private:
+  [[nodiscard]] Mesh converted() {
+    Mesh mesh = to_piece(std::exchange(result_.mesh, {}), domain_.pslg);
+    interpolate_attributes(domain_.pslg, mesh);
+    set_depths(domain_.rasters, mesh);
+    return mesh;
+  }
+
+  Domain domain_;
+  Limits limits_;
+  std::vector<Point> holes_;
+  double forecast_ = 0;  // before refinement
+  std::int32_t threads_;
+  MeshResult result_;
+  bool by_memory_ = false;
+  std::int64_t triangles_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Refined> refine_in_one_piece(Order&& order, const Limits& limits, std::int32_t threads, Watch& watch) {
+  return std::make_unique<OnePiece>(std::move(order), limits, threads, watch);
 }
 
 }  // namespace driftmesh::job

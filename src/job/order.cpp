@@ -13,7 +13,7 @@
 namespace driftmesh::job {
 namespace {
 
-enum class Letter : std::uint8_t { kOrder, kNothing, kError };
+enum class Letter : std::uint8_t { kOrder, kError };
 
 // The fields other than plan and input, in the same order for writing and reading.
 template <class Stream, class Fields>
@@ -49,12 +49,6 @@ Order order_from(ByteReader& head) {
   return order;
 }
 
-Bytes nothing() {
-  ByteWriter writer;
-  writer.value(Letter::kNothing);
-  return writer.take();
-}
-
 Bytes error(const Failure& failure) {
   ByteWriter writer;
   writer.value(Letter::kError);
@@ -62,8 +56,8 @@ Bytes error(const Failure& failure) {
   return writer.take();
 }
 
-/// The order that rank 0 makes, if any. If that fails, it broadcasts the error before it throws.
-std::optional<Order> made_by(const std::function<std::optional<Order>()>& make, Team& team) {
+/// The order that rank 0 makes. If that fails, it broadcasts the error before it throws.
+Order made_by(const std::function<Order()>& make, Team& team) {
   try {
     return make();
   } catch (const std::exception&) {
@@ -73,16 +67,14 @@ std::optional<Order> made_by(const std::function<std::optional<Order>()>& make, 
 }
 
 /// Rank 0 keeps its order as it is: a plan in many subdomains is large.
-std::optional<Order> give(Team& team, const std::function<std::optional<Order>()>& make) {
-  std::optional<Order> order = made_by(make, team);
+Order give(Team& team, const std::function<Order()>& make) {
+  Order order = made_by(make, team);
   by_itself(team, [&] {
-    static_cast<void>(team.broadcast(order ? head_of(*order) : nothing()));
-    if (!order) return;
-    static_cast<void>(team.broadcast(plan_to_bytes(order->plan)));
-    static_cast<void>(team.broadcast(pslg_to_bytes(order->pslg)));
-    order->plan.bounds.size = nullptr;
+    static_cast<void>(team.broadcast(head_of(order)));
+    static_cast<void>(team.broadcast(plan_to_bytes(order.plan)));
+    static_cast<void>(team.broadcast(pslg_to_bytes(order.pslg)));
   });
-  if (order) agree_on_failure(team, nullptr);
+  agree_on_failure(team, nullptr);
   return order;
 }
 
@@ -97,24 +89,16 @@ Order taken(Team& team, ByteReader& head, const balancer::PolicyMaker& policies)
   return order;
 }
 
-std::optional<Order> take(Team& team, const balancer::PolicyMaker& policies) {
+Order take(Team& team, const balancer::PolicyMaker& policies) {
   const Bytes bytes = team.broadcast({});
   ByteReader head(bytes);
-  switch (head.value<Letter>()) {
-    case Letter::kOrder:
-      return std::optional(taken(team, head, policies));
-    case Letter::kNothing:
-      return std::nullopt;
-    case Letter::kError:
-      break;
-  }
-  raise(Failure::read(head));
+  if (head.value<Letter>() == Letter::kError) raise(Failure::read(head));
+  return taken(team, head, policies);
 }
 
 }  // namespace
 
-std::optional<Order> share(Team& team, const std::function<std::optional<Order>()>& make,
-                           const balancer::PolicyMaker& policies) {
+Order share(Team& team, const std::function<Order()>& make, const balancer::PolicyMaker& policies) {
   return team.leads() ? give(team, make) : take(team, policies);
 }
 

@@ -1,40 +1,45 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "balancer/policy_list.hpp"
 #include "driftmesh/pslg.hpp"
+#include "job/domain.hpp"
 #include "job/limits.hpp"
 #include "job/rasters.hpp"
 #include "job/request.hpp"
 #include "job/team.hpp"
+#include "job/triangulated.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh::job {
 
-/// What rank 0 sends to all ranks before they refine.
+/// A domain that is not cut.
+struct Whole {
+  Domain domain;
+  Triangulated triangulated;  ///< refers to the domain's size field
+};
+
+/// What is to be refined, and how: what rank 0 sends to all ranks. It refers to nothing outside: each rank, and each
+/// thread, makes or is given a size field of its own.
 struct Order {
-  RunPlan plan;  ///< without its size field: each rank makes or is given its own
-  Pslg pslg;     ///< repaired
+  RunPlan plan;
+  Pslg pslg;  ///< repaired
   Request::Sizing sizing;
   Request::Limits limits;
   IdVector<Rank, double> shares;  ///< fraction of its time that each rank works, for experiments; empty: all of it
   Use use;                        ///< of the mesh
   std::string scratch{};          ///< folder where subdomains sleep; empty: in memory
   Rasters rasters{};              ///< open; others than rank 0 open them themselves
+  std::optional<Whole> whole{};   ///< in place of plan and input, for one piece, which stays where it is
 };
 
-/// Shares the order that rank 0 makes with all ranks; empty if it makes none because there is no more work. Collective;
-/// only rank 0 calls `make`. An exception from it is thrown there, and an error of the same type and with the same
-/// message on the others; one that prevents another rank from following the order is thrown on all. `policies` makes
-/// the plan's policy separately on each rank.
-[[nodiscard]] std::optional<Order> share(Team& team, const std::function<std::optional<Order>()>& make,
-                                         const balancer::PolicyMaker& policies = nullptr);
+/// Shares the order that rank 0 makes with all ranks. Collective; only rank 0 calls `make`. An exception from it is
+/// thrown there, and an error of the same type and with the same message on the others; one that prevents another rank
+/// from following the order is thrown on all. `policies` makes the plan's policy separately on each rank.
+[[nodiscard]] Order share(Team& team, const std::function<Order()>& make,
+                          const balancer::PolicyMaker& policies = nullptr);
 
 }  // namespace driftmesh::job

@@ -56,8 +56,7 @@ void disturb_forecasts(Decomposition& decomposition, double most, std::uint64_t 
 
 void check_has_subdomains(const Request& request) {
   if (request.run.method == Method::kPdr)
-    throw KeyError("run.method", "is pdr, which experiments have on simulated ranks only",
-                   "use driftmesh mesh under mpirun, or cluster.kind simulated");
+    throw KeyError("run.method", "is pdr, which only experiments have", "use driftmesh run");
 }
 
 void check_presplit(const Request& request, const QualityBounds& bounds) {
@@ -71,7 +70,7 @@ void check_presplit(const Request& request, const QualityBounds& bounds) {
 
 /// The number of ranks for which the number of subdomains is chosen. Not that of threads, on which no mesh depends:
 /// they share the subdomains that any number of them would have.
-std::int32_t ranks_to_suit(Place place, std::size_t ranks) {
+std::int32_t ranks_to_suit(PlaceKind place, std::size_t ranks) {
   constexpr std::int32_t kAnyThreads = 2;
   return place == kSubdomains ? kAnyThreads : static_cast<std::int32_t>(ranks);
 }
@@ -79,7 +78,7 @@ std::int32_t ranks_to_suit(Place place, std::size_t ranks) {
 /// Threads take work from each other: that needs no planner, and moves cost nothing.
 constexpr const char* kPolicyOfThreads = "stealing";
 
-balancer::PolicyMaker policies_of(const Given& given, Place place, std::size_t ranks) {
+balancer::PolicyMaker policies_of(const Given& given, PlaceKind place, std::size_t ranks) {
   if (place != kSubdomains) return given.policies;
   if (ranks == 1) return nullptr;
   return [](const std::string& name, const balancer::Parameters::Values& values) {
@@ -88,7 +87,7 @@ balancer::PolicyMaker policies_of(const Given& given, Place place, std::size_t r
   };
 }
 
-Balancing balancing_of(const Request& request, Place place, std::size_t ranks) {
+Balancing balancing_of(const Request& request, PlaceKind place, std::size_t ranks) {
   Balancing balancing;
   balancing.policy = request.balance.policy;
   if (place == kSubdomains && ranks > 1) balancing.policy = kPolicyOfThreads;
@@ -106,7 +105,7 @@ Balancing balancing_of(const Request& request, Place place, std::size_t ranks) {
   return balancing;
 }
 
-PlanOptions plan_options(const Request& request, Place place, const IdVector<Rank, double>& speeds) {
+PlanOptions plan_options(const Request& request, PlaceKind place, const IdVector<Rank, double>& speeds) {
   PlanOptions options;
   options.mapping.ranks = static_cast<std::int32_t>(speeds.size());
   options.mapping.method = request.mapping.method;
@@ -139,12 +138,11 @@ Decomposition cut(const Request& request, const Triangulated& triangulated, std:
 }
 
 Prepared prepare(const Request& request, const Domain& domain, const Triangulated& triangulated, const Given& given,
-                 Place place, const IdVector<Rank, double>& speeds, const Limits& limits, Watch& watch) {
+                 PlaceKind place, const IdVector<Rank, double>& speeds, Watch& watch) {
   Prepared prepared;
   prepared.acute_corners = triangulated.acute_corners;
   check_has_subdomains(request);
   check_presplit(request, triangulated.bounds);
-  check_forecast(limits, triangulated.forecast, false, [&] { return find_narrow_place(triangulated.mesh); });
   Decomposition decomposition =
       decomposition_of(request, domain, given, triangulated, ranks_to_suit(place, speeds.size()), watch);
   if (request.decomposition.forecast_error > 1)

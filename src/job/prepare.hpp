@@ -7,7 +7,6 @@
 #include "decompose/decomposition.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
-#include "job/limits.hpp"
 #include "job/request.hpp"
 #include "job/triangulated.hpp"
 #include "job/watch.hpp"
@@ -23,11 +22,10 @@ struct Prepared {
 };
 
 /// Decomposes the domain, triangulated, and maps the subdomains to ranks with these speeds, of which only the ratios
-/// matter. Throws Error if domain and bounds do not allow that, LimitError if far more triangles
-/// than `limits` allow are expected, InputError and FileError if a decomposition cannot be read.
+/// matter. Throws Error if domain and bounds do not allow that, InputError and FileError if a decomposition cannot be
+/// read.
 [[nodiscard]] Prepared prepare(const Request& request, const Domain& domain, const Triangulated& triangulated,
-                               const Given& given, Place place, const IdVector<Rank, double>& speeds,
-                               const Limits& limits, Watch& watch);
+                               const Given& given, PlaceKind place, const IdVector<Rank, double>& speeds, Watch& watch);
 
 /// Decomposes the domain as requested, for this number of ranks.
 [[nodiscard]] Decomposition cut(const Request& request, const Triangulated& triangulated, std::int32_t ranks);

@@ -35,15 +35,6 @@ void add_report(RunRecord& run, const RankReport& report) {
   run.peak_refining = run.peak;
 }
 
-void gather_reports(Team& team, const RankReport& own, RunRecord& run) {
-  ByteWriter writer;
-  own.write(writer);
-  for (const Bytes& bytes : team.gather(writer.take())) {
-    ByteReader reader(bytes);
-    add_report(run, RankReport::read(reader));
-  }
-}
-
 void add_plan(RunRecord& run, const RunPlan& plan) {
   run.vertices += static_cast<std::int64_t>(plan.decomposition.points.size());
   run.subdomains = static_cast<std::int32_t>(plan.decomposition.size());

@@ -25,9 +25,6 @@ struct RankReport {
 /// Adds the report of a rank to the record of its run.
 void add_report(RunRecord& run, const RankReport& report);
 
-/// Adds the reports of all ranks to the record of rank 0. Collective.
-void gather_reports(Team& team, const RankReport& own, RunRecord& run);
-
 /// Adds the facts that all ranks share and none reports.
 void add_plan(RunRecord& run, const RunPlan& plan);
 

@@ -32,12 +32,11 @@ std::unique_ptr<const SizeField> size_for_threads(const Order& order, const Size
 
 }  // namespace
 
-RankRun::RankRun(Team& team, Order order, const SizeField* size, Watch& watch)
-    : team_(team), order_(std::move(order)), watch_(watch), book_(order_.plan.decomposition) {
+RankRun::RankRun(Team& team, Order order, const Limits& limits, const SizeField* size, Watch& watch)
+    : team_(team), order_(std::move(order)), watch_(watch), limits_(limits), book_(order_.plan.decomposition) {
   agree(team_, [&] {
     size_ = size_for_threads(order_, size);
     order_.plan.bounds.size = size_.get();
-    limits_ = find_limits(order_.limits, order_.pslg, order_.use, processes_of(team_));
     order_.plan.max_triangles = limits_.triangles;
     scratch_ = open_scratch(order_.scratch, forecast_of(order_.plan, team_.rank()) * team_.ranks_on_machine());
     order_.plan.scratch = scratch_.get();
@@ -150,25 +149,6 @@ DistributedPiece RankRun::assemble(ExchangeRunner& ranks) const {
     set_depths(order_.rasters, piece.mesh);
     return piece;
   });
-}
-
-ClusterRun run_with_log(Team& team, Order order, RunRecord& record, Watch& watch) {
-  RankRun run(team, std::move(order), nullptr, watch);
-  run.refine(true);
-  ByteWriter writer;
-  by_itself(team, [&] {
-    run.report().write(writer);
-    run.log().write(writer);
-  });
-  IdVector<Rank, RankLog> logs;
-  for (const Bytes& bytes : team.gather(writer.take())) {
-    ByteReader reader(bytes);
-    add_report(record, RankReport::read(reader));
-    logs.push_back(RankLog::read(reader));
-  }
-  if (!team.leads()) return {};
-  add_plan(record, run.plan());
-  return RankLog::join(logs);
 }
 
 }  // namespace driftmesh::job

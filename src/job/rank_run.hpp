@@ -34,7 +34,7 @@ class RankRun {
  public:
   /// `size`: replaces the size field that the order describes, unless null; not owned. `team` and `watch` outlive the
   /// object. Collective; an error on one rank, or a size field that differs between ranks, is thrown on all.
-  RankRun(Team& team, Order order, const SizeField* size, Watch& watch);
+  RankRun(Team& team, Order order, const Limits& limits, const SizeField* size, Watch& watch);
   ~RankRun();
   RankRun(const RankRun&) = delete;
   RankRun& operator=(const RankRun&) = delete;
@@ -77,9 +77,5 @@ class RankRun {
   std::int64_t triangles_ = -1;  // when memory was looked at
   std::exception_ptr failure_;   // of the work on this rank
 };
-
-/// A run of the team with a log: every rank refines as `order` says. On rank 0, adds all reports to `record` and
-/// returns the history of the run; the result is meaningless on other ranks. Collective.
-[[nodiscard]] ClusterRun run_with_log(Team& team, Order order, RunRecord& record, Watch& watch);
 
 }  // namespace driftmesh::job

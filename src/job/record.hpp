@@ -68,7 +68,7 @@ struct RunRecord : MeshFacts {
 /// Fills in the request and the domain.
 void record_domain(RunRecord& run, const Request& request, const Domain& domain);
 
-/// Fills in the facts of the finished mesh: counts, angles, areas, exceptions, digest.
-void record_mesh(RunRecord& run, const MeshResult& result);
+/// Fills in the facts of the finished mesh: counts, angles, areas, exceptions, digest. `threads`: that may inspect it.
+void record_mesh(RunRecord& run, const MeshResult& result, std::int32_t threads);
 
 }  // namespace driftmesh::job

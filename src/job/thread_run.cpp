@@ -1,7 +1,6 @@
 #include "job/thread_run.hpp"
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 #include "base/in_parts.hpp"
@@ -15,17 +14,13 @@
 #include "job/memory.hpp"
 #include "job/rank_report.hpp"
 #include "job/sleeping_room.hpp"
+#include "job/write_files.hpp"
 #include "runtime/plan_run.hpp"
 
 namespace driftmesh::job {
 
-std::int32_t threads_of(const Request& request) {
-  if (request.run.threads > 0) return request.run.threads;
-  return static_cast<std::int32_t>(std::max(1U, std::thread::hardware_concurrency()));
-}
-
-ThreadRun::ThreadRun(Order order, std::int32_t threads, const SizeField* size, Watch& watch)
-    : order_(std::move(order)), watch_(watch), book_(order_.plan.decomposition) {
+ThreadRun::ThreadRun(Order order, const Limits& limits, std::int32_t threads, const SizeField* size, Watch& watch)
+    : order_(std::move(order)), watch_(watch), limits_(limits), book_(order_.plan.decomposition) {
   for (std::int32_t t = 0; t < threads; ++t) {
     made_.push_back(size_of(order_.sizing, order_.rasters.open, size, order_.pslg).field);
     sizes_.push_back(made_.back().get());
@@ -33,7 +28,6 @@ ThreadRun::ThreadRun(Order order, std::int32_t threads, const SizeField* size, W
   order_.plan.bounds.size = sizes_.front();
   scratch_ = open_scratch(order_.scratch, forecast_of(order_.plan));
   order_.plan.scratch = scratch_.get();
-  limits_ = find_limits(order_.limits, order_.pslg, order_.use);
 }
 
 ThreadRun::~ThreadRun() {
@@ -121,6 +115,21 @@ DistributedPiece ThreadRun::assemble() const {
   exchange_directly(alone);
   DistributedPiece piece = assembly.piece(order_.pslg);
   set_depths(order_.rasters, piece.mesh);
+  return piece;
+}
+
+void ThreadRun::write(const Request::Output& files, const Draw& draw, Watch& watch) {
+  if (std::ranges::any_of(files.meshes, is_in_pieces))
+    timed(watch, "write",
+          [&] { for_each_in_pieces(files, [&](const std::string& path) { write_pieces(path, files.ghost_layer); }); });
+  if (!draw && std::ranges::all_of(files.meshes, is_in_pieces)) return;
+  DistributedPiece piece = take_piece(watch);
+  write_whole(files, piece.mesh, order_.pslg.holes, draw, watch);
+}
+
+DistributedPiece ThreadRun::take_piece(Watch& watch) {
+  DistributedPiece piece = timed(watch, "assemble", [&] { return assemble(); });
+  refinement_.reset();  // the subdomains are no longer needed
   return piece;
 }
 

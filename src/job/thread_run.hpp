@@ -10,44 +10,39 @@
 #include "job/facts_book.hpp"
 #include "job/limits.hpp"
 #include "job/order.hpp"
+#include "job/place.hpp"
 #include "job/record.hpp"
 #include "job/watch.hpp"
 #include "runtime/threads/refinement_in_rounds.hpp"
 
 namespace driftmesh::job {
 
-/// The number of threads that a request asks for: by default one for each core that this process may use.
-[[nodiscard]] std::int32_t threads_of(const Request& request);
-
 /// The refinement of a mesh in subdomains by threads of this process, and its results, which do not depend on the
 /// number of threads.
-class ThreadRun {
+class ThreadRun final : public Refined {
  public:
   /// `order`: its plan maps the subdomains to `threads` ranks. `size`: replaces the size field that the order
   /// describes, unless null; not owned, and shared by all threads. `watch` outlives the object.
-  ThreadRun(Order order, std::int32_t threads, const SizeField* size, Watch& watch);
-  ~ThreadRun();
-  ThreadRun(const ThreadRun&) = delete;
-  ThreadRun& operator=(const ThreadRun&) = delete;
+  ThreadRun(Order order, const Limits& limits, std::int32_t threads, const SizeField* size, Watch& watch);
+  ~ThreadRun() override;
 
   /// Throws what the work on a subdomain or the watch throws, and LimitError at a limit.
   void refine();
 
   // After refine():
 
-  /// Adds the facts of the mesh and of the threads to the record.
-  void report(RunRecord& run);
-  [[nodiscard]] const Pslg& pslg() const { return order_.pslg; }
-  /// The whole mesh.
-  [[nodiscard]] DistributedPiece assemble() const;
-  /// Writes it as a .pvtu, in pieces that depend on the decomposition alone (distributed/piece_series.hpp).
-  void write_pieces(const std::string& path, bool ghost_layer) const;
+  void report(RunRecord& record) override;
+  [[nodiscard]] const RunPlan* plan() const override { return &order_.plan; }
+  void write(const Request::Output& files, const Draw& draw, Watch& watch) override;
+  [[nodiscard]] DistributedPiece take_piece(Watch& watch) override;
 
  private:
   void check(std::int64_t triangles) const;
   void note(const Subdomain& subdomain, const SizeField* size);
   [[nodiscard]] MeshFacts facts();
   [[nodiscard]] std::vector<SubdomainCensus> census() const;
+  [[nodiscard]] DistributedPiece assemble() const;
+  void write_pieces(const std::string& path, bool ghost_layer) const;
 
   Order order_;
   std::vector<std::unique_ptr<const SizeField>> made_;  // here

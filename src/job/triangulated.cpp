@@ -90,12 +90,6 @@ bool is_large(const Triangulation& mesh, double forecast) {
 
 }  // namespace
 
-Cut cut_of(const Request& request, Place place) {
-  if (place == kSubdomains) return Cut::kAlways;
-  const bool one_piece = request.decomposition.subdomains == 1 || request.limits.keep_incomplete;
-  return one_piece ? Cut::kNever : Cut::kIfLarge;
-}
-
 Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks, Cut cut,
                                 Watch& watch) {
   Triangulated result;

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "job/domain.hpp"
-#include "job/key.hpp"
 #include "job/request.hpp"
 #include "job/watch.hpp"
 #include "mesh/bounds.hpp"
@@ -18,9 +17,6 @@ enum class Cut {
   kIfLarge,  ///< for threads, which make large meshes faster in subdomains
   kAlways,
 };
-
-/// Whether a process by itself cuts the domain.
-[[nodiscard]] Cut cut_of(const Request& request, Place place);
 
 /// A domain ready for refinement or decomposition.
 struct Triangulated {

@@ -27,6 +27,8 @@ class Watch {
   virtual void repaired(const RepairReport& /*repairs*/) {}
   /// Something that the author of the input may not have meant.
   virtual void warned(const std::string& /*warning*/) {}
+  /// Refinement is about to begin, in subdomains: a file in pieces will have this many.
+  virtual void pieces(std::int32_t /*count*/) {}
   /// Called from time to time during refinement. With many ranks, `triangles` and `forecast` are those of this rank.
   virtual void refining(std::int64_t /*triangles*/, double /*forecast*/) {}
   /// Nothing has moved on this rank for a minute.

@@ -728,28 +728,12 @@ class Mesh(Cli):
         self.refuse("mesh", "--generate", "pipe", "--simplify", "1e6", says=["pipe: all of it fits", "give a smaller length"])
         self.refuse("mesh", "bay.poly", "--simplify", "-1", code=2, says=["--simplify", "at least 0"])
 
-    def test_partially_coupled_refinement_makes_one_mesh_on_any_number_of_ranks(self):
-        self.succeed("generate", "pipe", "-o", "pipe.poly")
-        mesh = ["mesh", "pipe.poly", "--triangles", "5e4", "--method", "pdr", "--json", "run.json", "-o", "pipe.vtu",
-                "-o", "pieces.pvtu"]
-        for ranks in 1, 2, 4:
-            result = self.on_ranks(ranks, *mesh)
-            self.assertEqual(result.returncode, 0, result.stderr)
-            run = json.loads((self.folder / "run.json").read_text())
-            self.assertEqual(len(run["parts"]["ranks"]), ranks)
-            self.assertEqual(sum(r["triangles"] for r in run["parts"]["ranks"]), run["mesh"]["triangles"])
-            self.assertEqual(sum(r["splits_sent"] for r in run["parts"]["ranks"]) > 0, ranks > 1)
-            self.assertEqual(len(list(self.folder.glob("pieces_*.vtu"))), ranks)
-            area = str(run["mesh"]["largest_area"])
-            for file in "pipe.vtu", "pieces.pvtu":
-                checked = self.succeed("check", file, "pipe.poly", "--angle", "20", "--area", area)
-                self.assertIn(f"{run['mesh']['vertices']:,}", checked)
-            self.assertRegex(checked, "subdomains +1, 0 interfaces")  # Delaunay between ranks, too
-        for options in (["--size", "0.1"], ["-n", "8"], ["--balance", "greedy"], ["--threads", "2"]):
-            with self.subTest(options=options):
-                refused = self.on_ranks(2, *mesh, *options)
-                self.assertEqual(refused.returncode, 2, refused.stderr)
-        self.refuse(*mesh, "-n", "4", code=2, says=["--method", "mpirun"])
+    def test_partially_coupled_refinement_is_for_experiments(self):
+        mesh = ["mesh", "--generate", "pipe", "--triangles", "5e4", "--method", "pdr", "-o", "pipe.vtu"]
+        self.refuse(*mesh, code=2, says=["--method"])
+        result = self.on_ranks(2, *mesh)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("driftmesh run", result.stderr)
 
     def test_errors_on_many_ranks_are_printed_once(self):
         for arguments, code, message in ((["mesh", "nothing.poly"], 1, "nothing.poly: cannot open"),
@@ -1063,6 +1047,26 @@ class Experiments(Cli):
         result = self.on_ranks(ranks, "run", self.CONFIGS / "two-ranks.yaml", "-o", folder, *arguments)
         self.assertEqual((result.returncode, without_progress(result.stderr)), (0, ""), result.stderr)
         return result.stdout
+
+    def test_partially_coupled_refinement_is_the_same_on_real_and_on_simulated_ranks(self):
+        self.write("methods.yaml", "input: {generate: pipe}\nbounds: {triangles: 5e4}\nsweep: {run.method: [coupled, pdr]}\n")
+        for ranks in 1, 2, 4:
+            result = self.on_ranks(ranks, "run", "methods.yaml", "-o", "real", "--set", "cluster.kind=real")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.succeed("run", "methods.yaml", "-o", "simulated", "--set", f"cluster.ranks={ranks}")
+            for run in "run-1", "run-2":
+                real, simulated = (json.loads((self.folder / folder / f"{run}.json").read_text()) for folder in ("real", "simulated"))
+                self.assertEqual(real["mesh"], simulated["mesh"], f"{run} on {ranks}")
+                self.assertEqual(sum(r["triangles"] for r in real["parts"]["ranks"]), real["mesh"]["triangles"])
+            self.assertEqual(sum(r["splits_sent"] for r in real["parts"]["ranks"]) > 0, ranks > 1)
+        for settings, says in ((["sizing.size=0.1", "bounds.triangles=0"], "run.method"), (["run.threads=2"], "run.method"),
+                               (["decomposition.subdomains=8"], "run.method"), (["balance.policy=greedy"], "balance.policy"),
+                               (["limits.max-triangles=1000"], "limits.max-triangles")):
+            with self.subTest(settings=settings):
+                words = [word for setting in ("cluster.kind=real", *settings) for word in ("--set", setting)]
+                refused = self.on_ranks(2, "run", "methods.yaml", "-o", "refused", *words)
+                self.assertNotEqual(refused.returncode, 0)
+                self.assertIn(says, refused.stderr)
 
     def test_real_ranks_make_the_same_files_and_the_same_mesh(self):
         settings = ["bounds.triangles=2e5", "decomposition.subdomains=60", "cluster.drag=[1, 0.05]", "lb-statistics=2"]

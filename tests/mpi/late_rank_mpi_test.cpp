@@ -107,7 +107,7 @@ void run_with(const LateCase& late) {
 
   LoopReport report;
   job::Watch watch;
-  job::RankRun run(team, std::move(order), nullptr, watch);
+  job::RankRun run(team, std::move(order), {}, nullptr, watch);
   run.refine(false, {.through = [&](Transport& inner) -> Transport& {
                        if (is_late) gun.wait();
                        return inner;

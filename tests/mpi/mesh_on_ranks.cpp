@@ -147,7 +147,7 @@ Outcome run(const Job& job) {
   if (job.drag) order.shares[static_cast<Rank>(job.seed % order.shares.size())] = 0.2;
 
   job::Watch watch;
-  job::RankRun run(team, std::move(order), nullptr, watch);
+  job::RankRun run(team, std::move(order), {}, nullptr, watch);
   Mover mover(job, team.rank(), team.ranks());
   std::optional<DelayingTransport> delaying;
   run.refine(false,

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 #include <random>
 #include <set>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "driftmesh/error.hpp"
 #include "driftmesh/repair.hpp"
@@ -13,17 +16,14 @@
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/digest.hpp"
-#include "mesh/merge_pieces.hpp"
 #include "oracles/meshing.hpp"
 #include "oracles/random_pslg.hpp"
-#include "pdr/cell_assembly.hpp"
 #include "pdr/own_cells.hpp"
 #include "pdr/part.hpp"
 #include "pdr/simulated/simulate.hpp"
 #include "pdr/start.hpp"
 #include "property/cases.hpp"
 #include "protocol/adversarial_network.hpp"
-#include "support/check_pieces.hpp"
 #include "support/exchange_over.hpp"
 #include "support/id_literals.hpp"
 #include "verify/report_text.hpp"
@@ -42,20 +42,10 @@ struct Case {
   QualityBounds bounds;
 };
 
-/// Ranks have to agree on markers of points, and on attributes.
-void adorn(Pslg& input) {
-  input.point_markers.clear();
-  for (std::size_t s = 0; s < input.segments.size(); ++s) input.segments[s].marker = static_cast<std::int32_t>(s % 7);
-  input.attributes_per_point = 1;
-  input.attributes.clear();
-  for (const Point& p : input.points) input.attributes.push_back(p.x - 3 * p.y);
-}
-
-Case random_case(std::uint64_t seed, bool adorned = false) {
+Case random_case(std::uint64_t seed) {
   Case c;
   c.input = oracles::make_random_pslg(seed, oracles::make_random_shape(seed)).input;
   repair(c.input);
-  if (adorned) adorn(c.input);
   c.mesh = triangulate(c.input);
   c.bounds.min_angle = 20;
   prepare_corners(c.mesh, {c.bounds.min_angle, false});
@@ -76,58 +66,7 @@ struct Ranks {
     for (const Rank r : first_ids<Rank>(ranks))
       all.push_back(std::make_unique<pdr::Part>(r, ranks, mesh, lattice, c.bounds));
   }
-
-  using Assemblies = IdVector<Rank, std::unique_ptr<pdr::CellAssembly>>;
-  [[nodiscard]] Assemblies assemblies() const {
-    Assemblies made;
-    for (const Rank r : ids_of(all))
-      made.push_back(std::make_unique<pdr::CellAssembly>(r, static_cast<std::int32_t>(all.size()), all[r]->mesh,
-                                                         all[r]->refinement.cells(), all[r]->lattice));
-    return made;
-  }
 };
-
-template <class Some>
-IdVector<Rank, Exchange*> exchanges_of(const IdVector<Rank, std::unique_ptr<Some>>& some) {
-  IdVector<Rank, Exchange*> exchanges;
-  for (const auto& one : some) exchanges.push_back(one.get());
-  return exchanges;
-}
-
-struct Assembled {
-  IdVector<Rank, DistributedPiece> all;
-  std::int64_t subsegments = 0;
-};
-
-Assembled pieces_of(const Ranks& ranks, const Case& c) {
-  const Ranks::Assemblies assemblies = ranks.assemblies();
-  exchange_directly(exchanges_of(assemblies));
-  Assembled pieces;
-  for (const auto& one : assemblies) {
-    pieces.all.push_back(one->piece(c.input));
-    CHECK((pieces.subsegments == 0 || pieces.subsegments == one->total_subsegments()));
-    pieces.subsegments = one->total_subsegments();
-  }
-  return pieces;
-}
-
-std::vector<Mesh> meshes_of(const Assembled& pieces) {
-  std::vector<Mesh> meshes;
-  for (const DistributedPiece& piece : pieces.all) meshes.push_back(piece.mesh);
-  return meshes;
-}
-
-Mesh merged(const Assembled& pieces) {
-  MergeFaults faults;
-  Mesh whole = merge_pieces(meshes_of(pieces), faults);
-  CHECK(faults.count == 0);
-  CHECK(pieces.subsegments == static_cast<std::int64_t>(whole.edges.size()));
-  return whole;
-}
-
-Mesh whole_of(const Ranks& ranks, const Case& c) {
-  return merged(pieces_of(ranks, c));
-}
 
 IdVector<Rank, Exchange*> refinements_of(const Ranks& ranks) {
   IdVector<Rank, Exchange*> exchanges;
@@ -149,6 +88,8 @@ void check_mesh(const Case& c, const Mesh& mesh) {
   INFO(text);
   CHECK(report.accepted());
 }
+
+using Place = std::pair<double, double>;
 
 /// All that a triangle of the mesh is, without numbers.
 using Shape = std::tuple<std::array<Place, 3>, double>;
@@ -195,17 +136,22 @@ Union union_of(const Ranks& ranks, const Case& c) {
   return all;
 }
 
-Union union_of(const Mesh& mesh) {
-  Union all;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    all.triangles.emplace_back(corners_of(mesh.points[a], mesh.points[b], mesh.points[c]),
-                               mesh.regions.empty() ? 0 : mesh.regions[t]);
+/// The whole mesh. Triangles that two ranks have, or none, do not escape a check of it.
+Mesh whole_of(const Ranks& ranks, const Case& c) {
+  const Union all = union_of(ranks, c);
+  Mesh mesh;
+  std::map<Place, std::int32_t> numbers;
+  const auto number = [&](const Place& place) {
+    const auto [known, is_new] = numbers.try_emplace(place, static_cast<std::int32_t>(mesh.points.size()));
+    if (is_new) mesh.points.push_back({place.first, place.second});
+    return known->second;
+  };
+  for (const auto& [corners, region] : all.triangles) {
+    mesh.triangles.push_back({number(corners[0]), number(corners[1]), number(corners[2])});
+    if (!c.input.regions.empty()) mesh.regions.push_back(region);
   }
-  for (const Mesh::Edge& e : mesh.edges)
-    all.lines.emplace(place_of(mesh.points[e.a]), place_of(mesh.points[e.b]), e.marker);
-  std::ranges::sort(all.triangles);
-  return all;
+  for (const auto& [a, b, marker] : all.lines) mesh.edges.push_back({number(a), number(b), marker});
+  return mesh;
 }
 
 bool same_mesh(const Mesh& a, const Mesh& b) {
@@ -276,75 +222,6 @@ TEST_CASE("an adversarial network does not change the mesh") {
     reordered += network.counters().reordered;
   }
   CHECK(reordered > 0);
-}
-
-TEST_CASE("pieces are what ranks have refined, with a number for each point") {
-  std::size_t shared = 0, empty = 0, constrained = 0;
-  const auto cases = static_cast<std::uint64_t>(case_count(8));
-  for (std::uint64_t seed = 1; seed <= cases || shared == 0 || constrained == 0; ++seed) {
-    CAPTURE(seed);
-    const Case c = random_case(seed, true);
-    CAPTURE(oracles::poly_text(c.input));
-    const auto count = static_cast<std::int32_t>(1 + 5 * seed % 12);
-    CAPTURE(count);
-    const Ranks all(c, count);
-    refine_directly(all);
-    const Assembled pieces = pieces_of(all, c);
-    check_numbers(std::vector(pieces.all.begin(), pieces.all.end()));
-    check_interfaces(pieces.all);
-    const Mesh whole = merged(pieces);
-    const Union expected = union_of(all, c), made = union_of(whole);
-    CHECK(made.triangles == expected.triangles);
-    CHECK(made.lines == expected.lines);
-    for (std::size_t v = 0; v < whole.points.size(); ++v)
-      REQUIRE(whole.attributes[v] == doctest::Approx(whole.points[v].x - 3 * whole.points[v].y).epsilon(1e-6));
-    VerifyOptions options;
-    options.min_angle = c.bounds.min_angle;
-    options.max_area = c.bounds.max_area;
-    options.region_areas = false;
-    const VerifyReport report = verify_pieces(meshes_of(pieces), &c.input, options);
-    CHECK(report.accepted());
-    CHECK(report.interfaces == 0);  // Delaunay everywhere
-
-    const Ranks::Assemblies disturbed = all.assemblies();
-    protocol::AdversarialNetwork network(count, protocol::Adversary::from_seed(seed));
-    exchange_over(network, exchanges_of(disturbed));
-    for (const Rank r : ids_of(pieces.all)) {
-      const DistributedPiece piece = disturbed[r]->piece(c.input);
-      CHECK(same_mesh(piece.mesh, pieces.all[r].mesh));
-      CHECK(piece.mesh.numbers == pieces.all[r].mesh.numbers);
-      empty += piece.mesh.triangles.empty();
-      constrained += piece.mesh.edges.size();
-      for (const auto& neighbor : piece.neighbors) shared += neighbor.shared.size();
-    }
-  }
-  MESSAGE(shared << " shared vertices, " << empty << " empty pieces");
-  CHECK(shared > 0);
-  CHECK(constrained > 0);
-}
-
-TEST_CASE("ranks that differ in what they share are found out") {
-  const Case c = random_case(3);
-  for (const bool moved : {true, false}) {
-    CAPTURE(moved);
-    const Ranks all(c, 2);
-    refine_directly(all);
-    Triangulation& mesh = all.all.front()->mesh;
-    const pdr::Part& part = *all.all.front();
-    const auto owner = [&](TriangleId t) { return part.lattice.owner_of(part.refinement.cells().cell_of(t)); };
-    for (const TriangleId t : ids_of(mesh.triangles)) {
-      if (!mesh.triangles[t].alive() || owner(t) != Rank{0}) continue;
-      const HalfEdge h = mesh.twin(half_edge(t, 0));
-      if (h == kNone || is_constrained(h) || owner(triangle_of(h)) != Rank{1}) continue;
-      if (moved)
-        mesh.points[mesh.edge_start(h)].y += 1e-9;  // one rank has it elsewhere
-      else
-        mesh.triangles[triangle_of(h)].neighbor[index_of(h)] = kNone;  // or does not know that the other is there
-      break;
-    }
-    const Ranks::Assemblies assemblies = all.assemblies();
-    CHECK_THROWS_WITH_AS(exchange_directly(exchanges_of(assemblies)), doctest::Contains("do not fit together"), Error);
-  }
 }
 
 TEST_CASE("simulated ranks make the same mesh, and time passes for all that they insert") {

@@ -1,6 +1,5 @@
 #include <exception>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,7 +16,7 @@
 #include "job/failure.hpp"
 #include "job/keys.hpp"
 #include "job/mpi/mpi_team.hpp"
-#include "job/rank_run.hpp"
+#include "job/on_ranks.hpp"
 #include "job/same_on_ranks.hpp"
 #include "job/value.hpp"
 
@@ -98,23 +97,11 @@ std::vector<job::RankSetting> settings_of(const MeshOptions& options, const job:
   return settings;
 }
 
-job::Order order_for(const job::Team& team, Call& call) {
-  call.check(job::kRanks);
-  job::check_ranks(call.request(), job::kRanks, team.ranks());
-  job::Domain domain = call.read_domain();
-  const job::Triangulated triangulated =
-      job::triangulate_domain(call.request(), domain, team.ranks(), job::Cut::kAlways, call.watch());
-  return call.order(std::move(domain), triangulated, job::kRanks, team.ranks(), job::processes_of(team));
-}
-
 DistributedPiece mesh_on(job::Team& team, Call& call, const MeshOptions& options) {
   job::require_same(team, settings_of(options, call.request()));
-  // Rephrase the error where it occurs: only its message travels to the other ranks.
-  const auto make = [&] { return with_words_of_options([&] { return std::optional(order_for(team, call)); }); };
-  std::optional<job::Order> order = job::share(team, make, call.given().policies);
-  job::RankRun run(team, std::move(*order), call.given().size, call.watch());
-  run.refine();
-  return with_channel(team, [&](ExchangeRunner& ranks) { return run.assemble(ranks); });
+  job::OnRanks ranks(team, call.policies());
+  job::RunRecord record;
+  return job::make(call.asked(job::kRanks), ranks, record, call.watch())->take_piece(call.watch());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "api/call.hpp"
@@ -8,8 +9,8 @@
 #include "cluster/cluster_spec.hpp"
 #include "driftmesh/simulated.hpp"
 #include "job/check.hpp"
-#include "job/prepare.hpp"
-#include "job/simulated/run_simulated.hpp"
+#include "job/make.hpp"
+#include "job/simulated/simulated_ranks.hpp"
 
 namespace driftmesh {
 namespace {
@@ -45,18 +46,11 @@ SimulatedRun result_of(const ClusterRun& run, const RunPlan& plan, const IdVecto
 
 SimulatedRun run_on(Call& call, const SimulatedCluster& cluster) {
   const job::Request request = with_cluster(call.request(), cluster);
-  call.check(job::kSimulated, request);
-  const CostModel costs;
-  const IdVector<Rank, double> speeds = speeds_of(job::cluster_of(request), costs);
-  job::Domain domain = call.read_domain();
-  const job::Use use{.by = job::kLibrary, .in_subdomains = true, .sleeps = request.run.sleep};
-  const job::Limits limits = job::find_limits(request.limits, domain.pslg, use, {});
-  const auto ranks = static_cast<std::int32_t>(speeds.size());
-  const job::Prepared prepared =
-      job::prepare(request, domain, job::triangulate_domain(request, domain, ranks, job::Cut::kAlways, call.watch()),
-                   call.given(), job::kSimulated, speeds, limits, call.watch());
+  job::SimulatedRanks ranks(job::cluster_of(request));
   job::RunRecord record;
-  return result_of(job::run_simulated(request, prepared, limits, costs, record, call.watch()), prepared.plan, speeds);
+  const std::unique_ptr<job::Refined> made =
+      job::make(call.asked(job::kSimulated, request), ranks, record, call.watch());
+  return result_of(made->history(), *made->plan(), ranks.speeds(request));
 }
 
 }  // namespace

@@ -1,0 +1,145 @@
+#include "job/make.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/stopwatch.hpp"
+#include "distributed/piece_series.hpp"
+#include "distributed/write_distributed.hpp"
+#include "io/mesh_file.hpp"
+#include "job/check.hpp"
+#include "job/prepare.hpp"
+#include "job/rank_report.hpp"
+#include "mesh/narrow_place.hpp"
+
+namespace driftmesh::job {
+namespace {
+
+/// A large domain is cut where one piece was in view.
+PlaceKind kind_when_cut(const Place& place) {
+  return place.kind() == kOnePiece ? kSubdomains : place.kind();
+}
+
+Use use_of(const Asked& asked, const Place& place, bool cut, double forecast) {
+  const Wanted& wanted = asked.wanted;
+  Use use{.by = asked.by, .in_subdomains = cut, .writes = wanted.mesh};
+  if (!cut) return use;
+  use.stores = !asked.request.run.scratch.empty();
+  use.sleeps = asked.request.run.sleep || use.stores;
+  use.gathers = wanted.gathered && place.processes().all > 1;
+  if (kind_when_cut(place) == kSubdomains && !wanted.whole)  // each thread a piece
+    use.at_once = std::min(1.0, static_cast<double>(place.ranks()) * kTrianglesInSeries / forecast);
+  return use;
+}
+
+/// Subdomains sleep where memory is short. In virtual time, which that would change, they do as they are told.
+Limits limits_with_sleep(const Asked& asked, const Place& place, const Pslg& pslg, double forecast, Use& use) {
+  const Request::Limits& limits = asked.request.limits;
+  Limits found = find_limits(limits, pslg, use, place.processes());
+  if (use.sleeps || place.kind() == kSimulated || !(forecast > static_cast<double>(found.in_memory))) return found;
+  use.sleeps = true;
+  return find_limits(limits, pslg, use, place.processes());
+}
+
+void check_capacity(const Asked& asked, const Place& place, const Prepared& prepared, const Use& use) {
+  double subdomain = 0;
+  for (const Decomposition::Subdomain& s : prepared.plan.decomposition.subdomains)
+    subdomain = std::max(subdomain, s.predicted);
+  const int processes = place.processes().all;
+  const bool whole = processes == 1 ? asked.wanted.whole : asked.wanted.gathered;
+  const double file = whole ? prepared.forecast : prepared.forecast * use.at_once / processes;
+  check_capacity(subdomain, use.writes ? file : 0, use.by);
+}
+
+Order in_one_piece(const Asked& asked, const Place& place, Domain&& domain, Triangulated&& triangulated) {
+  const Request::Limits& limits = asked.request.limits;
+  const Use use = use_of(asked, place, false, triangulated.forecast);
+  if (!limits.keep_incomplete)
+    check_forecast(find_limits(limits, domain.pslg, use, place.processes()), triangulated.forecast, asked.by == kMesh,
+                   [&] { return find_narrow_place(triangulated.mesh); });
+  Order order;
+  order.limits = limits;
+  order.use = use;
+  order.whole.emplace(std::move(domain), std::move(triangulated));
+  return order;
+}
+
+Order in_subdomains(const Asked& asked, const Place& place, Domain&& domain, const Triangulated& triangulated,
+                    RunRecord& record, Watch& watch) {
+  const Request& request = asked.request;
+  Use use = use_of(asked, place, true, triangulated.forecast);
+  const Limits limits = limits_with_sleep(asked, place, domain.pslg, triangulated.forecast, use);
+  check_forecast(limits, triangulated.forecast, false, [&] { return find_narrow_place(triangulated.mesh); });
+  const IdVector<Rank, double> speeds = place.speeds(request);
+  Prepared prepared = prepare(request, domain, triangulated, asked.given, kind_when_cut(place), speeds, watch);
+  check_capacity(asked, place, prepared, use);
+  watch.pieces(place.pieces(prepared.plan.decomposition));
+  add_prepared(record, prepared);
+  prepared.plan.work.sleep = use.sleeps;
+  prepared.plan.bounds.size = nullptr;  // each place makes its own
+  domain.pslg.holes = triangulated.holes;
+  return {.plan = std::move(prepared.plan),
+          .pslg = std::move(domain.pslg),
+          .sizing = request.sizing,
+          .limits = request.limits,
+          .shares = speeds,
+          .use = use,
+          .scratch = request.run.scratch,
+          .rasters = std::move(domain.rasters)};
+}
+
+/// The number of ranks on which a number of triangles for each rank depends.
+std::int32_t ranks_counted(const Place& place) {
+  return (place.kind() & kMany) != 0 ? place.ranks() : 1;
+}
+
+Order order_for(const Asked& asked, const Place& place, RunRecord& record, Watch& watch) {
+  const Request& request = asked.request;
+  check(request, place.kind(), asked.given.policies);
+  if (place.kind() != kSimulated) check_ranks(request, place.kind(), ranks_counted(place));
+  if (asked.by != kLibrary) cap_memory(request.limits);
+  Domain domain = read_domain(request, asked.given, watch);
+  record_domain(record, request, domain);
+  Triangulated triangulated = triangulate_domain(request, domain, ranks_counted(place), place.cut(request), watch);
+  if (!triangulated.cut) return in_one_piece(asked, place, std::move(domain), std::move(triangulated));
+  return in_subdomains(asked, place, std::move(domain), triangulated, record, watch);
+}
+
+const Pslg& input_of(const Order& order) {
+  return order.whole ? order.whole->domain.pslg : order.pslg;
+}
+
+/// Each rank has its own memory.
+std::unique_ptr<Refined> obey(Place& place, Order&& order, const SizeField* size, Watch& watch) {
+  const Limits limits = find_limits(order.limits, input_of(order), order.use, place.processes());
+  return timed(watch, "refine", [&] { return place.refine(std::move(order), limits, size, watch); });
+}
+
+}  // namespace
+
+Wanted wanted_of(const Request::Output& output) {
+  const bool draws = !output.picture.empty();
+  return {.mesh = draws || !output.meshes.empty(),
+          .whole = draws || !std::ranges::all_of(output.meshes, is_in_pieces),
+          .gathered = draws || !std::ranges::all_of(output.meshes, is_written_by_all)};
+}
+
+std::unique_ptr<Refined> make(const Asked& asked, Place& place, RunRecord& record, Watch& watch) {
+  return obey(place, place.share([&] { return order_for(asked, place, record, watch); }), asked.given.size, watch);
+}
+
+std::unique_ptr<Refined> follow(Place& place, Watch& watch) {
+  return obey(place, place.share({}), nullptr, watch);
+}
+
+CutDomain make_cut(const Asked& asked, std::int32_t ranks, Watch& watch) {
+  check(asked.request, ranks > 1 ? kRanks : kSubdomains, asked.given.policies);
+  CutDomain made{read_domain(asked.request, asked.given, watch), {}};
+  const Triangulated triangulated = triangulate_domain(asked.request, made.domain, ranks, Cut::kAlways, watch);
+  const Stopwatch cutting;
+  made.decomposition = cut(asked.request, triangulated, ranks);
+  made.seconds = cutting.seconds();
+  return made;
+}
+
+}  // namespace driftmesh::job

@@ -1,0 +1,23 @@
+#include "job/write_files.hpp"
+
+namespace driftmesh::job {
+
+WriteOptions writing_of(const Request::Output& files, const std::vector<Point>& holes, Watch& watch) {
+  const std::vector<double>& open = files.open_boundary;
+  return {holes, files.ascii, {open.begin(), open.end()}, files.ghost_layer, [&watch](const std::string& warning) {
+            watch.warn(warning);
+          }};
+}
+
+void write_whole(const Request::Output& files, Mesh& mesh, const std::vector<Point>& holes, const Draw& draw,
+                 Watch& watch) {
+  mesh.numbers = {};
+  mesh.ranks = {};
+  timed(watch, "write", [&] {
+    for (const std::string& path : files.meshes)
+      if (!is_in_pieces(path)) write_mesh(mesh, path, writing_of(files, holes, watch));
+  });
+  if (draw) timed(watch, "plot", [&] { draw(mesh); });
+}
+
+}  // namespace driftmesh::job
