@@ -185,10 +185,13 @@ void sizes_to_move(void* data, int, int, int count, Ids, Ids local, int* sizes, 
   *error = ZOLTAN_OK;
 }
 
-int count_fixed(void* data, int* error) {
-  const Graph& graph = graph_of(data);
+std::int64_t count_fixed(const LoadSnapshot& snapshot) {
+  return std::ranges::count_if(snapshot.subdomains, &SubdomainLoad::fixed);
+}
+
+int fixed_objects(void* data, int* error) {
   *error = ZOLTAN_OK;
-  return static_cast<int>(std::ranges::count_if(graph.snapshot->subdomains, &SubdomainLoad::fixed));
+  return static_cast<int>(count_fixed(*graph_of(data).snapshot));
 }
 
 void list_fixed(void* data, int, int, Ids global, int* parts, int* error) {
@@ -253,15 +256,16 @@ void hypergraph(void* data, int, int edges, int, int, Ids edge_ids, int* first_p
   *error = ZOLTAN_OK;
 }
 
-void answer_questions(Zoltan_Struct* zoltan, Graph& graph, bool as_hypergraph) {
+/// `any_fixed`: on any process. Zoltan's processes wait for each other if only some of them answer that question.
+void answer_questions(Zoltan_Struct* zoltan, Graph& graph, bool as_hypergraph, bool any_fixed) {
   Zoltan_Set_Num_Obj_Fn(zoltan, count_objects, &graph);
   Zoltan_Set_Obj_List_Fn(zoltan, list_objects, &graph);
   Zoltan_Set_Part_Multi_Fn(zoltan, current_parts, &graph);
   Zoltan_Set_Obj_Size_Multi_Fn(zoltan, sizes_to_move, &graph);
   Zoltan_Set_Num_Geom_Fn(zoltan, count_dimensions, &graph);
   Zoltan_Set_Geom_Multi_Fn(zoltan, centroids, &graph);
-  if (std::ranges::any_of(graph.snapshot->subdomains, &SubdomainLoad::fixed)) {
-    Zoltan_Set_Num_Fixed_Obj_Fn(zoltan, count_fixed, &graph);
+  if (any_fixed) {
+    Zoltan_Set_Num_Fixed_Obj_Fn(zoltan, fixed_objects, &graph);
     Zoltan_Set_Fixed_Obj_List_Fn(zoltan, list_fixed, &graph);
   }
   if (as_hypergraph) {
@@ -302,7 +306,7 @@ struct Answer {
 /// `snapshot`.
 template <class ProcessOf>
 std::vector<Part> partition(MPI_Comm communicator, const LoadSnapshot& snapshot, const ZoltanParameters& parameters,
-                            const ProcessOf& process_of) {
+                            bool any_fixed, const ProcessOf& process_of) {
   Zoltan zoltan(communicator);
   ZoltanParameters all = parameters;
   all.try_emplace("LB_METHOD", "RCB");
@@ -324,7 +328,7 @@ std::vector<Part> partition(MPI_Comm communicator, const LoadSnapshot& snapshot,
   set_part_sizes(zoltan.get(), snapshot);
   Graph graph(snapshot);
   graph.add_edges(process_of);
-  answer_questions(zoltan.get(), graph, as_hypergraph);
+  answer_questions(zoltan.get(), graph, as_hypergraph, any_fixed);
 
   make_scotch_repeat();
   Answer answer;
@@ -363,7 +367,8 @@ std::vector<Part> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanPar
   if (snapshot.subdomains.empty()) return {};
   for (const auto& [kind, units] : effort_of_parts(snapshot, parameters)) note_effort(kind.c_str(), units);
   initialize_once();
-  return partition(MPI_COMM_SELF, snapshot, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbors) {
+  const bool any_fixed = count_fixed(snapshot) > 0;
+  return partition(MPI_COMM_SELF, snapshot, parameters, any_fixed, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbors) {
     IdVector<SubdomainId, int> process_of(snapshot.layout->subdomains.size(), -1);
     for (const SubdomainLoad& s : snapshot.subdomains) process_of[s.id] = 0;
     std::vector<int> processes;
@@ -375,11 +380,14 @@ std::vector<Part> zoltan_partition(const LoadSnapshot& snapshot, const ZoltanPar
 std::vector<Part> zoltan_partition(const LoadSnapshot& own, const ZoltanParameters& parameters, int communicator) {
   initialize_once();
   const MPI_Comm all = MPI_Comm_f2c(communicator);
-  const auto here = static_cast<std::int64_t>(own.subdomains.size());
-  std::int64_t everywhere = 0;
-  MPI_Allreduce(&here, &everywhere, 1, MPI_INT64_T, MPI_SUM, all);
-  if (everywhere == 0) return {};
-  return partition(all, own, parameters, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbors) {
+  struct Counts {
+    std::int64_t subdomains = 0, fixed = 0;
+  };
+  const Counts here{static_cast<std::int64_t>(own.subdomains.size()), count_fixed(own)};
+  Counts everywhere;
+  MPI_Allreduce(&here, &everywhere, 2, MPI_INT64_T, MPI_SUM, all);
+  if (everywhere.subdomains == 0) return {};
+  return partition(all, own, parameters, everywhere.fixed > 0, [&](const std::vector<ZOLTAN_ID_TYPE>& neighbors) {
     Whereabouts whereabouts(all);
     std::vector<ZOLTAN_ID_TYPE> listed;
     for (const SubdomainLoad& s : own.subdomains) listed.push_back(static_cast<ZOLTAN_ID_TYPE>(s.id));
