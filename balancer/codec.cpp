@@ -58,10 +58,6 @@ void fields(auto& archive, MessageOf<WorkAnswer> auto& m) {
   archive.number(m.round);
   archive.list(m.moves, kMoveBytes, [](auto& a, auto& move) { fields(a, move); });
 }
-void fields(auto& archive, MessageOf<JointRound> auto& m) {
-  archive.number(m.round);
-  archive.choice(m.stage, JointRound::Stage::kStart);
-}
 void fields(auto& archive, MessageOf<Admission::Guest> auto& m) {
   archive.subdomain(m.subdomain);
   archive.amount(m.triangles);

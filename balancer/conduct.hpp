@@ -11,7 +11,7 @@
 
 namespace driftmesh::balancer {
 
-/// The rank that plans for all, or calls the rounds.
+/// The rank that plans for all.
 inline constexpr Rank kLeadingRank{0};
 
 struct ControllerOptions {
@@ -51,8 +51,7 @@ struct Decision {
   std::vector<Move> moves;  ///< hand these over, now
   std::vector<Move> asks;   ///< moves that their destinations are to be asked for first (see Admissions)
   std::vector<Outgoing> messages;
-  bool planned = false;    ///< planning was considered, which may have taken long: call took()
-  bool assembles = false;  ///< wait for all ranks, and think() again before anything else (see Council)
+  bool planned = false;  ///< planning was considered, which may have taken long: call took()
 };
 
 /// The state of a rank as told to the controller.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "driftmesh/error.hpp"
-
 namespace driftmesh::balancer {
 namespace {
 
@@ -19,7 +17,7 @@ Each(Answers...) -> Each<Answers...>;  // clang deduces it for aggregates from v
 }  // namespace
 
 Controller::Controller(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
-                       const ControllerOptions& options, double now, Council* council)
+                       const ControllerOptions& options, double now)
     : self_(self), admissions_(self), look_interval_(options.look), next_look_(now) {
   if (layout->ranks < 2) return;
   switch (policy->placement()) {
@@ -31,10 +29,6 @@ Controller::Controller(Rank self, std::shared_ptr<const Layout> layout, std::sha
       break;
     case Placement::kRequests:
       conduct_.emplace<RequestConduct>(self, std::move(layout), std::move(policy), options, now);
-      break;
-    case Placement::kCollective:
-      if (!council) throw Error("collective planning needs a council");
-      conduct_.emplace<CollectiveConduct>(self, std::move(layout), options, *council, now);
       break;
   }
 }
@@ -49,11 +43,10 @@ void Controller::receive(Rank source, Message advice, double now) {
              conduct_);
 }
 
-void Controller::arrived(SubdomainId id, protocol::Epoch epoch, double now) {
+void Controller::arrived(SubdomainId id, protocol::Epoch epoch) {
   admissions_.arrived(id);
   std::visit(Each{[&](PlanningConduct& planning) { planning.arrived(id, epoch); },
-                  [&](RequestConduct& requests) { requests.arrived(id); },
-                  [&](CollectiveConduct& collective) { collective.arrived(id, now); }, [](std::monostate) {}},
+                  [&](RequestConduct& requests) { requests.arrived(id); }, [](std::monostate) {}},
              conduct_);
 }
 
@@ -102,7 +95,7 @@ void Controller::tell(const Admissions::Settled& settled) {
                     for (const SubdomainId id : settled.not_coming) requests.not_coming(id);
                     if (settled.refused) requests.refused();
                   },
-                  [](CollectiveConduct&) {}, [](std::monostate) {}},
+                  [](std::monostate) {}},
              conduct_);
 }
 
@@ -113,15 +106,12 @@ bool Controller::waiting() const {
 }
 
 void Controller::give_up() {
-  if (std::holds_alternative<CollectiveConduct>(conduct_)) return;
   conduct_ = std::monostate();
   admissions_ = Admissions(self_);
 }
 
 void Controller::took(double seconds) {
-  std::visit(Each{[&](PlanningConduct& planning) { planning.took(seconds); }, [](RequestConduct&) {},
-                  [&](CollectiveConduct& collective) { collective.took(seconds); }, [](std::monostate) {}},
-             conduct_);
+  std::visit(Each{[&](PlanningConduct& planning) { planning.took(seconds); }, [](auto&) {}}, conduct_);
 }
 
 void Controller::looked(double now, double seconds) {

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "balancer/admissions.hpp"
-#include "balancer/collective_conduct.hpp"
-#include "balancer/council.hpp"
 #include "balancer/messages.hpp"
 #include "balancer/move_cost.hpp"
 #include "balancer/planning_conduct.hpp"
@@ -25,17 +23,16 @@ namespace driftmesh::balancer {
 /// subdomains listed as unfinished.
 class Controller {
  public:
-  /// The run starts at `now`. Layout, policy and options are equal on all ranks. Collective planning needs a `council`,
-  /// which must outlive the controller: throws Error without one.
+  /// The run starts at `now`. Layout, policy and options are equal on all ranks.
   Controller(Rank self, std::shared_ptr<const Layout> layout, std::shared_ptr<const Policy> policy,
-             const ControllerOptions& options, double now, Council* council = nullptr);
+             const ControllerOptions& options, double now);
 
   /// Advice arrived from another rank. It is handled in the next think().
   void receive(Rank source, Message advice, double now);
 
   /// A subdomain arrived from another rank. It may be finished before the next think(), which then does not list it;
   /// this call says that it is no longer in transit.
-  void arrived(SubdomainId id, protocol::Epoch epoch, double now);
+  void arrived(SubdomainId id, protocol::Epoch epoch);
 
   /// A move that think() decided on could not be made: the subdomain is still here.
   void stayed(SubdomainId id) { admissions_.stayed(id); }
@@ -51,12 +48,10 @@ class Controller {
   [[nodiscard]] Decision think(double now, std::span<const ReportedLoad> own, double speed, double doubt = 0,
                                double free_memory = kAmpleMemory);
 
-  /// Whether a request or a question of this rank is unanswered, received advice is unhandled, or a joint plan is in
-  /// progress.
+  /// Whether a request or a question of this rank is unanswered, or received advice is unhandled.
   [[nodiscard]] bool waiting() const;
 
-  /// The run has been abandoned: from now on nothing is planned, answered or waited for. Only a joint plan goes on to
-  /// its end, since other ranks take part in it.
+  /// The run has been abandoned: from now on nothing is planned, answered or waited for.
   void give_up();
 
   /// The duration of the last think(). Plans that take long are made less often.
@@ -71,7 +66,7 @@ class Controller {
   void tell(const Admissions::Settled& settled);
 
   Rank self_;
-  std::variant<std::monostate, PlanningConduct, RequestConduct, CollectiveConduct> conduct_;
+  std::variant<std::monostate, PlanningConduct, RequestConduct> conduct_;
   Admissions admissions_;
   double look_interval_;
   double next_look_;

@@ -75,18 +75,6 @@ struct WorkAnswer {
   friend bool operator==(const WorkAnswer&, const WorkAnswer&) = default;
 };
 
-/// A step toward a plan that all ranks make at the same time.
-struct JointRound {
-  enum class Stage : std::uint8_t {
-    kCall,   ///< rank 0 to all: a round is called
-    kReady,  ///< each to rank 0: acknowledges the call
-    kStart,  ///< rank 0 to all: all have acknowledged, plan now
-  };
-  std::uint32_t round = 0;  ///< from 1
-  Stage stage = Stage::kCall;
-  friend bool operator==(const JointRound&, const JointRound&) = default;
-};
-
 /// A step toward moves to a rank that may be short of memory. Each question gets one answer; what was admitted comes,
 /// or is returned.
 struct Admission {
@@ -106,7 +94,7 @@ struct Admission {
   friend bool operator==(const Admission&, const Admission&) = default;
 };
 
-using Message = std::variant<LoadReport, Plan, LoadNews, WorkRequest, WorkAnswer, JointRound, Admission>;
+using Message = std::variant<LoadReport, Plan, LoadNews, WorkRequest, WorkAnswer, Admission>;
 
 /// A message and its destination.
 struct Outgoing {

@@ -214,12 +214,4 @@ IdVector<Rank, double> finishing_times(const LoadSnapshot& snapshot, std::span<c
   return selection.times();
 }
 
-std::vector<Move> needed_moves(const LoadSnapshot& snapshot, std::span<const Move> moves, const MoveCost& cost,
-                               Rank giver, double spare) {
-  Selection selection(snapshot, cost);
-  selection.consider(moves);
-  selection.drop_needless(selection.times()[giver] + spare);
-  return selection.kept();
-}
-
 }  // namespace driftmesh::balancer

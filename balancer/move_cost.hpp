@@ -70,9 +70,4 @@ enum class Kept { kNeeded, kAll };
 [[nodiscard]] IdVector<Rank, double> finishing_times(const LoadSnapshot& snapshot, std::span<const Move> moves,
                                                      const MoveCost& cost);
 
-/// The given moves, all from `giver`, without those that it can keep and still finish at most that many seconds later,
-/// most expensive first.
-[[nodiscard]] std::vector<Move> needed_moves(const LoadSnapshot& snapshot, std::span<const Move> moves,
-                                             const MoveCost& cost, Rank giver, double spare);
-
 }  // namespace driftmesh::balancer

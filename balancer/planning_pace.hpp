@@ -28,7 +28,7 @@ class PlanningPace {
     pause_ = moves ? gap_ : std::min(2 * pause_, interval_);
     next_ = now + pause_;
   }
-  /// The duration of the last action, including waiting for others, which is time lost to all.
+  /// The duration of the last action.
   void took(double seconds) {
     next_ = std::max(next_, looked_ + seconds / overhead_);
     if (planned_) cost_ = seconds;

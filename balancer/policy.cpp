@@ -34,14 +34,6 @@ double Policy::most_moves() const {
   return std::numeric_limits<double>::infinity();
 }
 
-std::optional<ZoltanParameters> Policy::partitioning(const LoadSnapshot&) const {
-  return std::nullopt;
-}
-
-Dealing Policy::dealing(const LoadSnapshot&) const {
-  return {};
-}
-
 bool Policy::runs_low(double) const {
   return false;
 }

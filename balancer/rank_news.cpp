@@ -41,15 +41,6 @@ void RankNews::expect(Rank from, Rank to, double work, double now) {
   change(to, work);
 }
 
-void RankNews::assume(const IdVector<Rank, RankLoad>& states, double now) {
-  for (const Rank r : ids_of(ranks_)) {
-    set_speed(r, states[r].speed);
-    ranks_[r].news.remaining = states[r].remaining;
-    ranks_[r].news.free_memory = states[r].free_memory;
-    ranks_[r].at = now;
-  }
-}
-
 IdVector<Rank, RankLoad> RankNews::states(double now) const {
   IdVector<Rank, RankLoad> states;
   states.reserve(ranks_.size());

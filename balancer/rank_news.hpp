@@ -22,8 +22,6 @@ class RankNews {
   /// This much work will move from one rank to another, which they have not reported yet.
   void expect(Rank from, Rank to, double work, double now);
 
-  /// Sets the load of all ranks at `now`, whatever they reported before.
-  void assume(const IdVector<Rank, RankLoad>& states, double now);
   /// Whether all ranks have reported.
   [[nodiscard]] bool complete() const { return reported_ == ranks_.size(); }
 

@@ -202,7 +202,6 @@ def ideal(run):
 
 def balance(bench):
     policies = {name: ("--balance", name) for name in ("none", "zoltan", "stealing", "greedy", "diffusion")}
-    policies["zoltan, collective"] = ("--balance", "zoltan", "--balance-with", "placement=collective")
     pipe = bench.area_of("pipe", bench.options.cells)
     cases = {
         "pipe, one rank at half speed": ("pipe", pipe, "--drag", "1,0.5"),

@@ -1,7 +1,6 @@
 #include "protocol/adversarial_network.hpp"
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -134,10 +133,9 @@ RunResult AdversarialNetwork::run(IdSpan<Rank, const RankStep> steps, const std:
   std::vector<Rank> going;
   for (const Rank r : ids_of(boxes_)) going.push_back(r);
   IdVector<Rank, std::uint64_t> idle_since(boxes_.size(), UINT64_MAX);  // the activity at the last idle step
-  std::set<Rank> assembling;
   const auto stalled = [&] {
-    return in_flight_ == 0 && std::all_of(going.begin(), going.end(),
-                                          [&](Rank r) { return idle_since[r] == activity_ || assembling.contains(r); });
+    return in_flight_ == 0 &&
+           std::all_of(going.begin(), going.end(), [&](Rank r) { return idle_since[r] == activity_; });
   };
   while (!going.empty()) {
     if (++steps_ > adversary_.step_limit) return {RunEnd::kStepLimit, steps_};
@@ -146,12 +144,9 @@ RunResult AdversarialNetwork::run(IdSpan<Rank, const RankStep> steps, const std:
       ++counters_.starved;
       continue;
     }
-    if (assembling.contains(rank)) continue;
     const StepResult result = steps[rank]();
     idle_since[rank] = result == StepResult::kIdle ? activity_ : UINT64_MAX;
     if (result == StepResult::kFinished) std::erase(going, rank);
-    if (result == StepResult::kAssembling) assembling.insert(rank);
-    if (assembling.size() == going.size()) assembling.clear();
     if (after_step) after_step(rank);
     if (result != StepResult::kBusy && !going.empty() && stalled()) return {RunEnd::kStalled, steps_};
   }

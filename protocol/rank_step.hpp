@@ -9,10 +9,9 @@ namespace driftmesh::protocol {
 
 /// Result of one round of a rank's loop.
 enum class StepResult {
-  kBusy,        ///< there is more to do
-  kIdle,        ///< nothing to do until a message arrives
-  kAssembling,  ///< a simulated rank waits until all that have not finished do, as in a collective operation
-  kFinished,    ///< the rank has left the run; it is not stepped again
+  kBusy,      ///< there is more to do
+  kIdle,      ///< nothing to do until a message arrives
+  kFinished,  ///< the rank has left the run; it is not stepped again
 };
 
 /// One round of a rank's loop: poll, dispatch, work for a slice. On a real rank run_rank repeats it; on simulated ranks

@@ -130,23 +130,9 @@ std::optional<Received> VirtualNetwork::poll(Rank rank) {
   return message;
 }
 
-/// Those who have waited for each other go on together, when the last has come.
-void VirtualNetwork::release() {
-  double last = 0;
-  for (const RankState& rank : ranks_)
-    if (rank.assembling) last = std::max(last, rank.clock);
-  for (const Rank r : ids_of(ranks_)) {
-    RankState& rank = ranks_[r];
-    if (!std::exchange(rank.assembling, false)) continue;
-    rank.waited += last - rank.clock;
-    rank.clock = last;
-    agenda_.insert({wake_time(r), r});
-  }
-}
-
 RunResult VirtualNetwork::run(IdSpan<Rank, const RankStep> steps) {
   agenda_.clear();
-  std::size_t going = ranks_.size(), assembling = 0;
+  std::size_t going = ranks_.size();
   for (const Rank r : ids_of(ranks_)) agenda_.insert({wake_time(r), r});
   std::uint64_t taken = 0;
   while (going > 0) {
@@ -163,18 +149,11 @@ RunResult VirtualNetwork::run(IdSpan<Rank, const RankStep> steps) {
     const StepResult result = steps[rank]();
     me.clock = std::max(me.clock, when + cluster_.step_overhead);
     me.idle = result == StepResult::kIdle;
-    me.assembling = result == StepResult::kAssembling;
     me.finished = result == StepResult::kFinished;
     if (me.finished)
       --going;
-    else if (me.assembling)
-      ++assembling;
     else
       agenda_.insert({wake_time(rank), rank});
-    if (assembling > 0 && assembling == going) {
-      release();
-      assembling = 0;
-    }
   }
   return {RunEnd::kFinished, taken};
 }

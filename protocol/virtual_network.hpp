@@ -77,7 +77,6 @@ class VirtualNetwork {
     double clock = 0;
     double waited = 0;
     bool idle = false;
-    bool assembling = false;
     bool finished = false;
     std::vector<Parcel> inbox;  // a heap, the earliest arrival first
   };
@@ -90,7 +89,6 @@ class VirtualNetwork {
   void deliver(double arrival, std::uint64_t serial, Rank destination, Received message);
   void send(Rank source, Rank destination, Bytes bytes);
   std::optional<Received> poll(Rank rank);
-  void release();
 
   VirtualCluster cluster_;
   IdVector<Rank, RankState> ranks_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -75,49 +76,43 @@ double subdomains_per_part(const LoadSnapshot& snapshot) {
 /// parts, and so are those among few subdomains, of which no even parts can be made.
 class ZoltanPolicy final : public Policy {
  public:
-  ZoltanPolicy(ZoltanParameters parameters, Placement placement, double touch_up, const Dealing& dealing,
-               double most_moves, double part_size)
-      : parameters_(std::move(parameters)),
-        placement_(placement),
-        touch_up_(touch_up),
-        dealing_(dealing),
-        most_moves_(most_moves),
-        part_size_(part_size) {}
+  struct Options {
+    bool polish = true;       ///< even out unbalanced parts by moving single subdomains
+    double tolerance = 0.02;  ///< fraction of a rank's share
+    double touch_up = 0.1;    ///< of the ideal time: a smaller imbalance needs no new parts
+    double most_moves = 2;    ///< see Policy::most_moves
+    double part_size = 4;     ///< subdomains: of smaller parts none are made
+  };
 
-  [[nodiscard]] Placement placement() const override { return placement_; }
-  // A touch-up only deals single subdomains.
-  [[nodiscard]] Dealing dealing(const LoadSnapshot& own) const override {
-    return {dealing_.polish || wants_touch_up_alone(own), dealing_.tolerance};
-  }
+  ZoltanPolicy(ZoltanParameters parameters, const Options& options)
+      : parameters_(std::move(parameters)), options_(options) {}
+
+  [[nodiscard]] Placement placement() const override { return Placement::kLeader; }
 
   [[nodiscard]] std::vector<Move> plan(const LoadSnapshot& snapshot, Rank) const override {
     if (snapshot.subdomains.empty() || snapshot.ranks.size() < 2) return {};
-    if (has_no_use_for_parts(snapshot)) return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
+    if (has_no_use_for_parts(snapshot)) return moves_of_single_ones(snapshot);
     const LoadSnapshot possible = within_memory(snapshot);
     const std::vector<Part> parts = zoltan_partition(possible, parameters_);
-    const auto owners = keeps_parts() ? owners_of(parts) : remap_parts(possible, parts, dealing_.tolerance);
+    const auto owners = keeps_parts() ? owners_of(parts) : remap_parts(possible, parts, options_.tolerance);
     LoadSnapshot planned = possible;
     for (std::size_t i = 0; i < owners.size(); ++i)
       if (!planned.subdomains[i].fixed) planned.subdomains[i].owner = owners[i];
     keep_within_memory(snapshot, planned);
     sum_up(planned);
-    if (dealing_.polish) planned = deal_surplus(planned, dealing_.tolerance);
+    if (options_.polish) planned = deal_surplus(planned, options_.tolerance);
     return moves_between(snapshot, planned);
   }
 
   [[nodiscard]] std::optional<std::vector<Move>> touch_up(const LoadSnapshot& snapshot) const override {
-    return moves_between(snapshot, deal_surplus(snapshot, dealing_.tolerance));
+    return moves_of_single_ones(snapshot);
   }
 
   [[nodiscard]] double planning_seconds(const LoadSnapshot& snapshot) const override {
     return has_no_use_for_parts(snapshot) ? 0 : PlanningCosts{}.seconds(effort_of_parts(snapshot, parameters_));
   }
 
-  [[nodiscard]] double most_moves() const override { return most_moves_; }
-
-  [[nodiscard]] std::optional<ZoltanParameters> partitioning(const LoadSnapshot& own) const override {
-    return wants_touch_up_alone(own) ? std::nullopt : std::optional(parameters_);
-  }
+  [[nodiscard]] double most_moves() const override { return options_.most_moves; }
 
  private:
   [[nodiscard]] bool keeps_parts() const {
@@ -132,20 +127,25 @@ class ZoltanPolicy final : public Policy {
   }
 
   [[nodiscard]] bool has_no_use_for_parts(const LoadSnapshot& snapshot) const {
-    return wants_touch_up_alone(snapshot) || subdomains_per_part(snapshot) < part_size_;
+    return finishing_time(snapshot) <= (1 + options_.touch_up) * ideal_time(snapshot) ||
+           subdomains_per_part(snapshot) < options_.part_size;
   }
-  // Depends only on the states of ranks, which are equal everywhere.
-  [[nodiscard]] bool wants_touch_up_alone(const LoadSnapshot& snapshot) const {
-    return finishing_time(snapshot) <= (1 + touch_up_) * ideal_time(snapshot);
+  [[nodiscard]] std::vector<Move> moves_of_single_ones(const LoadSnapshot& snapshot) const {
+    return moves_between(snapshot, deal_surplus(snapshot, options_.tolerance));
   }
 
   ZoltanParameters parameters_;
-  Placement placement_;
-  double touch_up_;  // of the ideal time
-  Dealing dealing_;
-  double most_moves_;
-  double part_size_;  // subdomains
+  Options options_;
 };
+
+/// Rank 0 plans for all. Input files may still ask for plans of all ranks at once, which earlier versions made.
+void require_leader(Parameters& parameters) {
+  const auto given = parameters.any_of({"placement"});
+  if (given.contains("placement") && given.at("placement") == "collective")
+    parameters.fail("placement", "collective",
+                    "leave it out, and rank 0 plans for all; where that takes too long, use the policy stealing");
+  static_cast<void>(parameters.choice("placement", {"leader"}));
+}
 
 }  // namespace
 
@@ -168,19 +168,14 @@ std::unique_ptr<Policy> make_zoltan(Parameters& parameters) {
   }
   if (!has_own_graphs(all) && !zoltan_partitions_with(all))
     parameters.fail("GRAPH_PACKAGE", all["GRAPH_PACKAGE"], "this Zoltan was built without it; PHG is always there");
-  const bool collective = parameters.choice("placement", {"leader", "collective"}) == "collective";
-  // What ranks know of borders between them may differ, and so would the two directions of an edge, which others do not
-  // bear.
-  if (collective && !has_own_graphs(all))
-    parameters.fail("placement", "collective", "with GRAPH_PACKAGE = " + all["GRAPH_PACKAGE"] + " it must be leader");
-  Dealing dealing;
-  dealing.polish = parameters.flag("polish", dealing.polish);
-  dealing.tolerance = parameters.number("tolerance", dealing.tolerance, 0, 10);
-  const double touch_up = parameters.number("touch-up", 0.1, 0, 10);
-  const double most_moves = parameters.number("most-moves", 2, 0, 1e9);
-  const double part_size = parameters.number("part-size", 4, 0, 1e9);
-  return std::make_unique<ZoltanPolicy>(std::move(all), collective ? Placement::kCollective : Placement::kLeader,
-                                        touch_up, dealing, most_moves, part_size);
+  require_leader(parameters);
+  ZoltanPolicy::Options options;
+  options.polish = parameters.flag("polish", options.polish);
+  options.tolerance = parameters.number("tolerance", options.tolerance, 0, 10);
+  options.touch_up = parameters.number("touch-up", options.touch_up, 0, 10);
+  options.most_moves = parameters.number("most-moves", options.most_moves, 0, 1e9);
+  options.part_size = parameters.number("part-size", options.part_size, 0, 1e9);
+  return std::make_unique<ZoltanPolicy>(std::move(all), options);
 }
 
 }  // namespace driftmesh::balancer

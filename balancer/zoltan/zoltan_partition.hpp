@@ -1,14 +1,17 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "balancer/effort.hpp"
 #include "driftmesh/load_snapshot.hpp"
-#include "driftmesh/policy.hpp"
 
 /// The only part of the project that uses Zoltan.
 namespace driftmesh::balancer {
+
+/// Zoltan's parameters by their names, LB_METHOD and the like.
+using ZoltanParameters = std::map<std::string, std::string>;
 
 /// The names of the parameters of Zoltan's partitioners, except those that zoltan_partition sets itself.
 [[nodiscard]] const std::vector<std::string>& zoltan_parameter_names();

@@ -1,37 +1,26 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
 
-/// Who plans, and with what knowledge. Controller implements each placement.
+/// Who plans, and with what knowledge. Controller implements each placement. There is no kCollective any more: plan on
+/// rank 0 (kLeader), or on each rank for its own subdomains (kNeighbors).
 enum class Placement {
-  kNobody,      ///< nothing is reported, nothing moves
-  kLeader,      ///< all ranks report to rank 0, which plans for all
-  kNeighbors,   ///< ranks whose subdomains touch, and a few distant ones, report to each other; each plans for its own
-  kRequests,    ///< a rank that will soon be idle asks for work; rank 0 finds a rank that has plenty
-  kCollective,  ///< all at once, each for its own subdomains; rank 0 knows only totals and calls the rounds
-};
-
-/// Zoltan's parameters by their names, LB_METHOD and the like.
-using ZoltanParameters = std::map<std::string, std::string>;
-
-/// How parts are assigned to ranks.
-struct Dealing {
-  bool polish = true;       ///< even out unbalanced parts by moving single subdomains
-  double tolerance = 0.02;  ///< fraction of a rank's share
+  kNobody,     ///< nothing is reported, nothing moves
+  kLeader,     ///< all ranks report to rank 0, which plans for all
+  kNeighbors,  ///< ranks whose subdomains touch, and a few distant ones, report to each other; each plans for its own
+  kRequests,   ///< a rank that will soon be idle asks for work; rank 0 finds a rank that has plenty
 };
 
 /// Decides which rank should work on which subdomains. Its functions depend on their arguments alone: the same snapshot
-/// yields the same moves. Exceptions they throw end the run on all ranks (those of kCollective abort the job). They
-/// need not consider whether moves are worth their cost; the caller does.
+/// yields the same moves. Exceptions they throw end the run on all ranks. They need not consider whether moves are
+/// worth their cost; the caller does.
 class Policy {
  public:
   virtual ~Policy() = default;
@@ -57,13 +46,6 @@ class Policy {
   /// kLeader: how many times as many moves as touch_up() plan() may have and still be made where both finish about as
   /// early. The default, infinity, does not count moves.
   [[nodiscard]] virtual double most_moves() const;
-
-  /// kCollective: parameters with which Zoltan divides the subdomains into parts, one per rank in proportion to its
-  /// speed. Without any, each subdomain stays in the part of its owner. A rank knows the loads of all ranks, but lists
-  /// only its own subdomains; so the result may depend only on the loads of ranks, and is the same on all of them.
-  [[nodiscard]] virtual std::optional<ZoltanParameters> partitioning(const LoadSnapshot& own) const;
-  /// kCollective: how the parts are assigned. Again, the result may depend only on the loads of ranks.
-  [[nodiscard]] virtual Dealing dealing(const LoadSnapshot& own) const;
 
   /// kRequests: whether a rank should ask for more that has this many seconds of work after the subdomain at hand,
   /// less those that it takes to get some.

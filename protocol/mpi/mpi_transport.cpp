@@ -156,18 +156,6 @@ class MpiTransport::Impl {
     return parts.divided();
   }
 
-  std::vector<Bytes> all_gather(const Bytes& bytes) {
-    const int size = narrow<int>(bytes.size(), "bytes of a report");
-    Parts parts(ranks_);
-    MPI_Allgather(&size, 1, MPI_INT, parts.sizes.data(), 1, MPI_INT, communicator_);
-    parts.place();
-    MPI_Allgatherv(bytes.data(), size, MPI_BYTE, parts.bytes.data(), parts.sizes.data(), parts.begin.data(), MPI_BYTE,
-                   communicator_);
-    return parts.divided();
-  }
-
-  [[nodiscard]] int communicator() const { return MPI_Comm_c2f(communicator_); }
-
   void close() {
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     requests_.clear();
@@ -310,12 +298,6 @@ Bytes MpiTransport::broadcast(Bytes bytes) {
 }
 std::vector<Bytes> MpiTransport::gather(const Bytes& bytes) {
   return impl_->gather(bytes);
-}
-std::vector<Bytes> MpiTransport::all_gather(const Bytes& bytes) {
-  return impl_->all_gather(bytes);
-}
-int MpiTransport::communicator() const {
-  return impl_->communicator();
 }
 void MpiTransport::close() {
   impl_->close();

@@ -40,8 +40,7 @@ class MpiSession {
 };
 
 /// Messages between the ranks of an MPI communicator. Uses its own duplicate, so that its messages and those of other
-/// libraries cannot mix. Only collective calls wait for other ranks: construction, broadcast, gather, all_gather and
-/// close.
+/// libraries cannot mix. Only collective calls wait for other ranks: construction, broadcast, gather and close.
 class MpiTransport final : public Transport {
  public:
   explicit MpiTransport(int communicator);
@@ -60,11 +59,6 @@ class MpiTransport final : public Transport {
   /// On rank 0 the bytes of every rank; empty elsewhere. Collective. Throws LimitError for more than 2 GiB in total:
   /// for reports, not for meshes.
   [[nodiscard]] std::vector<Bytes> gather(const Bytes& bytes);
-
-  /// The bytes of every rank, on every rank. Collective. Throws LimitError for more than 2 GiB in total.
-  [[nodiscard]] std::vector<Bytes> all_gather(const Bytes& bytes);
-  /// The duplicate communicator, for collective operations.
-  [[nodiscard]] int communicator() const;
 
   /// Shuts down cleanly: waits until everything sent has been received. Throws ProtocolError if a message has arrived
   /// that was never polled.

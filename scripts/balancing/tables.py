@@ -123,8 +123,7 @@ HARM = ["seconds", "ideal", "over ideal", "over none", "moved"]
 TABLES = {
     "sciclone": Comparison(SCICLONE, ["sciclone"], {"domain": swept("input.generate"), **BY_POLICY}, PLANS),
     "sciclone-zoltan": Comparison(f"{SCICLONE}: ways to call Zoltan", ["sciclone-zoltan"],
-                                  {"domain": swept("input.generate"), "method": swept("balance.parameters.zoltan.method"),
-                                   "placement": swept("balance.parameters.zoltan.placement")}, PLANS,
+                                  {"domain": swept("input.generate"), "method": swept("balance.parameters.zoltan.method")}, PLANS,
                                   without="sciclone"),
     "modern-1024": Comparison("1,024 ranks of four speeds", ["modern-1024"], BY_POLICY, ONE),
     "grand-4096": Comparison("4,096 ranks of four speeds", ["grand-4096"], BY_POLICY, ONE),

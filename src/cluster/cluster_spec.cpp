@@ -24,11 +24,6 @@ double cutting_seconds(const CostModel& costs, std::size_t subdomains) {
   return costs.cut * n * std::log2(n);
 }
 
-double collective_seconds(const ClusterSpec& cluster) {
-  const double levels = std::ceil(std::log2(std::max(ranks_of(cluster), 1)));
-  return 2 * levels * (cluster.latency + 2 * cluster.message_overhead);
-}
-
 std::int32_t ranks_of(const ClusterSpec& cluster) {
   std::int32_t ranks = 0;
   for (const RankGroup& group : cluster.groups) ranks += group.ranks;

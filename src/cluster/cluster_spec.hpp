@@ -54,9 +54,6 @@ struct ClusterSpec {
 /// which may stand for larger meshes in the same subdomains.
 [[nodiscard]] double cutting_seconds(const CostModel& costs, std::size_t subdomains);
 
-/// Seconds of an operation in which all ranks take part, over a tree, there and back.
-[[nodiscard]] double collective_seconds(const ClusterSpec& cluster);
-
 [[nodiscard]] std::int32_t ranks_of(const ClusterSpec& cluster);
 /// The speed of each rank in triangles per second. Throws Error for a cluster without ranks, a group without ranks,
 /// negative speeds, and drag that is not positive or given for another number of ranks.

@@ -71,8 +71,7 @@ void RankRun::refine(bool logs, const RankHooks& hooks) {
 void RankRun::run_loop(const RankHooks& hooks) {
   protocol::Transport& own = channel_->transport();
   protocol::Transport& transport = hooks.through ? hooks.through(own) : own;
-  council_ = channel_->council(order_.plan);
-  loop_.emplace(transport, order_.plan, CostModel{}, observers(hooks), council_.get());
+  loop_.emplace(transport, order_.plan, CostModel{}, observers(hooks));
   if (order_.plan.work.threads > 1) {
     crew_ = std::make_unique<ThreadCrew>(to_index(order_.plan.work.threads - 1));
     loop_->hire(*crew_);

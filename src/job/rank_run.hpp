@@ -69,7 +69,6 @@ class RankRun {
   Limits limits_;
   std::unique_ptr<ScratchFile> scratch_;  // if subdomains sleep on disk
   std::unique_ptr<Channel> channel_;
-  std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   std::optional<RankLog> log_;
   FactsBook book_;
   std::unique_ptr<Crew> crew_;  // if ranks have several threads

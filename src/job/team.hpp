@@ -5,16 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "balancer/council.hpp"
 #include "base/bytes.hpp"
 #include "driftmesh/ids.hpp"
 #include "protocol/transport.hpp"
-#include "runtime/run_plan.hpp"
 
 namespace driftmesh::job {
 
-/// The communication channel of refinement: its messages cannot mix with others, and its council serves collective
-/// plans.
+/// The communication channel of refinement: its messages cannot mix with others.
 class Channel {
  public:
   virtual ~Channel() = default;
@@ -22,8 +19,6 @@ class Channel {
   Channel& operator=(const Channel&) = delete;
 
   [[nodiscard]] virtual protocol::Transport& transport() = 0;
-  /// Null if the plan's policy needs none. The channel outlives it.
-  [[nodiscard]] virtual std::unique_ptr<balancer::Council> council(const RunPlan& plan) = 0;
   /// Closes the channel cleanly: everything sent has been received. Collective. Without it, messages under way may be
   /// lost.
   virtual void close() = 0;

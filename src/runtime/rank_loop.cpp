@@ -43,10 +43,10 @@ RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, IdSpan<S
       clock_(transport.now()) {}
 
 RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs, Observers observers,
-                   balancer::Council* council, const protocol::Rules& rules)
+                   const protocol::Rules& rules)
     : RankLoop(transport, plan, plan.owners, std::move(observers), rules) {
   costs_ = costs;
-  balance_with(plan.layout, council);
+  balance_with(plan.layout);
   for (const SubdomainId s : ids_of(plan.owners))
     if (plan.owners[s] == transport.rank()) put(Subdomain(s, *context_));
 }
@@ -56,7 +56,7 @@ RankLoop::RankLoop(protocol::Transport& transport, Round round, const RunPlan& p
   in_rounds_ = true;
   round_owners_ = std::move(round.owners);  // they stay where the protocol sees them
   context_ = round.context;
-  balance_with(std::move(round.layout), nullptr);
+  balance_with(std::move(round.layout));
   for (auto& [id, subdomain] : round.subdomains) put(std::move(subdomain));
 }
 
@@ -67,10 +67,10 @@ RankLoop::~RankLoop() {
   }
 }
 
-void RankLoop::balance_with(std::shared_ptr<const balancer::Layout> layout, balancer::Council* council) {
+void RankLoop::balance_with(std::shared_ptr<const balancer::Layout> layout) {
   if (!plan_.policy) return;
   layout_ = layout;
-  controller_.emplace(transport_.rank(), std::move(layout), plan_.policy, plan_.balancing.options, clock_, council);
+  controller_.emplace(transport_.rank(), std::move(layout), plan_.policy, plan_.balancing.options, clock_);
 }
 
 bool RankLoop::hand_over(SubdomainId id, Rank to) {
@@ -103,12 +103,11 @@ void RankLoop::drop_work() {
 }
 
 protocol::StepResult RankLoop::step() {
-  charge(assembled_since_ ? &RankTimes::balancing : &RankTimes::idle);
-  const bool heard = !assembled_since_ && poll();
+  charge(&RankTimes::idle);
+  const bool heard = poll();
   charge(agenda_.empty() && !heard ? &RankTimes::idle : &RankTimes::polling);
   const bool came_first = controller_ && controller_->pressing() && balance(worked_);
-  if ((came_first || assembled_since_) && send()) charge(&RankTimes::sending);  // what it calls for goes out at once
-  if (assembled_since_) return protocol::StepResult::kAssembling;
+  if (came_first && send()) charge(&RankTimes::sending);  // what it calls for goes out at once
   const bool worked = work();
   if (!worked && !heard && !out_.empty()) crew_->wait();
   charge(worked || !out_.empty() ? &RankTimes::computing : &RankTimes::idle);
@@ -163,7 +162,7 @@ void RankLoop::settle(const protocol::HandOff& arrival, Rank sender) {
   protocol::read_from(sender, [&] { put(Subdomain::unpack(arrival.packed, *context_, Source::kThisRun)); });
   transport_.spend(static_cast<double>(arrival.packed.size()) * costs_.packed_byte);
   charge(&RankTimes::balancing);
-  if (controller_) controller_->arrived(arrival.subdomain, arrival.epoch, clock_);
+  if (controller_) controller_->arrived(arrival.subdomain, arrival.epoch);
   if (observers_.settled)
     observers_.settled(*this, {arrival.subdomain, arrival.epoch, transport_.rank(), arrival.packed.size()});
 }
@@ -252,10 +251,10 @@ bool RankLoop::balance(bool worked) {
   const bool ran_out = std::exchange(worked_, worked) && agenda_.empty();
   if (!controller_ || !(controller_->due(clock_) || ran_out)) return false;
   if (protocol_.phase() != protocol::Termination::Phase::kWorking) return false;
-  const double start = std::exchange(assembled_since_, std::nullopt).value_or(transport_.now());
+  const double start = transport_.now();
   const std::vector<balancer::ReportedLoad> own = loads();
   transport_.spend(static_cast<double>(own.size()) * costs_.listed);
-  own_failure_ = plan_.policy->placement() != balancer::Placement::kCollective;
+  own_failure_ = true;
   const balancer::EffortLog planning;
   std::optional<balancer::DeliberationLog> considered;
   if (observers_.deliberated) considered.emplace();
@@ -264,7 +263,6 @@ bool RankLoop::balance(bool worked) {
                          experience_.doubt(own), free_memory(own));
   own_failure_ = false;
   if (considered) observers_.deliberated(considered->take());
-  if (decision.assembles) assembled_since_ = start;
   transport_.spend(costs_.planning.seconds(planning.efforts()));
   // Only what planning took: packing what it hands over does not make looking at loads more expensive.
   const double took = transport_.now() - start;

@@ -30,7 +30,7 @@
 namespace driftmesh {
 
 /// The loop of one rank: poll the transport, dispatch what arrived, refine one subdomain for a slice, send. It runs on
-/// one thread, on real ranks and on simulated ones alike; it never waits, except in a council, and prints nothing. A
+/// one thread, on real ranks and on simulated ones alike; it never waits and prints nothing. A
 /// crew may refine other subdomains meanwhile: it does nothing but slices of work, and everything else stays on this
 /// thread.
 class RankLoop {
@@ -71,10 +71,9 @@ class RankLoop {
     std::shared_ptr<const balancer::Layout> layout;
   };
 
-  /// `transport`, `plan`, `council` and `rules` must outlive the loop. Collective policies need a council. `rules` are
-  /// those of the protocol; tests pass broken ones.
+  /// `transport`, `plan` and `rules` must outlive the loop. `rules` are those of the protocol; tests pass broken ones.
   RankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs = {}, Observers observers = {},
-           balancer::Council* council = nullptr, const protocol::Rules& rules = protocol::sound_rules());
+           const protocol::Rules& rules = protocol::sound_rules());
   RankLoop(protocol::Transport& transport, Round round, const RunPlan& plan, Observers observers);
   /// Waits for the shifts of the crew.
   ~RankLoop();
@@ -100,7 +99,6 @@ class RankLoop {
   /// Whether this rank or another one has given up the run.
   [[nodiscard]] bool abandoned() const { return abandoned_; }
   /// Whether step() has thrown what a slice of work or the policy threw, so that abandon() can end the run cleanly.
-  /// Not so for a collective policy: the other ranks wait for this one in the middle of a joint plan.
   [[nodiscard]] bool can_abandon() const { return own_failure_; }
 
   /// One round. An exception ends the run on all ranks, unless can_abandon().
@@ -122,7 +120,7 @@ class RankLoop {
  private:
   RankLoop(protocol::Transport& transport, const RunPlan& plan, IdSpan<SubdomainId, const Rank> owners,
            Observers observers, const protocol::Rules& rules);
-  void balance_with(std::shared_ptr<const balancer::Layout> layout, balancer::Council* council);
+  void balance_with(std::shared_ptr<const balancer::Layout> layout);
   void put(Subdomain&& subdomain);
   void reschedule(const Subdomain& s);
   bool poll();

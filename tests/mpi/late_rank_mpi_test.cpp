@@ -141,20 +141,18 @@ Rank last_rank() {
 }  // namespace
 
 TEST_CASE("a rank that joins late with nothing is given work") {
-  for (const char* policy : {"none", "zoltan", "collective", "diffusion", "stealing", "greedy"})
-    run_with({policy, last_rank()});
+  for (const char* policy : {"none", "zoltan", "diffusion", "stealing", "greedy"}) run_with({policy, last_rank()});
 }
 
 TEST_CASE("the rank that plans for all, and begins to look for the end, may join late") {
-  for (const char* policy : {"none", "zoltan", "collective", "greedy"}) run_with({policy, Rank{0}});
+  for (const char* policy : {"none", "zoltan", "greedy"}) run_with({policy, Rank{0}});
 }
 
 TEST_CASE("a rank that joins late with one subdomain is given more") {
-  for (const char* policy : {"zoltan", "collective", "diffusion"})
-    run_with({policy, last_rank(), Start::kOneSubdomain});
+  for (const char* policy : {"zoltan", "diffusion"}) run_with({policy, last_rank(), Start::kOneSubdomain});
 }
 
 TEST_CASE("a rank that joins late with subdomains receives the messages to them") {
-  for (const char* policy : {"none", "zoltan", "collective", "diffusion", "stealing", "greedy"})
+  for (const char* policy : {"none", "zoltan", "diffusion", "stealing", "greedy"})
     run_with({policy, last_rank(), Start::kShare});
 }

@@ -44,7 +44,7 @@ Job holes(std::uint64_t seed) {
 }
 
 /// A policy that checks constantly, ignores costs, and accepts the smallest gain.
-Balancing restless(const std::string& policy, const balancer::Parameters::Values& parameters) {
+Balancing restless(const std::string& policy) {
   Balancing balancing;
   balancing.policy = policy;
   balancing.options.look = 0;
@@ -58,7 +58,6 @@ Balancing restless(const std::string& policy, const balancer::Parameters::Values
   if (policy == "stealing") balancing.parameters = {{"low-water", "0.002"}};
   if (policy == "zoltan")
     balancing.parameters = {{"method", "rcb"}, {"approach", "partition"}, {"touch-up", "0"}, {"tolerance", "0"}};
-  balancing.parameters.insert(parameters.begin(), parameters.end());
   return balancing;
 }
 
@@ -76,13 +75,13 @@ Outcome stress(const Job& job) {
   return outcome;
 }
 
-void stress_policy(const std::string& policy, const balancer::Parameters::Values& parameters = {}) {
+void stress_policy(const std::string& policy) {
   std::int64_t forced = 0, planned = 0, forwarded = 0;
   bool leads = false;
   for (std::uint64_t seed = first_seed(), last = seed + kRuns; seed < last; ++seed) {
     CAPTURE(seed);
     Job job = holes(seed);
-    job.balancing = restless(policy, parameters);
+    job.balancing = restless(policy);
     job.moves = seed % 2 == 0 || policy == "none";
     if (!job.moves) job.cells *= 4, job.slice = 100;  // a speed is known after some hundredths of a second
     const Outcome outcome = stress(job);
@@ -121,9 +120,6 @@ TEST_CASE("no policy, moves are forced") {
 }
 TEST_CASE("a restless zoltan") {
   stress_policy("zoltan");
-}
-TEST_CASE("a restless zoltan on all ranks at once") {
-  stress_policy("zoltan", {{"placement", "collective"}});
 }
 TEST_CASE("a restless diffusion") {
   stress_policy("diffusion");

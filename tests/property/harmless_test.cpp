@@ -60,7 +60,7 @@ TEST_CASE("no policy harms, whatever the cluster, the work and the forecasts") {
     };
     const Outcome none = run("none");
     std::printf("%s: none %.3f of the oracle", scenario.name().c_str(), none.time / oracle);
-    for (const char* policy : {"diffusion", "greedy", "zoltan", "collective", "stealing"}) {
+    for (const char* policy : {"diffusion", "greedy", "zoltan", "stealing"}) {
       CAPTURE(policy);
       const Outcome o = run(policy);
       const bool harmed = o.time > 1.02 * none.time;
@@ -100,7 +100,7 @@ TEST_CASE("forecasts off by factors up to 16 cost every policy little") {
           const double oracle = oracle_time(staged);
           ++count;
           std::printf("%s:", scenario.name().c_str());
-          for (const char* policy : {"none", "diffusion", "greedy", "zoltan", "collective", "stealing"}) {
+          for (const char* policy : {"none", "diffusion", "greedy", "zoltan", "stealing"}) {
             const Outcome o =
                 run_jobs(staged.cluster, staged.layout, staged.jobs, policy, {}, options_for(staged.cluster));
             CHECK(o.complete);

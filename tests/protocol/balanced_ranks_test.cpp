@@ -19,7 +19,7 @@ using driftmesh::testing::run_jobs;
 
 namespace {
 
-const std::vector<std::string> kPolicies{"none", "diffusion", "greedy", "zoltan", "collective", "stealing"};
+const std::vector<std::string> kPolicies{"none", "diffusion", "greedy", "zoltan", "stealing"};
 
 /// Jobs as a layout predicts them, with an error of up to `error`.
 Jobs jobs_of(Layout& layout, double work, double error, std::uint64_t seed) {
@@ -76,7 +76,7 @@ TEST_CASE("the published cluster, three kinds of nodes with equal shares of the 
     ideal = o.ideal;
   }
   CHECK(time["none"] > 1.4 * ideal);
-  for (const char* policy : {"diffusion", "greedy", "zoltan", "collective", "stealing"}) {
+  for (const char* policy : {"diffusion", "greedy", "zoltan", "stealing"}) {
     CAPTURE(policy);
     CHECK(time[policy] < 1.1 * ideal);
     const double recovered = std::string(policy) == "diffusion" ? 0.75 : 0.85;
@@ -107,7 +107,7 @@ TEST_CASE("all work on one rank of many") {
     Layout layout = grid_layout(20, 20, 16);
     for (auto& s : layout.subdomains) s.owner = on_the_first ? 0_rank : 11_rank;
     const auto jobs = jobs_of(layout, 25e3, 0.1, 3);
-    for (const char* policy : {"greedy", "zoltan", "collective", "stealing"}) {
+    for (const char* policy : {"greedy", "zoltan", "stealing"}) {
       CAPTURE(policy);
       CHECK(run_and_show(policy, cluster, layout, jobs).time < 1.3 * jobs.size() * 25e3 / 16e6);
     }

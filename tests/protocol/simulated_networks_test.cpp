@@ -5,7 +5,6 @@
 #include <memory>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "protocol/adversarial_network.hpp"
@@ -174,50 +173,6 @@ TEST_CASE("ranks that wait for each other stall and get a report") {
   const IdVector<Rank, RankStep> busy(3, [] { return StepResult::kBusy; });
   CHECK(AdversarialNetwork(3, {.seed = 3, .may_copy = {}, .step_limit = 100}).run(busy).end == RunEnd::kStepLimit);
   CHECK(VirtualNetwork({.speeds = {1}, .link = {}, .step_limit = 100}).run(busy).end == RunEnd::kStepLimit);
-}
-
-TEST_CASE("ranks that assemble wait for each other, and go on together") {
-  // Each works for a time of its own, meets the others, and works again; rank 2 has nothing to do with the second
-  // round.
-  const auto meet_twice = [](auto& network, std::vector<std::string>& log) {
-    IdVector<Rank, RankStep> steps;
-    for (const Rank r : first_ids<Rank>(3))
-      steps.push_back([&network, &log, r, round = 0, here = false]() mutable {
-        if (std::exchange(here, false)) log.push_back("after " + std::to_string(round));
-        if (round == (r == 2_rank ? 1 : 2)) return StepResult::kFinished;
-        network.transport(r).spend(1.0 + static_cast<double>(to_index(r)));
-        log.push_back("before " + std::to_string(++round));
-        here = true;
-        return StepResult::kAssembling;
-      });
-    return network.run(steps).end;
-  };
-  const std::vector<std::string> expected{"before 1", "before 1", "before 1", "after 1", "after 1",
-                                          "after 1",  "before 2", "before 2", "after 2", "after 2"};
-  const auto in_rounds = [](std::vector<std::string> log) {  // within a round the order does not matter
-    std::stable_sort(log.begin(), log.end(), [](const auto& a, const auto& b) { return a.back() < b.back(); });
-    return log;
-  };
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    CAPTURE(seed);
-    AdversarialNetwork network(3, Adversary::from_seed(seed));
-    std::vector<std::string> log;
-    CHECK(meet_twice(network, log) == RunEnd::kFinished);
-    CHECK(in_rounds(log) == expected);
-  }
-  VirtualNetwork network({.speeds = {1, 1, 1}, .link = {}});
-  std::vector<std::string> log;
-  CHECK(meet_twice(network, log) == RunEnd::kFinished);
-  CHECK(in_rounds(log) == expected);
-  CHECK(network.clock(0_rank) == doctest::Approx(3 + 2));
-  CHECK(network.waited(0_rank) == doctest::Approx(2 + 1));
-  CHECK(network.waited(1_rank) == doctest::Approx(1));
-  CHECK(network.clock(2_rank) == doctest::Approx(3));
-
-  // One that never comes keeps all the others waiting.
-  const IdVector<Rank, RankStep> apart{[] { return StepResult::kAssembling; }, [] { return StepResult::kIdle; }};
-  CHECK(AdversarialNetwork(2, {.seed = 3, .may_copy = {}}).run(apart).end == RunEnd::kStalled);
-  CHECK(VirtualNetwork({.speeds = {1, 1}, .link = {}}).run(apart).end == RunEnd::kStalled);
 }
 
 TEST_CASE("virtual time follows from the cluster's parameters") {

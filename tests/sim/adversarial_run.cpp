@@ -9,7 +9,6 @@
 #include "protocol/counter_sum.hpp"
 #include "runtime/plan_run.hpp"
 #include "sim/mesh_oracles.hpp"
-#include "support/policy_called.hpp"
 #include "support/simulated_run.hpp"
 
 namespace driftmesh::sim {
@@ -23,10 +22,9 @@ AdversarialRun::AdversarialRun(const Scenario& scenario, Domain& domain, const W
       stale_locations_{std::mt19937_64(scenario.seed), {}},
       witness_(scenario.ranks, to_index(scenario.subdomains), [this] { return is_quiet(); }) {
   make_plan();
-  council_ = balancer::make_simulated_council(plan_.layout, plan_.policy, plan_.balancing.options);
   for (const Rank r : first_ids<Rank>(scenario.ranks))
-    loops_.push_back(std::make_unique<RankLoop>(transport_of(r, wrap), plan_, costs_of(r), RankLoop::Observers{},
-                                                council_.get(), rules_));
+    loops_.push_back(
+        std::make_unique<RankLoop>(transport_of(r, wrap), plan_, costs_of(r), RankLoop::Observers{}, rules_));
   for (const Rank r : ids_of(loops_)) {
     if (scenario.crew == 0) break;
     crews_.push_back(std::make_unique<testing::SimulatedCrew>(scenario.crew, scenario.seed + to_index(r)));
@@ -45,7 +43,6 @@ Outcome AdversarialRun::run() {
   say("each question for memory has an answer",
       outcome_.effects.questions == outcome_.effects.answers ? "" : "some have none, or several");
   say("one live owner", owners_at_the_end());
-  say("no unfinished plan", council_ && council_->in_session() ? "the run has ended during a round of planning" : "");
   if (!outcome_.failure().empty()) return std::move(outcome_);
   const std::vector<const Subdomain*> all = subdomains_awake();
   const auto problems = testing::conformity_problems(plan_.decomposition, all);
@@ -69,9 +66,7 @@ void AdversarialRun::make_plan() {
   plan_.work.order = scenario_.order;
   plan_.work.sleep = scenario_.sleep;
   if (!scenario_.balanced()) return;
-  const testing::PolicyCalled called = testing::policy_called(scenario_.mover);
-  plan_.balancing.policy = called.name;
-  plan_.balancing.parameters = called.parameters;
+  plan_.balancing.policy = scenario_.mover;
   if (scenario_.mover == "stealing") plan_.balancing.parameters["low-water"] = "20";
   plan_.balancing.options.look = 3;
   plan_.balancing.options.gap = 10;
@@ -125,7 +120,6 @@ protocol::Adversary AdversarialRun::adversary() {
       result.urgency = [late = after(40)](const protocol::Parcel& parcel, std::uint64_t step) {
         const bool advice = is_advice<balancer::Plan>(parcel.bytes) || is_advice<balancer::WorkRequest>(parcel.bytes) ||
                             is_advice<balancer::WorkAnswer>(parcel.bytes) ||
-                            is_advice<balancer::JointRound>(parcel.bytes) ||
                             is_advice<balancer::Admission>(parcel.bytes);
         return advice ? late(parcel, step) : protocol::Urgency::kAnyTime;
       };

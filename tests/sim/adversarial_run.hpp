@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "balancer/simulated/simulated_council.hpp"
 #include "protocol/adversarial_network.hpp"
 #include "protocol/rules.hpp"
 #include "runtime/rank_loop.hpp"
@@ -108,7 +107,6 @@ class AdversarialRun {
   StaleLocations stale_locations_;
   Witness witness_;
   std::vector<std::unique_ptr<protocol::Transport>> layers_;       // between ranks and network
-  std::unique_ptr<balancer::SimulatedCouncil> council_;            // if the policy needs one
   IdVector<Rank, std::unique_ptr<testing::SimulatedCrew>> crews_;  // if ranks have any
   IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
   IdVector<Rank, std::int64_t> arrivals_seen_;

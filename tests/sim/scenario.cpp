@@ -31,8 +31,8 @@ const char* words_of(Mischief mischief) {
 }  // namespace
 
 const std::vector<std::string>& mover_names() {
-  static const std::vector<std::string> kNames{"chance",    "ping-pong", "rotation", "behind-token", "greedy",
-                                               "diffusion", "stealing",  "zoltan",   "collective"};
+  static const std::vector<std::string> kNames{"chance", "ping-pong", "rotation", "behind-token",
+                                               "greedy", "diffusion", "stealing", "zoltan"};
   return kNames;
 }
 

@@ -20,7 +20,7 @@ struct Choice {
   std::optional<std::string> mover;
 };
 
-/// What moves subdomains: an adversary of Mover, or a policy by its name; "collective" is Zoltan on all ranks.
+/// What moves subdomains: an adversary of Mover, or a policy by its name.
 [[nodiscard]] const std::vector<std::string>& mover_names();
 
 /// How messages about subdomains that move are treated, beyond what the network does to any message.

@@ -118,9 +118,9 @@ class BrokenProject(unittest.TestCase):
         self.declare("sizing", "DEPENDS", "protocol")
         self.expect("mesh: stands on protocol, from which it is kept apart")
 
-    def test_council_in_a_policy(self):
-        self.include("balancer/policies/policy_greedy.cpp", "balancer/mpi/mpi_council.hpp")
-        self.expect("balancer/policies/policy_greedy.cpp:1: includes balancer/mpi/mpi_council.hpp (council_mpi)")
+    def test_communicator_in_a_policy(self):
+        self.include("balancer/policies/policy_greedy.cpp", "protocol/mpi/mpi_transport.hpp")
+        self.expect("balancer/policies/policy_greedy.cpp:1: includes protocol/mpi/mpi_transport.hpp (transport_mpi)")
 
     def test_source_of_another_folder(self):
         self.declare("mesh", "SOURCES", "../../protocol/codec.cpp")

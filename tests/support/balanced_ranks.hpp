@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "balancer/policies/policy_factory.hpp"
-#include "balancer/simulated/simulated_council.hpp"
 #include "cluster/replay/working_rank.hpp"
 #include "protocol/virtual_network.hpp"
 #include "support/load_snapshots.hpp"
-#include "support/policy_called.hpp"
 
 namespace driftmesh::testing {
 
@@ -54,15 +52,12 @@ class WorkingRanks {
                double given_speed = 0, const IdVector<Rank, double>& memory = {})
       : jobs_(jobs) {
     const auto shared_layout = std::make_shared<const balancer::Layout>(layout);
-    PolicyCalled called = policy_called(policy);
-    called.parameters.insert(parameters.begin(), parameters.end());
-    const std::shared_ptr<const balancer::Policy> shared_policy = balancer::make_policy(called.name, called.parameters);
-    council_ = balancer::make_simulated_council(shared_layout, shared_policy, options);
+    const std::shared_ptr<const balancer::Policy> shared_policy = balancer::make_policy(policy, parameters);
     for (const Rank r : first_ids<Rank>(layout.ranks)) {
       WorkingRank::Options own{.slice = slice, .given_speed = given_speed};
       if (!memory.empty()) own.memory = memory[r];
-      ranks_.push_back(std::make_unique<WorkingRank>(network.transport(r), shared_layout, jobs, shared_policy, options,
-                                                     council_.get(), own));
+      ranks_.push_back(
+          std::make_unique<WorkingRank>(network.transport(r), shared_layout, jobs, shared_policy, options, own));
       steps_.emplace_back([rank = ranks_.back().get()] { return rank->step(); });
     }
   }
@@ -91,7 +86,6 @@ class WorkingRanks {
 
  private:
   const Jobs& jobs_;
-  std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   IdVector<Rank, std::unique_ptr<WorkingRank>> ranks_;
   IdVector<Rank, protocol::RankStep> steps_;
 };

@@ -7,7 +7,6 @@
 #include "balancer/policies/policy_factory.hpp"
 #include "mesh/exceptions.hpp"
 #include "support/plans.hpp"
-#include "support/policy_called.hpp"
 
 namespace driftmesh::testing {
 
@@ -45,9 +44,7 @@ inline RunPlan late_plan(const Pslg& input, double triangles, std::int32_t ranks
   plan.owners = late_owners(plan.owners.size(), ranks, late);
   plan.work.slice = 40;
   plan.work.aggregation = 8;
-  const PolicyCalled called = policy_called(late.policy);
-  plan.balancing.policy = called.name;
-  plan.balancing.parameters = called.parameters;
+  plan.balancing.policy = late.policy;
   plan.balancing.options.look = 1e-3;
   plan.balancing.options.gap = 2e-3;
   plan.balancing.options.interval = 2e-2;

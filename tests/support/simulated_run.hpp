@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "balancer/simulated/simulated_council.hpp"
 #include "decompose/decomposition.hpp"
 #include "runtime/rank_loop.hpp"
 #include "support/split_points.hpp"
@@ -16,16 +15,13 @@ namespace driftmesh::testing {
 
 /// Rank loops on a simulated network (AdversarialNetwork or VirtualNetwork), all in this process.
 struct SimulatedRanks {
-  std::unique_ptr<balancer::Council> council;
   IdVector<Rank, std::unique_ptr<RankLoop>> loops;
   IdVector<Rank, protocol::RankStep> steps;
 
   template <class Network>
   SimulatedRanks(Network& network, std::int32_t ranks, const RunPlan& plan, const CostModel& costs = {}) {
-    council = balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options);
     for (const Rank r : first_ids<Rank>(ranks))
-      loops.push_back(
-          std::make_unique<RankLoop>(network.transport(r), plan, costs, RankLoop::Observers{}, council.get()));
+      loops.push_back(std::make_unique<RankLoop>(network.transport(r), plan, costs));
     for (const auto& loop : loops) steps.push_back([l = loop.get()] { return l->step(); });
   }
 

@@ -35,19 +35,17 @@ class RandomMessage {
         for (auto n = below(5); n > 0; --n) plan.ask.push_back(rank());
         return plan;
       }
-      case 5: {
-        Admission step{number(), static_cast<Admission::Stage>(below(3)), {}};
-        for (auto n = below(5); n > 0; --n) step.guests.push_back({subdomain(), amount()});
-        return step;
-      }
       case 2:
         return LoadNews{number(), amount(), amount(), amount(), amount()};
       case 3:
         return WorkRequest{rank(), number(), amount(), amount(), number(), amount()};
       case 4:
         return WorkAnswer{number(), moves()};
-      default:
-        return JointRound{number(), static_cast<JointRound::Stage>(below(3))};
+      default: {
+        Admission step{number(), static_cast<Admission::Stage>(below(3)), {}};
+        for (auto n = below(5); n > 0; --n) step.guests.push_back({subdomain(), amount()});
+        return step;
+      }
     }
   }
 
@@ -148,10 +146,9 @@ TEST_CASE("errors about advice say what is wrong") {
   CHECK(error_of(encode(LoadNews{1, 1.0, 2.0, -0.5})) == "message from rank 5: an amount is negative or not finite");
   CHECK(error_of(encode(WorkRequest{7_rank, 1, 1.0, 2.0, 0})) == "message from rank 5: rank 7 is outside 0 .. 6");
   CHECK(error_of(encode(Plan{1, {{100_sub, 1_rank}}, {}})) == "message from rank 5: subdomain 100 is outside 0 .. 99");
-  CHECK(with(JointRound{1, JointRound::Stage::kStart}, 4, 3) == "message from rank 5: choice 3 does not exist");
   CHECK(with(Admission{1, Admission::Stage::kReturn, {}}, 4, 3) == "message from rank 5: choice 3 does not exist");
   CHECK(error_of(encode(Plan{1, {}, {7_rank}})) == "message from rank 5: rank 7 is outside 0 .. 6");
-  CHECK(error_of({7, {}}) == "message from rank 5: it is advice on the unknown topic 7");
+  CHECK(error_of({6, {}}) == "message from rank 5: it is advice on the unknown topic 6");
   CHECK(error_of({0, {}}) == "message from rank 5: it ends too early");
 }
 

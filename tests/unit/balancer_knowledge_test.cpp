@@ -127,7 +127,7 @@ TEST_CASE("the planner of a move learns that it was made, even if the subdomain 
   const Layout layout = grid_layout(12, 1, 2);
   Controller rank = controller_of(1_rank, layout, "greedy");
   CHECK(sent<LoadReport>(rank.think(1, loads_of(6, 11, 1000), 300)).size() == 1);
-  rank.arrived(3_sub, 1, 1);
+  rank.arrived(3_sub, 1);
   const auto report = sent<LoadReport>(rank.think(2, loads_of(6, 11, 950), 300));
   REQUIRE(report.size() == 1);
   REQUIRE(report[0].second.loads.size() == 7);

@@ -130,11 +130,6 @@ TEST_CASE("zoltan's graphs can be partitioned by others, or it says at once that
                            "' cannot be used; this Zoltan was built without it; PHG is always there");
         continue;
       }
-      auto collective = values;
-      collective["placement"] = "collective";
-      CHECK(error_of("zoltan", collective) ==
-            "policy zoltan: placement: 'collective' cannot be used; with GRAPH_PACKAGE = " + package +
-                " it must be leader");
       const auto policy = make_policy("zoltan", values);
       const auto moves = policy->plan(s, 0_rank);
       CHECK(time_with(s, moves) < 1.1 * ideal_time(s));
@@ -150,6 +145,16 @@ TEST_CASE("zoltan's graphs can be partitioned by others, or it says at once that
     return make_policy("zoltan", {{"method", "graph"}, {"GRAPH_PACKAGE", package}})->plan(s, 0_rank);
   };
   CHECK(moves_of("phg") == moves_of("PHG"));
+}
+
+TEST_CASE("zoltan plans on rank 0, and refuses plans of all ranks at once with what to use instead") {
+  for (const Parameters::Values& values : {Parameters::Values{}, {{"placement", "leader"}}})
+    CHECK(make_policy("zoltan", values)->placement() == Placement::kLeader);
+  CHECK(error_of("zoltan", {{"placement", "collective"}}) ==
+        "policy zoltan: placement: 'collective' cannot be used; leave it out, and rank 0 plans for all; where that "
+        "takes too long, use the policy stealing");
+  CHECK(error_of("zoltan", {{"placement", "colective"}}) ==
+        "policy zoltan: placement: 'colective' cannot be used; the nearest choice is 'leader'");
 }
 
 TEST_CASE("zoltan copes with fewer subdomains than ranks, none, and one rank") {

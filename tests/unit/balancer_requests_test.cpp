@@ -85,9 +85,9 @@ TEST_CASE("a rank asks again when all promised subdomains have arrived, even if 
     REQUIRE(request.size() == 1);
     const balancer::WorkAnswer answer{request[0].second.round, {{8_sub, 1_rank}, {9_sub, 1_rank}}};
     if (answer_first) thief.receive(2_rank, answer, 1);
-    thief.arrived(8_sub, 1, 1);
+    thief.arrived(8_sub, 1);
     CHECK(sent<balancer::WorkRequest>(thief.think(1.01, {}, 300)).empty());
-    thief.arrived(9_sub, 1, 1);
+    thief.arrived(9_sub, 1);
     if (!answer_first) thief.receive(2_rank, answer, 1);
     CHECK(sent<balancer::WorkRequest>(thief.think(1.02, {}, 300)).size() == 1);
   }

@@ -183,15 +183,6 @@ TEST_CASE("subdomains too large for a message stay, whatever the gain") {
   CHECK(worth_moving(s, plan, {}) == std::vector<Move>{{1_sub, 1_rank}});
 }
 
-TEST_CASE("a rank keeps what it can finish in its spare time, starting with what is costly to move") {
-  LoadSnapshot s = initial_snapshot(grid_layout(6, 1, 2), {1000, 1000});
-  s.subdomains[1].bytes = 5'000;
-  const std::vector<Move> plan{{0_sub, 1_rank}, {1_sub, 1_rank}, {2_sub, 1_rank}};
-  CHECK(needed_moves(s, plan, {}, 0_rank, 0.5) == plan);  // each is a second of work
-  CHECK(needed_moves(s, plan, {}, 0_rank, 1.1) == std::vector<Move>{{0_sub, 1_rank}, {2_sub, 1_rank}});
-  CHECK(needed_moves(s, plan, {}, 0_rank, 5).empty());
-}
-
 TEST_CASE("packing that is cheap on a fast rank is costly on a slow one") {
   const auto moves = [](double speed) {
     LoadSnapshot s = initial_snapshot(grid_layout(4, 1, 2), {speed, speed});

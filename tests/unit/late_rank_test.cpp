@@ -19,7 +19,7 @@ using namespace driftmesh::testing;
 namespace {
 
 constexpr double kSpeed = 0.002;  // of each rank: runs take tenths of a second
-constexpr const char* kPolicies[] = {"none", "zoltan", "collective", "diffusion", "stealing", "greedy"};
+constexpr const char* kPolicies[] = {"none", "zoltan", "diffusion", "stealing", "greedy"};
 
 VirtualCluster slow_cluster(std::int32_t ranks) {
   VirtualCluster cluster;
@@ -35,12 +35,7 @@ enum class Gift { kNone, kOneSubdomain };
 class LateRun {
  public:
   LateRun(const RunPlan& plan, std::int32_t ranks, Rank late, double moment, Gift gift = Gift::kNone)
-      : plan_(plan),
-        late_(late),
-        gift_(gift),
-        network_(slow_cluster(ranks)),
-        council_(balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options)),
-        loops_(to_index(ranks)) {
+      : plan_(plan), late_(late), gift_(gift), network_(slow_cluster(ranks)), loops_(to_index(ranks)) {
     IdVector<Rank, RankStep> steps;
     for (const Rank r : first_ids<Rank>(ranks)) steps.push_back([=, this] { return step(r, r == late ? moment : 0); });
     REQUIRE(network_.run(steps).end == RunEnd::kFinished);
@@ -79,7 +74,7 @@ class LateRun {
     }
     CostModel costs;
     costs.planning.unit.clear();  // on ranks as slow as these, planning would outlast the run
-    loop = std::make_unique<RankLoop>(transport, plan_, costs, RankLoop::Observers{}, council_.get());
+    loop = std::make_unique<RankLoop>(transport, plan_, costs);
     return StepResult::kBusy;
   }
 
@@ -87,7 +82,6 @@ class LateRun {
   Rank late_;
   Gift gift_;  // still to be made
   VirtualNetwork network_;
-  std::unique_ptr<balancer::Council> council_;  // if the policy needs one
   IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
 };
 

@@ -23,9 +23,8 @@ namespace driftmesh {
 ///
 /// Errors are those of mesh(), thrown on all ranks: an error on a single rank, even in a callable, ends the work of all
 /// ranks in an orderly way, with an error of the same type that names the rank. Error also if MPI is not running, and
-/// for MPI_COMM_NULL and intercommunicators. Only if memory runs out between refinement and the finished pieces, MPI
-/// fails, or the caller's own policy throws in the middle of a joint plan (Placement::kCollective), does the job end
-/// with a message.
+/// for MPI_COMM_NULL and intercommunicators. Only if memory runs out between refinement and the finished pieces,
+/// or MPI fails, does the job end with a message.
 [[nodiscard]] DistributedPiece mesh_distributed(MPI_Comm communicator, const Pslg& input,
                                                 const MeshOptions& options = {});
 

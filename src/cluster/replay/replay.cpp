@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "balancer/council.hpp"
-#include "balancer/simulated/simulated_council.hpp"
 #include "driftmesh/error.hpp"
 #include "protocol/virtual_network.hpp"
 
@@ -17,12 +15,11 @@ ReplayedRun replay(const RecordedRun& run, const std::shared_ptr<const balancer:
       .message_overhead = run.message_overhead};
   cluster.schedules = run.schedules;
   protocol::VirtualNetwork network(std::move(cluster));
-  const auto council = balancer::make_simulated_council(run.layout, policy, run.options);
   std::vector<std::unique_ptr<WorkingRank>> ranks;
   IdVector<Rank, protocol::RankStep> steps;
   for (const Rank r : ids_of(run.speeds)) {
     ranks.push_back(std::make_unique<WorkingRank>(
-        network.transport(r), run.layout, run.work, policy, run.options, council.get(),
+        network.transport(r), run.layout, run.work, policy, run.options,
         WorkingRank::Options{.slice = run.slice, .planning_speed = run.options.reference_speed}));
     steps.emplace_back([rank = ranks.back().get()] { return rank->step(); });
   }

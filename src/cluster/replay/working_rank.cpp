@@ -27,14 +27,13 @@ std::uint64_t CountedWork::bytes() const {
 
 WorkingRank::WorkingRank(protocol::Transport& transport, const std::shared_ptr<const balancer::Layout>& layout,
                          const IdVector<SubdomainId, CountedWork>& work, std::shared_ptr<const balancer::Policy> policy,
-                         const balancer::ControllerOptions& balancing, balancer::Council* council,
-                         const Options& options)
+                         const balancer::ControllerOptions& balancing, const Options& options)
     : transport_(transport),
       layout_(layout),
       owners_(owners_of(*layout)),
       protocol_(transport.rank(), transport.ranks(), owners_),
       limits_{transport.ranks(), static_cast<std::int32_t>(work.size()), 1},
-      controller_(transport.rank(), layout, std::move(policy), balancing, transport.now(), council),
+      controller_(transport.rank(), layout, std::move(policy), balancing, transport.now()),
       balancing_(balancing),
       options_(options) {
   for (const SubdomainId i : ids_of(work))
@@ -42,11 +41,10 @@ WorkingRank::WorkingRank(protocol::Transport& transport, const std::shared_ptr<c
 }
 
 protocol::StepResult WorkingRank::step() {
-  const bool heard = !assembled_since_ && poll();
+  const bool heard = poll();
   const bool ran_out = std::exchange(worked_, false) && agenda().empty();
   if (ran_out || controller_.due(transport_.now())) balance();
   send();
-  if (assembled_since_) return protocol::StepResult::kAssembling;
   const bool worked = worked_ = work();
   if (!worked) protocol_.rest(!controller_.waiting());
   send();
@@ -67,7 +65,7 @@ bool WorkingRank::poll() {
       CountedWork job;
       std::memcpy(&job, delivery.arrival->packed.data(), sizeof job);
       jobs_[delivery.arrival->subdomain] = job;
-      controller_.arrived(delivery.arrival->subdomain, delivery.arrival->epoch, transport_.now());
+      controller_.arrived(delivery.arrival->subdomain, delivery.arrival->epoch);
     }
     if (delivery.advice)
       controller_.receive(received->source, balancer::decode(received->source, *delivery.advice, limits_),
@@ -98,12 +96,11 @@ std::vector<balancer::ReportedLoad> WorkingRank::loads() const {
 void WorkingRank::balance() {
   const std::vector<balancer::ReportedLoad> own = loads();
   const balancer::EffortLog planning;
-  const double start = std::exchange(assembled_since_, std::nullopt).value_or(transport_.now());
+  const double start = transport_.now();
   const double speed = options_.given_speed > 0 ? options_.given_speed : speed_.value();
   const double free_memory =
       options_.memory < balancer::kAmpleMemory ? options_.memory - occupied() : balancer::kAmpleMemory;
   auto decision = controller_.think(transport_.now(), own, speed, experience_.doubt(own), free_memory);
-  if (decision.assembles) assembled_since_ = start;
   transport_.spend(balancer::PlanningCosts{}.seconds(planning.efforts()) * options_.planning_speed);
   if (decision.planned) controller_.took(std::max(transport_.now() - start, options_.planning_speed > 0 ? 0 : 1e-3));
   for (auto& message : decision.messages) protocol_.advise(message.destination, balancer::encode(message.message));

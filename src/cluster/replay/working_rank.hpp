@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "balancer/controller.hpp"
@@ -43,7 +42,7 @@ class WorkingRank {
 
   WorkingRank(protocol::Transport& transport, const std::shared_ptr<const balancer::Layout>& layout,
               const IdVector<SubdomainId, CountedWork>& work, std::shared_ptr<const balancer::Policy> policy,
-              const balancer::ControllerOptions& balancing, balancer::Council* council, const Options& options);
+              const balancer::ControllerOptions& balancing, const Options& options);
 
   protocol::StepResult step();
 
@@ -73,8 +72,7 @@ class WorkingRank {
   std::map<SubdomainId, CountedWork> jobs_;
   balancer::ControllerOptions balancing_;
   Options options_;
-  std::optional<double> assembled_since_;  // waits for all others since then
-  bool worked_ = false;                    // in the last step
+  bool worked_ = false;  // in the last step
   Counts counts_;
 };
 

@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "balancer/council.hpp"
-#include "balancer/simulated/simulated_council.hpp"
 #include "cluster/rank_log.hpp"
 #include "cluster/simulated/virtual_cluster.hpp"
 #include "driftmesh/error.hpp"
@@ -29,18 +27,15 @@ class Simulation {
   Simulation(const RunPlan& plan, const ClusterSpec& cluster, const CostModel& costs,
              const SimulationObservers& observers)
       : network_(virtual_cluster(cluster, costs)),
-        council_(balancer::make_simulated_council(plan.layout, plan.policy, plan.balancing.options)),
         cutting_(cutting_seconds(costs, plan.owners.size())),
         memory_(cluster.memory > 0 ? cluster.memory : balancer::kAmpleMemory),
         observers_(observers) {
     const std::int32_t ranks = ranks_of(cluster);
     require_fit(plan, ranks);
-    const IdVector<Rank, double> speeds = virtual_cluster(cluster, costs).speeds;
-    CostModel of_ranks = scaled(costs, cluster.scale);
+    const CostModel of_ranks = scaled(costs, cluster.scale);
     of_rank_.resize(to_index(ranks));
     logs_.reserve(to_index(ranks));  // the observers refer to its elements
     for (const Rank r : first_ids<Rank>(ranks)) {
-      of_ranks.planning.unit["collective"] = collective_seconds(cluster) * speeds[r];  // a matter of the network
       RankLog& log = logs_.emplace_back(network_.transport(r), plan);
       RankLoop::Observers watch;
       watch.after_slice = [this, r, &log](const RankLoop& loop, const RankLoop::Slice& slice) {
@@ -58,8 +53,7 @@ class Simulation {
       watch.deliberated = [&log](std::vector<balancer::Deliberation> considered) {
         log.deliberated(std::move(considered));
       };
-      loops_.push_back(
-          std::make_unique<RankLoop>(network_.transport(r), plan, of_ranks, std::move(watch), council_.get()));
+      loops_.push_back(std::make_unique<RankLoop>(network_.transport(r), plan, of_ranks, std::move(watch)));
       constexpr double kOffered = 0.9;  // as on real ranks: forecasts err
       if (memory_ < balancer::kAmpleMemory)
         loops_.back()->limit_memory(
@@ -100,9 +94,8 @@ class Simulation {
   }
 
   protocol::VirtualNetwork network_;
-  std::unique_ptr<balancer::Council> council_;  // if the policy needs one
-  double cutting_;                              // seconds, on rank 0
-  double memory_;                               // of each rank, in triangles
+  double cutting_;  // seconds, on rank 0
+  double memory_;   // of each rank, in triangles
   const SimulationObservers& observers_;
   IdVector<Rank, std::int64_t> of_rank_;  // triangles of each rank, as last reported
   std::int64_t triangles_ = 0;

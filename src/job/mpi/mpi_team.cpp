@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "balancer/mpi/mpi_council.hpp"
-
 namespace driftmesh::job {
 namespace {
 
@@ -11,9 +9,6 @@ class MpiChannel final : public Channel {
  public:
   explicit MpiChannel(int communicator) : transport_(communicator) {}
   [[nodiscard]] protocol::Transport& transport() override { return transport_; }
-  [[nodiscard]] std::unique_ptr<balancer::Council> council(const RunPlan& plan) override {
-    return balancer::make_mpi_council(transport_, plan.layout, plan.policy, plan.balancing.options);
-  }
   void close() override { transport_.close(); }
 
  private:

@@ -38,7 +38,7 @@ class RefinementInRounds {
   };
 
   /// One thread for each of `sizes`: its own object of the same size field, or null, in place of the plan's. The plan
-  /// maps subdomains to as many ranks, and has no collective policy. `plan` and the fields must outlive the object.
+  /// maps subdomains to as many ranks. `plan` and the fields must outlive the object.
   RefinementInRounds(const RunPlan& plan, std::span<const SizeField* const> sizes, Watch watch);
   ~RefinementInRounds();
   RefinementInRounds(const RefinementInRounds&) = delete;
