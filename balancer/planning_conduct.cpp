@@ -5,10 +5,7 @@
 #include <utility>
 
 #include "balancer/admissions.hpp"
-#include "balancer/effort.hpp"
-#include "balancer/mend_plan.hpp"
 #include "balancer/partners.hpp"
-#include "balancer/within_memory.hpp"
 
 namespace driftmesh::balancer {
 namespace {
@@ -49,9 +46,10 @@ PlanningConduct::PlanningConduct(Rank self, std::shared_ptr<const Layout> layout
       layout_(std::move(layout)),
       policy_(std::move(policy)),
       options_(options),
-      rule_(options.gap, options.interval, options.change),
+      reporter_(options),
       start_(now),
-      pace_(options, now) {
+      pace_(options, now),
+      choice_(policy_, options) {
   if (policy_->placement() == Placement::kNeighbors || self == kLeadingRank)
     knowledge_.emplace(layout_, options.patience());
 }
@@ -60,7 +58,7 @@ void PlanningConduct::receive(Rank source, Message advice, double now) {
   if (auto* const report = std::get_if<LoadReport>(&advice)) {
     if (!plans()) return;
     knowledge_->hear(source, *report, now);
-    news_ = true;
+    state_ = State::kNews;
   } else if (auto* const plan = std::get_if<Plan>(&advice)) {
     advised_.push_back(std::move(*plan));
   }
@@ -77,8 +75,7 @@ Decision PlanningConduct::think(const Situation& situation) {
 
 void PlanningConduct::follow_advice(const Situation& situation, Loads& own, Decision& decision) {
   for (const Plan& plan : std::exchange(advised_, {})) {
-    plan_seen_ = std::max(plan_seen_, plan.round);
-    acted_ = true;
+    reporter_.acted_on(plan.round);
     Deliberation followed{.subject = Deliberation::Subject::kAdvice};
     for (const Move& move : plan.moves) {
       const Verdict verdict = judge(move, situation, own);
@@ -104,24 +101,22 @@ Verdict PlanningConduct::judge(const Move& move, const Situation& situation, con
 
 void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& decision) {
   const double now = situation.now;
-  knowledge_->hear(
-      self_, {++reports_, plan_seen_, situation.speed, with_mentioned(own), situation.doubt, 0, situation.free_memory},
-      now);
+  knowledge_->hear(self_, reporter_.current(situation, own), now);
   const bool leads = policy_->placement() == Placement::kLeader;
-  if (!news_ || !pace_.due(now)) return;
+  if (state_ != State::kNews || !pace_.due(now)) return;
   // The first plan waits a little for the speeds of all ranks.
   if (leads && !knowledge_->complete() && now < start_ + options_.patience()) return;
   pace_.looked(now);
   decision.planned = true;
   LoadSnapshot snapshot = knowledge_->snapshot(now, leads);
   if (leads) be_sure_of_idle_ranks(snapshot);
-  news_ = false;
+  state_ = State::kUpToDate;
   if (leads) {
     const double cost = pace_.cost_of_planning();
-    const double whole = affords_whole(snapshot, situation) ? cost_of_whole(snapshot, situation) : 0;
+    const double whole = choice_.affords_whole(snapshot, situation) ? choice_.cost_of_whole(snapshot, situation) : 0;
     const double ahead = options_.time_ahead(ideal_time(snapshot), std::max(cost, whole));
     const Verdict verdict = outlook(snapshot, options_.worth, cost, ahead);
-    news_ = verdict == Verdict::kTooEarly;  // it will be time without any
+    if (verdict == Verdict::kTooEarly) state_ = State::kNews;  // it will be time without any
     if (verdict != Verdict::kDone) return;
   }
   const double rest = options_.rest_after_move(finishing_time(snapshot));
@@ -129,112 +124,27 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   price_moves(snapshot, options_.cost);
   for (SubdomainLoad& s : snapshot.subdomains)
     s.fixed = s.fixed || knowledge_->in_motion(s.id) || moved_.contains(s.id);
-  const std::vector<Move> moves = worthwhile_plan(snapshot, situation);
-  pace_.planned(now, !moves.empty() || news_);
+  const std::vector<Move> moves = leads ? choice_.choose(snapshot, situation) : plan_with_partners(snapshot);
+  pace_.planned(now, !moves.empty() || state_ == State::kNews);
   if (moves.empty()) return;
   advise(moves, snapshot, own, decision);
   knowledge_->expect(moves, snapshot, plans_, now);
-  advised_now_ = true;
+  has_just_advised_ = true;
   for (const Move& move : moves) moved_[move.subdomain] = now;
 }
 
-/// The plan of the policy as far as it is worth its moves. If the policy offers single moves as well, a plan is asked
-/// for only where some of those are worth making: where none is, what remains is too coarse for parts as well, or no
-/// rank has memory.
-std::vector<Move> PlanningConduct::worthwhile_plan(const LoadSnapshot& snapshot, const Situation& situation) {
-  const bool leads = policy_->placement() == Placement::kLeader;
-  const auto needed = [&](const std::vector<Move>& moves) {
-    return worth_moving(leads ? snapshot : between(snapshot, self_, moves), moves, options_.cost, options_.worth);
-  };
-  if (!leads) {
-    std::vector<Move> moves = policy_->plan(snapshot, self_);
-    news_ = drop_early(moves, snapshot, self_, options_);  // it will be time for those without any
-    return needed(moves);
-  }
-  const auto single = policy_->touch_up(snapshot);
-  if (!single) return needed(policy_->plan(snapshot, self_));
-  std::vector<Move> few = needed(*single);
-  if (few.empty() || !affords_whole(snapshot, situation)) return few;
-  const std::vector<Move> plan = policy_->plan(snapshot, self_);
-  planned_whole_ = true;
-  whole_at_ = situation.now;
-  return plan == *single ? few : better_of(plan, few, snapshot);
-}
-
-/// A plan is made as a whole, since what makes it better than single moves would be lost in parts, or not at all: it is
-/// mended, and must then end notably earlier than those, or as early with less border between ranks and not too many
-/// moves. Otherwise the single moves are made, mended if that leaves less border.
-std::vector<Move> PlanningConduct::better_of(const std::vector<Move>& plan, const std::vector<Move>& few,
-                                             const LoadSnapshot& snapshot) {
-  const double ideal = ideal_time(within_memory(snapshot)), singly = finish(snapshot, few);
-  const auto worthwhile = [&](std::span<const Move> moves, std::size_t most, Kept kept) {
-    return worth_moving(snapshot, mended(moves, snapshot, ideal, singly, most), options_.cost, options_.worth, kept);
-  };
-  const auto border = [&](const std::vector<Move>& moves) { return border_between_ranks(after(snapshot, moves)); };
-  const double border_singly = border(few);
-
-  std::vector<Move> whole = worthwhile(plan, most_moves(few), Kept::kAll);
-  const double later = finish(snapshot, whole) - singly, border_whole = border(whole);
-  const bool is_earlier = later < -options_.worth.gain * ideal;
-  const bool is_as_early = later <= options_.worth.slack * ideal && whole.size() <= most_moves(few);
-  const bool takes_whole = is_earlier || (is_as_early && border_whole < border_singly);
-  note_comparison(0, border_whole, takes_whole);
-  note_comparison(1, border_singly, !takes_whole);
-  overruled_gain_ = takes_whole ? 0 : possible_gain(within_memory(snapshot));
-  if (takes_whole) return whole;
-
-  std::vector<Move> few_mended = worthwhile(few, few.size(), Kept::kNeeded);
-  const double border_mended = border(few_mended);
-  const bool takes_mended = !few_mended.empty() && border_mended < border_singly;
-  note_comparison(0, border_mended, takes_mended);
-  note_comparison(2, border_singly, !takes_mended);
-  return takes_mended ? few_mended : few;
-}
-
-/// Seconds until all have finished what they then have.
-double PlanningConduct::finish(const LoadSnapshot& snapshot, std::span<const Move> moves) const {
-  return std::ranges::max(finishing_times(snapshot, moves, options_.cost));
-}
-
-/// The plan, so that it ends about as early as single moves do, with no more moves than it may have then. One that ends
-/// notably earlier may have any number.
-std::vector<Move> PlanningConduct::mended(std::span<const Move> plan, const LoadSnapshot& snapshot, double ideal,
-                                          double singly, std::size_t most_moves) const {
-  const double slack = options_.worth.slack * ideal, as_made = finish(snapshot, plan);
-  const bool is_better = as_made < singly - options_.worth.gain * ideal;
-  const double latest = singly + (1 - 1e-9) * slack;  // sums are rounded
-  return mend_plan(snapshot, plan, options_.cost,
-                   {std::min(std::max(as_made, ideal + slack), latest), latest, is_better ? SIZE_MAX : most_moves});
-}
-
-std::size_t PlanningConduct::most_moves(std::span<const Move> few) const {
-  const double most = policy_->most_moves() * static_cast<double>(few.size());
-  return most < 1e15 ? static_cast<std::size_t>(most) : SIZE_MAX;
-}
-
-/// Not if an even load would gain less than planning takes, or less than when single moves were preferred to the last
-/// whole plan: what was no use with more to gain will be none with less. Nor if it takes more than an eighth of the
-/// time that is left: it would have to be begun so early (see time_ahead) that forecasts were of no use.
-bool PlanningConduct::affords_whole(const LoadSnapshot& snapshot, const Situation& situation) const {
-  const double cost = cost_of_whole(snapshot, situation);
-  if (situation.now < next_whole_ || 8 * cost > ideal_time(snapshot)) return false;
-  return possible_gain(within_memory(snapshot)) > std::max(cost, overruled_gain_);
-}
-
-/// What a whole plan takes, in seconds, mended: what one has taken, if that is more than expected.
-double PlanningConduct::cost_of_whole(const LoadSnapshot& snapshot, const Situation& situation) const {
-  const double slower = situation.speed > 0 ? options_.reference_speed / situation.speed : 1;
-  const double parts = policy_->planning_seconds(snapshot);
-  const double mending = parts > 0 ? PlanningCosts{}.seconds(effort_of_mending(snapshot)) : 0;
-  return std::max(whole_cost_, slower * (parts + mending));
+/// What this rank, which plans for its own, can give to its partners.
+std::vector<Move> PlanningConduct::plan_with_partners(const LoadSnapshot& snapshot) {
+  std::vector<Move> moves = policy_->plan(snapshot, self_);
+  // It will be time for those without any news.
+  if (drop_early(moves, snapshot, self_, options_)) state_ = State::kNews;
+  return worth_moving(between(snapshot, self_, moves), moves, options_.cost, options_.worth);
 }
 
 // A plan that took long has just been sent, and is not to be forgotten before it can have been carried out.
 void PlanningConduct::took(double seconds) {
-  if (std::exchange(advised_now_, false)) knowledge_->put_off(plans_, seconds);
-  if (!std::exchange(planned_whole_, false)) return pace_.took(seconds);
-  whole_cost_ = std::max(whole_cost_, seconds);
-  next_whole_ = whole_at_ + seconds / options_.overhead;
+  if (std::exchange(has_just_advised_, false)) knowledge_->put_off(plans_, seconds);
+  if (!choice_.took(seconds)) pace_.took(seconds);
 }
 
 void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& snapshot, Loads& own,
@@ -253,8 +163,7 @@ void PlanningConduct::advise(std::span<const Move> moves, const LoadSnapshot& sn
         plan.ask.push_back(move.destination);
     } else if (take_out(own, move.subdomain)) {
       (asks(move) ? decision.asks : decision.moves).push_back(move);
-      plan_seen_ = plans_;
-      acted_ = true;
+      reporter_.acted_on(plans_);
     }
   }
   for (auto& [rank, plan] : of_rank) decision.messages.push_back({rank, std::move(plan)});
@@ -267,35 +176,15 @@ std::vector<Rank> PlanningConduct::to_be_asked(std::span<const Move> moves, cons
 }
 
 void PlanningConduct::report(const Situation& situation, const Loads& own, Decision& decision) {
-  const auto is_new = [&](const auto& load) { return !std::binary_search(told_.begin(), told_.end(), load.subdomain); };
-  const bool changed = acted_ || !mentioned_.empty() || std::any_of(own.begin(), own.end(), is_new);
-  const double total = total_work(own);
-  if (!rule_.due(situation.now, total, situation.speed, changed)) return;
-  rule_.told(situation.now, total, situation.speed);
-  acted_ = false;
-  told_.clear();
-  for (const auto& load : own) told_.push_back(load.subdomain);
-  std::sort(told_.begin(), told_.end());
-  news_ = true;  // also to this rank, if it plans
-  const LoadReport list{++reports_,      plan_seen_, situation.speed,      with_mentioned(own),
-                        situation.doubt, 0,          situation.free_memory};
-  const LoadReport sum{list.round, list.plan, list.speed,      std::exchange(mentioned_, {}),
-                       list.doubt, total,     list.free_memory};
+  const std::optional<LoadReporter::Reports> reports = reporter_.due(situation, own);
+  if (!reports) return;
+  state_ = State::kNews;  // also to this rank, if it plans
   const std::vector<Rank> listeners = audience(own);
   for (const Rank rank : listeners)
-    if (rank != self_) decision.messages.push_back({rank, list});
+    if (rank != self_) decision.messages.push_back({rank, reports->list});
   if (policy_->placement() != Placement::kNeighbors) return;
   for (const Rank rank : distant_partners(self_, layout_->ranks))
-    if (!std::ranges::binary_search(listeners, rank)) decision.messages.push_back({rank, sum});
-}
-
-// The planner of a move must learn that it was made, even if the subdomain has been finished since, and that it was not
-// made because the subdomain was finished before: otherwise it counts on that work for the destination.
-PlanningConduct::Loads PlanningConduct::with_mentioned(Loads own) const {
-  for (const ReportedLoad& load : mentioned_)
-    if (std::none_of(own.begin(), own.end(), [&](const auto& l) { return l.subdomain == load.subdomain; }))
-      own.push_back(load);
-  return own;
+    if (!std::ranges::binary_search(listeners, rank)) decision.messages.push_back({rank, reports->sum});
 }
 
 std::vector<Rank> PlanningConduct::audience(const Loads& own) {
