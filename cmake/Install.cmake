@@ -31,7 +31,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/driftmeshConfig.cmake ${CMAKE_CURRENT_
         DESTINATION ${DRIFTMESH_CMAKE_DIR} COMPONENT development)
 
 # A shared library finds by itself what it needs; who links the static one has to name it.
-set(pc_needs "-lhdf5_serial -lmetis -lmuparser -lboost_serialization -lfmt -lz")
+set(pc_needs "-lhdf5_serial -lmetis -lboost_serialization -lfmt -lz")
 set(pc_distributed_needs "-ltrilinos_zoltan")
 if(BUILD_SHARED_LIBS)
   set(pc_needs)
@@ -70,7 +70,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Makes, checks, converts and draws trian
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdriftmesh-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libboost-serialization-dev, libfmt-dev, libhdf5-dev, libmetis-dev, libmuparser-dev, zlib1g-dev")
+    "libboost-serialization-dev, libfmt-dev, libhdf5-dev, libmetis-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libcairo2-dev, libopenmpi-dev, libtrilinos-zoltan-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library of driftmesh: headers, static libraries, CMake package.
  driftmesh::driftmesh makes meshes in one process, driftmesh::distributed on the

@@ -10,6 +10,7 @@
 #include "cli/values.hpp"
 #include "config/words.hpp"
 #include "driftmesh/version.hpp"
+#include "sizing/expression_table.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -30,6 +31,8 @@ cli::Command config_command(const cli::Command& program) {
       .options = {printing("schema", "Print the JSON schema of experiments, for editors that check YAML as you type",
                            config::json_schema),
                   printing("keys", "Print all keys of experiments as a table in Markdown", config::keys_table),
+                  printing("functions", "Print the functions of size expressions as a table in Markdown",
+                           expression_functions_table),
                   printing("man", "Print the manual page",
                            [&program] { return cli::manual_page(program, "driftmesh " DRIFTMESH_VERSION); }),
                   {.name = "completion",

@@ -11,9 +11,11 @@ namespace driftmesh {
 /// that the operation takes on its operands in double precision: their ends are moved outward by more than rounding
 /// errors, those of the mathematical functions included. Where an operation may be undefined, its result is kAll.
 struct Interval {
-  double low;
-  double high;
-  bool undefined = false;  ///< whether the value may also be NaN, with which every comparison fails
+  double low, high;
+  bool undefined;  ///< whether the value may also be NaN, with which every comparison fails
+
+  Interval() = default;  // leaves them unset
+  constexpr Interval(double least, double most, bool or_nan = false) : low(least), high(most), undefined(or_nan) {}
 
   [[nodiscard]] bool is_point() const { return low == high; }
   [[nodiscard]] bool holds(double value) const { return low <= value && value <= high; }
@@ -25,10 +27,14 @@ namespace intervals {
 inline constexpr Interval kAll{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 inline constexpr Interval kYes{1, 1}, kNo{0, 0}, kMaybe{0, 1};
 
-/// With the ends moved outward, by 16 units in the last place.
+/// With the ends moved outward, by 16 units in the last place, and to numbers where both overflowed on one side: what
+/// is computed in another order need not overflow.
 [[nodiscard]] inline Interval outward(double low, double high) {
   constexpr double kMore = 1 + 0x1p-48, kLess = 1 - 0x1p-48, kTiny = 0x1p-1060;
+  constexpr double kMost = std::numeric_limits<double>::max();
   if (std::isnan(low) || std::isnan(high)) return kAll;
+  low = std::min(low, kMost);
+  high = std::max(high, -kMost);
   const double down = low > 0 ? low * kLess : low * kMore, up = high > 0 ? high * kMore : high * kLess;
   return {low == 0 ? 0 : down - kTiny, high == 0 ? 0 : up + kTiny};
 }
@@ -101,7 +107,7 @@ template <class Function>
 }
 
 /// The sine, `turn` radians ahead.
-[[nodiscard]] inline Interval sine(const Interval& a, double turn = 0) {
+[[nodiscard]] inline Interval turned_sine(const Interval& a, double turn) {
   constexpr double kFar = 1e6;  // beyond, the periods below are not exact enough
   if (!(a.low > -kFar && a.high < kFar)) return {-1, 1};
   constexpr double kPeriod = 2 * std::numbers::pi, kSlack = 1e-9;
@@ -115,8 +121,12 @@ template <class Function>
           passes(std::numbers::pi / 2) ? 1 : std::min(1.0, std::max(at_low, at_high) + kError)};
 }
 
+[[nodiscard]] inline Interval sine(const Interval& a) {
+  return turned_sine(a, 0);
+}
+
 [[nodiscard]] inline Interval cosine(const Interval& a) {
-  return sine(a, std::numbers::pi / 2);
+  return turned_sine(a, std::numbers::pi / 2);
 }
 
 [[nodiscard]] inline Interval tangent(const Interval& a) {
@@ -135,12 +145,14 @@ template <class Function>
   return outward(std::hypot(x.low, y.low), std::hypot(x.high, y.high));
 }
 
+/// The first of two, where the other is NaN.
 [[nodiscard]] inline Interval smaller(const Interval& a, const Interval& b) {
-  return {std::min(a.low, b.low), std::min(a.high, b.high)};
+  return {std::min(a.low, b.low), b.undefined ? a.high : std::min(a.high, b.high)};
 }
 
+/// The same.
 [[nodiscard]] inline Interval larger(const Interval& a, const Interval& b) {
-  return {std::max(a.low, b.low), std::max(a.high, b.high)};
+  return {b.undefined ? a.low : std::max(a.low, b.low), std::max(a.high, b.high)};
 }
 
 [[nodiscard]] inline Interval truth(bool surely, bool surely_not) {

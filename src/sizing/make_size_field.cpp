@@ -74,19 +74,11 @@ SizeSource area_field(BackgroundMesh mesh, const std::vector<double>& areas, std
   return graded_field(std::move(mesh), std::move(at_points), gradation);
 }
 
-std::unique_ptr<SizeField> graded_expression(std::unique_ptr<ExpressionField> field, const SizingOptions& options) {
-  if (!field->has_bounds())
-    throw InputError({"gradation"}, "the least values of the expression are not known, for example of asinh",
-                     "write the expression in other functions, or limit its growth in the expression itself");
-  return std::make_unique<GradedField>(std::move(field), *options.gradation, options.domain);
-}
-
 std::unique_ptr<SizeField> expression_field(const SizingOptions& options) {
   auto field = std::make_unique<ExpressionField>(options.expression, options.shortest, options.spacing, options.input,
                                                  options.rasters);
-  if (options.gradation) return graded_expression(std::move(field), options);
-  if (field->has_bounds() || !std::isfinite(options.spacing)) return field;
-  return std::make_unique<SampledField>(std::move(field), SampledField::Grid{options.domain.low, options.spacing});
+  if (!options.gradation) return field;
+  return std::make_unique<GradedField>(std::move(field), *options.gradation, options.domain);
 }
 
 /// A background mesh tells all about what lies in it, but not what the nearest points of its boundary say outside.

@@ -6,7 +6,6 @@
 
 #include "raster/raster.hpp"
 #include "sizing/expression_parser.hpp"
-#include "sizing/field_calls.hpp"
 
 namespace driftmesh {
 namespace {
@@ -38,7 +37,7 @@ bool can_name_raster(std::string_view name) {
   const auto may_begin = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
   if (name.empty() || !may_begin(static_cast<unsigned char>(name.front()))) return false;
   if (!std::ranges::all_of(name, [&](unsigned char c) { return may_begin(c) || std::isdigit(c) != 0; })) return false;
-  return !FieldCalls::reserves(name) && !is_known_to_expressions(std::string(name));
+  return !is_known_to_expressions(name);
 }
 
 }  // namespace driftmesh

@@ -807,7 +807,7 @@ class Mesh(Cli):
     def test_the_version(self):
         said = self.succeed("--version")
         self.assertRegex(said, r"^driftmesh \d+\.\d+\.\d+\ncompiler: \w+ \d+\.")
-        for library in ("Open MPI v", "Zoltan ", "METIS ", "Boost ", "yaml-cpp ", "muParser ", "cairo ", "fmt ",
+        for library in ("Open MPI v", "Zoltan ", "METIS ", "Boost ", "yaml-cpp ", "cairo ", "fmt ",
                         "nlohmann-json "):
             self.assertRegex(said.split("libraries: ")[1], rf"{library}\d+\.\d")
 
@@ -1307,6 +1307,7 @@ class Experiments(Cli):
         schema = json.loads(self.succeed("config", "--schema"))
         self.assertEqual(schema["properties"]["run"]["properties"]["order"]["enum"], ["given", "largest", "backlog"])
         self.assertIn("| `bounds.angle` |", self.succeed("config", "--keys"))
+        self.assertIn("| `hypot(a, b)` |", self.succeed("config", "--functions"))
 
 
 if __name__ == "__main__":

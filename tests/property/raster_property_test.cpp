@@ -208,7 +208,6 @@ TEST_CASE("every triangle obeys what a raster asks for, in one piece and in subd
     const NamedRasters rasters{{"depth", std::make_shared<const Raster>(drawn.grid())}};
     const Pslg pslg = square(100);
     auto field = std::make_unique<ExpressionField>("max(0.4, 1.5*sqrt(max(depth, 0.1)))", 0, 0.05, &pslg, rasters);
-    REQUIRE(field->has_bounds());
     std::unique_ptr<SizeField> graded;
     if (tried % 2 == 1) graded = std::make_unique<GradedField>(std::move(field), 0.3, Box{{0, 0}, {100, 100}});
     const SizeField& size = graded ? *graded : *field;
@@ -311,7 +310,6 @@ TEST_CASE("limited growth is the least of a grid, whatever was asked before, and
     CAPTURE(gradation);
     const auto expression = [&] { return std::make_unique<ExpressionField>(rule, 0, 0.05, &pslg, rasters); };
     const auto plain = expression();
-    REQUIRE(plain->has_bounds());
     const Box box{{0, 0}, {100, 100}};
     const GradedField field(expression(), gradation, box), backward(expression(), gradation, box);
     const GridLimit limit(*plain, gradation, 100);

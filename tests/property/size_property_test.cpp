@@ -165,7 +165,6 @@ TEST_CASE("no feature of an expression is missed, however narrow") {
     const Feature feature = random_feature(random);
     CAPTURE(feature.expression);
     const ExpressionField field(feature.expression, 0, 1.0 / 2000);
-    REQUIRE(field.has_bounds());
     const auto size = [&](const Point& p) { return field.edge_length(p); };
     CHECK(worst_excess(in_one_piece(field), size, feature.points, random) <= kTolerance);
     if (i % 5 == 0) CHECK(worst_excess(in_subdomains(field, 6), size, feature.points, random) <= kTolerance);
@@ -272,61 +271,4 @@ TEST_CASE("area bounds of a background mesh are kept wherever their triangles ar
     const auto size = [&](const Point& p) { return field.edge_length(p); };
     CHECK(worst_excess(in_one_piece(field), size, inside, random) <= 1 + 1e-6);
   }
-}
-
-namespace {
-
-/// An expression in x and y of random shape.
-std::string random_expression(Random& random, int depth) {
-  const auto part = [&] { return random_expression(random, depth - 1); };
-  if (depth == 0 || random() % 6 == 0) {
-    const char* const leaves[] = {"x", "y", "pi", "0.5", "3", "1e-3"};
-    return leaves[random() % 6];
-  }
-  if (random() % 5 == 0)
-    return "(" + part() + (random() % 2 == 0 ? "<" : ">=") + part() + " ? " + part() + " : " + part() + ")";
-  if (random() % 2 == 0) {
-    const char* const operators[] = {"+", "-", "*", "/", "^", "!=", "=="};
-    const std::string op = operators[random() % 7];
-    return random() % 2 == 0 ? part() + op + part() : "(" + part() + op + part() + ")";
-  }
-  if (random() % 8 == 0) {
-    const std::string op = random() % 2 == 0 ? "&&" : "||";
-    return "((" + part() + "<" + part() + ")" + op + "(" + part() + ">" + part() + "))";
-  }
-  const char* const functions[] = {"sin",  "cos",   "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
-                                   "log2", "log10", "ln",  "exp",  "sqrt", "sign", "rint", "abs",  "-"};
-  const char* const of_two[] = {"min", "max", "atan2", "hypot", "avg", "sum"};
-  if (random() % 4 == 0) return std::string(of_two[random() % 6]) + "(" + part() + "," + part() + ")";
-  return std::string(functions[random() % 18]) + "(" + part() + ")";
-}
-
-}  // namespace
-
-TEST_CASE("the bounds of an expression over a box are bounds") {
-  Random random = seeded_generator("bounds of expressions");
-  int with_bounds = 0, bounded = 0;
-  const auto cases = case_count(4000);
-  for (int i = 0; i < cases; ++i) {
-    const std::string text = random_expression(random, 4);
-    CAPTURE(text);
-    const ExpressionField field(text);
-    with_bounds += field.has_bounds();
-    const double size = std::exp(uniform(random, -8, 2));
-    const Point low{uniform(random, -3, 3), uniform(random, -3, 3)};
-    const double bound = field.range({low, {low.x + size, low.y + size}}).low;
-    bounded += bound > 0;
-    for (int k = 0; k < 20; ++k) {
-      const Point p{low.x + size * uniform(random, 0, 1), low.y + size * uniform(random, 0, 1)};
-      double value = bound;
-      try {
-        value = field.edge_length(p);
-      } catch (const InputError& error) {  // not positive, or not a number
-        CHECK((bound <= 0 || std::string(error.what()).find("nan at") != std::string::npos));
-      }
-      CHECK(value >= bound);
-    }
-  }
-  CHECK(with_bounds * 10 > cases * 9);
-  CHECK(bounded * 50 > cases);
 }

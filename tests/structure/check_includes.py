@@ -30,7 +30,6 @@ LIBRARIES = {
     "json": (r"nlohmann/.*", None),
     "metis": (r"metis\.h", ["decompose"]),
     "mpi": (r"mpi\.h", ["api_mpi", "partition_zoltan", "public_mpi", "python", "transport_mpi"]),  # Zoltan's own header needs it
-    "muparser": (r"muParser.*\.h", ["sizing"]),
     "pybind11": (r"pybind11/.*", ["python"]),
     "threads": (r"thread|future", None),
     "yaml": (r"yaml-cpp/.*", ["config"]),

@@ -1,0 +1,161 @@
+#include "sizing/expression_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace driftmesh {
+namespace {
+
+using namespace intervals;
+using enum Operation::Result;
+using enum Function::Arguments;
+using V = const double*;
+using R = const Interval*;
+
+template <double (*f)(double)>
+double of1(V v) {
+  return f(v[0]);
+}
+template <auto f>
+double of2(V v) {
+  return f(v[0], v[1]);
+}
+template <Interval (*f)(const Interval&)>
+Interval over1(R v) {
+  return f(v[0]);
+}
+template <Interval (*f)(const Interval&, const Interval&)>
+Interval over2(R v) {
+  return f(v[0], v[1]);
+}
+
+/// Functions that never fall.
+template <double (*f)(double)>
+Interval rising_over(R v) {
+  return rising(f, v[0]);
+}
+template <double (*f)(double), int kLeast>
+Interval rising_from(R v) {
+  return rising(f, v[0], kLeast);
+}
+template <double (*f)(double), int kLeast, int kMost>
+Interval rising_between(R v) {
+  return rising(f, v[0], kLeast, kMost);
+}
+
+double negative_acos(double a) {
+  return -std::acos(a);
+}
+double sign(double a) {
+  return (a > 0) - (a < 0);
+}
+double rounded(double a) {
+  return std::floor(a + 0.5);
+}
+Interval acos_over(R v) {
+  return negative(rising(negative_acos, v[0], -1, 1));
+}
+Interval cosh_over(R v) {
+  return rising(static_cast<double (*)(double)>(std::cosh), absolute(v[0]));
+}
+Interval sign_over(R v) {
+  return v[0].undefined ? Interval{-1, 1} : rising(sign, v[0]);  // 0 for NaN
+}
+constexpr auto kPower = [](double a, double b) { return std::pow(a, b); };
+constexpr auto kAngle = [](double y, double x) { return std::atan2(y, x); };
+constexpr auto kLength = [](double a, double b) { return std::hypot(a, b); };
+constexpr auto kMin = [](double a, double b) { return std::min(a, b); };
+constexpr auto kMax = [](double a, double b) { return std::max(a, b); };
+
+constexpr std::array kOperators{
+    Operator{"||", 1, {2, of2<std::logical_or<>{}>, over2<either>, kTruth}},
+    Operator{"&&", 2, {2, of2<std::logical_and<>{}>, over2<both>, kTruth}},
+    Operator{"<=", 3, {2, of2<std::less_equal<>{}>, over2<at_most>, kTruth}},
+    Operator{">=", 3, {2, of2<std::greater_equal<>{}>, [](R v) { return at_most(v[1], v[0]); }, kTruth}},
+    Operator{"==", 3, {2, of2<std::equal_to<>{}>, over2<equal>, kTruth}},
+    Operator{"!=", 3, {2, of2<std::not_equal_to<>{}>, [](R v) { return opposite(equal(v[0], v[1])); }, kTruth}},
+    Operator{"<", 3, {2, of2<std::less<>{}>, over2<less>, kTruth}},
+    Operator{">", 3, {2, of2<std::greater<>{}>, [](R v) { return less(v[1], v[0]); }, kTruth}},
+    Operator{"+", 4, {2, of2<std::plus<>{}>, over2<add>}},
+    Operator{"-", 4, {2, of2<std::minus<>{}>, over2<subtract>}},
+    Operator{"*", 5, {2, of2<std::multiplies<>{}>, over2<multiply>}},
+    Operator{"/", 5, {2, of2<std::divides<>{}>, over2<divide>}},
+    Operator{"^", 6, {2, of2<kPower>, over2<power>}},
+};
+
+constexpr std::array kFunctions{
+    Function{"abs", "a", "absolute value", {1, of1<std::fabs>, over1<absolute>}},
+    Function{"sign", "a", "-1, 0 or 1, as a is negative, 0 (or NaN) or positive", {1, of1<sign>, sign_over}},
+    Function{"rint", "a", "the nearest whole number, from halves the greater", {1, of1<rounded>, rising_over<rounded>}},
+    Function{"sqrt", "a", "square root; NaN below 0", {1, of1<std::sqrt>, rising_from<std::sqrt, 0>}},
+    Function{"exp", "a", "e^a", {1, of1<std::exp>, rising_over<std::exp>}},
+    Function{"ln", "a", "natural logarithm; NaN below 0", {1, of1<std::log>, rising_from<std::log, 0>}},
+    Function{"log", "a", "the same as ln", {1, of1<std::log>, rising_from<std::log, 0>}},
+    Function{"log2", "a", "logarithm to base 2", {1, of1<std::log2>, rising_from<std::log2, 0>}},
+    Function{"log10", "a", "logarithm to base 10", {1, of1<std::log10>, rising_from<std::log10, 0>}},
+    Function{"sin", "a", "sine of an angle in radians", {1, of1<std::sin>, over1<sine>}},
+    Function{"cos", "a", "cosine", {1, of1<std::cos>, over1<cosine>}},
+    Function{"tan", "a", "tangent", {1, of1<std::tan>, over1<tangent>}},
+    Function{"asin", "a", "arc sine; NaN beyond -1 and 1", {1, of1<std::asin>, rising_between<std::asin, -1, 1>}},
+    Function{"acos", "a", "arc cosine; NaN beyond -1 and 1", {1, of1<std::acos>, acos_over}},
+    Function{"atan", "a", "arc tangent", {1, of1<std::atan>, rising_over<std::atan>}},
+    Function{"atan2", "a, b", "angle of the vector (b, a), from -pi to pi", {2, of2<kAngle>, over2<angle>}},
+    Function{"sinh", "a", "hyperbolic sine", {1, of1<std::sinh>, rising_over<std::sinh>}},
+    Function{"cosh", "a", "hyperbolic cosine", {1, of1<std::cosh>, cosh_over}},
+    Function{"tanh", "a", "hyperbolic tangent", {1, of1<std::tanh>, rising_over<std::tanh>}},
+    Function{"asinh", "a", "inverse of sinh", {1, of1<std::asinh>, rising_over<std::asinh>}},
+    Function{"acosh", "a", "inverse of cosh; NaN below 1", {1, of1<std::acosh>, rising_from<std::acosh, 1>}},
+    Function{
+        "atanh", "a", "inverse of tanh; NaN beyond -1 and 1", {1, of1<std::atanh>, rising_between<std::atanh, -1, 1>}},
+    Function{"hypot", "a, b", "length of the vector (a, b)", {2, of2<kLength>, over2<length>}},
+    Function{"min", "a, b, ...", "the smallest", {2, of2<kMin>, over2<smaller>}, kAny},
+    Function{"max", "a, b, ...", "the greatest", {2, of2<kMax>, over2<larger>}, kAny},
+    Function{"sum", "a, b, ...", "the sum", {2, of2<std::plus<>{}>, over2<add>}, kAny},
+    Function{"avg", "a, b, ...", "the mean", {2, of2<std::plus<>{}>, over2<add>}, kAnyForMean},
+};
+
+constexpr std::array kConstants{NamedConstant{"pi", std::numbers::pi}, NamedConstant{"e", std::numbers::e},
+                                NamedConstant{"_pi", std::numbers::pi}, NamedConstant{"_e", std::numbers::e}};
+
+}  // namespace
+
+const Operation kNegative{1, [](V v) { return -v[0]; }, over1<negative>};
+const Operation kSquare{1, [](V v) { return v[0] * v[0]; }, over1<square>};
+const Operation kChoose{3, [](V v) { return v[0] != 0 ? v[1] : v[2]; }, [](R v) { return choose(v[0], v[1], v[2]); },
+                        kOperand};
+
+std::span<const Operator> expression_operators() {
+  return kOperators;
+}
+
+std::span<const Function> expression_functions() {
+  return kFunctions;
+}
+
+std::span<const NamedConstant> expression_constants() {
+  return kConstants;
+}
+
+Interval Operation::over(const Interval* v) const {
+  Interval found = range(v);
+  if (result == kOperand) return found;
+  const std::span all(v, static_cast<std::size_t>(operands));
+  const bool of_undefined = std::ranges::any_of(all, &Interval::undefined);
+  if (result == kTruth) return of_undefined ? kMaybe : found;
+  // Infinities can become NaN in any.
+  const auto may_be_infinite = [](const Interval& a) { return std::isinf(a.low) || std::isinf(a.high); };
+  found.undefined = of_undefined || found == kAll || std::ranges::any_of(all, may_be_infinite);
+  return found;
+}
+
+std::string expression_functions_table() {
+  std::string table = "| function | value |\n|---|---|\n";
+  for (const Function& f : kFunctions)
+    table.append("| `").append(f.name).append("(").append(f.arguments).append(")` | ").append(f.meaning).append(" |\n");
+  return table;
+}
+
+}  // namespace driftmesh

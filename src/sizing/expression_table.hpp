@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "sizing/interval.hpp"
+
+namespace driftmesh {
+
+// The operators, functions and constants of size expressions. The parser, the suggestions in its errors and the table
+// in docs/size-expressions.md are made from these.
+
+/// What is made of some operands. Whatever is not 0 is true.
+struct Operation {
+  enum class Result : std::uint8_t { kNumber, kTruth, kOperand };
+  int operands;
+  double (*value)(const double* operands);      ///< NaN where there is none
+  Interval (*range)(const Interval* operands);  ///< over operands that are numbers; kAll where it may be undefined
+  Result result = Result::kNumber;
+
+  /// Holds all values that it can have on operands in these intervals.
+  [[nodiscard]] Interval over(const Interval* operands) const;
+};
+
+/// A binary operator. Those that bind more tightly have a greater precedence; equals group from the left, `^` from the
+/// right.
+struct Operator {
+  std::string_view token;
+  int precedence;
+  Operation operation;
+};
+
+struct Function {
+  /// Whether it takes as many arguments as its operation, or any number, from the left, and divides by it.
+  enum class Arguments : std::uint8_t { kFixed, kAny, kAnyForMean };
+  std::string_view name, arguments, meaning;
+  Operation operation;
+  Arguments takes = Arguments::kFixed;
+};
+
+struct NamedConstant {
+  std::string_view name;
+  double value;
+};
+
+[[nodiscard]] std::span<const Operator> expression_operators();
+[[nodiscard]] std::span<const Function> expression_functions();
+[[nodiscard]] std::span<const NamedConstant> expression_constants();
+
+extern const Operation kNegative, kSquare;
+extern const Operation kChoose;  ///< condition ? then : otherwise
+
+/// The functions as a table in Markdown.
+[[nodiscard]] std::string expression_functions_table();
+
+}  // namespace driftmesh
