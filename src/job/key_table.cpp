@@ -97,7 +97,7 @@ Section triangle_section() {
            "Target edge length as a function of x, y and the distance to the nearest segment with one of some "
            "markers: \"0.1 + 0.02*sqrt(x^2 + y^2)\", \"5 + 0.1*distance(1, 2)\"; distance() is that to the nearest of "
            "all segments. A raster's name is its value, and slope(name) the length of its gradient: \"max(20, "
-           "3*sqrt(9.81*depth))\"",
+           "3*sqrt(9.81*depth))\". driftmesh config --functions lists the functions",
            option("size", "EXPR"), entry_points(kAll & ~kLibrary)),
        key("sizing.background", &R::sizing, &R::Sizing::background,
            "Target edge lengths from a background mesh: FILE.node and FILE.ele, with the length as the first "

@@ -87,12 +87,10 @@ TEST_CASE("what may be NaN widens the range of operations that a number can leav
 }
 
 TEST_CASE("what overflows on the way does not hide values that do not") {
-  const Box box{{2, 0}, {2, 0}};
-  for (const char* expression : {"x^-1030", "1e-20/(x*1e-320*0.5)"}) {
-    const Expression tiny(expression);
-    CAPTURE(expression);
-    CHECK(tiny.over(box).holds(tiny.at({2, 0})));
-  }
+  const Expression tiny("x^-1030");
+  const double value = tiny.at({2, 0});
+  CHECK(value > 0);
+  CHECK(tiny.over({{2, 0}, {2, 0}}).holds(value));
 }
 
 TEST_CASE("an expression falls below a length where it does, however narrow the place") {
