@@ -55,15 +55,14 @@ struct WriteOptions {
   /// Markers of edges that are open sea, for .14, .grd and .gr3. None: those of markers that are called "open".
   std::vector<std::int32_t> open_boundary{};
   bool ghost_layer = false;  ///< pieces of .pvtu with a ring of ghost triangles; a whole mesh has none
-  /// Is told what the format cannot hold of the boundaries of a mesh, and what its solvers will refuse.
+  /// Is told what of the mesh the format cannot hold, and what its solvers will refuse.
   std::function<void(const std::string&)> warn{};
 };
 
-/// Writes the mesh in the format that the extension of `path` names: .vtu, .msh, .h5 (with an .xdmf beside it), .su2,
-/// .mesh (MFEM), .14, .grd or .gr3 (ADCIRC, SCHISM), or Triangle's .node, .ele, .poly, .edge, .neigh (any of these
-/// names the whole set); to standard output for "-" (as .vtu), "-.vtu" and "-.msh". Files appear under their names only
-/// when complete. docs/file-formats.md says what each format holds. Errors: InputError for an unknown extension and for
-/// names that no file can hold (see Names), FileError.
+/// Writes the mesh in the format that the extension of `path` names, such as .vtu, .msh or .ele: docs/file-formats.md
+/// lists all of them with what they hold; to standard output for "-" (as .vtu), "-.vtu" and the like, if the format is
+/// one file. Files appear under their names only when complete. Errors: InputError for an unknown extension, for
+/// formats of meshes in pieces, and for names that no file can hold (see Names), FileError.
 void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
 /// What reading a mesh may do.
@@ -71,10 +70,11 @@ struct ReadOptions {
   bool allow_outside = false;  ///< a .pvtu may name pieces outside of its own folder, and through links that leave it
 };
 
-/// Reads a mesh back, from any of these formats but .mesh, from standard input by the same names, or from the pieces
-/// that a .pvtu names. Everything is checked before it is used: indices are in range and counts fit the file. Triangles
-/// stay as the file lists them, so that a check sees the actual contents; only if the total area is negative are all of
-/// them reversed. Errors: InputError naming file and place, FileError.
+/// Reads a mesh back, from any of these formats but MFEM's, from standard input by the same names, or from the pieces
+/// that a .pvtu names. A file on disk may be mapped: another program must not shorten it meanwhile. Everything is
+/// checked before it is used: indices are in range and counts fit the file. Triangles stay as the file lists them, so
+/// that a check sees the actual contents; only if the total area is negative are all of them reversed. Errors:
+/// InputError naming file and place, FileError.
 [[nodiscard]] Mesh read_mesh(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace driftmesh

@@ -2,6 +2,7 @@
 
 #include "app/run_files.hpp"
 #include "base/file_registry.hpp"
+#include "io/mesh_file.hpp"
 #include "job/files.hpp"
 
 namespace driftmesh::app {
@@ -22,7 +23,7 @@ void register_files(const Told& told, std::int32_t pieces) {
 std::vector<std::string> files_written(const Request& request, std::int32_t pieces) {
   std::vector<std::string> files;
   for (const std::string& mesh : request.output.meshes)
-    for (const std::string& file : files_of_output(mesh, pieces)) files.push_back(file);
+    for (const std::string& file : mesh_files(mesh, pieces)) files.push_back(file);
   if (!request.output.picture.empty()) files.push_back(request.output.picture);
   return files;
 }

@@ -7,8 +7,6 @@
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
-#include "io/mfem_format.hpp"
-#include "io/pvtu_format.hpp"
 #include "picture/plot.hpp"
 
 namespace driftmesh::app {
@@ -25,17 +23,6 @@ void try_to_open(const std::string& file) {
 }
 
 }  // namespace
-
-std::vector<std::string> files_of_output(const std::string& path, std::int32_t ranks) {
-  std::vector<std::string> files;
-  if (is_for_ranks(path))
-    for (std::int32_t r = 0; r < ranks; ++r) files.push_back(mfem_part_path(path, r));
-  if (is_for_ranks(path)) return files;
-  if (!is_in_pieces(path)) return mesh_files(path);
-  files.push_back(path);
-  for (std::int32_t r = 0; r < ranks; ++r) files.push_back(pvtu_piece_path(path, r));
-  return files;
-}
 
 cli::Option allow_outside_option(ReadOptions& options) {
   return {.kind = cli::Option::Kind::kFlag,
@@ -63,9 +50,8 @@ void register_output(FileRegistry& files, const std::string& path, const std::st
 }
 
 void register_mesh_output(FileRegistry& files, const std::string& path, const std::string& use, std::int32_t ranks) {
-  if (ranks == 0 && is_in_pieces(path)) throw InputError({path}, "is for meshes as they are made", "write a .vtu");
-  if (ranks == 0 && is_for_ranks(path)) throw InputError({path}, "is for a mesh on ranks", "write a .mesh");
-  for (const std::string& file : files_of_output(path, ranks)) register_output(files, file, use);
+  if (ranks == 0) require_whole(path);
+  for (const std::string& file : mesh_files(path, ranks)) register_output(files, file, use);
 }
 
 void register_picture(FileRegistry& files, const std::string& path, const std::string& use) {

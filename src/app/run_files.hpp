@@ -19,9 +19,6 @@ inline constexpr const char* kTraceEnding = ".trace.json";
 /// --allow-code of the commands that read YAML files.
 [[nodiscard]] cli::Option allow_code_option(bool& allowed);
 
-/// The files written for a mesh at `path` by this number of ranks: a .pvtu has one piece per rank.
-[[nodiscard]] std::vector<std::string> files_of_output(const std::string& path, std::int32_t ranks);
-
 // Commands register every file before the work starts. `use` is what the command line calls it. All throw InputError if
 // the file has another use (see FileRegistry); those for outputs also FileError if writing would fail after the work,
 // because a folder is missing or not writable, say.
@@ -32,7 +29,7 @@ void register_mesh_input(FileRegistry& files, const std::string& path, const std
 
 /// An empty path is no file.
 void register_output(FileRegistry& files, const std::string& path, const std::string& use);
-/// A mesh for write_mesh, or a .pvtu if there are `ranks`. InputError for an unknown extension.
+/// A mesh in pieces of so many `ranks`, or a whole one if there are none. Errors: as format_of, require_whole.
 void register_mesh_output(FileRegistry& files, const std::string& path, const std::string& use, std::int32_t ranks = 0);
 /// An empty path is no picture. InputError for an unknown extension.
 void register_picture(FileRegistry& files, const std::string& path, const std::string& use);

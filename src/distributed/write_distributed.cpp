@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "base/bytes.hpp"
@@ -160,29 +162,55 @@ void WriteWhole::receive(int, std::vector<Mail> mail) {
   throw_first_failure(mail);
 }
 
+namespace {
+
+/// Formats that all ranks write, by their first extensions.
+struct WriterOfRanks {
+  std::string_view extension;
+  void (*write)(ExchangeRunner& ranks, const DistributedPiece& piece, const std::string& path,
+                const WriteOptions& options);
+};
+
+void write_pieces(ExchangeRunner& ranks, const DistributedPiece& piece, const std::string& path,
+                  const WriteOptions& options) {
+  std::optional<GhostedPiece> ghosted;
+  if (options.ghost_layer) {
+    GhostLayer layer(piece);
+    ranks.run(layer);
+    ghosted = layer.take();
+  }
+  WritePieces pieces(piece, path, ghosted ? &*ghosted : nullptr);
+  ranks.run(pieces);
+}
+
+template <class Writing>
+void write_by(ExchangeRunner& ranks, const DistributedPiece& piece, const std::string& path, const WriteOptions&) {
+  Writing writing(piece, path);
+  ranks.run(writing);
+}
+
+constexpr WriterOfRanks kWritersOfRanks[] = {
+    {".pvtu", write_pieces}, {".pmesh", write_by<WriteMfem>}, {".h5", write_by<WriteTogether>}};
+
+/// Null for a format that one rank writes.
+const WriterOfRanks* writer_of_ranks(const std::string& path) {
+  const auto* const writer =
+      std::ranges::find(kWritersOfRanks, format_of(path).extensions.front(), &WriterOfRanks::extension);
+  return writer == std::end(kWritersOfRanks) ? nullptr : writer;
+}
+
+}  // namespace
+
+bool is_written_by_all(const std::string& path) {
+  return writer_of_ranks(path) != nullptr;
+}
+
 void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, std::span<const std::string> paths,
                        const WriteOptions& options) {
   std::optional<GatherPieces> gathered;
   for (const std::string& path : paths) {
-    if (is_in_pieces(path)) {
-      std::optional<GhostedPiece> ghosted;
-      if (options.ghost_layer) {
-        GhostLayer layer(piece);
-        ranks.run(layer);
-        ghosted = layer.take();
-      }
-      WritePieces pieces(piece, path, ghosted ? &*ghosted : nullptr);
-      ranks.run(pieces);
-      continue;
-    }
-    if (is_for_ranks(path)) {
-      WriteMfem parts(piece, path);
-      ranks.run(parts);
-      continue;
-    }
-    if (is_written_by_all(path)) {
-      WriteTogether together(piece, path);
-      ranks.run(together);
+    if (const WriterOfRanks* const writer = writer_of_ranks(path)) {
+      writer->write(ranks, piece, path, options);
       continue;
     }
     if (!gathered) ranks.run(gathered.emplace(piece));

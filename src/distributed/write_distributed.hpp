@@ -89,9 +89,12 @@ class WriteWhole final : public Exchange {
   WriteOptions options_;
 };
 
-/// Writes the mesh to each of `paths`; all ranks call it together. A path that ends in .pvtu means a mesh in pieces;
-/// any other, one file in a format that write_mesh knows, which takes memory for the whole mesh on rank 0. If one rank
-/// fails, all throw.
+/// Whether ranks write it together, so that none of them has the whole mesh: .pvtu, .h5 and .pmesh. Errors: as
+/// format_of.
+[[nodiscard]] bool is_written_by_all(const std::string& path);
+
+/// Writes the mesh to each of `paths`; all ranks call it together. What is not written by all takes memory for the
+/// whole mesh on rank 0. If one rank fails, all throw.
 void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, std::span<const std::string> paths,
                        const WriteOptions& options = {});
 

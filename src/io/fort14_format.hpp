@@ -23,14 +23,13 @@ inline constexpr std::int32_t kTypeMarkers = 100;
 
 /// Boundaries have the types that the names of their markers say; without one, rings inside of the domain are islands
 /// (type 1), everything else is mainland (type 0). Of `options`, those about boundaries count. Strings are as
-/// boundary_of makes them. .gr3 has no weirs. The first attribute of a point is its depth; 0 without attributes.
-void write_fort14(const Mesh& mesh, const std::string& path, const WriteOptions& options);
+/// boundary_of makes them. `has_weirs`: false for SCHISM, which has none. The first attribute of a point is its depth;
+/// 0 without attributes.
+void write_fort14(const Mesh& mesh, const std::string& path, const WriteOptions& options, bool has_weirs);
 
 /// Reads what write_fort14 writes, and grids of triangles from other programs. The depth becomes the attribute of the
 /// points, unless it is 0 everywhere. Boundaries become edges with the markers above, those of weirs on both sides.
-/// Throws InputError, FileError.
-[[nodiscard]] Mesh read_fort14(const std::string& path);
-/// The same from memory; `file` is for messages.
+/// `file` is for messages. Throws InputError.
 [[nodiscard]] Mesh parse_fort14(const std::string& file, std::string_view text);
 
 }  // namespace driftmesh

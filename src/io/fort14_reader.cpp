@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "base/read_file.hpp"
 #include "io/boundary_types.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/fort14_format.hpp"
@@ -232,10 +231,6 @@ class Fort14Parser {
 
 Mesh parse_fort14(const std::string& file, std::string_view text) {
   return Fort14Parser(file, text).parse();
-}
-
-Mesh read_fort14(const std::string& path) {
-  return parse_fort14(path, read_file(path));
 }
 
 }  // namespace driftmesh

@@ -124,8 +124,7 @@ void warn(const Mesh& mesh, const std::string& path, const Boundary& boundary, b
 
 }  // namespace
 
-void write_fort14(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
-  const bool has_weirs = !path.ends_with(".gr3");
+void write_fort14(const Mesh& mesh, const std::string& path, const WriteOptions& options, bool has_weirs) {
   const EdgeTypes types(mesh, options.open_boundary, has_weirs);
   const Boundary boundary = boundary_of(
       mesh, [&](std::int32_t from, std::int32_t to, std::int32_t edge) { return types.of(from, to, edge); });

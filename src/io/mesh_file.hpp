@@ -7,24 +7,31 @@
 
 #include "driftmesh/files.hpp"
 #include "driftmesh/mesh.hpp"
+#include "io/mesh_formats.hpp"
 #include "io/vtu_format.hpp"
 
 namespace driftmesh {
 
-/// The files that read_mesh reads, for messages and help: "the mesh: .vtu, .pvtu, ... or .neigh".
+/// The format that the extension of `path` names; that of "-" is .vtu. Error: InputError for an unknown extension, and
+/// for a standard stream where the format means several files.
+[[nodiscard]] const MeshFormat& format_of(const std::string& path);
+
+/// The extensions of what read_mesh reads, for messages and help: ".vtu, .pvtu, ... or .neigh".
 [[nodiscard]] const std::string& mesh_files_read();
-/// Those that write_mesh writes, or ranks.
+/// The extensions of what write_mesh or ranks write.
 [[nodiscard]] const std::string& mesh_files_written();
+/// The same with what help says of each format: ".vtu (ParaView), ...".
+[[nodiscard]] const std::string& mesh_files_described();
 
 /// Whether the extension is that of a mesh and not of a domain as well, as .poly and .node are.
 [[nodiscard]] bool is_mesh_file(const std::string& path);
-/// Whether the extension is that of a mesh in pieces: .pvtu. Error: InputError for an unknown extension.
+/// Whether the extension is that of a mesh in pieces, of threads or ranks: .pvtu. Errors: as format_of.
 [[nodiscard]] bool is_in_pieces(const std::string& path);
-/// Whether only ranks can write it, each a file of its own: .pmesh. Error: as is_in_pieces.
+/// Whether only ranks can write it, each a file of its own: .pmesh. Errors: as format_of.
 [[nodiscard]] bool is_for_ranks(const std::string& path);
-/// Whether ranks write it together, so that none of them has the whole mesh: .pvtu, .h5 and .pmesh. Error: as
-/// is_in_pieces.
-[[nodiscard]] bool is_written_by_all(const std::string& path);
+/// Throws InputError if the format is only for pieces, which write_mesh does not write. Errors: as format_of.
+void require_whole(const std::string& path);
+
 /// The pieces of a mesh, not merged, with the numbers of their points, to be read one by one. Errors: as read_mesh.
 class PieceFiles {
  public:
@@ -43,8 +50,8 @@ class PieceFiles {
 /// All pieces.
 [[nodiscard]] std::vector<Mesh> read_pieces(const std::string& path, const ReadOptions& options = {});
 
-/// The files that write_mesh would replace. Error: InputError for an unknown extension.
-[[nodiscard]] std::vector<std::string> mesh_files(const std::string& path);
+/// The files that writing a mesh in so many pieces would replace; one in a single piece has 0. Errors: as format_of.
+[[nodiscard]] std::vector<std::string> mesh_files(const std::string& path, std::int32_t pieces = 0);
 /// The files that read_mesh would read. Errors: as read_mesh.
 [[nodiscard]] std::vector<std::string> files_to_read(const std::string& path, const ReadOptions& options = {});
 

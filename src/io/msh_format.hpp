@@ -16,9 +16,7 @@ void write_msh(const Mesh& mesh, const std::string& path, bool ascii = false);
 
 /// Reads format 4.1, ASCII or binary, as written by write_msh or Gmsh: points, triangles and lines of first order, in
 /// the order of their tags. Markers and regions come from the names of the physical groups if write_msh wrote them,
-/// otherwise from the groups' tags; they are 0 for elements in no group.
-[[nodiscard]] Mesh read_msh(const std::string& path);
-/// The same from memory; `file` is for messages.
+/// otherwise from the groups' tags; they are 0 for elements in no group. `file` is for messages.
 [[nodiscard]] Mesh parse_msh(const std::string& file, std::string_view bytes);
 
 }  // namespace driftmesh

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/narrow.hpp"
-#include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
 #include "io/msh_format.hpp"
 #include "io/msh_groups.hpp"
@@ -223,10 +222,6 @@ Mesh parse_msh(const std::string& file, std::string_view bytes) {
   Mesh mesh = MshAssembler(file, parse_msh_sections(file, bytes)).assemble();
   check_read_mesh(mesh, file);
   return mesh;
-}
-
-Mesh read_msh(const std::string& path) {
-  return parse_msh(path, read_file(path, "$"));
 }
 
 }  // namespace driftmesh

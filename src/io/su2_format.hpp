@@ -22,9 +22,7 @@ void write_su2(const Mesh& mesh, const std::string& path);
 
 /// Reads what write_su2 writes, and planar meshes of triangles from other programs, in one zone. Markers that are
 /// called by a number have that number; other ones the number that a comment gives them, or the lowest that are free,
-/// and a name. Throws InputError, FileError.
-[[nodiscard]] Mesh read_su2(const std::string& path);
-/// The same from memory; `file` is for messages.
+/// and a name. `file` is for messages. Throws InputError.
 [[nodiscard]] Mesh parse_su2(const std::string& file, std::string_view text);
 
 }  // namespace driftmesh

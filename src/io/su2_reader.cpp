@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "base/read_file.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/read_checks.hpp"
 #include "io/su2_format.hpp"
@@ -214,10 +213,6 @@ class Su2Parser {
 
 Mesh parse_su2(const std::string& file, std::string_view text) {
   return Su2Parser(file, text).parse();
-}
-
-Mesh read_su2(const std::string& path) {
-  return parse_su2(path, read_file(path));
 }
 
 }  // namespace driftmesh

@@ -5,6 +5,7 @@
 
 #include "balancer/policy_list.hpp"
 #include "decompose/decompose.hpp"
+#include "io/mesh_file.hpp"
 #include "job/key_words.hpp"
 #include "mesh/bounds.hpp"
 #include "pslg/generators.hpp"
@@ -303,15 +304,12 @@ Section cluster_section() {
 }
 
 Section output_section() {
+  const std::string meshes_help =
+      "Mesh file; its extension selects the format: " + mesh_files_described() + "; - is standard output";
   return {"Output",
           kAnywhere,
           kMesh,
-          {key("output.meshes", &R::output, &R::Output::meshes,
-               "Mesh file; its extension selects the format: .vtu (ParaView), .pvtu (the same in pieces, one per "
-               "rank), .msh (Gmsh 4.1), .h5 (HDF5 with an .xdmf beside it, for solvers), .su2, .mesh (MFEM), .pmesh "
-               "(MFEM's ParMesh, a file for each rank), .14 or .grd (ADCIRC), .gr3 (SCHISM), or .node, .ele, .poly, "
-               ".edge, .neigh (each writes all of Triangle's files); - is standard output",
-               option('o', "output", "FILE")),
+          {key("output.meshes", &R::output, &R::Output::meshes, meshes_help.c_str(), option('o', "output", "FILE")),
            key("output.ascii", &R::output, &R::Output::ascii,
                "Write .msh as text, for programs that read no binary one (deal.II)", option("ascii")),
            key("output.ghost-layer", &R::output, &R::Output::ghost_layer,

@@ -1,4 +1,5 @@
-// Bytes to the readers of VTU, PVTU, .msh, .14 and .su2: what is accepted must be a mesh whose indices and lengths fit.
+// Bytes to the readers of all formats that are one file, and of .pvtu: what is accepted must be a mesh whose indices
+// and lengths fit.
 
 #include <cstddef>
 #include <cstdint>
@@ -6,11 +7,8 @@
 #include <string_view>
 
 #include "driftmesh/error.hpp"
-#include "io/fort14_format.hpp"
-#include "io/msh_format.hpp"
+#include "io/mesh_formats.hpp"
 #include "io/pvtu_format.hpp"
-#include "io/su2_format.hpp"
-#include "io/vtu_format.hpp"
 
 namespace {
 
@@ -34,9 +32,9 @@ void require_consistent(const Mesh& mesh) {
 }
 
 template <class Parse>
-void parse_and_check(Parse parse, std::string_view bytes) {
+void require_consistent_or_refused(const Parse& parse) {
   try {
-    require_consistent(parse("fuzz", bytes));
+    require_consistent(parse());
   } catch (const Error&) {
   }
 }
@@ -47,10 +45,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  parse_and_check([](const auto& file, auto text) { return parse_vtu(file, text); }, bytes);
-  parse_and_check(parse_msh, bytes);
-  parse_and_check(parse_fort14, bytes);
-  parse_and_check(parse_su2, bytes);
+  for (const MeshFormat& format : mesh_formats())
+    if (format.parse != nullptr) require_consistent_or_refused([&] { return format.parse("fuzz", bytes); });
   try {
     (void)parse_pvtu("fuzz", bytes);
   } catch (const Error&) {

@@ -52,25 +52,31 @@ inline DamageCount read_truncated(const std::string& path, const std::function<v
   return count;
 }
 
-/// The file with every byte changed in turn, and `rounds` times with several random bytes changed.
-inline DamageCount read_flipped(const std::string& path, int rounds, std::uint32_t seed,
-                                const std::function<void()>& read) {
-  const std::string whole = file_bytes(path);
+/// Calls visit(bytes) with every byte changed in turn, and `rounds` times with several random bytes changed.
+template <class Visit>
+void for_each_flipped(const std::string& whole, int rounds, std::uint32_t seed, const Visit& visit) {
   std::mt19937 random(seed);
-  DamageCount count;
   const auto flip = [&](std::string& bytes, std::size_t at) {
     bytes[at] = static_cast<char>(bytes[at] ^ static_cast<char>(1 + random() % 255));
   };
   for (std::size_t at = 0; at < whole.size(); ++at) {
     std::string bytes = whole;
     flip(bytes, at);
-    read_damaged(path, bytes, read, count);
+    visit(bytes);
   }
   for (int round = 0; round < rounds; ++round) {
     std::string bytes = whole;
     for (std::size_t flips = 2 + random() % 8; flips > 0; --flips) flip(bytes, random() % bytes.size());
-    read_damaged(path, bytes, read, count);
+    visit(bytes);
   }
+}
+
+/// The file changed like that.
+inline DamageCount read_flipped(const std::string& path, int rounds, std::uint32_t seed,
+                                const std::function<void()>& read) {
+  const std::string whole = file_bytes(path);
+  DamageCount count;
+  for_each_flipped(whole, rounds, seed, [&](const std::string& bytes) { read_damaged(path, bytes, read, count); });
   replace_file(path, whole);
   return count;
 }

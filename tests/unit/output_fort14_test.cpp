@@ -344,7 +344,8 @@ TEST_CASE("weirs, rivers and other types of ADCIRC are kept, or it is said what 
   written(mesh, "m.node");
   CHECK(said() ==
         "m.node: has no place for types of boundaries, of which markers remain: open (1 string), "
-        "ibtype 20 (1 string), ibtype 23 (1 string), ibtype 24 (1 string), ibtype 52 (2 strings)");
+        "ibtype 20 (1 string), ibtype 23 (1 string), ibtype 24 (1 string), ibtype 52 (2 strings); "
+        "the heights and coefficients of weirs: ibtype 23 (1 string), ibtype 24 (1 string)");
   written(square(), "m.node");
   CHECK(warnings.empty());
 }

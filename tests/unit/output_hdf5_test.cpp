@@ -13,19 +13,10 @@
 #include "support/damage.hpp"
 #include "support/mesh_equality.hpp"
 #include "support/random_mesh.hpp"
-#include "support/round_trip.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::test;
-
-TEST_CASE("a .h5 reads back as the mesh that was written") {
-  check_random_meshes_read_back(".h5");
-}
-
-TEST_CASE("an empty mesh and points alone survive in .h5") {
-  check_meshes_without_triangles_read_back(".h5");
-}
 
 TEST_CASE("a .h5 has an .xdmf beside it that names its arrays") {
   const TemporaryFolder folder;

@@ -93,33 +93,6 @@ TEST_CASE("markers have their names in a .su2, as one word, and read back whole"
   check_same_mesh(read_mesh(path), boundary_only(mesh));
 }
 
-TEST_CASE("random meshes read back from a .su2 as far as it holds them") {
-  const TemporaryFolder folder;
-  const std::string path = folder.path() / "mesh.su2";
-  std::size_t edges = 0;
-  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
-    CAPTURE(seed);
-    const Mesh mesh =
-        RandomMesh(seed, 1 + static_cast<std::int32_t>(seed % 9), 1 + static_cast<std::int32_t>(seed % 7),
-                   {.point_markers = false, .regions = false, .edges = seed % 5 != 0, .attributes_per_point = 0})
-            .mesh();
-    write_mesh(mesh, path);
-    const Mesh read = read_mesh(path);
-    CHECK(read.points == mesh.points);
-    CHECK(read.triangles == mesh.triangles);
-    std::map<std::array<std::int32_t, 2>, std::int32_t> sides;  // triangles at each side
-    for (const auto& t : mesh.triangles)
-      for (std::size_t i = 0; i < 3; ++i) ++sides[{std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])}];
-    std::vector<Mesh::Edge> expected;
-    for (const Mesh::Edge& e : mesh.edges)
-      if (sides.at({std::min(e.a, e.b), std::max(e.a, e.b)}) == 1) expected.push_back(e);
-    std::ranges::stable_sort(expected, {}, &Mesh::Edge::marker);
-    CHECK(read.edges == expected);
-    edges += expected.size();
-  }
-  CHECK(edges > 400);
-}
-
 TEST_CASE("a .su2 of another program is read, and its names get numbers") {
   const Mesh mesh = parse_su2("foil.su2", kFoilText);
   CHECK(mesh.points == std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});

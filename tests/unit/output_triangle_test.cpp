@@ -10,7 +10,6 @@
 #include "support/damage.hpp"
 #include "support/mesh_equality.hpp"
 #include "support/random_mesh.hpp"
-#include "support/round_trip.hpp"
 #include "temporary_folder.hpp"
 
 using namespace driftmesh;
@@ -46,10 +45,6 @@ std::map<VertexPair, std::vector<std::size_t>> triangles_by_edge(const Mesh& mes
 }
 
 }  // namespace
-
-TEST_CASE("Triangle's files read back as the mesh that was written") {
-  check_random_meshes_read_back(".ele");
-}
 
 TEST_CASE("the .neigh file names the triangle across each edge") {
   const TemporaryFolder folder;
