@@ -30,7 +30,7 @@ std::string weirs(const Mesh& mesh) {
 }
 
 struct Loss {
-  MeshParts part;
+  MeshParts parts;                         // lost if none of them is kept
   std::string (*words)(const Mesh& mesh);  // empty if the mesh has nothing of it
 };
 
@@ -39,6 +39,8 @@ const Loss kLosses[] = {
      [](const Mesh& mesh) { return if_any(mesh.attributes_per_point > 0, "the first attribute of points"); }},
     {kOtherAttributes,
      [](const Mesh& mesh) { return if_any(mesh.attributes_per_point > 1, "the other attributes of points"); }},
+    {kMarkers | kBoundaryTypes,
+     [](const Mesh& mesh) { return if_any(!mesh.edges.empty(), "segments of the boundary"); }},
     {kInnerSegments, inner_segments},
     {kRegions, [](const Mesh& mesh) { return if_any(!mesh.regions.empty(), "regions"); }},
     {kRegionNames, [](const Mesh& mesh) { return if_any(!mesh.names.regions.empty(), "names of regions"); }},
@@ -55,7 +57,7 @@ const Loss kLosses[] = {
 std::string lost_parts(const Mesh& mesh, MeshParts kept) {
   std::string list;
   for (const Loss& loss : kLosses) {
-    if ((kept & loss.part) != 0) continue;
+    if ((kept & loss.parts) != 0) continue;
     const std::string words = loss.words(mesh);
     if (!words.empty()) list += (list.empty() ? "" : "; ") + words;
   }
