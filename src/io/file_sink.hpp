@@ -6,10 +6,12 @@
 #include <concepts>
 #include <cstring>
 #include <memory>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "base/atomic_file.hpp"
 
@@ -32,6 +34,24 @@ class FileSink {
   void number(Number value) {
     char* const begin = room(kLongestNumber);
     used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongestNumber, value).ptr - begin);
+  }
+
+  /// A line of numbers with blanks between them. A range stands for its numbers.
+  template <class... Items>
+  void line(const Items&... items) {
+    bool is_first = true;
+    const auto field = [&](auto value) {
+      if (!std::exchange(is_first, false)) character(' ');
+      number(value);
+    };
+    const auto fields = [&](const auto& item) {
+      if constexpr (std::ranges::range<decltype(item)>)
+        std::ranges::for_each(item, field);
+      else
+        field(item);
+    };
+    (fields(items), ...);
+    character('\n');
   }
 
   /// The value's bytes in memory.

@@ -26,25 +26,14 @@ void write_line(FileSink& sink, std::initializer_list<std::size_t> numbers, cons
 
 void write_nodes(FileSink& sink, const Mesh& mesh) {
   const auto width = static_cast<std::size_t>(mesh.attributes_per_point);
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    sink.number(v + 1);
-    for (const double value : {mesh.points[v].x, mesh.points[v].y, width > 0 ? mesh.attributes[v * width] : 0}) {
-      sink.character(' ');
-      sink.number(value);
-    }
-    sink.character('\n');
-  }
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    sink.line(v + 1, mesh.points[v].x, mesh.points[v].y, width > 0 ? mesh.attributes[v * width] : 0);
 }
 
 void write_triangles(FileSink& sink, const Mesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    sink.number(t + 1);
-    sink.text(" 3");
-    for (const std::int32_t corner : mesh.triangles[t]) {
-      sink.character(' ');
-      sink.number(corner + 1);
-    }
-    sink.character('\n');
+    const auto& [a, b, c] = mesh.triangles[t];
+    sink.line(t + 1, 3, a + 1, b + 1, c + 1);
   }
 }
 
@@ -57,10 +46,7 @@ std::size_t nodes_of(const Strings& strings) {
 }
 
 void write_vertices(FileSink& sink, const BoundaryString& string) {
-  for (const std::int32_t vertex : string.vertices) {
-    sink.number(vertex + 1);
-    sink.character('\n');
-  }
+  for (const std::int32_t vertex : string.vertices) sink.line(vertex + 1);
 }
 
 void write_open(FileSink& sink, const Strings& open) {
@@ -76,16 +62,11 @@ void write_weir(FileSink& sink, const Mesh::Weir& weir) {
   write_line(sink, {weir.points.size(), static_cast<std::size_t>(weir.type)}, "number of nodes on this weir, type");
   const std::size_t width = weir.values.size() / weir.points.size();
   for (std::size_t i = 0; i < weir.points.size(); ++i) {
-    sink.number(weir.points[i] + 1);
-    if (!weir.across.empty()) {
-      sink.character(' ');
-      sink.number(weir.across[i] + 1);
-    }
-    for (std::size_t k = 0; k < width; ++k) {
-      sink.character(' ');
-      sink.number(weir.values[i * width + k]);
-    }
-    sink.character('\n');
+    const std::span values(weir.values.data() + i * width, width);
+    if (weir.across.empty())
+      sink.line(weir.points[i] + 1, values);
+    else
+      sink.line(weir.points[i] + 1, weir.across[i] + 1, values);
   }
 }
 

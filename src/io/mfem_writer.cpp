@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <filesystem>
-#include <initializer_list>
 #include <set>
 #include <string_view>
-#include <utility>
 
 #include "driftmesh/id_vector.hpp"
 #include "io/mfem_format.hpp"
@@ -35,26 +33,16 @@ class MfemText {
   }
 
  private:
-  void line(std::initializer_list<std::int64_t> numbers) {
-    bool first = true;
-    for (const std::int64_t number : numbers) {
-      if (!std::exchange(first, false)) sink_.character(' ');
-      sink_.number(number);
-    }
-    sink_.character('\n');
-  }
-
   void count(std::string_view name, std::size_t number) {
     sink_.text(name);
-    sink_.number(number);
-    sink_.character('\n');
+    sink_.line(number);
   }
 
   void write_elements() {
     count("\nelements\n", mesh_.triangles.size());
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const auto& [a, b, c] = mesh_.triangles[t];
-      line({mesh_.regions.empty() ? 1 : part_.region_tags.at(mesh_.regions[t]), kMfemTriangle, a, b, c});
+      const std::int32_t tag = mesh_.regions.empty() ? 1 : part_.region_tags.at(mesh_.regions[t]);
+      sink_.line(tag, kMfemTriangle, mesh_.triangles[t]);
     }
   }
 
@@ -62,32 +50,20 @@ class MfemText {
     count("\nboundary\n", part_.boundary.size());
     for (const std::int32_t e : part_.boundary) {
       const Mesh::Edge& edge = mesh_.edges[to_index(e)];
-      line({part_.marker_tags.at(edge.marker), kMfemSegment, edge.a, edge.b});
+      sink_.line(part_.marker_tags.at(edge.marker), kMfemSegment, edge.a, edge.b);
     }
   }
 
   void write_points() {
     count("\nvertices\n", mesh_.points.size());
     sink_.text("2\n");
-    for (const Point& p : mesh_.points) {
-      sink_.number(p.x);
-      sink_.character(' ');
-      sink_.number(p.y);
-      sink_.character('\n');
-    }
+    for (const Point& p : mesh_.points) sink_.line(p.x, p.y);
   }
 
   void write_groups() {
     count("\ncommunication_groups\nnumber_of_groups ", part_.groups.size());
     sink_.text("\n# number of ranks in each group, followed by the ranks\n");
-    for (const MfemGroup& group : part_.groups) {
-      sink_.number(group.ranks.size());
-      for (const std::int32_t rank : group.ranks) {
-        sink_.character(' ');
-        sink_.number(rank);
-      }
-      sink_.character('\n');
-    }
+    for (const MfemGroup& group : part_.groups) sink_.line(group.ranks.size(), group.ranks);
   }
 
   void write_shared() {
@@ -98,9 +74,9 @@ class MfemText {
     for (std::size_t g = 1; g < part_.groups.size(); ++g) {  // the first is this rank alone
       count("\n# group ", g);
       count("shared_vertices ", part_.groups[g].points.size());
-      for (const std::int32_t point : part_.groups[g].points) line({point});
+      for (const std::int32_t point : part_.groups[g].points) sink_.line(point);
       count("\nshared_edges ", part_.groups[g].edges.size());
-      for (const auto& [a, b] : part_.groups[g].edges) line({a, b});
+      for (const auto& edge : part_.groups[g].edges) sink_.line(edge);
     }
   }
 

@@ -94,8 +94,7 @@ void write_group_names(FileSink& sink, const std::vector<MshEntity>& entities, i
 
 void write_physical_names(FileSink& sink, const MshClassification& classes) {
   sink.text("$PhysicalNames\n");
-  sink.number(classes.curves.size() + classes.surfaces.size());
-  sink.character('\n');
+  sink.line(classes.curves.size() + classes.surfaces.size());
   write_group_names(sink, classes.curves, 1);
   write_group_names(sink, classes.surfaces, 2);
   sink.text("$EndPhysicalNames\n");
@@ -195,8 +194,7 @@ void begin_view(MshOutput& out, std::string_view section, std::string_view name,
   out.text().text("1\n\"");
   out.text().text(name);
   out.text().text("\"\n1\n0\n3\n0\n1\n");  // time 0; step 0, one component, and the number of values:
-  out.text().number(count);
-  out.text().character('\n');
+  out.text().line(count);
 }
 
 void write_value(MshOutput& out, std::size_t tag, double value) {
@@ -235,15 +233,9 @@ void write_views(MshOutput& out, const Mesh& mesh, const MshClassification& clas
 // As text even in a binary file: readers that do not know the section look for its end line by line.
 void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& markers) {
   sink.text("$DriftmeshPointMarkers\n");
-  sink.number(markers.size() - std::count(markers.begin(), markers.end(), 0));
-  sink.character('\n');
-  for (std::size_t v = 0; v < markers.size(); ++v) {
-    if (markers[v] == 0) continue;
-    sink.number(v + 1);
-    sink.character(' ');
-    sink.number(markers[v]);
-    sink.character('\n');
-  }
+  sink.line(markers.size() - std::count(markers.begin(), markers.end(), 0));
+  for (std::size_t v = 0; v < markers.size(); ++v)
+    if (markers[v] != 0) sink.line(v + 1, markers[v]);
   sink.text("$EndDriftmeshPointMarkers\n");
 }
 
@@ -254,18 +246,10 @@ void write_values(FileSink& sink, const MshClassification& classes) {
     hidden += static_cast<std::size_t>(std::ranges::count_if(*entities, &MshEntity::hides_value));
   if (hidden == 0) return;
   sink.text("$DriftmeshValues\n");
-  sink.number(hidden);
-  sink.character('\n');
+  sink.line(hidden);
   for (const auto& [dimension, entities] : {std::pair(1, &classes.curves), {2, &classes.surfaces}})
-    for (const MshEntity& entity : *entities) {
-      if (!entity.hides_value) continue;
-      sink.number(dimension);
-      sink.character(' ');
-      sink.number(entity.tag);
-      sink.character(' ');
-      sink.number(entity.value);
-      sink.character('\n');
-    }
+    for (const MshEntity& entity : *entities)
+      if (entity.hides_value) sink.line(dimension, entity.tag, entity.value);
   sink.text("$EndDriftmeshValues\n");
 }
 

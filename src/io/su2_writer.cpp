@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <initializer_list>
 #include <map>
 #include <set>
 #include <string>
@@ -18,18 +17,7 @@ namespace {
 void write_count(FileSink& sink, std::string_view name, std::size_t count) {
   sink.text(name);
   sink.text("= ");
-  sink.number(count);
-  sink.character('\n');
-}
-
-void write_numbers(FileSink& sink, std::initializer_list<std::int64_t> numbers) {
-  char separator = '\0';
-  for (const std::int64_t number : numbers) {
-    if (separator != '\0') sink.character(separator);
-    sink.number(number);
-    separator = ' ';
-  }
-  sink.character('\n');
+  sink.line(count);
 }
 
 /// The edges of the boundary, by their markers.
@@ -86,7 +74,7 @@ void write_boundaries(FileSink& sink, const Mesh& mesh, const Boundaries& bounda
     write_count(sink, "MARKER_ELEMS", edges.size());
     for (const std::int32_t e : edges) {
       const Mesh::Edge& edge = mesh.edges[to_index(e)];
-      write_numbers(sink, {kSu2Line, edge.a, edge.b});
+      sink.line(kSu2Line, edge.a, edge.b);
     }
   }
 }
@@ -100,19 +88,9 @@ void write_su2(const Mesh& mesh, const std::string& path) {
   write_names(sink, tags, mesh.names);
   sink.text("NDIME= 2\n");
   write_count(sink, "NELEM", mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    write_numbers(sink, {kSu2Triangle, a, b, c, static_cast<std::int64_t>(t)});
-  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sink.line(kSu2Triangle, mesh.triangles[t], t);
   write_count(sink, "NPOIN", mesh.points.size());
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    sink.number(mesh.points[v].x);
-    sink.character(' ');
-    sink.number(mesh.points[v].y);
-    sink.character(' ');
-    sink.number(v);
-    sink.character('\n');
-  }
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) sink.line(mesh.points[v].x, mesh.points[v].y, v);
   write_boundaries(sink, mesh, boundaries, tags);
   sink.commit();
 }

@@ -8,56 +8,38 @@
 namespace driftmesh {
 namespace {
 
-template <class... Numbers>
-void line(FileSink& sink, std::size_t first, Numbers... rest) {
-  sink.number(first);
-  ((sink.character(' '), sink.number(rest)), ...);
-  sink.character('\n');
-}
-
 void write_node_lines(FileSink& sink, const Mesh& mesh) {
   const std::size_t per_point = mesh.attributes_per_point;
   const bool has_markers = !mesh.point_markers.empty();
-  line(sink, mesh.points.size(), 2, per_point, has_markers ? 1 : 0);
+  sink.line(mesh.points.size(), 2, per_point, has_markers ? 1 : 0);
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    sink.number(v + 1);
-    sink.character(' ');
-    sink.number(mesh.points[v].x);
-    sink.character(' ');
-    sink.number(mesh.points[v].y);
-    for (std::size_t k = 0; k < per_point; ++k) {
-      sink.character(' ');
-      sink.number(mesh.attributes[v * per_point + k]);
-    }
-    if (has_markers) {
-      sink.character(' ');
-      sink.number(mesh.point_markers[v]);
-    }
-    sink.character('\n');
+    const std::span attributes(mesh.attributes.data() + v * per_point, per_point);
+    const std::span marker(mesh.point_markers.data() + (has_markers ? v : 0), has_markers ? 1 : 0);
+    sink.line(v + 1, mesh.points[v].x, mesh.points[v].y, attributes, marker);
   }
 }
 
 void write_ele_lines(FileSink& sink, const Mesh& mesh) {
-  line(sink, mesh.triangles.size(), 3, mesh.regions.empty() ? 0 : 1);
+  sink.line(mesh.triangles.size(), 3, mesh.regions.empty() ? 0 : 1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     if (mesh.regions.empty())
-      line(sink, t + 1, a + 1, b + 1, c + 1);
+      sink.line(t + 1, a + 1, b + 1, c + 1);
     else
-      line(sink, t + 1, a + 1, b + 1, c + 1, mesh.regions[t]);
+      sink.line(t + 1, a + 1, b + 1, c + 1, mesh.regions[t]);
   }
 }
 
 using Edges = std::vector<Mesh::Edge>;
 
 void write_segments(FileSink& sink, const Mesh& mesh, const Edges& separators, const std::vector<Point>& holes) {
-  line(sink, 0, 2, mesh.attributes_per_point, mesh.point_markers.empty() ? 0 : 1);
-  line(sink, mesh.edges.size() + separators.size(), 1);
+  sink.line(0, 2, mesh.attributes_per_point, mesh.point_markers.empty() ? 0 : 1);
+  sink.line(mesh.edges.size() + separators.size(), 1);
   std::size_t number = 0;
   for (const Edges* edges : {&mesh.edges, &separators})
-    for (const Mesh::Edge& edge : *edges) line(sink, ++number, edge.a + 1, edge.b + 1, edge.marker);
-  line(sink, holes.size());
-  for (std::size_t i = 0; i < holes.size(); ++i) line(sink, i + 1, holes[i].x, holes[i].y);
+    for (const Mesh::Edge& edge : *edges) sink.line(++number, edge.a + 1, edge.b + 1, edge.marker);
+  sink.line(holes.size());
+  for (std::size_t i = 0; i < holes.size(); ++i) sink.line(i + 1, holes[i].x, holes[i].y);
 }
 
 // An edge of two triangles is listed with the later one, whose neighbor there has the smaller number; an edge of a
@@ -76,7 +58,7 @@ void write_edges(FileSink& sink, const Mesh& mesh, const TriangleNeighbors& neig
   std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) count += lists_edge(neighbors, t, i) ? 1 : 0;
-  line(sink, count, 1);
+  sink.line(count, 1);
   std::size_t number = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -85,15 +67,15 @@ void write_edges(FileSink& sink, const Mesh& mesh, const TriangleNeighbors& neig
       const std::int32_t b = mesh.triangles[t][(i + 2) % 3];
       const std::int32_t edge = index.find(a, b);
       const std::int32_t unlisted = is_separator(mesh, neighbors, t, i) ? kSeparatorMarker : 0;
-      line(sink, ++number, a + 1, b + 1, edge < 0 ? unlisted : mesh.edges[edge].marker);
+      sink.line(++number, a + 1, b + 1, edge < 0 ? unlisted : mesh.edges[edge].marker);
     }
 }
 
 void write_neighbors(FileSink& sink, const TriangleNeighbors& neighbors) {
-  line(sink, neighbors.size(), 3);
+  sink.line(neighbors.size(), 3);
   const auto numbered = [](std::int32_t t) { return t < 0 ? -1 : t + 1; };
   for (std::size_t t = 0; t < neighbors.size(); ++t)
-    line(sink, t + 1, numbered(neighbors[t][0]), numbered(neighbors[t][1]), numbered(neighbors[t][2]));
+    sink.line(t + 1, numbered(neighbors[t][0]), numbered(neighbors[t][1]), numbered(neighbors[t][2]));
 }
 
 }  // namespace
