@@ -54,7 +54,7 @@ class Admissions {
     std::vector<Outgoing> messages;
     std::vector<SubdomainId> not_coming;  ///< refused here, or returned: they are not to be expected
     bool refused = false;                 ///< some of them for lack of memory
-    std::vector<SubdomainId> gone;        ///< of those asked for: finished here meanwhile
+    std::vector<SubdomainId> gone;        ///< finished here meanwhile though asked for
   };
   /// Answers questions, given memory for `free_memory` triangles including what is set aside, and follows answers. What
   /// leaves, or waits for an answer, is removed from `own`.
@@ -81,7 +81,7 @@ class Admissions {
 
   Rank self_;
   std::vector<Step> steps_;                           // not looked at
-  std::uint32_t round_ = 0;                           // of the last question
+  std::uint32_t round_ = 0;                           // round of the last question
   std::vector<Passage> asked_, admitted_, returned_;  // here, as the giver
   std::vector<Passage> expected_;                     // here, as the receiver: memory is set aside for these
 };

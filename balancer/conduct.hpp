@@ -20,10 +20,10 @@ struct ControllerOptions {
   double interval = 1;             ///< longest time in seconds between reports of a rank with work
   double change = 0.1;             ///< a forecast that is off by this fraction is reported (see ReportRule)
   int refusals = 8;                ///< after this many in a row a rank stops asking for work until it is given some
-  double ahead = 0.25;             ///< of the time that is left: who runs out of work within that gets more
+  double ahead = 0.25;             ///< fraction of the time left: a rank that runs out of work within it gets more
   double overhead = 0.01;          ///< fraction of the time that planning may take
   double reference_speed = 7.9e6;  ///< triangles a second of a rank that plans as fast as Policy::planning_seconds says
-  double work_to_start = kWorkToStart;  ///< of a subdomain, in triangles
+  double work_to_start = kWorkToStart;  ///< triangles that take as long as the start of a subdomain
   MoveCost cost;
   Worth worth;
 
@@ -59,7 +59,7 @@ struct Situation {
   double now = 0;
   std::span<const ReportedLoad> own;
   double speed = 0;
-  double doubt = 0;                   ///< of the time that this takes (see Experience)
+  double doubt = 0;                   ///< relative standard deviation of the time for `own` (see Experience)
   double free_memory = kAmpleMemory;  ///< as in RankLoad
 };
 

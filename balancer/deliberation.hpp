@@ -47,7 +47,7 @@ struct Deliberation {
     kLoad,       ///< the load as it knows it, and whether to plan
     kPlan,       ///< moves that its policy proposes
     kAdvice,     ///< moves that a planner advises it to make
-    kRequest,    ///< of `thief` for work: the broker passes it on to `giver`
+    kRequest,    ///< `thief` asks for work: the broker passes it on to `giver`
     kAdmission,  ///< moves that it asks the receiver for, or what came of that
   };
   struct KnownLoad {
@@ -59,13 +59,13 @@ struct Deliberation {
   Subject subject = Subject::kLoad;
   Verdict verdict = Verdict::kDone;
   double time = 0;  ///< seconds; set by the log of the run, and so is `rank`
-  Rank rank{};      ///< that considered it
+  Rank rank{};      ///< the rank that considered it
   double finish = 0, ideal = 0,
-         noise = 0;                ///< of a load, in seconds from now: see finishing_time, ideal_time, noise_of
+         noise = 0;                ///< for kLoad, in seconds from now: see finishing_time, ideal_time, noise_of
   double saves = 0;                ///< by a load made even, by a plan: seconds, beyond noise
   double border = 0;               ///< between ranks after a plan, if it was compared with others
-  bool whole = false;              ///< of a plan: its moves are all made, or none (Kept::kAll)
-  std::vector<KnownLoad> loads{};  ///< of the ranks with work or a known speed
+  bool whole = false;              ///< the moves of a plan are all made, or none (Kept::kAll)
+  std::vector<KnownLoad> loads{};  ///< ranks with work or a known speed
   std::vector<JudgedMove> moves{};
   Rank thief{}, giver{};
 };

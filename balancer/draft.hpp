@@ -100,7 +100,7 @@ class Draft {
   IdVector<Rank, double> slowness_;  // seconds for a triangle
   std::vector<Effort> efforts_;
   std::vector<Rank> owners_;
-  std::vector<Border> borders_;  // of the first subdomain, of the second, ...
+  std::vector<Border> borders_;  // the first subdomain's, the second's, ...
   std::vector<std::size_t> first_border_;
   IdVector<Rank, double> times_, free_memory_;
   IdVector<Rank, std::vector<Index>> held_;

@@ -44,7 +44,7 @@ class LoadReporter {
   [[nodiscard]] Loads with_mentioned(Loads own) const;
 
   ReportRule rule_;
-  std::uint32_t count_ = 0;        // of reports
+  std::uint32_t count_ = 0;        // reports so far
   std::uint32_t plan_ = 0;         // the last one that was acted on
   std::vector<SubdomainId> told_;  // ascending; of the last report
   Loads mentioned_;

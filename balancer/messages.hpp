@@ -16,16 +16,16 @@ struct ReportedLoad {
   SubdomainId subdomain{};
   protocol::Epoch epoch = 0;  ///< with the sender as owner
   double remaining = 0;       ///< triangles still to be made, predicted
-  std::uint64_t bytes = 0;    ///< of the packed form, estimated
+  std::uint64_t bytes = 0;    ///< estimated size of the packed form
   friend bool operator==(const ReportedLoad&, const ReportedLoad&) = default;
 };
 
 /// The sender's load and speed.
 struct LoadReport {
-  std::uint32_t round = 0;            ///< of the sender's reports, from 1; older ones are ignored
+  std::uint32_t round = 0;            ///< number of the sender's report, from 1; older ones are ignored
   std::uint32_t plan = 0;             ///< the round of the last Plan that the sender has acted on; 0: none
   double speed = 0;                   ///< triangles a second, a running average; 0: not known yet
-  std::vector<ReportedLoad> loads;    ///< of its unfinished subdomains, and of recent arrivals
+  std::vector<ReportedLoad> loads;    ///< its unfinished subdomains and recent arrivals
   double doubt = 0;                   ///< standard deviation of the time that they take, over that time
   double unlisted = 0;                ///< triangles still to be made in other subdomains
   double free_memory = kAmpleMemory;  ///< as in RankLoad
@@ -42,9 +42,9 @@ struct Plan {
 
 /// The sender's total load.
 struct LoadNews {
-  std::uint32_t round = 0;            ///< of the sender's news, from 1; older ones are ignored
+  std::uint32_t round = 0;            ///< number of the sender's news, from 1; older ones are ignored
   double remaining = 0;               ///< triangles still to be made, predicted
-  double spare = 0;                   ///< of these, in subdomains that it could give away
+  double spare = 0;                   ///< the part in subdomains that it could give away
   double speed = 0;                   ///< triangles a second, a running average; 0: not known yet
   double doubt = 0;                   ///< standard deviation of remaining / speed, over that
   double free_memory = kAmpleMemory;  ///< as in RankLoad
@@ -58,7 +58,7 @@ inline constexpr double kNoHorizon = 1e300;
 /// one answer, from the rank that has the request in the end.
 struct WorkRequest {
   Rank thief{};
-  std::uint32_t round = 0;  ///< of the thief's requests, from 1; 0: the thief has not asked, and waits for nothing
+  std::uint32_t round = 0;  ///< number of the thief's request, from 1; 0: it has not asked, and waits for nothing
   double remaining = 0;     ///< the thief's remaining work
   double speed = 0;
   std::uint32_t rivals = 0;           ///< idle ranks that will compete for the giver's work
@@ -70,7 +70,7 @@ struct WorkRequest {
 
 /// The answer to a WorkRequest: the subdomains on their way to the receiver, or none.
 struct WorkAnswer {
-  std::uint32_t round = 0;  ///< of the request
+  std::uint32_t round = 0;  ///< number of the request
   std::vector<Move> moves;
   friend bool operator==(const WorkAnswer&, const WorkAnswer&) = default;
 };
@@ -85,10 +85,10 @@ struct Admission {
   };
   struct Guest {
     SubdomainId subdomain{};
-    double triangles = 0;  ///< that it has and will have
+    double triangles = 0;  ///< those made and those still to be made
     friend bool operator==(const Guest&, const Guest&) = default;
   };
-  std::uint32_t round = 0;  ///< of the giver's questions, from 1
+  std::uint32_t round = 0;  ///< number of the giver's question, from 1
   Stage stage = Stage::kAsk;
   std::vector<Guest> guests;
   friend bool operator==(const Admission&, const Admission&) = default;

@@ -12,7 +12,7 @@ namespace driftmesh::balancer {
 /// The cost of a move for both ranks, in seconds of their time. Packing is processor work: a slow rank is slow at it
 /// too.
 struct MoveCost {
-  double latency = 1e-3;     ///< of any move, until the new owner can start
+  double latency = 1e-3;     ///< seconds until the new owner can start
   double bandwidth = 1e9;    ///< bytes per second between two ranks
   double pack_work = 0.015;  ///< triangles that a rank could make in the time to pack or unpack one byte
 
@@ -29,9 +29,9 @@ void price_moves(LoadSnapshot& snapshot, const MoveCost& cost);
 
 /// How much a plan must gain before anything moves.
 struct Worth {
-  double gain = 0.02;     ///< of the finishing time, saved
-  double seconds = 2e-3;  ///< saved
-  double slack = 0.01;    ///< of the ideal time, given away for fewer moves
+  double gain = 0.02;     ///< fraction of the finishing time to save
+  double seconds = 2e-3;  ///< time to save
+  double slack = 0.01;    ///< fraction of the ideal time given away for fewer moves
 };
 
 /// How much later than on average the last rank would seem to finish, in seconds, if work were even and only forecasts

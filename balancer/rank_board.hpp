@@ -30,7 +30,7 @@ class RankBoard {
   LoadSnapshot snapshot_;
   IdVector<Rank, bool> able_;
   std::size_t idle_ = 0, givers_ = 0;
-  double work_ = 0, speed_ = 0;  // of all ranks
+  double work_ = 0, speed_ = 0;  // sums over all ranks
 };
 
 }  // namespace driftmesh::balancer

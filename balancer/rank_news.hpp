@@ -42,7 +42,7 @@ class RankNews {
 
   IdVector<Rank, Heard> ranks_;
   std::size_t reported_ = 0;
-  double sum_ = 0;  // of the speeds that are known
+  double sum_ = 0;  // all known speeds together
   int known_ = 0;
 };
 

@@ -73,7 +73,7 @@ class RequestConduct {
 
   double crumbs_ = 0;   // triangles: no more is left in finished subdomains whose neighbors have split their borders
   bool asked_ = false;  // not yet answered
-  std::uint32_t round_ = 0;  // of the last request
+  std::uint32_t round_ = 0;  // number of the last request
   int refusals_ = 0;         // by givers, in a row
   bool remembered_ = false;  // by the broker, which has refused
   bool idle_ = false;
@@ -81,7 +81,7 @@ class RequestConduct {
   std::vector<SubdomainId> coming_;   // promised, not yet here
   double promised_ = 0;               // when
 
-  std::optional<RankNews> news_;    // of the broker
+  std::optional<RankNews> news_;    // kept by the broker
   std::optional<RankBoard> board_;  // made from it for the requests of one think()
   bool surprised_ = false;          // by news since hungry ranks were last served
   std::set<Rank> hungry_;

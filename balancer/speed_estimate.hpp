@@ -16,7 +16,7 @@ class SpeedEstimate {
   /// Result of a slice of work on a subdomain.
   struct Slice {
     double triangles = 0;  ///< made
-    double seconds = 0;    ///< of the rank's wall-clock time, whatever else used the processor
+    double seconds = 0;    ///< wall-clock time of the rank, whatever else used the processor
     double started = 0;    ///< triangles that the subdomain will have, if it was started in this slice
   };
 
@@ -65,7 +65,7 @@ class SpeedEstimate {
   };
 
   double memory_;
-  Sum all_, refining_;  // of late
+  Sum all_, refining_;  // recent slices weigh most
   Sum starting_;
   double will_have_ = 0;  // triangles of the subdomains whose start is in starting_
   double observed_ = 0;

@@ -185,7 +185,7 @@ class Dealer {
   double ideal_, limit_;  // seconds
   IdVector<Rank, double> speeds_;
   IdVector<SubdomainId, Index> index_;  // among those listed
-  std::vector<double> border_;          // of a rank's subdomains while it gives some up
+  std::vector<double> border_;          // for each subdomain of a rank that gives some up
   std::vector<bool> gone_;              // given up
 };
 

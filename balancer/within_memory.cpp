@@ -13,8 +13,8 @@ constexpr double kRoom = 1.03;  // parts are rarely more uneven
 
 LoadSnapshot within_memory(LoadSnapshot snapshot) {
   const IdVector<Rank, double> speeds = assumed_speeds(snapshot.ranks);
-  double work = 0, speed = 0;                       // of those that have enough
-  std::vector<std::pair<double, Rank>> by_seconds;  // of work for which it has memory
+  double work = 0, speed = 0;                       // sums over ranks not known to be short
+  std::vector<std::pair<double, Rank>> by_seconds;  // time for the work that fits in a rank's memory
   for (const Rank r : ids_of(speeds)) {
     RankLoad& rank = snapshot.ranks[r];
     const double most = std::max(rank.remaining, (rank.remaining + std::max(0.0, rank.free_memory)) / kRoom);

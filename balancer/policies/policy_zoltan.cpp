@@ -79,7 +79,7 @@ class ZoltanPolicy final : public Policy {
   struct Options {
     bool polish = true;       ///< even out unbalanced parts by moving single subdomains
     double tolerance = 0.02;  ///< fraction of a rank's share
-    double touch_up = 0.1;    ///< of the ideal time: a smaller imbalance needs no new parts
+    double touch_up = 0.1;    ///< fraction of the ideal time: a smaller imbalance needs no new parts
     double most_moves = 2;    ///< see Policy::most_moves
     double part_size = 4;     ///< subdomains: of smaller parts none are made
   };

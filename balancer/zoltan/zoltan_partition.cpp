@@ -101,7 +101,7 @@ struct Graph {
   const LoadSnapshot* snapshot;
   IdVector<ZOLTAN_ID_TYPE, int> first{0};  // edges of vertex i: first[i] up to first[i + 1]
   IdVector<int, ZOLTAN_ID_TYPE> target;
-  IdVector<int, int> process;  // of the target
+  IdVector<int, int> process;  // the owner of `target`
   IdVector<int, float> weight;
 
   explicit Graph(const LoadSnapshot& s) : snapshot(&s) {}
