@@ -16,7 +16,7 @@ struct CheckReport {
   /// One kind of flaw.
   struct Finding {
     std::string kind;                   ///< in words: "not Delaunay"
-    std::uint64_t count = 0;            ///< of all flaws of this kind
+    std::uint64_t count = 0;            ///< all flaws of this kind
     std::vector<std::string> examples;  ///< the first few: the triangle, edge or point, and what is wrong with it
   };
 
@@ -28,7 +28,7 @@ struct CheckReport {
   std::int64_t points = 0;
   std::int64_t triangles = 0;
   std::int64_t subsegments = 0;
-  double area = 0;  ///< of all triangles
+  double area = 0;  ///< sum over all triangles
   double smallest_area = 0;
   double largest_area = 0;
   double smallest_angle = 0;

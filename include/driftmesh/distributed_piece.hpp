@@ -23,11 +23,11 @@ struct DistributedPiece {
   /// the whole mesh and depend only on the decomposition and the mesh, not on the distribution. Triangles are sorted by
   /// subdomain. A subsegment of the input between two ranks is in the pieces of both.
   Mesh mesh;
-  std::vector<Rank> owners;         ///< of each vertex: one of the ranks that have it, the same on all of them
+  std::vector<Rank> owners;         ///< for each vertex one of the ranks that have it, the same on all of them
   std::vector<Neighbor> neighbors;  ///< sorted by rank; every rank with a shared vertex
   bool has_regions = false;       ///< whether the whole mesh has regions; then mesh.regions has one entry per triangle
-  std::int64_t total_points = 0;  ///< of the whole mesh, each point counted once
-  std::int64_t total_triangles = 0;  ///< of the whole mesh
+  std::int64_t total_points = 0;  ///< points in the whole mesh, each counted once
+  std::int64_t total_triangles = 0;  ///< triangles in the whole mesh
 };
 
 }  // namespace driftmesh

@@ -41,7 +41,7 @@ struct CylinderFlowOptions {
 /// A square of side 1 with segments that leave one point at small angles. Markers: 1 square, 2 fan.
 struct FanOptions {
   std::int32_t wedges = 30;
-  double angle = 1;  ///< of each wedge, in degrees
+  double angle = 1;  ///< degrees per wedge
   bool from_corner = false;
 };
 [[nodiscard]] Pslg generate_fan(const FanOptions& options);
@@ -50,7 +50,7 @@ struct FanOptions {
 struct CombOptions {
   std::int32_t slits = 40;
   double pitch = 0.1;   ///< distance between slits
-  double width = 1e-3;  ///< of a slit
+  double width = 1e-3;  ///< width of a slit
   double depth = 0.9;
 };
 [[nodiscard]] Pslg generate_comb(const CombOptions& options);

@@ -15,7 +15,7 @@ struct GhostedPiece {
   /// made current by sending those on `sent`, to be stored on `received` of the other side, in the same order.
   struct Neighbor {
     Rank rank{};
-    std::vector<std::int32_t> sent;      ///< of this rank, which are ghosts there
+    std::vector<std::int32_t> sent;      ///< this rank's triangles that are ghosts there
     std::vector<std::int32_t> received;  ///< ghosts here
   };
 
@@ -28,7 +28,7 @@ struct GhostedPiece {
   std::int32_t own_points = 0;
   std::int32_t own_triangles = 0;
   std::int32_t own_edges = 0;
-  std::vector<Rank> owners;  ///< of each point, ghost or not, the same on all ranks (see DistributedPiece)
+  std::vector<Rank> owners;  ///< one for each point, ghost or not, the same on all ranks (see DistributedPiece)
   /// Of each triangle in the whole mesh, from 0 to total_triangles - 1, whichever rank has it: its index in the one
   /// mesh into which all pieces are written (.vtu, .msh).
   std::vector<std::int64_t> triangle_numbers;

@@ -16,7 +16,7 @@ namespace driftmesh::balancer {
 /// A subdomain that shares a border with another one.
 struct Neighbor {
   SubdomainId subdomain{};
-  double length = 0;  ///< of the border
+  double length = 0;  ///< length of the border
 };
 
 /// What all ranks know from the start and what does not change during a run.
@@ -41,7 +41,7 @@ struct SubdomainLoad {
   double remaining = 0;     ///< triangles still to be made, predicted
   std::uint64_t bytes = 0;  ///< to move it
   std::int32_t turn = 0;    ///< position in the owner's order of work; 0 is being worked on
-  double cost = 0;          ///< of a move, in seconds of both ranks at mean speed
+  double cost = 0;          ///< to move it: seconds of both ranks at mean speed
   bool fixed = false;       ///< it may not move now: it is on its way, has just moved, or costs more than it has left
 };
 
@@ -61,7 +61,7 @@ inline constexpr double kAmpleMemory = 1e300;
 
 struct RankLoad {
   double speed = 0;                   ///< triangles a second, measured; 0: not known
-  double remaining = 0;               ///< of all its subdomains, including those that the snapshot does not list
+  double remaining = 0;               ///< sum over all its subdomains, including those that the snapshot does not list
   double doubt = 0;                   ///< standard deviation of the time for this, over that time
   double free_memory = kAmpleMemory;  ///< triangles that it has memory for besides those that it has and will make
 };

@@ -21,7 +21,7 @@ struct Mesh {
   struct Edge {
     std::int32_t a = 0;       ///< index into points
     std::int32_t b = 0;       ///< index into points
-    std::int32_t marker = 0;  ///< that of the segment
+    std::int32_t marker = 0;  ///< the segment's
     friend bool operator==(const Edge&, const Edge&) = default;
   };
   /// Edges of the boundary that water flows over, one after the other, as ADCIRC has them.
@@ -40,8 +40,8 @@ struct Mesh {
   std::vector<double> attributes;           ///< attributes_per_point values for each point, point by point
   std::int32_t attributes_per_point = 0;
   std::vector<double> regions;  ///< empty, or the attribute of each triangle's region; 0 outside all regions
-  Names names;                  ///< of markers and regions, also of those that do not occur
-  std::vector<Weir> weirs;      ///< of a grid of ADCIRC that was read; only .14 and .grd hold them
+  Names names;                  ///< names for markers and regions, also for those that do not occur
+  std::vector<Weir> weirs;      ///< read from an ADCIRC grid; only .14 and .grd hold them
 
   // Only for a mesh made in subdomains, or a rank's piece of one.
   std::vector<std::int64_t> numbers;     ///< empty, or the number of each point of a piece in the whole mesh

@@ -122,7 +122,7 @@ struct MeshOptions {
   /// Subdomains that move between ranks while they are refined.
   struct Balance {
     std::string policy = "none";                      ///< by name: see docs/balancing.md
-    std::map<std::string, std::string> parameters{};  ///< of the policy, as in {{"method", "graph"}}
+    std::map<std::string, std::string> parameters{};  ///< parameters for the policy, as in {{"method", "graph"}}
     std::shared_ptr<const balancer::Policy> own{};    ///< instead of a name; must be equivalent on every rank
     double look = 0.01;                               ///< time between a rank's checks of its own load
     double gap = 0.02;                                ///< shortest time between reports of a rank, and between plans

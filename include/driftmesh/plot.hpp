@@ -34,7 +34,7 @@ struct PlotBox {
 };
 
 struct PlotOptions {
-  std::string name = "the input";  ///< of what is drawn, for messages
+  std::string name = "the input";  ///< what is drawn, for messages
   int width = 1600;                ///< pixels (points in PDF)
   int height = 0;                  ///< 0: chosen to fit what is shown
   PlotColor color = PlotColor::automatic;
@@ -42,7 +42,7 @@ struct PlotOptions {
   std::optional<PlotBox> box{};  ///< the part of the plane to show; absent: everything
   std::string title{};
   std::string subtitle{};  ///< instead of the numbers of triangles and points and the angles
-  bool counts = true;      ///< of triangles, in the legend of regions, subdomains and ranks
+  bool counts = true;      ///< numbers of triangles in the legend of regions, subdomains and ranks
   bool legend = true;      ///< false where colors merely distinguish neighbors
 };
 

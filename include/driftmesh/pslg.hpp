@@ -54,7 +54,7 @@ struct Pslg {
   std::vector<Segment> segments;
   std::vector<Point> holes;       ///< each removes everything reachable from it without crossing a segment
   std::vector<Region> regions;    ///< if several seeds lie in one region, the last one counts, before polygons
-  Names names;                    ///< of markers and of the attributes of regions
+  Names names;                    ///< names for markers and for the attributes of regions
   std::int32_t first_number = 1;  ///< number of points[0] in files and messages: 0 or 1
   std::vector<Polygon> polygons;  ///< none: the segments bound the domain
 };

@@ -39,7 +39,7 @@ struct RepairReport {
   RepairItem collapsed;               ///< pieces of rings dropped since snapping left no area between them
   RepairItem marker_conflicts;        ///< merged segments with different markers; the first marker is kept
   double snap = 0;                    ///< the length by which close points and segments were judged; 0: rounding error
-  double largest_move = 0;            ///< of a close point that was merged, or a segment that was bent
+  double largest_move = 0;            ///< farthest that a merged point or a bent segment moved
   std::vector<std::string> warnings;  ///< left unchanged, but possibly unintended
 
   /// For each point of the result, its index in the input; -1 for a new one.

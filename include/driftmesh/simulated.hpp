@@ -13,8 +13,8 @@ namespace driftmesh {
 /// in seconds, speeds in triangles per second.
 struct SimulatedCluster {
   std::int32_t ranks = 0;             ///< their number, unless rank_speeds tells
-  double speed = 0;                   ///< of each rank; 0: that of the machine in docs/benchmarks.md
-  std::vector<double> rank_speeds{};  ///< of each rank, instead of `ranks` and `speed`
+  double speed = 0;                   ///< the same on every rank; 0: as on the machine in docs/benchmarks.md
+  std::vector<double> rank_speeds{};  ///< one for each rank, instead of `ranks` and `speed`
   double latency = 50e-6;             ///< from the end of sending to arrival
   double bandwidth = 1e9;             ///< bytes per second that leave a rank
   double message_overhead = 1e-6;     ///< for each message that a rank sends or receives
@@ -45,10 +45,10 @@ struct SimulatedRun {
   std::uint64_t messages = 0;
   std::uint64_t message_bytes = 0;
   std::vector<Move> moves;          ///< in order of departure
-  std::vector<RankTimes> ranks;     ///< of each rank
-  std::vector<double> speeds;       ///< of each rank
-  std::vector<Rank> owners_before;  ///< of each subdomain
-  std::vector<Rank> owners_after;   ///< of each subdomain
+  std::vector<RankTimes> ranks;     ///< one for each rank
+  std::vector<double> speeds;       ///< one for each rank
+  std::vector<Rank> owners_before;  ///< one for each subdomain
+  std::vector<Rank> owners_after;   ///< one for each subdomain
 };
 
 /// Makes a mesh on simulated ranks in this process. Meshes and messages are real, only time is simulated: the same
