@@ -25,7 +25,7 @@ class DormantMesh {
 
   [[nodiscard]] std::int32_t triangles() const { return triangles_.triangles; }
   [[nodiscard]] std::int32_t vertices() const { return triangles_.vertices; }
-  [[nodiscard]] std::size_t bytes() const;  ///< of memory, all of it
+  [[nodiscard]] std::size_t bytes() const;  ///< all the memory it takes
 
   /// Nearly all of the bytes. What remains without them says which points exist, and how many triangles.
   struct Bulk {
@@ -74,7 +74,7 @@ class DormantMesh {
   /// Roots, numbers and origins, read from names_ and trees_.
   struct Frame {
     SubdomainMesh part;                    // without triangles and free vertices
-    IdVector<RootId, std::uint8_t> sides;  // of each root: bit 0 if the domain lies left of it, bit 1 if right
+    IdVector<RootId, std::uint8_t> sides;  // for each root, bit 0 if the domain lies left of it, bit 1 if right
   };
   [[nodiscard]] Frame frame() const;
   void check_counts(const Frame& frame) const;
@@ -82,9 +82,9 @@ class DormantMesh {
   [[nodiscard]] static std::vector<BorderEdge> border_of(const Frame& frame);
 
   Bytes names_;               // given vertices, root and point numbers
-  Bytes trees_;               // of each root: its nodes, parents first, one bit each: 1 if split
+  Bytes trees_;               // for each root its nodes, parents first, one bit each: 1 if split
   std::vector<Point> given_;  // coordinates of given vertices
-  std::vector<Point> free_;   // and of free ones, as the walk meets them
+  std::vector<Point> free_;   // coordinates of free vertices, as the walk meets them
   CodedTriangles triangles_;
   std::uint8_t has_regions_ = 0;
 };

@@ -17,8 +17,8 @@ struct PackedHeader {
   std::uint64_t magic = kMagic;
   std::uint32_t version = kVersion;
   std::uint32_t reserved = 0;
-  std::uint64_t length = 0;    ///< of what follows the header, bytes
-  std::uint64_t checksum = 0;  ///< of what follows the header
+  std::uint64_t length = 0;    ///< bytes that follow the header
+  std::uint64_t checksum = 0;  ///< checksum of what follows the header
 };
 
 /// A checksum made for memory speed: in each of eight lanes of 64 bits, the sum of the words and the sum of these sums

@@ -16,10 +16,10 @@ namespace driftmesh {
 /// The state of a refiner at rest, in addition to a dormant mesh.
 struct DormantBody {
   DormantMesh mesh;
-  std::vector<SubsegmentId> unsplittable;  ///< of the restored mesh, ascending
+  std::vector<SubsegmentId> unsplittable;  ///< subsegments in the restored mesh, ascending
   std::int64_t max_triangles = 0;
   RefineCounters counters;
-  double forecast = 0;  ///< of triangles, as it was
+  double forecast = 0;  ///< triangles, as it was
 };
 
 /// A subdomain without the data shared by all subdomains of a run.
@@ -30,7 +30,7 @@ struct SubdomainState {
   struct Body {
     SubdomainMesh part;
     RefinerState refiner;
-    double forecast = 0;  ///< of triangles, when all bounds are met
+    double forecast = 0;  ///< triangles when all bounds are met
   };
   std::optional<Body> body;  ///< absent before its first slice of work, and while it is dormant
   std::optional<DormantBody> dormant;

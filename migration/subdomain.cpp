@@ -73,7 +73,7 @@ struct Subdomain::Body {
 
   SubdomainMesh part;
   Refiner refiner;
-  double forecast;  // of triangles, when all bounds are met
+  double forecast;  // triangles when all bounds are met
 };
 
 Subdomain::Subdomain(SubdomainId id, const SubdomainContext& context) : id_(id), context_(&context) {}

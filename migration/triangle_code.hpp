@@ -63,7 +63,7 @@ namespace triangle_code {
 enum Corner : std::uint8_t { kNew, kAfter, kBefore, kNamed };  // in the two low bits
 inline constexpr std::uint8_t kCornerBits = 3;
 inline constexpr std::uint8_t kGoesRight = 4;   // through the edge from the entrance's end to the corner
-inline constexpr std::uint8_t kGoesLeft = 8;    // and, when all that is to the right is done, through the other
+inline constexpr std::uint8_t kGoesLeft = 8;    // through the other edge, when all that is to the right is done
 inline constexpr std::uint8_t kNewRegion = 16;  // another label than the triangle before: it follows
 inline constexpr std::uint8_t kAllBits = 31;
 

@@ -17,7 +17,7 @@ namespace driftmesh::protocol {
 /// SPLITs for one subdomain, from one rank.
 struct SplitGroup {
   SubdomainId to{};
-  Epoch epoch = 0;         ///< of `to`, as known to the rank that sent or last forwarded the group
+  Epoch epoch = 0;         ///< epoch of `to`, as known to the rank that sent or last forwarded the group
   Rank origin{};           ///< the rank that made the points; it is told when the group had to be forwarded
   std::uint32_t hops = 0;  ///< how often it was forwarded: at most `epoch`, which rises with every hop
   std::vector<SplitPoint<GlobalRootId>> points;

@@ -33,7 +33,7 @@ class SplitSet {
 /// digests with a probability of about 2^-64.
 struct SplitDigest {
   std::uint64_t count = 0;
-  std::uint64_t sum = 0;     ///< of the hashes of the paths
+  std::uint64_t sum = 0;     ///< hashes of the paths, added up
   std::uint64_t toggle = 0;  ///< their exclusive or
   void add(dyadic::Path path);
   friend bool operator==(const SplitDigest&, const SplitDigest&) = default;

@@ -23,13 +23,13 @@ struct Link {
 /// pays the overhead again. Ranks may share a host, and with it the line by which messages leave it, in the order in
 /// which they are sent; messages within a host go through its memory.
 struct VirtualCluster {
-  IdVector<Rank, double> speeds;                 ///< of each rank, relative to the reference machine
+  IdVector<Rank, double> speeds;                 ///< one for each rank, relative to the reference machine
   std::function<Link(Rank from, Rank to)> link;  ///< Link{} between all, if empty; a rank reaches itself in no time
   double message_overhead = 1e-6;                ///< seconds of a rank's time for each message sent and each received
   double step_overhead = 1e-6;                   ///< seconds that the shortest step takes; above 0
   std::uint64_t step_limit = UINT64_MAX;
   std::int32_t ranks_per_host = 1;            ///< consecutive ones
-  Link within_host = {1e-6, 5e9};             ///< of each pair of ranks on a host
+  Link within_host = {1e-6, 5e9};             ///< between any two ranks on a host
   IdVector<Rank, SpeedSchedule> schedules{};  ///< how speeds change over time; empty: not at all
 };
 
@@ -92,9 +92,9 @@ class VirtualNetwork {
 
   VirtualCluster cluster_;
   IdVector<Rank, RankState> ranks_;
-  std::vector<double> line_free_;             // of each host: when the last message has left
+  std::vector<double> line_free_;             // for each host, when the last message has left
   std::vector<Departure> departures_;         // from hosts of several ranks: a heap, the earliest first
-  std::set<std::pair<double, Rank>> agenda_;  // who can step, and when
+  std::set<std::pair<double, Rank>> agenda_;  // ranks that can step, and when
   std::uint64_t serial_ = 0;
   std::uint64_t bytes_ = 0;
 };

@@ -58,7 +58,7 @@ class Wave {
   Wave(Rank self, std::int32_t ranks, std::int32_t arity) : place_(self, ranks, arity) {}
 
   [[nodiscard]] const TreePlace& place() const { return place_; }
-  [[nodiscard]] std::uint64_t round() const { return round_; }  ///< of the last question
+  [[nodiscard]] std::uint64_t round() const { return round_; }  ///< number of the last question
   /// Whether a question is here that this rank has not answered.
   [[nodiscard]] bool asked() const { return asked_; }
   /// Whether it can be answered: all ranks below have done so.

@@ -25,7 +25,7 @@ namespace driftmesh::protocol {
 struct WireLimits {
   std::int32_t ranks = 0;
   std::int32_t subdomains = 0;
-  std::int32_t roots = 0;  ///< of the decomposition
+  std::int32_t roots = 0;  ///< roots in the decomposition
 };
 
 /// A message of type M, to be written or to be read.

@@ -17,7 +17,7 @@
 namespace driftmesh::protocol {
 namespace {
 
-constexpr int kTag = 0;  // of all messages: no one else uses the communicator
+constexpr int kTag = 0;  // for all messages: no one else uses the communicator
 
 // After this many empty polls in a row, a rank sleeps before it polls again.
 constexpr int kPatience = 2000;

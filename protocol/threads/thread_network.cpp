@@ -70,7 +70,7 @@ class ThreadNetwork::End final : public Transport {
 
   Rank rank_;
   const IdVector<Rank, std::unique_ptr<End>>& ends_;
-  std::mutex mutex_;  // of the mailbox
+  std::mutex mutex_;  // guards the mailbox
   std::condition_variable arrived_;
   std::deque<Received> mailbox_;
   std::deque<Received> taken_;  // out of it, by this rank
