@@ -145,8 +145,8 @@ class RoomOfEdge {
 
 /// The segments next to points that no bridge connects to them yet.
 struct Unreached {
-  std::map<SubsegmentId, std::pair<double, Point>> feet;  ///< of each leaf: squared distance and foot of the nearest
-  std::set<std::int32_t> shells;                          ///< of segments that cannot be cut at a foot
+  std::map<SubsegmentId, std::pair<double, Point>> feet;  ///< for each leaf, squared distance and foot of the nearest
+  std::set<std::int32_t> shells;                          ///< those whose segments cannot be cut at a foot
 };
 
 /// Whether the perpendicular from w to segment ab meets it, and not so near to an end that a bridge to the end, which

@@ -112,7 +112,7 @@ class Checker {
 
   /// Sorts the darts at every point by angle, which yields the loops of the borders, and checks each sector.
   void check_points() {
-    std::vector<std::size_t> begin(d_.points.size() + 1, 0);  // of the darts at each point; later, their end
+    std::vector<std::size_t> begin(d_.points.size() + 1, 0);  // where each point's darts begin; later, where they end
     const auto darts = static_cast<Dart>(2 * d_.roots.size());
     for (Dart e = 0; e < darts; ++e) ++begin[to_index(start(e)) + 1];
     std::partial_sum(begin.begin(), begin.end(), begin.begin());

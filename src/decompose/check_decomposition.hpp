@@ -12,10 +12,10 @@ struct DecompositionReport {
   /// Descriptions of broken invariants, at most kMaxProblems.
   std::vector<std::string> problems;
   double smallest_angle = 180;                ///< degrees, between a separator and any adjacent root, inside the domain
-  GlobalPointId smallest_at = kNoPoint;       ///< where
-  std::vector<std::int32_t> angle_histogram;  ///< of those angles, in steps of 10 degrees: [0, 10), ..., [170, 180]
-  double area = 0;                            ///< of all subdomains
-  double border_length = 0;                   ///< of roots with the domain on one side
+  GlobalPointId smallest_at = kNoPoint;       ///< the point with that angle
+  std::vector<std::int32_t> angle_histogram;  ///< counts of those angles by steps of 10: [0, 10), ..., [170, 180]
+  double area = 0;                            ///< sum over all subdomains
+  double border_length = 0;                   ///< roots with the domain on one side
   double separator_length = 0;
   double largest_load = 0;  ///< predicted work of a subdomain, relative to the mean
   double smallest_load = 0;

@@ -22,7 +22,7 @@ struct CutGoal {
 struct Cut {
   std::size_t first = 0, second = 0;
   std::int32_t parts_between = 0;  ///< parts of the side whose border runs from first to second; 0: no cut was found
-  double share_between = 0;        ///< of the piece's work
+  double share_between = 0;        ///< fraction of the piece's work
   double cost = 0;
   explicit operator bool() const { return parts_between != 0; }
 };

@@ -10,7 +10,7 @@ namespace {
 /// first one does.
 struct Effort {
   double angle;    ///< relative to the requested minimum
-  double spacing;  ///< of stations, relative to the square root of the piece's area
+  double spacing;  ///< distance of stations, relative to the square root of the piece's area
   std::size_t max_stations;
   double clearance;
 };

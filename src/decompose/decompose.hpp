@@ -20,7 +20,7 @@ struct DecomposeOptions {
   /// 0: equal work. Above, up to kMaxSkew: deliberately uneven, for experiments; each cut gives one side up to (1 +
   /// skew) times its fair share, at random.
   double skew = 0;
-  std::uint64_t seed = 1;  ///< of that randomness
+  std::uint64_t seed = 1;  ///< seed for that randomness
 };
 
 inline constexpr std::int32_t kMaxSubdomains = 10'000'000;

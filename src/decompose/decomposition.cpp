@@ -25,7 +25,7 @@ void list_roots(Decomposition& d) {
 }
 
 std::vector<Interface> interfaces(const Decomposition& d) {
-  std::vector<std::int32_t> begin(d.size() + 1, 0);  // of each subdomain's interfaces; later, their end
+  std::vector<std::int32_t> begin(d.size() + 1, 0);  // where each subdomain's interfaces begin; later, where they end
   const auto each = [&](auto&& visit) {
     for (const Decomposition::Root& root : d.roots)
       if (root.is_interface()) visit(root, std::min(root.left, root.right), std::max(root.left, root.right));

@@ -32,8 +32,8 @@ struct Decomposition {
   struct Root {
     GlobalPointId a{};  ///< a -> b is the root's direction: a < b, or for a shell piece, away from its apex
     GlobalPointId b{};
-    std::int32_t marker = 0;          ///< of the input segment; 0 for separators
-    std::int32_t shell = kNone;       ///< of a shell piece (see mesh/corners.hpp)
+    std::int32_t marker = 0;          ///< the input segment's; 0 for separators
+    std::int32_t shell = kNone;       ///< the shell that the piece belongs to (see mesh/corners.hpp)
     SubdomainId left = kNoSubdomain;  ///< subdomain left of a -> b; kNoSubdomain: not in the domain
     SubdomainId right = kNoSubdomain;
     std::uint16_t left_region = 0;  ///< label of the region on that side (see mesh/cdt.hpp), 0 without a side
@@ -87,7 +87,7 @@ void list_roots(Decomposition& decomposition);
 struct Interface {
   SubdomainId first;  ///< first < second
   SubdomainId second;
-  double length;  ///< of all roots they share
+  double length;  ///< all roots they share, together
 };
 
 /// Each pair of subdomains with a common root once, in ascending order.

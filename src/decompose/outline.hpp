@@ -34,11 +34,11 @@ struct Outline {
 
   Loop loop;
   std::vector<Station> stations;
-  WorkSamples samples;  ///< of the work inside; empty where work is in proportion to area
+  WorkSamples samples;  ///< the work inside; empty where work is in proportion to area
   double length = 0;
   double area = 0;
   double spacing = 0;
-  double work = 0;  ///< of the samples
+  double work = 0;  ///< sum of the samples
 
   /// Twice the area to the right of the separator from one station to a later one: along the border and back.
   [[nodiscard]] double twice_area_between(const Station& a, const Station& b) const {
@@ -57,7 +57,7 @@ struct Outline {
 
 struct PieceSize {
   double area;
-  double length;  ///< of the border
+  double length;  ///< length of the border
 };
 
 /// Reads the loop of `side`.

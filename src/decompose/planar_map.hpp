@@ -37,7 +37,7 @@ class PlanarMap {
   };
 
   IdVector<MapVertexId, Point> points;
-  IdVector<MapVertexId, VertexOrigin> origin;  ///< of each point: index of an input point, shell end, or kNone
+  IdVector<MapVertexId, VertexOrigin> origin;  ///< for each point, the index of an input point, shell end, or kNone
   IdVector<WallId, Wall> walls;
   IdVector<SideId, Side> sides;  ///< two for each wall
 

@@ -245,7 +245,7 @@ class SegmentCheck {
 
   [[nodiscard]] bool halves_fit(const Chain& chain, const std::array<std::size_t, 3>& cuts, VertexOrigin circle) const {
     const std::int32_t name = circle - kShellEnd;
-    std::array<std::int32_t, 2> shells{kNone, kNone};  // of halves that are one root
+    std::array<std::int32_t, 2> shells{kNone, kNone};  // shells of the halves that are one root
     for (std::size_t half = 0; half < 2; ++half) {
       if (cuts[half + 1] - cuts[half] != 1) continue;
       shells[half] = d_.roots[chain.links[cuts[half]].root].shell;
@@ -284,11 +284,11 @@ class SegmentCheck {
   const Triangulation& domain_;
   const std::string& file_;
   IdVector<GlobalPointId, std::vector<GlobalRootId>> roots_at_;  // without separators
-  IdVector<GlobalPointId, VertexId> vertex_of_;                  // of the domain; kNone between its vertices
+  IdVector<GlobalPointId, VertexId> vertex_of_;                  // in the domain; kNone between its vertices
   IdVector<GlobalRootId, bool> seen_;
   std::map<Ends, RootId> root_between_;
   std::map<Ends, GlobalRootId> found_;
-  ShellNames names_;  // of all pieces so far
+  ShellNames names_;  // names in all pieces so far
 };
 
 }  // namespace

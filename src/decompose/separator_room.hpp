@@ -13,7 +13,7 @@ namespace driftmesh {
 /// separator does not meet may reach into it. Angles with what it meets are the caller's concern.
 class SeparatorRoom {
  public:
-  SeparatorRoom() = default;  ///< of nothing, without any height
+  SeparatorRoom() = default;  ///< no separator: room without any height
   /// Of the separator ab; a and b differ. `wanted`: a length, the height on either side as far as corners are
   /// concerned, if that is more.
   SeparatorRoom(const Point& a, const Point& b, double wanted = 0);

@@ -16,8 +16,8 @@ namespace {
 // Lengths are in units of a subdomain's size.
 constexpr double kInterfaceWorth = 0.225;  ///< the cost at which an interface is removed
 constexpr double kShort = 0.7;             ///< separators shorter than this may become points
-constexpr double kClearance = 0.02;        ///< between a separator and what it does not meet
-constexpr double kLength = 0.1;            ///< of separators
+constexpr double kClearance = 0.02;        ///< room between a separator and what it does not meet
+constexpr double kLength = 0.1;            ///< least length of separators
 constexpr double kLittle = 0.02;           ///< steps shorter than this are not worth their time
 
 class Smoother {

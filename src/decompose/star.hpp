@@ -38,7 +38,7 @@ class Star {
   /// Lengths.
   struct Room {
     double clearance;  ///< wanted between a wall at the center and others (see SeparatorRoom)
-    double length;     ///< that walls at the center should have
+    double length;     ///< least length wanted of walls at the center
   };
 
   /// `angle`: radians, required at separators; what is less already must only not become smaller.
@@ -92,7 +92,7 @@ class Star {
   std::size_t count_ = 0;
   bool has_limits_ = false;  ///< they are set when they are first needed
   std::array<Spoke, kMostSpokes> spokes_;
-  std::array<SeparatorRoom, kMostSpokes> rooms_;  // of the spokes that separate, for the place that is being judged
+  std::array<SeparatorRoom, kMostSpokes> rooms_;  // for the spokes that separate, at the place that is being judged
   std::array<Sector, kMostSpokes> sectors_;
 };
 

@@ -9,8 +9,8 @@ namespace driftmesh {
 namespace {
 
 // Costs of loads are lengths in units of a subdomain's size.
-constexpr double kUneven = 0.6;      ///< of the squared deviation from the mean
-constexpr double kOver = 16;         ///< of the squared excess over kMostMoved
+constexpr double kUneven = 0.6;      ///< cost per squared deviation from the mean
+constexpr double kOver = 16;         ///< cost per squared excess over kMostMoved
 constexpr double kLeastLoad = 0.65;  ///< a load is smaller only if it was before
 /// The weight of separators inside a subdomain, which will be dropped: something, so that they do not run wild.
 constexpr double kInner = 0.01;

@@ -49,7 +49,7 @@ class StarCost {
     SubdomainId subdomain = kNoSubdomain;
     double size = 0, before = 0;
     double load = 0;  ///< for the place that at() was called for
-    Point slope;      ///< of the load
+    Point slope;      ///< gradient of the load
   };
   /// First and second derivatives.
   struct Slopes {
@@ -65,9 +65,9 @@ class StarCost {
   double size_ = 0, most_load_ = 0;
   std::size_t count_ = 0;
   std::array<Neighbor, Star::kMostSpokes> neighbors_;
-  std::array<std::size_t, Star::kMostSpokes> neighbor_of_{};  // of each sector
-  std::array<double, Star::kMostSpokes> density_{};           // of each sector: load by area
-  std::array<double, Star::kMostSpokes> weight_{};            // of each spoke
+  std::array<std::size_t, Star::kMostSpokes> neighbor_of_{};  // one for each sector
+  std::array<double, Star::kMostSpokes> density_{};           // load by area, for each sector
+  std::array<double, Star::kMostSpokes> weight_{};            // one for each spoke
 };
 
 }  // namespace driftmesh

@@ -18,7 +18,7 @@ struct Moments {
     double area;
   };
   double area = 0, work = 0, x = 0, y = 0;
-  RegionArea first{0, -1};  // of most subdomains the only one
+  RegionArea first{0, -1};  // the only one in most subdomains
   std::vector<RegionArea> others;
 
   void add(const PlanarMap& map, const Piece& piece) {
