@@ -53,7 +53,7 @@ class AreaBounds {
   const Triangulation& mesh_;
   const SizeField* size_;
   std::vector<double> by_region_;  // by region label; the first is that of the request
-  double twice_area_of_least_;     // of the size field
+  double twice_area_of_least_;     // for the least length of the size field
 };
 
 }  // namespace driftmesh

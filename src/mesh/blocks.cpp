@@ -28,7 +28,7 @@ class BlockFinder {
   struct Step {
     std::int32_t point;
     std::int32_t entrance;  // the edge by which it was reached; -1: none
-    std::size_t next;       // of at_
+    std::size_t next;       // place in at_
   };
 
   [[nodiscard]] std::int32_t other_end(std::int32_t edge, std::int32_t point) const {
@@ -91,9 +91,9 @@ class BlockFinder {
   }
 
   const std::vector<std::array<std::int32_t, 2>>& edges_;
-  std::vector<std::size_t> begin_;  // of each point's edges in at_; and the end
+  std::vector<std::size_t> begin_;  // for each point, where its edges in at_ begin; and the end
   std::vector<std::int32_t> at_;
-  std::vector<std::int32_t> number_, lowest_;  // of points, in the order of the walk from 1; 0: not yet reached
+  std::vector<std::int32_t> number_, lowest_;  // for each point, in the order of the walk from 1; 0: not yet reached
   std::int32_t count_ = 0;
   std::vector<Step> way_;
   std::vector<std::int32_t> open_;  // edges whose block is not yet known

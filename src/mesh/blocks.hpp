@@ -15,7 +15,7 @@ enum class BlockId : std::int32_t {};
 
 struct Blocks {
   IdVector<BlockId, std::vector<std::int32_t>>
-      edges;  ///< of each block, ascending; blocks are in the order of their first
+      edges;  ///< for each block, ascending; blocks are in the order of their first
   std::vector<BlockId> of_edge;
 };
 

@@ -27,7 +27,7 @@ class BoundForecast {
   const Triangulation& mesh_;
   const SizeField* size_;
   AreaBounds areas_;
-  IdVector<VertexId, double> at_vertices_;  // of the size field, where there are triangles
+  IdVector<VertexId, double> at_vertices_;  // the size field, where there are triangles
 };
 
 /// Not less than the total, and takes no more than a look at each triangle: with the least length that the size field

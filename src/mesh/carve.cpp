@@ -107,7 +107,7 @@ std::vector<CarveReport::Meeting> label_regions(Triangulation& mesh, const std::
   if (seeds.empty()) return meetings;
   mesh.region.resize(mesh.triangles.size(), 0);
   Flood flood(mesh);
-  std::vector<std::pair<std::size_t, std::size_t>> areas(seeds.size());  // of each region, a part of flood.triangles()
+  std::vector<std::pair<std::size_t, std::size_t>> areas(seeds.size());  // for each region, a part of flood.triangles()
   for (std::size_t r = 0; r < seeds.size(); ++r) {
     if (seeds[r] == kNone || !mesh.triangles[seeds[r]].alive()) continue;
     if (const std::uint16_t before = mesh.region[seeds[r]]; before != 0) {
@@ -161,7 +161,7 @@ void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& side
 /// All that can be reached from the border of the box.
 void add_surroundings(const Triangulation& mesh, Flood& outside) {
   for (const Subsegment& s : mesh.subsegments)
-    if ((s.half[0] == kNone) != (s.half[1] == kNone))  // of the frame
+    if ((s.half[0] == kNone) != (s.half[1] == kNone))  // on the frame
       outside.add(triangle_of(s.half[0] == kNone ? s.half[1] : s.half[0]));
 }
 
@@ -276,7 +276,7 @@ std::vector<TriangleId> locate_regions(const Triangulation& mesh, const Pslg& ps
 TriangleId locate(const Triangulation& mesh, const Point& p, TriangleId start) {
   TriangleId t = start;
   const std::size_t most = 4 * mesh.triangles.size() + 16;
-  unsigned turn = 0;  // which edge is tried first; varied so that the walk does not go in circles
+  unsigned turn = 0;  // the edge tried first; varied so that the walk does not go in circles
   for (std::size_t step = 0; step < most; ++step) {
     HalfEdge out = kNone;
     bool inside = true;

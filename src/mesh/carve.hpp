@@ -26,7 +26,7 @@ struct CarveReport {
     PolygonFlaw what;
     std::optional<Point> at;  ///< none of a polygon without corners
   };
-  std::vector<Flaw> flaws;   ///< of polygons, each with its place
+  std::vector<Flaw> flaws;   ///< faults of polygons, each with its place
   std::vector<Point> holes;  ///< with polygons: a point in each bounded part of the plane that is not in the domain
 };
 

@@ -118,10 +118,10 @@ class Cavity {
   int stack_count_ = 0;
   int border_count_ = 0;
   int killed_count_ = 0;
-  int first_left_ = 0;  // of a split: where the border passes from the right side of the segment to the left
+  int first_left_ = 0;  // for a split, where the border passes from the right side of the segment to the left
   std::array<std::uint16_t, 2> regions_{};  // left and right of a split; of a free point, left
   TriangleId next_ = kNone;                 // where the walk continues
-  double least_cross_ = 0;                  // of the border's edges
+  double least_cross_ = 0;                  // the least among the border's edges
   double largest_lifts_ = 0;                // sum of the squared distances of an edge's ends, of the border's edges
 };
 

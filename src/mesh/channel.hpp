@@ -19,7 +19,7 @@ struct Channel {
 /// What faces the base of a triangle across its apex.
 struct Facing {
   std::array<Channel, 2> channels;
-  std::array<SubsegmentId, 2> segments;  ///< that the channels are in front of
+  std::array<SubsegmentId, 2> segments;  ///< the channels are in front of these
   int count = 0;
   bool same_shell = false;  ///< a piece of the same shell: the triangle is in the wedge of an acute corner
 };

@@ -150,7 +150,7 @@ class Planner {
     double radius;
     std::int32_t name;    // shared by all that are cut at it
     std::int32_t vertex;  // name of the new vertex
-    double width = 0;     // of the narrowest sector there
+    double width = 0;     // width of the narrowest sector there
   };
 
   [[nodiscard]] bool clustered(SegmentEnd e) const { return apex_[e] != kNone; }
@@ -337,12 +337,12 @@ class Planner {
 
   const Sectors& sectors_;
   CornerUse use_;
-  std::map<SegmentEnd, std::vector<Circle>> circles_;  // of the ends that are cut
-  std::map<SegmentEnd, std::vector<Circle>> wishes_;   // of ends in a bundle, nearest first, not yet granted
+  std::map<SegmentEnd, std::vector<Circle>> circles_;  // for ends that are cut
+  std::map<SegmentEnd, std::vector<Circle>> wishes_;   // for ends in a bundle, nearest first, not yet granted
   std::map<SegmentEnd, std::vector<Circle>> spare_;    // powers of two beyond the reach of an end
-  IdVector<SegmentEnd, std::int32_t> tip_circle_;      // of each end: the circle that the other end lies on
-  IdVector<SegmentEnd, std::int32_t> apex_;  // of each end: the name of its cluster's apex, kNone if it is in none
-  IdVector<SegmentEnd, bool> whole_;         // of each end: whether its cluster needs no cuts
+  IdVector<SegmentEnd, std::int32_t> tip_circle_;      // for each end, the circle that the other end lies on
+  IdVector<SegmentEnd, std::int32_t> apex_;  // for each end, the name of its cluster's apex, kNone if it is in none
+  IdVector<SegmentEnd, bool> whole_;         // for each end, whether its cluster needs no cuts
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> shells_;
   std::int32_t names_ = 0;
   CornerPlan plan_;

@@ -29,9 +29,9 @@ enum class SegmentEnd : std::int32_t {};
 /// an apex (a shell). See corners.hpp.
 struct CornerPlan {
   struct Cut {
-    SegmentEnd end;       ///< of the segment, at the apex
+    SegmentEnd end;       ///< the segment's end at the apex
     Point at;             ///< on the segment
-    std::int32_t shell;   ///< of the piece between this cut and the one before it, or the apex
+    std::int32_t shell;   ///< for the piece between this cut and the one before it, or the apex
     std::int32_t circle;  ///< names the new vertex: shared with those that it forms a seditious pair with
   };
   std::vector<Cut> cuts;  ///< those of one end nearest to the apex first

@@ -18,7 +18,7 @@ bool is_locally_delaunay(const Triangulation& mesh, HalfEdge h) {
 /// The star of a vertex about to be deleted, as the polygon that remains to be triangulated.
 struct Star {
   struct Side {
-    VertexId from;   // of the polygon's edge; the next side begins where this one ends
+    VertexId from;   // start of the polygon's edge; the next side begins where this one ends
     HalfEdge outer;  // what lies across
   };
   std::vector<Side> sides;        // counterclockwise

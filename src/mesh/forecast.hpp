@@ -59,7 +59,7 @@ class Forecast {
   BoundForecast bound_;
   Growth growth_;
   double flatness_;                       // 1, less for small angle bounds
-  double sin_squared_;                    // of the angle bound
+  double sin_squared_;                    // for the angle bound
   GrowingArray<double, VertexId> sizes_;  // at vertices; empty without an angle bound
 };
 

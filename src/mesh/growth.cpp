@@ -72,7 +72,7 @@ Covered grown_from(const GrowthCorner& c, double size, double reach, const Growt
   if (reach <= height || (height > kLevelCorner * c.near && c.far < 2 * c.near))
     return cover_sector(c.angle, std::min(std::sqrt(2 * c.area / c.angle), reach), size, g);
   // An obtuse corner over a long edge: two tapering arms.
-  constexpr double kMeanDistance = 0.3;  // of points across the start of an arm, relative to its width
+  constexpr double kMeanDistance = 0.3;  // between points across the start of an arm, relative to its width
   Covered sum;
   for (const double arm : {c.near, c.far}) {
     const double length = std::sqrt(std::max(0.0, arm * arm - height * height));

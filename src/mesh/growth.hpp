@@ -33,7 +33,7 @@ struct GrowthCorner {
   double angle;      ///< radians
   double near, far;  ///< lengths of its edges, near <= far
   double opposite;   ///< length of the third
-  double area;       ///< of the triangle
+  double area;       ///< area of the triangle
 };
 
 /// The integral of the density over a triangle, away from a corner where edges have length `size`: the triangles that

@@ -47,7 +47,7 @@ class EdgeTable {
 
  private:
   const Triangulation& mesh_;
-  std::vector<std::size_t> begin_;  // of each vertex in half_edges_
+  std::vector<std::size_t> begin_;  // for each vertex, where its part of half_edges_ begins
   std::vector<HalfEdge> half_edges_;
 };
 

@@ -247,7 +247,7 @@ class Merger {
   Numbering numbering_;
   Mesh whole_;
   std::vector<std::int64_t> numbers_;  // ascending; empty unless gaps are left out
-  std::vector<Holder> holder_;         // of each point
+  std::vector<Holder> holder_;         // one for each point
   bool has_regions_ = false;
   bool has_subdomains_ = false;
   bool has_ranks_ = false;

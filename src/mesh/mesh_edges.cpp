@@ -26,7 +26,7 @@ Ends ends_of(const Mesh& mesh, std::uint32_t h) {
 }
 
 struct Buckets {
-  std::vector<std::uint32_t> first;  // of each vertex, and one past the last
+  std::vector<std::uint32_t> first;  // for each vertex, and one past the last
   std::vector<std::uint32_t> half_edges;
 };
 

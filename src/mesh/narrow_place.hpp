@@ -11,7 +11,7 @@ namespace driftmesh {
 struct NarrowPlace {
   Point at;          ///< on one of them, where they are closest
   double width;      ///< their distance there
-  double length;     ///< of the part of one segment that the other runs along
+  double length;     ///< length of the part of one segment that the other runs along
   double triangles;  ///< number that a mesh with good angles is expected to need between them
 };
 

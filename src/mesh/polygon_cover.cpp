@@ -79,7 +79,7 @@ class Walks {
     for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
   }
 
-  std::vector<RingId> first_ring_;  // of each polygon
+  std::vector<RingId> first_ring_;  // one for each polygon
   IdVector<RingId, std::int32_t> polygon_;
   std::vector<std::size_t> begin_;  // for each segment, where its part of walks_ begins; and the end
   std::vector<Walk> walks_;
@@ -179,7 +179,7 @@ class Membership {
   std::vector<bool> outer_;
   std::int64_t covering_ = 0;
   std::set<std::int32_t> with_regions_;
-  std::map<std::int32_t, std::int32_t> regions_, features_;  // of the polygons that cover the place, with their numbers
+  std::map<std::int32_t, std::int32_t> regions_, features_;  // counts of the polygons that cover the place
 };
 
 /// Looks for flaws along the way, and names each once.

@@ -31,14 +31,14 @@ struct PolygonFlaw {
   std::int32_t polygon = 0;      ///< index into the input's polygons
   std::int32_t ring = 0;         ///< which one of the polygon's, if the kind names a ring
   std::int32_t other = kNone;    ///< the other ring or polygon, if the kind names one
-  AreaId area = kNone;           ///< where, or
-  std::int32_t segment = kNone;  ///< where
+  AreaId area = kNone;           ///< the place, if it is an area
+  std::int32_t segment = kNone;  ///< the place, if it is a segment
 };
 
 /// What the polygons of an input cover.
 struct PolygonCover {
   IdVector<AreaId, bool> inside;          ///< whether some polygon covers the area
-  IdVector<AreaId, std::int32_t> region;  ///< of the last polygon that covers the area and has one; kNone without one
+  IdVector<AreaId, std::int32_t> region;  ///< the last polygon's that covers the area and has one; kNone without one
   std::vector<PolygonFlaw> flaws;         ///< the first of each kind for each ring, polygon or feature
 };
 

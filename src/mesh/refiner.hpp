@@ -116,7 +116,7 @@ class Refiner {
   QualityBounds bounds_;
   Cavity cavity_;
   Lens lens_;
-  double sin_squared_ = 0;  // of the angle bound, with a margin for rounding
+  double sin_squared_ = 0;  // for the angle bound, with a margin for rounding
   double off_center_factor_ = 0;
   AreaBounds areas_;
   double coarsening_ = 1;  // current factor on all area bounds

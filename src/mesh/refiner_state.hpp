@@ -20,7 +20,7 @@ struct RefinerState {
   enum class Stage : std::uint8_t { kSegments, kCoarse, kFine, kRest, kDone };
 
   Stage stage = Stage::kSegments;
-  SubsegmentId next_segment{0};  ///< of kSegments
+  SubsegmentId next_segment{0};  ///< next in kSegments
   Sweep sweep;
   SkinnyBuckets skinny;
   GrowingArray<TriangleId> deferred;              ///< skinny ones, until kRest

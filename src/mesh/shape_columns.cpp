@@ -9,7 +9,7 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::size_t kLanes = 8;  // of partial results, whatever the width of the machine's vectors
+constexpr std::size_t kLanes = 8;  // partial results, whatever the width of the machine's vectors
 
 /// Bins of 10 degrees by the signed square of the cosine, without a trigonometric function, a search or a branch for
 /// each of millions of angles: a table of narrow cells, each with at most one limit between two bins inside it.

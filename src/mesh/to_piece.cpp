@@ -7,7 +7,7 @@ namespace {
 
 /// The place of every vertex of `mesh` in the piece: input points first, then the others as they are stored.
 struct VertexOrder {
-  IdVector<VertexId, std::int32_t> place;  // of each vertex; kNone for free slots
+  IdVector<VertexId, std::int32_t> place;  // one for each vertex; kNone for free slots
   std::vector<VertexId> input_vertices;    // in the order of the input
   std::size_t count = 0;
 };

@@ -24,7 +24,7 @@ struct Triangle {
 /// been cut at its midpoint.
 struct Subsegment {
   std::array<VertexId, 2> vertex;  ///< its ends, in the root's direction
-  std::array<HalfEdge, 2> half;    ///< of a leaf: the edge left and right of that direction, kNone outside the domain
+  std::array<HalfEdge, 2> half;    ///< for a leaf, the edge left and right of that direction, kNone outside the domain
   dyadic::Path path;               ///< which interval of the root
   RootId root;
   SubsegmentId child;  ///< kNone for a leaf, else the first half; the second follows it
@@ -37,7 +37,7 @@ struct RootSegment {
   std::array<VertexId, 2>
       vertex;  ///< in its direction: from the lower to the higher global ID, or away from an acute corner
   std::int32_t marker = 0;
-  std::int32_t shell = kNone;  ///< of a shell piece (see corners.hpp): which two circles of which corner it joins
+  std::int32_t shell = kNone;  ///< for a shell piece (see corners.hpp), which two circles of which corner it joins
   SubsegmentId tree = kNone;   ///< the root of its tree of subsegments
 };
 
@@ -48,7 +48,7 @@ struct RootSegment {
 struct Triangulation {
   GrowingArray<Triangle, TriangleId> triangles;
   GrowingArray<Point, VertexId> points;
-  GrowingArray<VertexOrigin, VertexId> origin;  ///< of each vertex
+  GrowingArray<VertexOrigin, VertexId> origin;  ///< one for each vertex
   /// Index of the region of each triangle; empty when the domain has one region.
   GrowingArray<std::uint16_t, TriangleId> region;
   IdVector<SubsegmentId, Subsegment> subsegments;

@@ -72,7 +72,7 @@ class Sweep {
 
  private:
   std::int32_t cursor_ = 0;     // given slots before it are done
-  std::int32_t block_end_ = 0;  // of the given slots in work
+  std::int32_t block_end_ = 0;  // end of the block of given slots in work
   std::int32_t given_ = 0;
   std::int32_t added_ = 0;  // added slots before it are done
   std::int32_t block_ = 1;
