@@ -59,7 +59,7 @@ class PieceAssembly final : public Exchange {
   HeldSubdomains held_;
   std::vector<SubdomainCensus> census_;
   SubdomainTable subdomains_;
-  std::vector<NumberedRoot> roots_;  // of this rank, ascending
+  std::vector<NumberedRoot> roots_;  // roots on this rank, ascending
   std::vector<Rank> neighbors_;      // ranks with a common root, ascending
 };
 

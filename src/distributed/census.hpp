@@ -12,7 +12,7 @@ namespace driftmesh {
 struct SubdomainCensus {
   struct Root {
     GlobalRootId root{};
-    protocol::SplitDigest splits;  ///< of the points on it
+    protocol::SplitDigest splits;  ///< digest of the points on it
   };
   SubdomainId id{};
   std::int64_t free_points = 0;  ///< on no root

@@ -95,10 +95,10 @@ class ExchangeRunner {
 
   protocol::Transport& transport_;
   std::size_t part_;
-  int round_ = 0;  // of the current exchange
+  int round_ = 0;  // number within the current exchange
   bool sent_ = false;
   std::vector<Rank> senders_;
-  std::uint32_t serial_ = 0;                   // of the current round, over all exchanges
+  std::uint32_t serial_ = 0;                   // number of the current round, over all exchanges
   std::map<std::uint32_t, Arrivals> arrived_;  // by round and sender
 };
 

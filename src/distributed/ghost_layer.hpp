@@ -39,8 +39,8 @@ class GhostLayer final : public Exchange {
   struct Part {
     Rank rank{};
     Mesh mesh;
-    std::vector<Rank> owners;           ///< of its points
-    std::vector<std::int64_t> offsets;  ///< of its triangles in their subdomains
+    std::vector<Rank> owners;           ///< one for each point
+    std::vector<std::int64_t> offsets;  ///< numbers of its triangles in their subdomains
   };
 
   [[nodiscard]] std::vector<Block> own_blocks() const;
@@ -57,7 +57,7 @@ class GhostLayer final : public Exchange {
 
   const DistributedPiece& piece_;
   std::map<Rank, std::vector<std::int32_t>> sent_;  // triangles
-  std::map<std::int32_t, std::int64_t> first_;      // of each subdomain, the number of triangles; then of its first one
+  std::map<std::int32_t, std::int64_t> first_;      // each subdomain's number of triangles; then of its first one
   GhostedPiece result_;
 };
 

@@ -13,17 +13,17 @@ namespace driftmesh {
 /// the decomposition; then, subdomain by subdomain, the points on the roots that it owns (root by root, in order of
 /// position), and those inside it.
 struct SubdomainTable {
-  IdVector<SubdomainId, Rank> rank;                  ///< that holds it
-  IdVector<SubdomainId, std::int64_t> first_number;  ///< of its own vertices
-  std::int64_t points = 0;                           ///< of the whole mesh
-  std::int64_t triangles = 0;                        ///< of the whole mesh
+  IdVector<SubdomainId, Rank> rank;                  ///< the holder of each
+  IdVector<SubdomainId, std::int64_t> first_number;  ///< number of the first vertex that is its own
+  std::int64_t points = 0;                           ///< points in the whole mesh
+  std::int64_t triangles = 0;                        ///< triangles in the whole mesh
 };
 
 /// The points on a root, as known to the rank on one or both of its sides.
 struct NumberedRoot {
   GlobalRootId root{};
   protocol::SplitDigest splits;
-  std::int64_t first_number = -1;  ///< of the points, in order of position; -1 while unknown
+  std::int64_t first_number = -1;  ///< number of the first point, in order of position; -1 while unknown
 };
 
 }  // namespace driftmesh

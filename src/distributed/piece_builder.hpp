@@ -24,7 +24,7 @@ class PieceBuilder {
   [[nodiscard]] DistributedPiece build(const HeldSubdomains& held, const Pslg& pslg);
 
  private:
-  using Place = std::int32_t;  // of a vertex in the piece
+  using Place = std::int32_t;  // index of a vertex in the piece
 
   [[nodiscard]] Rank holder(SubdomainId i) const { return subdomains_.rank[i]; }
   void place_decomposition_points();
@@ -49,9 +49,9 @@ class PieceBuilder {
   DistributedPiece piece_;
   IdVector<Place, GlobalPointId> corners_;          // points of the decomposition here: the first vertices
   IdVector<GlobalPointId, Place> place_of_corner_;  // kNone elsewhere
-  IdVector<GlobalRootId, Place> place_of_root_;     // of the first point on each root here
-  std::vector<Place> place_of_free_;                // of the first inner point of each subdomain in the census
-  IdVector<Place, bool> is_placed_;                 // whose coordinates are known
+  IdVector<GlobalRootId, Place> place_of_root_;     // the first point on each root here
+  std::vector<Place> place_of_free_;                // the first inner point of each subdomain in the census
+  IdVector<Place, bool> is_placed_;                 // its coordinates are known
 };
 
 }  // namespace driftmesh

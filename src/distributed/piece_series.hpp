@@ -40,7 +40,7 @@ class PieceSeries {
   const Pslg& pslg_;
   std::vector<SubdomainCensus> census_;
   SubdomainTable subdomains_;
-  std::vector<NumberedRoot> roots_;  // of all pieces, ascending
+  std::vector<NumberedRoot> roots_;  // roots in all pieces, ascending
 };
 
 }  // namespace driftmesh

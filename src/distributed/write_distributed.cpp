@@ -22,7 +22,7 @@ namespace driftmesh {
 
 namespace {
 
-constexpr Rank kWriter{0};  // of files of the whole mesh
+constexpr Rank kWriter{0};  // writes files of the whole mesh
 
 VtuArrays arrays_of_series(const DistributedPiece& piece, bool ghost_layer) {
   VtuArrays arrays = arrays_of_pieces(piece);

@@ -35,7 +35,7 @@ class GatherPieces final : public Exchange {
   void merge();
 
   const DistributedPiece& piece_;
-  std::vector<Mail> pieces_;  // of the other ranks, as they came
+  std::vector<Mail> pieces_;  // from the other ranks, as they came
   Mesh whole_;
 };
 

@@ -52,7 +52,7 @@ void WriteMfem::find_rim() {
 
 /// Points ascend by number within each group, so all ranks have the same order.
 void WriteMfem::group_points() {
-  std::map<std::int32_t, std::vector<std::int32_t>> others;  // of each shared point
+  std::map<std::int32_t, std::vector<std::int32_t>> others;  // the other ranks that have each shared point
   for (const DistributedPiece::Neighbor& neighbor : piece_.neighbors)
     for (const std::int32_t v : neighbor.shared) others[v].push_back(to_int(neighbor.rank));
   for (auto& [point, ranks] : others) {

@@ -30,8 +30,8 @@ class WriteMfem final : public Exchange {
   void receive(int round, std::vector<Mail> mail) override;
 
  private:
-  using Ends = std::array<std::int64_t, 2>;  // of an edge: the numbers of its points, ascending
-  using Edge = std::array<std::int32_t, 2>;  // of the piece, in the same direction
+  using Ends = std::array<std::int64_t, 2>;  // the numbers of an edge's points, ascending
+  using Edge = std::array<std::int32_t, 2>;  // their indices in the piece, in the same direction
 
   void find_rim();
   [[nodiscard]] std::vector<Mail> describe() const;

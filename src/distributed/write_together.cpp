@@ -9,7 +9,7 @@
 namespace driftmesh {
 namespace {
 
-constexpr Rank kMaker{0};  // of the file
+constexpr Rank kMaker{0};  // creates the file
 
 }  // namespace
 

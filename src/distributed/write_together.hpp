@@ -37,7 +37,7 @@ class WriteTogether final : public Exchange {
   void receive(int round, std::vector<Mail> mail) override;
 
  private:
-  using Ends = std::array<std::int64_t, 2>;  // of a subsegment: the numbers of its points, ascending
+  using Ends = std::array<std::int64_t, 2>;  // the numbers of a subsegment's points, ascending
 
   [[nodiscard]] Ends ends_of(std::int32_t edge) const;
   [[nodiscard]] const DistributedPiece::Neighbor* neighbor(Rank rank) const;
@@ -53,8 +53,8 @@ class WriteTogether final : public Exchange {
   std::string path_;
   Hdf5Shape shape_;
   Hdf5Part part_;
-  std::unique_ptr<AtomicFile> file_;  // of rank 0
-  std::string name_;                  // of the file, meanwhile
+  std::unique_ptr<AtomicFile> file_;  // only on rank 0
+  std::string name_;                  // what the file is called meanwhile
   Hdf5Places places_;
 };
 
