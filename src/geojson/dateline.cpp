@@ -196,8 +196,8 @@ class Joined {
 
   const std::vector<GeoFeatures::Polygon>& polygons_;
   DisjointSets<> sets_;
-  std::vector<std::vector<Border>> edges_;                                 // of each polygon
-  std::map<std::pair<double, double>, std::vector<std::size_t>> waiting_;  // whose edge it is, by its heights
+  std::vector<std::vector<Border>> edges_;                                 // one list for each polygon
+  std::map<std::pair<double, double>, std::vector<std::size_t>> waiting_;  // polygons with this edge, by its heights
 };
 
 }  // namespace

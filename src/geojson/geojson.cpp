@@ -196,7 +196,7 @@ class FeatureReader {
 
   const std::string& file_;
   std::size_t feature_ = 0;           // the one at hand; 0: none
-  std::optional<Mercator> mercator_;  // that positions are in
+  std::optional<Mercator> mercator_;  // the projection that positions are in
   GeoFeatures found_;
 };
 

@@ -33,7 +33,7 @@ struct GeoFeatures {
   std::vector<Polygon> polygons;
   std::vector<Line> lines;
   std::vector<Point> points;
-  Names names;             ///< of markers and regions
+  Names names;             ///< names for markers and regions
   bool in_degrees = true;  ///< longitudes and latitudes, as the format has it, unless an old "crs" says otherwise; also
                            ///< what was in Mercator's projection
   std::string projection;  ///< the UTM zone that the "crs" names by its EPSG code; empty: none

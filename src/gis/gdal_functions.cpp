@@ -114,7 +114,7 @@ OwnedByUs<GDALDatasetH> open_by_gdal(const GdalFunctions& gdal, const std::strin
   const std::vector<const char*> drivers = drivers_for(file, kind);
   if (kind == GDAL_OF_RASTER) require_own_content(file);
   if (is_mosaic_file(file)) require_plain_mosaic(gdal, file);
-  constexpr std::array<const char*, 3> kOptions{"DOWNLOAD_SCHEMA=NO", "WRITE_GFS=NO", nullptr};  // of GML
+  constexpr std::array<const char*, 3> kOptions{"DOWNLOAD_SCHEMA=NO", "WRITE_GFS=NO", nullptr};  // only for GML
   const QuietGdal quiet(gdal);
   const bool is_gml = drivers.front() == std::string_view("GML");
   OwnedByUs<GDALDatasetH> data(gdal.GDALOpenEx(file.c_str(), kind | GDAL_OF_READONLY, drivers.data(),

@@ -9,8 +9,8 @@ namespace driftmesh {
 /// Mercator's projection of the whole globe, as web maps have it. Its unit is called meter, but is one only at the
 /// equator: at 37 degrees north, areas are 58 % too large.
 enum class Mercator {
-  kWeb,    ///< of the sphere
-  kWorld,  ///< of the ellipsoid WGS 84
+  kWeb,    ///< projects the sphere
+  kWorld,  ///< projects the ellipsoid WGS 84
 };
 
 /// By its code in the EPSG's list, or one of those that programs gave it before it had a place there; none for another

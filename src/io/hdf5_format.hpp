@@ -36,11 +36,11 @@ struct Hdf5Part {
   const Mesh& mesh;
   std::vector<std::int32_t> points;  ///< those that it writes, to consecutive rows
   std::vector<std::int32_t> lines;   ///< those of mesh.edges that it writes, likewise
-  std::vector<std::int64_t> row;     ///< of every point of the mesh, also of those that others write
+  std::vector<std::int64_t> row;     ///< one for every point of the mesh, also for those that others write
   std::uint64_t first_point = 0;     ///< the rows of the first ones that it writes
-  std::uint64_t first_triangle = 0;  ///< of all triangles of the mesh
+  std::uint64_t first_triangle = 0;  ///< number among all triangles of the mesh
   std::uint64_t first_line = 0;
-  std::map<double, std::int32_t> tags{};  ///< of the regions of the whole mesh
+  std::map<double, std::int32_t> tags{};  ///< tags for the regions of the whole mesh
 };
 
 /// Throws FileError.

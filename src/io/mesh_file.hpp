@@ -45,7 +45,7 @@ class PieceFiles {
 
  private:
   std::vector<std::string> paths_;
-  std::vector<DeclaredArray> arrays_;  // which every piece has
+  std::vector<DeclaredArray> arrays_;  // in every piece
 };
 /// All pieces.
 [[nodiscard]] std::vector<Mesh> read_pieces(const std::string& path, const ReadOptions& options = {});

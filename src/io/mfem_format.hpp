@@ -30,7 +30,7 @@ struct MfemPart {
   std::vector<std::int32_t> boundary;  ///< those of mesh.edges that bound the whole domain
   std::map<double, std::int32_t> region_tags;
   std::map<double, std::int32_t> marker_tags;
-  std::vector<MfemGroup> groups{};  ///< of a rank: first itself alone; empty: one mesh of one process
+  std::vector<MfemGroup> groups{};  ///< a rank's: first itself alone; empty: one mesh of one process
 };
 
 /// The file is complete, but appears under its name only on commit(). Throws FileError.

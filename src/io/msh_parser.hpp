@@ -35,7 +35,7 @@ struct RawMsh {
     std::int32_t marker = 0;
   };
 
-  std::map<EntityKey, std::string> group_names;    ///< of physical groups
+  std::map<EntityKey, std::string> group_names;    ///< names of physical groups
   std::map<EntityKey, std::int32_t> entity_group;  ///< the first physical group of an entity
   std::vector<std::uint64_t> node_tags;
   std::vector<Point> nodes;

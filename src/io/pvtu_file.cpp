@@ -63,7 +63,7 @@ class PvtuParser {
   Pvtu parse() {
     XmlTag tag;
     bool is_pvtu = false;
-    std::size_t end = 0;  // of </VTKFile>
+    std::size_t end = 0;  // where </VTKFile> ends
     while (scanner_.next(tag)) {
       if (!tag.before.empty()) throw InputError({file_, tag.line}, "has text between its elements", kDamaged);
       if (tag.name == "VTKFile" && tag.opens) is_pvtu = tag.attribute("type") == "PUnstructuredGrid";

@@ -18,7 +18,7 @@ void write_pvtu(const std::string& path, std::int32_t pieces, const VtuArrays& a
 /// What a .pvtu says.
 struct Pvtu {
   std::vector<std::string> pieces;    ///< their paths
-  std::vector<DeclaredArray> arrays;  ///< which every piece has
+  std::vector<DeclaredArray> arrays;  ///< in every piece
 };
 
 /// Throws InputError for what is damaged, and for a piece outside of the file's folder, unless that is allowed.

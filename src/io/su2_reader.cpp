@@ -204,8 +204,8 @@ class Su2Parser {
   std::set<std::string> seen_;  // keywords
   std::size_t markers_ = 0;     // announced
   std::vector<Tag> tags_;
-  bool awaits_edges_ = false;                    // of the last tag
-  std::map<std::string, std::int32_t> numbers_;  // that comments give to tags
+  bool awaits_edges_ = false;                    // the last tag has no edges yet
+  std::map<std::string, std::int32_t> numbers_;  // the numbers that comments give to tags
   Mesh mesh_;
 };
 

@@ -46,7 +46,7 @@ std::uint64_t VtuData::length(EncodedBytes& in, const VtuHeader::Array& array) c
   std::string bytes;
   if (!in.take(size, bytes)) fail(array, "ends within its lengths");
   std::uint64_t value = 0;
-  std::memcpy(&value, bytes.data(), size);  // of little-endian bytes on a little-endian machine (file_sink.hpp)
+  std::memcpy(&value, bytes.data(), size);  // little-endian bytes on a little-endian machine (file_sink.hpp)
   return value;
 }
 
@@ -184,7 +184,7 @@ class VtuBytes::Inflater {
   const VtuHeader::Array& array_;
   z_stream stream_{};
   std::size_t next_ = 0;    // block
-  std::uint64_t left_ = 0;  // of the present one, unpacked
+  std::uint64_t left_ = 0;  // bytes of the present block, unpacked
   std::string_view packed_;
   std::string decoded_;
   bool at_end_ = false;

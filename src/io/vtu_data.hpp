@@ -17,7 +17,7 @@ class VtuData {
  public:
   /// The sizes in front of compressed data.
   struct Blocks {
-    std::uint64_t size = 0;  ///< of each but the last, uncompressed
+    std::uint64_t size = 0;  ///< bytes in each but the last, uncompressed
     std::uint64_t last = 0;
     std::vector<std::uint64_t> compressed;
     [[nodiscard]] std::uint64_t total() const;  ///< uncompressed

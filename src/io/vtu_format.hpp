@@ -22,7 +22,7 @@ struct VtuArrays {
   bool subdomains = false;
   bool ranks = false;
   bool ghosts = false;       ///< on points
-  bool ghost_cells = false;  ///< and triangles of other pieces
+  bool ghost_cells = false;  ///< on triangles of other pieces
 };
 /// The arrays for which the mesh has values.
 [[nodiscard]] VtuArrays arrays_of(const Mesh& mesh);
@@ -90,7 +90,7 @@ struct VtuGhosts {
 
 /// An array that a .pvtu declares for each of its pieces.
 struct DeclaredArray {
-  std::string section;  ///< of a piece: "PointData"
+  std::string section;  ///< part of a piece: "PointData"
   std::string name;
   std::uint64_t components = 1;
 };

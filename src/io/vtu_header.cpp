@@ -167,11 +167,11 @@ class VtuHeaderParser {
   std::string_view bytes_;
   XmlScanner scanner_;
   VtuHeader header_;
-  VtuHeader::Array* open_ = nullptr;  // whose element the scanner is in
+  VtuHeader::Array* open_ = nullptr;  // the scanner is in its element
   bool seen_file_ = false;
   bool seen_piece_ = false;
   bool is_complete_ = false;
-  std::size_t end_ = 0;  // of </VTKFile>
+  std::size_t end_ = 0;  // where </VTKFile> ends
 };
 
 }  // namespace

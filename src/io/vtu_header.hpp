@@ -40,7 +40,7 @@ struct VtuHeader {
   bool compressed = false;          ///< by zlib
   bool raw = false;                 ///< appended data are bytes, not base64
   std::map<Name, Array> arrays;     ///< on points and cells, and names
-  std::vector<Array> other_arrays;  ///< which only take up room
+  std::vector<Array> other_arrays;  ///< arrays that only take up room
   std::string_view appended;        ///< the section, from behind its '_' to the end of the file
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 // Points are different, so that each takes some bits of zlib's: what shrinks by more than this has repetitions only.
 constexpr std::uint64_t kMostShrunkPoints = 200;
-constexpr std::uint64_t kMostAttributes = 1000;           // of a point
+constexpr std::uint64_t kMostAttributes = 1000;           // values per point
 constexpr std::uint64_t kSmall = std::uint64_t{1} << 20;  // bytes; anything goes below
 
 // Splits the cells into triangles and lines.

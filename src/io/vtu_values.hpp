@@ -197,7 +197,7 @@ class VtuArrayReader {
   template <class T>
   [[nodiscard]] VtuValues<T> open(const VtuHeader::Array& array, std::uint64_t tuples,
                                   std::uint64_t most_components = 1) const {
-    constexpr std::uint64_t kMostTuples = std::uint64_t{1} << 48;  // of any array that a machine can hold
+    constexpr std::uint64_t kMostTuples = std::uint64_t{1} << 48;  // no array that a machine can hold has more
     if (array.components == 0 || array.components > most_components || tuples > kMostTuples / array.components)
       throw InputError(
           {path_, array.line},

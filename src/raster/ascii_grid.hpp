@@ -36,7 +36,7 @@ class AsciiGrid final : public RasterRows {
   std::string file_;
   std::string_view rest_;
   std::size_t line_ = 1;
-  std::size_t word_line_ = 1;  // of the word that was read last
+  std::size_t word_line_ = 1;  // line of the word that was read last
   RasterFrame frame_;
   double none_ = -9999;
   std::int64_t next_row_ = 0;  // as rows are read: downward to 0

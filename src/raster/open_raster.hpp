@@ -15,8 +15,8 @@ namespace driftmesh {
 /// What a raster is opened for.
 struct RasterPlace {
   Box domain{};                     ///< around the domain
-  std::span<const Point> points{};  ///< of the domain, which are counted below
-  std::optional<UtmZone> zone{};    ///< that they lie in; absent: their system is not known, and is that of the raster
+  std::span<const Point> points{};  ///< points of the domain, which are counted below
+  std::optional<UtmZone> zone{};    ///< their zone; absent: their system is not known, and is that of the raster
 };
 
 /// A raster, and how well it covers the domain.

@@ -37,7 +37,7 @@ class Raster {
 
   TiledGrid grid_;
   ValuePyramid pyramid_;
-  Extent largest_;  // of all values
+  Extent largest_;  // largest over all values
   mutable std::once_flag has_slope_;
   mutable std::shared_ptr<const Raster> slope_;
 };
