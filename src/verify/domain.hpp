@@ -22,8 +22,8 @@ class Domain {
     std::int32_t a = 0;  ///< index into points()
     std::int32_t b = 0;  ///< index into points()
     std::int32_t marker = 0;
-    std::int32_t left_face = 0;   ///< of the way a -> b
-    std::int32_t right_face = 0;  ///< of the way a -> b
+    std::int32_t left_face = 0;   ///< to the left on the way a -> b
+    std::int32_t right_face = 0;  ///< to the right on the way a -> b
   };
 
   /// `places` are located in the domain and have no part in it.
@@ -77,7 +77,7 @@ class Domain {
   std::optional<std::string> conflict_;
   std::vector<Point> points_;
   std::vector<Segment> segments_;        // ascending by their ends, a < b, if there are polygons
-  std::vector<Pslg::Polygon> polygons_;  // of points_
+  std::vector<Pslg::Polygon> polygons_;  // rings are indices into points_
   std::vector<std::int32_t> face_of_place_;
   std::vector<double> area_of_face_;
   std::vector<char> inside_;        // per face

@@ -58,7 +58,7 @@ class DomainCheck {
   const Domain& domain_;
   const Chains& chains_;
   Findings& findings_;
-  std::vector<std::int32_t> vertex_of_point_;   // of the domain; kNone if missing
+  std::vector<std::int32_t> vertex_of_point_;   // vertices of the domain; kNone if missing
   std::vector<std::int32_t> segment_of_chain_;  // kNone: the chain belongs to no segment
 };
 

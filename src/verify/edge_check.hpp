@@ -13,9 +13,9 @@ namespace driftmesh {
 
 /// The edges between triangles of different subdomains, which count as constrained.
 struct Interfaces {
-  std::size_t edges = 0;          ///< that are no subsegments
-  std::size_t not_delaunay = 0;   ///< of these: Delaunay only because they count as constrained
-  std::size_t between_ranks = 0;  ///< of these: the subdomains' ranks differ
+  std::size_t edges = 0;          ///< those that are no subsegments
+  std::size_t not_delaunay = 0;   ///< edges that are Delaunay only because they count as constrained
+  std::size_t between_ranks = 0;  ///< edges whose subdomains have different ranks
   std::set<std::pair<std::int32_t, std::int32_t>> subdomains;  ///< the pairs of subdomains that meet
 
   void add(const Interfaces& others);

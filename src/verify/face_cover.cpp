@@ -95,7 +95,7 @@ class Place {
   std::span<const Pslg::Polygon> polygons_;
   std::vector<std::vector<char>> inside_;  // per ring
   std::vector<std::int32_t> holes_;        // around the place, of each polygon
-  std::int32_t count_ = 0;                 // of polygons that cover the place
+  std::int32_t count_ = 0;                 // polygons that cover the place
   std::set<std::int32_t> named_;           // those of them that have a region
 };
 

@@ -71,7 +71,7 @@ class FrameMaker {
   const Mesh& from_;
   const CornerTable& corners_;
   const std::vector<char>& marks_;
-  std::vector<std::int32_t> index_;  // of points in the frame
+  std::vector<std::int32_t> index_;  // points in the frame
   Frame frame_;
   Mesh& to_ = frame_.mesh;
 };

@@ -21,7 +21,7 @@ void NumberRuns::sort() {
 
 std::vector<std::int64_t> NumberRuns::repeated() const {
   std::vector<std::int64_t> result;
-  std::int64_t end = 0, told = 0;  // of the runs so far, and of the numbers in the result
+  std::int64_t end = 0, told = 0;  // ends so far of the runs, and of the numbers in the result
   for (const Run& run : runs_) {
     for (std::int64_t n = std::max(run.first, told); n < std::min(run.end, end); ++n) result.push_back(n);
     told = std::max(told, std::min(run.end, end));

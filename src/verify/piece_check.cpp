@@ -109,7 +109,7 @@ class PieceCheck {
   const PieceOrder& order_;
   PieceReport report_;
   std::optional<CornerTable> corners_;
-  std::vector<char> marks_;  // of points: left to the check of the frame
+  std::vector<char> marks_;  // points left to the check of the frame
 };
 
 }  // namespace

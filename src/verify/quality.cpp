@@ -15,7 +15,7 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::size_t kMostSuspects = 10'000;  // of a piece: some megabyte
+constexpr std::size_t kMostSuspects = 10'000;  // per piece: some megabyte
 constexpr double kSlack = 1e-9;                // relative, for rounding
 // Where products are so small against the area that is their difference, rounding changes it by less than 2e-15 of it.
 constexpr double kSharp = 4;

@@ -31,7 +31,7 @@ inline constexpr std::size_t kExceptionReasonCount = 3;
 struct Quality {
   struct Exceptions {
     std::uint64_t count = 0;
-    std::vector<std::string> messages;  ///< of the first few
+    std::vector<std::string> messages;  ///< the first few
   };
 
   double smallest_angle = 180;  ///< degrees
@@ -39,7 +39,7 @@ struct Quality {
   double total_area = 0;        ///< summed in extended precision with compensation
   double smallest_area = 0;
   double largest_area = 0;
-  std::int32_t smallest_angle_triangle = -1;  ///< of the whole mesh, or of its piece
+  std::int32_t smallest_angle_triangle = -1;  ///< index in the whole mesh, or in its piece
   std::int32_t largest_angle_triangle = -1;
   std::int32_t largest_area_triangle = -1;
   std::array<std::uint64_t, 180> angles{};  ///< [d]: angles from d up to d + 1 degrees
@@ -56,7 +56,7 @@ struct CheckedBounds {
   double min_angle = 0;                                     ///< degrees; 0: no bound
   double max_area = 0;                                      ///< 0: no bound
   std::function<double(std::size_t triangle)> region_area;  ///< empty, or each triangle's own bound (<= 0: none)
-  const SizeCheck* size = nullptr;                          ///< or target edge lengths
+  const SizeCheck* size = nullptr;                          ///< target edge lengths; null: none
 };
 
 /// A triangle that misses a bound: a flaw unless there is an accepted reason. See Judge.
@@ -64,11 +64,11 @@ struct Suspect {
   enum class Miss : std::uint8_t { angle, area, size };
 
   TrianglePlace place;
-  std::array<std::int64_t, 3> numbers{};  ///< of the corners
+  std::array<std::int64_t, 3> numbers{};  ///< numbers of the corners
   std::array<Point, 3> corners{};
   Miss miss = Miss::angle;
-  double bound = 0;  ///< of the area; or the length of an edge that is asked for
-  Point at{};        ///< where that is
+  double bound = 0;  ///< the largest area, or the length of an edge that is asked for
+  Point at{};        ///< where that length is asked for
 };
 
 /// The extremes of some triangles.

@@ -17,7 +17,7 @@ namespace {
 // In spacings of doubles at the place:
 constexpr double kNeighbors = 2;  // no edge longer: nothing between the corners
 constexpr double kNarrow = 2;     // rounding moves a midpoint, and moved the ends, by up to 0.71 each
-constexpr double kShort = 256;    // of a subsegment: the room that refinement needs beside a vertex
+constexpr double kShort = 256;    // subsegments: the room that refinement needs beside a vertex
 
 /// Of a segment, with some rounding: a shorter subsegment is not split.
 constexpr long double kDeepest = 0x1p-60L * (1 + 1e-9L);

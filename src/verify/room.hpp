@@ -44,7 +44,7 @@ class Room {
   const Mesh& mesh_;
   const Subsegments& subsegments_;
   std::vector<Segment> stuck_;
-  BoxTree tree_;  // of the diametral circles of stuck_
+  BoxTree tree_;  // diametral circles of stuck_
 };
 
 }  // namespace driftmesh

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRounding = 1e-8;  // relative
 constexpr double kFewest = 16;      // points of a triangle
-constexpr double kPerSquare = 4;    // of the spacing
+constexpr double kPerSquare = 4;    // points per square of the spacing
 
 /// Point k of an even spread over a triangle: an additive recurrence in the unit square (Roberts, "The unreasonable
 /// effectiveness of quasirandom sequences", 2018) whose upper half is folded down.

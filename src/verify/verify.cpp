@@ -324,7 +324,7 @@ class Verification {
   Findings findings_;
   std::optional<Domain> domain_;
   std::optional<std::string> conflict_;
-  std::optional<PointIndex> corners_;  // of the domain
+  std::optional<PointIndex> corners_;  // corners of the domain
   bool has_regions_ = false;
 
   std::vector<PieceReport> found_;
@@ -334,8 +334,8 @@ class Verification {
   Interfaces interfaces_;
 
   Frame frame_;
-  std::optional<CornerTable> table_;  // of the frame
-  std::optional<PointIndex> index_;   // of the frame's marked points, by coordinates
+  std::optional<CornerTable> table_;  // for the frame
+  std::optional<PointIndex> index_;   // marked points of the frame, by coordinates
   std::optional<Subsegments> subsegments_;
   std::optional<DisjointSets<std::int32_t>> parts_;  // triangles that subsegments do not separate, if there are regions
   std::optional<FacesOfParts> faces_;

@@ -46,7 +46,7 @@ struct VerifyReport {
   std::size_t interface_edges = 0;  ///< these edges, which need not be Delaunay
   std::size_t interface_edges_not_delaunay = 0;
   std::size_t rank_interface_edges = 0;  ///< those of these edges that lie between different ranks
-  double area = 0;                       ///< of all triangles
+  double area = 0;                       ///< sum over all triangles
   bool against_input = false;            ///< whether the mesh was checked against its input
   double input_area = 0;                 ///< if against_input: of the domain that the input describes
   bool polygons_judged = true;           ///< false: rounding keeps options.given from being read anew
