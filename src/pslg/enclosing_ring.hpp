@@ -42,7 +42,7 @@ class EnclosingRings {
   const Pslg& pslg_;
   BoxTree tree_;
   Box box_;
-  std::vector<std::int32_t> first_;    // of each vertex, into leaving_
+  std::vector<std::int32_t> first_;    // for each vertex, where its part of leaving_ begins
   std::vector<std::int32_t> leaving_;  // half-edges by their tails, counterclockwise
 };
 

@@ -27,7 +27,7 @@ class GradientNoise {
   [[nodiscard]] Range fractal_range(const Point& p, int known, int octaves, double gain) const;
 
  private:
-  static constexpr double kBound = 0.75;  // of one noise, rounded up from sqrt(1/2)
+  static constexpr double kBound = 0.75;  // largest value of one noise, rounded up from sqrt(1/2)
   [[nodiscard]] double octave(int i, const Point& p) const;
   [[nodiscard]] double corner(std::int64_t x, std::int64_t y, double dx, double dy) const;
   std::array<std::uint8_t, 256> order_{};

@@ -152,8 +152,8 @@ class Planarizer {
   std::vector<Piece> pieces_;
   std::vector<Split> splits_;
   std::vector<std::int32_t> loose_;   // points that are not ends of segments
-  BoxTree loose_tree_;                // of these
-  std::vector<std::int32_t> finder_;  // of each other point a piece that ends there
+  BoxTree loose_tree_;                // holds loose_
+  std::vector<std::int32_t> finder_;  // for each other point, a piece that ends there
   std::size_t points_seen_ = 0;       // by the rounds so far
   std::int64_t split_count_ = 0;
   bool fresh_exists_ = false;

@@ -31,12 +31,12 @@ class PointWelder {
   };
   /// Where a point is found: most that are not close differ in the tag, and need not be looked at.
   struct Slot {
-    std::uint32_t tag = 0;  // of the cell
+    std::uint32_t tag = 0;  // from the cell
     std::int32_t index = -1;
   };
   struct Nearest {
     std::int32_t index = -1;
-    double squared = 0;  // of the distance
+    double squared = 0;  // squared distance
   };
   static int level_of(double close);
   [[nodiscard]] Cell cell_of(const Point& p) const;

@@ -12,7 +12,7 @@ struct Polyline {
   std::vector<std::int32_t> points;  ///< in order; of a closed one, the first is not repeated
   std::vector<std::int32_t>
       segments;         ///< segments[i] joins points[i] and the next; of a closed one, the last and the first
-  bool closed = false;  ///< and none of its points must stay
+  bool closed = false;  ///< none of its points must stay
 };
 
 /// The lines of a repaired input; each segment is in one of them. A point must stay unless exactly two segments end

@@ -191,9 +191,9 @@ class Thinning {
   struct Node {
     std::int32_t point;
     std::int32_t segment;         // to the following one, in the input; -1 at the end of a line
-    std::int32_t previous, next;  // that are left
+    std::int32_t previous, next;  // among those that are left
     std::int32_t following;       // in the input
-    std::int32_t version = 0;     // of its neighbors
+    std::int32_t version = 0;     // grows when its neighbors change
     bool stays = false;
     bool removed = false;
   };
@@ -310,7 +310,7 @@ void keep_rings(Pslg& pslg) {
 void keep_regions(Pslg& pslg, const std::vector<bool>& named_before, const Obstacles& obstacles, std::int32_t seed) {
   const std::vector<bool> named = regions_of_polygons(pslg);
   std::vector<Pslg::Region> kept;
-  std::vector<std::int32_t> number;  // of each region among those
+  std::vector<std::int32_t> number;  // index of each region among those
   for (std::size_t r = 0; r < named.size(); ++r) {
     number.push_back(static_cast<std::int32_t>(kept.size()));
     if (named_before[r] ? named[r] : obstacles.there(seed++)) kept.push_back(pslg.regions[r]);

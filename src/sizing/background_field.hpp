@@ -49,7 +49,7 @@ class TriangleAreaField final : public SizeField {
 
  private:
   BackgroundMesh mesh_;
-  std::vector<double> lengths_;  // of each triangle
+  std::vector<double> lengths_;  // one for each triangle
   double least_;
   BoxTree::Least shortest_;
 };

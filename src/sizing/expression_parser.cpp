@@ -361,7 +361,7 @@ class Parser {
   std::vector<ExpressionStep> steps_;
   std::map<std::vector<std::int32_t>, std::shared_ptr<const PlaneFunction>> distances_;
   std::size_t nesting_ = 0;
-  int depth_ = 0;  // of the stack
+  int depth_ = 0;  // values on the stack
 };
 
 }  // namespace

@@ -14,13 +14,13 @@
 namespace driftmesh {
 namespace {
 
-constexpr double kAccurate = 0.95;         // of the length
+constexpr double kAccurate = 0.95;         // fraction of the length
 constexpr int kMostCells = 50'000;         // looked at for one point
-constexpr int kMostHalvings = 30;          // of the box
+constexpr int kMostHalvings = 30;          // halvings of the box
 constexpr int kMostParts = 6;              // halvings of a triangle
 constexpr double kNarrow = 2;              // lengths change by less than so many times themselves across a narrow zone
 constexpr int kFiner = 2;                  // sources are 2^-kFiner times as wide as their zone
-constexpr std::size_t kMostSources = 256;  // of a zone: more are not divided
+constexpr std::size_t kMostSources = 256;  // a zone with more is not divided
 constexpr std::size_t kMostZones = std::size_t{1} << 13;
 constexpr std::size_t kMostKnown = std::size_t{1} << 15;
 constexpr std::size_t kMostAnswers = std::size_t{1} << 12;

@@ -44,14 +44,14 @@ class GradedField final : public SizeField {
   struct Source {
     Cell cell;
     Box box{};                  // the cell's
-    double least = kUnlimited;  // of the expression in it
+    double least = kUnlimited;  // least value of the expression in it
     double middle = kNotAsked;  // its value at the center, where it is positive
   };
   struct Zone {
     Cell cell;
     Box box{};                 // the cell's
     double most = kUnlimited;  // no length in it is greater
-    Point best{};              // where a length starts that is nowhere greater than that
+    Point best{};              // place with the best bound for the zone
     double at_best = kUnlimited;
     std::vector<Source> sources{};
   };
@@ -85,7 +85,7 @@ class GradedField final : public SizeField {
   double gradation_;
   Box box_;
   Cell root_;        // with its neighbors above and to the right it covers the box
-  Zone everywhere_;  // and beyond
+  Zone everywhere_;  // covers the box and the plane beyond
   mutable std::unordered_map<Cell, Zone, CellHash> zones_;
   mutable const Zone* latest_ = nullptr;
   // Tables of fixed size: of cells that were looked at, and of points that were asked for.

@@ -116,7 +116,7 @@ template <class Function>
            std::ceil((a.low + turn - extreme - kSlack) / kPeriod);
   };
   const double at_low = std::sin(a.low + turn), at_high = std::sin(a.high + turn);
-  constexpr double kError = 1e-9;  // of the sum, at this distance
+  constexpr double kError = 1e-9;  // error of the sum at this distance
   return {passes(-std::numbers::pi / 2) ? -1 : std::max(-1.0, std::min(at_low, at_high) - kError),
           passes(std::numbers::pi / 2) ? 1 : std::min(1.0, std::max(at_low, at_high) + kError)};
 }

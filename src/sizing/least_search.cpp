@@ -101,7 +101,7 @@ struct LeastSearch::Question {
   double counts, tolerated;
   double finest;  // width of cells
   int dives = kMostDives;
-  int cells_left = 0;  // of the present dive
+  int cells_left = 0;  // cells for the present dive
 
   [[nodiscard]] bool meets(const Cell& cell) const { return meet(triangle, bounds, cell.box()); }
   [[nodiscard]] bool counts_at(const Point& p) const { return contains(triangle, p) && field.edge_length(p) < counts; }

@@ -78,7 +78,7 @@ class LeastSearch {
   double spacing_;
   double least_;  // over the whole plane
   std::vector<Known> known_;
-  std::array<Known, 2> latest_;  // of least_near, for cells of even and of odd exponents
+  std::array<Known, 2> latest_;  // last results of least_near, for cells of even and of odd exponents
 };
 
 }  // namespace driftmesh

@@ -24,7 +24,7 @@ struct SizingOptions {
   /// background mesh along its edges, those of the expression along straight lines in the box of the domain.
   std::optional<double> gradation{};
   double longest = std::numeric_limits<double>::infinity();  ///< target edge lengths are at most this, > 0
-  double shortest = 0;                                       ///< and at least this: smaller values are raised to it
+  double shortest = 0;  ///< target edge lengths are at least this: smaller values are raised to it
   /// Fields that do not tell their least values are looked at on a grid of this spacing, > 0: see SampledField.
   double spacing = std::numeric_limits<double>::infinity();
   /// The domain.

@@ -61,8 +61,8 @@ class NearestCells {
   std::vector<Ends> segments_;
   BoxTree tree_;
   Box box_;
-  Point low_{};       // of the root
-  double width_ = 0;  // of the finest squares; 0: there are no squares
+  Point low_{};       // corner of the root
+  double width_ = 0;  // width of the finest squares; 0: there are no squares
   double margin_ = 0;
   std::unique_ptr<Node> root_;
   mutable std::atomic<std::size_t> size_{1};

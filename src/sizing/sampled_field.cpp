@@ -12,8 +12,8 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::size_t kMostTiles = 16384;   // of 4 KB; beyond, values are not kept
-constexpr double kFinestStep = 1.0 / 1024;  // of the spacing
+constexpr std::size_t kMostTiles = 16384;   // tiles take 4 KB each; beyond, values are not kept
+constexpr double kFinestStep = 1.0 / 1024;  // fraction of the spacing
 constexpr int kMostSteps = 64;
 
 /// The first and the last point of a grid from `low` to `high`, which are relative to its origin.

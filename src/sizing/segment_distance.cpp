@@ -34,7 +34,7 @@ Interval SegmentDistance::over(const Box& box) const {
   const double radius = std::sqrt(squared_distance(box.low, box.high)) / 2;
   if (!std::isfinite(radius)) return {0, intervals::kAll.high};
   const double middle = at(box.center());
-  const double rounding = 0x1p-48 * (middle + radius + extent_);  // of both distances
+  const double rounding = 0x1p-48 * (middle + radius + extent_);  // for both distances
   return {std::max(middle - radius - rounding, 0.0), middle + radius + rounding};
 }
 

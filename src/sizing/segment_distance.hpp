@@ -26,7 +26,7 @@ class SegmentDistance final : public PlaneFunction {
 
  private:
   NearestCells segments_;
-  double extent_;  // of all segments together
+  double extent_;  // diagonal of the box around all segments
 };
 
 }  // namespace driftmesh

@@ -44,7 +44,7 @@ class TriangleWalk {
 
   HilbertOrder order_{{0, 0}, {0, 0}};
   std::vector<Node> nodes_;
-  std::vector<std::uint64_t> places_;  // of the nodes on the curve
+  std::vector<std::uint64_t> places_;  // nodes on the curve
   std::vector<std::uint32_t> bucket_;  // the first node whose place has these upper bits or higher ones
   int bucket_shift_ = 63;
 };
