@@ -26,7 +26,7 @@ struct ConvertOptions {
   std::string output;
   ReadOptions reading;
   WriteOptions writing;
-  Names names;  // that replace those of the mesh
+  Names names;  // replace those of the mesh
   bool boundary_only = false;
 };
 
@@ -55,7 +55,7 @@ cli::Take into_names(std::map<Value, std::string>& names, std::optional<Value> (
 
 /// Throws InputError if the options speak of markers or regions that the mesh has not.
 void require_known(const ConvertOptions& options, const Mesh& mesh) {
-  std::set<std::int32_t> markers{0};  // of edges that are not listed
+  std::set<std::int32_t> markers{0};  // edges that are not listed have 0
   for (const Mesh::Edge& edge : mesh.edges) markers.insert(edge.marker);
   const std::set<double> regions(mesh.regions.begin(), mesh.regions.end());
   const auto fail = [&](const std::string& what, const char* option) {

@@ -21,11 +21,11 @@ namespace {
 
 using config::Json;
 
-constexpr std::size_t kRecordedSamples = 200;  // of the load over time, in a record
+constexpr std::size_t kRecordedSamples = 200;  // samples of the load over time in a record
 
 /// Triangles per second of real ranks in this run, assuming that all ranks are equally fast without drag.
 IdVector<Rank, double> measured_speeds(const ClusterRun& run, IdVector<Rank, double> shares) {
-  double seconds = 0;  // that one rank would have needed for the work
+  double seconds = 0;  // time that one rank would have needed for the work
   for (const Rank r : ids_of(shares)) seconds += run.ranks[r].times.computing * shares[r];
   for (double& share : shares) share *= static_cast<double>(run.triangles()) / seconds;
   return shares;

@@ -15,13 +15,13 @@ namespace driftmesh::app {
 
 /// One run of an experiment.
 struct ExperimentRun {
-  std::string name;  ///< of its files: "run-03"
+  std::string name;  ///< stem of its files: "run-03"
   std::vector<std::pair<std::string, job::Value>> swept;
   std::int32_t repetition = 0;
   job::Request request;
 
   RunPlan plan;                   ///< without a size field
-  IdVector<Rank, double> speeds;  ///< of the ranks, in triangles per second; for real ranks, measured in this run
+  IdVector<Rank, double> speeds;  ///< triangles per second of each rank; for real ranks, measured in this run
   ClusterRun outcome;
   IdVector<SubdomainId, double> work;  ///< on each, in triangles (see work_done)
   double ideal = 0;                    ///< seconds, if every rank computed from start to end

@@ -36,7 +36,7 @@ class ExperimentTable {
     double cutting = 0;                  ///< seconds before these, in which rank 0 cuts the domain
     double efficiency_with_cutting = 0;  ///< ideal time over both times together
     double spread = 0;                   ///< half the range of seconds over repetitions
-    RankTimes times;                     ///< of all ranks together, as fractions of ranks x seconds
+    RankTimes times;                     ///< all ranks together, as fractions of ranks x seconds
     std::int64_t splits = 0, split_messages = 0, hand_offs = 0, hand_off_bytes = 0;
     std::uint64_t messages = 0, message_bytes = 0;
     std::int64_t whole_plans = 0, whole_plans_kept = 0;  ///< plans to be made as a whole; those of them that were

@@ -28,7 +28,7 @@ struct Worked {
   double subdomains = 0;
   double prepared = 0, preparing = 0;  // triangles before refinement
   double points = 0, refining = 0;
-  double bytes = 0, packing = 0;  // and unpacking
+  double bytes = 0, packing = 0;  // `packing` includes unpacking
 };
 
 template <class Action>

@@ -13,7 +13,7 @@ namespace {
 using config::Json;
 
 constexpr double kMicro = 1e6;
-constexpr double kBreak = 1.0 / 2000;  // of the run, that can be seen
+constexpr double kBreak = 1.0 / 2000;  // fraction of the run: shorter breaks cannot be seen
 
 /// An event of a trace, as far as it matters here.
 struct Event {
@@ -22,7 +22,7 @@ struct Event {
   double start = 0, duration = 0;  // microseconds
   std::int64_t triangles = 0;
   double to_be_made = 0;
-  std::int64_t moves = 0;  // that were made
+  std::int64_t moves = 0;  // only those made
 };
 
 struct Slice {
@@ -110,7 +110,7 @@ std::vector<Timeline::Busy> joined(const std::vector<Slice>& slices, double end)
 
 /// At some times what the last slice of each rank has left; before its first one, what that has.
 std::vector<Timeline::Load> load_over_time(const std::vector<Slice>& slices, double end) {
-  std::vector<std::size_t> at, last;  // of each rank, a slice
+  std::vector<std::size_t> at, last;  // indices of slices: for each rank, the latest so far; for each, its last
   for (std::size_t i = 0; i < slices.size(); ++i) {
     if (i == 0 || slices[i].rank != slices[i - 1].rank) at.push_back(i), last.push_back(i);
     last.back() = i;

@@ -16,15 +16,15 @@ struct Timeline {
   struct Busy {
     std::int32_t rank = 0;
     double start = 0, stop = 0;
-    std::int64_t triangles = 0;  ///< that the rank had made by then
+    std::int64_t triangles = 0;  ///< made by the rank by then
   };
   /// A plan, or advice that a rank received.
   struct Plan {
     std::int32_t rank = 0;
     double time = 0;
     std::string what;        ///< its subject and verdict
-    bool made = false;       ///< or followed
-    std::int64_t moves = 0;  ///< of it that were
+    bool made = false;       ///< the plan was made, or the advice followed
+    std::int64_t moves = 0;  ///< moves made
   };
   /// The triangles that ranks had still to make.
   struct Load {

@@ -9,7 +9,7 @@ namespace driftmesh {
 /// Which file a name stands for, whatever its spelling: two names of one file have equal identities, through links of
 /// both kinds, "..", and mounts. A file that does not exist yet is its name in its folder.
 struct FileIdentity {
-  std::uint64_t device = 0;  ///< of the file, or of the folder if the file does not exist
+  std::uint64_t device = 0;  ///< where the file is, or its folder if the file does not exist
   std::uint64_t inode = 0;
   std::string name{};  ///< empty for a file that exists
 

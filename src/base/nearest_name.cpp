@@ -18,7 +18,7 @@ bool same_letter(char a, char b) {
 
 /// The number of letters to insert, remove, replace or swap with the next one to turn one word into the other.
 std::size_t edit_distance(const std::string& from, const std::string& to) {
-  std::vector<std::size_t> before, last, row(to.size() + 1);  // of the table of all beginnings of the two words
+  std::vector<std::size_t> before, last, row(to.size() + 1);  // rows of the table of all beginnings of the two words
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < from.size(); ++i) {
     before = std::exchange(last, row);

@@ -14,7 +14,7 @@ class WriteBehind {
   void wrote(int file, std::uint64_t place, std::size_t count) noexcept;
 
  private:
-  std::uint64_t begin_ = 0, end_ = 0;  // of what was not handed over yet
+  std::uint64_t begin_ = 0, end_ = 0;  // range not handed over yet
 };
 
 }  // namespace driftmesh

@@ -23,7 +23,7 @@ struct LoadSample {
 /// Points that a slice of work inserted on the interfaces of a subdomain with one neighbor.
 struct SplitRecord {
   double time = 0;  ///< when the slice ended
-  Rank rank{};      ///< that did the slice
+  Rank rank{};      ///< the rank that did the slice
   SubdomainId from{}, to{};
   std::int32_t points = 0;
 };
@@ -48,8 +48,8 @@ struct ClusterRun {
   IdVector<SubdomainId, Rank> owners;                 ///< at the end
 
   [[nodiscard]] std::int64_t triangles() const;
-  [[nodiscard]] std::uint64_t messages() const;       ///< of all ranks, termination included
-  [[nodiscard]] std::uint64_t message_bytes() const;  ///< of these messages
+  [[nodiscard]] std::uint64_t messages() const;       ///< sum over all ranks, termination included
+  [[nodiscard]] std::uint64_t message_bytes() const;  ///< bytes in these messages
 };
 
 /// The time in seconds that the work of `run` would take if every rank computed from start to end: the sum of computing

@@ -22,14 +22,14 @@ struct RankChange {
   std::int32_t rank = 0;   ///< the first of them
   std::int32_t ranks = 1;  ///< their number
   double at = 0;           ///< seconds since the start of refinement
-  double factor = 1;       ///< of the speed that they have otherwise; 0: they are not there
+  double factor = 1;       ///< fraction of the speed that they have otherwise; 0: they are not there
 };
 
 /// A cluster to simulate. Ranks are numbered consecutively through the groups. Every host has a link to all others,
 /// which its ranks share; within a host messages go through memory (see protocol::VirtualCluster).
 struct ClusterSpec {
   std::vector<RankGroup> groups;
-  std::vector<RankChange> changes;  ///< of speeds, those of a rank in the order of time
+  std::vector<RankChange> changes;  ///< changes of speed, those of a rank in the order of time
   IdVector<Rank, double> drag;      ///< the fraction of its speed that each rank keeps; empty: all of it
   double memory = 0;                ///< triangles for which each rank has memory, and takes nine tenths; 0: any number
   double latency = 50e-6;           ///< seconds from the end of sending to arrival

@@ -29,7 +29,7 @@ struct Settings {
 
 /// One run of an experiment's sweep.
 struct SweepPoint {
-  std::vector<std::pair<std::string, job::Value>> values;  ///< of the swept keys
+  std::vector<std::pair<std::string, job::Value>> values;  ///< swept keys with their values
   job::Request request;
 };
 

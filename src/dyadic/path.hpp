@@ -46,7 +46,7 @@ inline constexpr int kMaxDepth = 60;
 /// The place of midpoint k on its edge, in units of 2^-62 of the edge: exact for every depth up to kMaxDepth.
 [[nodiscard]] constexpr std::uint64_t position(Path k) {
   const int d = depth(k);
-  const std::uint64_t index = k - (std::uint64_t{1} << d);  // of the interval among those of its depth
+  const std::uint64_t index = k - (std::uint64_t{1} << d);  // number of the interval among those of its depth
   return (2 * index + 1) << (61 - d);
 }
 

@@ -12,7 +12,7 @@ namespace driftmesh {
 namespace hilbert_detail {
 
 inline constexpr int kStates = 4;       // the curve of a square, its transpose, and both turned by 180 degrees
-inline constexpr int kBitsPerStep = 4;  // of each axis
+inline constexpr int kBitsPerStep = 4;  // bits per axis
 inline constexpr int kCells = 1 << (2 * kBitsPerStep);
 
 /// For a state and a cell (x bits, y bits) of a 16 x 16 square: the cell's index along the curve, and the state inside

@@ -35,8 +35,8 @@ namespace driftmesh {
 // held to multiples of 2^-172: a bisection of depth 62 between such points only makes multiples of 2^(-172 - 62) =
 // 2^-234. Other computed points (circumcenters) are brought into range by snap_to_zero.
 inline constexpr double kMaxCoordinate = 0x1p240;        ///< largest magnitude of an input coordinate, 1.8e72
-inline constexpr double kInputGrid = 0x1p-172;           ///< of which input coordinates are multiples, 1.7e-52
-inline constexpr double kCoordinateGrid = 0x1p-242;      ///< of which all coordinates are multiples, 1.4e-73
+inline constexpr double kInputGrid = 0x1p-172;           ///< input coordinates are multiples of this, 1.7e-52
+inline constexpr double kCoordinateGrid = 0x1p-242;      ///< all coordinates are multiples of this, 1.4e-73
 inline constexpr double kSmallestCoordinate = 0x1p-190;  ///< all larger doubles are such multiples
 
 /// The nearest multiple of a power of two.

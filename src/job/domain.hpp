@@ -32,7 +32,7 @@ struct Domain {
   SimplifyReport simplified;                   ///< without its points
   Rasters rasters;                             ///< open
   std::unique_ptr<const SizeField> size;       ///< null: none is asked for
-  const BackgroundMesh* background = nullptr;  ///< of the size field
+  const BackgroundMesh* background = nullptr;  ///< the one that the size field uses
 };
 
 /// Reads or generates the domain, repairs and simplifies it, applies the rule for holes, and makes the size field.

@@ -49,7 +49,7 @@ struct KeyInfo {
     kFlag,
     kChoice,
     kTable,    ///< names and values, known to their reader
-    kList,     ///< of records with the keys of `fields`
+    kList,     ///< records with the keys of `fields`
     kNumbers,  ///< a list, each from `least` to `most`
   };
   std::string name;  ///< with its section: "bounds.angle"

@@ -13,7 +13,7 @@ namespace driftmesh::job {
 /// A key, or one name in a table of names: "input.parameters.seed".
 struct KeyPath {
   const Key* key = nullptr;  ///< null: not found
-  std::string entry;         ///< of a kTable; empty: the table as a whole
+  std::string entry;         ///< name in a kTable; empty: the table as a whole
   bool negated = false;      ///< given by an option that begins with "no-"
 };
 

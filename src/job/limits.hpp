@@ -19,7 +19,7 @@ struct Use {
   EntryPoint by = kMesh;
   bool in_subdomains = false;
   bool sleeps = false;   ///< finished subdomains take less memory
-  bool stores = false;   ///< and sleep on disk
+  bool stores = false;   ///< finished subdomains sleep on disk
   bool writes = false;   ///< the mesh is written, drawn or returned
   bool gathers = false;  ///< rank 0 gathers it from the others for that
   double at_once = 1;    ///< share of the mesh whose arrays are in memory at a time for that
@@ -28,7 +28,7 @@ struct Use {
 /// Limits on a mesh. The number of triangles for which memory suffices is an expectation, to refuse in time what cannot
 /// succeed; at work, a process measures what it has.
 struct Limits {
-  EntryPoint by = kMesh;                                 ///< whose words messages use
+  EntryPoint by = kMesh;                                 ///< messages use its words
   std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop at this number
   std::uint64_t memory = 0;                              ///< bytes that a process may have; 0: unknown
   std::int64_t in_memory = INT64_MAX;                    ///< the triangles for which that should suffice

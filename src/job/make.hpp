@@ -42,7 +42,7 @@ struct Asked {
 struct CutDomain {
   Domain domain;
   Decomposition decomposition;
-  double seconds = 0;  ///< that the cut took
+  double seconds = 0;  ///< time that the cut took
 };
 
 /// The same up to the cut, for this number of ranks.

@@ -29,7 +29,7 @@ struct MeshFacts {
     static constexpr std::size_t kMaxPlaces = 3;
     std::string cause;
     std::int64_t count = 0;
-    double worst_angle = 180;   ///< of those below the angle bound
+    double worst_angle = 180;   ///< the worst below the angle bound
     std::vector<Place> places;  ///< the worst: corners with the smallest angles, each once
   };
   std::vector<ExceptionGroup> exceptions;

@@ -30,7 +30,7 @@ struct Order {
   Request::Sizing sizing;
   Request::Limits limits;
   IdVector<Rank, double> shares;  ///< fraction of its time that each rank works, for experiments; empty: all of it
-  Use use;                        ///< of the mesh
+  Use use;                        ///< what the mesh is for
   std::string scratch{};          ///< folder where subdomains sleep; empty: in memory
   Rasters rasters{};              ///< open; others than rank 0 open them themselves
   std::optional<Whole> whole{};   ///< in place of plan and input, for one piece, which stays where it is

@@ -18,7 +18,7 @@ namespace driftmesh::job {
 struct Prepared {
   RunPlan plan;  ///< refers to the domain's size field
   std::int32_t acute_corners = 0;
-  double forecast = 0;  ///< of triangles
+  double forecast = 0;  ///< triangles after refinement
 };
 
 /// Decomposes the domain, triangulated, and maps the subdomains to ranks with these speeds, of which only the ratios

@@ -115,7 +115,7 @@ RankLoop::Observers RankRun::observers(const RankHooks& hooks) {
     drag(share, slice.seconds);
     if (log_) log_->worked(loop, slice, slice.seconds + (channel_->transport().now() - begin));
   };
-  if (!log_) {  // which times the work alone
+  if (!log_) {  // a log times the work alone
     if (inspects_at_once(order_.plan))
       observers.finished = [this](const Subdomain& subdomain) { book_.note(subdomain, order_.plan.bounds); };
     return observers;

@@ -74,7 +74,7 @@ class RankRun {
   std::unique_ptr<Crew> crew_;  // if ranks have several threads
   std::optional<RankLoop> loop_;
   std::int64_t triangles_ = -1;  // when memory was looked at
-  std::exception_ptr failure_;   // of the work on this rank
+  std::exception_ptr failure_;   // thrown by the work on this rank
 };
 
 }  // namespace driftmesh::job

@@ -15,7 +15,7 @@ namespace driftmesh::job {
 /// The rasters of a request, for one domain. Each rank opens its own; the threads of a rank share them.
 struct Rasters {
   std::map<std::string, std::string> files;  ///< by name
-  std::string projection;                    ///< of the domain; see InputFile
+  std::string projection;                    ///< the domain's; see InputFile
   std::string depth;                         ///< the one that the points of the mesh get values of; empty: none
   NamedRasters open;
 

@@ -33,7 +33,7 @@ struct RunRecord : MeshFacts {
   bool complete = true;
   std::string stopped_by;  ///< the limit that stopped the work, if it is not complete
   std::int32_t acute_corners = 0;
-  double forecast = 0;  ///< of triangles, before refinement
+  double forecast = 0;  ///< triangles, before refinement
 
   struct Stage {
     std::string name;
@@ -56,7 +56,7 @@ struct RunRecord : MeshFacts {
   };
   std::vector<Rank> ranks;  ///< empty if there were none
   bool on_threads = false;  ///< ranks are threads of one process
-  int rounds = 0;           ///< of threads (see runtime/threads)
+  int rounds = 0;           ///< number that threads took (see runtime/threads)
   std::int32_t subdomains = 0;
   bool presplit = false;
 

@@ -36,7 +36,7 @@ struct Request {
   struct Input {
     std::string file;
     std::string generator;
-    std::map<std::string, std::string> parameters;  ///< of the generator
+    std::map<std::string, std::string> parameters;  ///< parameters for the generator
     double snap = 0;                                ///< what is that near is joined; 0: nothing
     bool hull = false;                              ///< whether the convex hull is the outline
     double simplify = 0;                            ///< by how much lines may move; 0: nothing is simplified
@@ -44,7 +44,7 @@ struct Request {
     bool strict = false;                              ///< warnings about the input are errors
     std::map<std::string, std::string> marker_names;  ///< by the numbers of markers
     std::map<std::string, std::string> region_names;  ///< by the attributes of regions
-    std::string layers;                               ///< of the file, with commas between them; empty: the only one
+    std::string layers;                               ///< layers in the file, separated by commas; empty: the only one
     std::map<std::string, std::string> rasters;       ///< their files, by name
   } input;
 
@@ -85,7 +85,7 @@ struct Request {
     MappingMethod method = MappingMethod::kGraph;
     bool by_speed = false;
     bool by_area = false;
-    std::vector<double> speeds;  ///< of each rank, relative; empty: all equal
+    std::vector<double> speeds;  ///< one for each rank, relative; empty: all equal
     std::string file;            ///< instead of all these
     bool to_late_ranks = true;   ///< also to simulated ranks that are not there at the start
     friend bool operator==(const Mapping&, const Mapping&) = default;

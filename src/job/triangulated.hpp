@@ -25,7 +25,7 @@ struct Triangulated {
   std::int32_t acute_corners = 0;
   std::vector<Point> holes;  ///< a point in each hole, for formats that need one
   QualityBounds bounds;      ///< refers to the domain's size field
-  double forecast = 0;       ///< of the triangles after refinement
+  double forecast = 0;       ///< triangles after refinement
 };
 
 /// Triangulates the domain, warns of what its author may not have meant, prepares its corners, and determines the

@@ -35,8 +35,8 @@ struct MappingOptions {
 /// Quality of a mapping.
 struct MappingReport {
   double largest_load = 0;         ///< work of a rank over its speed, in units of the mean: 1 is perfect
-  double interface_length = 0;     ///< of interfaces between ranks
-  double share_between_ranks = 0;  ///< of the length of all interfaces
+  double interface_length = 0;     ///< interfaces between ranks
+  double share_between_ranks = 0;  ///< fraction of the length of all interfaces
 };
 [[nodiscard]] MappingReport report_mapping(const Decomposition& decomposition, const Assignment& assignment,
                                            const MappingOptions& options);

@@ -19,7 +19,7 @@ namespace driftmesh::pdr {
 struct Change {
   RootId root = kNone;  ///< kNone for a free point
   dyadic::Path path = 0;
-  Point point;     ///< of a free one
+  Point point;     ///< the free point
   Point from, to;  ///< the edge
 };
 

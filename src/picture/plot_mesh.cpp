@@ -224,7 +224,7 @@ class MeshPlot {
   PlotFrame frame_;
   Canvas canvas_;
   PlotSummary summary_;
-  double mean_side_;  // of the triangles in view, pixels
+  double mean_side_;  // pixels, for triangles in view
   bool is_dense_;
   PlotColor color_;
   PlotValues values_;

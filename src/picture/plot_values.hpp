@@ -15,9 +15,9 @@ namespace driftmesh {
 /// The values behind the triangles' colors, and their legend.
 struct PlotValues {
   std::vector<float> of_triangle;       ///< degrees, log10(area), or number of the class
-  std::function<Rgb(double)> color_of;  ///< of a value
+  std::function<Rgb(double)> color_of;  ///< color for a value
   ColorBar bar;                         ///< for angle and area
-  std::string title;                    ///< of the swatches
+  std::string title;                    ///< heading of the swatches
   std::vector<Swatch> swatches;         ///< for region, subdomain and rank
 };
 

@@ -55,7 +55,7 @@ class Agenda {
 
   WorkOrder order_;
   std::set<Place> queue_;
-  std::map<SubdomainId, Place> place_;  // of those in the queue
+  std::map<SubdomainId, Place> place_;  // subdomains in the queue
 };
 
 }  // namespace driftmesh

@@ -65,9 +65,9 @@ class RankLoop {
   /// loops, and tells none of them what its neighbors put on their common border. Whoever runs the rounds does that
   /// between them, with what after_slice reports.
   struct Round {
-    std::map<SubdomainId, Subdomain> subdomains;  ///< of this rank
+    std::map<SubdomainId, Subdomain> subdomains;  ///< those on this rank
     const SubdomainContext* context = nullptr;    ///< theirs; outlives the loop
-    IdVector<SubdomainId, Rank> owners;           ///< of all subdomains
+    IdVector<SubdomainId, Rank> owners;           ///< one for each subdomain
     std::shared_ptr<const balancer::Layout> layout;
   };
 
@@ -109,7 +109,7 @@ class RankLoop {
   /// The same, out of a loop that has ended.
   [[nodiscard]] std::map<SubdomainId, Subdomain> take_subdomains() { return std::move(subdomains_); }
   [[nodiscard]] const RankTimes& times() const { return times_; }
-  [[nodiscard]] std::int64_t triangles() const { return triangles_; }  ///< of all subdomains here
+  [[nodiscard]] std::int64_t triangles() const { return triangles_; }  ///< sum over all subdomains here
   /// Points that refinement inserted on interfaces here, whichever rank holds the other side.
   [[nodiscard]] std::int64_t interface_splits() const { return interface_splits_; }
   /// Results of this rank so far.

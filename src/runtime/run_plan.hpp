@@ -40,7 +40,7 @@ struct WorkSettings {
   /// Presplit interfaces get no more points: nobody tells anybody anything, and a subdomain that needs one is an error.
   bool decoupled = false;
   bool sleep = false;        ///< compress finished subdomains to a quarter of their memory until a neighbor needs them
-  std::int32_t threads = 1;  ///< of each rank, where ranks are real
+  std::int32_t threads = 1;  ///< number per rank, where ranks are real
 };
 
 /// What every rank of a parallel run knows from the start, equal on all ranks.
@@ -52,7 +52,7 @@ struct RunPlan {
   std::shared_ptr<const PresplitPaths> presplit_paths;  ///< null: each side of an interface computes them
   WorkSettings work;
   std::int64_t max_triangles = INT64_MAX;  ///< on one rank; more is a LimitError
-  ScratchFile* scratch = nullptr;          ///< of this process, for subdomains that sleep; not owned; null: memory
+  ScratchFile* scratch = nullptr;          ///< this process's, for subdomains that sleep; not owned; null: memory
 
   Balancing balancing;
   /// Made from the above by prepare_balancing; null without balancing.
@@ -63,14 +63,14 @@ struct RunPlan {
 /// Costs of a rank's work on the reference machine, in seconds, used for simulated time. Measured with
 /// `driftmesh_bench_costs` (docs/benchmarks.md).
 struct CostModel {
-  double cut = 0.4e-6;          ///< of cutting the domain, per subdomain and halving that leads to it
-  double start = 29e-6;         ///< of the initial triangulation of a subdomain
+  double cut = 0.4e-6;          ///< cutting the domain, per subdomain and halving that leads to it
+  double start = 29e-6;         ///< the initial triangulation of a subdomain
   double prepared = 0.17e-6;    ///< more for each of its triangles
   double point = 0.229e-6;      ///< a point inserted by refinement
   double listed = 20e-9;        ///< a subdomain that balancing looks at
-  double packed_byte = 0.4e-9;  ///< of a subdomain that is packed or unpacked
+  double packed_byte = 0.4e-9;  ///< a byte of a subdomain that is packed or unpacked
   double asleep = 23e-9;        ///< a triangle of a subdomain that falls asleep
-  double woken = 40e-9;         ///< and of one that wakes
+  double woken = 40e-9;         ///< a triangle of a subdomain that wakes
   balancer::PlanningCosts planning;
 };
 

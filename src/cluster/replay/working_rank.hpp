@@ -21,7 +21,7 @@ struct CountedWork {
   double work = 0;      ///< the actual amount
   double forecast = 0;  ///< what all ranks believe
   [[nodiscard]] bool finished() const { return done >= work; }
-  [[nodiscard]] std::uint64_t bytes() const;  ///< of its packed form
+  [[nodiscard]] std::uint64_t bytes() const;  ///< size of its packed form
 };
 
 /// A rank that does such work with the real protocol, codec and controller, and learns from it. Its time is counted in

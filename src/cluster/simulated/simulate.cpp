@@ -95,7 +95,7 @@ class Simulation {
 
   protocol::VirtualNetwork network_;
   double cutting_;  // seconds, on rank 0
-  double memory_;   // of each rank, in triangles
+  double memory_;   // triangles that each rank has memory for
   const SimulationObservers& observers_;
   IdVector<Rank, std::int64_t> of_rank_;  // triangles of each rank, as last reported
   std::int64_t triangles_ = 0;

@@ -12,7 +12,7 @@ namespace driftmesh {
 
 /// Callbacks during the simulation; each may be empty.
 struct SimulationObservers {
-  std::function<void(std::int64_t triangles)> progress;  ///< of all ranks together, from time to time
+  std::function<void(std::int64_t triangles)> progress;  ///< called from time to time with the sum over all ranks
   std::function<void(const RankLoop& rank)> finished;    ///< each rank, in order, once all are done
 };
 

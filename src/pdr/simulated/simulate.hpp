@@ -14,7 +14,7 @@ namespace driftmesh::pdr {
 
 /// Callbacks during the simulation; each may be empty.
 struct SimulationObservers {
-  std::function<void(std::int64_t triangles)> progress;  ///< of all ranks together, from time to time
+  std::function<void(std::int64_t triangles)> progress;  ///< called from time to time with the sum over all ranks
   /// Each rank, in order, once all are done. Its mesh has only the triangles of its own cells.
   std::function<void(Part& part, Rank rank, const RankOutcome& outcome)> finished;
 };

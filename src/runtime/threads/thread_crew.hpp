@@ -28,7 +28,7 @@ class ThreadCrew final : public Crew {
   void work(std::size_t place);
   void dismiss();
 
-  std::mutex mutex_;  // of the following three
+  std::mutex mutex_;  // guards the following three
   std::deque<Shift*> waiting_;
   std::deque<Shift*> performed_;
   bool over_ = false;
