@@ -31,7 +31,7 @@ using namespace driftmesh;
 namespace {
 
 struct Ratios {
-  double total = 0;      // of the sums
+  double total = 0;      // ratio of the sums
   double variation = 0;  // standard deviation over mean
 };
 

@@ -11,7 +11,7 @@ namespace driftmesh::bench {
 struct Model {
   std::string name;
   Pslg pslg;
-  double area = 0;  ///< of the domain
+  double area = 0;  ///< area of the whole domain
 };
 
 /// pipe, cylinder_flow and chesapeake from the .poly files in `folder`, or similar generated ones if it has none; and a

@@ -40,7 +40,7 @@ class ShapeCensus {
  private:
   std::int64_t triangles_ = 0;
   double largest_area_ = 0;
-  double squared_sine_ = 0.75;  // of 60 degrees
+  double squared_sine_ = 0.75;  // 60 degrees
 };
 
 }  // namespace driftmesh::bench

@@ -42,7 +42,7 @@ inline std::vector<std::int32_t> places_at_owners(MPI_Comm communicator, const D
 inline PetscErrorCode set_star_forest(DM plex, MPI_Comm communicator, const DistributedPiece& piece) {
   const auto first = static_cast<PetscInt>(piece.mesh.triangles.size());
   const std::vector<std::int32_t> there = places_at_owners(communicator, piece);
-  std::vector<int> triangles(static_cast<std::size_t>(piece.ranks));  // of each rank: its points come behind them
+  std::vector<int> triangles(static_cast<std::size_t>(piece.ranks));  // count on each rank: its points come behind them
   const int own = static_cast<int>(first);
   MPI_Allgather(&own, 1, MPI_INT, triangles.data(), 1, MPI_INT, communicator);
   std::vector<PetscInt> leaves;

@@ -396,7 +396,7 @@ TEST_CASE("a file that cannot be written is an error on all ranks") {
     const std::string said = common_error([&] { write_distributed(MPI_COMM_WORLD, piece, path); });
     CAPTURE(said);
     if (std::string(name) != "mesh.unknown") CHECK_THROWS_AS(write_distributed(MPI_COMM_WORLD, piece, path), FileError);
-    CHECK(said.starts_with("rank 0: ") == (std::string(name) != "mesh.unknown"));  // that, every rank sees by itself
+    CHECK(said.starts_with("rank 0: ") == (std::string(name) != "mesh.unknown"));  // all ranks see wrong formats
     CHECK(said.find(std::string(name).starts_with("no") ? "no-such-folder/mesh" : name) != std::string::npos);
   }
 }

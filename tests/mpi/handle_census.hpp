@@ -8,7 +8,7 @@ namespace driftmesh::mpi_test {
 /// including those of its libraries.
 struct HandleCensus {
   std::size_t communicators = 0;
-  std::size_t requests = 0;  ///< of messages between ranks
+  std::size_t requests = 0;  ///< open messages between ranks
   friend bool operator==(const HandleCensus&, const HandleCensus&) = default;
 };
 [[nodiscard]] HandleCensus handle_census();

@@ -21,7 +21,7 @@ struct Job {
   std::int32_t subdomains = 24;
   std::int64_t slice = 25;  ///< insertions
   Presplit presplit = Presplit::kOff;
-  std::uint64_t seed = 1;    ///< of delays and moves
+  std::uint64_t seed = 1;    ///< seed for delays and moves
   std::uint64_t delay = 30;  ///< largest number of polls by which a message is delayed
   bool moves = false;        ///< subdomains are handed over at random
   bool drag = false;         ///< one rank rests after each slice, four times as long as the slice took
@@ -34,9 +34,9 @@ struct Outcome {
   bool leads = false;
   Mesh mesh;
   QualityBounds bounds;
-  protocol::ProtocolCounters counters;  ///< of all ranks together
-  std::int64_t forced = 0;              ///< of the moves, those at random
-  std::vector<std::string> problems;    ///< of owners, counts and termination
+  protocol::ProtocolCounters counters;  ///< sums over all ranks
+  std::int64_t forced = 0;              ///< moves made at random
+  std::vector<std::string> problems;    ///< wrong owners, counts or termination
 };
 
 /// The whole mesh that a team has made, on its rank 0; empty elsewhere. Collective.

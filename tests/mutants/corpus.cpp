@@ -204,7 +204,7 @@ class CorpusMaker {
     add_encoded("vtu-full-base64", {.base64 = true});
     add_encoded("vtu-full-zlib", {.compressed = true});
     add_encoded("vtu-full-zlib-base64", {.compressed = true, .base64 = true});
-    Files edges = find("ele-full").files;  // whose constrained edges are in the .edge
+    Files edges = find("ele-full").files;  // the constrained edges are in the .edge
     edges.erase("mesh.poly");
     add("edge", Reading::kMesh, "mesh.node", edges);
     add("pvtu", Reading::kMesh, "mesh.pvtu", [](const std::string& path) { write_pieces(full_mesh(), path); });

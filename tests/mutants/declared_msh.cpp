@@ -339,7 +339,7 @@ std::string msh_as_text(std::string_view binary) {
     }
     at = field.begin + field.size;
   }
-  const std::string format = "4.1 1 8\n1 ";  // and the number that shows the byte order
+  const std::string format = "4.1 1 8\n1 ";  // the 1 shows the byte order
   const std::size_t found = text.find(format);
   if (found == std::string::npos) throw Undeclared("no binary file");
   return text.replace(found, format.size(), "4.1 0 8\n") + "\n";

@@ -177,10 +177,10 @@ class Su2File {
 
   std::vector<Section> sections_;
   std::set<std::string> seen_, names_;
-  std::map<std::string, std::int64_t> numbers_;  // that comments give
+  std::map<std::string, std::int64_t> numbers_;  // numbers that comments give
   std::int64_t announced_ = 0;
   Words tags_;
-  std::vector<std::vector<std::array<std::int32_t, 2>>> edges_;  // of each tag
+  std::vector<std::vector<std::array<std::int32_t, 2>>> edges_;  // one list for each tag
   Mesh mesh_;
 };
 

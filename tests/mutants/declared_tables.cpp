@@ -15,7 +15,7 @@ namespace {
 constexpr std::int32_t kSeparator = -1'000'000;
 
 struct Nodes {
-  Mesh mesh;  // of points
+  Mesh mesh;  // points only
   std::int64_t first = 1;
 
   std::int32_t vertex(Row& row) const {

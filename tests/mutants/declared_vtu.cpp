@@ -335,7 +335,7 @@ class VtuFile {
   const Element* piece_ = nullptr;
   std::string_view appended_;
   bool is_raw_ = false;
-  std::size_t end_ = 0;  // of the data that have been read, in the appended ones
+  std::size_t end_ = 0;  // end of the appended data that have been read
   std::size_t length_bytes_ = 4;
   bool is_compressed_ = false;
   std::vector<bool> is_triangle_;

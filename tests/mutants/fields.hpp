@@ -58,7 +58,7 @@ class Base64Text {
 
   std::string_view text_;
   std::size_t position_ = 0;
-  std::string decoded_;  // and not yet taken
+  std::string decoded_;  // not yet taken
 };
 
 }  // namespace driftmesh::mutants

@@ -203,7 +203,7 @@ std::string fault_of_its_mesh(const Decomposition& decomposition) {
 }
 
 Verdict judge_decomposition(const Sample& sample, const Files& files, const std::string& folder) {
-  std::optional<std::string> fault;  // of the mesh
+  std::optional<std::string> fault;  // what is wrong with the mesh
   const auto read = [&] {
     const std::string path = folder + "/" + sample.main;
     Decomposition decomposition = read_decomposition(path, testing::varied_domain());

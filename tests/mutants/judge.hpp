@@ -10,7 +10,7 @@ namespace driftmesh::mutants {
 struct Verdict {
   bool accepted = false;
   bool declared = false;  ///< whether the files declare something; of settings, whether they were accepted
-  std::string message;    ///< of the refusal, or why nothing is declared
+  std::string message;    ///< text of the refusal, or why nothing is declared
   std::string failure;    ///< what must not happen, or ""
 };
 

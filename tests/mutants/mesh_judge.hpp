@@ -11,7 +11,7 @@ namespace driftmesh::mutants {
 struct MeshVerdict {
   bool accepted = false;  ///< as a mesh of its input
   std::string fault;      ///< what is wrong with it by the oracle, or ""
-  std::string failure;    ///< where a check says something else, or ""
+  std::string failure;    ///< the check that says something else, or ""
 };
 
 /// Checks a mesh in every way there is: by itself and against the input of its sample; in one piece and in several, of

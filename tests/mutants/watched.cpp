@@ -97,7 +97,7 @@ class Watched {
       limit_memory(limits_.bytes);
       for (; seed <= last_; seed += step_) take(k, seed);
       shared_[k].seed = 0;
-      std::exit(0);  // where a sanitizer looks for leaks
+      std::exit(0);  // a sanitizer looks for leaks there
     }
     children_[k] = child;
     ++running_;

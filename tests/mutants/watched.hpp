@@ -10,7 +10,7 @@ namespace driftmesh::mutants {
 /// What all workers did.
 struct Totals {
   std::uint64_t mutants = 0, accepted = 0, refused = 0, refused_though_declared = 0, failed = 0;
-  std::size_t most_bytes = 0;  ///< of memory that a mutant took
+  std::size_t most_bytes = 0;  ///< memory that a mutant took
   double longest = 0;          ///< seconds for a mutant
 };
 
@@ -24,7 +24,7 @@ struct Result {
 /// For each mutant.
 struct Limits {
   double seconds = 10;
-  std::size_t bytes = 400'000'000;  ///< of memory, at a time
+  std::size_t bytes = 400'000'000;  ///< memory at a time
 };
 
 /// Calls `work` for every seed, in as many child processes, and `report`, in any of them or here, for those that fail:

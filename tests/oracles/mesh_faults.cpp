@@ -17,7 +17,7 @@
 namespace driftmesh::oracles {
 namespace {
 
-constexpr double kLargest = 0x1p240;    // of the coordinates that predicates take
+constexpr double kLargest = 0x1p240;    // largest coordinate that predicates take
 constexpr double kSmallest = 0x1p-190;  // besides 0; smaller ones that are in range do not occur
 // Distances from a segment, in units of the last place of its largest coordinate: surely on it, and surely not.
 constexpr long double kOn = 24, kOff = 48;

@@ -59,7 +59,7 @@ class Slabs {
     GridPoint low, high;
     std::size_t polygon, ring;
   };
-  struct Cut {  // of an edge with the middle of a slab
+  struct Cut {  // an edge meets the middle of a slab
     Ratio x;
     const Edge* edge;
   };
@@ -87,7 +87,7 @@ class Slabs {
     const Int fx = Int(f.high.x) - f.low.x, fy = Int(f.high.y) - f.low.y;
     const Int across = cross(ex, ey, fx, fy);
     if (across == 0) return;
-    const Int along = cross(Int(f.low.x) - e.low.x, Int(f.low.y) - e.low.y, fx, fy);  // of e, in units of `across`
+    const Int along = cross(Int(f.low.x) - e.low.x, Int(f.low.y) - e.low.y, fx, fy);  // on e, in units of `across`
     const Ratio t(along, across);
     if (t.num <= 0 || t.num >= t.den) return;
     heights_.push_back({Int(e.low.y) * t.den + ey * t.num, t.den});

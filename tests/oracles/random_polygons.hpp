@@ -12,7 +12,7 @@ namespace driftmesh::oracles {
 /// A random set of polygons, on a grid whose unit is a power of two.
 struct RandomPolygons {
   std::vector<GridPolygon> polygons;
-  GridPoint origin;  ///< of the grid, in units
+  GridPoint origin;  ///< the grid's, in units
   double unit = 1;
   bool general = false;  ///< valid polygons that overlap, no three lines of which meet; otherwise flawed in all ways
 };
@@ -25,7 +25,7 @@ struct RandomPolygons {
 enum class Trait : std::uint8_t {
   polygons_overlap,
   polygons_touch,
-  edges_coincide,       ///< of different polygons
+  edges_coincide,       ///< two polygons share an edge
   over_a_hole,          ///< a polygon with a corner in another one's hole
   repeated_corner,      ///< in a row
   ring_touches_itself,  ///< a corner twice, or on another edge

@@ -16,7 +16,7 @@ struct RandomPslg {
 };
 
 struct RandomPslgShape {
-  int outer_points = 12;      ///< of the outer boundary, a star-shaped polygon
+  int outer_points = 12;      ///< points on the outer boundary, a star-shaped polygon
   int holes = 2;              ///< star-shaped, at most; as many as fit
   int rings = 1;              ///< closed rings of segments that are regions, at most
   int inner_segments = 6;     ///< between points that exist, at most
@@ -24,7 +24,7 @@ struct RandomPslgShape {
   int inner_points = 5;       ///< without a segment
   double spikiness = 0.5;     ///< 0: round boundaries; toward 1: thin spikes with small angles
   double scale = 1;           ///< size of the whole
-  double offset = 0;          ///< of the whole from the origin, in both coordinates
+  double offset = 0;          ///< distance of the whole from the origin, in both coordinates
 };
 
 /// Planar: segments meet only at common ends, points lie on no segment (by exact predicates).

@@ -151,7 +151,7 @@ Pslg square_with_holes(std::uint64_t seed) {
 /// What the theorem of docs/theory.md says of a decomposition for one angle bound, without a bound on area.
 struct Distances {
   double subsegment = 0;  ///< the shortest, at least
-  double vertices = 0;    ///< that see each other
+  double vertices = 0;    ///< least distance between vertices that see each other
   bool holds = false;
 };
 
@@ -251,7 +251,7 @@ TEST_CASE("parts that share a subdomain share its work evenly") {
   }
   const Triangulation mesh = prepared(squares);
   for (const int n : {2, 7, 40}) CHECK(decompose_and_check(squares, mesh, n).report.largest_load < 1.11);
-  Pslg continent = squares;  // which should get nine of ten subdomains
+  Pslg continent = squares;  // should get nine of ten subdomains
   Pslg land;
   land.points = {{100, 0}, {160, 0}, {160, 60}, {100, 60}};
   for (std::int32_t k = 0; k < 4; ++k) land.segments.push_back({k, (k + 1) % 4, 1});
@@ -286,7 +286,7 @@ TEST_CASE("random domains are cut into any number of subdomains") {
   }
   MESSAGE(cut << " decompositions, " << steep << " with angles of 54 degrees and more; " << uneven
               << " with loads above 1.5, at most " << worst_load);
-  CHECK(500 * (cut - steep) <= cut);  // where wider angles would leave a separator beside a wall
+  CHECK(500 * (cut - steep) <= cut);  // in these, wider angles would leave a separator beside a wall
   CHECK(100 * uneven < 10 * cut);
 }
 

@@ -25,7 +25,7 @@ constexpr MoveCost kFree{.latency = 0, .bandwidth = 1e300, .pack_work = 0};
 struct Case {
   LoadSnapshot snapshot;
   std::vector<Move> moves;
-  double finish = 0;  ///< of the moves
+  double finish = 0;  ///< finishing time with the moves
 };
 
 Case random_case(std::mt19937_64& random) {

@@ -24,7 +24,7 @@ namespace {
 /// Stars inside discs that lie inside other stars.
 struct RingTree {
   Pslg input;
-  double area = 0;  ///< of the domain if rings alternate
+  double area = 0;  ///< area of the domain if rings alternate
   std::size_t inner_rings = 0;
 
   RingTree(std::uint64_t seed, double scale, double shift) : random_(seed), scale_(scale), shift_(shift) {

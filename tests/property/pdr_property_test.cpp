@@ -263,7 +263,7 @@ TEST_CASE("simulated ranks make the same mesh, and time passes for all that they
       const auto& counters = direct.all[r]->refinement.cells().all_counters();
       const auto inserted = static_cast<double>(counters.free_points + counters.segment_points);
       const double slowness = r == 3_rank ? 8 : 1;
-      CHECK(rank.times.computing > slowness * costs.point * inserted);  // and the start
+      CHECK(rank.times.computing > slowness * costs.point * inserted);  // the start comes on top
       CHECK(rank.times.total() <= run.makespan * (1 + 1e-9));
       CHECK(rank.times.idle >= 0);
       CHECK(rank.messages == static_cast<std::uint64_t>(rank.counters.batches_sent));

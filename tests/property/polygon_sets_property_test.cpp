@@ -33,7 +33,7 @@ namespace {
 using namespace driftmesh;
 using oracles::RandomPolygons;
 
-using Areas = std::map<double, long double>;  // of regions
+using Areas = std::map<double, long double>;  // area by region
 
 struct Case {
   Pslg given;

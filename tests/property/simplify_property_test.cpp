@@ -179,7 +179,7 @@ TEST_CASE("random domains keep their shape within the tolerance, and what lies w
 TEST_CASE("a smooth line keeps about as many points as it needs") {
   Pslg pslg = circle(10'000, 1);
   const SimplifyReport report = simplify(pslg, 1e-3);
-  const double needed = std::numbers::pi / std::acos(1 - 1e-3);  // of chords that cut off 1e-3
+  const double needed = std::numbers::pi / std::acos(1 - 1e-3);  // number of chords that cut off 1e-3
   CHECK(static_cast<double>(pslg.points.size()) < 2.5 * needed);
   CHECK(report.points + static_cast<std::int64_t>(pslg.points.size()) == 10'000);
 }

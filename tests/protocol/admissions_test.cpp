@@ -152,8 +152,8 @@ TEST_CASE("what fits is admitted, and memory is set aside for it until it arrive
   CHECK_FALSE(receiver.waiting());
   receiver.arrived(3_sub);
   CHECK(receiver.set_aside() == 400);
-  receiver.receive(0_rank, {7, Stage::kReturn, {{5_sub, 400}}});  // of another question
-  receiver.receive(2_rank, {1, Stage::kReturn, {{5_sub, 400}}});  // of another giver
+  receiver.receive(0_rank, {7, Stage::kReturn, {{5_sub, 400}}});  // another question
+  receiver.receive(2_rank, {1, Stage::kReturn, {{5_sub, 400}}});  // another giver
   CHECK(receiver.settle(1000, own).not_coming.empty());
   receiver.receive(0_rank, {1, Stage::kReturn, {{5_sub, 400}}});
   CHECK(receiver.settle(1000, own).not_coming == std::vector{5_sub});

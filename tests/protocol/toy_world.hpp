@@ -57,8 +57,8 @@ struct World {
   IdVector<SubdomainId, Rank> owners;
   IdVector<GlobalRootId, Edge> edges;
   std::size_t aggregation = 1;
-  std::uint64_t splits = 0;  // that a subdomain makes of its own accord
-  std::uint64_t moves = 0;   // that a rank makes
+  std::uint64_t splits = 0;  // number that a subdomain makes of its own accord
+  std::uint64_t moves = 0;   // number that a rank makes
 };
 
 /// How a subdomain treats a received split point; tests replace each function by a wrong one.

@@ -25,7 +25,7 @@ namespace {
 constexpr std::array<double, 4> kAngles{20, 25, 30, 33};
 
 struct Counted {
-  std::string name;  ///< of a generated input, or a file among the published models
+  std::string name;  ///< a generated input, or a file among the published models
   std::map<std::string, std::string> parameters;
   std::array<int, 4> theirs;      ///< triangles at each of the angles
   std::array<int, 4> theirs_low;  ///< angles below the bound

@@ -36,7 +36,7 @@ struct Outcome {
   std::int64_t triangles = 0;
   std::uint64_t digest = 0;
   std::uint64_t steps = 0;
-  protocol::ProtocolCounters counters;  ///< of all ranks together
+  protocol::ProtocolCounters counters;  ///< sums over all ranks
   protocol::AdversarialNetwork::Counters network;
   AdversaryEffects effects;
   std::int64_t asleep = 0;        ///< subdomains at the end

@@ -8,7 +8,7 @@ namespace driftmesh::sim {
 /// What an adversary really achieved, so that a test can check that its schedules were hard.
 struct AdversaryEffects {
   std::int64_t by_chance = 0;     ///< subdomains moved
-  std::int64_t returns = 0;       ///< of one subdomain to the rank that it had just come from
+  std::int64_t returns = 0;       ///< a subdomain went back to the rank that it had just come from
   std::int64_t rotations = 0;     ///< a rank's whole work went to the next rank before the rank polled
   std::int64_t behind_token = 0;  ///< work given away by a rank that had not answered a probe
   std::int64_t by_policy = 0;     ///< subdomains moved by decision of a balancer
@@ -22,7 +22,7 @@ struct AdversaryEffects {
   std::int64_t questions = 0;           ///< to ranks that may be short of memory
   std::int64_t answers = 0;
   std::int64_t starved = 0;    ///< steps that a rank was denied
-  std::int64_t most_hops = 0;  ///< of a group of SPLITs
+  std::int64_t most_hops = 0;  ///< hops of a group of SPLITs
 
   AdversaryEffects& operator+=(const AdversaryEffects& other);
 };

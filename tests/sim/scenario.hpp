@@ -42,12 +42,12 @@ struct Scenario {
   std::size_t aggregation = 1;
   std::int64_t slice = 1;  ///< insertions
   WorkOrder order = WorkOrder::kGiven;
-  double move_chance = 0;        ///< of handing a subdomain over, at each step of a rank
+  double move_chance = 0;        ///< probability that a rank hands a subdomain over in a step
   bool sleep = false;            ///< finished subdomains sleep
   std::size_t crew = 0;          ///< threads of each rank besides its own
   std::int64_t most_moves = 0;   ///< in the whole run, not counting those of a policy
   std::string mover;             ///< one of mover_names()
-  std::int32_t arity = 1;        ///< of the tree over which termination is detected
+  std::int32_t arity = 1;        ///< arity of the tree over which termination is detected
   bool short_of_memory = false;  ///< ranks have room for little more than what they begin with
   bool lopsided = false;         ///< all subdomains start on one rank
   Mischief mischief = Mischief::kNone;

@@ -23,12 +23,12 @@ enum class Start { kCompact, kRoundRobin };
 struct BalancingScenario {
   std::int32_t ranks = 4;
   int per_rank = 20;       ///< subdomains
-  double speed_ratio = 1;  ///< of the fastest rank to the slowest
+  double speed_ratio = 1;  ///< speed of the fastest rank over that of the slowest
   double latency = 50e-6;  ///< seconds
   double error = 1;        ///< work is the forecast times or divided by up to this
   Errors errors = Errors::kScattered;
   Start start = Start::kCompact;
-  double seconds = 2;  ///< that it takes at best
+  double seconds = 2;  ///< time that it takes at best
 
   [[nodiscard]] std::string name() const;
 };

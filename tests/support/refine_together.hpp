@@ -21,7 +21,7 @@ namespace driftmesh::testing {
 struct RefineTogether {
   int most_rounds = 100;
   bool presplit = false;                        ///< whether interfaces are split to size first
-  std::int64_t most_triangles = kMaxTriangles;  ///< of a subdomain; all stop when one has as many
+  std::int64_t most_triangles = kMaxTriangles;  ///< all stop when one subdomain has as many
 };
 
 struct RefinedTogether {

@@ -31,7 +31,7 @@ ExperimentRun two_ranks(std::int32_t phases) {
 
 struct Task {
   double time = 0;
-  int index = -1;  // of a subdomain
+  int index = -1;  // index of a subdomain
 };
 
 /// The tasks of one rank in one phase.
@@ -87,7 +87,7 @@ void check_entity(const Json& entity) {
   check_fields(entity, kEntity);
   const std::int64_t id = entity.at("id");
   CHECK(entity.at("type") == "object");
-  CHECK((id >> 2 & 0xffff) == entity.at("home").get<std::int64_t>());  // which vt reads from the number
+  CHECK((id >> 2 & 0xffff) == entity.at("home").get<std::int64_t>());  // vt reads it from the number
   CHECK((id & 3) == (entity.at("migratable") ? 3 : 1));
   CHECK(entity.contains("collection_id") == entity.at("migratable").get<bool>());
 }
@@ -156,7 +156,7 @@ TEST_CASE(
   CHECK(first[0].index == 0);
   CHECK(first[0].time == 2);
   CHECK(first[1].index == -1);
-  CHECK(first[1].time == 1);  // of subdomain 1, before it moved
+  CHECK(first[1].time == 1);  // subdomain 1, before it moved
   REQUIRE(second.size() == 2);
   CHECK(second[0].index == 1);
   CHECK(second[0].time == 3.5);
@@ -164,7 +164,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a slice that spans several phases is divided between them") {
-  const std::vector<std::string> files = lb_statistics(two_ranks(4));  // of 2 s each
+  const std::vector<std::string> files = lb_statistics(two_ranks(4));  // phases of 2 s
   const auto time_on_1 = [&](std::size_t phase) {
     double sum = 0;
     for (const Task& task : tasks(files, 1, phase)) sum += task.time;

@@ -133,9 +133,9 @@ TEST_CASE("the leader waits with a plan until a rank runs out of work soon") {
     const Decision decision = leader.think(1, loads_of(0, 5, 100 * seconds / 6), 100);
     return !sent<balancer::Plan>(decision).empty();
   };
-  CHECK(!plans_when_left(30));  // of 45 seconds on average
+  CHECK(!plans_when_left(30));  // 45 seconds on average
   CHECK(!plans_when_left(12));
-  CHECK(plans_when_left(8));  // of 34
+  CHECK(plans_when_left(8));  // 34 on average
   CHECK(plans_when_left(0));
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("ratio and variation approach those of the subdomains") {
     const double deviation = std::uniform_real_distribution<double>(0, 0.3)(random);
     const Experience experience = experience_of(random, 1000, ratio, deviation);
     CHECK(experience.ratio(true) == doctest::Approx(ratio).epsilon(0.05));
-    const double part = 1000 * ratio / (1000 * ratio + kWorkToStart);  // of the time, that varies
+    const double part = 1000 * ratio / (1000 * ratio + kWorkToStart);  // fraction of the time that varies
     CHECK(std::abs(experience.variation() - deviation * part) < 0.03);
     CHECK(experience.doubt(equal_loads(1)) >= experience.variation());
     CHECK(experience.doubt(equal_loads(100)) < 0.2 * experience.variation());

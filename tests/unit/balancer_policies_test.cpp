@@ -262,7 +262,7 @@ TEST_CASE("a rank gives as long as the other one finishes earlier with it") {
   LoadSnapshot s = initial_snapshot(grid_layout(20, 1, 2), {100, 300});
   s.ranks[1_rank].remaining = 0;
   const auto moves = policy->give(s, 0_rank, 1_rank);
-  CHECK(moves.size() == 8);  // of 10: 20 s against 26.7 s; with a ninth it would be 10 s against 30 s
+  CHECK(moves.size() == 8);  // 8 of 10: 20 s against 26.7 s; with a ninth it would be 10 s against 30 s
   for (const Move& move : moves) CHECK(move.destination == 1_rank);
   s.ranks[1_rank].remaining = 1e6;
   CHECK(policy->give(s, 0_rank, 1_rank).empty());

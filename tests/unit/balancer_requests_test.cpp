@@ -189,7 +189,7 @@ TEST_CASE("a rank that was refused with some work left is looked at again when t
   CHECK(sent<balancer::WorkAnswer>(broker.think(1, {}, 1000)).size() == 1);  // both have as much
   broker.receive(1_rank, balancer::LoadNews{2, 1500, 0, 1000}, 1.1);         // still its last subdomain
   CHECK(sent<balancer::WorkRequest>(broker.think(1.1, {}, 1000)).empty());
-  broker.receive(1_rank, balancer::LoadNews{3, 0, 0, 1000}, 1.2);  // that was less than forecast
+  broker.receive(1_rank, balancer::LoadNews{3, 0, 0, 1000}, 1.2);  // it had less work than forecast
   CHECK(!requests_for_thief(broker.think(1.2, {}, 1000)).empty());
 }
 

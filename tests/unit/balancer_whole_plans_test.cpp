@@ -50,7 +50,7 @@ class SlowPlans final : public Policy {
 SlowPlans::Asked asked_in_ten_looks(double expected, double taken, bool has_moves = true) {
   SlowPlans::Asked asked;
   ControllerOptions options;
-  options.reference_speed = 100;  // that of these ranks
+  options.reference_speed = 100;  // as fast as these ranks
   Controller leader(0_rank, std::make_shared<Layout>(grid_layout(40, 1, 2)),
                     std::make_shared<SlowPlans>(expected, has_moves, asked), options, 0);
   for (int i = 1; i <= 10; ++i) {

@@ -59,7 +59,7 @@ TEST_CASE("a scratch file gives back what was put there, and no name of it is se
     const Bytes bytes = noise(i * 997, i);
     const auto front = std::span(bytes).first(bytes.size() / 3);
     kept.emplace_back(file.put({front, std::span(bytes).subspan(front.size())}), bytes);
-    if (i % 4 == 3) kept.erase(kept.begin());  // and where it was nobody else's bytes change
+    if (i % 4 == 3) kept.erase(kept.begin());  // its room is used again, and no other bytes change
   }
   CHECK(std::filesystem::is_empty(folder.path()));
   for (const auto& [piece, bytes] : kept) CHECK(read_all(piece) == bytes);
@@ -122,7 +122,7 @@ TEST_CASE("a folder that cannot be written is refused by name") {
 }
 
 TEST_CASE("large arrays lie in the folder for temporary files, or are refused where there is none") {
-  constexpr std::uint64_t kLarge = std::uint64_t{40} << 20;  // of 8 bytes: more than memory is used for
+  constexpr std::uint64_t kLarge = std::uint64_t{40} << 20;  // 8 bytes each: more than memory is used for
   const TemporaryFolder folder;
   const char* const before = std::getenv("TMPDIR");
   const std::string kept = before != nullptr ? before : "/tmp";

@@ -221,7 +221,7 @@ TEST_CASE("every edit of a point, a root or an inner point is noticed") {
     std::size_t edited = 0, roots = 0;
     for (std::string& line : lines) {
       if (line.starts_with('#')) section = line;
-      if (line.starts_with('#') || section.starts_with("# subdomains")) continue;  // of which only the area binds
+      if (line.starts_with('#') || section.starts_with("# subdomains")) continue;  // in subdomains only the area binds
       roots += section.starts_with("# roots") ? 1 : 0;
       const std::string whole = line;
       for (std::size_t begin = 0; begin < whole.size();

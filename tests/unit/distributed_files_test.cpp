@@ -164,7 +164,7 @@ TEST_CASE("ranks write one .h5 together, whichever holds what, and even if one h
   const TemporaryFolder folder;
   const std::string path = folder.path() / "plate.h5";
   const DistributedCase c = plate(9);
-  for (const std::int32_t holders : {1, 2, 3}) {  // of three ranks
+  for (const std::int32_t holders : {1, 2, 3}) {  // out of three ranks
     const auto pieces = c.pieces(3, random_owners(c.parts.size(), holders, 5));
     std::vector<std::unique_ptr<WriteTogether>> writers;
     IdVector<Rank, Exchange*> exchanges;
@@ -190,7 +190,7 @@ TEST_CASE("if rank 0 cannot make the .h5, every rank says why") {
 TEST_CASE("if one rank cannot write, no file appears and every rank says why") {
   const TemporaryFolder folder;
   ThreeWriters three(folder.path() / "plate.pvtu");
-  std::filesystem::create_directory(folder.path() / "plate_1.vtu");  // where a file should go
+  std::filesystem::create_directory(folder.path() / "plate_1.vtu");  // a file should go there
   for (const std::string& message : write_all(three.exchanges)) {
     CAPTURE(message);
     CHECK(mentions(message, {"rank 1: ", "plate_1.vtu"}));

@@ -182,5 +182,5 @@ TEST_CASE("messages that are not part of an exchange are errors that name the se
   CHECK(send_to_rank_0(message(kMark, 0, {0}, 3, 3)).find("message from rank 1: it is part 3 of 3") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0}, 0, 0xFFFFFFFF)).find("message from rank 1: it is part 0 of") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0}, 1, 3)) == "no error");  // the others may come
-  CHECK(send_to_rank_0(message(kMark, 5, {0})) == "no error");        // of a rank that is ahead: it waits
+  CHECK(send_to_rank_0(message(kMark, 5, {0})) == "no error");        // from a rank that is ahead: it waits
 }

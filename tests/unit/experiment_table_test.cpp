@@ -75,9 +75,9 @@ TEST_CASE("columns that are the same in all runs stand below the table") {
   ExperimentTable table;
   CHECK(table.markdown().empty());
   table.add(run("none", 12, 0));
-  CHECK(table.markdown().find("The same in all") == std::string::npos);  // of one row everything is the same
+  CHECK(table.markdown().find("The same in all") == std::string::npos);  // in one row everything is the same
   CHECK(table.markdown().find("ranks |") != std::string::npos);
-  CHECK(table.markdown().find("whole plans kept") == std::string::npos);  // where none were made
+  CHECK(table.markdown().find("whole plans kept") == std::string::npos);  // none were made
   table.add(run("greedy", 6, 7));
   const std::string text = table.markdown();
   const std::string rows = text.substr(0, text.find("The same in all"));

@@ -132,7 +132,7 @@ TEST_CASE("without any bound, the mesh is the triangulation as it is") {
 }
 
 TEST_CASE("a triangulation that meets the angle bound is not refined") {
-  RandomPolygonOptions labyrinth;  // of right-angled triangles
+  RandomPolygonOptions labyrinth;  // its triangles are right-angled
   labyrinth.jitter = 0;
   const Triangulation mesh = prepared(generate_random_polygon(labyrinth));
   CHECK(forecast_triangles(mesh, bounds_with(30, 0)) == static_cast<double>(mesh.live_triangles()));

@@ -425,7 +425,7 @@ TEST_CASE("lines and points on the edge of a polygon leave it where it is, and p
     return R"({"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": )" + points +
            "}}";
   };
-  const auto area = [](const Pslg& pslg) {  // of the first polygon
+  const auto area = [](const Pslg& pslg) {  // only the first polygon
     const auto& ring = pslg.polygons.at(0).rings.at(0);
     const Point o = pslg.points[ring[0]];
     double sum = 0;

@@ -102,7 +102,7 @@ TEST_CASE("a mesh in subdomains has about the requested number of triangles") {
 }
 
 TEST_CASE("without a bound on size, the forecast is of triangles, in subdomains too") {
-  Request request = bay();  // of 5e9 square meters
+  Request request = bay();  // 5e9 square meters
   const auto whole = static_cast<double>(in_one_piece(request).record.triangles);
   request.decomposition.subdomains = 20;
   const Made made = by_threads(request);

@@ -18,7 +18,7 @@ using namespace driftmesh::testing;
 
 namespace {
 
-constexpr double kSpeed = 0.002;  // of each rank: runs take tenths of a second
+constexpr double kSpeed = 0.002;  // the same for each rank: runs take tenths of a second
 constexpr const char* kPolicies[] = {"none", "zoltan", "diffusion", "stealing", "greedy"};
 
 VirtualCluster slow_cluster(std::int32_t ranks) {

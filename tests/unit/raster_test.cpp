@@ -134,7 +134,7 @@ TEST_CASE("points outside of a raster and without a value are counted, and get t
   const OpenedRaster opened = open_raster(path, {Box::of(points), points, {}});
   CHECK(opened.without == 2);
   CHECK(opened.outside == 2);
-  CHECK(opened.raster->at({16, 26}) == 1);  // of three as near the one of the lowest column
+  CHECK(opened.raster->at({16, 26}) == 1);  // three are as near: the one in the lowest column counts
   CHECK(opened.raster->at({20, 22}) == 5);
   const auto refuses = [&](const std::string& text, const Box& domain, const char* part) {
     CHECK_THROWS_WITH_AS(static_cast<void>(open_raster(written(folder, text), {domain, {}, {}})),

@@ -123,8 +123,8 @@ TEST_CASE("a rank that is asked for work gives some before its next slice, howev
   CostModel slow;
   slow.point *= 1000;  // the first slice is longer than it takes to ask
   SimulatedRanks run(network, 2, plan, slow);
-  std::vector<double> ends;  // of slices of rank 0
-  double arrival = 0;        // of the first subdomain at rank 1
+  std::vector<double> ends;  // ends of slices on rank 0
+  double arrival = 0;        // the first subdomain at rank 1
   const IdVector<Rank, protocol::RankStep> steps{[&] {
                                                    const auto result = run.steps[Rank{0}]();
                                                    ends.push_back(network.transport(Rank{0}).now());

@@ -261,7 +261,7 @@ TEST_CASE("more suspects than are kept are found on a second look") {
   mesh.point_markers.assign(mesh.points.size(), 0);
   mesh.regions.assign(mesh.triangles.size(), 0);
   std::mt19937 random(3);
-  for (const std::size_t size : {30'000, 100'000}) {  // of pieces: some with more suspects than are kept, or one
+  for (const std::size_t size : {30'000, 100'000}) {  // triangles per piece: several or one with too many suspects
     const std::vector<Mesh> pieces = cut(
         mesh, 3, [&](std::size_t t) { return t / size; }, random);
     for (const std::size_t threads : {1, 2}) {

@@ -150,7 +150,7 @@ TEST_CASE("a mesh has no regions where those of the polygons are all taken away"
 TEST_CASE("what repair made of polygons is judged by the polygons as they were given") {
   const Pslg input = halves_as_polygons();
   Pslg raw = given({{{rectangle(0, 0, 2, 2)}, 1}, {{rectangle(1, 0, 2, 2)}, 2}});
-  CHECK(!same_polygons(raw, input));  // which cuts sides in halves
+  CHECK(!same_polygons(raw, input));  // repair cuts sides in halves
   VerifyReport report = check(halves(), input, raw);
   CHECK(report.accepted());
   CHECK(report.polygons_judged);
