@@ -32,8 +32,8 @@ class Draft {
     [[nodiscard]] double border_for_a_move() const { return border / saved; }
   };
 
-  /// Of those moves that are possible: of listed subdomains that are not fixed. Both ranks spend time on each, as
-  /// `cost` says.
+  /// Begins with the moves that are possible: of listed subdomains that are not fixed. Both ranks spend time on each,
+  /// as `cost` says.
   Draft(const LoadSnapshot& before, std::span<const Move> moves, const MoveCost& cost);
 
   void make(const Change& change);
@@ -79,11 +79,11 @@ class Draft {
   [[nodiscard]] Change change(Index i, Rank to) const { return {i, to, kNone, more_border(i, to), moves_saved(i, to)}; }
   /// The same, and `j`, unless it is kNone, comes.
   [[nodiscard]] Change in_exchange(Change change, Index j) const;
-  /// Of how many changes times_after() has told so far.
+  /// Number of changes that times_after() has been asked about so far.
   [[nodiscard]] std::uint64_t considered() const { return considered_; }
 
  private:
-  /// Of a subdomain.
+  /// What a subdomain costs.
   struct Effort {
     double work = 0;      // triangles
     double packing = 0;   // triangles that a rank could make meanwhile

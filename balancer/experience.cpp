@@ -37,7 +37,7 @@ double Experience::Sums::ratio(double supposed, double triangles) const {
   return (added * supposed + made) / (added + forecast);
 }
 
-/// Of the paces, over the square of their mean.
+/// Squared deviations of the paces, summed, over the square of their mean.
 double Experience::Sums::square_deviations() const {
   return pace > 0 ? std::max(0.0, count * (count * pace_squared / (pace * pace) - 1)) : 0;
 }

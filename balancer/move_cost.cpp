@@ -147,7 +147,7 @@ double noise_of(const LoadSnapshot& snapshot) {
     squares += deviation * deviation;
     ++working;
   }
-  // Of 2, 4, 16 and 144 normal deviates the largest is 0.56, 1.03, 1.77 and 2.6 on average.
+  // The largest of 2, 4, 16 and 144 normal deviates is 0.56, 1.03, 1.77 and 2.6 on average.
   return working < 2 ? 0 : (std::sqrt(2 * std::log(working)) - 0.6) * std::sqrt(squares / working);
 }
 

@@ -37,7 +37,7 @@ class PlanningConduct {
 
  private:
   using Loads = std::vector<ReportedLoad>;
-  /// Of a rank that plans.
+  /// Whether a rank that plans has something new to plan on.
   enum class State {
     kUpToDate,  ///< it has planned on all that it knows
     kNews,      ///< something has changed since, or it will be time for what was too early
@@ -62,7 +62,7 @@ class PlanningConduct {
   std::vector<Plan> advised_;  // not yet handled
   std::vector<Rank> audience_;
 
-  // Of a rank that plans:
+  // Only on a rank that plans:
   std::optional<Knowledge> knowledge_;
   State state_ = State::kUpToDate;
   double start_;

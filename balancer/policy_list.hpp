@@ -36,7 +36,7 @@ struct PolicyParameter {
   std::string policy;
   std::string name;
 };
-/// Of "zoltan.method", "pairs.so.share" or "share".
+/// Takes "zoltan.method", "pairs.so.share" or "share".
 [[nodiscard]] PolicyParameter split_parameter(const std::string& text);
 
 /// Makes a policy by name with the user's parameters: make_policy (policies/policy_factory.hpp), for code that must not

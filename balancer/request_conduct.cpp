@@ -115,7 +115,7 @@ void RequestConduct::notice_end_of_work(const Loads& own) {
 double RequestConduct::give(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision) {
   WorkAnswer answer{request.round, gifts(request, situation, own)};
   const double before = total_work(own);
-  // Of a rank that has not asked now, the broker knows what it once had: that may be much less by now.
+  // If a rank has not asked now, the broker knows what it once had: that may be much less by now.
   constexpr double kCautiously = 4;
   const double givers = request.round == 0 ? kCautiously * kUnawareGivers : kUnawareGivers;
   const bool asks = must_ask(request.free_memory, memory_needed(answer.moves, own), 0, givers);

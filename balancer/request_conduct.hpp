@@ -46,7 +46,7 @@ class RequestConduct {
   void take_answer(Rank source, const WorkAnswer& answer, double now);
   void take_news(Rank source, const LoadNews& news, double now);
 
-  // Of every rank:
+  // On every rank:
   void notice_end_of_work(const Loads& own);
   double give(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] std::vector<Move> gifts(const WorkRequest& request, const Situation& situation, const Loads& own) const;
@@ -54,7 +54,7 @@ class RequestConduct {
   void forget_promises(double now);
   void ask(const Situation& situation, Loads& own, Decision& decision);
 
-  // Of the broker:
+  // On the broker:
   void place(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] bool pass_on(WorkRequest request, const Situation& situation, Loads& own, Decision& decision);
   [[nodiscard]] double horizon() const;

@@ -28,7 +28,7 @@ class Checksum {
  public:
   /// Adds the whole blocks by which `bytes` has grown since the last call.
   void catch_up(std::span<const std::byte> bytes);
-  /// Of all bytes, including those of the last block.
+  /// The checksum of all bytes, including those of the last block.
   [[nodiscard]] std::uint64_t of(std::span<const std::byte> bytes);
 
  private:

@@ -108,7 +108,7 @@ Received AdversarialNetwork::deliver(std::vector<Parcel>& box, std::size_t which
   Parcel parcel = std::move(box[which]);
   box.erase(box.begin() + static_cast<std::ptrdiff_t>(which));
   ++activity_, ++counters_.delivered;
-  // Of two twins the first to arrive is the message, the second the copy.
+  // The first of two twins to arrive is the message, the second the copy.
   const auto twin = std::find_if(box.begin(), box.end(), [&](const Parcel& p) { return p.serial == parcel.serial; });
   if (twin != box.end() && parcel.is_copy) std::swap(parcel.is_copy, twin->is_copy);
   if (parcel.is_copy)

@@ -132,7 +132,7 @@ struct Graph {
     const SubdomainLoad* const other = find(*snapshot, n.subdomain);
     return other && !is_open_border(*snapshot, s, *other);
   }
-  /// Of all subdomains, so that it is the same on all processes. Zoltan weighs borders against sizes_to_move.
+  /// The mean, taken over all subdomains to be the same on all processes. Zoltan weighs borders against sizes_to_move.
   [[nodiscard]] double mean_border() const {
     double sum = 0, count = 0;
     for (const Layout::Subdomain& s : snapshot->layout->subdomains)

@@ -29,7 +29,7 @@ struct GhostedPiece {
   std::int32_t own_triangles = 0;
   std::int32_t own_edges = 0;
   std::vector<Rank> owners;  ///< one for each point, ghost or not, the same on all ranks (see DistributedPiece)
-  /// Of each triangle in the whole mesh, from 0 to total_triangles - 1, whichever rank has it: its index in the one
+  /// For each triangle in the whole mesh, from 0 to total_triangles - 1, whichever rank has it, its index in the one
   /// mesh into which all pieces are written (.vtu, .msh).
   std::vector<std::int64_t> triangle_numbers;
   std::vector<Neighbor> neighbors;  ///< sorted by rank; every rank with ghosts here, which has some of this one, too

@@ -50,7 +50,7 @@ class ExperimentTable {
 /// How much later than an oracle the run ended, as a fraction of the oracle's time.
 [[nodiscard]] double regret(const ExperimentTable::Row& row);
 
-/// Of the time that perfect balance would save in the same run without balancing, the fraction that this run saves.
+/// The fraction that this run saves of the time that perfect balance would save in the same run without balancing.
 /// Empty if `rows` have no such run, if nothing is to be saved, and where noise explains the difference: nothing moved,
 /// or the times differ by no more than they do between repetitions.
 [[nodiscard]] std::optional<double> recovered(const ExperimentTable::Row& row,

@@ -36,7 +36,7 @@ job::RankReport report_of(const pdr::Part& part, const QualityBounds& bounds, co
   return report;
 }
 
-/// Of a real rank that refined for `seconds`, and waited when it did not compute.
+/// The outcome of a real rank that refined for `seconds`, and waited when it did not compute.
 RankOutcome outcome_of(const pdr::Part& part, double computing, double seconds) {
   RankOutcome outcome;
   outcome.times.computing = computing;

@@ -36,7 +36,7 @@ struct Timeline {
 };
 inline constexpr int kLoadSamples = 200;
 
-/// Of a trace as chrome_trace writes it, read from `text`; `path` is for errors. Throws InputError for what is not
+/// Reads a trace as chrome_trace writes it from `text`; `path` is for errors. Throws InputError for what is not
 /// JSON.
 [[nodiscard]] Timeline timeline_of(const std::string& text, const std::filesystem::path& path);
 

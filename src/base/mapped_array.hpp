@@ -41,7 +41,7 @@ class MappedArray {
 
  public:
   MappedArray() = default;
-  /// Of zeros.
+  /// All elements are 0.
   explicit MappedArray(std::uint64_t size) : room_(size * sizeof(T)), size_(size) {}
   [[nodiscard]] std::uint64_t size() const { return size_; }
   T& operator[](std::uint64_t i) { return static_cast<T*>(room_.begin())[i]; }

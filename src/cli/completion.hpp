@@ -14,7 +14,7 @@ namespace driftmesh::cli {
 /// options, files and folders. `shell` is one of completion_shells().
 [[nodiscard]] std::string completion_script(const Command& program, const std::string& shell);
 
-// Of these, each is one.
+// The script for each shell.
 [[nodiscard]] std::string bash_completion(const Command& program);
 [[nodiscard]] std::string zsh_completion(const Command& program);
 [[nodiscard]] std::string fish_completion(const Command& program);

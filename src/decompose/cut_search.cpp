@@ -25,7 +25,7 @@ constexpr std::array<std::uint64_t, kWord> kBits = [] {
   return bits;
 }();
 
-/// Of the stations in some blocks from `begin` on, at most a word: a bit for each that station k can be joined with.
+/// A bit for each station that k can be joined with, among those in some blocks from `begin` on, at most a word.
 DRIFTMESH_WIDE std::uint64_t joinable(const StationColumns& columns, std::size_t k, std::size_t begin,
                                       std::size_t blocks) {
   const double *const x = &columns.x[begin], *const y = &columns.y[begin];

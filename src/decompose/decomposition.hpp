@@ -54,7 +54,7 @@ struct Decomposition {
   };
 
   IdVector<GlobalPointId, Point> points;
-  /// Of each point: the index of an input point, a shell end (see handles.hpp), or kNone for a separator's end.
+  /// For each point the index of an input point, a shell end (see handles.hpp), or kNone for a separator's end.
   IdVector<GlobalPointId, VertexOrigin> origin;
   IdVector<GlobalRootId, Root> roots;
   IdVector<SubdomainId, Subdomain> subdomains;

@@ -14,7 +14,7 @@ namespace driftmesh {
 class SeparatorRoom {
  public:
   SeparatorRoom() = default;  ///< no separator: room without any height
-  /// Of the separator ab; a and b differ. `wanted`: a length, the height on either side as far as corners are
+  /// The room of the separator ab; a and b differ. `wanted`: a length, the height on either side as far as corners are
   /// concerned, if that is more.
   SeparatorRoom(const Point& a, const Point& b, double wanted = 0);
 

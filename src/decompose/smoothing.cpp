@@ -115,7 +115,7 @@ class Smoother {
     return best;
   }
 
-  /// Of each point where interfaces meet that is not the input's, a side that starts there.
+  /// For each point where interfaces meet that is not the input's, a side that starts there.
   [[nodiscard]] IdVector<MapVertexId, SideId> movable_ends() const {
     IdVector<MapVertexId, SideId> sides(map_.points.size(), kNone);
     for (const SideId h : ids_of(map_.sides))

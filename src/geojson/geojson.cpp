@@ -94,7 +94,7 @@ class FeatureReader {
     read_name(known);
   }
 
-  /// Of the region or the marker that the feature has by its number: features of one kind may have names of their own.
+  /// Names the region or the marker whose number the feature has: features of one kind may have names of their own.
   void read_name(const Json& properties) {
     const auto name = properties.find("name");
     if (name == properties.end() || !name->is_string()) return;

@@ -40,7 +40,7 @@ class PieceFiles {
   [[nodiscard]] std::size_t size() const;
   /// Piece `k`. Threads may read at the same time.
   [[nodiscard]] Mesh read(std::size_t k) const;
-  /// Of the largest one.
+  /// The size of the largest one.
   [[nodiscard]] std::uint64_t most_bytes() const;
 
  private:

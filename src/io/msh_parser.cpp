@@ -80,7 +80,7 @@ class MshParser {
     return line;
   }
 
-  /// Of a section that has been read by its counts.
+  /// Checks the end of a section that has been read by its counts.
   void require_end_of(const std::string& name) {
     cursor_.skip_blanks();
     const SourcePlace place = cursor_.place();

@@ -57,8 +57,8 @@ class VtuHeaderParser {
   static bool lies_in(const XmlTag& tag, const Path& path) { return tag.parents == path; }
   static bool is_array(std::string_view name) { return name == "DataArray" || name == "Array"; }
 
-  /// Of the piece: PointData, CellData, Points, Cells; of the field data what are names; empty for all that a mesh has
-  /// no place for.
+  /// Section of the piece (PointData, CellData, Points, Cells) or, in the field data, the kind of names; empty for all
+  /// that a mesh has no place for.
   static std::string section_of(const XmlTag& tag) {
     if (lies_in(tag, {"VTKFile", "UnstructuredGrid", "FieldData"}) && tag.attribute("ComponentName1") == "dimension")
       return tag.attribute("ComponentName0") == kMarkerOfName   ? VtuHeader::kMarkerNames

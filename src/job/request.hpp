@@ -141,7 +141,7 @@ struct Request {
     bool quiet = false;
   } output;
 
-  // Of experiments, which make many runs.
+  // Only for experiments, which make many runs.
   std::string name = "experiment";
   std::int32_t repetitions = 1;
   bool report = true;

@@ -183,7 +183,7 @@ class PolygonCarving {
       if (!cover_.inside[area]) outside.add(areas_.largest(area));
   }
 
-  /// Of what is outside in the end, before it is removed.
+  /// Reports what is outside in the end, before it is removed.
   void report(const Flood& outside, CarveReport& report) const {
     report.holes = holes(outside);
     for (const PolygonFlaw& flaw : cover_.flaws) report.flaws.push_back({flaw, place_of(flaw)});

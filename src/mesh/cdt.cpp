@@ -21,7 +21,7 @@
 namespace driftmesh {
 namespace {
 
-/// Of the box around a domain without extent, as the predicates need it.
+/// Least margin around a domain without extent, as the predicates need it.
 constexpr double kSmallestMargin = 0x1p-120;
 
 /// Adds a box around all points. Constrained segments will hide its corners from the inside of the domain, so the final

@@ -29,7 +29,7 @@ constexpr double kInWedge = 1.9;
 constexpr double kAskedEdge = 1.52;
 /// Below this angle bound, in degrees, channels and wedges have fewer: their triangles may be longer.
 constexpr double kFlat = 20;
-/// Of the points of a compact triangle from a corner, relative to that of the centroid.
+/// Mean distance of a compact triangle's points from a corner, relative to that of the centroid.
 constexpr double kMeanDistance = 0.93;
 
 /// Triangles in a channel, and on the outside of its wall.

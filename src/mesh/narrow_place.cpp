@@ -49,7 +49,7 @@ void add_places_at(const Triangulation& mesh, HalfEdge base, std::vector<FoundPl
   }
 }
 
-/// Of several for the same two segments, the one with most triangles.
+/// Keeps the place with most triangles among several for the same two segments.
 void keep_one_for_each_pair(std::vector<FoundPlace>& found) {
   std::sort(found.begin(), found.end(), [](const FoundPlace& f, const FoundPlace& g) {
     return std::tuple(f.first, f.second, -f.place.triangles) < std::tuple(g.first, g.second, -g.place.triangles);

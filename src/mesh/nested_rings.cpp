@@ -47,7 +47,7 @@ class Nesting {
   }
 
  private:
-  /// Of blocks that are connected with each other; none of them may be explained or border on the outside.
+  /// The leftmost vertices of connected groups of blocks, none of them explained or bordering on the outside.
   [[nodiscard]] std::vector<VertexId> unexplained() const {
     struct Group {
       VertexId leftmost = kNone;

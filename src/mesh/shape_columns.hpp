@@ -25,7 +25,7 @@ class ShapeColumns {
     ++count_;
   }
 
-  /// Of the whole block. Angles by the signed squares of their cosines, which order them as the cosines do, without a
+  /// A whole block. Angles by the signed squares of their cosines, which order them as the cosines do, without a
   /// square root.
   struct Summary {
     double least_cosine = 1, greatest_cosine = -1;

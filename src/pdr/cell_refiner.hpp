@@ -42,9 +42,9 @@ class CellRefiner {
   /// Repeats changes that another rank has made to cells, in their order.
   void repeat(std::span<const Change> changes);
 
-  /// Of what this rank has refined, without what it has repeated.
+  /// Counts what this rank has refined, without what it has repeated.
   [[nodiscard]] const RefineCounters& counters() const { return own_; }
-  /// Of both.
+  /// Counts what it has repeated, too.
   [[nodiscard]] const RefineCounters& all_counters() const { return refiner_.counters(); }
 
  private:

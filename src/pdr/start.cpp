@@ -12,9 +12,9 @@
 namespace driftmesh::pdr {
 namespace {
 
-/// Of the largest circumradius r. A triangle of a cell has its circumcenter within r of it, a free point stays within
-/// 3 r and so do the ends of a segment that it encroaches upon; where that is split, vertices within 5 r are deleted,
-/// whose stars end within 7 r. Half a side is more than that.
+/// Side of a cell over the largest circumradius r. A triangle of a cell has its circumcenter within r of it, a free
+/// point stays within 3 r and so do the ends of a segment that it encroaches upon; where that is split, vertices within
+/// 5 r are deleted, whose stars end within 7 r. Half a side is more than that.
 constexpr double kSidePerRadius = 15;
 constexpr double kCellsPerRank = 16;
 /// The squared circumradius of a triangle is at most about this many times its area.

@@ -90,7 +90,7 @@ PlotValues area_values(const Mesh& mesh, const Box& shown, bool dense) {
     const double area = std::fabs(signed_area(corners.a, corners.b, corners.c));
     result.of_triangle.push_back(static_cast<float>(std::log10(std::max(area, 1e-300))));
   }
-  // Of a fine mesh one wants to see where it is finer, and not how areas vary among neighbors.
+  // In a fine mesh one wants to see where it is finer, and not how areas vary among neighbors.
   const auto [low, high] = area_range(mesh, shown, result.of_triangle, dense ? 1 : 0.2);
   set_bar_range(result, low, high);
   result.bar.title = "Area";

@@ -248,7 +248,7 @@ void Planarizer::add_hull() {
   }
 }
 
-// Of several pieces between the same two points, keeps the first.
+// Keeps the first of several pieces between the same two points.
 void Planarizer::keep_once(RepairItem& item) {
   struct Key {
     std::int32_t low, high, piece;

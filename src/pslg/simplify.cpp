@@ -20,12 +20,12 @@
 namespace driftmesh {
 namespace {
 
-/// Of the tolerance: shortcuts keep this distance from other points.
+/// Fraction of the tolerance: shortcuts keep this distance from other points.
 constexpr double kClearance = 0.25;
 /// The cosine of 60 degrees: corners sharper than that cost small triangles.
 constexpr double kSharp = 0.5;
 
-/// Of the angle at v.
+/// Cosine of the angle at v.
 double cosine(const Point& a, const Point& v, const Point& b) {
   const double ax = a.x - v.x, ay = a.y - v.y, bx = b.x - v.x, by = b.y - v.y;
   return (ax * bx + ay * by) / std::sqrt((ax * ax + ay * ay) * (bx * bx + by * by));

@@ -24,7 +24,7 @@ Box widened(const Box& box) {
   return {{box.low.x - more, box.low.y - more}, {box.high.x + more, box.high.y + more}};
 }
 
-/// Of the values from `first` on, the numbers of those from `low` to `high`, and two more on both sides.
+/// Numbers of the values from `low` to `high` where the first value is `first`, and two more on both sides.
 std::pair<std::int64_t, std::int64_t> range_of(double low, double high, double first, double spacing,
                                                std::int64_t count) {
   const auto steps = [&](double x) { return std::clamp((x - first) / spacing, -1.0, static_cast<double>(count)); };

@@ -17,8 +17,8 @@ class ValuePyramid {
  public:
   explicit ValuePyramid(const TiledGrid& grid);
 
-  /// Of a range of columns and rows, all included. Exact for small ranges; for others of up to a quarter more in each
-  /// direction. `grid`: the same.
+  /// The extent over a range of columns and rows, all included. Exact for small ranges; for others of up to a quarter
+  /// more in each direction. `grid`: the same.
   [[nodiscard]] Extent over(const TiledGrid& grid, std::int64_t i0, std::int64_t j0, std::int64_t i1,
                             std::int64_t j1) const;
 

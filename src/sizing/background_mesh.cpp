@@ -154,7 +154,7 @@ bool BackgroundMesh::covers(const Box& box) const {
   return covers({box.low, right, box.high}) && covers({box.low, box.high, left});
 }
 
-/// Of a triangle that is not covered, a corner is outside, or an edge of the boundary passes through it.
+/// A triangle that is not covered has a corner outside, or an edge of the boundary passes through it.
 std::optional<Point> BackgroundMesh::uncovered(const std::array<Point, 3>& triangle) const {
   const Box box = Box::of(triangle);
   const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);

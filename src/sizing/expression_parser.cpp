@@ -28,7 +28,7 @@ bool is_digit(char c) {
 bool begins_name(char c) {
   return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || c == '_';
 }
-/// Of a character in UTF-8, after its first byte.
+/// Whether c is part of a character in UTF-8 after its first byte.
 bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }

@@ -34,7 +34,7 @@ class NearestCells {
   /// search.
   [[nodiscard]] static double squared_distance(const Point& p, const Ends& segment);
 
-  /// Of all segments.
+  /// The box around all segments.
   [[nodiscard]] const Box& box() const { return box_; }
   /// How many squares there are, at most six for each segment and 10,000.
   [[nodiscard]] std::size_t size() const { return size_.load(std::memory_order_relaxed); }

@@ -45,7 +45,7 @@ class Domain {
   [[nodiscard]] bool point_inside(std::int32_t point) const { return point_inside_[point] != 0; }
 
   [[nodiscard]] double area() const { return area_; }
-  /// Of a bounded face. This and what follows of areas is known if there are polygons.
+  /// The area of a bounded face. This and what follows of areas is known if there are polygons.
   [[nodiscard]] double area(std::int32_t face) const { return area_of_face_[face]; }
   /// The areas of all regions of the domain by their attributes; where there is no region, that is 0.
   [[nodiscard]] std::map<double, double> areas_of_regions() const;

@@ -26,7 +26,7 @@ class Judge {
 
  private:
   void judge_angle(const Suspect& suspect, Quality& quality, Findings& findings);
-  /// Of the mesh, kNone: such a point is no end of a subsegment.
+  /// The vertex of the mesh; kNone: such a point is no end of a subsegment.
   [[nodiscard]] std::int32_t vertex_of(std::int64_t number) const;
   [[nodiscard]] bool is_subsegment(std::int32_t u, std::int32_t v) const;
   [[nodiscard]] bool is_seditious(std::int32_t p, std::int32_t q) const;

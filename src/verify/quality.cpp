@@ -196,7 +196,7 @@ class Measurement {
     return bound;
   }
 
-  // Of the equilateral triangle.
+  // The area of the equilateral triangle.
   [[nodiscard]] static double area_of_edge(double h) { return std::numbers::sqrt3 / 4 * h * h; }
 
   void check_size(std::size_t t, double area) {

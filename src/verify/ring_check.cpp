@@ -49,7 +49,7 @@ void RingCheck::check_edge(std::int32_t hub, std::size_t i) {
   if (parts_ != nullptr) parts_->join(left.triangle, right.triangle);
 }
 
-// Of all edges around the hub: incircle(neighbor before, neighbor, neighbor after, hub), which is not negative if the
+// For all edges around the hub: incircle(neighbor before, neighbor, neighbor after, hub), which is not negative if the
 // edge from the hub to the neighbor is locally Delaunay. The operations and the bound on their rounding are those of
 // incircle, but what edges have in common is computed once. Places behind the last neighbor, which hold the hub, give 0
 // >= 0.

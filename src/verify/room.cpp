@@ -19,7 +19,7 @@ constexpr double kNeighbors = 2;  // no edge longer: nothing between the corners
 constexpr double kNarrow = 2;     // rounding moves a midpoint, and moved the ends, by up to 0.71 each
 constexpr double kShort = 256;    // subsegments: the room that refinement needs beside a vertex
 
-/// Of a segment, with some rounding: a shorter subsegment is not split.
+/// Fraction of a segment, with some rounding: a shorter subsegment is not split.
 constexpr long double kDeepest = 0x1p-60L * (1 + 1e-9L);
 
 /// The spacing of doubles of the size of the larger coordinate.

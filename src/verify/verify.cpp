@@ -275,7 +275,7 @@ class Verification {
     if (found.regions_listed) driftmesh::check_regions(piece, *domain_, faces, found.regions);
   }
 
-  /// Of the triangles of a piece; empty if there are no regions.
+  /// Faces that the triangles of a piece lie in; empty if there are no regions.
   [[nodiscard]] std::vector<std::int32_t> faces_of(const NamedMesh& piece, std::size_t k) {
     if (!faces_) return {};
     if (!whole_) found_[k].parts = check_piece(piece, order()).parts;
