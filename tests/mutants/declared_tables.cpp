@@ -136,7 +136,7 @@ void take_triangles(const Files& files, const std::string& name, const Nodes& no
   table.end();
 }
 
-/// Of a mesh: from a .poly without vertices, or else from the .edge.
+/// The edges of a mesh: from a .poly without vertices, or else from the .edge.
 std::vector<Mesh::Edge> constrained_edges(const Files& files, const std::string& stem, const Nodes& nodes) {
   if (files.contains(stem + "poly")) {
     Table table(file(files, stem + "poly"));

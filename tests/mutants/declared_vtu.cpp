@@ -307,7 +307,7 @@ class VtuFile {
     }
   }
 
-  /// Of triangles, or of lines.
+  /// The values of the triangles, or of the lines.
   template <class T>
   [[nodiscard]] std::vector<T> of_cells(const std::vector<T>& values, bool of_triangles) const {
     std::vector<T> result;

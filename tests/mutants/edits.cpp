@@ -14,7 +14,7 @@
 namespace driftmesh::mutants {
 namespace {
 
-/// Of binary formats as far as they can be read.
+/// Fields of binary formats as far as they can be read.
 Fields fields_of(const std::string& name, const std::string& bytes) {
   Fields fields;
   try {

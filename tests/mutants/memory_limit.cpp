@@ -8,7 +8,7 @@
 #include <fstream>
 
 #ifdef __SANITIZE_ADDRESS__
-// Of the sanitizer, in <sanitizer/allocator_interface.h>, which GCC 12 does not come with.
+// Declared in <sanitizer/allocator_interface.h>, which GCC 12 does not come with.
 extern "C" {
 int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
                                               void (*on_free)(const volatile void*));

@@ -118,7 +118,7 @@ std::string check_request(const job::Request& request, job::EntryPoint entry_poi
   return check.problem();
 }
 
-/// Of a key, or of the key of an option.
+/// The full name of a key, or of the key of an option.
 std::string full_name(const std::string& name) {
   const job::KeyPath path = job::find_option(name);
   return job::find_key(name).key != nullptr || path.key == nullptr ? name : path.key->name;

@@ -11,11 +11,11 @@
 
 namespace driftmesh::mutants {
 
-/// Of the settings of driftmesh mesh, in `text`, which is in a file of this folder.
+/// Checks the settings of driftmesh mesh in `text`, which is in a file of this folder.
 [[nodiscard]] std::string check_settings(const config::Settings& settings, std::string_view text,
                                          const std::string& folder);
 
-/// Of an experiment. Uses a file in the folder.
+/// Checks an experiment. Uses a file in the folder.
 [[nodiscard]] std::string check_experiment(const config::Experiment& experiment, std::string_view text,
                                            const std::string& folder);
 

@@ -298,7 +298,7 @@ class AgainstInput {
     const Point &p = at(mesh_, a), &q = at(mesh_, b), &r = at(mesh_, c);
     return {p.x / 3 + q.x / 3 + r.x / 3, p.y / 3 + q.y / 3 + r.y / 3};
   }
-  /// Of the right mesh; several if the point is on an edge.
+  /// Triangles of the right mesh; several if the point is on an edge.
   [[nodiscard]] std::vector<std::size_t> triangles_at(const Point& p) const {
     std::vector<std::size_t> found;
     for (std::size_t t = 0; t < right_.triangles.size(); ++t) {

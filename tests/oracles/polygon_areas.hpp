@@ -26,11 +26,11 @@ struct GridPolygon {
 
 struct PolygonAreas {
   long double total = 0;
-  /// Of the places whose last polygon with a region has this one; 0: of those without.
+  /// Areas by the region of the last polygon with a region there; 0: places without.
   std::map<double, long double> regions;
 };
 
-/// Of the union, in squared units of the grid, up to a relative rounding of 1e-17 of the box around it.
+/// The areas of the union, in squared units of the grid, up to a relative rounding of 1e-17 of the box around it.
 [[nodiscard]] PolygonAreas covered_areas(const std::vector<GridPolygon>& polygons);
 
 }  // namespace driftmesh::oracles

@@ -93,7 +93,7 @@ Segments collinear(Random& random, int count) {
   return all;
 }
 
-/// Of a grid with few lines: many distances are equal.
+/// Segments of a grid with few lines: many distances are equal.
 Segments on_grid(Random& random, int count) {
   const auto whole = [&] { return std::floor(uniform(random, 0, 9)); };
   Segments all;

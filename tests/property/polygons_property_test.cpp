@@ -28,7 +28,7 @@ namespace {
 
 using Edge = std::pair<Point, Point>;
 
-/// Of the regions by their index; those of -1 have none.
+/// Areas of the regions by their index; those of -1 have none.
 using RegionAreas = std::map<std::int32_t, double>;
 
 /// All edges of the rings of an input.

@@ -9,7 +9,7 @@
 
 namespace driftmesh::testing {
 
-/// Of listed subdomains that are not fixed, each once, to another rank that there is.
+/// Moves must take listed subdomains that are not fixed, each once, to another rank that there is.
 inline void check_valid(const balancer::LoadSnapshot& snapshot, const std::vector<balancer::Move>& moves) {
   std::set<SubdomainId> moved;
   for (const balancer::Move& move : moves) {

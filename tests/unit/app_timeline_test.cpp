@@ -15,7 +15,7 @@ using balancer::Verdict;
 
 namespace {
 
-/// Of a rank, from `start` to `stop`.
+/// The slice of a rank from `start` to `stop`.
 LoadSample slice(Rank rank, double start, double stop, double left, std::int64_t triangles = 1) {
   return {stop, rank, triangles, left, stop - start, 0_sub};
 }
