@@ -22,9 +22,9 @@ enum class Verdict : std::int32_t {
   kOtherPlan,       ///< another plan is made: it ends earlier, or leaves less border
   kInvalid,         ///< no such subdomain or rank, its owner, or its second move
   kFixed,           ///< it is on its way, has just moved, or is nearly finished
-  kTooLarge,        ///< for one message
-  kNoMemory,        ///< for it where it would go
-  kCostsMore,       ///< to move it takes longer than to finish it
+  kTooLarge,        ///< it does not fit into one message
+  kNoMemory,        ///< there is no memory for it where it would go
+  kCostsMore,       ///< moving it takes longer than finishing it
   kNeedless,        ///< all finish as early without it
   kGone,            ///< it is no longer there, or finished
   kNoGiver,         ///< no rank has work to give
@@ -62,8 +62,8 @@ struct Deliberation {
   Rank rank{};      ///< the rank that considered it
   double finish = 0, ideal = 0,
          noise = 0;                ///< for kLoad, in seconds from now: see finishing_time, ideal_time, noise_of
-  double saves = 0;                ///< by a load made even, by a plan: seconds, beyond noise
-  double border = 0;               ///< between ranks after a plan, if it was compared with others
+  double saves = 0;                ///< seconds beyond noise, gained by a load made even or by a plan
+  double border = 0;               ///< length between ranks after a plan, if it was compared with others
   bool whole = false;              ///< the moves of a plan are all made, or none (Kept::kAll)
   std::vector<KnownLoad> loads{};  ///< ranks with work or a known speed
   std::vector<JudgedMove> moves{};

@@ -62,7 +62,7 @@ OptionalChange relief(const Draft& draft, Rank rank, double latest, const std::v
 
 /// The last first. One that nobody can help may be helped once others are no longer late.
 void relieve_late_ranks(Draft& draft, double latest) {
-  constexpr std::size_t kTries = 4;  // for a rank, on average
+  constexpr std::size_t kTries = 4;  // tries per rank, on average
   RanksInOrder ranks;
   for (const Rank r : ids_of(draft.times())) ranks.emplace(draft.times()[r], r);
   note_effort("search", static_cast<double>(ranks.size()));

@@ -178,7 +178,7 @@ std::vector<Rank> PlanningConduct::to_be_asked(std::span<const Move> moves, cons
 void PlanningConduct::report(const Situation& situation, const Loads& own, Decision& decision) {
   const std::optional<LoadReporter::Reports> reports = reporter_.due(situation, own);
   if (!reports) return;
-  state_ = State::kNews;  // also to this rank, if it plans
+  state_ = State::kNews;  // news for this rank, too, if it plans
   const std::vector<Rank> listeners = audience(own);
   for (const Rank rank : listeners)
     if (rank != self_) decision.messages.push_back({rank, reports->list});

@@ -40,7 +40,7 @@ class PlanningPace {
  private:
   double gap_, interval_, overhead_;
   double next_;
-  double pause_;  // after a plan without effect
+  double pause_;  // wait after a plan without effect
   double looked_ = 0;
   bool planned_ = false;  // at the last check
   double cost_ = 0;

@@ -74,16 +74,17 @@ class RequestConduct {
   double crumbs_ = 0;   // triangles: no more is left in finished subdomains whose neighbors have split their borders
   bool asked_ = false;  // not yet answered
   std::uint32_t round_ = 0;  // number of the last request
-  int refusals_ = 0;         // by givers, in a row
-  bool remembered_ = false;  // by the broker, which has refused
+  int refusals_ = 0;         // refusals in a row
+  bool remembered_ = false;  // the broker has refused, and keeps the request
   bool idle_ = false;
-  std::vector<SubdomainId> arrived_;  // since the last request; they may arrive before the answer that promises them
-  std::vector<SubdomainId> coming_;   // promised, not yet here
-  double promised_ = 0;               // when
+  std::vector<SubdomainId>
+      arrived_;                      // all since the last request; they may arrive before the answer that promises them
+  std::vector<SubdomainId> coming_;  // promised, not yet here
+  double promised_ = 0;              // time of the promise
 
   std::optional<RankNews> news_;    // kept by the broker
   std::optional<RankBoard> board_;  // made from it for the requests of one think()
-  bool surprised_ = false;          // by news since hungry ranks were last served
+  bool surprised_ = false;          // news has come since hungry ranks were last served
   std::set<Rank> hungry_;
 };
 

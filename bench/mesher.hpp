@@ -8,8 +8,8 @@ namespace driftmesh::bench {
 
 /// The bounds on every triangle.
 struct Bounds {
-  double area = 0;     ///< at most
-  double degrees = 0;  ///< every angle at least
+  double area = 0;     ///< largest area
+  double degrees = 0;  ///< least angle
 };
 
 /// One run of a mesher, from input in memory to mesh in memory. Plain data: it comes from a child process.

@@ -112,7 +112,7 @@ class Round {
   std::set<Rank> group_;  // self, and its partners
   double mean_time_;
   double remaining_;  // here, after moves_
-  double owed_ = 0;   // to the takers so far, not given
+  double owed_ = 0;   // work that the takers were not given yet
   std::map<SubdomainId, Rank> taken_;
   std::vector<Move> moves_;
 };

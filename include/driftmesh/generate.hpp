@@ -30,8 +30,8 @@ struct PipeOptions {
 /// 1 inflow, 2 outflow, 3 top, 4 symmetry line, 5 cylinder.
 struct CylinderFlowOptions {
   double radius = 0.5;
-  double upstream = 15;    ///< from the center to the inflow
-  double downstream = 35;  ///< from the center to the outflow
+  double upstream = 15;    ///< length from the center to the inflow
+  double downstream = 35;  ///< length from the center to the outflow
   double height = 28;
   std::int32_t arc_edges = 128;  ///< edges of the half circle
   double edge = 1;               ///< longest edge of the rest of the boundary
@@ -83,8 +83,8 @@ struct RandomPolygonOptions {
 
 /// Random points in the unit square, some joined by short segments that do not cross. Markers: 1 square, 2 segments.
 struct RandomPointsOptions {
-  std::int32_t points = 100000;   ///< besides the corners of the square
-  std::int32_t segments = 10000;  ///< besides its sides; at most a quarter of the points
+  std::int32_t points = 100000;   ///< all but the corners of the square
+  std::int32_t segments = 10000;  ///< all but its sides; at most a quarter of the points
   std::uint64_t seed = 1;
 };
 [[nodiscard]] Pslg generate_random_points(const RandomPointsOptions& options);

@@ -39,9 +39,9 @@ struct SubdomainLoad {
   SubdomainId id{};
   Rank owner{};
   double remaining = 0;     ///< triangles still to be made, predicted
-  std::uint64_t bytes = 0;  ///< to move it
+  std::uint64_t bytes = 0;  ///< bytes that moving it sends
   std::int32_t turn = 0;    ///< position in the owner's order of work; 0 is being worked on
-  double cost = 0;          ///< to move it: seconds of both ranks at mean speed
+  double cost = 0;          ///< seconds of both ranks that moving it takes, at mean speed
   bool fixed = false;       ///< it may not move now: it is on its way, has just moved, or costs more than it has left
 };
 

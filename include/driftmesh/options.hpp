@@ -104,7 +104,7 @@ struct MeshOptions {
     std::shared_ptr<const Decomposition> given{};
     double separator_angle = 60;  ///< smallest angle between separators and whatever they meet, where the domain allows
     double skew = 0;              ///< 0: equal work; up to 1: deliberately uneven, for experiments
-    std::int64_t seed = 1;        ///< for skew
+    std::int64_t seed = 1;        ///< seed for skew
     Presplit presplit = Presplit::kAuto;
     WorkOrder order = WorkOrder::kGiven;
     std::int64_t slice = 16384;  ///< most points inserted between polls of the network
@@ -121,7 +121,7 @@ struct MeshOptions {
 
   /// Subdomains that move between ranks while they are refined.
   struct Balance {
-    std::string policy = "none";                      ///< by name: see docs/balancing.md
+    std::string policy = "none";                      ///< a name: see docs/balancing.md
     std::map<std::string, std::string> parameters{};  ///< parameters for the policy, as in {{"method", "graph"}}
     std::shared_ptr<const balancer::Policy> own{};    ///< instead of a name; must be equivalent on every rank
     double look = 0.01;                               ///< time between a rank's checks of its own load

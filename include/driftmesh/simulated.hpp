@@ -15,9 +15,9 @@ struct SimulatedCluster {
   std::int32_t ranks = 0;             ///< their number, unless rank_speeds tells
   double speed = 0;                   ///< the same on every rank; 0: as on the machine in docs/benchmarks.md
   std::vector<double> rank_speeds{};  ///< one for each rank, instead of `ranks` and `speed`
-  double latency = 50e-6;             ///< from the end of sending to arrival
+  double latency = 50e-6;             ///< seconds from the end of sending to arrival
   double bandwidth = 1e9;             ///< bytes per second that leave a rank
-  double message_overhead = 1e-6;     ///< for each message that a rank sends or receives
+  double message_overhead = 1e-6;     ///< seconds for each message that a rank sends or receives
   double scale = 1;                   ///< triangles that each one stands for
 };
 

@@ -23,7 +23,7 @@ struct ExperimentRun {
   RunPlan plan;                   ///< without a size field
   IdVector<Rank, double> speeds;  ///< triangles per second of each rank; for real ranks, measured in this run
   ClusterRun outcome;
-  IdVector<SubdomainId, double> work;  ///< on each, in triangles (see work_done)
+  IdVector<SubdomainId, double> work;  ///< triangles on each subdomain (see work_done)
   double ideal = 0;                    ///< seconds, if every rank computed from start to end
   double oracle = 0;                   ///< seconds, with the best mapping of whole subdomains (see oracle_seconds)
   job::RunRecord record;

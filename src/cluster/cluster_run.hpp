@@ -14,7 +14,7 @@ namespace driftmesh {
 struct LoadSample {
   double time = 0;                       ///< seconds since the start of the run
   Rank rank{};                           ///< the rank whose load changed at that time
-  std::int64_t triangles = 0;            ///< in its subdomains
+  std::int64_t triangles = 0;            ///< total in its subdomains
   double remaining = 0;                  ///< expected number still to be made
   double worked = 0;                     ///< seconds of refinement that ended at that time
   SubdomainId subdomain = kNoSubdomain;  ///< the one refined, if `worked` is above 0

@@ -245,7 +245,7 @@ double angle_at_start(const WalledMesh& walled, HalfEdge edge) {
 
 /// What bridges must keep.
 struct BridgeRule {
-  double angle;      ///< with what they meet, at least; radians
+  double angle;      ///< least angle with what they meet; radians
   bool room = true;  ///< whether they need that of separators
 };
 

@@ -38,7 +38,7 @@ bool sees_all(const Point& p, const Loop& loop) {
 /// A place on the border where a separator from the center may end.
 struct End {
   std::size_t station;
-  Point direction;  ///< from the center, a unit vector
+  Point direction;  ///< unit vector from the center
   double distance;
   double swept;  ///< the fraction of the area before it
 };

@@ -37,7 +37,7 @@ class Star {
   };
   /// Lengths.
   struct Room {
-    double clearance;  ///< wanted between a wall at the center and others (see SeparatorRoom)
+    double clearance;  ///< distance wanted between a wall at the center and others (see SeparatorRoom)
     double length;     ///< least length wanted of walls at the center
   };
 

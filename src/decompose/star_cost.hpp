@@ -48,7 +48,7 @@ class StarCost {
   struct Neighbor {
     SubdomainId subdomain = kNoSubdomain;
     double size = 0, before = 0;
-    double load = 0;  ///< for the place that at() was called for
+    double load = 0;  ///< load at the place that at() was called for
     Point slope;      ///< gradient of the load
   };
   /// First and second derivatives.

@@ -15,7 +15,7 @@ struct SubdomainCensus {
     protocol::SplitDigest splits;  ///< digest of the points on it
   };
   SubdomainId id{};
-  std::int64_t free_points = 0;  ///< on no root
+  std::int64_t free_points = 0;  ///< points on no root
   std::int64_t triangles = 0;
   std::vector<Root> roots;  ///< ascending
 };

@@ -15,7 +15,7 @@ namespace driftmesh {
 namespace {
 
 constexpr double kDateline = 180;
-constexpr double kRounded = 1e10;  // to parts of a degree
+constexpr double kRounded = 1e10;  // rounds to parts of a degree
 
 double turned(double longitude) {
   return longitude >= -180 && longitude < 180 ? longitude : longitude - 360 * std::floor((longitude + 180) / 360);

@@ -54,8 +54,8 @@ class RingWalker {
  private:
   /// The triangles around a vertex between two edges of the boundary.
   struct Fan {
-    Side out;  ///< from the vertex, at the right end of the fan
-    Side in;   ///< to the vertex, at its left end
+    Side out;  ///< side that leaves the vertex, at the right end of the fan
+    Side in;   ///< side that enters the vertex, at its left end
   };
 
   template <class Visit>

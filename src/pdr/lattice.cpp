@@ -9,7 +9,7 @@
 namespace driftmesh::pdr {
 namespace {
 
-constexpr double kMostCells = 1 << 15;  // in a row or column
+constexpr double kMostCells = 1 << 15;  // cells in a row or column
 
 std::int32_t cells_along(double length, double side) {
   return static_cast<std::int32_t>(std::clamp(std::floor(length / side), 1.0, kMostCells));

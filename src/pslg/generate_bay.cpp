@@ -168,7 +168,7 @@ class Terrain {
   }
 
   static constexpr double kShoal = 0.33;  // noise above this lifts the ground
-  static constexpr double kSure = 1e-9;   // for rounding
+  static constexpr double kSure = 1e-9;   // margin for rounding
 
   const BayOptions& o_;
   SeededRandom random_;

@@ -154,7 +154,7 @@ class Planarizer {
   std::vector<std::int32_t> loose_;   // points that are not ends of segments
   BoxTree loose_tree_;                // holds loose_
   std::vector<std::int32_t> finder_;  // for each other point, a piece that ends there
-  std::size_t points_seen_ = 0;       // by the rounds so far
+  std::size_t points_seen_ = 0;       // points that earlier rounds have seen
   std::int64_t split_count_ = 0;
   bool fresh_exists_ = false;
 };

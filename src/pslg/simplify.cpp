@@ -190,9 +190,9 @@ class Thinning {
   /// A point in its place on a line.
   struct Node {
     std::int32_t point;
-    std::int32_t segment;         // to the following one, in the input; -1 at the end of a line
+    std::int32_t segment;         // number in the input of the segment to the following point; -1 at the end of a line
     std::int32_t previous, next;  // among those that are left
-    std::int32_t following;       // in the input
+    std::int32_t following;       // next in the input
     std::int32_t version = 0;     // grows when its neighbors change
     bool stays = false;
     bool removed = false;

@@ -66,7 +66,7 @@ class Envelope {
   struct Parabola {
     std::int64_t column;
     double offset;
-    double begin;  // from where on it is the lowest
+    double begin;  // start of the part where it is the lowest
   };
   [[nodiscard]] double crossing(const Parabola& left, std::int64_t column, double offset) const {
     const auto a = static_cast<double>(left.column), b = static_cast<double>(column);

@@ -12,7 +12,7 @@ constexpr std::int64_t kStep = 16;
 /// At most the spacings of the raster, as they are around a place.
 double spacing_at(const Point& p, const RasterFrame& frame, const PlaceMap& to_source, double step) {
   const Point here = to_source(p), east = to_source({p.x + step, p.y}), north = to_source({p.x, p.y + step});
-  const double columns = std::hypot(east.x - here.x, north.x - here.x) / frame.dx;  // in a step
+  const double columns = std::hypot(east.x - here.x, north.x - here.x) / frame.dx;  // columns in a step
   const double rows = std::hypot(east.y - here.y, north.y - here.y) / frame.dy;
   return std::exp2(std::floor(std::log2(step / std::max(columns, rows))));
 }

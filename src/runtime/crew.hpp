@@ -21,7 +21,7 @@ struct Shift {
   SliceWork done{};
   std::vector<SplitPoint<GlobalRootId>> said{};  ///< points that it put on interfaces
   std::exception_ptr failure{};                  ///< what the work threw
-  double seconds = 0;                            ///< by the wall clock, if a crew did it
+  double seconds = 0;                            ///< wall-clock time, if a crew did it
 
   /// Does the work, on any thread.
   void perform();

@@ -182,7 +182,7 @@ class RankLoop {
   std::int64_t interface_splits_ = 0;
   std::uint64_t messages_ = 0, message_bytes_ = 0;
   RankTimes times_;
-  double clock_;  // when time was charged last
+  double clock_;  // time of the last charge
   Watchdog watchdog_{kWatchdogSeconds};
 };
 

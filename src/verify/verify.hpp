@@ -34,7 +34,7 @@ struct VerifyOptions {
 /// Everything that was checked and measured.
 struct VerifyReport {
   std::size_t points = 0;
-  std::size_t unused_points = 0;  ///< in no triangle; not a flaw, as Triangle's files may contain them
+  std::size_t unused_points = 0;  ///< points in no triangle; not a flaw, as Triangle's files may contain them
   std::size_t triangles = 0;
   std::size_t subsegments = 0;
   std::size_t boundary_edges = 0;

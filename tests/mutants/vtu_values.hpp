@@ -25,7 +25,7 @@ struct VtuType {
 struct VtuValues {
   std::vector<double> reals;
   std::vector<std::int64_t> integers;
-  bool has_too_large = false;  ///< for an integer here
+  bool has_too_large = false;  ///< some value is too large for an integer here
 
   void add(const VtuType& type, double real, std::int64_t integer) {
     reals.push_back(real);

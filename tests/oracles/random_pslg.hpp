@@ -19,9 +19,9 @@ struct RandomPslgShape {
   int outer_points = 12;      ///< points on the outer boundary, a star-shaped polygon
   int holes = 2;              ///< star-shaped, at most; as many as fit
   int rings = 1;              ///< closed rings of segments that are regions, at most
-  int inner_segments = 6;     ///< between points that exist, at most
-  int dangling_segments = 2;  ///< from a point that exists to a new one in the domain, at most
-  int inner_points = 5;       ///< without a segment
+  int inner_segments = 6;     ///< segments between points that exist, at most
+  int dangling_segments = 2;  ///< segments from a point that exists to a new one in the domain, at most
+  int inner_points = 5;       ///< points without a segment
   double spikiness = 0.5;     ///< 0: round boundaries; toward 1: thin spikes with small angles
   double scale = 1;           ///< size of the whole
   double offset = 0;          ///< distance of the whole from the origin, in both coordinates

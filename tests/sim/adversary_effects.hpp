@@ -19,7 +19,7 @@ struct AdversaryEffects {
   std::int64_t repeated_locations = 0;  ///< ... that the same rank had received before
   std::int64_t outdated_locations = 0;  ///< ... that named a former location
   std::int64_t late_plans = 0;          ///< planned moves of subdomains that had left when the plan arrived
-  std::int64_t questions = 0;           ///< to ranks that may be short of memory
+  std::int64_t questions = 0;           ///< questions to ranks that may be short of memory
   std::int64_t answers = 0;
   std::int64_t starved = 0;    ///< steps that a rank was denied
   std::int64_t most_hops = 0;  ///< hops of a group of SPLITs

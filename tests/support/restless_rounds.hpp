@@ -16,11 +16,11 @@ namespace driftmesh::testing {
 
 /// What happened to subdomains besides refinement.
 struct Unrest {
-  int pauses = 0;              ///< in the middle of refinement
+  int pauses = 0;              ///< breaks in the middle of refinement
   int slept = 0;               ///< fell asleep
   int moved = 0;               ///< packed and unpacked awake
   int moved_asleep = 0;        ///< the same asleep
-  int woken = 0;               ///< by a point on an interface
+  int woken = 0;               ///< subdomains woken by a point on an interface
   int told_after_waking = 0;   ///< got a point in a later round than one that had woken them
   int told_without_sleep = 0;  ///< got a point after they had met their bounds, awake
 };

@@ -113,7 +113,7 @@ TEST_CASE("what is noted goes to the innermost log, or nowhere") {
   }
   note({.subject = Deliberation::Subject::kPlan, .verdict = Verdict::kSmallSaving, .saves = 4});
   note_comparison(1, 6, false);
-  note_comparison(0, 7, false);  // was not worth its moves anyway
+  note_comparison(0, 7, false);  // the moves were not worth it anyway
   const auto noted = outer.take();
   REQUIRE(noted.size() == 2);
   CHECK(noted[0].verdict == Verdict::kOtherPlan);

@@ -153,7 +153,7 @@ TEST_CASE("a decomposition in memory of another input is recognized, except for 
   std::erase_if(other.segments, [](const Pslg::Segment& s) { return s.a == 8 && s.b == 9; });
   refused(other, "which has a segment from point 8 to point 9 with marker 6");
   other = testing::varied_domain();
-  other.segments[3].marker = 9;  // from 3 to 2, on which separators end
+  other.segments[3].marker = 9;  // the segment from 3 to 2, on which separators end
   refused(other, "with marker 3");
   other = testing::varied_domain();
   other.regions.clear();

@@ -62,7 +62,7 @@ class RefinementInRounds::Round {
       for (const Rank r : ids_of(ranks_))
         if (r != kCalling) others.emplace_back([this, r] { run_rank(r); });
       run_rank(kCalling);
-    } catch (const std::system_error&) {  // by the constructor of a thread
+    } catch (const std::system_error&) {  // thrown by the constructor of a thread
       failed_ = true;
       ranks_[kCalling].failure = std::make_exception_ptr(too_few_threads(others.size() + 1, ranks_.size()));
     }
