@@ -77,10 +77,9 @@ class RequestConduct {
   int refusals_ = 0;         // refusals in a row
   bool remembered_ = false;  // the broker has refused, and keeps the request
   bool idle_ = false;
-  std::vector<SubdomainId>
-      arrived_;                      // all since the last request; they may arrive before the answer that promises them
-  std::vector<SubdomainId> coming_;  // promised, not yet here
-  double promised_ = 0;              // time of the promise
+  std::vector<SubdomainId> arrived_;  // since the last request; they may arrive before the answer that promises them
+  std::vector<SubdomainId> coming_;   // promised, not yet here
+  double promised_ = 0;               // time of the promise
 
   std::optional<RankNews> news_;    // kept by the broker
   std::optional<RankBoard> board_;  // made from it for the requests of one think()

@@ -29,7 +29,7 @@ struct PolygonFlaw {
   };
   Kind kind;
   std::int32_t polygon = 0;      ///< index into the input's polygons
-  std::int32_t ring = 0;         ///< which one of the polygon's, if the kind names a ring
+  std::int32_t ring = 0;         ///< number among the polygon's, if the kind names a ring
   std::int32_t other = kNone;    ///< the other ring or polygon, if the kind names one
   AreaId area = kNone;           ///< the place, if it is an area
   std::int32_t segment = kNone;  ///< the place, if it is a segment

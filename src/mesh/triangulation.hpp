@@ -25,7 +25,7 @@ struct Triangle {
 struct Subsegment {
   std::array<VertexId, 2> vertex;  ///< its ends, in the root's direction
   std::array<HalfEdge, 2> half;    ///< for a leaf, the edge left and right of that direction, kNone outside the domain
-  dyadic::Path path;               ///< which interval of the root
+  dyadic::Path path;               ///< its interval of the root
   RootId root;
   SubsegmentId child;  ///< kNone for a leaf, else the first half; the second follows it
   [[nodiscard]] bool is_leaf() const { return child == kNone; }
