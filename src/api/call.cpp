@@ -49,8 +49,6 @@ job::Asked Call::asked(job::PlaceKind place, const job::Request& request) const 
     throw Error("MeshOptions::balance.own is for many ranks, but this process is alone; remove it");
   if (options_.balance.own && options_.balance.policy != MeshOptions{}.balance.policy)
     throw Error("MeshOptions::balance.own is given along with the name of another policy; remove one");
-  if (options_.subdomains.given && options_.subdomains.count != 0)
-    throw Error("MeshOptions::subdomains.count cannot be combined with a given decomposition; remove one");
   return {request, job::kLibrary, given_, {.mesh = place != job::kSimulated, .whole = true}};
 }
 

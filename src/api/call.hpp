@@ -33,7 +33,6 @@ class CallerWatch final : public job::Watch {
   void warned(const std::string& warning) override;
   /// Throws Cancelled if the caller cancels.
   void refining(std::int64_t triangles, double forecast) override;
-  void stalled(const std::string& why) override { warned(why); }
 
  private:
   const MeshOptions& options_;

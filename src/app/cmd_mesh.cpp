@@ -5,7 +5,6 @@
 #include "app/mesh_run.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
-#include "balancer/policies/policy_factory.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "config/experiment.hpp"
@@ -38,7 +37,6 @@ int run(const MeshCommand& command) {
     if (input.file.empty() && input.generator.empty() && input.parameters.empty())
       throw cli::UsageError("INPUT is missing");
     const job::PlaceKind place = job::place_of(request, job::kMesh, launched);
-    job::check(request, place, balancer::make_policy);
     code = run_mesh(request, place, command_line_of("driftmesh mesh", request, job::kMesh), command.config);
   });
   return code;

@@ -158,12 +158,14 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   const job::Given given{.policies = balancer::make_policy};
   const job::Asked asked{request, job::kExperiment, given};
   StageNotes notes(watch, run.record);
-  const auto made = real ? cluster->make(asked, run.record, notes) : simulated(asked, run.record, notes);
+  std::unique_ptr<job::Refined> made =
+      real ? cluster->make(asked, run.record, notes) : simulated(asked, run.record, notes);
   run.outcome = made->history();
   if (made->plan() != nullptr) {
     run.plan = *made->plan();
     run.plan.bounds.size = nullptr;
   }
+  made.reset();  // the subdomains are no longer needed
   if (real) run.speeds = measured_speeds(run.outcome, run.speeds);
   compare_with_ideal(run);
   run.record.warnings = notes.take_warnings();

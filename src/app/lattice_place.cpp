@@ -9,6 +9,7 @@
 #include "base/stopwatch.hpp"
 #include "distributed/observed_exchange.hpp"
 #include "driftmesh/error.hpp"
+#include "job/drag.hpp"
 #include "job/failure.hpp"
 #include "job/limits.hpp"
 #include "job/memory.hpp"
@@ -55,27 +56,32 @@ void require_area_bound(const QualityBounds& bounds) {
                         "give bounds.area or bounds.triangles, or use the coupled method");
 }
 
-/// What is known on all ranks, or on the only process, of a mesh on a lattice.
+/// What is known of the whole mesh.
 struct LatticeFacts {
   double max_area = 0;
   double forecast = 0;
   std::int32_t acute_corners = 0;
   std::int64_t vertices = 0, subsegments = 0;
+
+  void write_to(job::RunRecord& record) const {
+    record.max_area = max_area;
+    record.forecast = forecast;
+    record.acute_corners = acute_corners;
+    record.vertices = vertices;
+    record.subsegments = subsegments;
+    record.peak = record.peak_refining = std::max(record.peak, job::peak_memory());
+  }
 };
 
-class RefinedOnLattice final : public job::Refined {
+/// What is left of a simulated run. The mesh is gone.
+class SimulatedOutcome final : public job::Refined {
  public:
-  RefinedOnLattice(std::vector<job::RankReport> reports, ClusterRun history, const LatticeFacts& facts)
+  SimulatedOutcome(std::vector<job::RankReport> reports, ClusterRun history, const LatticeFacts& facts)
       : reports_(std::move(reports)), history_(std::move(history)), facts_(facts) {}
 
   void report(job::RunRecord& record) override {
-    record.max_area = facts_.max_area;
-    record.forecast = facts_.forecast;
-    record.acute_corners = facts_.acute_corners;
     for (const job::RankReport& rank : reports_) job::add_report(record, rank);
-    record.vertices = facts_.vertices;
-    record.subsegments = facts_.subsegments;
-    record.peak = record.peak_refining = std::max(record.peak, job::peak_memory());
+    facts_.write_to(record);
   }
   [[nodiscard]] ClusterRun history() override { return std::move(history_); }
   [[nodiscard]] const RunPlan* plan() const override { return nullptr; }
@@ -96,6 +102,7 @@ Bytes bytes_of(const job::Order& order) {
   writer.value(bounds.max_area);
   writer.array(bounds.region_max_area);
   writer.value(whole.triangulated.forecast);
+  writer.array(order.shares);
   return writer.take();
 }
 
@@ -110,12 +117,15 @@ job::Order order_of(const Bytes& bytes, const Bytes& pslg) {
   reader.value(bounds.max_area);
   reader.array(bounds.region_max_area);
   reader.value(whole.triangulated.forecast);
+  reader.array(order.shares);
   whole.domain.pslg = pslg_from_bytes(pslg);
   return order;
 }
 
-/// This rank's share of the refinement. `check` is called with its triangles from time to time.
-RankOutcome refine_part(pdr::Part& part, job::Team& team, const std::function<void(std::int64_t)>& check) {
+/// This rank's share of the refinement, with this share of its time. `check` is called with the triangles that the rank
+/// has of its own and around them, from time to time.
+RankOutcome refine_part(pdr::Part& part, job::Team& team, double share,
+                        const std::function<void(std::int64_t)>& check) {
   const std::unique_ptr<job::Channel> channel = team.open();
   double computing = 0;
   const Stopwatch refining;
@@ -124,6 +134,7 @@ RankOutcome refine_part(pdr::Part& part, job::Team& team, const std::function<vo
     ObservedExchange refinement(part.refinement, [&](const std::function<void()>& act) {
       const Stopwatch working;
       act();
+      job::drag(share, working.seconds());
       computing += working.seconds();
       check(static_cast<std::int64_t>(part.mesh.live_triangles()));
     });
@@ -134,33 +145,60 @@ RankOutcome refine_part(pdr::Part& part, job::Team& team, const std::function<vo
   return outcome_of(part, computing, seconds);
 }
 
-/// What rank 0 knows at the end, from the report of each rank with the vertices and subsegments that it has.
-struct Gathered {
-  std::vector<job::RankReport> reports;
-  ClusterRun history;
-  std::int64_t vertices = 0, subsegments = 0;
-
-  void add(const Bytes& bytes) {
-    ByteReader reader(bytes);
-    const job::RankReport& report = reports.emplace_back(job::RankReport::read(reader));
-    vertices += reader.value<std::int64_t>();
-    subsegments += reader.value<std::int64_t>();
-    history.ranks.push_back(report.rank);
-    history.makespan = std::max(history.makespan, report.rank.times.total());
+/// A rank's part, refined.
+class RefinedPart final : public job::Refined {
+ public:
+  RefinedPart(job::Team& team, job::Order&& order, const job::Limits& limits, job::Watch& watch)
+      : team_(team), order_(std::move(order)) {
+    facts_ = {.max_area = bounds().max_area, .forecast = order_.whole->triangulated.forecast};
+    const double share = order_.shares.empty() ? 1 : order_.shares[team.rank()];
+    job::agree(team, [&] {
+      Triangulation mesh = triangulate(order_.whole->domain.pslg);
+      facts_.acute_corners = prepare_corners(mesh, {bounds().min_angle, false});
+      const pdr::Lattice lattice = pdr::start(mesh, bounds(), team.ranks());
+      part_ = std::make_unique<pdr::Part>(team.rank(), team.ranks(), std::move(mesh), lattice, bounds());
+    });
+    outcome_ = refine_part(*part_, team, share, job::progress_within(limits, facts_.forecast, watch));
   }
-};
 
-Bytes report_bytes(pdr::Part& part, const QualityBounds& bounds, Rank rank, const RankOutcome& outcome) {
-  pdr::keep_own_triangles(part.mesh, part.refinement.cells(), part.lattice, rank);
-  const pdr::OwnCounts own = pdr::count_own(part.mesh, part.lattice, rank);
-  job::RankReport report = report_of(part, bounds, outcome);
-  report.rank.peak = job::peak_memory();
-  ByteWriter writer;
-  report.write(writer);
-  writer.value(own.vertices);
-  writer.value(own.subsegments);
-  return writer.take();
-}
+  void report(job::RunRecord& record) override {
+    const Bytes own = job::by_itself(team_, [&] { return own_report(); });
+    for (const Bytes& bytes : team_.gather(own)) {
+      ByteReader reader(bytes);
+      const job::RankReport report = job::RankReport::read(reader);
+      facts_.vertices += reader.value<std::int64_t>();
+      facts_.subsegments += reader.value<std::int64_t>();
+      job::add_report(record, report);
+      history_.ranks.push_back(report.rank);
+      history_.makespan = std::max(history_.makespan, report.rank.times.total());
+    }
+    facts_.write_to(record);
+  }
+  [[nodiscard]] ClusterRun history() override { return std::move(history_); }
+  [[nodiscard]] const RunPlan* plan() const override { return nullptr; }
+
+ private:
+  [[nodiscard]] const QualityBounds& bounds() const { return order_.whole->triangulated.bounds; }
+
+  [[nodiscard]] Bytes own_report() {
+    pdr::keep_own_triangles(part_->mesh, part_->refinement.cells(), part_->lattice, team_.rank());
+    const pdr::OwnCounts own = pdr::count_own(part_->mesh, part_->lattice, team_.rank());
+    job::RankReport report = report_of(*part_, bounds(), outcome_);
+    report.rank.peak = job::peak_memory();
+    ByteWriter writer;
+    report.write(writer);
+    writer.value(own.vertices);
+    writer.value(own.subsegments);
+    return writer.take();
+  }
+
+  job::Team& team_;
+  job::Order order_;
+  LatticeFacts facts_;
+  std::unique_ptr<pdr::Part> part_;
+  RankOutcome outcome_;
+  ClusterRun history_;
+};
 
 }  // namespace
 
@@ -171,31 +209,24 @@ job::Order LatticeOnRanks::share(const std::function<job::Order()>& make) {
     order = make();
     require_area_bound(order.whole->triangulated.bounds);
   });
-  const Bytes head = team().broadcast(leads() ? bytes_of(order) : Bytes());
-  const Bytes pslg = team().broadcast(leads() ? pslg_to_bytes(order.whole->domain.pslg) : Bytes());
-  if (!leads()) order = order_of(head, pslg);
+  Bytes head, pslg;
+  job::by_itself(team(), [&] {
+    if (!leads()) return;
+    head = bytes_of(order);
+    pslg = pslg_to_bytes(order.whole->domain.pslg);
+  });
+  head = team().broadcast(std::move(head));
+  pslg = team().broadcast(std::move(pslg));
+  agree([&] {
+    if (!leads()) order = order_of(head, pslg);
+  });
   job::cap_memory(order.limits);
   return order;
 }
 
 std::unique_ptr<job::Refined> LatticeOnRanks::refine(job::Order&& order, const job::Limits& limits,
                                                      const SizeField* /*size*/, job::Watch& watch) {
-  const job::Whole& whole = *order.whole;
-  const QualityBounds& bounds = whole.triangulated.bounds;
-  LatticeFacts facts{.max_area = bounds.max_area, .forecast = whole.triangulated.forecast};
-  std::unique_ptr<pdr::Part> part;
-  agree([&] {
-    Triangulation mesh = triangulate(whole.domain.pslg);
-    facts.acute_corners = prepare_corners(mesh, {bounds.min_angle, false});
-    const pdr::Lattice lattice = pdr::start(mesh, bounds, ranks());
-    part = std::make_unique<pdr::Part>(team().rank(), ranks(), std::move(mesh), lattice, bounds);
-  });
-  const RankOutcome outcome = refine_part(*part, team(), job::progress_within(limits, facts.forecast / ranks(), watch));
-  Gathered all;
-  for (const Bytes& bytes : team().gather(report_bytes(*part, bounds, team().rank(), outcome))) all.add(bytes);
-  facts.vertices = all.vertices;
-  facts.subsegments = all.subsegments;
-  return std::make_unique<RefinedOnLattice>(std::move(all.reports), std::move(all.history), facts);
+  return std::make_unique<RefinedPart>(team(), std::move(order), limits, watch);
 }
 
 std::unique_ptr<job::Refined> SimulatedLattice::refine(job::Order&& order, const job::Limits& limits,
@@ -215,7 +246,7 @@ std::unique_ptr<job::Refined> SimulatedLattice::refine(job::Order&& order, const
     facts.subsegments += own.subsegments;
   };
   ClusterRun history = pdr::simulate(std::move(triangulated.mesh), bounds, cluster(), costs(), observers);
-  return std::make_unique<RefinedOnLattice>(std::move(reports), std::move(history), facts);
+  return std::make_unique<SimulatedOutcome>(std::move(reports), std::move(history), facts);
 }
 
 }  // namespace driftmesh::app

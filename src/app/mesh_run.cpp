@@ -41,21 +41,17 @@ job::Draw drawing(const Request& request) {
   return [&request, title](const Mesh& mesh) { plot_mesh(mesh, request.output.picture, {.title = title}); };
 }
 
-/// Before the work: files that overlap or cannot be written are errors.
-void register_first(const Told& told, job::Place& place, RunNotes& notes) {
-  place.agree([&] {
-    if (!place.leads()) return;
-    register_files(told, place.kind() == job::kRanks ? place.ranks() : 1);
-    if (place.kind() == job::kRanks) warn_of_few_cores(told.request, notes);
-  });
-}
-
 int mesh_at(job::Place& place, const Told& told, RunNotes& notes) {
   const Request& request = told.request;
-  register_first(told, place, notes);
   const job::Given given{.policies = balancer::make_policy};
   const job::Wanted wanted = job::wanted_of(request.output);
-  const std::unique_ptr<job::Refined> made = job::make({request, job::kMesh, given, wanted}, place, notes.run, notes);
+  const bool on_ranks = place.kind() == job::kRanks;
+  const auto before = [&] {
+    register_files(told, on_ranks ? place.ranks() : 1);
+    if (on_ranks) warn_of_few_cores(request, notes);
+  };
+  const std::unique_ptr<job::Refined> made =
+      job::make({request, job::kMesh, given, wanted, before}, place, notes.run, notes);
   job::timed(notes, "inspect", [&] { made->report(notes.run); });
   StagedFiles files;
   if (wanted.mesh && (notes.run.complete || request.limits.keep_incomplete)) {

@@ -150,6 +150,11 @@ void check_capacity(double subdomain, double file, EntryPoint by) {
         fmt::format("a subdomain would have about {} triangles, more than the {} that can be numbered; cut the domain "
                     "into more with {}",
                     estimate_words(subdomain), grouped(kCapacity), called("decomposition.subdomains", by)));
+  if (file > kMostInFile && by == kLibrary)
+    throw LimitError(
+        fmt::format("the mesh would have about {} triangles, more than the {} whose corners its arrays can "
+                    "number; make it on many ranks, or ask for larger triangles",
+                    estimate_words(file), grouped(static_cast<std::int64_t>(kMostInFile))));
   if (file > kMostInFile)
     throw LimitError(
         fmt::format("a file would have about {} triangles, more than the {} that it can number; write a .pvtu instead, "

@@ -22,7 +22,7 @@ PlaceKind kind_when_cut(const Place& place) {
 
 Use use_of(const Asked& asked, const Place& place, bool cut, double forecast) {
   const Wanted& wanted = asked.wanted;
-  Use use{.by = asked.by, .in_subdomains = cut, .writes = wanted.mesh};
+  Use use{.by = asked.by, .in_subdomains = cut || (place.kind() & kMany) != 0, .writes = wanted.mesh};
   if (!cut) return use;
   use.stores = !asked.request.run.scratch.empty();
   use.sleeps = asked.request.run.sleep || use.stores;
@@ -96,7 +96,10 @@ std::int32_t ranks_counted(const Place& place) {
 Order order_for(const Asked& asked, const Place& place, RunRecord& record, Watch& watch) {
   const Request& request = asked.request;
   check(request, place.kind(), asked.given.policies);
+  if (request.run.method == Method::kPdr && place.cut(request) == Cut::kAlways)
+    throw KeyError("run.method", "is pdr, which only experiments have", "use driftmesh run");
   if (place.kind() != kSimulated) check_ranks(request, place.kind(), ranks_counted(place));
+  if (asked.before) asked.before();
   if (asked.by != kLibrary) cap_memory(request.limits);
   Domain domain = read_domain(request, asked.given, watch);
   record_domain(record, request, domain);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "decompose/decomposition.hpp"
@@ -26,6 +27,7 @@ struct Asked {
   EntryPoint by = kMesh;
   const Given& given;
   Wanted wanted{};
+  std::function<void()> before{};  ///< called on rank 0 once the settings are checked, before anything is read
 };
 
 /// Makes a mesh: the one order of stages, for every entry point and place. Checks the request; reads, repairs and

@@ -86,7 +86,7 @@ Order OnRanks::share(const std::function<Order()>& make) {
 }
 
 std::unique_ptr<Refined> OnRanks::refine(Order&& order, const Limits& limits, const SizeField* size, Watch& watch) {
-  if (order.use.by != kLibrary) reuse_memory(order.limits);
+  if (order.use.by == kMesh) reuse_memory(order.limits);
   return std::make_unique<RefinedOnRanks>(team_, std::move(order), limits, size, logs_, watch);
 }
 

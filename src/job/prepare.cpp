@@ -41,7 +41,11 @@ Decomposition read_decomposition_of(const std::string& file, const Pslg& input, 
 
 Decomposition decomposition_of(const Request& request, const Domain& domain, const Given& given,
                                const Triangulated& triangulated, std::int32_t ranks, Watch& watch) {
-  if (given.decomposition != nullptr) return given_decomposition(*given.decomposition, domain.pslg, triangulated.mesh);
+  if (given.decomposition != nullptr) {
+    if (request.decomposition.subdomains != 0)
+      throw KeyError("decomposition.subdomains", "cannot be combined with a given decomposition", "remove one");
+    return given_decomposition(*given.decomposition, domain.pslg, triangulated.mesh);
+  }
   const std::string& file = request.decomposition.file;
   if (!file.empty())
     return timed(watch, "load", [&] { return read_decomposition_of(file, domain.pslg, triangulated.mesh); });
@@ -52,11 +56,6 @@ Decomposition decomposition_of(const Request& request, const Domain& domain, con
 void disturb_forecasts(Decomposition& decomposition, double most, std::uint64_t seed) {
   SeededRandom random(seed);
   for (auto& subdomain : decomposition.subdomains) subdomain.predicted *= std::pow(most, random.uniform(-1, 1));
-}
-
-void check_has_subdomains(const Request& request) {
-  if (request.run.method == Method::kPdr)
-    throw KeyError("run.method", "is pdr, which only experiments have", "use driftmesh run");
 }
 
 void check_presplit(const Request& request, const QualityBounds& bounds) {
@@ -141,7 +140,6 @@ Prepared prepare(const Request& request, const Domain& domain, const Triangulate
                  PlaceKind place, const IdVector<Rank, double>& speeds, Watch& watch) {
   Prepared prepared;
   prepared.acute_corners = triangulated.acute_corners;
-  check_has_subdomains(request);
   check_presplit(request, triangulated.bounds);
   Decomposition decomposition =
       decomposition_of(request, domain, given, triangulated, ranks_to_suit(place, speeds.size()), watch);

@@ -29,9 +29,9 @@ enum class Method {
   kPdr,        ///< there are none between subdomains: ranks refine one mesh, cell by cell
 };
 
-/// All settings of a mesh, from a command line, a YAML file, or a program that uses the library. keys.cpp declares each
-/// member once: its name, unit, range, default, help, and where it applies. Members are grouped as the sections of a
-/// file are. Nothing here is checked yet (see check.hpp).
+/// All settings of a mesh, from a command line, a YAML file, or a program that uses the library. key_table.cpp declares
+/// each member once: its name, unit, range, default, help, and where it applies. Members are grouped as the sections of
+/// a file are. Nothing here is checked yet (see check.hpp).
 struct Request {
   struct Input {
     std::string file;

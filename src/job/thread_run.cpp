@@ -31,7 +31,16 @@ ThreadRun::ThreadRun(Order order, const Limits& limits, std::int32_t threads, co
 }
 
 ThreadRun::~ThreadRun() {
+  release();
+}
+
+void ThreadRun::release() {
+  refinement_.reset();
   if (scratch_) scratch_->discard();
+  scratch_.reset();
+  order_.plan.scratch = nullptr;
+  order_.plan.bounds.size = nullptr;
+  made_.clear();
 }
 
 void ThreadRun::refine() {
@@ -129,7 +138,7 @@ void ThreadRun::write(const Request::Output& files, const Draw& draw, Watch& wat
 
 DistributedPiece ThreadRun::take_piece(Watch& watch) {
   DistributedPiece piece = timed(watch, "assemble", [&] { return assemble(); });
-  refinement_.reset();  // the subdomains are no longer needed
+  release();
   return piece;
 }
 

@@ -37,6 +37,8 @@ class ThreadRun final : public Refined {
   [[nodiscard]] DistributedPiece take_piece(Watch& watch) override;
 
  private:
+  /// Frees the subdomains and what they need.
+  void release();
   void check(std::int64_t triangles) const;
   void note(const Subdomain& subdomain, const SizeField* size);
   [[nodiscard]] MeshFacts facts();

@@ -160,6 +160,10 @@ TEST_CASE("errors in the input are thrown on all ranks") {
   MeshOptions of_other;
   of_other.subdomains.given = cut_domain(generate_rectangle_hole({.sides = 7}), {.subdomains = {.count = 4}});
   CHECK(error_with(of_other).find("decomposition") != std::string::npos);
+  // A decomposition is given on rank 0 alone.
+  MeshOptions of_leader{.subdomains = {.count = 8}};
+  if (own_rank() == 0) of_leader.subdomains.given = cut_domain(input, {.subdomains = {.count = 8}});
+  CHECK(error_with(of_leader).starts_with("MeshOptions::subdomains.count cannot be combined with a given"));
 }
 
 TEST_CASE("a failure on one rank ends the work of all, which can then continue with something else") {
