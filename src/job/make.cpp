@@ -60,7 +60,7 @@ Order in_one_piece(const Asked& asked, const Place& place, Domain&& domain, Tria
   Order order;
   order.limits = limits;
   order.use = use;
-  order.whole.emplace(std::move(domain), std::move(triangulated));
+  order.whole = Whole{std::move(domain), std::move(triangulated)};
   return order;
 }
 
