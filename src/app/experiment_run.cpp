@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "app/json_text.hpp"
 #include "app/lattice_place.hpp"
@@ -35,12 +36,6 @@ CostModel costs_of(const job::Request& request) {
   return request.cluster.costs.empty() ? CostModel{} : config::read_costs(request.cluster.costs);
 }
 
-/// Speeds of the ranks as known before the run; for real ranks, only the ratios.
-IdVector<Rank, double> known_speeds(const job::Request& request, const RealCluster* cluster) {
-  return cluster == nullptr ? speeds_of(job::cluster_of(request), costs_of(request))
-                            : job::shares_of_time(request, cluster->ranks());
-}
-
 /// Empty if none does.
 IdVector<Rank, protocol::SpeedSchedule> changing_speeds(const job::Request& request) {
   if (request.cluster.changes.empty()) return {};
@@ -71,22 +66,11 @@ class StageNotes final : public job::Watch {
   job::RunRecord& record_;
 };
 
-std::unique_ptr<job::Refined> made_at(job::Place& place, const job::Asked& asked, job::RunRecord& record,
-                                      job::Watch& watch) {
-  std::unique_ptr<job::Refined> made = job::make(asked, place, record, watch);
-  made->report(record);
-  return made;
-}
-
-std::unique_ptr<job::Refined> simulated(const job::Asked& asked, job::RunRecord& record, job::Watch& watch) {
-  const ClusterSpec cluster = job::cluster_of(asked.request);
-  const CostModel costs = costs_of(asked.request);
-  if (asked.request.run.method == job::Method::kPdr) {
-    SimulatedLattice lattice(cluster, costs);
-    return made_at(lattice, asked, record, watch);
-  }
-  job::SimulatedRanks ranks(cluster, costs);
-  return made_at(ranks, asked, record, watch);
+std::unique_ptr<job::SimulatedRanks> simulated_ranks(const job::Request& request) {
+  const ClusterSpec cluster = job::cluster_of(request);
+  const CostModel costs = costs_of(request);
+  if (request.run.method == job::Method::kPdr) return std::make_unique<SimulatedLattice>(cluster, costs);
+  return std::make_unique<job::SimulatedRanks>(cluster, costs);
 }
 
 /// Where subdomains were moved, how much better they could have been mapped: on a lattice there is nothing to map, and
@@ -153,19 +137,20 @@ Json subdomains_json(const ExperimentRun& run) {
 void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   const job::Request& request = run.request;
   const bool real = request.cluster.kind == job::ClusterKind::kReal;
-  run.speeds = known_speeds(request, real ? cluster : nullptr);
   const Stopwatch running;
   const job::Given given{.policies = balancer::make_policy};
-  const job::Asked asked{request, job::kExperiment, given};
   StageNotes notes(watch, run.record);
-  std::unique_ptr<job::Refined> made =
-      real ? cluster->make(asked, run.record, notes) : simulated(asked, run.record, notes);
+  const auto simulated = real ? nullptr : simulated_ranks(request);
+  job::Place& place = real ? cluster->call(request.run.method) : *simulated;
+  std::unique_ptr<job::Refined> made = job::make({request, job::kExperiment, given}, place, run.record, notes);
+  made->report(run.record);
   run.outcome = made->history();
   if (made->plan() != nullptr) {
     run.plan = *made->plan();
     run.plan.bounds.size = nullptr;
   }
   made.reset();  // the subdomains are no longer needed
+  run.speeds = place.speeds(request);
   if (real) run.speeds = measured_speeds(run.outcome, run.speeds);
   compare_with_ideal(run);
   run.record.warnings = notes.take_warnings();

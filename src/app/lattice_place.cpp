@@ -92,33 +92,30 @@ class SimulatedOutcome final : public job::Refined {
   LatticeFacts facts_;
 };
 
+/// The fields in one order for both directions: `stream` is a ByteWriter with a const order, or a ByteReader.
+template <class Stream, class Order>
+void transfer(Stream& stream, Order& order) {
+  auto& triangulated = order.whole->triangulated;
+  stream.value(order.limits);
+  stream.value(order.use);
+  stream.array(order.shares);
+  stream.value(triangulated.bounds.min_angle);
+  stream.value(triangulated.bounds.max_area);
+  stream.array(triangulated.bounds.region_max_area);
+  stream.value(triangulated.forecast);
+}
+
 Bytes bytes_of(const job::Order& order) {
-  const job::Whole& whole = *order.whole;
-  const QualityBounds& bounds = whole.triangulated.bounds;
   ByteWriter writer;
-  writer.value(order.limits);
-  writer.value(order.use);
-  writer.value(bounds.min_angle);
-  writer.value(bounds.max_area);
-  writer.array(bounds.region_max_area);
-  writer.value(whole.triangulated.forecast);
-  writer.array(order.shares);
+  transfer(writer, order);
   return writer.take();
 }
 
 job::Order order_of(const Bytes& bytes, const Bytes& pslg) {
   job::Order order;
-  job::Whole& whole = order.whole.emplace();
-  QualityBounds& bounds = whole.triangulated.bounds;
+  order.whole.emplace().domain.pslg = pslg_from_bytes(pslg);
   ByteReader reader(bytes);
-  reader.value(order.limits);
-  reader.value(order.use);
-  reader.value(bounds.min_angle);
-  reader.value(bounds.max_area);
-  reader.array(bounds.region_max_area);
-  reader.value(whole.triangulated.forecast);
-  reader.array(order.shares);
-  whole.domain.pslg = pslg_from_bytes(pslg);
+  transfer(reader, order);
   return order;
 }
 

@@ -5,6 +5,9 @@
 
 #include "balancer/policies/policy_factory.hpp"
 #include "base/bytes.hpp"
+#include "job/make.hpp"
+#include "job/record.hpp"
+#include "job/watch.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -44,12 +47,9 @@ job::Place& RealCluster::place_for(job::Method method) {
   return subdomains_;
 }
 
-std::unique_ptr<job::Refined> RealCluster::make(const job::Asked& asked, job::RunRecord& record, job::Watch& watch) {
-  const job::Method method = asked.request.run.method;
+job::Place& RealCluster::call(job::Method method) {
   static_cast<void>(team_.broadcast(letter_of({true, method})));
-  std::unique_ptr<job::Refined> made = job::make(asked, place_for(method), record, watch);
-  made->report(record);
-  return made;
+  return place_for(method);
 }
 
 void RealCluster::serve() {

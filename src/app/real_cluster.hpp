@@ -1,14 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "app/lattice_place.hpp"
-#include "job/make.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/on_ranks.hpp"
-#include "job/record.hpp"
-#include "job/watch.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 
 namespace driftmesh::app {
@@ -26,8 +22,9 @@ class RealCluster {
   [[nodiscard]] bool leads() const { return team_.leads(); }
   [[nodiscard]] std::int32_t ranks() const { return team_.ranks(); }
 
-  /// Rank 0: makes a mesh with all ranks, whose reports go into the record; `watch` sees rank 0's part.
-  [[nodiscard]] std::unique_ptr<job::Refined> make(const job::Asked& asked, job::RunRecord& record, job::Watch& watch);
+  /// Rank 0: calls all ranks to a run by this method, and returns their place. It must make a mesh there next, and ask
+  /// for its report.
+  [[nodiscard]] job::Place& call(job::Method method);
 
   /// The other ranks: takes part in runs until rank 0 has no more.
   void serve();

@@ -105,8 +105,8 @@ class VerticesOnEdges {
   std::vector<Point> corners_;  // polygons have them, in the order of by_place
   std::vector<Point> points_;   // all features have them, in the same order
   BoxTree tree_;                // finds points_
-  std::map<Point, Edge, decltype(&by_place)> guests_{
-      by_place};  // points that are no corners, each on an edge of corners
+  // Points that are no corners, each with the corners between which it lies on an edge.
+  std::map<Point, Edge, decltype(&by_place)> guests_{by_place};
 };
 
 }  // namespace

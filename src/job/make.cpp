@@ -6,10 +6,10 @@
 #include "base/stopwatch.hpp"
 #include "distributed/piece_series.hpp"
 #include "distributed/write_distributed.hpp"
-#include "io/mesh_file.hpp"
 #include "job/check.hpp"
 #include "job/prepare.hpp"
 #include "job/rank_report.hpp"
+#include "job/write_files.hpp"
 #include "mesh/narrow_place.hpp"
 
 namespace driftmesh::job {
@@ -123,7 +123,7 @@ std::unique_ptr<Refined> obey(Place& place, Order&& order, const SizeField* size
 Wanted wanted_of(const Request::Output& output) {
   const bool draws = !output.picture.empty();
   return {.mesh = draws || !output.meshes.empty(),
-          .whole = draws || !std::ranges::all_of(output.meshes, is_in_pieces),
+          .whole = needs_whole(output),
           .gathered = draws || !std::ranges::all_of(output.meshes, is_written_by_all)};
 }
 

@@ -55,7 +55,15 @@ class RefinedOnRanks final : public Refined {
   void write(const Request::Output& files, const Draw& draw, Watch& watch) override {
     const std::vector<Point> holes = run_->holes();
     const DistributedPiece piece = take_piece(watch);
-    write_on_team(team_, piece, holes, files, draw, watch);
+    exchange_on(team_, [&](ExchangeRunner& ranks) {
+      timed(watch, "write", [&] { write_distributed(ranks, piece, files.meshes, writing_of(files, holes, watch)); });
+      if (!draw) return;
+      timed(watch, "plot", [&] {
+        GatherPieces gathering(piece);
+        ranks.run(gathering);
+        if (piece.rank == Rank{0}) draw(gathering.whole());
+      });
+    });
   }
 
   [[nodiscard]] DistributedPiece take_piece(Watch& watch) override {
@@ -100,19 +108,6 @@ std::vector<StagedFiles::Listed> OnRanks::staged(const StagedFiles& files) {
 
 void OnRanks::commit(StagedFiles& files) {
   job::commit(team_, files);
-}
-
-void write_on_team(Team& team, const DistributedPiece& piece, const std::vector<Point>& holes,
-                   const Request::Output& files, const Draw& draw, Watch& watch) {
-  exchange_on(team, [&](ExchangeRunner& ranks) {
-    timed(watch, "write", [&] { write_distributed(ranks, piece, files.meshes, writing_of(files, holes, watch)); });
-    if (!draw) return;
-    timed(watch, "plot", [&] {
-      GatherPieces gathering(piece);
-      ranks.run(gathering);
-      if (piece.rank == Rank{0}) draw(gathering.whole());
-    });
-  });
 }
 
 }  // namespace driftmesh::job

@@ -37,8 +37,4 @@ class OnRanks : public Place {
   bool logs_;
 };
 
-/// Writes the pieces of all ranks to files, and draws the whole. Collective.
-void write_on_team(Team& team, const DistributedPiece& piece, const std::vector<Point>& holes,
-                   const Request::Output& files, const Draw& draw, Watch& watch);
-
 }  // namespace driftmesh::job

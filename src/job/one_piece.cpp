@@ -77,7 +77,7 @@ class OnePiece final : public Refined {
           exchange_directly(IdVector<Rank, Exchange*>{&writing});
         });
       });
-    if (draw || !std::ranges::all_of(files.meshes, is_in_pieces)) write_whole(files, piece.mesh, holes_, draw, watch);
+    if (needs_whole(files)) write_whole(files, piece.mesh, holes_, draw, watch);
   }
 
   [[nodiscard]] DistributedPiece take_piece(Watch& watch) override {

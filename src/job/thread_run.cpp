@@ -131,7 +131,7 @@ void ThreadRun::write(const Request::Output& files, const Draw& draw, Watch& wat
   if (std::ranges::any_of(files.meshes, is_in_pieces))
     timed(watch, "write",
           [&] { for_each_in_pieces(files, [&](const std::string& path) { write_pieces(path, files.ghost_layer); }); });
-  if (!draw && std::ranges::all_of(files.meshes, is_in_pieces)) return;
+  if (!needs_whole(files)) return;
   DistributedPiece piece = take_piece(watch);
   write_whole(files, piece.mesh, order_.pslg.holes, draw, watch);
 }

@@ -1,5 +1,7 @@
 #include "job/write_files.hpp"
 
+#include <algorithm>
+
 namespace driftmesh::job {
 
 WriteOptions writing_of(const Request::Output& files, const std::vector<Point>& holes, Watch& watch) {
@@ -7,6 +9,10 @@ WriteOptions writing_of(const Request::Output& files, const std::vector<Point>& 
   return {holes, files.ascii, {open.begin(), open.end()}, files.ghost_layer, [&watch](const std::string& warning) {
             watch.warn(warning);
           }};
+}
+
+bool needs_whole(const Request::Output& files) {
+  return !files.picture.empty() || !std::ranges::all_of(files.meshes, is_in_pieces);
 }
 
 void write_whole(const Request::Output& files, Mesh& mesh, const std::vector<Point>& holes, const Draw& draw,

@@ -14,6 +14,9 @@ namespace driftmesh::job {
 /// Everything but the mesh that a file of it needs. Warnings go to `watch`, which must outlive the result.
 [[nodiscard]] WriteOptions writing_of(const Request::Output& files, const std::vector<Point>& holes, Watch& watch);
 
+/// Whether a file or the picture needs the mesh as a whole.
+[[nodiscard]] bool needs_whole(const Request::Output& files);
+
 /// Calls write(path) for each file that is in pieces.
 template <class Write>
 void for_each_in_pieces(const Request::Output& files, const Write& write) {
