@@ -114,10 +114,6 @@ std::uint64_t Subdomain::packed_bytes() const {
 SliceWork Subdomain::work(std::int64_t insertions, std::vector<SplitPoint<GlobalRootId>>& said) {
   SliceWork done;
   if (dormant_) done.woken = triangles();
-  if (body_ && refined_ && !pending_.empty()) {
-    reorder();
-    done.reordered = triangles();
-  }
   wake();
   if (!body_) {
     make_body();
@@ -144,31 +140,18 @@ SliceWork Subdomain::work(std::int64_t insertions, std::vector<SplitPoint<Global
 
 void Subdomain::sleep() {
   if (!body_ || active()) return;
-  auto dormant = std::make_unique<DormantBody>(body_at_rest());
+  const RefinerState& refiner = body_->refiner.state();
+  auto dormant = std::make_unique<DormantBody>();
+  dormant->mesh = DormantMesh(body_->part);
+  const auto waking = DormantMesh::waking_subsegments(body_->part.mesh);
+  for (const SubsegmentId s : refiner.unsplittable) dormant->unsplittable.push_back(waking[s]);
+  std::ranges::sort(dormant->unsplittable);
+  dormant->max_triangles = refiner.max_triangles;
+  dormant->counters = refiner.counters;
+  dormant->forecast = body_->forecast;
   if (context_->scratch != nullptr) stored_.emplace(*context_->scratch, dormant->mesh.take());
   dormant_ = std::move(dormant);
   body_.reset();
-}
-
-/// Puts everything into the order that it would have after sleep.
-void Subdomain::reorder() {
-  DormantBody rest = body_at_rest();
-  body_.reset();  // its memory is that of the new one
-  body_ = std::make_unique<Body>(std::move(rest), context_->bounds);
-}
-
-/// The dormant form of an awake subdomain that has met its bounds.
-DormantBody Subdomain::body_at_rest() const {
-  const RefinerState& refiner = body_->refiner.state();
-  DormantBody dormant;
-  dormant.mesh = DormantMesh(body_->part);
-  const auto waking = DormantMesh::waking_subsegments(body_->part.mesh);
-  for (const SubsegmentId s : refiner.unsplittable) dormant.unsplittable.push_back(waking[s]);
-  std::ranges::sort(dormant.unsplittable);
-  dormant.max_triangles = refiner.max_triangles;
-  dormant.counters = refiner.counters;
-  dormant.forecast = body_->forecast;
-  return dormant;
 }
 
 SubdomainMesh Subdomain::woken() const {

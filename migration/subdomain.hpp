@@ -35,7 +35,6 @@ struct SliceWork {
   std::int64_t triangles = 0;  ///< more than before
   std::int64_t prepared = 0;   ///< triangles of the initial triangulation, if it was made in this slice
   std::int64_t woken = 0;      ///< triangles of the dormant mesh, if it was woken in this slice
-  std::int64_t reordered = 0;  ///< triangles put into canonical order, if it was awake and refines on after rest
 };
 
 /// One subdomain: it refines itself, reports the points it inserts on shared edges, and inserts those of its neighbors.
@@ -46,8 +45,8 @@ struct SliceWork {
 /// nothing to do it can be put to sleep: it then takes a third of the memory, or less, and wakes by itself when it
 /// receives a point that it does not have.
 ///
-/// Sleep, moves and pauses change no bit of the mesh: a subdomain that has met its bounds refines on in the canonical
-/// order of its mesh, which it has after waking and takes on if it never slept.
+/// Sleep, moves and pauses change no bit of the mesh: once its bounds are met, a subdomain refines on in an order that
+/// does not depend on how its mesh is stored (see refiner.hpp).
 class Subdomain {
  public:
   Subdomain(SubdomainId id, const SubdomainContext& context);
@@ -110,8 +109,6 @@ class Subdomain {
   void make_body();
   [[nodiscard]] std::vector<dyadic::Path> presplit_of(GlobalRootId root) const;
   [[nodiscard]] DormantBody whole_dormant() const;
-  void reorder();
-  [[nodiscard]] DormantBody body_at_rest() const;
   [[nodiscard]] bool has(const SplitPoint<GlobalRootId>& split) const;
   void take_in(const SplitPoint<GlobalRootId>& split);
   void say_new_points(std::vector<SplitPoint<GlobalRootId>>& said);

@@ -19,6 +19,17 @@ constexpr double kOrientationBound = 1.67e-16;
 constexpr double kInCircleBound = 3.71e-16;
 constexpr double kUnderflow = 1e-290;
 
+/// Turns a triangle so that it begins with its least corner, by x and then y.
+void begin_at_least_corner(Triangle& triangle, const GrowingArray<Point, VertexId>& points) {
+  const auto before = [&](VertexId a, VertexId b) {
+    const Point &p = points[a], &q = points[b];
+    return p.x != q.x ? p.x < q.x : p.y < q.y;
+  };
+  const auto turn = std::ranges::min_element(triangle.vertex, before) - triangle.vertex.begin();
+  std::ranges::rotate(triangle.vertex, triangle.vertex.begin() + turn);
+  std::ranges::rotate(triangle.neighbor, triangle.neighbor.begin() + turn);
+}
+
 }  // namespace
 
 Cavity::Cavity(Triangulation& mesh) : mesh_(mesh) {
@@ -84,15 +95,18 @@ double Cavity::exact_orientation(const Corner& a, const Corner& b) const {
   return orient2d(p_, mesh_.points[a.vertex], mesh_.points[b.vertex]);
 }
 
-inline void Cavity::load(TriangleId t) {
-  const Triangle& triangle = mesh_.triangles[t];
+/// Triangle t, with its corners in corners_.
+inline Triangle Cavity::load(TriangleId t) {
+  Triangle triangle = mesh_.triangles[t];
+  if (by_place_) [[unlikely]]
+    begin_at_least_corner(triangle, mesh_.points);
   for (int i = 0; i < 3; ++i) corners_[i] = relative(triangle.vertex[i]);
+  return triangle;
 }
 
-/// One step of the walk from triangle t, which does not obviously hold the point: either across an edge that the point
+/// One step of the walk from a triangle which does not obviously hold the point: either across an edge that the point
 /// lies beyond (then next_ is set), or the answer.
-Cavity::Found Cavity::leave(TriangleId t, const double (&sides)[3]) {
-  const Triangle& triangle = mesh_.triangles[t];
+Cavity::Found Cavity::leave(const Triangle& triangle, const double (&sides)[3]) {
   encroached_ = kNone;
   next_ = kNone;
   for (int i = 0; i < 3; ++i) {
@@ -119,19 +133,18 @@ Cavity::Found Cavity::leave(TriangleId t, const double (&sides)[3]) {
 template <bool kMindConstraints>
 Cavity::Found Cavity::walk(TriangleId t) {
   for (;;) {
-    load(t);
+    const Triangle triangle = load(t);
     const double sides[3] = {cross(corners_[1], corners_[2]), cross(corners_[2], corners_[0]),
                              cross(corners_[0], corners_[1])};
     const double sum = corners_[0].lift + corners_[1].lift + corners_[2].lift;
     if (std::min({sides[0], sides[1], sides[2]}) <= kOrientationBound * sum + kUnderflow) {
-      const Found found = leave(t, sides);
+      const Found found = leave(triangle, sides);
       if (found != Found::kClear) return found;
       if (next_ != kNone) {
         t = next_;
         continue;
       }
     }
-    const Triangle& triangle = mesh_.triangles[t];
     corner_count_ = 3;
     slots_[killed_count_++] = t;
     push(triangle.neighbor[1], 2, 0, sides[1]);

@@ -31,6 +31,9 @@ class Cavity {
   /// Gives its memory back; no point can be inserted before wake().
   void rest() { reserve(0); }
   void wake() { reserve(kCorners); }
+  /// From now on, borders begin where the coordinates say so, not at the first corner of a triangle: the result is the
+  /// same in a mesh whose triangles have been turned.
+  void begin_by_place() { by_place_ = true; }
 
   enum class Found {
     kClear,       ///< the cavity is ready to be filled
@@ -86,8 +89,8 @@ class Cavity {
   [[nodiscard]] double exact_orientation(const Corner& a, const Corner& b) const;
   template <bool kMindConstraints>
   Found walk(TriangleId t);
-  Found leave(TriangleId t, const double (&sides)[3]);
-  void load(TriangleId t);
+  Found leave(const Triangle& triangle, const double (&sides)[3]);
+  [[nodiscard]] Triangle load(TriangleId t);
   template <bool kMindLens>
   Found expand(double cos_squared);
   void gather_side(HalfEdge h, int from, int to);
@@ -110,6 +113,7 @@ class Cavity {
   Triangulation& mesh_;
   Point p_;
   SubsegmentId encroached_ = kNone;
+  bool by_place_ = false;
   std::vector<Corner> corners_;
   std::vector<Edge> stack_;
   std::vector<Edge> border_;

@@ -60,6 +60,7 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState 
     throw Error("the state of refinement does not fit its mesh: " + fault);
   coarsening_ = state_.stage == Stage::kCoarse ? kFinePerCoarse : 1;
   if (state_.stage == Stage::kDone) cavity_.rest();
+  if (state_.sweep.ended()) cavity_.begin_by_place();
 }
 
 // ---- Shapes and bounds ----
@@ -176,7 +177,9 @@ void Refiner::enter(Stage stage) {
       break;
     case Stage::kDone:  // most refiners are done for most of a run; keep them small
       state_.skinny.clear();
+      state_.sweep.end();
       changed_ = {};
+      cavity_.begin_by_place();
       cavity_.rest();
       break;
     case Stage::kSegments:

@@ -24,7 +24,8 @@ namespace driftmesh {
 /// with a coarse version of the bound, then with the bound itself; after them skinny ones, shortest edge first.
 ///
 /// Deterministic: the order depends on the mesh alone. Refinement can stop after any number of insertions and continue
-/// later, and split points can be added in between.
+/// later, and split points can be added in between. Once the bounds are met, what is refined on after further split
+/// points depends on the triangles alone, not on their slots or first corners.
 class Refiner {
  public:
   /// `mesh` must outlive the refiner, and only the refiner may change it. Throws Error if a bound is NaN or the angle

@@ -14,6 +14,7 @@ bool exist(const Handles& handles, const Array& array) {
 }
 
 bool is_sound(const Sweep& sweep, const Triangulation& mesh) {
+  if (sweep.places() == Sweep::kEnded) return exist(sweep.again(), mesh.triangles);
   const auto [cursor, block_end, given, added, block] = sweep.places();
   return 0 <= cursor && cursor <= block_end && block_end <= given && given <= added &&
          std::cmp_less_equal(added, mesh.triangles.size()) && block >= 1 && exist(sweep.again(), mesh.triangles);
@@ -35,10 +36,9 @@ bool is_sound(const SkinnyBuckets& skinny, const Triangulation& mesh) {
 
 RefinerState RefinerState::at_rest(const Triangulation& mesh, const QualityBounds& bounds) {
   RefinerState state;
-  const std::int32_t triangles = to_int(mesh.triangles.next_id());
   state.stage = Stage::kDone;
   state.next_segment = mesh.subsegments.next_id();
-  state.sweep = Sweep({triangles, triangles, triangles, triangles, 1}, {});
+  state.sweep.end();
   if (bounds.size != nullptr)
     for (const Point& p : mesh.points) state.size.push_back(bounds.size->edge_length(p));
   return state;

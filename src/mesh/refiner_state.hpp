@@ -30,7 +30,8 @@ struct RefinerState {
   std::int64_t max_triangles = kMaxTriangles - 64;
   RefineCounters counters;
 
-  /// The state of a refiner that has finished `mesh`, with no work queued; the order of slots does not matter.
+  /// The state of a refiner that has finished `mesh`, with no work queued: what it does when it is told of points is
+  /// the same whatever the order of slots, and the corner at which each triangle begins.
   [[nodiscard]] static RefinerState at_rest(const Triangulation& mesh, const QualityBounds& bounds);
 
   /// The reason why this state would make a refiner of this mesh and these bounds access invalid memory: a handle that

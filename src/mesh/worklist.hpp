@@ -18,7 +18,9 @@ namespace driftmesh {
 ///
 /// The sweep goes block by block over the `given` slots that exist at the start (sorted in space, see renumber), and
 /// after each block over the slots that were added meanwhile, so that the active part of the mesh stays in cache.
-/// Slots behind the cursor that receive a triangle that is too large go onto a stack.
+/// Slots behind the cursor that receive a triangle that is too large go onto a stack. After the end of the sweep all
+/// do, whether they are old or new, so that what is refined then does not depend on the slots that earlier work has
+/// freed.
 class Sweep {
  public:
   void start(std::int32_t given, std::int32_t block) {
@@ -27,6 +29,9 @@ class Sweep {
     block_ = std::max(block, 1);
     again_.clear();
   }
+  /// Looks at no slot any more but those of the stack.
+  void end() { *this = Sweep(kEnded, {}); }
+  [[nodiscard]] bool ended() const { return added_ == kEnded.added; }
   /// Whether the sweep will still come to slot `t`.
   [[nodiscard]] bool will_visit(TriangleId t) const {
     const std::int32_t slot = to_int(t);
@@ -58,7 +63,9 @@ class Sweep {
   /// The whole state, to be stored and restored: these five numbers and the stack.
   struct Places {
     std::int32_t cursor, block_end, given, added, block;
+    friend bool operator==(const Places&, const Places&) = default;
   };
+  static constexpr Places kEnded{0, 0, 0, INT32_MAX, 1};
   [[nodiscard]] Places places() const { return {cursor_, block_end_, given_, added_, block_}; }
   [[nodiscard]] const GrowingArray<TriangleId>& again() const { return again_; }
   Sweep() = default;

@@ -186,7 +186,6 @@ bool RankLoop::work() {
       static_cast<double>(own.done.points) * costs_.point +
       (own.done.prepared > 0 ? costs_.start + static_cast<double>(own.done.prepared) * costs_.prepared : 0) +
       static_cast<double>(own.done.woken) * costs_.woken +
-      static_cast<double>(own.done.reordered) * (costs_.asleep + costs_.woken) +
       (own.subdomain->dormant() ? static_cast<double>(own.subdomain->triangles()) * costs_.asleep : 0));
   end(own, transport_.now() - start);
   return true;

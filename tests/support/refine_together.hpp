@@ -6,14 +6,12 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "decompose/presplit.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "mesh/refiner.hpp"
-#include "migration/dormant_mesh.hpp"
 #include "support/split_points.hpp"
 
 namespace driftmesh::testing {
@@ -33,20 +31,8 @@ struct RefinedTogether {
   bool complete = true;  ///< false: stopped at the limit of triangles
 };
 
-/// A refiner of the same mesh that is at rest like `done`, with everything in canonical order.
-inline std::unique_ptr<Refiner> reordered(SubdomainMesh& part, const QualityBounds& bounds, const Refiner& done) {
-  const auto waking = DormantMesh::waking_subsegments(part.mesh);
-  std::unordered_set<SubsegmentId> unsplittable;
-  for (const SubsegmentId s : done.state().unsplittable) unsplittable.insert(waking[s]);
-  part = DormantMesh(part).wake();
-  RefinerState state = RefinerState::at_rest(part.mesh, bounds);
-  state.unsplittable = std::move(unsplittable);
-  return std::make_unique<Refiner>(part.mesh, bounds, std::move(state));
-}
-
 /// Refines all subdomains of a decomposition in one process, as ranks would: each on its own, then split points on
-/// shared roots are exchanged until nothing changes. Before a subdomain takes in points of others, it takes on the
-/// canonical order of its mesh.
+/// shared roots are exchanged until nothing changes.
 inline RefinedTogether refine_together(const Decomposition& d, const QualityBounds& bounds,
                                        const RefineTogether& how = {}) {
   RefinedTogether result;
@@ -78,10 +64,7 @@ inline RefinedTogether refine_together(const Decomposition& d, const QualityBoun
       for (const RootId r : ids_of(result.parts[i].roots))
         for (const dyadic::Path path : all[result.parts[i].roots[r]]) {
           if (own[i][result.parts[i].roots[r]].contains(path)) continue;
-          if (!std::exchange(told, true)) {
-            refiners[i] = reordered(result.parts[i], bounds, *refiners[i]);
-            refiners[i]->limit_triangles(how.most_triangles);
-          }
+          told = true;
           result.refused += !refiners[i]->add_split_point(r, path);
           ++result.exchanged;
         }
