@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that the named groups need and that are missing.
-#   scripts/setup.sh [build] [gis] [report] [python] [test] [readers] [bench] [fuzz] [hosts] [site]        (default: build)
+#   scripts/setup.sh [build] [gis] [report] [python] [test] [all] [readers] [bench] [fuzz] [hosts] [site]        (default: build)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 
@@ -13,14 +13,16 @@ packages_of() {
     gis) echo libgdal-dev ;;  # 160 MB with what it needs; users of what is built with it need libgdal32 alone, if they read such files
     report) { command -v node && command -v npm; } >/dev/null || echo nodejs npm ;;  # others than Debian's will do
     python) echo pybind11-dev python3-dev python3-mpi4py python3-numpy ;;
-    test) echo chromium doctest-dev libboost-dev libcgal-dev clang-format clang-tidy dpkg-dev file fish gdal-bin gmsh gmt-gshhg-full man-db mypy python3 python3-pip python3-h5py python3-scipy python3-shapely python3-venv python3-yaml spin zsh ;;
+    test) echo doctest-dev libboost-dev python3 python3-yaml ;;
+    all) echo chromium clang-format clang-tidy dpkg-dev file fish gdal-bin gmsh gmt-gshhg-full libcgal-dev man-db mypy python3-pip \
+      python3-h5py python3-scipy python3-shapely python3-venv spin zsh ;;  # what scripts/test.sh --all needs besides
     readers) echo gmsh openmpi-bin python3-dolfinx python3-h5py python3-meshio python3-petsc4py python3-vtk9 ;;
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
     hosts) echo iproute2 nftables ;;
     site) echo mkdocs ;;
     *)
-      echo "setup.sh: unknown group '$1'; use build, gis, report, python, test, readers, bench, fuzz, hosts or site" >&2
+      echo "setup.sh: unknown group '$1'; use build, gis, report, python, test, all, readers, bench, fuzz, hosts or site" >&2
       return 2
       ;;
   esac
