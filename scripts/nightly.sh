@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# The tests of threads under the thread sanitizer, the property tests with new seeds, 100,000 mutated files and 20,000
-# mutated meshes, read and checked under the other sanitizers by driftmesh-mutants, and a million adversarial schedules of
-# real meshing with driftmesh-sim, on all cores: prints the failing seeds, and totals. The exit code is 0 if none fails.
+# The tests of threads under the thread sanitizer, the property tests with new seeds, the tests that scripts/test.sh does not run
+# under the other sanitizers, 100,000 mutated files and 20,000 mutated meshes, read and checked under them by driftmesh-mutants, and
+# a million adversarial schedules of real meshing with driftmesh-sim, on all cores: prints the failing seeds, and totals. The exit
+# code is 0 if none fails.
 #   scripts/nightly.sh [--mutants FIRST..LAST] [--meshes FIRST..LAST]      which mutated files and meshes; 0..0: none
 #                      [--seeds FIRST..LAST]                              which schedules
 #                      [--properties N]                                   so many runs of the property tests (20; 0: none)
 #                      [--no-threads]                                     without the thread sanitizer
+#                      [--no-night]                                       without the tests with the label `night`
 #                      [--mutants-program PATH] [--program PATH]          without a build first
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
@@ -18,6 +20,7 @@ meshes=1..20000
 program=
 mutants_program=
 threads=yes
+night=yes
 properties=20
 while [[ $# -gt 0 ]]; do
   case "$1" in
@@ -32,6 +35,7 @@ while [[ $# -gt 0 ]]; do
       shift
       ;;
     --no-threads) threads=no ;;
+    --no-night) night=no ;;
     --program)
       program=${2-}
       shift
@@ -41,7 +45,7 @@ while [[ $# -gt 0 ]]; do
       shift
       ;;
     -h | --help)
-      sed -n '2,9s/^# \{0,1\}//p' "$0"
+      sed -n '2,11s/^# \{0,1\}//p' "$0"
       exit 0
       ;;
     *)
@@ -63,6 +67,11 @@ if [[ $properties -gt 0 ]]; then
   cmake --preset release -Wno-dev && cmake --build --preset release -j "$jobs"
   say "Property tests with new seeds, $properties runs of each"
   DRIFTMESH_SEED=random ctest --preset release -L property -j "$jobs" --repeat "until-fail:$properties" || result=1
+fi
+if [[ $night == yes ]]; then
+  cmake --preset asan-ubsan -Wno-dev && cmake --build --preset asan-ubsan -j "$jobs"
+  say "Tests of the night under the address and undefined-behavior sanitizers"
+  ctest --preset asan-ubsan -L '^night$' -j "$jobs" --timeout 600 || result=1
 fi
 if [[ $mutants != 0..0 || $meshes != 0..0 ]]; then
   if [[ -z $mutants_program ]]; then

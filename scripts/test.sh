@@ -83,7 +83,7 @@ if [[ $all == yes ]]; then
   scripts/setup.sh build gis report python test all readers hosts site
   one "clang-format-14, without which the formatting is not tested" command -v clang-format-14
   run_preset ci
-  run_preset asan-ubsan
+  run_preset asan-ubsan --label-exclude '^night$'
   say "clang-tidy"
   one "clang-tidy" scripts/tidy.sh ci
 else

@@ -812,8 +812,8 @@ class Mesh(Cli):
             self.assertRegex(said.split("libraries: ")[1], rf"{library}\d+\.\d")
 
 
-class Experiments(Cli):
-    """driftmesh run, and every shipped experiment at a small size."""
+class RunsOfExperiments(Cli):
+    """driftmesh run on shipped experiments."""
 
     CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
     # Settings that make each of them small.
@@ -864,6 +864,10 @@ class Experiments(Cli):
         with open(self.folder / folder / "table.csv", newline="") as file:
             return list(csv.DictReader(file))
 
+
+class Shipped(RunsOfExperiments):
+    """Every shipped experiment at a small size."""
+
     def test_every_shipped_experiment(self):
         shipped = {path.relative_to(self.CONFIGS).with_suffix("").as_posix() for path in self.CONFIGS.rglob("*.yaml")}
         self.assertEqual(shipped, set(self.SHRUNK))
@@ -882,6 +886,10 @@ class Experiments(Cli):
                     self.assertAlmostEqual(sum(shares), 1)
                     self.assertTrue(all(0 <= share <= 1 for share in shares), shares)
                     self.assertIn(str(number), row["run"])
+
+
+class Experiments(RunsOfExperiments):
+    """Settings, results and errors of driftmesh run."""
 
     def test_aggregation_saves_messages(self):
         self.run_config("paper/fig-7", *self.SHRUNK["paper/fig-7"])
