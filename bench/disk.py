@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Compares writing by ranks with the speed of the disk, and their memory with an even share; prints a table in Markdown.
+"""Compares writing by ranks with the speed of the disk, and their memory with an even share; prints a table in Markdown (docs/results/disk.md).
 
 Ranks make a mesh and write it, as .h5 into one file and as .pvtu into a file each. After each, dd writes as many bytes to the same
 folder: one process one file, and as many processes as ranks their parts of one file, the latter also while as much memory is held as
 the ranks had, which the system cannot use to put off writing. Seconds include those of `sync`. Memory is the
 peak of each rank's process, from its start to its end.
 
-usage: disk.py [--program DRIFTMESH] [--triangles N] [--ranks N] [--rounds N] [--folder FOLDER]
+usage: disk.py [--program DRIFTMESH] [--triangles N] [--ranks N] [--rounds N] [--folder FOLDER] [--update]
 """
 
 import argparse
@@ -21,6 +21,10 @@ import tempfile
 import time
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.append(str(PROJECT / "scripts" / "tables"))
+import results  # noqa: E402
+from table import Table  # noqa: E402
+
 MEGABYTE = 1 << 20
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
 # Starts the rest of its arguments, and says how much memory they took.
@@ -66,15 +70,7 @@ def dd(folder, total, processes, held=0):
     return seconds
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--program", default=PROJECT / "build/release/driftmesh", help="default: build/release/driftmesh")
-    parser.add_argument("--triangles", default="100M")
-    parser.add_argument("--ranks", type=int, default=2)
-    parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--folder", help="on the disk in question; default: that of temporary files")
-    options = parser.parse_args()
-    options.program = pathlib.Path(options.program).resolve()
+def measured(options):
     rows = {extension: [] for extension in ("h5", "pvtu")}
     with tempfile.TemporaryDirectory(dir=options.folder) as name:
         folder = pathlib.Path(name)
@@ -84,12 +80,28 @@ def main():
                 row.append((seconds, dd(folder, total, 1), dd(folder, total, options.ranks),
                             dd(folder, total, options.ranks, sum(peaks)), total,
                             max(peaks) * len(peaks) / sum(peaks), sum(peaks)))
-    print(f"{options.triangles} triangles on {options.ranks} ranks, medians of {options.rounds} in turn:\n")
-    print("| file | GB | written in | dd, one process | dd, a process for each rank, one file | the same beside as much memory | peak of all ranks | largest over even share |\n"
-          "|---|---|---|---|---|---|---|---|")
+    table = Table("disk", f"{options.triangles} triangles on {options.ranks} ranks",
+                  ["file", "GB", "written in", "dd, one process", "dd, a process for each rank, one file",
+                   "the same beside as much memory", "peak of all ranks", "largest over even share"],
+                  f"Medians of {options.rounds} in turn; seconds include those of sync.")
     for extension, row in rows.items():
         seconds, one, parts, beside, total, share, peak = (statistics.median(column) for column in zip(*row))
-        print(f"| `.{extension}` | {total / 1e9:.2f} | {seconds:.1f} s | {one:.1f} s | {parts:.1f} s | {beside:.1f} s | {peak / 1e9:.2f} GB | {share:.3f} |")
+        table.add(f"`.{extension}`", f"{total / 1e9:.2f}", *(f"{value:.1f} s" for value in (seconds, one, parts, beside)),
+                  f"{peak / 1e9:.2f} GB", f"{share:.3f}")
+    return table
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", default=PROJECT / "build/release/driftmesh", help="default: build/release/driftmesh")
+    parser.add_argument("--triangles", default="100M")
+    parser.add_argument("--ranks", type=int, default=2)
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--folder", help="on the disk in question; default: that of temporary files")
+    results.add_option(parser)
+    options = parser.parse_args()
+    options.program = pathlib.Path(options.program).resolve()
+    results.show("bench/disk.py", map(measured, [options]), options)
 
 
 if __name__ == "__main__":

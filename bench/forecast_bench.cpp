@@ -105,8 +105,8 @@ void print_row(const std::string& name, const Pslg& pslg, double angle, double t
   const Ratios by_cut = ratios(made, cut), by_own = ratios(made, own);
   double all = 0;
   for (const double m : made) all += m;
-  std::printf("%-20s %5.0f %9.0f %6d %9.0f %8.2f %7.1f %8.2f %7.1f %10.2f %6.2f\n", name.c_str(), angle, triangles, n,
-              all, by_cut.total, 100 * by_cut.variation, by_own.total, 100 * by_own.variation,
+  std::printf("| %s | %.0f | %.0f | %d | %.0f | %.2f | %.1f | %.2f | %.1f | %.2f | %.2f |\n", name.c_str(), angle,
+              triangles, n, all, by_cut.total, 100 * by_cut.variation, by_own.total, 100 * by_own.variation,
               *std::ranges::max_element(made) * n / all, cost);
 }
 
@@ -126,8 +126,8 @@ int main(int argc, char** argv) {
       inputs = {{"generated pipe", generate_pipe({})},
                 {"generated flow", generate_cylinder_flow({})},
                 {"generated bay", generate_bay({})}};
-    std::printf("%-20s %5s %9s %6s %9s %8s %7s %8s %7s %10s %6s\n", "input", "angle", "by area", "N", "made", "/ cut",
-                "cv %", "/ own", "cv %", "most/mean", "cost");
+    std::puts("| input | angle | by area | N | made | / cut | cv % | / own | cv % | most/mean | cost |");
+    std::puts("|---|---|---|---|---|---|---|---|---|---|---|");
     for (auto& [name, pslg] : inputs) {
       repair(pslg, name);
       for (const double angle : {20.0, 30.0})

@@ -1,4 +1,4 @@
-// Measures the mesher on whole meshes and prints tables for docs/benchmarks.md.
+// Measures the mesher on whole meshes and prints tables (bench/programs.py).
 #include <algorithm>
 #include <exception>
 #include <filesystem>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares whole processes of driftmesh with those of Triangle, and prints tables in Markdown for docs/benchmarks.md.
+"""Compares whole processes of driftmesh with those of Triangle, and prints tables in Markdown (docs/results/peers.md).
 
 Triangle's program (Debian's non-free package triangle-bin) must be on the PATH; nothing else here needs it. The two
 alternate on each input, so that a busy moment of the machine affects both, and neither writes files. Figures are
@@ -24,6 +24,10 @@ import tempfile
 import time
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.append(str(PROJECT / "scripts" / "tables"))
+import results  # noqa: E402
+from table import Table  # noqa: E402
+
 MODELS = {"pipe": "pipe", "cylinder_flow": "cylinder-flow", "chesapeake": "bay"}
 # Inputs of the suite triangles besides the published models: the parameters of driftmesh generate.
 COUNTED = {"bay, 400 m": ("bay", "--resolution", 400, "--seed", 41),
@@ -117,14 +121,16 @@ def commands(options, inputs, name, angle, area=None):
     return ours + (["--area", repr(area)] if area else []), theirs
 
 
-def print_table(options, rows):
-    print("| input | driftmesh s | Triangle s | ratio | CPU s | CPU s | MiB | MiB |")
-    print("| --- | --- | --- | --- | --- | --- | --- | --- |")
-    for title, ours, theirs in rows:
+def beside(name, title, options, rows):
+    """A table of whole processes of both programs."""
+    table = Table(name, title, ["input", "driftmesh s", "Triangle s", "ratio", "CPU s", "CPU s", "MiB", "MiB"],
+                  "Pairs of columns are driftmesh's and Triangle's; from the start of a process to its end, without files written; "
+                  f"medians of {options.repetitions}.")
+    for what, ours, theirs in rows:
         own, peer = compare(options, ours, theirs)
-        print(f"| {title} | {own[0]:.3f} | {peer[0]:.3f} | {own[0] / peer[0]:.2f} | {own[1]:.3f} | {peer[1]:.3f} "
-              f"| {own[2] / MEBIBYTE:.0f} | {peer[2] / MEBIBYTE:.0f} |", flush=True)
-    print()
+        table.add(what, f"{own[0]:.3f}", f"{peer[0]:.3f}", f"{own[0] / peer[0]:.2f}", f"{own[1]:.3f}", f"{peer[1]:.3f}",
+                  f"{own[2] / MEBIBYTE:.0f}", f"{peer[2] / MEBIBYTE:.0f}")
+    return table
 
 
 def front_end(options, inputs):
@@ -134,7 +140,8 @@ def front_end(options, inputs):
              ("90,000 holes, triangulation", "holes", 0), ("key, 20 degrees", "key", 20)]
     if options.large:
         rows.append(("10 M points, 1 M segments, triangulation", "more-points", 0))
-    print_table(options, [(title, *commands(options, inputs, name, angle)) for title, name, angle in rows])
+    return beside("front-end", "Where reading, triangulation and the start of the program count", options,
+                  [(title, *commands(options, inputs, name, angle)) for title, name, angle in rows])
 
 
 def area_for(options, inputs, name, triangles):
@@ -150,49 +157,50 @@ def kernel(options, inputs):
     for name in (*MODELS, "rectangle"):
         ours, theirs = commands(options, inputs, name, 20, area_for(options, inputs, name, options.size))
         rows.append((f"{name}, {options.size / 1e6:.3g} M triangles", ours + ONE_PIECE, theirs))
-    print_table(options, rows)
+    return beside("kernel", "One piece, one core, 20 degrees and a bound on area", options, rows)
 
 
 def threads(options, inputs):
     """Whole processes of driftmesh on one core and on all, which alternate."""
-    print("| input | one piece, one core s | subdomains, one core s | all cores s | against one core | against one piece |")
-    print("| --- | --- | --- | --- | --- | --- |")
+    table = Table("threads", "One core against all",
+                  ["input", "one piece, one core s", "subdomains, one core s", "all cores s", "against one core", "against one piece"],
+                  f"Whole processes, 20 degrees, no files written; medians of {options.repetitions} alternating runs.")
     for name in (*MODELS, "rectangle"):
         ours, _ = commands(options, inputs, name, 20, area_for(options, inputs, name, options.size))
         cases = [ours + ONE_PIECE, ours + ["--threads", "1"], ours]
         runs = [[run(case)[0] for case in cases] for _ in range(options.repetitions + 1)][1:]
         piece, one, all_cores = medians(runs)
-        print(f"| {name}, {options.size / 1e6:.3g} M triangles | {piece:.3f} | {one:.3f} | {all_cores:.3f} "
-              f"| {one / all_cores:.2f} | {piece / all_cores:.2f} |", flush=True)
-    print()
+        table.add(f"{name}, {options.size / 1e6:.3g} M triangles", f"{piece:.3f}", f"{one:.3f}", f"{all_cores:.3f}",
+                  f"{one / all_cores:.2f}", f"{piece / all_cores:.2f}")
+    return table
 
 
 def sizes(options, inputs):
     """A quadratic size expression against a constant area bound with as many triangles: in one piece, on one core."""
-    print("| input | constant bound, CPU s | size expression, CPU s | ratio |")
-    print("| --- | --- | --- | --- |")
     size = f"{math.sqrt(600_000 / options.size)}*(1 + 0.000004*((x - 400)^2 + (y - 300)^2))"
     sized = [options.program, "mesh", inputs.path("pipe"), "--quiet", "--size", size, *ONE_PIECE]
     text = subprocess.run([arg for arg in sized if arg != "--quiet"], check=True, capture_output=True, text=True).stdout
     number = int(re.search(r"mesh +([\d,]+) triangles", text).group(1).replace(",", ""))
     constant = commands(options, inputs, "pipe", 20, area_for(options, inputs, "pipe", number))[0] + ONE_PIECE
     one, other = compare(options, constant, sized)
-    print(f"| pipe, {number / 1e6:.3g} M triangles | {one[1]:.3f} | {other[1]:.3f} | {other[1] / one[1]:.2f} |\n")
+    return Table("sizes", "A size expression against a constant bound",
+                 ["input", "constant bound, CPU s", "size expression, CPU s", "ratio"],
+                 f"As many triangles, in one piece, on one core; medians of {options.repetitions} in alternation.",
+                 [(f"pipe, {number / 1e6:.3g} M triangles", f"{one[1]:.3f}", f"{other[1]:.3f}", f"{other[1] / one[1]:.2f}")])
 
 
 def count(options, inputs):
     """Instructions and mispredicted branches for each triangle, simulated."""
     if shutil.which("valgrind") is None:
         sys.exit("peers.py: count needs valgrind")
-    print("| input | instructions, driftmesh | Triangle | mispredictions, driftmesh | Triangle |")
-    print("| --- | --- | --- | --- | --- |")
     triangles = 100_000
+    table = Table("count", f"Instructions and mispredicted branches for each of {triangles:,} triangles",
+                  ["input", "instructions, driftmesh", "Triangle", "mispredictions, driftmesh", "Triangle"], "Simulated by valgrind.")
     for name in (*MODELS, "rectangle"):
         area = area_for(options, inputs, name, triangles)
         figures = [simulated(command, triangles) for command in commands(options, inputs, name, 20, area)]
-        print(f"| {name} | {figures[0][0]:.0f} | {figures[1][0]:.0f} | {figures[0][1]:.2f} | {figures[1][1]:.2f} |",
-              flush=True)
-    print()
+        table.add(name, f"{figures[0][0]:.0f}", f"{figures[1][0]:.0f}", f"{figures[0][1]:.2f}", f"{figures[1][1]:.2f}")
+    return table
 
 
 def simulated(command, triangles):
@@ -208,8 +216,9 @@ def simulated(command, triangles):
 def triangles(options, inputs):
     """Triangles that an angle bound alone takes, and angles below it: driftmesh / Triangle."""
     angles = (20, 25, 30, 33)
-    print("| input | " + " | ".join(f"{angle} degrees | ratio | below" for angle in angles) + " |")
-    print("| --- |" + " --- | --- | --- |" * len(angles))
+    table = Table("triangles", "Numbers of triangles by the angle bound alone",
+                  ["input", *(column for angle in angles for column in (f"{angle} degrees", "ratio", "below"))],
+                  "driftmesh's number before that of Triangle, their ratio, and the angles below the bound, at acute corners of the input.")
     ratios = {angle: [] for angle in angles}
     for name in (*PUBLISHED, *COUNTED):
         cells = [name]
@@ -217,9 +226,10 @@ def triangles(options, inputs):
             (own, own_low), (peer, peer_low) = counted(options, inputs, name, angle)
             ratios[angle].append(own / peer)
             cells += [f"{own:,} / {peer:,}", f"{own / peer:.3f}", f"{own_low} / {peer_low}"]
-        print("| " + " | ".join(cells) + " |", flush=True)
-    print("| median | " + " | ".join(f"| {statistics.median(ratios[angle]):.3f} |" for angle in angles) + " |")
-    print("| greatest | " + " | ".join(f"| {max(ratios[angle]):.3f} |" for angle in angles) + " |\n")
+        table.add(*cells)
+    for name, of in (("median", statistics.median), ("greatest", max)):
+        table.add(name, *(cell for angle in angles for cell in ("", f"{of(ratios[angle]):.3f}", "")))
+    return table
 
 
 def counted(options, inputs, name, angle):
@@ -263,6 +273,7 @@ def main():
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--size", type=int, default=4_000_000, help="triangles of the suites kernel, threads and sizes")
     parser.add_argument("--large", action="store_true", help="10 million points, too")
+    results.add_option(parser)
     options = parser.parse_args()
     for suite in options.suites:
         if suite not in SUITES:
@@ -271,9 +282,7 @@ def main():
         sys.exit("peers.py: Triangle's program is not on the PATH; Debian has it in non-free, as triangle-bin")
     with tempfile.TemporaryDirectory() as folder:
         inputs = Inputs(options, folder)
-        for suite in options.suites or ("front-end", "kernel"):
-            print(f"{suite}: {SUITES[suite].__doc__}\n")
-            SUITES[suite](options, inputs)
+        results.show("bench/peers.py", (SUITES[suite](options, inputs) for suite in options.suites or ("front-end", "kernel")), options)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures driftmesh on real ranks, and prints tables in Markdown for docs/benchmarks.md.
+"""Measures driftmesh on real ranks, and prints tables in Markdown (docs/results/ranks.md).
 
 Each run is a separate mpirun. The figures are medians over repetitions in which the compared cases alternate, so that a
 busy moment of the machine affects all of them.
@@ -14,9 +14,13 @@ import subprocess
 import sys
 import tempfile
 
+PROJECT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.append(str(PROJECT / "scripts" / "tables"))
+import results  # noqa: E402
+from table import Table  # noqa: E402
+
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                    OMPI_MCA_rmaps_base_oversubscribe="1")
-PROJECT = pathlib.Path(__file__).resolve().parent.parent
 AREAS = {"pipe": 187530.34, "cylinder_flow": 1399.60745, "chesapeake": 36722004389.78}
 GENERATED = {"pipe": "pipe", "cylinder_flow": "cylinder-flow", "chesapeake": "bay", "corner": "rectangle-hole"}
 # 90 % of the triangles in 10 % of the area of a rectangle of 2 x 1; about 11 million of them.
@@ -131,13 +135,6 @@ def median(runs, figure):
     return statistics.median(figure(run) for run in runs)
 
 
-def print_table(title, columns, rows):
-    print(f"{title}\n\n| {' | '.join(columns)} |\n|{'---|' * len(columns)}")
-    for row in rows:
-        print(f"| {' | '.join(map(str, row))} |")
-    print(flush=True)
-
-
 def models(bench):
     rows = []
     for model in AREAS:
@@ -157,9 +154,13 @@ def models(bench):
                          f"{median(runs, lambda r: r['work']['seconds_by_stage']['assemble']):.3f}",
                          f"{median(runs, meshing):.2f}", total(runs[0], "splits_sent"),
                          digests.pop() if len(digests) == 1 else f"{len(digests)} different"])
-    print_table("Real ranks, presplit interfaces (`models`); times are those of rank 0, in seconds:",
-                ["input", "ranks", "subdomains", "triangles", "million triangles/s", "efficiency", "best run", "independent jobs",
-                 "decompose", "assemble", "input to distributed mesh", "SPLITs", "digest"], rows)
+    return Table("models", "Real ranks, presplit interfaces",
+                 ["input", "ranks", "subdomains", "triangles", "million triangles/s", "efficiency", "best run", "independent jobs",
+                  "decompose", "assemble", "input to distributed mesh", "SPLITs", "digest"],
+                 "Times are those of rank 0, in seconds. Best run: the fastest runs compared. Independent jobs: the efficiency of as many "
+                 "jobs of one rank at the same time, each with one rank's share of the work; what the ranks of one run lose beyond that, they "
+                 "lose waiting for each other. Input to distributed mesh: everything from the input in memory to the mesh in memory, with "
+                 "decomposition.", rows)
 
 
 def aggregation(bench):
@@ -171,10 +172,9 @@ def aggregation(bench):
     rows = [[k, total(runs[0], "splits_sent"), total(runs[0], "split_messages_sent"), f"{median(runs, rate):.1f}",
              f"{median(runs, lambda r: share_of(('sending', 'polling'), r)):.2f} %",
              f"{median(runs, lambda r: share_of(('idle',), r)):.2f} %"] for k, runs in zip(thresholds, records)]
-    print_table("Aggregation: pipe in 4,000 subdomains on 2 ranks, no presplitting (`aggregation`; Figure 7 of the "
-                f"paper), mapping `{bench.options.mapping}`:",
-                ["most SPLITs per message", "SPLITs", "messages", "million triangles/s", "sending and polling", "idle"],
-                rows)
+    return Table("aggregation", "Aggregation: pipe in 4,000 subdomains on 2 ranks",
+                 ["most SPLITs per message", "SPLITs", "messages", "million triangles/s", "sending and polling", "idle"],
+                 f"No presplitting, mapping {bench.options.mapping}; Figure 7 of the paper.", rows)
 
 
 def breakdown(bench):
@@ -186,10 +186,9 @@ def breakdown(bench):
         for rank, figures in enumerate(run["parts"]["ranks"]):
             rows.append([model, rank, f"{figures['triangles']:,}", figures["splits_sent"],
                          *(f"{seconds:.3f}" for seconds in figures["seconds"].values())])
-    print_table("Time of each rank, in seconds: 4,000 subdomains, no presplitting, the median run (`breakdown`; Figure 11 "
-                "of the paper):",
-                ["input", "rank", "triangles", "SPLITs sent", "computing", "sending", "polling", "balancing", "idle"],
-                rows)
+    return Table("breakdown", "Time of each rank, in seconds",
+                 ["input", "rank", "triangles", "SPLITs sent", "computing", "sending", "polling", "balancing", "idle"],
+                 "4,000 subdomains, no presplitting, the median run; Figure 11 of the paper.", rows)
 
 
 def ideal(run):
@@ -225,10 +224,13 @@ def balance(bench):
                          f"{median(runs, lambda r: share_of(('balancing',), r)):.2f} %",
                          f"{median(runs, lambda r: share_of(('idle',), r)):.1f} %",
                          f"{median(runs, lambda r: total(r, 'hand_offs')):.0f}"])
-    print_table("Policies on two ranks (`balance`); the ideal is total work over total speed, measured without balancing and "
-                "mapped by work (ideal), or in the run itself (own ideal):",
-                ["case", "policy", "triangles", "refinement s", "relative to ideal", "to own ideal",
-                 "balancing", "idle", "subdomains moved"], rows)
+    return Table("balance", "Policies on two ranks",
+                 ["case", "policy", "triangles", "refinement s", "relative to ideal", "to own ideal", "balancing", "idle",
+                  "subdomains moved"],
+                 "The ideal is total work over total speed, with speeds measured in a run without balancing and mapped by work (ideal), or in "
+                 "the run itself (own ideal): anything above 1 was then spent waiting. One rank is slower because it sleeps as long as it "
+                 "works. In the corner cases 90 % of the triangles lie in 10 % of the area, and each rank starts with half of the area. Where "
+                 "nothing needs to move, balancing is the overhead of being ready: reports, plans, and needless moves.", rows)
 
 
 def size(bench):
@@ -239,9 +241,9 @@ def size(bench):
             rows.append([f"{run['mesh']['triangles']:,}", presplit, run["parts"]["subdomains"],
                          total(run, "splits_sent"), f"{rate(run):.1f}", f"{seconds_of_refinement(run):.1f}",
                          f"{run['work']['peak_bytes_refining'] / run['mesh']['triangles']:.1f}"])
-    print_table("Size: pipe on 2 ranks, one run each (`size`):",
-                ["triangles", "presplit", "subdomains", "SPLITs", "million triangles/s", "refinement s",
-                 "peak bytes/triangle"], rows)
+    return Table("size", "Size: pipe on 2 ranks",
+                 ["triangles", "presplit", "subdomains", "SPLITs", "million triangles/s", "refinement s", "peak bytes/triangle"],
+                 "One run each.", rows)
 
 
 def growth(bench):
@@ -253,8 +255,8 @@ def growth(bench):
              f"{100 * (first / median(runs, rate) - 1):+.0f} %",
              f"{median(runs, lambda r: r['work']['peak_bytes_refining'] / r['mesh']['triangles']):.1f}"]
             for runs in records]
-    print_table("Growth: pipe on one rank, in subdomains of 20,000 triangles (`growth`):",
-                ["triangles", "subdomains", "million triangles/s", "time per triangle", "peak bytes/triangle"], rows)
+    return Table("growth", "Growth: pipe on one rank, in subdomains of 20,000 triangles",
+                 ["triangles", "subdomains", "million triangles/s", "time per triangle", "peak bytes/triangle"], "", rows)
 
 
 def seconds(run):
@@ -274,10 +276,11 @@ def simulator(bench):
     rows = [[ranks, ", ".join(map(str, drag)) or "none", policy, f"{real:.3f}", f"{seconds(model):.3f}",
              f"{100 * (seconds(model) / real - 1):+.1f} %", f"{simulated:.3f}", f"{100 * (simulated / real - 1):+.1f} %"]
             for (ranks, drag, policy), real, model, simulated in zip(cases, measured, given, predicted)]
-    print_table(f"Simulated against real ranks: pipe, {given[0]['mesh']['triangles']:,} triangles, seconds of refinement "
-                "(`simulator`). With the constants of `CostModel`, and with a rank's speed from the first row, "
-                f"{speed / 1e6:.2f} million triangles/s (constants: {given[0]['cluster']['speeds'][0] / 1e6:.2f}):",
-                ["ranks", "drag", "policy", "measured", "with constants", "error", "calibrated", "error"], rows)
+    return Table("simulator", "Simulated against real ranks: pipe",
+                 ["ranks", "drag", "policy", "measured", "with constants", "error", "calibrated", "error"],
+                 f"{given[0]['mesh']['triangles']:,} triangles; seconds of refinement, predicted with the constants of CostModel, and with a "
+                 "rank's speed from the first row, "
+                 f"{speed / 1e6:.2f} million triangles/s (constants: {given[0]['cluster']['speeds'][0] / 1e6:.2f}).", rows)
 
 
 def work_speeds(run):
@@ -319,17 +322,12 @@ def reality(bench):
                          f"{real:.2f} +- {spread:.2f}", f"{seconds(model):.2f}", f"{seconds(model) / real:.3f}",
                          f"{median(runs, lambda r: total(r, 'hand_offs')):.0f}", total(model, "hand_offs")])
     triangles = measured[str(cases[0])][0]["mesh"]["triangles"]
-    print_table(f"Simulated against real ranks on a coast: size {bench.options.coast}, {triangles:,} triangles in 300 uneven "
-                "subdomains, interfaces not presplit (`reality`); speeds in million triangles/s, as measured on subdomains "
-                "dealt in turn, between the others:",
-                ["ranks", "drag", "speeds", "policy", "real, s", "simulated, s", "simulated / real", "moved", "simulated"],
-                rows)
-
-
-def machine():
-    name = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo", encoding="ascii")
-                 if line.startswith("model name")), "unknown processor")
-    return f"{name}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}"
+    return Table("reality", "Simulated against real ranks on a coast",
+                 ["ranks", "drag", "speeds", "policy", "real, s", "simulated, s", "simulated / real", "moved", "simulated"],
+                 f"Size {bench.options.coast}, {triangles:,} triangles in 300 uneven subdomains, interfaces not presplit; seconds of refinement, "
+                 "with half of their range. Two cores have to suffice, so some ranks work for a part of the time only. Speeds, in million "
+                 "triangles/s, are measured in runs on subdomains dealt in turn, between the others; simulated, the ranks are as fast in those "
+                 "runs, and planning costs what driftmesh calibrate measures.", rows)
 
 
 def main():
@@ -347,15 +345,15 @@ def main():
     parser.add_argument("--sizes", type=float, nargs="+", default=[43, 200], help="size: millions of triangles")
     parser.add_argument("--triangles", type=float, default=10e6, help="simulator: approximate number of triangles")
     parser.add_argument("--coast", default="100 + 0.05*distance()", help="reality: the size, an expression")
+    results.add_option(parser)
     options = parser.parse_args()
     if unknown := set(options.suite) - set(suites):
         parser.error(f"unknown suite {', '.join(sorted(unknown))}")
-    print(f"{machine()}\n", flush=True)
+    print(f"{results.processor()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}\n", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options, folder)
-        for name, suite in suites.items():
-            if not options.suite or name in options.suite:
-                suite(bench)
+        results.show("bench/ranks.py", (suite(bench) for name, suite in suites.items() if not options.suite or name in options.suite),
+                     options)
 
 
 if __name__ == "__main__":

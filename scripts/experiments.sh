@@ -38,6 +38,13 @@ read_options() {
     esac
     shift
   done
+  [[ $small == no || $update == no ]] || refuse "--small figures say nothing: no --update with them"
+}
+
+# Of the tables to come, if they are to be written into docs/results: when, of which sources, where. Before anything here changes.
+find_origin() {
+  origin=''
+  [[ $update == no ]] || origin=$(python3 "$project_root/scripts/tables/results.py" "$program")
 }
 
 # use_folder DEFAULT: makes the folder of the results.

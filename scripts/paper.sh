@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Makes the tables and figures of the paper (PCDM, TOMS Algorithm 872) and sets them beside the published ones (docs/paper.md):
 # FOLDER/paper.html and paper.md with all tables, each as .csv, too; pictures of each run; report-*.html. Builds driftmesh unless given.
-#   scripts/paper.sh [--small] [--program DRIFTMESH] [FOLDER]    (default: paper/ in the project; --small: tiny, for tests)
+#   scripts/paper.sh [--small] [--update] [--program DRIFTMESH] [FOLDER]    (default: paper/ in the project; --small: tiny, for tests;
+#                                                     --update: also writes them into docs/results/paper.md, with date, commit, machine)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/experiments.sh"
 
-read_options '--small --program' "$@"
+read_options '--small --update --program' "$@"
 ((${#chosen[@]} == 0)) || refuse "'${chosen[0]}' is one word too many; see --help"
 use_folder paper
 build_program build report
+find_origin
 
 after_experiment() {
   if [[ -e $folder/$1/report.html ]]; then mv "$folder/$1/report.html" "$folder/report-$1.html"; fi
@@ -38,7 +40,8 @@ done
 all_done
 
 say "This machine"
-if [[ $small == yes ]]; then work=(1e5 1) caution=(small); else work=(2e6 3) caution=(); fi
+if [[ $small == yes ]]; then work=(1e5 1) how=(--small); else work=(2e6 3) how=(); fi
+[[ -z $origin ]] || how+=(--update "$origin")
 python3 "$project_root/scripts/paper/measure.py" "$program" "$folder" "${work[@]}"
-python3 "$project_root/scripts/paper/compare.py" "$folder" "${caution[@]}"
+python3 "$project_root/scripts/paper/compare.py" "$folder" "${how[@]}"
 say "Done: $folder/paper.html, $folder/paper.md"

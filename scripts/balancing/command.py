@@ -3,7 +3,8 @@
 
 usage: command.py experiments [--small] [--inputs FOLDER] [TABLE...]   a line for each experiment to run: name, file, settings, with tabs
        command.py write [--small] FOLDER [TABLE...]                    FOLDER/TABLE.md and .csv, and balancing.md with all
-       command.py update FOLDER PROJECT [TABLE...]                     the tables in documents and configurations, from FOLDER
+       command.py update FOLDER PROJECT ORIGIN [TABLE...]              the tables in documents and configurations, from FOLDER;
+                                                                       ORIGIN: the line that says where they come from
 """
 
 import argparse
@@ -11,10 +12,12 @@ import pathlib
 import sys
 
 from experiments import EXPERIMENTS
+import results
 from marked import marks_of, with_tables
 from tables import TABLES
 
 SCRIPT = "balancing.sh"
+PATH = f"scripts/{SCRIPT}"
 
 
 def chosen_tables(names):
@@ -58,10 +61,12 @@ def pages(project):
 
 
 def update(options):
-    lines = {table.name: table.lines() for table in made(options.folder, options.tables)}
+    tables = list(made(options.folder, options.tables))
+    results.update(PATH, tables, options.origin, options.project)
+    lines = {table.name: table.lines() for table in tables}
     for page in pages(options.project):
         text = page.read_text()
-        ours = {name: lines[name] for name, script in marks_of(text) if script == SCRIPT and name in lines}
+        ours = {name: lines[name] for name, script in marks_of(text) if script == PATH and name in lines}
         if ours and (new := with_tables(text, ours)) != text:
             page.write_text(new)
             print(f"{page.relative_to(options.project)}: {', '.join(ours)}")
@@ -70,12 +75,12 @@ def update(options):
 def main():
     parser = argparse.ArgumentParser(prog=SCRIPT)
     commands = parser.add_subparsers(required=True)
-    for name, run, places in (("experiments", list_experiments, []), ("write", write, ["folder"]),
-                              ("update", update, ["folder", "project"])):
+    for name, run, words in (("experiments", list_experiments, {}), ("write", write, {"folder": pathlib.Path}),
+                             ("update", update, {"folder": pathlib.Path, "project": pathlib.Path, "origin": str})):
         command = commands.add_parser(name)
         command.set_defaults(run=run)
-        for place in places:
-            command.add_argument(place, type=pathlib.Path)
+        for word, kind in words.items():
+            command.add_argument(word, type=kind)
         command.add_argument("--small", action="store_true")
         command.add_argument("--inputs", type=pathlib.Path)
         command.add_argument("tables", nargs="*")

@@ -77,7 +77,8 @@ class Comparison(NamedTuple):
         return len(self.by)
 
     def make(self, name, folder):
-        table = Table(name, self.title, [*self.by, *self.figures], self.notes)
+        files = sorted({f"configs/{EXPERIMENTS[name].file}.yaml" for name in self.experiments})
+        table = Table(name, self.title, [*self.by, *self.figures], f"{self.notes}From {', '.join(files)}.")
         for group in groups_of(folder, self.experiments, self.without):
             table.add(*(text(group.first) for text in self.by.values()), *(FIGURES[figure](group) for figure in self.figures))
         return table
@@ -120,30 +121,45 @@ SCICLONE = "144 ranks of three speeds on 100 Mb/s Ethernet"
 START = {"start": swept("mapping.method")}
 HARM = ["seconds", "ideal", "over ideal", "over none", "moved"]
 
+DETAILS = "Four equal ranks with 50 subdomains each; details of the outline, not a bound on area, say how many triangles there are. "
+
 TABLES = {
-    "sciclone": Comparison(SCICLONE, ["sciclone"], {"domain": swept("input.generate"), **BY_POLICY}, PLANS),
+    "sciclone": Comparison(SCICLONE, ["sciclone"], {"domain": swept("input.generate"), **BY_POLICY}, PLANS,
+                           "The cluster of the paper; each rank starts with the same work, in 28 subdomains. "),
     "sciclone-zoltan": Comparison(f"{SCICLONE}: ways to call Zoltan", ["sciclone-zoltan"],
                                   {"domain": swept("input.generate"), "method": swept("balance.parameters.zoltan.method")}, PLANS,
-                                  without="sciclone"),
-    "modern-1024": Comparison("1,024 ranks of four speeds", ["modern-1024"], BY_POLICY, ONE),
-    "grand-4096": Comparison("4,096 ranks of four speeds", ["grand-4096"], BY_POLICY, ONE),
+                                  "The policy is zoltan in all rows. ", without="sciclone"),
+    "modern-1024": Comparison("1,024 ranks of four speeds", ["modern-1024"], BY_POLICY, ONE,
+                              "20,480 subdomains; zoltan by the method rcb. "),
+    "grand-4096": Comparison("4,096 ranks of four speeds", ["grand-4096"], BY_POLICY, ONE,
+                             "81,920 subdomains; zoltan by the method rcb. Takes 3.5 minutes and 4.3 GB, half of it for the mesh. "),
     "policies": Comparison("16 ranks of three speeds", ["policies"],
-                           {"skew": swept("decomposition.skew"), **START, **BY_POLICY}, DRAWS),
-    "two-speeds": Comparison("8 ranks of two speeds", ["two-speeds"], BY_POLICY, DRAWS),
-    "ten-to-one": Comparison("16 ranks, half of them ten times as fast", ["ten-to-one"], BY_POLICY, DRAWS),
-    "changing-speeds": Comparison("8 ranks whose speeds change", ["changing-speeds"], BY_POLICY, DRAWS),
-    "late-hosts": Comparison("16 ranks, 4 of which come late", ["late-hosts"], BY_POLICY, DRAWS),
+                           {"skew": swept("decomposition.skew"), **START, **BY_POLICY}, DRAWS,
+                           "With even and with deliberately uneven subdomains (skew), and with short borders between ranks (graph) and the "
+                           "longest (round-robin). "),
+    "two-speeds": Comparison("8 ranks of two speeds", ["two-speeds"], BY_POLICY, DRAWS, "Half of the ranks are twice as fast. "),
+    "ten-to-one": Comparison("16 ranks, half of them ten times as fast", ["ten-to-one"], BY_POLICY, DRAWS,
+                             "20 subdomains a rank, of which a slow one should make three or four. "),
+    "changing-speeds": Comparison("8 ranks whose speeds change", ["changing-speeds"], BY_POLICY, DRAWS,
+                                  "Two lose three quarters of their speed, and two join after a sixth of the time. "),
+    "late-hosts": Comparison("16 ranks, 4 of which come late", ["late-hosts"], BY_POLICY, DRAWS,
+                             "No work is mapped to the four, which share a host. "),
     "short-memory": Comparison("8 ranks with little memory", ["short-memory"],
-                               {"memory, triangles": swept("cluster.memory"), **BY_POLICY}, DRAWS),
+                               {"memory, triangles": swept("cluster.memory"), **BY_POLICY}, DRAWS,
+                               "Two ranks are four times as fast, but have memory for less than their share (0: no limit). With 500,000 and "
+                               "390,000 triangles, 3.6 and 4.3 s are the best that is possible. "),
     "wrong-forecasts": Comparison("16 ranks with wrong forecasts", ["wrong-forecasts"],
-                                  {"off by up to": swept("decomposition.forecast-error"), **BY_POLICY}, DRAWS),
+                                  {"off by up to": swept("decomposition.forecast-error"), **BY_POLICY}, DRAWS,
+                                  "Forecasts are off by random factors until work on a subdomain begins, and the mapping follows them. "),
     "slow-network": Comparison("32 ranks on a slow network", ["slow-network"], {"latency": latency, **BY_POLICY},
-                               ["seconds", "spread", "ideal", "over ideal", "regret", "moved"]),
-    "nothing-to-balance": Comparison("16 equal ranks with equal work", ["nothing-to-balance"], {**START, **BY_POLICY}, HARM),
+                               ["seconds", "spread", "ideal", "over ideal", "regret", "moved"], "All ranks are equal. "),
+    "nothing-to-balance": Comparison("16 equal ranks with equal work", ["nothing-to-balance"], {**START, **BY_POLICY}, HARM,
+                                     "20 subdomains a rank. "),
     "details": Comparison("Details decide: the generated bay", ["details-30", "details-20"],
-                          {"bounds": bounds, **START, **BY_POLICY}, HARM),
+                          {"bounds": bounds, **START, **BY_POLICY}, HARM, DETAILS),
     "chesapeake": Comparison("Details decide: chesapeake.poly", ["chesapeake-30", "chesapeake-20"],
-                             {"bounds": bounds, **START, **BY_POLICY}, HARM),
+                             {"bounds": bounds, **START, **BY_POLICY}, HARM,
+                             f"{DETAILS}The domain was published with TOMS Algorithm 872; --inputs says where it is. "),
     "published": Special(["published-pipe", "published-flow", "published-chesapeake"], 1, beside_published),
     "aims": Special(AIMED_AT, 1, aims),
     "replay": Special(["published-pipe", "published-flow", "published-chesapeake"], 2, replayed),

@@ -1,20 +1,22 @@
 #!/usr/bin/env python3
 """Sets what the experiments of configs/paper and measure.py have found beside what the paper says.
 
-usage: compare.py FOLDER [small]
+usage: compare.py FOLDER [--small] [--update ORIGIN]
 
 Reads FOLDER/table-1, FOLDER/fig-7, ... and FOLDER/measured.json. Writes each table as .md and .csv, fig-7.svg, fig-10.svg,
-fig-10-modern.svg, and paper.md and paper.html with all tables.
+fig-10-modern.svg, and paper.md and paper.html with all tables; with --update also docs/results/paper.md, where ORIGIN is the line that
+says where the figures come from.
 """
 
+import argparse
 import json
 import pathlib
 import statistics
-import sys
 
 import chart
 import page
 import published
+import results
 from replay import replayed, unbalanced
 from runs import read_runs
 from table import Table, percent
@@ -97,7 +99,7 @@ def table_1(folder, costs):
 
 
 def table_1_real(costs):
-    table = Table("table-1-real", "Table I on real ranks of this machine, seconds for 10 million triangles a rank",
+    table = Table("table-1-real", "Table I on real ranks, seconds for 10 million triangles a rank",
                   ["model", "ranks", "T_s", "T_decomposition", "T_CDT", "T_P", "scaled speedup"],
                   f"T_s is the time of {costs.mesher} with the same bounds. Fewer triangles were made (see measured.json), and "
                   "T_s and T_P multiplied accordingly.")
@@ -151,7 +153,7 @@ def table_3(folder):
 
 
 def table_3_real(costs):
-    table = Table("table-3-real", "Table III on two real ranks of this machine",
+    table = Table("table-3-real", "Table III on two real ranks",
                   ["model", "method", "time", "computation: max", "idle: mean", "triangles", "points sent", "messages"],
                   "Refinement in seconds, without decomposition and assembly; PDR's time contains its start. A row without "
                   "figures: the decoupled method needed points that no neighbor had.")
@@ -255,17 +257,24 @@ def figure_11(folder):
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--small", action="store_true")
+    parser.add_argument("--update", metavar="ORIGIN")
+    options = parser.parse_args()
+    folder = options.folder
     costs = Costs(json.loads((folder / "measured.json").read_text()))
     tables = [table_1(folder, costs), table_1_real(costs), table_2(folder), table_3(folder), table_3_real(costs),
               figure_7(folder),
               figure_10(folder, costs), figure_10_modern(folder, costs), figure_11(folder), replayed(folder)]
     for table in tables:
         table.write(folder)
-    caution = "Made with --small, where fixed costs prevail: the figures say nothing.\n\n" if "small" in sys.argv[2:] else ""
+    caution = "Made with --small, where fixed costs prevail: the figures say nothing.\n\n" if options.small else ""
     page.write(folder, caution, tables)
     text = "\n".join(table.markdown() for table in tables)
     (folder / "paper.md").write_text(f"# The paper and driftmesh\n\n{caution}{text}")
+    if options.update:
+        results.update("scripts/paper.sh", tables, options.update)
 
 
 if __name__ == "__main__":

@@ -1,25 +1,30 @@
 """Tables in documents, and in the comments of YAML files, below a line that says which they are and what makes them:
 
-    <!-- table: NAME, by scripts/SCRIPT -->         # table: NAME, by scripts/SCRIPT
-                                                   # | column | ...
+    <!-- table: NAME, by scripts/NAME.sh -->        # table: NAME, by scripts/NAME.sh
+                                                    # | column | ...
     | column | ...
 """
 
 import re
 
-MARK = re.compile(r"(# |)(?:<!-- )?table: ([\w-]+), by scripts/([\w.]+)(?: -->)?")
+MARK = re.compile(r"(# |)(?:<!-- )?table: ([\w-]+), by ([\w/.]+)(?: -->)?")
+
+
+def mark_of(name, script):
+    """The line of a document above a table."""
+    return f"<!-- table: {name}, by {script} -->"
 
 
 def marks_of(text):
-    """The marks in a text: name of the table, and of the script."""
+    """The marks in a text: name of the table, and path of the script."""
     return [(mark[2], mark[3]) for line in text.splitlines() if (mark := MARK.fullmatch(line))]
 
 
-def lines_below(text):
-    """{name: the lines of the table below its mark, without what makes them comments}"""
+def lines_below(text, script):
+    """{name: the lines of the table below its mark, without what makes them comments}, of the tables that the script makes."""
     found, lines = {}, text.splitlines()
     for at, line in enumerate(lines):
-        if mark := MARK.fullmatch(line):
+        if (mark := MARK.fullmatch(line)) and mark[3] == script:
             begin, end = _extent(lines, at, mark[1])
             found[mark[2]] = [row[len(mark[1]):] for row in lines[begin:end]]
     return found

@@ -8,9 +8,11 @@ def percent(part):
 
 
 class Table:
-    def __init__(self, name, title, columns, notes):
+    def __init__(self, name, title, columns, notes, rows=()):
         self.name, self.title, self.columns, self.notes = name, title, columns, notes
         self.rows = []
+        for row in rows:
+            self.add(*row)
 
     def add(self, *cells):
         if len(cells) != len(self.columns):
