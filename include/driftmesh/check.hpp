@@ -49,6 +49,14 @@ struct CheckReport {
 /// options.simplify and options.holes: it must cover its domain and nothing else, and have its segments, points,
 /// markers, attributes and regions. Polygons are read a second time as they are, unless they are snapped or simplified.
 /// Throws InputError for an input that cannot be repaired.
+///
+/// \code
+/// const driftmesh::Pslg bay = driftmesh::generate("bay", {{"resolution", "1000"}});
+/// const driftmesh::MeshOptions bounds{.min_angle = 25, .max_area = 5e6};
+/// const driftmesh::CheckReport report = driftmesh::check(driftmesh::mesh(bay, bounds), bay, bounds);
+/// if (!report.accepted) std::cerr << report.text;
+/// assert(report.accepted && report.largest_area <= 5e6);
+/// \endcode
 [[nodiscard]] CheckReport check(const Mesh& mesh, const Pslg& input, const MeshOptions& options = {});
 
 }  // namespace driftmesh

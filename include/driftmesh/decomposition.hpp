@@ -15,6 +15,17 @@ struct Decomposition;
 /// Cuts the domain for a mesh with these options on `ranks` ranks: subdomains of about equal expected work, with short
 /// straight borders that meet everything at wide angles. Deterministic. Throws like mesh(), and Error if the domain
 /// cannot be cut into the requested number of subdomains.
+///
+/// \code
+/// const driftmesh::Pslg pipe = driftmesh::generate("pipe");
+/// driftmesh::MeshOptions options{.max_area = 50};
+/// options.subdomains.count = 40;
+/// driftmesh::save_decomposition(*driftmesh::cut_domain(pipe, options), pipe, "pipe.json");
+///
+/// driftmesh::MeshOptions finer{.max_area = 20};  // in the same subdomains
+/// finer.subdomains.given = driftmesh::load_decomposition("pipe.json", pipe);
+/// const driftmesh::Mesh mesh = driftmesh::mesh(pipe, finer);
+/// \endcode
 [[nodiscard]] std::shared_ptr<const Decomposition> cut_domain(const Pslg& input, const MeshOptions& options,
                                                               std::int32_t ranks = 1);
 

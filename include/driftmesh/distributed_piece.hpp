@@ -10,6 +10,13 @@ namespace driftmesh {
 
 /// One rank's part of a distributed mesh, for a solver in the same job: the subdomains that the rank holds, joined into
 /// one mesh, and the vertices that it shares with other ranks.
+///
+/// \code
+/// const auto piece = driftmesh::mesh_distributed(MPI_COMM_WORLD, driftmesh::generate("pipe"), {.max_area = 50});
+/// std::int64_t points = std::count(piece.owners.begin(), piece.owners.end(), piece.rank);
+/// MPI_Allreduce(MPI_IN_PLACE, &points, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+/// assert(points == piece.total_points);  // each point has one owner
+/// \endcode
 struct DistributedPiece {
   /// The vertices that this rank shares with one other rank.
   struct Neighbor {

@@ -1,6 +1,13 @@
 #pragma once
 
-// Everything that a program without MPI needs. With it: driftmesh/mpi/distributed.hpp.
+/// \file
+/// Everything that a program without MPI needs. With it: driftmesh/mpi/distributed.hpp.
+/// \code
+/// const driftmesh::Pslg bay = driftmesh::generate("bay");  // or driftmesh::read_input("your.poly").pslg
+/// const driftmesh::Mesh mesh = driftmesh::mesh(bay, {.min_angle = 25, .triangles = 50e3});
+/// driftmesh::write_mesh(mesh, "bay.vtu");
+/// \endcode
+
 #include "driftmesh/check.hpp"
 #include "driftmesh/decomposition.hpp"
 #include "driftmesh/error.hpp"

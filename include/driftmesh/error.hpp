@@ -9,6 +9,16 @@ namespace driftmesh {
 
 /// Base of all errors that the library throws. `what()` is one complete message: what failed, where, the likely cause
 /// and the next step.
+///
+/// \code
+/// try {
+///   const driftmesh::Mesh mesh = driftmesh::mesh(driftmesh::read_poly("missing.poly"));
+/// } catch (const driftmesh::InputError& error) {
+///   std::cerr << error.place().file << " is wrong in line " << error.place().line << ": " << error.what() << '\n';
+/// } catch (const driftmesh::Error& error) {
+///   std::cerr << error.what() << '\n';  // here: which file, and why it cannot be read
+/// }
+/// \endcode
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -36,6 +36,15 @@ struct InputFile {
 /// messages as read_poly does; naming the feature of what is wrong in a GIS file; for coordinates that are no
 /// longitudes and latitudes, or reach too far for a UTM zone; for layers that the file has not, or several of which
 /// none is named; and where GDAL is needed and not there.
+///
+/// \code
+/// driftmesh::write_poly(driftmesh::generate("pipe"), "pipe.poly");
+/// const driftmesh::InputFile input = driftmesh::read_input("pipe.poly");
+/// for (const std::string& warning : input.warnings) std::cerr << warning << '\n';
+/// const driftmesh::Mesh mesh = driftmesh::mesh(input.pslg);
+/// driftmesh::write_mesh(mesh, "pipe.msh", {.ascii = true});
+/// assert(driftmesh::read_mesh("pipe.msh").triangles == mesh.triangles);
+/// \endcode
 [[nodiscard]] InputFile read_input(const std::string& path, const std::string& layers = "");
 
 /// Whether the file at `path` is read as an input, by read_input, and not as a mesh: GeoJSON and its like, a .poly, or

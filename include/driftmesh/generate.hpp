@@ -114,6 +114,12 @@ struct GeneratorParameter {
 /// A generated input by its name and the values of some of its parameters, as in `driftmesh generate`: {{"seed", "7"}}.
 /// Throws InputError for unknown names (with the nearest known one), values that are not numbers, and parameters that
 /// the generator refuses.
+///
+/// \code
+/// const driftmesh::Pslg bay = driftmesh::generate("bay", {{"seed", "7"}, {"resolution", "400"}});
+/// const driftmesh::Pslg plate = driftmesh::generate_holes({.columns = 4, .rows = 3});
+/// assert(plate.holes.size() == 12);
+/// \endcode
 [[nodiscard]] Pslg generate(const std::string& name, const std::map<std::string, std::string>& parameters = {});
 
 }  // namespace driftmesh

@@ -10,6 +10,13 @@ namespace driftmesh {
 
 /// One rank's piece of a distributed mesh and a ring of ghosts around it: the triangles of other ranks that have a
 /// point in common with a triangle of the piece, so that every triangle at a point of the piece is there.
+///
+/// \code
+/// const auto piece = driftmesh::mesh_distributed(MPI_COMM_WORLD, driftmesh::generate("pipe"), {.max_area = 50});
+/// const driftmesh::GhostedPiece ghosted = driftmesh::add_ghost_layer(MPI_COMM_WORLD, piece);
+/// for (const driftmesh::GhostedPiece::Neighbor& n : ghosted.neighbors)
+///   std::cout << n.sent.size() << " values to rank " << to_string(n.rank) << ", " << n.received.size() << " back\n";
+/// \endcode
 struct GhostedPiece {
   /// The triangles that this rank and one other have of each other, as indices into mesh.triangles: values on them are
   /// made current by sending those on `sent`, to be stored on `received` of the other side, in the same order.

@@ -97,6 +97,13 @@ template <IsId Id>
 }
 
 /// A std::vector indexed only by IDs of type Id.
+///
+/// \code
+/// enum class Host : std::int32_t {};
+/// driftmesh::IdVector<Host, double> load(4, 1.0);
+/// load[Host{2}] = 5;
+/// for (const Host h : driftmesh::ids_of(load)) std::cout << driftmesh::to_int(h) << ": " << load[h] << '\n';
+/// \endcode
 template <IsId Id, class T>
 class IdVector : public std::vector<T> {
   using Base = std::vector<T>;

@@ -9,6 +9,11 @@
 namespace driftmesh {
 
 /// A process of a parallel run: 0 .. ranks - 1.
+///
+/// \code
+/// for (const driftmesh::Rank r : driftmesh::first_ids<driftmesh::Rank>(4))
+///   std::cout << to_string(r) << " sends to " << to_string(driftmesh::next_in_ring(r, 4)) << '\n';
+/// \endcode
 enum class Rank : std::int32_t {};
 
 /// A subdomain of a decomposition: 0 .. subdomains - 1, the same on every rank.

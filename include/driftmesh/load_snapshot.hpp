@@ -72,6 +72,13 @@ enum class Part : std::int32_t {};
 
 /// The load at one moment, as known to the planner. A rank that plans for itself may know only the totals of other
 /// ranks, and not list their subdomains.
+///
+/// \code
+/// driftmesh::balancer::LoadSnapshot load;
+/// load.ranks.push_back({.speed = 2e6, .remaining = 8e6});
+/// load.ranks.push_back({.speed = 1e6, .remaining = 1e6});
+/// assert(finishing_time(load) == 4 && ideal_time(load) == 3);
+/// \endcode
 struct LoadSnapshot {
   std::shared_ptr<const Layout> layout;
   std::vector<SubdomainLoad> subdomains;  ///< in ascending order of IDs, each once

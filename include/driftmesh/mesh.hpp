@@ -16,6 +16,15 @@ namespace driftmesh {
 /// The mesher returns a constrained Delaunay triangulation: triangles are counterclockwise, no two overlap, every point
 /// is a corner of a triangle, and `edges` contains the whole boundary of the domain. Readers return the contents of the
 /// file (see read_mesh), and verify() tells whether these properties hold.
+///
+/// \code
+/// const driftmesh::Mesh mesh = driftmesh::mesh(driftmesh::generate("pipe"), {.max_area = 50});
+/// double area = 0;
+/// for (const auto& [a, b, c] : mesh.triangles) {
+///   const driftmesh::Point &p = mesh.points[a], &q = mesh.points[b], &r = mesh.points[c];
+///   area += ((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x)) / 2;
+/// }
+/// \endcode
 struct Mesh {
   /// A constrained subsegment: an edge of the mesh that is a segment of the input or a part of one.
   struct Edge {

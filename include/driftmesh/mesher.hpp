@@ -18,6 +18,12 @@ namespace driftmesh {
 /// May be called from several threads concurrently. Throws InputError for an input that cannot be repaired or has no
 /// room for a triangle that the bounds require, Error for options that are out of range or do not apply, LimitError,
 /// Cancelled, and what options.size or options.progress throw.
+///
+/// \code
+/// const auto size = [](const driftmesh::Point& p) { return 0.05 + 0.1 * std::hypot(p.x, p.y); };
+/// const driftmesh::Mesh mesh = driftmesh::mesh(driftmesh::generate("cylinder-flow"), {.min_angle = 30, .size = size});
+/// std::cout << mesh.triangles.size() << " triangles, small ones at the cylinder\n";
+/// \endcode
 [[nodiscard]] Mesh mesh(const Pslg& input, const MeshOptions& options = {});
 
 }  // namespace driftmesh

@@ -12,6 +12,14 @@ namespace driftmesh {
 /// A name is UTF-8 of 1 to 120 bytes, without control characters, double quotes and blanks at its ends, belongs to one
 /// marker or region, and is neither "domain" nor begins with "marker " or "region ", which stand for numbers in .msh.
 /// Functions that mesh or write throw InputError for others.
+///
+/// \code
+/// driftmesh::Pslg flow = driftmesh::generate("cylinder-flow");
+/// flow.names.markers = {{1, "inlet"}, {2, "outlet"}, {5, "cylinder"}};
+/// const driftmesh::Mesh mesh = driftmesh::mesh(flow);
+/// assert(mesh.names.markers.at(5) == "cylinder");
+/// driftmesh::write_mesh(mesh, "flow.msh");  // with physical groups of these names
+/// \endcode
 struct Names {
   std::map<std::int32_t, std::string> markers;
   std::map<double, std::string> regions;

@@ -54,6 +54,13 @@ enum class MappingMethod {
 /// apply (such as a policy in a single process) are rejected with an Error, never ignored.
 ///
 /// Lengths and areas are in the units of the input, angles in degrees, times in seconds, memory in bytes.
+///
+/// \code
+/// driftmesh::MeshOptions options{.min_angle = 28, .triangles = 50e3, .threads = 2};
+/// options.progress = [](const driftmesh::Progress& p) { return p.triangles < 1'000'000; };  // false cancels
+/// options.subdomains.count = 16;
+/// const driftmesh::Mesh mesh = driftmesh::mesh(driftmesh::generate("bay"), options);
+/// \endcode
 struct MeshOptions {
   // ---- The domain ----
   double snap = 0;      ///< vertices and segments at most this far apart are joined (see repair.hpp); 0: none

@@ -14,6 +14,12 @@ namespace driftmesh {
 ///
 /// Throws InputError, naming `file`, for a mesh without triangles, and for one whose boundary does not enclose the area
 /// of its triangles: they overlap, or two parts of the boundary lie on one another.
+///
+/// \code
+/// const driftmesh::Mesh coarse = driftmesh::mesh(driftmesh::generate("pipe"));
+/// const driftmesh::Mesh fine = driftmesh::mesh(driftmesh::outline(coarse), {.max_area = 50});
+/// assert(fine.triangles.size() > coarse.triangles.size());
+/// \endcode
 [[nodiscard]] Pslg outline(const Mesh& mesh, const std::string& file = "mesh");
 
 }  // namespace driftmesh

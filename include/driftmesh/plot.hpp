@@ -50,6 +50,12 @@ struct PlotOptions {
 /// than about two pixels on average are not drawn one by one: each pixel then shows the worst angle of the triangles in
 /// it, or the mean of the logarithms of the areas of those around it. Throws InputError for an unknown extension or an
 /// impossible size, for a box with nothing in it, and for a color that shows what the mesh does not list; FileError.
+///
+/// \code
+/// const driftmesh::Pslg pipe = driftmesh::generate("pipe");
+/// driftmesh::plot(pipe, "domain.svg");
+/// driftmesh::plot(driftmesh::mesh(pipe), "pipe.png", {.width = 800, .color = driftmesh::PlotColor::area});
+/// \endcode
 void plot(const Mesh& mesh, const std::string& path, const PlotOptions& options = {});
 
 /// Draws segments by marker, points (if there are not too many), holes as crosses and regions with their labels; of an

@@ -64,6 +64,17 @@ class Policy {
 
 /// A policy of placement kLeader from a function that maps the load of all ranks to moves. The result must depend on
 /// its argument alone.
+///
+/// \code
+/// using namespace driftmesh::balancer;
+/// const auto to_the_first = [](const LoadSnapshot& load) {  // all that waits on other ranks
+///   std::vector<Move> moves;
+///   for (const SubdomainLoad& s : load.subdomains)
+///     if (s.owner != driftmesh::Rank{0} && s.turn > 0 && !s.fixed) moves.push_back({s.id, driftmesh::Rank{0}});
+///   return moves;
+/// };
+/// const driftmesh::MeshOptions options{.max_area = 50, .balance = {.own = leader_policy(to_the_first)}};
+/// \endcode
 [[nodiscard]] std::shared_ptr<const Policy> leader_policy(
     std::function<std::vector<Move>(const LoadSnapshot& snapshot)> plan);
 

@@ -9,6 +9,14 @@ namespace driftmesh::balancer {
 
 /// The parameters of one policy, as given by the user. Reading one makes its name known; parameters still unread when
 /// finish() is called are an error. All errors are InputErrors that name policy, parameter and value.
+///
+/// \code
+/// driftmesh::balancer::Parameters parameters("pairs", {{"share", "0.5"}});
+/// const double share = parameters.number("share", 0.25, 0, 1);
+/// const bool eager = parameters.flag("eager", false);
+/// parameters.finish();  // throws if a name was given that none of these calls knows
+/// assert(share == 0.5 && !eager);
+/// \endcode
 class Parameters {
  public:
   using Values = std::map<std::string, std::string>;

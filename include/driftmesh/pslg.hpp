@@ -18,6 +18,14 @@ namespace driftmesh {
 /// Plain data. Nothing is checked here: before meshing, repair() fixes duplicates, overlaps and crossings, and refuses
 /// indices and coordinates out of range. Coordinates are in a unit of the user's choice, areas in its square; see Point
 /// for their range.
+///
+/// \code
+/// driftmesh::Pslg square;
+/// square.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.5}, {0.6, 0.5}};
+/// square.segments = {{0, 1, 1}, {1, 2, 2}, {2, 3, 2}, {3, 0, 2}, {4, 5, 3}};  // the last one is a constraint
+/// square.regions = {{.at = {0.1, 0.1}, .attribute = 7, .max_area = 1e-3}};
+/// assert(driftmesh::mesh(square).regions[0] == 7);
+/// \endcode
 struct Pslg {
   struct Segment {
     std::int32_t a = 0;       ///< index into points

@@ -75,6 +75,15 @@ struct RepairReport {
 /// points or all on one line, a seed on a segment, more than kMaxSplits places where segments must be split, or
 /// crossings that rounding creates anew in each of kMaxRounds rounds (seen only where a fuzzer put long segments a few
 /// units in the last place apart).
+///
+/// \code
+/// driftmesh::Pslg cross;
+/// cross.points = {{0, 0}, {1, 1}, {0, 1}, {1, 0}};
+/// cross.segments = {{0, 1}, {2, 3}};
+/// const driftmesh::RepairReport report = driftmesh::repair(cross, "cross");
+/// assert(report.crossings.count == 1 && cross.points.size() == 5);
+/// std::cout << report.summary();
+/// \endcode
 RepairReport repair(Pslg& pslg, const std::string& file = "input", const RepairOptions& options = {});
 
 inline constexpr std::int64_t kMaxSplits = 20'000'000;

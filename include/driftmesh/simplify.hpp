@@ -35,6 +35,13 @@ struct SimplifyReport {
 ///
 /// `pslg` is as repair() leaves it. Throws Error for a tolerance that is negative or not finite, and InputError, naming
 /// `file`, if nothing would be left of a domain.
+///
+/// \code
+/// driftmesh::Pslg bay = driftmesh::generate("bay");  // lengths in meters
+/// driftmesh::repair(bay);
+/// const driftmesh::SimplifyReport report = driftmesh::simplify(bay, 500);
+/// std::cout << report.points << " points and " << report.rings << " islands less, " << bay.points.size() << " left\n";
+/// \endcode
 SimplifyReport simplify(Pslg& pslg, double tolerance, const std::string& file = "input");
 
 }  // namespace driftmesh

@@ -57,6 +57,14 @@ struct SimulatedRun {
 ///
 /// The whole mesh is held in memory, about 45 bytes per triangle. Throws like mesh(), and Error for a cluster without
 /// ranks or with values out of range.
+///
+/// \code
+/// driftmesh::MeshOptions options{.max_area = 20};
+/// options.balance.policy = "stealing";
+/// const driftmesh::SimulatedRun run =
+///     driftmesh::simulate(driftmesh::generate("pipe"), options, {.rank_speeds = {4e6, 4e6, 1e6}});
+/// std::cout << run.seconds << " s, at best " << run.ideal_seconds << " s, " << run.moves.size() << " moves\n";
+/// \endcode
 [[nodiscard]] SimulatedRun simulate(const Pslg& input, const MeshOptions& options, const SimulatedCluster& cluster);
 
 }  // namespace driftmesh

@@ -10,6 +10,14 @@ namespace driftmesh {
 /// A target edge length as a function of position, in the units of the coordinates. A triangle is too large if its area
 /// exceeds sqrt(3)/4 h^2, the area of the equilateral triangle with edges of length h, where h is the smallest value of
 /// the field at its corners and its centroid, or if falls_below finds a smaller value that counts between them.
+///
+/// \code
+/// struct Graded final : driftmesh::SizeField {
+///   double edge_length(const driftmesh::Point& p) const override { return 5 + 0.1 * std::hypot(p.x, p.y); }
+/// };
+/// const Graded graded;
+/// const driftmesh::Mesh mesh = driftmesh::mesh(driftmesh::generate("pipe"), {.size = std::ref(graded)});
+/// \endcode
 class SizeField {
  public:
   virtual ~SizeField() = default;

@@ -15,6 +15,15 @@ namespace driftmesh {
 ///
 /// May be asked by several threads at once. Pass it as MeshOptions::size by std::ref. Throws Error unless there is a
 /// positive length for each point, and for a mesh without triangles.
+///
+/// \code
+/// const driftmesh::Pslg pipe = driftmesh::generate("pipe");
+/// const driftmesh::Mesh last = driftmesh::mesh(pipe);
+/// std::vector<double> lengths(last.points.size(), 40);
+/// lengths[0] = 2;  // where the solution on it asks for more
+/// const auto sizes = driftmesh::size_on_mesh(last, lengths, 0.3);
+/// const driftmesh::Mesh next = driftmesh::mesh(pipe, {.size = std::ref(*sizes)});
+/// \endcode
 [[nodiscard]] std::shared_ptr<const SizeField> size_on_mesh(const Mesh& mesh, std::vector<double> lengths,
                                                             double gradation = 0);
 

@@ -9,4 +9,9 @@
 #define DRIFTMESH_QUOTE_(a, b, c) #a "." #b "." #c
 #define DRIFTMESH_QUOTED_(a, b, c) DRIFTMESH_QUOTE_(a, b, c)
 /// "0.2.0"
+///
+/// \code
+/// static_assert(DRIFTMESH_VERSION_MAJOR == 0 && DRIFTMESH_VERSION_MINOR >= 2);
+/// std::cout << "built with driftmesh " DRIFTMESH_VERSION "\n";
+/// \endcode
 #define DRIFTMESH_VERSION DRIFTMESH_QUOTED_(DRIFTMESH_VERSION_MAJOR, DRIFTMESH_VERSION_MINOR, DRIFTMESH_VERSION_PATCH)

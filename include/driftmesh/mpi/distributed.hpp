@@ -25,6 +25,14 @@ namespace driftmesh {
 /// ranks in an orderly way, with an error of the same type that names the rank. Error also if MPI is not running, and
 /// for MPI_COMM_NULL and intercommunicators. Only if memory runs out between refinement and the finished pieces,
 /// or MPI fails, does the job end with a message.
+///
+/// \code
+/// driftmesh::MeshOptions options{.max_area = 20};
+/// options.balance.policy = "stealing";
+/// const auto piece = driftmesh::mesh_distributed(MPI_COMM_WORLD, driftmesh::generate("pipe"), options);
+/// std::cout << piece.mesh.triangles.size() << " of " << piece.total_triangles << " triangles\n";
+/// driftmesh::write_distributed(MPI_COMM_WORLD, piece, "pipe.pvtu");
+/// \endcode
 [[nodiscard]] DistributedPiece mesh_distributed(MPI_Comm communicator, const Pslg& input,
                                                 const MeshOptions& options = {});
 
