@@ -20,7 +20,7 @@ packages_of() {
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
     hosts) echo iproute2 nftables ;;
-    site) echo mkdocs ;;
+    site) echo doxygen mkdocs ;;
     *)
       echo "setup.sh: unknown group '$1'; use build, gis, report, python, test, all, readers, bench, fuzz, hosts or site" >&2
       return 2

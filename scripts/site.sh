@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the documents as a site for browsers, in build/site; links between pages are checked.
-#   scripts/site.sh [--no-setup]        --no-setup: mkdocs is there
+# Builds the documents as a site for browsers, in build/site, with a reference of the public headers; links between pages are checked.
+#   scripts/site.sh [--no-setup]        --no-setup: mkdocs and doxygen are there
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 cd "$project_root"
@@ -24,5 +24,6 @@ rm -rf "$pages"
 mkdir -p "$pages"
 cp --parents README.md CHANGELOG.md CONTRIBUTING.md LICENSE CITATION.cff "$pages"
 cp -r docs configs examples scripts "$pages"
+doxygen docs/Doxyfile
 mkdocs build --strict --clean --quiet
-ls build/site/index.html
+ls build/site/index.html build/site/api/index.html
