@@ -2,11 +2,11 @@
 #include <string>
 
 #include "app/commands.hpp"
-#include "app/measure_costs.hpp"
 #include "base/atomic_file.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "config/costs_file.hpp"
+#include "study/measure_costs.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -38,7 +38,7 @@ cli::Command calibrate_command() {
                    "driftmesh run configs/first-run.yaml --set cluster.costs=costs.yaml"},
       .exit_codes = "0 done, 1 error, 2 wrong usage",
       .run = [command](cli::Call&) {
-        const std::string text = config::costs_text(measure_costs(command->quick));
+        const std::string text = config::costs_text(study::measure_costs(command->quick));
         if (command->output.empty()) {
           print(text);
           return 0;

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/recorded_run.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
+#include "study/recorded_run.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -35,13 +35,13 @@ balancer::Parameters::Values parameters_for(const std::string& policy, const std
   return values;
 }
 
-std::string line_of(const std::string& policy, double seconds, const RecordOfRun& record, std::size_t moves) {
+std::string line_of(const std::string& policy, double seconds, const study::RecordOfRun& record, std::size_t moves) {
   return fmt::format("| {:>19} | {:>10.4g} | {:>10.3f} | {:>8.1f} | {:>9} |\n", policy, seconds, record.ideal / seconds,
                      100 * (seconds / record.oracle - 1), moves);
 }
 
 void replay_run(const ReplayCommand& command) {
-  const RecordOfRun record = read_recorded_run(command.record);
+  const study::RecordOfRun record = study::read_recorded_run(command.record);
   const std::vector<std::string> policies = command.policies.empty() ? balancer::policy_names() : command.policies;
   std::vector<std::shared_ptr<const balancer::Policy>> made;  // all are checked before the first run
   for (const std::string& policy : policies)

@@ -7,10 +7,10 @@
 
 #include "app/commands.hpp"
 #include "app/run_files.hpp"
-#include "app/run_report.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
+#include "study/run_report.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -33,7 +33,7 @@ void run_report(const ReportCommand& command) {
   if (fs::path(command.output).extension() != ".html")
     throw InputError({command.output}, "is not a page", "use a name that ends in .html");
   FileRegistry files;
-  const std::vector<fs::path> records = records_of(command.inputs);
+  const std::vector<fs::path> records = study::records_of(command.inputs);
   for (const fs::path& record : records) files.reads(record.string(), "RUN");
   if (!command.mesh.empty()) register_mesh_input(files, command.mesh, "--mesh", command.reading);
   register_output(files, command.output, "--output");
@@ -45,7 +45,7 @@ void run_report(const ReportCommand& command) {
         {command.mesh, 0},
         fmt::format("has {} triangles, and a page shows at most {}", mesh.mesh.triangles.size(), kMostTriangles),
         "make a picture with `driftmesh plot`");
-  write_report(command.output, records, mesh);
+  study::write_report(command.output, records, mesh);
   fmt::print("{}: {} run{}{}\n", command.output, records.size(), records.size() == 1 ? "" : "s",
              mesh.mesh.triangles.empty() ? "" : fmt::format(", {} triangles", mesh.mesh.triangles.size()));
 }

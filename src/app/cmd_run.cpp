@@ -1,35 +1,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "app/chrome_trace.hpp"
 #include "app/commands.hpp"
-#include "app/decision_log.hpp"
-#include "app/experiment_run.hpp"
-#include "app/experiment_table.hpp"
-#include "app/lb_statistics.hpp"
 #include "app/progress_line.hpp"
-#include "app/real_cluster.hpp"
 #include "app/run_files.hpp"
-#include "app/run_report.hpp"
-#include "base/atomic_file.hpp"
-#include "base/file_identity.hpp"
-#include "base/file_registry.hpp"
-#include "base/staged_files.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "config/words.hpp"
-#include "driftmesh/error.hpp"
-#include "job/check.hpp"
-#include "job/files.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
+#include "study/experiment_runs.hpp"
+#include "study/real_cluster.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -43,44 +29,6 @@ struct RunCommand {
   bool dry = false;
   bool quiet = false;
 };
-
-// In the folder of the results; endings follow the name of a run.
-constexpr const char *kExperimentFile = "experiment.yaml", *kTableFile = "table.csv", *kPageFile = "report.html",
-                     *kRecordEnding = ".json", *kDecisionsEnding = ".decisions.jsonl", *kStatisticsEnding = ".lb-stats";
-
-std::string statistics_file(std::int32_t rank) {
-  return fmt::format("data.{}.json", rank);
-}
-
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path.string());
-  file.write(text);
-  file.commit();
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(folder.string(), "cannot be created: " + error.message());
-}
-
-/// Removes what an earlier experiment left in its folder, so that no record there belongs to another experiment than
-/// the table. A folder without an experiment is not touched.
-void remove_earlier_results(const std::filesystem::path& folder) {
-  static const std::regex of_a_run(R"(run-\d+(\.json|\.decisions\.jsonl|\.trace\.json|\.lb-stats))");
-  std::error_code ignored;
-  if (!std::filesystem::exists(folder / kExperimentFile, ignored)) return;
-  std::vector<std::filesystem::path> stale{folder / kTableFile, folder / kPageFile};
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (std::regex_match(entry.path().filename().string(), of_a_run)) stale.push_back(entry.path());
-  for (const auto& path : stale) std::filesystem::remove_all(path, ignored);
-}
-
-void write_lb_statistics(const ExperimentRun& run, const std::filesystem::path& folder) {
-  make_folder(folder);
-  std::int32_t rank = 0;
-  for (const std::string& text : lb_statistics(run)) write_file(folder / statistics_file(rank++), text);
-}
 
 /// Shows the progress of a run, and messages of its ranks.
 class RunView final : public job::Watch {
@@ -97,103 +45,27 @@ class RunView final : public job::Watch {
   std::set<std::string> said_;  // runs of one experiment mostly share their domain
 };
 
-/// All runs of one experiment, one after the other.
-class Runner {
- public:
-  /// `cluster`: for real ranks; null if none of the runs needs them.
-  Runner(const RunCommand& command, const config::Experiment& file, RealCluster* cluster)
-      : command_(command),
-        file_(file),
-        cluster_(cluster),
-        folder_(command.folder.empty() ? file.base.name + ".runs" : command.folder),
-        progress_(!command.quiet) {}
+std::string line_of(const RunCommand& command) {
+  std::string line = "driftmesh run " + command.file;
+  for (const std::string& setting : command.settings) line += fmt::format(" --set '{}'", setting);
+  return line;
+}
 
-  void go() {
-    register_files();
-    make_folder(folder_);
-    remove_earlier_results(folder_);
-    write_file(folder_ / kExperimentFile, config::experiment_text(file_));
-    for (std::size_t i = 0; i < runs(); ++i) {
-      progress_.begin(fmt::format("run {} of {}", i + 1, runs()));
-      do_run(name_of(i), point_of(i), static_cast<std::int32_t>(i % repetitions()));
-    }
-    const bool reported = file_.base.report && has_report_page();
-    if (reported) write_report((folder_ / kPageFile).string(), records_of({folder_.string()}), {});
-    progress_.end();
-    if (!command_.quiet)
-      print(table_.markdown() + "\nresults in " + folder_.string() + "/" +
-            (reported ? fmt::format("; open {} in a browser", (folder_ / kPageFile).string()) : "") + "\n");
+/// `cluster`: for real ranks; null if none of the runs needs them.
+void make_all(const RunCommand& command, const config::Experiment& file, study::RealCluster* cluster) {
+  study::ExperimentRuns runs(file, line_of(command), command.folder, command.allow_outside, cluster);
+  ProgressLine progress(!command.quiet);
+  RunView view(progress);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    progress.begin(fmt::format("run {} of {}", i + 1, runs.size()));
+    runs.make(i, view);
   }
-
- private:
-  [[nodiscard]] std::size_t repetitions() const { return static_cast<std::size_t>(file_.base.repetitions); }
-  [[nodiscard]] std::size_t runs() const { return file_.points.size() * repetitions(); }
-  [[nodiscard]] const config::SweepPoint& point_of(std::size_t run) const { return file_.points[run / repetitions()]; }
-  [[nodiscard]] std::string name_of(std::size_t run) const {
-    return fmt::format("run-{:0{}}", run + 1, std::to_string(runs()).size());
-  }
-
-  void register_files() const {
-    FileRegistry files;
-    files.reads(command_.file, "the experiment");
-    for (const config::SweepPoint& point : file_.points) job::register_reads(point.request, job::kExperiment, files);
-    if (command_.folder.empty()) require_inside(folder_.string(), ".");
-    const auto writes = [&](const std::string& file) {
-      const std::string path = (folder_ / file).string();
-      require_inside(path, folder_.string());
-      files.writes(path, "the results");
-    };
-    for (const char* file : {kExperimentFile, kTableFile, kPageFile}) writes(file);
-    for (std::size_t i = 0; i < runs(); ++i) {
-      const std::string name = name_of(i);
-      writes(name + kRecordEnding);
-      writes(name + kDecisionsEnding);
-      writes(name + kTraceEnding);
-      for (std::int32_t r = 0; r < ranks_of_statistics(point_of(i).request); ++r)
-        writes(name + kStatisticsEnding + "/" + statistics_file(r));
-    }
-  }
-
-  /// What an experiment writes stays where the user expects it: names come from its file, and links from anybody.
-  void require_inside(const std::string& path, const std::string& folder) const {
-    if (command_.allow_outside || lies_within(path, folder)) return;
-    throw InputError({path}, "the results would be written outside of " + (folder == "." ? "this folder" : folder),
-                     "give another name, name a folder with --output, or allow it with --allow-outside");
-  }
-
-  [[nodiscard]] std::int32_t ranks_of_statistics(const job::Request& request) const {
-    if (request.lb_phases == 0) return 0;
-    return request.cluster.kind == job::ClusterKind::kReal ? cluster_->ranks() : ranks_of(job::cluster_of(request));
-  }
-
-  void do_run(const std::string& name, const config::SweepPoint& point, std::int32_t repetition) {
-    ExperimentRun run;
-    run.name = name;
-    run.swept = point.values;
-    run.repetition = repetition;
-    run.request = point.request;
-    run.request.seed += repetition;
-    run.record.command = fmt::format("driftmesh run {}", command_.file);
-    for (const std::string& setting : command_.settings) run.record.command += fmt::format(" --set '{}'", setting);
-    make_run(run, cluster_, view_);
-    StagedFiles files;
-    write_file(folder_ / (name + kRecordEnding), experiment_record(run));
-    write_file(folder_ / (name + kDecisionsEnding), decision_lines(run.outcome));
-    if (run.request.report) write_file(folder_ / (name + kTraceEnding), chrome_trace(run.outcome));
-    if (run.request.lb_phases > 0) write_lb_statistics(run, folder_ / (name + kStatisticsEnding));
-    table_.add(run);
-    write_file(folder_ / kTableFile, table_.csv());
-    files.commit();
-  }
-
-  const RunCommand& command_;
-  const config::Experiment& file_;
-  RealCluster* cluster_;
-  std::filesystem::path folder_;
-  ProgressLine progress_;
-  RunView view_{progress_};
-  ExperimentTable table_;
-};
+  const auto page = runs.report();
+  progress.end();
+  if (command.quiet) return;
+  const std::string advice = page ? fmt::format("; open {} in a browser", page->string()) : "";
+  print(fmt::format("{}\nresults in {}/{}\n", runs.table().markdown(), runs.folder().string(), advice));
+}
 
 bool needs_real_ranks(const config::Experiment& file) {
   return std::any_of(file.points.begin(), file.points.end(), [](const config::SweepPoint& point) {
@@ -202,7 +74,7 @@ bool needs_real_ranks(const config::Experiment& file) {
 }
 
 void run_experiment(const RunCommand& command) {
-  std::optional<RealCluster> cluster;
+  std::optional<study::RealCluster> cluster;
   if (protocol::MpiSession::launched_as()) cluster.emplace();
   if (cluster && !cluster->leads()) return cluster->serve();
   const config::Experiment file = config::read_experiment(command.file, command.settings, command.allow_code);
@@ -213,7 +85,7 @@ void run_experiment(const RunCommand& command) {
   }
   config::check_processes(file, cluster ? cluster->ranks() : 1);
   if (!cluster && needs_real_ranks(file)) cluster.emplace();
-  Runner(command, file, cluster ? &*cluster : nullptr).go();
+  make_all(command, file, cluster ? &*cluster : nullptr);
 }
 
 }  // namespace

@@ -10,9 +10,6 @@
 
 namespace driftmesh::app {
 
-/// NAME.trace.json lies beside the record NAME.json of a run.
-inline constexpr const char* kTraceEnding = ".trace.json";
-
 /// --allow-outside of the commands that read meshes.
 [[nodiscard]] cli::Option allow_outside_option(ReadOptions& options);
 

@@ -11,6 +11,7 @@
 #include "base/atomic_file.hpp"
 #include "base/standard_streams.hpp"
 #include "job/memory.hpp"
+#include "study/run_json.hpp"
 
 namespace driftmesh::app {
 
@@ -55,7 +56,7 @@ void RunNotes::finish() {
   const std::string& record = told_.request.output.record;
   if (record.empty()) return;
   AtomicFile file(record);
-  file.write(summary_json(run));
+  file.write(study::run_json(run));
   file.commit();
 }
 

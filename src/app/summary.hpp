@@ -14,8 +14,4 @@ using job::RunRecord;
 /// The histogram alone: 18 lines of 10 degrees, with count, share and bar.
 [[nodiscard]] std::string histogram_text(const AngleSummary& shape);
 
-/// The record as JSON, for programs; docs/file-formats.md describes it. Its "version" increases when a field changes
-/// its meaning or is removed.
-[[nodiscard]] std::string summary_json(const RunRecord& run);
-
 }  // namespace driftmesh::app

@@ -24,7 +24,7 @@ STAGES = {
 }
 
 # Where stages are called from. What lies below (mesh, decompose, runtime, ...) is what stages consist of.
-CALLERS = ["src/job", "src/app", "src/api", "src/config", "python"]
+CALLERS = ["src/job", "src/app", "src/api", "src/config", "src/study", "python"]
 
 
 def without_comments(text):

@@ -6,6 +6,7 @@
 #include "app/progress_line.hpp"
 #include "app/summary.hpp"
 #include "base/words.hpp"
+#include "study/run_json.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::app;
@@ -90,7 +91,7 @@ TEST_CASE("The summary of a run on ranks has a row for each rank, or the extreme
         "3 subdomains moved between ranks",
         "5 groups of split points forwarded after a subdomain, 2 hops at most; 4 held for one", "7,654,321"})
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
-  const std::string json = summary_json(run);
+  const std::string json = study::run_json(run);
   for (const char* expected :
        {"\"hand_offs\": 3", "\"hand_off_bytes\": 0", "\"forwarded\": 5", "\"most_hops\": 2", "\"held\": 4"})
     CHECK_MESSAGE(json.find(expected) != std::string::npos, expected);

@@ -1,0 +1,247 @@
+#include "study/experiment_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/words.hpp"
+#include "job/value.hpp"
+
+namespace driftmesh::study {
+namespace {
+
+using Row = ExperimentTable::Row;
+using Cells = std::vector<std::pair<std::string, std::string>>;  // column, value
+
+/// How all ranks spent their time, as fractions. Waiting after a rank has left the loop is idle time too.
+RankTimes shares_of(const ClusterRun& outcome) {
+  RankTimes sum;
+  for (const RankOutcome& rank : outcome.ranks) {
+    sum.computing += rank.times.computing;
+    sum.sending += rank.times.sending;
+    sum.polling += rank.times.polling;
+    sum.balancing += rank.times.balancing;
+  }
+  const double whole = outcome.makespan * static_cast<double>(outcome.ranks.size());
+  for (double RankTimes::*kind :
+       {&RankTimes::computing, &RankTimes::sending, &RankTimes::polling, &RankTimes::balancing})
+    sum.*kind /= whole;
+  sum.idle = 1 - sum.computing - sum.sending - sum.polling - sum.balancing;
+  return sum;
+}
+
+/// Whether two runs are at the same point of the sweep except for the policy.
+bool same_but_policy(const Row& a, const Row& b) {
+  return std::equal(a.swept.begin(), a.swept.end(), b.swept.begin(), b.swept.end(), [](const auto& x, const auto& y) {
+    return x == y || (x.first == y.first && x.first == "balance.policy");
+  });
+}
+
+Cells all_cells(const Row& row, std::optional<double> recovered) {
+  Cells cells{{"run", row.run}};
+  cells.insert(cells.end(), row.swept.begin(), row.swept.end());
+  cells.emplace_back("repetition", std::to_string(row.repetition));
+  const auto add = [&](const char* name, const auto& value) { cells.emplace_back(name, fmt::format("{}", value)); };
+  add("ranks", row.ranks);
+  add("subdomains", row.subdomains);
+  add("triangles", row.triangles);
+  add("seconds", row.seconds);
+  add("ideal_seconds", row.ideal_seconds);
+  add("oracle_seconds", row.oracle_seconds);
+  add("triangles_per_second", row.rate);
+  add("efficiency", row.efficiency);
+  add("cutting_seconds", row.cutting);
+  add("efficiency_with_cutting", row.efficiency_with_cutting);
+  cells.emplace_back("recovered", recovered ? fmt::format("{}", *recovered) : "");
+  add("regret", regret(row));
+  add("computing", row.times.computing);
+  add("sending", row.times.sending);
+  add("polling", row.times.polling);
+  add("balancing", row.times.balancing);
+  add("idle", row.times.idle);
+  add("splits", row.splits);
+  add("split_messages", row.split_messages);
+  add("messages", row.messages);
+  add("message_bytes", row.message_bytes);
+  add("hand_offs", row.hand_offs);
+  add("hand_off_bytes", row.hand_off_bytes);
+  add("whole_plans", row.whole_plans);
+  add("whole_plans_kept", row.whole_plans_kept);
+  return cells;
+}
+
+/// `saved`, `kept`: the texts of what is recovered and of whole plans, if the table has these columns.
+Cells telling_cells(const Row& row, bool repeated, const std::optional<std::string>& saved,
+                    const std::optional<std::string>& kept) {
+  Cells cells(row.swept.begin(), row.swept.end());
+  const auto add = [&](const char* name, std::string value) { cells.emplace_back(name, std::move(value)); };
+  const auto percent = [&](const char* name, double share) { add(name, fmt::format("{:.2f}", 100 * share)); };
+  if (std::ranges::none_of(row.swept, [](const auto& s) { return s.first == "cluster.ranks"; }))
+    add("ranks", grouped(static_cast<std::int64_t>(row.ranks)));
+  add("triangles", grouped(row.triangles));
+  add("seconds", fmt::format("{:.4g}", row.seconds));
+  if (repeated) add("+-", fmt::format("{:.2g}", row.spread));
+  add("million/s", fmt::format("{:.4g}", 1e-6 * row.rate));
+  add("efficiency", fmt::format("{:.3f}", row.efficiency));
+  if (saved) add("recovered %", *saved);
+  add("regret %", fmt::format("{:.1f}", 100 * regret(row)));
+  percent("computing %", row.times.computing);
+  percent("sending %", row.times.sending);
+  percent("polling %", row.times.polling);
+  percent("balancing %", row.times.balancing);
+  percent("idle %", row.times.idle);
+  add("SPLITs", grouped(row.splits));
+  add("in messages", grouped(row.split_messages));
+  add("moved", grouped(row.hand_offs));
+  if (kept) add("whole plans kept", *kept);
+  return cells;
+}
+
+/// Takes the columns that are the same in all of several rows out of them, but for the first ones and the time.
+Cells take_common(std::vector<Cells>& rows, std::size_t first) {
+  Cells common;
+  for (std::size_t i = rows.size() < 2 ? rows.front().size() : first; i < rows.front().size();) {
+    const auto cell = rows.front()[i];
+    const bool same = std::ranges::all_of(rows, [&](const Cells& row) { return row[i] == cell; });
+    if (!same || cell.first == "seconds") {
+      ++i;
+      continue;
+    }
+    common.push_back(cell);
+    for (Cells& row : rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return common;
+}
+
+std::string csv_quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string line_of(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) {
+  std::string line = "|";
+  for (std::size_t i = 0; i < cells.size(); ++i) line += fmt::format(" {:>{}} |", cells[i], widths[i]);
+  return line + "\n";
+}
+
+std::string markdown_of(const std::vector<Cells>& rows) {
+  std::vector<std::vector<std::string>> lines(1);
+  for (const auto& [column, value] : rows.front()) lines[0].push_back(column);
+  for (const Cells& row : rows) {
+    lines.emplace_back();
+    for (const auto& [column, value] : row) lines.back().push_back(value);
+  }
+  std::vector<std::size_t> widths(lines[0].size(), 0);
+  for (const auto& line : lines)
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  std::string text = line_of(lines[0], widths) + "|";
+  for (const std::size_t width : widths) text += std::string(width + 1, '-') + ":|";
+  text += "\n";
+  for (std::size_t i = 1; i < lines.size(); ++i) text += line_of(lines[i], widths);
+  return text;
+}
+
+}  // namespace
+
+void ExperimentTable::add(const ExperimentRun& run) {
+  Row row;
+  row.run = run.name;
+  for (const auto& [key, value] : run.swept) row.swept.emplace_back(key, job::text_of(value));
+  row.repetition = run.repetition;
+  row.policy = run.request.balance.policy;
+  row.ranks = run.outcome.ranks.size();
+  row.subdomains = run.outcome.owners.size();
+  row.triangles = run.outcome.triangles();
+  row.seconds = run.outcome.makespan;
+  row.ideal_seconds = run.ideal;
+  row.rate = static_cast<double>(row.triangles) / row.seconds;
+  row.oracle_seconds = run.oracle;
+  row.efficiency = row.ideal_seconds / row.seconds;
+  row.cutting = run.outcome.cutting;
+  row.efficiency_with_cutting = row.ideal_seconds / (row.seconds + row.cutting);
+  row.times = shares_of(run.outcome);
+  for (const RankOutcome& rank : run.outcome.ranks) {
+    row.splits += rank.counters.splits_sent;
+    row.split_messages += rank.counters.batches_sent;
+    row.hand_offs += rank.counters.hand_offs;
+    row.hand_off_bytes += rank.counters.hand_off_bytes;
+  }
+  for (const balancer::Deliberation& d : run.outcome.deliberations)
+    if (d.subject == balancer::Deliberation::Subject::kPlan && d.whole) {
+      ++row.whole_plans;
+      if (d.verdict == balancer::Verdict::kDone) ++row.whole_plans_kept;
+    }
+  row.messages = run.outcome.messages();
+  row.message_bytes = run.outcome.message_bytes();
+  rows_.push_back(std::move(row));
+}
+
+double regret(const Row& row) {
+  return row.oracle_seconds > 0 ? row.seconds / row.oracle_seconds - 1 : 0;
+}
+
+std::optional<double> recovered(const Row& row, std::span<const Row> rows) {
+  if (row.policy == "none" || row.hand_offs == 0) return {};
+  const auto without = std::ranges::find_if(rows, [&](const Row& other) {
+    return other.policy == "none" && other.repetition == row.repetition && same_but_policy(other, row);
+  });
+  if (without == rows.end()) return {};
+  const double saved = without->seconds - row.seconds, possible = without->seconds - without->ideal_seconds;
+  if (!(possible > 0) || std::abs(saved) < without->spread + row.spread) return {};
+  return saved / possible;
+}
+
+std::vector<Row> medians_of(std::span<const Row> rows) {
+  std::vector<Row> medians;
+  for (auto first = rows.begin(); first != rows.end();) {
+    const auto end = std::find_if(first, rows.end(), [&](const Row& row) { return row.swept != first->swept; });
+    std::vector<Row> repeated(first, end);
+    std::ranges::sort(repeated, {}, &Row::seconds);
+    Row median = repeated[repeated.size() / 2];
+    median.spread = (repeated.back().seconds - repeated.front().seconds) / 2;
+    median.repetition = 0;
+    medians.push_back(std::move(median));
+    first = end;
+  }
+  return medians;
+}
+
+std::string ExperimentTable::csv() const {
+  std::string text;
+  for (const Row& row : rows_) {
+    std::vector<std::string> columns, values;
+    for (const auto& [column, value] : all_cells(row, recovered(row, rows_))) {
+      columns.push_back(csv_quoted(column));
+      values.push_back(csv_quoted(value));
+    }
+    if (text.empty()) text = fmt::format("{}\n", fmt::join(columns, ","));
+    text += fmt::format("{}\n", fmt::join(values, ","));
+  }
+  return text;
+}
+
+std::string ExperimentTable::markdown() const {
+  if (rows_.empty()) return "";
+  const std::vector<Row> medians = medians_of(rows_);
+  const bool repeated = medians.size() < rows_.size();
+  const bool saved = std::ranges::any_of(medians, [&](const Row& row) { return recovered(row, medians).has_value(); });
+  const bool planned = std::ranges::any_of(medians, [](const Row& row) { return row.whole_plans > 0; });
+  std::vector<Cells> rows;
+  for (const Row& row : medians) {
+    std::optional<std::string> share;
+    if (saved) share = recovered(row, medians) ? fmt::format("{:.1f}", 100 * *recovered(row, medians)) : "";
+    std::optional<std::string> kept;
+    if (planned) kept = fmt::format("{} of {}", row.whole_plans_kept, row.whole_plans);
+    rows.push_back(telling_cells(row, repeated, share, kept));
+  }
+  const Cells common = take_common(rows, medians.front().swept.size());
+  std::string text = markdown_of(rows);
+  std::string rest;
+  for (const auto& [column, value] : common) rest += fmt::format("{}{} {}", rest.empty() ? "" : ", ", column, value);
+  return rest.empty() ? text : text + "\nThe same in all: " + rest + "\n";
+}
+
+}  // namespace driftmesh::study
