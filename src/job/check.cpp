@@ -141,6 +141,9 @@ void check_pdr(const Request& request, PlaceKind place) {
   require(request.sizing.expression.empty() && request.sizing.background.empty() && request.sizing.longest == 0,
           "run.method", "is pdr, which needs the same bound on size everywhere, but lengths vary",
           "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
+  require(request.bounds.area > 0 || request.bounds.triangles > 0 || request.bounds.triangles_per_rank > 0,
+          "run.method", "is pdr, but nothing bounds the size of triangles",
+          "give bounds.area or bounds.triangles, or use the coupled method");
   require(request.bounds.angle > 0, "run.method", "is pdr, which needs a bound on angles", "give bounds.angle");
   const Request standard;
   const bool parts = request.decomposition != standard.decomposition || request.mapping != standard.mapping;

@@ -51,12 +51,16 @@ void check_capacity(const Asked& asked, const Place& place, const Prepared& prep
   check_capacity(subdomain, use.writes ? file : 0, use.by);
 }
 
-Order in_one_piece(const Asked& asked, const Place& place, Domain&& domain, Triangulated&& triangulated) {
+Order in_one_piece(const Asked& asked, const Place& place, Domain&& domain, Triangulated&& triangulated,
+                   RunRecord& record) {
   const Request::Limits& limits = asked.request.limits;
   const Use use = use_of(asked, place, false, triangulated.forecast);
   if (!limits.keep_incomplete)
     check_forecast(find_limits(limits, domain.pslg, use, place.processes()), triangulated.forecast, asked.by == kMesh,
                    [&] { return find_narrow_place(triangulated.mesh); });
+  record.acute_corners = triangulated.acute_corners;
+  record.forecast = triangulated.forecast;
+  record.max_area = triangulated.bounds.max_area;
   Order order;
   order.limits = limits;
   order.use = use;
@@ -104,7 +108,7 @@ Order order_for(const Asked& asked, const Place& place, RunRecord& record, Watch
   Domain domain = read_domain(request, asked.given, watch);
   record_domain(record, request, domain);
   Triangulated triangulated = triangulate_domain(request, domain, ranks_counted(place), place.cut(request), watch);
-  if (!triangulated.cut) return in_one_piece(asked, place, std::move(domain), std::move(triangulated));
+  if (!triangulated.cut) return in_one_piece(asked, place, std::move(domain), std::move(triangulated), record);
   return in_subdomains(asked, place, std::move(domain), triangulated, record, watch);
 }
 

@@ -38,21 +38,19 @@ class OnePiece final : public Refined {
       : domain_(std::move(order.whole->domain)),
         limits_(limits),
         holes_(std::move(order.whole->triangulated.holes)),
-        forecast_(order.whole->triangulated.forecast),
         threads_(threads) {
     result_.mesh = std::move(order.whole->triangulated.mesh);
-    result_.acute_corners = order.whole->triangulated.acute_corners;
     result_.bounds = std::move(order.whole->triangulated.bounds);
-    refine_domain(result_, limits_.triangles, forecast_, [&](std::int64_t triangles, double forecast) {
-      watch.refining(triangles, forecast);
-      by_memory_ = memory_is_full(limits_, triangles);
-      return !by_memory_;
-    });
+    refine_domain(result_, limits_.triangles, order.whole->triangulated.forecast,
+                  [&](std::int64_t triangles, double forecast) {
+                    watch.refining(triangles, forecast);
+                    by_memory_ = memory_is_full(limits_, triangles);
+                    return !by_memory_;
+                  });
     triangles_ = static_cast<std::int64_t>(result_.mesh.live_triangles());
   }
 
   void report(RunRecord& record) override {
-    record.forecast = forecast_;
     record.seconds_refine = result_.seconds_refine;
     record.peak_refining = peak_memory();
     record.stopped_by = limits_.called(by_memory_);
@@ -95,7 +93,6 @@ class OnePiece final : public Refined {
   Domain domain_;
   Limits limits_;
   std::vector<Point> holes_;
-  double forecast_ = 0;  // before refinement
   std::int32_t threads_;
   MeshResult result_;
   bool by_memory_ = false;

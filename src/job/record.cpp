@@ -50,8 +50,6 @@ void record_domain(RunRecord& run, const Request& request, const Domain& domain)
 
 void record_mesh(RunRecord& run, const MeshResult& result, std::int32_t threads) {
   run.complete = result.complete;
-  run.acute_corners = result.acute_corners;
-  run.max_area = result.bounds.max_area;
   const bool capped = room_under_cap() != UINT64_MAX;  // the stacks of threads would count
   add_part(run, result.mesh, result.bounds, result.complete, !capped && threads > 1);
   add_counters(run, result.counters);

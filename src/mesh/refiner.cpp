@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "base/assert.hpp"
-#include "driftmesh/error.hpp"
-#include "geometry/midpoint.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/bound_forecast.hpp"
 #include "mesh/exceptions.hpp"
-#include "mesh/flips.hpp"
 #include "mesh/renumber.hpp"
 
 namespace driftmesh {
@@ -23,18 +18,6 @@ constexpr double kFinePerCoarse = 256;
 constexpr double kFinePerBlock = 65536;
 
 constexpr std::int32_t kFetchAhead = 6;  // slots, see fetch_surroundings
-
-double radians(double degrees) {
-  return degrees * (std::numbers::pi / 180);
-}
-
-/// The lens of Chew and Shewchuk: points that see the segment at more than 120 degrees, or at more than 180 degrees
-/// less twice the angle bound where that is smaller, since a segment that does not obstruct the bound need not be
-/// split.
-double cos_squared_of_lens(double min_angle) {
-  const double cosine = std::cos(radians(std::min(120.0, 180 - 2 * min_angle)));
-  return cosine * cosine;
-}
 
 RefinerState initial_state(const Triangulation& mesh, const QualityBounds& bounds) {
   RefinerState state;
@@ -49,35 +32,13 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds)
     : Refiner(mesh, bounds, initial_state(mesh, bounds)) {}
 
 Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state)
-    : mesh_(mesh), bounds_(bounds), cavity_(mesh), areas_(mesh, bounds, kMarginOfRefinement), state_(std::move(state)) {
-  require_possible(bounds);
-  // The relative margin makes the bound hold for readers of the file, which may round differently.
-  const double sine = std::sin(radians(bounds.min_angle));
-  sin_squared_ = sine * sine * (1 + 1e-9);
-  off_center_factor_ = bounds.min_angle > 0 ? off_center_factor(bounds.min_angle) : 0;
-  lens_.cos_squared = cos_squared_of_lens(bounds.min_angle);
-  if (const std::string fault = state_.fault(mesh, bounds); !fault.empty())
-    throw Error("the state of refinement does not fit its mesh: " + fault);
+    : Improver(mesh, bounds, std::move(state)) {
   coarsening_ = state_.stage == Stage::kCoarse ? kFinePerCoarse : 1;
   if (state_.stage == Stage::kDone) cavity_.rest();
   if (state_.sweep.ended()) cavity_.begin_by_place();
 }
 
-// ---- Shapes and bounds ----
-
-inline Refiner::Shape Refiner::shape(double twice_area, double ab, double bc, double ca) {
-  return {twice_area, std::min(ab, std::min(bc, ca)), std::max(ab, std::max(bc, ca)),
-          std::max(ab * bc, std::max(bc * ca, ca * ab))};
-}
-
-inline double Refiner::twice_area(TriangleId t) const {
-  return 2 * signed_area(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
-}
-
-inline Refiner::Shape Refiner::shape_of(TriangleId t, double twice_area) const {
-  const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-  return shape(twice_area, squared_distance(a, b), squared_distance(b, c), squared_distance(c, a));
-}
+// ---- Bounds ----
 
 /// Whether a triangle with twice this area is too large.
 inline bool Refiner::is_large(TriangleId t, double twice_area) const {
@@ -232,8 +193,7 @@ bool Refiner::step_large() {
     if (mesh_.triangles[t].alive()) [[likely]] {
       const double twice = twice_area(t);
       if (is_large(t, twice)) {
-        if (improve(t, circumcenter(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2))) == Progress::kChanged)
-          return true;
+        if (improve(t, circumcenter_of(t)) == Progress::kChanged) return true;
         ++state_.counters.given_up;
       } else if (state_.stage != Stage::kCoarse) {
         const Shape s = shape_of(t, twice);
@@ -253,116 +213,22 @@ bool Refiner::step_skinny() {
   if (!is_skinny(s) || !entry.fits(s.shortest)) return true;
   if (cause_of(mesh_, t) != ExceptionCause::kUnexplained) return true;
   const std::int64_t before = state_.counters.free_points;
-  const Point p =
-      off_center_of_triangle(mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2), off_center_factor_);
-  if (improve(t, p) == Progress::kStuck)
+  if (improve(t, off_center_of(t)) == Progress::kStuck)
     ++state_.counters.given_up;
   else if (state_.counters.free_points == before)
     state_.skinny.add(t, entry.bucket);  // a segment was split instead: the triangle may still be there
   return true;
 }
 
-std::optional<Point> Refiner::wanted(TriangleId t) const {
-  const Shape s = shape_of(t);
-  const Point &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-  if (is_large(t, s.twice_area)) return circumcenter(a, b, c);
-  if (!is_skinny(s) || cause_of(mesh_, t) != ExceptionCause::kUnexplained) return std::nullopt;
-  return off_center_of_triangle(a, b, c, off_center_factor_);
-}
-
-// ---- Insertion ----
-
-VertexId Refiner::add_vertex(const Point& p, VertexOrigin origin) {
-  const VertexId v = mesh_.add_vertex(p, origin);
-  if (bounds_.size != nullptr) {
-    if (!state_.size.has(v)) state_.size.resize_uninitialized(to_index(v) + 1);
-    state_.size[v] = bounds_.size->edge_length(p);
-  }
-  return v;
-}
-
-/// Inserts p, a point in the circumdisk of triangle t, or splits the segment that it encroaches upon.
-inline Refiner::Progress Refiner::improve(TriangleId t, const Point& p) {
-  if (!std::isfinite(p.x) || !std::isfinite(p.y)) return Progress::kStuck;
-  switch (cavity_.gather(p, t, lens_)) {
-    case Cavity::Found::kClear:
-      cavity_.fill(add_vertex(p, kFree));
-      ++state_.counters.free_points;
-      note_fresh();
-      return Progress::kChanged;
-    case Cavity::Found::kEncroached:
-      ++state_.counters.encroaching;
-      return split_and_tell(cavity_.encroached()) ? Progress::kChanged : Progress::kStuck;
-    default:
-      return Progress::kStuck;
-  }
-}
-
-bool Refiner::insert(TriangleId t, const Point& p) {
-  return improve(t, p) == Progress::kChanged;
-}
-
-/// Deletes the free vertices opposite to a segment that see it under more than 90 degrees.
-void Refiner::clear_diametral_circle(SubsegmentId s) {
-  for (const std::size_t side : {0, 1}) {
-    for (;;) {
-      const Subsegment& segment = mesh_.subsegments[s];
-      const HalfEdge h = segment.half[side];
-      if (h == kNone) break;
-      const VertexId apex = mesh_.apex(h);
-      if (mesh_.origin[apex] != kFree) break;
-      if (!in_diametral_lens(mesh_.points[apex], mesh_.points[segment.vertex[0]], mesh_.points[segment.vertex[1]], 0))
-        break;
-      changed_.clear();
-      if (!remove_vertex(mesh_, h, changed_)) break;
-      ++state_.counters.deleted_points;
-      for (const TriangleId t : changed_)
-        if (mesh_.triangles[t].alive()) note(t, shape_of(t));
-    }
-  }
-}
-
-/// Splits leaf s at its midpoint. False if depth or precision does not allow it.
-bool Refiner::split(SubsegmentId s) {
-  if (dyadic::depth(mesh_.subsegments[s].path) >= dyadic::kMaxDepth || state_.unsplittable.contains(s)) return false;
-  clear_diametral_circle(s);
-  const auto [a, b] = mesh_.subsegments[s].vertex;
-  const Point m = midpoint(mesh_.points[a], mesh_.points[b]);
-  if (cavity_.gather_on(s, m) != Cavity::Found::kClear) {
-    // Do not try again: the vertices deleted for it would come back and be deleted again, forever.
-    state_.unsplittable.insert(s);
-    return false;
-  }
-  const VertexId v = add_vertex(m, midpoint_of(s));
-  const SubsegmentId child = mesh_.halve(s, v);
-  cavity_.fill_on(v, child, after(child));
-  ++state_.counters.segment_points;
-  note_fresh();
-  return true;
-}
-
-bool Refiner::split_and_tell(SubsegmentId s) {
-  const SplitPoint<RootId> point{mesh_.subsegments[s].root, mesh_.subsegments[s].path};
-  if (!split(s)) return false;
-  state_.made.push_back(point);
-  return true;
-}
+// ---- What has changed ----
 
 bool Refiner::add_split_point(RootId root, dyadic::Path path) {
-  for (;;) {
-    const SubsegmentId s = mesh_.descend(root, path);
-    if (!mesh_.subsegments[s].is_leaf()) return true;
-    if (state_.stage == Stage::kDone) enter(Stage::kRest);
-    if (!split(s)) return false;
-  }
+  if (state_.stage == Stage::kDone && mesh_.subsegments[mesh_.descend(root, path)].is_leaf()) enter(Stage::kRest);
+  return Improver::add_split_point(root, path);
 }
 
 void Refiner::note_fresh() {
   const int n = cavity_.fresh_count();
-  if (touched_ != nullptr) [[unlikely]] {
-    for (int i = 0; i < n; ++i) touched_->push_back(cavity_.fresh_triangle(i));
-    return;
-  }
   for (int i = 0; i < n; ++i) {
     if (state_.sweep.will_visit(cavity_.fresh_triangle(i))) continue;
     const Cavity::Fresh f = cavity_.fresh(i);
@@ -372,7 +238,6 @@ void Refiner::note_fresh() {
 
 /// Queues a triangle that needs work, unless the sweep will come to it anyway.
 inline void Refiner::note(TriangleId t, const Shape& s) {
-  if (touched_ != nullptr) return touched_->push_back(t);
   if (state_.sweep.will_visit(t)) return;
   if (is_large(t, s.twice_area))
     state_.sweep.visit_again(t);

@@ -1075,6 +1075,8 @@ class Experiments(RunsOfExperiments):
                 refused = self.on_ranks(2, "run", "methods.yaml", "-o", "refused", *words)
                 self.assertNotEqual(refused.returncode, 0)
                 self.assertIn(says, refused.stderr)
+        self.refuse("run", "methods.yaml", "--dry-run", "--set", "cluster.ranks=2", "--set", "bounds.triangles=0",
+                    says=["run.method", "nothing bounds the size"])
 
     def test_real_ranks_make_the_same_files_and_the_same_mesh(self):
         settings = ["bounds.triangles=2e5", "decomposition.subdomains=60", "cluster.drag=[1, 0.05]", "lb-statistics=2"]

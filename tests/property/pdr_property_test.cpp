@@ -20,10 +20,8 @@
 #include "oracles/random_pslg.hpp"
 #include "property/cases.hpp"
 #include "protocol/adversarial_network.hpp"
-#include "study/pdr/own_cells.hpp"
+#include "study/pdr/lattice_place.hpp"
 #include "study/pdr/part.hpp"
-#include "study/pdr/simulate.hpp"
-#include "study/pdr/start.hpp"
 #include "support/exchange_over.hpp"
 #include "support/id_literals.hpp"
 #include "verify/report_text.hpp"
@@ -59,10 +57,11 @@ Case random_case(std::uint64_t seed) {
 /// The ranks of a case, without any network.
 struct Ranks {
   IdVector<Rank, std::unique_ptr<pdr::Part>> all;
+  pdr::Lattice lattice{{0, 0}, {1, 1}, 1, 1};
 
   Ranks(const Case& c, std::int32_t ranks) {
     Triangulation mesh = c.mesh;
-    const pdr::Lattice lattice = pdr::start(mesh, c.bounds, ranks);
+    lattice = pdr::start(mesh, c.bounds, ranks);
     for (const Rank r : first_ids<Rank>(ranks))
       all.push_back(std::make_unique<pdr::Part>(r, ranks, mesh, lattice, c.bounds));
   }
@@ -70,7 +69,7 @@ struct Ranks {
 
 IdVector<Rank, Exchange*> refinements_of(const Ranks& ranks) {
   IdVector<Rank, Exchange*> exchanges;
-  for (const auto& one : ranks.all) exchanges.push_back(&one->refinement);
+  for (const auto& one : ranks.all) exchanges.push_back(one.get());
   return exchanges;
 }
 
@@ -114,12 +113,11 @@ std::array<Place, 3> corners_of(const Point& a, const Point& b, const Point& c) 
 Union union_of(const Ranks& ranks, const Case& c) {
   Union all;
   for (const Rank r : ids_of(ranks.all)) {
-    const pdr::Part& part = *ranks.all[r];
-    const Triangulation& mesh = part.mesh;
+    const Triangulation& mesh = ranks.all[r]->mesh();
     const auto owns = [&](TriangleId t) {
       Place leftmost = place_of(mesh.corner(t, 0));
       for (int i = 1; i < 3; ++i) leftmost = std::min(leftmost, place_of(mesh.corner(t, i)));
-      return part.lattice.owner_of(part.lattice.cell_of({leftmost.first, leftmost.second})) == r;
+      return ranks.lattice.owner_of(ranks.lattice.cell_of({leftmost.first, leftmost.second})) == r;
     };
     for (const TriangleId t : ids_of(mesh.triangles)) {
       if (!mesh.triangles[t].alive() || !owns(t)) continue;
@@ -157,6 +155,11 @@ Mesh whole_of(const Ranks& ranks, const Case& c) {
 bool same_mesh(const Mesh& a, const Mesh& b) {
   return a.points == b.points && a.triangles == b.triangles && a.edges == b.edges;
 }
+
+struct MostSeen final : job::Watch {
+  std::int64_t most = 0;
+  void refining(std::int64_t triangles, double /*forecast*/) override { most = std::max(most, triangles); }
+};
 
 }  // namespace
 
@@ -198,7 +201,7 @@ TEST_CASE("random domains on any number of ranks make one mesh that meets the bo
       const Ranks all(c, ranks);
       refine_directly(all);
       check_mesh(c, whole_of(all, c));
-      for (const auto& one : all.all) told += one->refinement.traffic().points;
+      for (const auto& one : all.all) told += one->told();
     }
   }
   MESSAGE(told << " points told");
@@ -235,39 +238,39 @@ TEST_CASE("simulated ranks make the same mesh, and time passes for all that they
 
     ClusterSpec cluster;
     cluster.groups = {{"fast", 3, 0}, {"slow", 1, reference_speed({}) / 8}};
-    std::uint64_t digest = 0, expected = 0;
-    std::int64_t vertices = 0, subsegments = 0, most = 0;
-    pdr::SimulationObservers observers;
-    observers.progress = [&](std::int64_t triangles) { most = std::max(most, triangles); };
-    observers.finished = [&](pdr::Part& part, Rank rank, const RankOutcome& outcome) {
-      digest += mesh_digest(part.mesh);
-      CHECK(outcome.triangles == static_cast<std::int64_t>(part.mesh.live_triangles()));
-      const pdr::OwnCounts own = pdr::count_own(part.mesh, part.lattice, rank);
-      vertices += own.vertices;
-      subsegments += own.subsegments;
-    };
-    const ClusterRun run = pdr::simulate(c.mesh, c.bounds, cluster, {}, observers);
+    MostSeen progress;
+    job::RunRecord record;
+    job::Order order;
+    order.whole.emplace().triangulated.mesh = c.mesh;
+    order.whole->triangulated.bounds = c.bounds;
+    const auto refined = pdr::SimulatedLattice(cluster).refine(std::move(order), job::Limits{}, nullptr, progress);
+    refined->report(record);
+    const ClusterRun run = refined->history();
+    std::uint64_t expected = 0;
     for (const Rank r : ids_of(direct.all)) {
-      pdr::Part& part = *direct.all[r];
-      pdr::keep_own_triangles(part.mesh, part.refinement.cells(), part.lattice, r);
-      expected += mesh_digest(part.mesh);
+      const job::MeshFacts own = direct.all[r]->keep_own(c.bounds);
+      expected += mesh_digest(direct.all[r]->mesh());
+      CHECK(run.ranks[r].triangles == own.triangles);
+      CHECK(own.triangles == static_cast<std::int64_t>(direct.all[r]->mesh().live_triangles()));
     }
-    CHECK(digest == expected);
+    CHECK(record.digest == expected);
     CHECK(run.triangles() == static_cast<std::int64_t>(mesh.triangles.size()));
-    CHECK(vertices == static_cast<std::int64_t>(mesh.points.size()));
-    CHECK(subsegments == static_cast<std::int64_t>(mesh.edges.size()));
-    CHECK(most > run.triangles() / 2);
+    CHECK(record.vertices == static_cast<std::int64_t>(mesh.points.size()));
+    CHECK(record.subsegments == static_cast<std::int64_t>(mesh.edges.size()));
+    CHECK(progress.most > run.triangles() / 2);
     const CostModel costs;
     for (const Rank r : ids_of(run.ranks)) {
       const RankOutcome& rank = run.ranks[r];
-      const auto& counters = direct.all[r]->refinement.cells().all_counters();
+      const auto& counters = direct.all[r]->cells().counters();
       const auto inserted = static_cast<double>(counters.free_points + counters.segment_points);
       const double slowness = r == 3_rank ? 8 : 1;
       CHECK(rank.times.computing > slowness * costs.point * inserted);  // the start comes on top
       CHECK(rank.times.total() <= run.makespan * (1 + 1e-9));
       CHECK(rank.times.idle >= 0);
-      CHECK(rank.messages == static_cast<std::uint64_t>(rank.counters.batches_sent));
-      CHECK(rank.counters.splits_sent == direct.all[r]->refinement.traffic().points);
+      std::size_t mail = 0;  // to a neighbor for each from it
+      for (int round = 0; round < direct.all[r]->rounds(); ++round) mail += direct.all[r]->senders(round).size();
+      CHECK(rank.messages == mail);
+      CHECK(rank.counters.splits_sent == direct.all[r]->told());
     }
     CHECK(run.ranks[0_rank].times.idle > run.ranks[3_rank].times.idle);
   }

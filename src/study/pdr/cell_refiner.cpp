@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <deque>
-#include <map>
 #include <utility>
 
 #include "driftmesh/error.hpp"
+#include "mesh/exceptions.hpp"
 
 namespace driftmesh::pdr {
 
 CellRefiner::CellRefiner(Triangulation& mesh, const QualityBounds& bounds, const Lattice& lattice)
-    : mesh_(mesh), lattice_(lattice), refiner_(mesh, bounds) {
-  refiner_.tell_changes(touched_);
+    : Improver(mesh, bounds, {}), lattice_(lattice) {
   for (const TriangleId t : ids_of(mesh.triangles)) touched_.push_back(t);
-  note_touched();
+  take_touched();
 }
 
 Cell CellRefiner::cell_of(TriangleId t) const {
@@ -21,61 +20,66 @@ Cell CellRefiner::cell_of(TriangleId t) const {
   return lattice_.cell_of(std::min({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)}, leftmost));
 }
 
-/// Notes a triangle for each corner of those that changed, and that somebody must look at them.
-void CellRefiner::note_touched() {
+/// Notes a triangle for each corner of those that were touched, and that somebody must look at them.
+void CellRefiner::take_touched() {
   if (incident_.size() < mesh_.points.size()) incident_.resize(mesh_.points.size(), kNone);
-  for (const TriangleId t : touched_)
-    if (mesh_.triangles[t].alive())
-      for (const VertexId v : mesh_.triangles[t].vertex) incident_[v] = t;
-  changed_.insert(changed_.end(), touched_.begin(), touched_.end());
+  each_touched_corner([&](TriangleId t, VertexId v) { incident_[v] = t; });
+  changed_since_.insert(changed_since_.end(), touched_.begin(), touched_.end());
 }
 
 // ---- Refining ----
 
-/// So that a turn takes time for what has changed, not for the whole mesh.
-void CellRefiner::sort_changed(Rank rank) {
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  for (const TriangleId t : changed_)
-    if (mesh_.triangles[t].alive() && refiner_.wanted(t))
-      if (const Cell cell = cell_of(t); lattice_.owner_of(cell) == rank) unseen_[Lattice::color_of(cell)].push_back(t);
-  changed_.clear();
+/// A point that would improve triangle t; nothing if it meets the bounds, or exceptions.hpp explains it.
+std::optional<Point> CellRefiner::wanted(TriangleId t) const {
+  const Shape s = shape_of(t);
+  if (s.twice_area > areas_.constant(t)) return circumcenter_of(t);
+  if (!is_skinny(s) || cause_of(mesh_, t) != ExceptionCause::kUnexplained) return std::nullopt;
+  return off_center_of(t);
 }
 
-std::vector<CellRefiner::Changes> CellRefiner::refine(Rank rank, int color) {
-  const RefineCounters before = refiner_.counters();
+/// So that a turn takes time for what has changed, not for the whole mesh.
+void CellRefiner::sort_changed(Rank rank) {
+  std::sort(changed_since_.begin(), changed_since_.end());
+  changed_since_.erase(std::unique(changed_since_.begin(), changed_since_.end()), changed_since_.end());
+  for (const TriangleId t : changed_since_)
+    if (mesh_.triangles[t].alive() && wanted(t))
+      if (const Cell cell = cell_of(t); lattice_.owner_of(cell) == rank) unseen_[Lattice::color_of(cell)].push_back(t);
+  changed_since_.clear();
+}
+
+std::map<Cell, std::vector<Change>> CellRefiner::refine(Rank rank, int color) {
+  const RefineCounters before = counters();
   sort_changed(rank);
   std::map<Cell, std::vector<TriangleId>> work;
   for (const TriangleId t : std::exchange(unseen_[color], {}))
     if (mesh_.triangles[t].alive())
       if (const Cell cell = cell_of(t); Lattice::color_of(cell) == color && lattice_.owner_of(cell) == rank)
         work[cell].push_back(t);
-  std::vector<Changes> all;
-  for (auto& [cell, triangles] : work)
-    if (Changes changes = refine_cell(cell, std::move(triangles)); !changes.list.empty())
-      all.push_back(std::move(changes));
+  std::map<Cell, std::vector<Change>> all;
+  for (const auto& [cell, triangles] : work)
+    if (auto changes = refine_cell(cell, triangles); !changes.empty()) all[cell] = std::move(changes);
   for (const auto count : {&RefineCounters::free_points, &RefineCounters::segment_points,
-                           &RefineCounters::deleted_points, &RefineCounters::encroaching, &RefineCounters::given_up})
-    own_.*count += refiner_.counters().*count - before.*count;
+                           &RefineCounters::deleted_points, &RefineCounters::encroaching})
+    own_.*count += counters().*count - before.*count;
   return all;
 }
 
-CellRefiner::Changes CellRefiner::refine_cell(Cell cell, std::vector<TriangleId> work) {
-  Changes changes{cell, {}};
+std::vector<Change> CellRefiner::refine_cell(Cell cell, const std::vector<TriangleId>& work) {
+  std::vector<Change> changes;
   std::deque<TriangleId> queue(work.begin(), work.end());
   for (; !queue.empty(); queue.pop_front()) {
     const TriangleId t = queue.front();
     if (!mesh_.triangles[t].alive() || cell_of(t) != cell) continue;
-    const auto p = refiner_.wanted(t);
+    const auto p = wanted(t);
     if (!p) continue;
     const Change free{kNone, 0, *p, mesh_.corner(t, 0), mesh_.corner(t, 1)};
     touched_.clear();
-    if (!refiner_.insert(t, *p)) continue;
+    if (improve(t, *p) == Progress::kStuck) continue;
     check_reach(cell);
-    const auto splits = refiner_.take_split_points();
-    if (splits.empty()) changes.list.push_back(free);
-    for (const auto& split : splits) changes.list.push_back({split.root, split.path, {}, {}, {}});
-    note_touched();
+    const auto splits = take_split_points();
+    if (splits.empty()) changes.push_back(free);
+    for (const auto& split : splits) changes.push_back({split.root, split.path, {}, {}, {}});
+    take_touched();
     queue.insert(queue.end(), touched_.begin(), touched_.end());
     if (!splits.empty()) queue.push_back(t);  // it may still be there
   }
@@ -83,12 +87,10 @@ CellRefiner::Changes CellRefiner::refine_cell(Cell cell, std::vector<TriangleId>
 }
 
 void CellRefiner::check_reach(Cell cell) const {
-  for (const TriangleId t : touched_)
-    if (mesh_.triangles[t].alive())
-      for (const VertexId v : mesh_.triangles[t].vertex)
-        if (!lattice_.is_near(cell, mesh_.points[v]))
-          throw Error(
-              "the cells of the lattice are too small: a change reaches beyond half a cell; use another method");
+  each_touched_corner([&](TriangleId, VertexId v) {
+    if (!lattice_.is_near(cell, mesh_.points[v]))
+      throw Error("the cells of the lattice are too small: a change reaches beyond half a cell; use another method");
+  });
 }
 
 // ---- Repeating ----
@@ -96,7 +98,7 @@ void CellRefiner::check_reach(Cell cell) const {
 void CellRefiner::repeat(std::span<const Change> changes) {
   VertexAt vertex_at = find_vertices(changes);
   for (const Change& change : changes) repeat(change, vertex_at);
-  static_cast<void>(refiner_.take_split_points());
+  static_cast<void>(take_split_points());
 }
 
 /// The vertices from which changes start, as far as there are any yet.
@@ -116,17 +118,16 @@ CellRefiner::VertexAt CellRefiner::find_vertices(std::span<const Change> changes
 void CellRefiner::repeat(const Change& change, VertexAt& vertex_at) {
   touched_.clear();
   if (change.root != kNone) {
-    static_cast<void>(refiner_.add_split_point(change.root, change.path));
+    static_cast<void>(add_split_point(change.root, change.path));
   } else {
     const VertexId from = vertex_at.at(change.from);
     if (from == kNone || mesh_.origin[from] == kDeleted || mesh_.points[from] != change.from) return;
-    static_cast<void>(refiner_.insert(left_of(from, change.to), change.point));
+    static_cast<void>(improve(left_of(from, change.to), change.point));
   }
-  note_touched();
-  for (const TriangleId t : touched_)
-    if (mesh_.triangles[t].alive())
-      for (const VertexId v : mesh_.triangles[t].vertex)
-        if (const auto at = vertex_at.find(mesh_.points[v]); at != vertex_at.end()) at->second = v;
+  take_touched();
+  each_touched_corner([&](TriangleId, VertexId v) {
+    if (const auto at = vertex_at.find(mesh_.points[v]); at != vertex_at.end()) at->second = v;
+  });
 }
 
 /// The triangle on the left of the edge between two vertices; if there is no such edge, any at the first.

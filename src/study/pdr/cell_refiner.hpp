@@ -1,16 +1,19 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "base/growing_array.hpp"
+#include "base/mix.hpp"
 #include "dyadic/path.hpp"
-#include "mesh/refiner.hpp"
+#include "mesh/improver.hpp"
 #include "study/pdr/lattice.hpp"
-#include "study/pdr/point_hash.hpp"
 
 namespace driftmesh::pdr {
 
@@ -24,7 +27,7 @@ struct Change {
 };
 
 /// A rank's view of the common mesh: complete in its block of cells and around it, coarse elsewhere.
-class CellRefiner {
+class CellRefiner : private Improver<CellRefiner> {
  public:
   /// `mesh` and `lattice` outlive the object.
   CellRefiner(Triangulation& mesh, const QualityBounds& bounds, const Lattice& lattice);
@@ -32,38 +35,51 @@ class CellRefiner {
   /// The cell to which a triangle belongs: that of its leftmost corner. Free of rounding, so ranks agree.
   [[nodiscard]] Cell cell_of(TriangleId t) const;
 
-  struct Changes {
-    Cell cell;
-    std::vector<Change> list;
-  };
-  /// Refines the cells of `rank` in this color until their triangles meet the bounds, and returns what was done, cell
-  /// by cell. Throws Error if a change reaches farther than half a side beyond its cell.
-  [[nodiscard]] std::vector<Changes> refine(Rank rank, int color);
+  /// Refines the cells of `rank` in this color until their triangles meet the bounds, and returns what was done in each
+  /// cell. Throws Error if a change reaches farther than half a side beyond its cell.
+  [[nodiscard]] std::map<Cell, std::vector<Change>> refine(Rank rank, int color);
   /// Repeats changes that another rank has made to cells, in their order.
   void repeat(std::span<const Change> changes);
 
   /// Counts what this rank has refined, without what it has repeated.
-  [[nodiscard]] const RefineCounters& counters() const { return own_; }
+  [[nodiscard]] const RefineCounters& own_counters() const { return own_; }
   /// Counts what it has repeated, too.
-  [[nodiscard]] const RefineCounters& all_counters() const { return refiner_.counters(); }
+  using Improver::counters;
 
  private:
+  friend Improver;
+  /// By exact coordinates. 0 and -0 are equal, so they hash alike.
+  struct PointHash {
+    std::size_t operator()(const Point& p) const {
+      return mix(mix(std::bit_cast<std::uint64_t>(p.x + 0.0)) ^ std::bit_cast<std::uint64_t>(p.y + 0.0));
+    }
+  };
   using VertexAt = std::unordered_map<Point, VertexId, PointHash>;
 
+  void note_fresh() {
+    for (int i = 0; i < cavity_.fresh_count(); ++i) touched_.push_back(cavity_.fresh_triangle(i));
+  }
+  void note(TriangleId t, const Shape& /*shape*/) { touched_.push_back(t); }
+  [[nodiscard]] std::optional<Point> wanted(TriangleId t) const;
   void sort_changed(Rank rank);
-  [[nodiscard]] Changes refine_cell(Cell cell, std::vector<TriangleId> work);
+  [[nodiscard]] std::vector<Change> refine_cell(Cell cell, const std::vector<TriangleId>& work);
   void check_reach(Cell cell) const;
   [[nodiscard]] VertexAt find_vertices(std::span<const Change> changes) const;
   void repeat(const Change& change, VertexAt& vertex_at);
   [[nodiscard]] TriangleId left_of(VertexId from, const Point& to) const;
-  void note_touched();
+  /// Does visit(t, v) for each corner v of each triangle t that the last change has touched.
+  template <class Visit>
+  void each_touched_corner(const Visit& visit) const {
+    for (const TriangleId t : touched_)
+      if (mesh_.triangles[t].alive())
+        for (const VertexId v : mesh_.triangles[t].vertex) visit(t, v);
+  }
+  void take_touched();
 
-  Triangulation& mesh_;
   const Lattice& lattice_;
-  Refiner refiner_;
   RefineCounters own_;
-  std::vector<TriangleId> touched_;
-  std::vector<TriangleId> changed_;                               ///< since they were last sorted by color; may repeat
+  std::vector<TriangleId> touched_;                               ///< by the last change; some may be dead
+  std::vector<TriangleId> changed_since_;                         ///< since they were last sorted by color; may repeat
   std::array<std::vector<TriangleId>, Lattice::kColors> unseen_;  ///< those that a color has to look at
   GrowingArray<TriangleId, VertexId> incident_;                   ///< a triangle at each vertex
 };

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "driftmesh/error.hpp"
-#include "driftmesh/id_vector.hpp"
 
 namespace driftmesh::pdr {
 namespace {
@@ -28,11 +27,6 @@ std::int32_t ranks_side_by_side(std::int32_t columns, std::int32_t rows, std::in
 
 std::int32_t share_of(std::int32_t cell, std::int32_t cells, std::int32_t shares) {
   return static_cast<std::int32_t>(std::int64_t{cell} * shares / cells);
-}
-
-/// The first cell of a share.
-std::int32_t begin_of(std::int32_t share, std::int32_t cells, std::int32_t shares) {
-  return static_cast<std::int32_t>((std::int64_t{share} * cells + shares - 1) / shares);
 }
 
 }  // namespace
@@ -64,35 +58,22 @@ bool Lattice::is_near(Cell c, const Point& p) const {
   return near(p.x - low_.x, c.column, columns_) && near(p.y - low_.y, c.row, rows_);
 }
 
-bool Lattice::Span::reaches(Span other) const {
-  return first < last && other.first < other.last && first < other.last + kReach && other.first < last + kReach;
+std::set<Rank> Lattice::followers_of(Cell c) const {
+  std::set<Rank> owners;
+  for (std::int32_t row = std::max(c.row - kReach, 0); row <= std::min(c.row + kReach, rows_ - 1); ++row)
+    for (std::int32_t column = std::max(c.column - kReach, 0); column <= std::min(c.column + kReach, columns_ - 1);
+         ++column)
+      owners.insert(owner_of({column, row}));
+  owners.erase(owner_of(c));
+  return owners;
 }
 
-std::array<Lattice::Span, 2> Lattice::block(Rank r) const {
-  const auto span = [](std::int32_t share, std::int32_t cells, std::int32_t shares) {
-    return Span{begin_of(share, cells, shares), begin_of(share + 1, cells, shares)};
-  };
-  return {span(to_int(r) % ranks_across_, columns_, ranks_across_), span(to_int(r) / ranks_across_, rows_, ranks_up_)};
-}
-
-bool Lattice::reaches(const std::array<Span, 2>& block_of_one, Rank r) const {
-  const auto other = block(r);
-  return block_of_one[0].reaches(other[0]) && block_of_one[1].reaches(other[1]);
-}
-
-std::vector<Rank> Lattice::reached_by(const std::array<Span, 2>& cells, Rank except) const {
-  std::vector<Rank> reached;
-  for (const Rank r : first_ids<Rank>(ranks_across_ * ranks_up_))
-    if (r != except && reaches(cells, r)) reached.push_back(r);
-  return reached;
-}
-
-std::vector<Rank> Lattice::followers_of(Cell c) const {
-  return reached_by({Span{c.column, c.column + 1}, Span{c.row, c.row + 1}}, owner_of(c));
-}
-
-std::vector<Rank> Lattice::neighbors_of(Rank r) const {
-  return reached_by(block(r), r);
+std::set<Rank> Lattice::neighbors_of(Rank r) const {
+  std::set<Rank> neighbors;
+  for (Cell c; c.row < rows_; ++c.row)
+    for (c.column = 0; c.column < columns_; ++c.column)
+      if (owner_of(c) == r) neighbors.merge(followers_of(c));
+  return neighbors;
 }
 
 }  // namespace driftmesh::pdr

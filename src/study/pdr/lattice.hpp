@@ -1,8 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <vector>
+#include <set>
 
 #include "driftmesh/ids.hpp"
 #include "driftmesh/point.hpp"
@@ -28,7 +27,6 @@ class Lattice {
   /// and ranks are.
   Lattice(const Point& low, const Point& high, double side, std::int32_t ranks);
 
-  [[nodiscard]] double side() const { return side_; }
   [[nodiscard]] std::int32_t columns() const { return columns_; }
   [[nodiscard]] std::int32_t rows() const { return rows_; }
   /// Points outside the rectangle belong to the nearest cell.
@@ -37,21 +35,12 @@ class Lattice {
   [[nodiscard]] Rank owner_of(Cell c) const;
   /// Whether p lies in the cell or within half a side of it.
   [[nodiscard]] bool is_near(Cell c, const Point& p) const;
-  /// The ranks, without the cell's owner, that follow what happens in it; ascending.
-  [[nodiscard]] std::vector<Rank> followers_of(Cell c) const;
-  /// The ranks that follow a cell of this rank's block, ascending: they are the same as those whose cells it follows.
-  [[nodiscard]] std::vector<Rank> neighbors_of(Rank r) const;
+  /// The ranks, without the cell's owner, that follow what happens in it.
+  [[nodiscard]] std::set<Rank> followers_of(Cell c) const;
+  /// The ranks that follow a cell of this rank's block: they are the same as those whose cells it follows.
+  [[nodiscard]] std::set<Rank> neighbors_of(Rank r) const;
 
  private:
-  /// The columns, or rows, first .. last - 1.
-  struct Span {
-    std::int32_t first, last;
-    [[nodiscard]] bool reaches(Span other) const;
-  };
-  [[nodiscard]] std::array<Span, 2> block(Rank r) const;
-  [[nodiscard]] bool reaches(const std::array<Span, 2>& block, Rank r) const;
-  [[nodiscard]] std::vector<Rank> reached_by(const std::array<Span, 2>& block, Rank except) const;
-
   Point low_;
   double side_;
   std::int32_t columns_, rows_;

@@ -2,247 +2,212 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "base/bytes.hpp"
-#include "base/stopwatch.hpp"
-#include "distributed/observed_exchange.hpp"
+#include "cluster/simulated/virtual_cluster.hpp"
 #include "driftmesh/error.hpp"
 #include "job/drag.hpp"
 #include "job/failure.hpp"
-#include "job/limits.hpp"
 #include "job/memory.hpp"
 #include "job/rank_report.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
-#include "runtime/plan_bytes.hpp"
-#include "study/pdr/own_cells.hpp"
+#include "mesh/forecast.hpp"
+#include "protocol/transport_layer.hpp"
+#include "protocol/virtual_network.hpp"
 #include "study/pdr/part.hpp"
-#include "study/pdr/simulate.hpp"
-#include "study/pdr/start.hpp"
 
 namespace driftmesh::pdr {
 namespace {
 
-using job::timed;
+/// A rank that refines its part, in real or virtual time, and what it spends its time on.
+class LatticeRank final : private protocol::TransportLayer {
+ public:
+  struct Work {
+    double seconds = 0;                // real ones
+    std::int64_t points = 0, own = 0;  // inserted, and inserted in the rank's own cells
+  };
+  /// `worked` is called after each piece of work; the time that it lets pass belongs to that work.
+  LatticeRank(protocol::Transport& network, Triangulation started, const Lattice& lattice, const QualityBounds& bounds,
+              std::function<void(const Work&)> worked)
+      : TransportLayer(network),
+        worked_(std::move(worked)),
+        part_(network.rank(), network.ranks(), std::move(started), lattice, bounds, [this] { charge_work(); }),
+        clock_(network.now()) {}
 
-/// `part` has only the triangles of its own cells.
-job::RankReport report_of(const Part& part, const QualityBounds& bounds, const RankOutcome& outcome) {
-  job::RankReport report;
-  job::add_part(report.facts, part.mesh, bounds, true);
-  job::add_counters(report.facts, part.refinement.cells().counters());
-  static_cast<RankOutcome&>(report.rank) = outcome;
-  report.rank.triangles = report.facts.triangles;
-  return report;
-}
+  [[nodiscard]] const Triangulation& mesh() const { return part_.mesh(); }
+  [[nodiscard]] protocol::StepResult step() {
+    charge(&RankTimes::idle);  // it has waited for this step
+    return runner_.step(part_);
+  }
 
-/// The outcome of a real rank that refined for `seconds`, and waited when it did not compute.
-RankOutcome outcome_of(const Part& part, double computing, double seconds) {
-  RankOutcome outcome;
-  outcome.times.computing = computing;
-  outcome.times.idle = seconds - computing;
-  const auto& traffic = part.refinement.traffic();
-  outcome.counters.splits_sent = traffic.points;
-  outcome.counters.batches_sent = traffic.messages;
-  outcome.messages = static_cast<std::uint64_t>(traffic.messages);
-  outcome.message_bytes = static_cast<std::uint64_t>(traffic.bytes);
-  return outcome;
-}
+  /// At the end.
+  [[nodiscard]] job::RankReport report(const QualityBounds& bounds) {
+    job::RankReport report{{outcome_}, part_.keep_own(bounds)};
+    report.rank.triangles = report.facts.triangles;
+    report.rank.counters.splits_sent = part_.told();
+    report.rank.counters.batches_sent = static_cast<std::int64_t>(outcome_.messages);
+    return report;
+  }
 
-void require_area_bound(const QualityBounds& bounds) {
-  if (!(bounds.max_area > 0))
-    throw job::KeyError("run.method", "is pdr, but nothing bounds the size of triangles",
-                        "give bounds.area or bounds.triangles, or use the coupled method");
-}
+ private:
+  void send(Rank destination, Bytes bytes) override {
+    ++outcome_.messages;
+    outcome_.message_bytes += bytes.size();
+    TransportLayer::send(destination, std::move(bytes));
+    charge(&RankTimes::sending);
+  }
+  std::optional<protocol::Received> poll() override {
+    auto message = TransportLayer::poll();
+    charge(message ? &RankTimes::polling : &RankTimes::idle);
+    return message;
+  }
 
-/// What is known of the whole mesh.
-struct LatticeFacts {
-  double max_area = 0;
-  double forecast = 0;
-  std::int32_t acute_corners = 0;
-  std::int64_t vertices = 0, subsegments = 0;
+  void charge_work() {
+    const std::int64_t points = points_of(part_.cells().counters()), own = points_of(part_.cells().own_counters());
+    worked_({now() - clock_, points - std::exchange(so_far_.points, points), own - std::exchange(so_far_.own, own)});
+    charge(&RankTimes::computing);
+  }
+  /// Adds the time since the last call to one category.
+  void charge(double RankTimes::*kind) {
+    const double time = now();
+    outcome_.times.*kind += time - std::exchange(clock_, time);
+  }
+  static std::int64_t points_of(const RefineCounters& counters) {
+    return counters.free_points + counters.segment_points;
+  }
 
-  void write_to(job::RunRecord& record) const {
-    record.max_area = max_area;
-    record.forecast = forecast;
-    record.acute_corners = acute_corners;
-    record.vertices = vertices;
-    record.subsegments = subsegments;
+  std::function<void(const Work&)> worked_;
+  Part part_;
+  ExchangeRunner runner_{*this};
+  RankOutcome outcome_;
+  double clock_;  // when time was last charged
+  Work so_far_;
+};
+
+using LatticeRanks = std::vector<std::unique_ptr<LatticeRank>>;
+
+/// The ranks of this process, refined. With a team, the ranks of others report, too.
+class RefinedLattice final : public job::Refined {
+ public:
+  RefinedLattice(LatticeRanks ranks, const QualityBounds& bounds, job::Team* team, ClusterRun run)
+      : ranks_(std::move(ranks)), bounds_(bounds), team_(team), run_(std::move(run)) {}
+
+  void report(job::RunRecord& record) override {
+    for (const Bytes& bytes : all_reports())
+      for (ByteReader reader(bytes); !reader.at_end();) {
+        const job::RankReport report = job::RankReport::read(reader);
+        job::add_report(record, report);
+        run_.ranks.push_back(report.rank);
+        run_.makespan = std::max(run_.makespan, report.rank.times.total());
+      }
     record.peak = record.peak_refining = std::max(record.peak, job::peak_memory());
   }
-};
-
-/// What is left of a simulated run. The mesh is gone.
-class SimulatedOutcome final : public job::Refined {
- public:
-  SimulatedOutcome(std::vector<job::RankReport> reports, ClusterRun history, const LatticeFacts& facts)
-      : reports_(std::move(reports)), history_(std::move(history)), facts_(facts) {}
-
-  void report(job::RunRecord& record) override {
-    for (const job::RankReport& rank : reports_) job::add_report(record, rank);
-    facts_.write_to(record);
-  }
-  [[nodiscard]] ClusterRun history() override { return std::move(history_); }
+  [[nodiscard]] ClusterRun history() override { return std::move(run_); }
   [[nodiscard]] const RunPlan* plan() const override { return nullptr; }
 
  private:
-  std::vector<job::RankReport> reports_;
-  ClusterRun history_;
-  LatticeFacts facts_;
-};
-
-/// The fields in one order for both directions: `stream` is a ByteWriter with a const order, or a ByteReader.
-template <class Stream, class Order>
-void transfer(Stream& stream, Order& order) {
-  auto& triangulated = order.whole->triangulated;
-  stream.value(order.limits);
-  stream.value(order.use);
-  stream.array(order.shares);
-  stream.value(triangulated.bounds.min_angle);
-  stream.value(triangulated.bounds.max_area);
-  stream.array(triangulated.bounds.region_max_area);
-  stream.value(triangulated.forecast);
-}
-
-Bytes bytes_of(const job::Order& order) {
-  ByteWriter writer;
-  transfer(writer, order);
-  return writer.take();
-}
-
-job::Order order_of(const Bytes& bytes, const Bytes& pslg) {
-  job::Order order;
-  order.whole.emplace().domain.pslg = pslg_from_bytes(pslg);
-  ByteReader reader(bytes);
-  transfer(reader, order);
-  return order;
-}
-
-/// This rank's share of the refinement, with this share of its time. `check` is called with the triangles that the rank
-/// has of its own and around them, from time to time.
-RankOutcome refine_part(Part& part, job::Team& team, double share, const std::function<void(std::int64_t)>& check) {
-  const std::unique_ptr<job::Channel> channel = team.open();
-  double computing = 0;
-  const Stopwatch refining;
-  job::by_itself(team, [&] {
-    ExchangeRunner ranks(channel->transport());
-    ObservedExchange refinement(part.refinement, [&](const std::function<void()>& act) {
-      const Stopwatch working;
-      act();
-      job::drag(share, working.seconds());
-      computing += working.seconds();
-      check(static_cast<std::int64_t>(part.mesh.live_triangles()));
-    });
-    ranks.run(refinement);
-  });
-  const double seconds = refining.seconds();
-  channel->close();
-  return outcome_of(part, computing, seconds);
-}
-
-/// A rank's part, refined.
-class RefinedPart final : public job::Refined {
- public:
-  RefinedPart(job::Team& team, job::Order&& order, const job::Limits& limits, job::Watch& watch)
-      : team_(team), order_(std::move(order)) {
-    facts_ = {.max_area = bounds().max_area, .forecast = order_.whole->triangulated.forecast};
-    const double share = order_.shares.empty() ? 1 : order_.shares[team.rank()];
-    job::agree(team, [&] {
-      Triangulation mesh = triangulate(order_.whole->domain.pslg);
-      facts_.acute_corners = prepare_corners(mesh, {bounds().min_angle, false});
-      const Lattice lattice = start(mesh, bounds(), team.ranks());
-      part_ = std::make_unique<Part>(team.rank(), team.ranks(), std::move(mesh), lattice, bounds());
-    });
-    outcome_ = refine_part(*part_, team, share, job::progress_within(limits, facts_.forecast, watch));
+  /// Of each process.
+  [[nodiscard]] std::vector<Bytes> all_reports() {
+    if (team_ == nullptr) return {own_reports()};
+    return team_->gather(job::by_itself(*team_, [&] { return own_reports(); }));
   }
-
-  void report(job::RunRecord& record) override {
-    const Bytes own = job::by_itself(team_, [&] { return own_report(); });
-    for (const Bytes& bytes : team_.gather(own)) {
-      ByteReader reader(bytes);
-      const job::RankReport report = job::RankReport::read(reader);
-      facts_.vertices += reader.value<std::int64_t>();
-      facts_.subsegments += reader.value<std::int64_t>();
-      job::add_report(record, report);
-      history_.ranks.push_back(report.rank);
-      history_.makespan = std::max(history_.makespan, report.rank.times.total());
-    }
-    facts_.write_to(record);
-  }
-  [[nodiscard]] ClusterRun history() override { return std::move(history_); }
-  [[nodiscard]] const RunPlan* plan() const override { return nullptr; }
-
- private:
-  [[nodiscard]] const QualityBounds& bounds() const { return order_.whole->triangulated.bounds; }
-
-  [[nodiscard]] Bytes own_report() {
-    keep_own_triangles(part_->mesh, part_->refinement.cells(), part_->lattice, team_.rank());
-    const OwnCounts own = count_own(part_->mesh, part_->lattice, team_.rank());
-    job::RankReport report = report_of(*part_, bounds(), outcome_);
-    report.rank.peak = job::peak_memory();
+  [[nodiscard]] Bytes own_reports() {
     ByteWriter writer;
-    report.write(writer);
-    writer.value(own.vertices);
-    writer.value(own.subsegments);
+    for (const auto& rank : ranks_) {
+      job::RankReport report = rank->report(bounds_);
+      report.rank.peak = team_ == nullptr ? 0 : job::peak_memory();
+      report.write(writer);
+    }
     return writer.take();
   }
 
-  job::Team& team_;
-  job::Order order_;
-  LatticeFacts facts_;
-  std::unique_ptr<Part> part_;
-  RankOutcome outcome_;
-  ClusterRun history_;
+  LatticeRanks ranks_;
+  QualityBounds bounds_;
+  job::Team* team_;
+  ClusterRun run_;
 };
+
+/// How many points of a mesh each rank has in its own cells and those that it follows.
+IdVector<Rank, double> points_near(const Triangulation& mesh, const Lattice& lattice, std::int32_t ranks) {
+  std::map<Cell, double> points;
+  for (const VertexId v : ids_of(mesh.points))
+    if (mesh.origin[v] != kDeleted && !is_input(mesh.origin[v])) ++points[lattice.cell_of(mesh.points[v])];
+  IdVector<Rank, double> near(to_index(ranks), 0);
+  for (const auto& [cell, count] : points) {
+    near[lattice.owner_of(cell)] += count;
+    for (const Rank r : lattice.followers_of(cell)) near[r] += count;
+  }
+  return near;
+}
 
 }  // namespace
 
+/// All that ranks need of the whole domain are its input and its bounds.
 job::Order LatticeOnRanks::share(const std::function<job::Order()>& make) {
-  job::Order order;
-  agree([&] {
-    if (!leads()) return;
-    order = make();
-    require_area_bound(order.whole->triangulated.bounds);
+  return OnRanks::share([&] {
+    job::Order order = make();
+    order.plan.bounds = order.whole->triangulated.bounds;
+    order.pslg = std::move(order.whole->domain.pslg);
+    order.whole.reset();
+    return order;
   });
-  Bytes head, pslg;
-  job::by_itself(team(), [&] {
-    if (!leads()) return;
-    head = bytes_of(order);
-    pslg = pslg_to_bytes(order.whole->domain.pslg);
-  });
-  head = team().broadcast(std::move(head));
-  pslg = team().broadcast(std::move(pslg));
-  agree([&] {
-    if (!leads()) order = order_of(head, pslg);
-  });
-  job::cap_memory(order.limits);
-  return order;
 }
 
 std::unique_ptr<job::Refined> LatticeOnRanks::refine(job::Order&& order, const job::Limits& limits,
                                                      const SizeField* /*size*/, job::Watch& watch) {
-  return std::make_unique<RefinedPart>(team(), std::move(order), limits, watch);
+  const QualityBounds& bounds = order.plan.bounds;
+  const double share = order.shares.empty() ? 1 : order.shares[team().rank()];
+  const std::unique_ptr<job::Channel> channel = team().open();
+  LatticeRanks own;
+  job::agree(team(), [&] {
+    Triangulation mesh = triangulate(order.pslg);
+    static_cast<void>(prepare_corners(mesh, {bounds.min_angle, false}));
+    const auto check = job::progress_within(limits, forecast_triangles(mesh, bounds) / ranks(), watch);
+    const Lattice lattice = start(mesh, bounds, ranks());
+    const auto worked = [&own, share, check](const LatticeRank::Work& work) {
+      job::drag(share, work.seconds);
+      check(static_cast<std::int64_t>(own.front()->mesh().live_triangles()));
+    };
+    own.push_back(std::make_unique<LatticeRank>(channel->transport(), std::move(mesh), lattice, bounds, worked));
+  });
+  job::by_itself(team(), [&] { protocol::run_rank(channel->transport(), [&] { return own.front()->step(); }); });
+  channel->close();
+  return std::make_unique<RefinedLattice>(std::move(own), bounds, &team(), ClusterRun{});
 }
 
 std::unique_ptr<job::Refined> SimulatedLattice::refine(job::Order&& order, const job::Limits& limits,
                                                        const SizeField* /*size*/, job::Watch& watch) {
-  job::Triangulated& triangulated = order.whole->triangulated;
-  const QualityBounds& bounds = triangulated.bounds;
-  require_area_bound(bounds);
-  LatticeFacts facts{
-      .max_area = bounds.max_area, .forecast = triangulated.forecast, .acute_corners = triangulated.acute_corners};
-  std::vector<job::RankReport> reports;
-  SimulationObservers observers;
-  observers.progress = job::progress_within(limits, triangulated.forecast, watch);
-  observers.finished = [&](const Part& part, Rank rank, const RankOutcome& outcome) {
-    reports.push_back(report_of(part, bounds, outcome));
-    const OwnCounts own = count_own(part.mesh, part.lattice, rank);
-    facts.vertices += own.vertices;
-    facts.subsegments += own.subsegments;
-  };
-  ClusterRun history = simulate(std::move(triangulated.mesh), bounds, cluster(), costs(), observers);
-  return std::make_unique<SimulatedOutcome>(std::move(reports), std::move(history), facts);
+  job::Triangulated& whole = order.whole->triangulated;
+  const auto progress = job::progress_within(limits, whole.forecast, watch);
+  protocol::VirtualNetwork network(virtual_cluster(cluster(), costs()));
+  const std::size_t input = whole.mesh.live_vertices();
+  const Lattice lattice = start(whole.mesh, whole.bounds, ranks());
+  const auto started = static_cast<double>(whole.mesh.live_vertices() - input);
+  const IdVector<Rank, double> near = points_near(whole.mesh, lattice, ranks());
+  ClusterRun run;
+  auto triangles = static_cast<std::int64_t>(whole.mesh.live_triangles());
+  LatticeRanks at_work;
+  IdVector<Rank, protocol::RankStep> steps;
+  for (const Rank r : first_ids<Rank>(ranks())) {
+    const double starting = costs().start + costs().point * (near[r] + (started - near[r]) / cluster().scale);
+    const auto worked = [&, r, left = starting](const LatticeRank::Work& work) mutable {
+      protocol::Transport& clock = network.transport(r);
+      const double begin = clock.now();
+      clock.spend(std::exchange(left, 0) + costs().point * static_cast<double>(work.points));
+      triangles += 2 * work.own;
+      run.samples.push_back({.time = clock.now(), .rank = r, .triangles = triangles, .worked = clock.now() - begin});
+      progress(triangles);
+    };
+    at_work.push_back(std::make_unique<LatticeRank>(network.transport(r), whole.mesh, lattice, whole.bounds, worked));
+    steps.push_back([rank = at_work.back().get()] { return rank->step(); });
+  }
+  if (network.run(steps).end != protocol::RunEnd::kFinished) throw Error("deadlock of the simulated ranks");
+  run.makespan = network.makespan();
+  return std::make_unique<RefinedLattice>(std::move(at_work), whole.bounds, nullptr, std::move(run));
 }
 
 }  // namespace driftmesh::pdr

@@ -1,13 +1,11 @@
-#include "study/pdr/start.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "driftmesh/error.hpp"
 #include "geometry/box.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/refiner.hpp"
+#include "study/pdr/part.hpp"
 
 namespace driftmesh::pdr {
 namespace {
@@ -22,24 +20,11 @@ constexpr double kSquaredRadiusPerArea = 3;
 /// The start is coarser than the bound: otherwise, nothing would be left to do at once.
 constexpr double kCoarsest = 2;
 
-Box box_of(const Triangulation& mesh) {
-  Box box;
-  for (const Triangle& t : mesh.triangles) {
-    if (!t.alive()) continue;
-    for (const VertexId v : t.vertex) box.extend(mesh.points[v]);
-  }
-  return box;
-}
-
-double largest_radius(const Triangulation& mesh) {
-  double largest = 0;
-  for (const TriangleId t : ids_of(mesh.triangles)) {
-    if (!mesh.triangles[t].alive()) continue;
-    const Point& a = mesh.corner(t, 0);
-    const Point center = circumcenter(a, mesh.corner(t, 1), mesh.corner(t, 2));
-    largest = std::max(largest, std::sqrt(squared_distance(a, center)));
-  }
-  return largest;
+/// Does visit(a, b, c) for the corners of each triangle.
+template <class Visit>
+void each_triangle(const Triangulation& mesh, const Visit& visit) {
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) visit(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
 }
 
 }  // namespace
@@ -47,13 +32,20 @@ double largest_radius(const Triangulation& mesh) {
 Lattice start(Triangulation& mesh, const QualityBounds& bounds, std::int32_t ranks) {
   if (!(bounds.max_area > 0) || bounds.size != nullptr || !(bounds.min_angle > 0))
     throw Error("partially coupled refinement needs one bound on area everywhere, and one on angles");
-  const Box box = box_of(mesh);
+  Box box;
+  each_triangle(mesh, [&](const Point& a, const Point& b, const Point& c) {
+    for (const Point* p : {&a, &b, &c}) box.extend(*p);
+  });
   const double side = std::sqrt((box.high.x - box.low.x) * (box.high.y - box.low.y) / (kCellsPerRank * ranks));
   const double radius = side / kSidePerRadius;
   QualityBounds coarse = bounds;
   coarse.max_area = std::max(kCoarsest * bounds.max_area, radius * radius / kSquaredRadiusPerArea);
   Refiner(mesh, coarse).refine();
-  return {box.low, box.high, std::max(side, kSidePerRadius * largest_radius(mesh)), ranks};
+  double largest = 0;  // circumradius
+  each_triangle(mesh, [&](const Point& a, const Point& b, const Point& c) {
+    largest = std::max(largest, std::sqrt(squared_distance(a, circumcenter(a, b, c))));
+  });
+  return {box.low, box.high, std::max(side, kSidePerRadius * largest), ranks};
 }
 
 }  // namespace driftmesh::pdr
