@@ -51,6 +51,7 @@ void RunNotes::note_files(const std::vector<StagedFiles::Listed>& staged) {
 void RunNotes::finish() {
   run.seconds = since_start_.seconds();
   run.warnings = take_warnings();
+  run.stages = take_stages();
   run.peak = std::max(run.peak, job::peak_memory());
   progress_.end();
   const std::string& record = told_.request.output.record;

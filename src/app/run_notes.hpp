@@ -23,7 +23,6 @@ class RunNotes final : public job::Watch {
   job::RunRecord run;
 
   void begins(const std::string& stage) override { progress_.begin(stage); }
-  void ends(const std::string& stage, double seconds) override { run.stages.push_back({stage, seconds}); }
   /// Registers the files, if there are several pieces.
   void pieces(std::int32_t count) override;
   void repaired(const RepairReport& repairs) override;

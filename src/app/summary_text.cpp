@@ -82,7 +82,7 @@ void add_work(const RunRecord& run, Text out) {
     fmt::format_to(out, "refinement   {} triangles per second\n", rate_words(run.triangles_per_second()));
   fmt::format_to(out, "time         {}", duration_words(run.seconds));
   const char* separator = ":";
-  for (const RunRecord::Stage& stage : run.stages) {
+  for (const job::StageTime& stage : run.stages) {
     if (stage.seconds < 0.0005) continue;
     fmt::format_to(out, "{} {} {:.3f}", separator, stage.name, stage.seconds);
     separator = ",";

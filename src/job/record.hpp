@@ -9,6 +9,7 @@
 #include "job/domain.hpp"
 #include "job/mesh_facts.hpp"
 #include "job/request.hpp"
+#include "job/watch.hpp"
 #include "mesh/mesher.hpp"
 #include "runtime/rank_outcome.hpp"
 
@@ -35,11 +36,7 @@ struct RunRecord : MeshFacts {
   std::int32_t acute_corners = 0;
   double forecast = 0;  ///< triangles, before refinement
 
-  struct Stage {
-    std::string name;
-    double seconds;
-  };
-  std::vector<Stage> stages;
+  std::vector<StageTime> stages;
   double seconds_refine = 0;
   double seconds = 0;  ///< all stages and the time between them
   std::uint64_t peak_refining = 0, peak = 0;

@@ -11,6 +11,11 @@
 
 namespace driftmesh::job {
 
+struct StageTime {
+  std::string name;
+  double seconds = 0;
+};
+
 /// An observer of the work on a mesh: a progress line, a summary, a caller of the library. Exceptions thrown by its
 /// functions end the work and propagate.
 class Watch {
@@ -21,8 +26,6 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
 
   virtual void begins(const std::string& /*stage*/) {}
-  /// Also called when the stage fails.
-  virtual void ends(const std::string& /*stage*/, double /*seconds*/) {}
   /// Without its warnings, which follow by warned().
   virtual void repaired(const RepairReport& /*repairs*/) {}
   /// Something that the author of the input may not have meant.
@@ -42,8 +45,14 @@ class Watch {
   /// The warnings since the last call.
   [[nodiscard]] std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
+  /// Keeps the time of a stage that has ended, or failed.
+  void ended(const std::string& stage, double seconds) { stages_.push_back({stage, seconds}); }
+  /// The stages since the last call.
+  [[nodiscard]] std::vector<StageTime> take_stages() { return std::exchange(stages_, {}); }
+
  private:
   std::vector<std::string> warnings_;
+  std::vector<StageTime> stages_;
 };
 
 /// Does `work` as a stage with this name.
@@ -54,7 +63,7 @@ std::invoke_result_t<Work> timed(Watch& watch, const char* stage, Work&& work) {
     Watch& watch;
     const char* stage;
     Stopwatch clock{};
-    ~Note() { watch.ends(stage, clock.seconds()); }
+    ~Note() { watch.ended(stage, clock.seconds()); }
   } note{watch, stage};
   return std::forward<Work>(work)();
 }

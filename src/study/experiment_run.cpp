@@ -46,26 +46,6 @@ double ideal_of(const ExperimentRun& run, const IdVector<Rank, protocol::SpeedSc
   return schedules.empty() ? ideal_seconds(run.outcome, run.speeds) : ideal_seconds(run.outcome, run.speeds, schedules);
 }
 
-/// Tells a watch of the run, and notes the stages.
-class StageNotes final : public job::Watch {
- public:
-  StageNotes(job::Watch& watch, job::RunRecord& record) : watch_(watch), record_(record) {}
-
-  void begins(const std::string& stage) override { watch_.begins(stage); }
-  void ends(const std::string& stage, double seconds) override {
-    watch_.ends(stage, seconds);
-    record_.stages.push_back({stage, seconds});
-  }
-  void repaired(const RepairReport& repairs) override { watch_.repaired(repairs); }
-  void warned(const std::string& warning) override { watch_.warned(warning); }
-  void refining(std::int64_t triangles, double forecast) override { watch_.refining(triangles, forecast); }
-  void stalled(const std::string& why) override { watch_.stalled(why); }
-
- private:
-  job::Watch& watch_;
-  job::RunRecord& record_;
-};
-
 std::unique_ptr<job::SimulatedRanks> simulated_ranks(const job::Request& request) {
   const ClusterSpec cluster = job::cluster_of(request);
   const CostModel costs = costs_of(request);
@@ -139,10 +119,9 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   const bool real = request.cluster.kind == job::ClusterKind::kReal;
   const Stopwatch running;
   const job::Given given{.policies = balancer::make_policy};
-  StageNotes notes(watch, run.record);
   const auto simulated = real ? nullptr : simulated_ranks(request);
   job::Place& place = real ? cluster->call(request.run.method) : *simulated;
-  std::unique_ptr<job::Refined> made = job::make({request, job::kExperiment, given}, place, run.record, notes);
+  std::unique_ptr<job::Refined> made = job::make({request, job::kExperiment, given}, place, run.record, watch);
   made->report(run.record);
   run.outcome = made->history();
   if (made->plan() != nullptr) {
@@ -153,7 +132,8 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   run.speeds = place.speeds(request);
   if (real) run.speeds = measured_speeds(run.outcome, run.speeds);
   compare_with_ideal(run);
-  run.record.warnings = notes.take_warnings();
+  run.record.warnings = watch.take_warnings();
+  run.record.stages = watch.take_stages();
   run.record.seconds = running.seconds();
   run.record.seconds_refine = run.outcome.makespan;
 }

@@ -72,7 +72,7 @@ Json exceptions_json(const RunRecord& run) {
 
 Json work_json(const RunRecord& run) {
   Json stages = Json::object();
-  for (const RunRecord::Stage& stage : run.stages) stages[stage.name] = stage.seconds;
+  for (const job::StageTime& stage : run.stages) stages[stage.name] = stage.seconds;
   return {{"seconds", run.seconds},
           {"seconds_by_stage", stages},
           {"triangles_per_second", run.triangles_per_second()},
