@@ -77,11 +77,4 @@ IdVector<Rank, bool> late_ranks_of(const ClusterSpec& cluster) {
   return late;
 }
 
-IdVector<Rank, std::size_t> groups_of(const ClusterSpec& cluster) {
-  IdVector<Rank, std::size_t> groups;
-  for (std::size_t g = 0; g < cluster.groups.size(); ++g)
-    groups.insert(groups.end(), to_index(cluster.groups[g].ranks), g);
-  return groups;
-}
-
 }  // namespace driftmesh

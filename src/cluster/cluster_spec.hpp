@@ -62,7 +62,5 @@ struct ClusterSpec {
 [[nodiscard]] IdVector<Rank, protocol::SpeedSchedule> schedules_of(const ClusterSpec& cluster);
 /// Whether each rank is not there at the start.
 [[nodiscard]] IdVector<Rank, bool> late_ranks_of(const ClusterSpec& cluster);
-/// The group of each rank.
-[[nodiscard]] IdVector<Rank, std::size_t> groups_of(const ClusterSpec& cluster);
 
 }  // namespace driftmesh

@@ -1,8 +1,5 @@
 #include "distributed/held_subdomains.hpp"
 
-#include <algorithm>
-#include <utility>
-
 namespace driftmesh {
 namespace {
 
@@ -15,13 +12,6 @@ void visit_below(const Triangulation& mesh, SubsegmentId s, const std::function<
 }
 
 }  // namespace
-
-HeldSubdomains held_in_memory(std::vector<HeldSubdomain> held) {
-  std::sort(held.begin(), held.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  return [held = std::move(held)](const ShowSubdomain& show) {
-    for (const HeldSubdomain& subdomain : held) show(subdomain.id, *subdomain.mesh);
-  };
-}
 
 void show_subdomain(const Subdomain& subdomain, const ShowSubdomain& show) {
   if (subdomain.dormant())

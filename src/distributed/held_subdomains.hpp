@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <map>
-#include <vector>
 
 #include "decompose/subdomain_mesh.hpp"
 #include "migration/subdomain.hpp"
@@ -13,13 +12,6 @@ namespace driftmesh {
 /// time. May be called repeatedly, with the same result each time.
 using ShowSubdomain = std::function<void(SubdomainId, const SubdomainMesh&)>;
 using HeldSubdomains = std::function<void(const ShowSubdomain&)>;
-
-struct HeldSubdomain {
-  SubdomainId id{};
-  const SubdomainMesh* mesh = nullptr;  ///< not owned
-};
-/// Subdomains in memory, given in any order.
-[[nodiscard]] HeldSubdomains held_in_memory(std::vector<HeldSubdomain> held);
 
 /// Shows one subdomain that has worked; a dormant one is woken meanwhile.
 void show_subdomain(const Subdomain& subdomain, const ShowSubdomain& show);

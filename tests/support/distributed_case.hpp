@@ -34,10 +34,10 @@ struct DistributedCase {
   }
 
   [[nodiscard]] HeldSubdomains held_by(Rank rank, const IdVector<SubdomainId, Rank>& owners) const {
-    std::vector<HeldSubdomain> held;
-    for (const SubdomainId i : ids_of(parts))
-      if (owners[i] == rank) held.insert(held.begin(), {i, &parts[i]});
-    return held_in_memory(std::move(held));
+    return [this, rank, owners](const ShowSubdomain& show) {
+      for (const SubdomainId i : ids_of(parts))
+        if (owners[i] == rank) show(i, parts[i]);
+    };
   }
 
   /// One assembly for each rank, before any message.

@@ -31,13 +31,12 @@ ClusterSpec equal_ranks(std::int32_t ranks) {
 
 }  // namespace
 
-TEST_CASE("speeds and groups follow the numbers of the ranks") {
+TEST_CASE("speeds follow the numbers of the ranks") {
   ClusterSpec cluster;
   cluster.groups = {{"slow", 2, 100e3}, {"as here", 1, 0}};
   const CostModel costs;
   CHECK(ranks_of(cluster) == 3);
   CHECK(speeds_of(cluster, costs) == IdVector<Rank, double>{100e3, 100e3, reference_speed(costs)});
-  CHECK(groups_of(cluster) == std::vector<std::size_t>{0, 0, 1});
   CHECK_THROWS_AS(static_cast<void>(speeds_of({}, costs)), Error);
   cluster.drag = {1, 0.5, 0.1};
   CHECK(speeds_of(cluster, costs) == IdVector<Rank, double>{100e3, 50e3, 0.1 * reference_speed(costs)});

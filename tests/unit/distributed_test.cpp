@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <set>
 #include <vector>
 
 #include "base/bytes.hpp"
@@ -60,10 +61,10 @@ struct TwoSquares {
   Decomposition d = two_squares();
   IdVector<SubdomainId, SubdomainMesh> parts{subdomain_triangulation(d, 0_sub), subdomain_triangulation(d, 1_sub)};
 
-  HeldSubdomains held(std::initializer_list<SubdomainId> ids) {
-    std::vector<HeldSubdomain> list;
-    for (const SubdomainId i : ids) list.push_back({i, &parts[i]});
-    return held_in_memory(list);
+  HeldSubdomains held(const std::set<SubdomainId>& ids) {
+    return [this, ids](const ShowSubdomain& show) {
+      for (const SubdomainId i : ids) show(i, parts[i]);
+    };
   }
 };
 
