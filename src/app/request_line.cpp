@@ -134,7 +134,7 @@ std::vector<cli::Option> key_options(job::EntryPoint entry_point, GivenKeys& giv
     option.group = key.name == "input.file" ? "" : group.empty() ? key.group : group;
     option.repeats = key.kind == Kind::kOutputs || key.kind == Kind::kTable;
     option.completes = completes(key);
-    option.choices = key.choices;
+    option.choices = job::choices_at(key, entry_point);
     option.or_file = key.or_file;
     option.take = [&given, &key](const std::string& text) {
       try {

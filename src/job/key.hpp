@@ -62,6 +62,7 @@ struct KeyInfo {
   bool above = false;                ///< must be greater than `least`, not equal
   std::string why_not_more;          ///< the reason for the limit `most`, or empty
   std::vector<std::string> choices;  ///< kChoice
+  std::string reserved_choice;       ///< kChoice: the one that only driftmesh run has, or empty
   std::string or_file;               ///< kChoice: the extension of a file that may be named instead, or empty
   bool of_files = false;             ///< kTable: its values name files, as a kFile does
   std::vector<KeyInfo> fields;       ///< kList

@@ -193,7 +193,7 @@ Section parts_section() {
            "run.method", &R::run, &R::Run::method, methods,
            "How subdomains agree on the points between them: coupled (they tell each other), decoupled (all are made "
            "beforehand, and a run that needs more fails), or pdr (no subdomains: ranks refine the cells of a lattice)",
-           option("method", "METHOD"),
+           reserved_for_experiments("pdr"), option("method", "METHOD"),
            option_help("How subdomains agree on the points between them: coupled (they tell each other) or decoupled "
                        "(all are made beforehand, and a mesh that needs more fails)"),
            entry_points(kMesh | kExperiment)),

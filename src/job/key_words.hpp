@@ -87,6 +87,9 @@ inline auto one_of(std::vector<std::string> choices) {
     key.choices = choices;
   };
 }
+inline auto reserved_for_experiments(const char* choice) {
+  return [=](KeyInfo& key) { key.reserved_choice = choice; };
+}
 inline auto or_file(const char* extension) {
   return [=](KeyInfo& key) { key.or_file = extension; };
 }

@@ -76,6 +76,12 @@ void check_range(const KeyInfo& key, double value) {
          "it must be at most " + shortest_text(key.most) + (key.why_not_more.empty() ? "" : ": " + key.why_not_more));
 }
 
+std::vector<std::string> choices_at(const KeyInfo& key, EntryPoint entry_point) {
+  std::vector<std::string> choices = key.choices;
+  if (entry_point != kExperiment) std::erase(choices, key.reserved_choice);
+  return choices;
+}
+
 bool names_file(const KeyInfo& key, const std::string& text) {
   if (key.kind == Kind::kFile || key.of_files) return !text.empty();
   return !key.or_file.empty() && text.ends_with(key.or_file);

@@ -25,6 +25,9 @@ struct KeyPath {
 /// The name of a key, section or option of these entry points that was probably meant.
 [[nodiscard]] std::string nearest_key(const std::string& name, EntryPoints entry_point);
 
+/// The choices of a key at this entry point.
+[[nodiscard]] std::vector<std::string> choices_at(const KeyInfo& key, EntryPoint entry_point);
+
 /// Whether this value of the key is the name of a file that is read.
 [[nodiscard]] bool names_file(const KeyInfo& key, const std::string& text);
 

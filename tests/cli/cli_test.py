@@ -730,9 +730,10 @@ class Mesh(Cli):
 
     def test_partially_coupled_refinement_is_for_experiments(self):
         mesh = ["mesh", "--generate", "pipe", "--triangles", "5e4", "--method", "pdr", "-o", "pipe.vtu"]
-        self.refuse(*mesh, code=2, says=["--method"])
-        result = self.on_ranks(2, *mesh)
-        self.assertEqual(result.returncode, 2, result.stderr)
+        self.refuse(*mesh, code=2, says=["--method", "must be coupled or decoupled"])
+        self.write("pdr.yaml", "method: pdr\n")
+        result = self.on_ranks(2, "mesh", "--generate", "pipe", "--triangles", "5e4", "--config", "pdr.yaml", "-o", "pipe.vtu")
+        self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("driftmesh run", result.stderr)
 
     def test_errors_on_many_ranks_are_printed_once(self):
