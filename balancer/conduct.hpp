@@ -7,6 +7,7 @@
 #include "balancer/experience.hpp"
 #include "balancer/messages.hpp"
 #include "balancer/move_cost.hpp"
+#include "driftmesh/defaults.hpp"
 #include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
@@ -15,10 +16,10 @@ namespace driftmesh::balancer {
 inline constexpr Rank kLeadingRank{0};
 
 struct ControllerOptions {
-  double look = 1e-2;              ///< seconds between checks of the rank's own load
-  double gap = 0.02;               ///< shortest time in seconds between reports of a rank, and between plans
-  double interval = 1;             ///< longest time in seconds between reports of a rank with work
-  double change = 0.1;             ///< a forecast that is off by this fraction is reported (see ReportRule)
+  double look = defaults::kLook;          ///< seconds between checks of the rank's own load
+  double gap = defaults::kGap;            ///< shortest time in seconds between reports of a rank, and between plans
+  double interval = defaults::kInterval;  ///< longest time in seconds between reports of a rank with work
+  double change = 0.1;                    ///< a forecast that is off by this fraction is reported (see ReportRule)
   int refusals = 8;                ///< after this many in a row a rank stops asking for work until it is given some
   double ahead = 0.25;             ///< fraction of the time left: a rank that runs out of work within it gets more
   double overhead = 0.01;          ///< fraction of the time that planning may take

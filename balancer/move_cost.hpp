@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "balancer/deliberation.hpp"
+#include "driftmesh/defaults.hpp"
 #include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {
@@ -29,9 +30,9 @@ void price_moves(LoadSnapshot& snapshot, const MoveCost& cost);
 
 /// How much a plan must gain before anything moves.
 struct Worth {
-  double gain = 0.02;     ///< fraction of the finishing time to save
-  double seconds = 2e-3;  ///< time to save
-  double slack = 0.01;    ///< fraction of the ideal time given away for fewer moves
+  double gain = defaults::kGain;  ///< fraction of the finishing time to save
+  double seconds = 2e-3;          ///< time to save
+  double slack = 0.01;            ///< fraction of the ideal time given away for fewer moves
 };
 
 /// How much later than on average the last rank would seem to finish, in seconds, if work were even and only forecasts

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "driftmesh/defaults.hpp"
 #include "protocol/messages.hpp"
 
 namespace driftmesh::protocol {
@@ -12,10 +13,8 @@ namespace driftmesh::protocol {
 /// rank is idle. (Section 4 of the paper: aggregation.) For termination, buffered SPLITs count as in transit.
 class Aggregator {
  public:
-  static constexpr std::size_t kDefaultThreshold = 512;
-
   /// A threshold of 1 sends every SPLIT at once. Throws Error for a threshold of 0.
-  explicit Aggregator(Rank self, std::size_t threshold = kDefaultThreshold);
+  explicit Aggregator(Rank self, std::size_t threshold = defaults::kAggregation);
 
   /// Adds a SPLIT for subdomain `to`, which `destination` owns in epoch `epoch` as far as this rank knows. Returns the
   /// batch if it is now full.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "driftmesh/defaults.hpp"
 #include "protocol/aggregator.hpp"
 #include "protocol/directory.hpp"
 #include "protocol/messages.hpp"
@@ -43,7 +44,7 @@ class RankProtocol {
  public:
   /// `owners[s]` is the rank of subdomain s at the start, equal on all ranks. They and `rules` must outlive the object.
   RankProtocol(Rank self, std::int32_t ranks, IdSpan<SubdomainId, const Rank> owners,
-               std::size_t aggregation = Aggregator::kDefaultThreshold, const Rules& rules = sound_rules());
+               std::size_t aggregation = defaults::kAggregation, const Rules& rules = sound_rules());
 
   [[nodiscard]] bool holds(SubdomainId s) const { return directory_.holds(s); }
   [[nodiscard]] Location where(SubdomainId s) const { return directory_.where(s); }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "driftmesh/defaults.hpp"
 #include "protocol/rank_step.hpp"
 #include "protocol/speed_schedule.hpp"
 #include "protocol/transport.hpp"
@@ -14,8 +15,8 @@ namespace driftmesh::protocol {
 
 /// One direction of the connection between two ranks.
 struct Link {
-  double latency = 50e-6;  ///< seconds
-  double bandwidth = 1e9;  ///< bytes per second
+  double latency = defaults::kLatency;      ///< seconds
+  double bandwidth = defaults::kBandwidth;  ///< bytes per second
 };
 
 /// A simulated cluster. Message costs follow the LogGP model (Alexandrov et al. 1995): a sender is busy for the
@@ -25,8 +26,9 @@ struct Link {
 struct VirtualCluster {
   IdVector<Rank, double> speeds;                 ///< one for each rank, relative to the reference machine
   std::function<Link(Rank from, Rank to)> link;  ///< Link{} between all, if empty; a rank reaches itself in no time
-  double message_overhead = 1e-6;                ///< seconds of a rank's time for each message sent and each received
-  double step_overhead = 1e-6;                   ///< seconds that the shortest step takes; above 0
+  double message_overhead =
+      defaults::kMessageOverhead;  ///< seconds of a rank's time for each message sent and each received
+  double step_overhead = 1e-6;     ///< seconds that the shortest step takes; above 0
   std::uint64_t step_limit = UINT64_MAX;
   std::int32_t ranks_per_host = 1;            ///< consecutive ones
   Link within_host = {1e-6, 5e9};             ///< between any two ranks on a host

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/defaults.hpp"
 #include "driftmesh/point.hpp"
 
 namespace driftmesh {
@@ -74,8 +75,8 @@ struct MeshOptions {
   std::function<void(const std::string&)> warning{};
 
   // ---- Triangles ----
-  double min_angle = 20;     ///< 0 to 34; smaller ones remain where the input has small angles
-  double max_area = 0;       ///< 0: no bound
+  double min_angle = defaults::kMinAngle;  ///< 0 to 34; smaller ones remain where the input has small angles
+  double max_area = 0;                     ///< 0: no bound
   double triangles = 0;      ///< instead of an area: choose the one that gives about this many triangles; 0: not given
   bool region_areas = true;  ///< whether the area bounds of the input's regions apply
   /// Target edge length at a point, > 0, or infinity for no bound: a triangle is too large if its area exceeds that of
@@ -88,7 +89,7 @@ struct MeshOptions {
   /// points where it is steep: no feature that fills a square is missed. Triangles too small for the grid are judged by
   /// corners and centroid alone. The function is called about once for each point of the grid, up to 4 million times by
   /// default; choose less for one that is costly and known to be smooth.
-  std::int64_t size_resolution = 2000;
+  std::int64_t size_resolution = defaults::kSizeResolution;
 
   /// The most threads that work at once in a single process, where the mesh is large enough to be cut; the mesh does
   /// not depend on it. 0: one for each core, but only the calling thread if there is a `size`, which may not be made
@@ -109,21 +110,22 @@ struct MeshOptions {
     std::int32_t count = 0;
     /// An existing decomposition of the same input, possibly made with other bounds. See decomposition.hpp.
     std::shared_ptr<const Decomposition> given{};
-    double separator_angle = 60;  ///< smallest angle between separators and whatever they meet, where the domain allows
-    double skew = 0;              ///< 0: equal work; up to 1: deliberately uneven, for experiments
-    std::int64_t seed = 1;        ///< seed for skew
+    double separator_angle = defaults::kSeparatorAngle;  ///< smallest angle between separators and whatever they meet,
+                                                         ///< where the domain allows
+    double skew = 0;        ///< 0: equal work; up to 1: deliberately uneven, for experiments
+    std::int64_t seed = 1;  ///< seed for skew
     Presplit presplit = Presplit::kAuto;
     WorkOrder order = WorkOrder::kGiven;
-    std::int64_t slice = 16384;  ///< most points inserted between polls of the network
-    bool sleep = false;          ///< compress finished subdomains to 10 bytes per triangle until a neighbor needs them
+    std::int64_t slice = defaults::kSlice;  ///< most points inserted between polls of the network
+    bool sleep = false;  ///< compress finished subdomains to 10 bytes per triangle until a neighbor needs them
   } subdomains{};
 
   /// Many ranks.
   struct Ranks {
     MappingMethod mapping = MappingMethod::kGraph;
-    std::vector<double> speeds{};    ///< relative speed of each rank, if known: work is mapped in proportion
-    bool map_by_area = false;        ///< map by area instead of expected work: an uneven start, for experiments
-    std::int64_t aggregation = 512;  ///< most split points in one message
+    std::vector<double> speeds{};  ///< relative speed of each rank, if known: work is mapped in proportion
+    bool map_by_area = false;      ///< map by area instead of expected work: an uneven start, for experiments
+    std::int64_t aggregation = defaults::kAggregation;  ///< most split points in one message
   } ranks{};
 
   /// Subdomains that move between ranks while they are refined.
@@ -131,10 +133,10 @@ struct MeshOptions {
     std::string policy = "none";                      ///< a name: see docs/balancing.md
     std::map<std::string, std::string> parameters{};  ///< parameters for the policy, as in {{"method", "graph"}}
     std::shared_ptr<const balancer::Policy> own{};    ///< instead of a name; must be equivalent on every rank
-    double look = 0.01;                               ///< time between a rank's checks of its own load
-    double gap = 0.02;                                ///< shortest time between reports of a rank, and between plans
-    double interval = 1;                              ///< longest time between reports of a rank that has work
-    double gain = 0.02;                               ///< fraction of the finishing time that moving must save
+    double look = defaults::kLook;                    ///< time between a rank's checks of its own load
+    double gap = defaults::kGap;                      ///< shortest time between reports of a rank, and between plans
+    double interval = defaults::kInterval;            ///< longest time between reports of a rank that has work
+    double gain = defaults::kGain;                    ///< fraction of the finishing time that moving must save
   } balance{};
 };
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "driftmesh/defaults.hpp"
 #include "driftmesh/ids.hpp"
 #include "driftmesh/options.hpp"
 #include "driftmesh/pslg.hpp"
@@ -12,13 +13,13 @@ namespace driftmesh {
 /// A cluster in virtual time. Ranges and meanings are those of the keys `cluster.*` in docs/experiments.md. Times are
 /// in seconds, speeds in triangles per second.
 struct SimulatedCluster {
-  std::int32_t ranks = 0;             ///< their number, unless rank_speeds tells
-  double speed = 0;                   ///< the same on every rank; 0: as on the machine in docs/benchmarks.md
-  std::vector<double> rank_speeds{};  ///< one for each rank, instead of `ranks` and `speed`
-  double latency = 50e-6;             ///< seconds from the end of sending to arrival
-  double bandwidth = 1e9;             ///< bytes per second that leave a rank
-  double message_overhead = 1e-6;     ///< seconds for each message that a rank sends or receives
-  double scale = 1;                   ///< triangles that each one stands for
+  std::int32_t ranks = 0;                   ///< their number, unless rank_speeds tells
+  double speed = 0;                         ///< the same on every rank; 0: as on the machine in docs/benchmarks.md
+  std::vector<double> rank_speeds{};        ///< one for each rank, instead of `ranks` and `speed`
+  double latency = defaults::kLatency;      ///< seconds from the end of sending to arrival
+  double bandwidth = defaults::kBandwidth;  ///< bytes per second that leave a rank
+  double message_overhead = defaults::kMessageOverhead;  ///< seconds for each message that a rank sends or receives
+  double scale = 1;                                      ///< triangles that each one stands for
 };
 
 /// Results of a run on a simulated cluster. Times are in virtual seconds.

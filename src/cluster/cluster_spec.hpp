@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/defaults.hpp"
 #include "protocol/speed_schedule.hpp"
 #include "runtime/run_plan.hpp"
 
@@ -32,12 +33,12 @@ struct ClusterSpec {
   std::vector<RankChange> changes;  ///< changes of speed, those of a rank in the order of time
   IdVector<Rank, double> drag;      ///< the fraction of its speed that each rank keeps; empty: all of it
   double memory = 0;                ///< triangles for which each rank has memory, and takes nine tenths; 0: any number
-  double latency = 50e-6;           ///< seconds from the end of sending to arrival
-  double bandwidth = 1e9;           ///< bytes per second that leave a host
-  std::int32_t ranks_per_host = 1;  ///< consecutive ones
+  double latency = defaults::kLatency;      ///< seconds from the end of sending to arrival
+  double bandwidth = defaults::kBandwidth;  ///< bytes per second that leave a host
+  std::int32_t ranks_per_host = 1;          ///< consecutive ones
   double scale = 1;  ///< triangles that each one stands for: what depends on subdomains alone costs that much less
-  double message_overhead =
-      1e-6;  ///< seconds that a rank of any speed spends on each message that it sends or receives
+  /// Seconds that a rank of any speed spends on each message that it sends or receives.
+  double message_overhead = defaults::kMessageOverhead;
 };
 
 /// Triangles per second that a rank with these costs refines in subdomains of several thousand triangles: each point

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "decompose/decomposition.hpp"
+#include "driftmesh/defaults.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/triangulation.hpp"
 
@@ -12,7 +13,7 @@ struct DecomposeOptions {
   std::int32_t subdomains = 1;
   /// Degrees, 0 to kMaxSeparatorAngle: the smallest angle between separators and whatever they meet, where the domain
   /// allows it.
-  double min_angle = 60;
+  double min_angle = defaults::kSeparatorAngle;
   /// The bounds on the mesh: subdomains are balanced by the number of triangles they require, or by area if there is no
   /// bound on size.
   QualityBounds bounds;

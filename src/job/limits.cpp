@@ -96,7 +96,7 @@ Limits find_limits(const Request::Limits& asked, const Pslg& pslg, const Use& us
   const std::uint64_t present = present_memory();
   if (limits.memory == 0)
     if (const std::uint64_t free = free_memory(); free != 0)
-      limits.memory = present + free / 10 * 9 / static_cast<std::uint64_t>(processes.on_machine);
+      limits.memory = present + free / 100 * 90 / static_cast<std::uint64_t>(processes.on_machine);
   if (limits.memory == 0) return limits;
   const std::uint64_t room = limits.memory > present ? limits.memory - present : 0;
   const std::uint64_t each = limits.bytes_refined + limits.bytes_finishing;

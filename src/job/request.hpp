@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "balancer/conduct.hpp"
 #include "cluster/cluster_spec.hpp"
+#include "driftmesh/defaults.hpp"
 #include "mapping/mapping.hpp"
 #include "mesh/mesher.hpp"
-#include "protocol/aggregator.hpp"
 #include "runtime/agenda.hpp"
 #include "runtime/plan_run.hpp"
 #include "runtime/run_plan.hpp"
@@ -49,7 +48,7 @@ struct Request {
   } input;
 
   struct Bounds {
-    double angle = MeshRequest{}.min_angle;
+    double angle = defaults::kMinAngle;
     double area = 0;                ///< 0: no bound
     double triangles = 0;           ///< in place of an area; 0: not given
     double triangles_per_rank = 0;  ///< the same
@@ -62,7 +61,7 @@ struct Request {
     double gradation = 0;  ///< 0: lengths are taken as they are
     double shortest = 0;
     double longest = 0;  ///< 0: no limit
-    std::int64_t resolution = 2000;
+    std::int64_t resolution = defaults::kSizeResolution;
   } sizing;
 
   struct Limits {
@@ -75,7 +74,7 @@ struct Request {
     std::int32_t subdomains = 0;  ///< 0: as many as suit
     std::int32_t subdomains_per_rank = 0;
     std::string file;
-    double separator_angle = DecomposeOptions{}.min_angle;
+    double separator_angle = defaults::kSeparatorAngle;
     double skew = 0;
     double forecast_error = 1;  ///< factor by which forecasts are off, up or down
     friend bool operator==(const Decomposition&, const Decomposition&) = default;
@@ -99,11 +98,11 @@ struct Request {
     std::vector<double> rank_speeds;
     std::vector<RankChange> changes;
     std::vector<double> drag;
-    double latency = ClusterSpec{}.latency;
-    double bandwidth = ClusterSpec{}.bandwidth;
+    double latency = defaults::kLatency;
+    double bandwidth = defaults::kBandwidth;
     std::int32_t ranks_per_host = ClusterSpec{}.ranks_per_host;
     double memory = ClusterSpec{}.memory;
-    double message_overhead = ClusterSpec{}.message_overhead;
+    double message_overhead = defaults::kMessageOverhead;
     double scale = ClusterSpec{}.scale;
     std::string costs;  ///< a file; empty: those of the reference machine
   } cluster;
@@ -111,9 +110,9 @@ struct Request {
   struct Run {
     Method method = Method::kCoupled;
     Presplit presplit = Presplit::kAuto;
-    std::int64_t aggregation = protocol::Aggregator::kDefaultThreshold;
+    std::int64_t aggregation = defaults::kAggregation;
     WorkOrder order = WorkOrder::kGiven;
-    std::int64_t slice = WorkSettings{}.slice;
+    std::int64_t slice = defaults::kSlice;
     bool sleep = false;
     std::string scratch;       ///< a folder on disk for sleeping subdomains; empty: they sleep in memory
     std::int32_t threads = 0;  ///< 0: one for each core
@@ -122,10 +121,10 @@ struct Request {
   struct Balance {
     std::string policy = "none";
     std::map<std::string, std::string> parameters;
-    double look = balancer::ControllerOptions{}.look;
-    double gap = balancer::ControllerOptions{}.gap;
-    double interval = balancer::ControllerOptions{}.interval;
-    double gain = balancer::Worth{}.gain;
+    double look = defaults::kLook;
+    double gap = defaults::kGap;
+    double interval = defaults::kInterval;
+    double gain = defaults::kGain;
   } balance;
 
   std::int64_t seed = 1;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "driftmesh/defaults.hpp"
 #include "driftmesh/size_field.hpp"
 
 namespace driftmesh {
@@ -13,8 +14,8 @@ namespace driftmesh {
 /// The bounds that every triangle of a finished mesh must meet. Lengths and areas are in the units of the input's
 /// coordinates.
 struct QualityBounds {
-  double min_angle = 20;  ///< degrees; 0: no bound
-  double max_area = 0;    ///< <= 0: no bound
+  double min_angle = defaults::kMinAngle;  ///< degrees; 0: no bound
+  double max_area = 0;                     ///< <= 0: no bound
   /// Bound of each region label (see triangulate), <= 0 for none; empty if regions set no bounds.
   std::vector<double> region_max_area;
   /// Target edge length as a function of position, or null. Not owned.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "driftmesh/defaults.hpp"
 #include "driftmesh/pslg.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/refine_counters.hpp"
@@ -12,7 +13,7 @@ namespace driftmesh {
 
 /// A request to the mesher. All bounds apply: the smallest area counts.
 struct MeshRequest {
-  double min_angle = 20;                            ///< bound on angles in degrees, 0 to kMaxAngle; 0: none
+  double min_angle = defaults::kMinAngle;           ///< bound on angles in degrees, 0 to kMaxAngle; 0: none
   double max_area = 0;                              ///< bound on areas in squared units of the input; <= 0: none
   bool region_areas = true;                         ///< whether the regions' own area bounds apply
   const SizeField* size = nullptr;                  ///< target edge lengths, or null; must outlive the meshing

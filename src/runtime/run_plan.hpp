@@ -11,12 +11,12 @@
 #include "base/scratch_file.hpp"
 #include "decompose/decomposition.hpp"
 #include "decompose/presplit.hpp"
+#include "driftmesh/defaults.hpp"
 #include "driftmesh/ids.hpp"
 #include "driftmesh/load_snapshot.hpp"
 #include "driftmesh/policy.hpp"
 #include "driftmesh/policy_parameters.hpp"
 #include "mesh/bounds.hpp"
-#include "protocol/aggregator.hpp"
 #include "runtime/agenda.hpp"
 
 namespace driftmesh {
@@ -33,9 +33,9 @@ inline constexpr double kTrianglesPerPoint = 2;
 
 /// How each rank works, the same on all ranks.
 struct WorkSettings {
-  std::size_t aggregation = protocol::Aggregator::kDefaultThreshold;  ///< most SPLITs in one message
+  std::size_t aggregation = defaults::kAggregation;  ///< most SPLITs in one message
   /// Insertions between polls of the transport: some milliseconds, and most subdomains in one go.
-  std::int64_t slice = 16384;
+  std::int64_t slice = defaults::kSlice;
   WorkOrder order = WorkOrder::kGiven;
   /// Presplit interfaces get no more points: nobody tells anybody anything, and a subdomain that needs one is an error.
   bool decoupled = false;
