@@ -7,7 +7,7 @@
 
 namespace driftmesh::protocol {
 
-/// Forwards to another transport; derived classes change or observe the messages. For tests.
+/// Forwards to another transport; derived classes change or observe the messages.
 class TransportLayer : public Transport {
  public:
   /// `inner` must outlive this one.

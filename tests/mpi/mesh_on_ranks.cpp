@@ -17,7 +17,7 @@
 #include "mesh/exceptions.hpp"
 #include "mesh/mesher.hpp"
 #include "protocol/counter_sum.hpp"
-#include "protocol/delaying_transport.hpp"
+#include "support/delaying_transport.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include "protocol/delaying_transport.hpp"
 #include "protocol/transport_contract.hpp"
+#include "support/delaying_transport.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::protocol;

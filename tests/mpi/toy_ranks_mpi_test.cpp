@@ -1,9 +1,9 @@
 #include <doctest/doctest.h>
 #include <mpi.h>
 
-#include "protocol/delaying_transport.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 #include "protocol/toy_summary.hpp"
+#include "support/delaying_transport.hpp"
 
 using namespace driftmesh::protocol;
 using namespace driftmesh::protocol::toy;

@@ -12,7 +12,7 @@
 #include "migration/dormant_mesh.hpp"
 #include "oracles/meshing.hpp"
 #include "property/cases.hpp"
-#include "protocol/adversarial_network.hpp"
+#include "support/adversarial_network.hpp"
 #include "support/check_pieces.hpp"
 #include "support/distributed_case.hpp"
 #include "support/exchange_over.hpp"

@@ -15,7 +15,7 @@
 #include "driftmesh/files.hpp"
 #include "mesh/merge_pieces.hpp"
 #include "property/cases.hpp"
-#include "protocol/adversarial_network.hpp"
+#include "support/adversarial_network.hpp"
 #include "support/distributed_case.hpp"
 #include "support/exchange_over.hpp"
 #include "temporary_folder.hpp"

@@ -9,9 +9,9 @@
 #include "balancer/codec.hpp"
 #include "balancer/deliberation.hpp"
 #include "property/cases.hpp"
-#include "protocol/adversarial_network.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/transport_layer.hpp"
+#include "support/adversarial_network.hpp"
 #include "support/balanced_ranks.hpp"
 #include "support/id_literals.hpp"
 

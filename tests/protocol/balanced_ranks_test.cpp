@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "property/cases.hpp"
-#include "protocol/adversarial_network.hpp"
+#include "support/adversarial_network.hpp"
 #include "support/id_literals.hpp"
 
 using namespace driftmesh;

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "protocol/adversarial_network.hpp"
-#include "protocol/delaying_transport.hpp"
 #include "protocol/transport_contract.hpp"
 #include "protocol/virtual_network.hpp"
+#include "support/adversarial_network.hpp"
+#include "support/delaying_transport.hpp"
 #include "support/id_literals.hpp"
 
 using namespace driftmesh;

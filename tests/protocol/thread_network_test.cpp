@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "protocol/delaying_transport.hpp"
 #include "protocol/toy_summary.hpp"
 #include "protocol/transport_contract.hpp"
+#include "support/delaying_transport.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::protocol;

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "protocol/adversarial_network.hpp"
 #include "protocol/toy_rank.hpp"
 #include "protocol/virtual_network.hpp"
+#include "support/adversarial_network.hpp"
 #include "support/broken_rules.hpp"
 #include "support/id_literals.hpp"
 #include "support/rules_over_tree.hpp"

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "protocol/adversarial_network.hpp"
 #include "protocol/rules.hpp"
 #include "runtime/rank_loop.hpp"
 #include "sim/adversary_effects.hpp"
@@ -19,6 +18,7 @@
 #include "sim/scenario.hpp"
 #include "sim/stale_locations.hpp"
 #include "sim/witness.hpp"
+#include "support/adversarial_network.hpp"
 #include "support/rules_over_tree.hpp"
 #include "support/simulated_crew.hpp"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "protocol/adversarial_network.hpp"
 #include "protocol/codec.hpp"
 #include "runtime/run_plan.hpp"
+#include "support/adversarial_network.hpp"
 
 namespace driftmesh::sim {
 

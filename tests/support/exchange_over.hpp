@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "distributed/exchange.hpp"
-#include "protocol/adversarial_network.hpp"
+#include "support/adversarial_network.hpp"
 
 namespace driftmesh::testing {
 

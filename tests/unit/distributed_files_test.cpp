@@ -13,7 +13,7 @@
 #include "io/pvtu_format.hpp"
 #include "mesh/digest.hpp"
 #include "mesh/merge_pieces.hpp"
-#include "protocol/adversarial_network.hpp"
+#include "support/adversarial_network.hpp"
 #include "support/damage.hpp"
 #include "support/distributed_case.hpp"
 #include "support/error_text.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/bytes.hpp"
-#include "protocol/adversarial_network.hpp"
+#include "support/adversarial_network.hpp"
 #include "support/distributed_case.hpp"
 #include "support/error_text.hpp"
 #include "support/id_literals.hpp"

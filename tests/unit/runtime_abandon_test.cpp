@@ -2,9 +2,9 @@
 
 #include "balancer/policies/policy_factory.hpp"
 #include "driftmesh/error.hpp"
-#include "protocol/adversarial_network.hpp"
 #include "runtime_fixture.hpp"
 #include "support/abandon_on_errors.hpp"
+#include "support/adversarial_network.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;

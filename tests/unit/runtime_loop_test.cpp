@@ -5,9 +5,9 @@
 #include <string>
 
 #include "balancer/policies/policy_factory.hpp"
-#include "protocol/adversarial_network.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime_fixture.hpp"
+#include "support/adversarial_network.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;

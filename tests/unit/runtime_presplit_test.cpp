@@ -5,8 +5,8 @@
 
 #include "decompose/presplit.hpp"
 #include "geometry/triangle_geometry.hpp"
-#include "protocol/adversarial_network.hpp"
 #include "runtime_fixture.hpp"
+#include "support/adversarial_network.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;

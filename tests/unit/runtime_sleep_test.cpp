@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "protocol/adversarial_network.hpp"
 #include "runtime_fixture.hpp"
+#include "support/adversarial_network.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;

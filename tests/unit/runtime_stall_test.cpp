@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "protocol/adversarial_network.hpp"
 #include "protocol/transport_layer.hpp"
 #include "runtime/watchdog.hpp"
 #include "runtime_fixture.hpp"
+#include "support/adversarial_network.hpp"
 #include "support/id_literals.hpp"
 
 using namespace driftmesh;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "driftmesh/error.hpp"
-#include "protocol/adversarial_network.hpp"
 #include "support/abandon_on_errors.hpp"
+#include "support/adversarial_network.hpp"
 #include "support/plans.hpp"
 #include "support/simulated_run.hpp"
 

@@ -1,4 +1,4 @@
-#include "protocol/delaying_transport.hpp"
+#include "support/delaying_transport.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "protocol/adversarial_network.hpp"
+#include "support/adversarial_network.hpp"
 
 #include <algorithm>
 #include <string>
