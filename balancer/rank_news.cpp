@@ -28,6 +28,10 @@ bool RankNews::hear(Rank rank, const LoadNews& news, double now) {
   return news.spare > 0 && news.remaining > kNotable * believed;
 }
 
+void RankNews::hear_memory(Rank rank, double free_memory) {
+  if (LoadNews& news = ranks_[rank].news; news.round == 0) news.free_memory = free_memory;
+}
+
 void RankNews::expect(Rank from, Rank to, double work, double now) {
   // A rank cannot give what it has not received yet.
   const auto change = [&](Rank rank, double amount) {

@@ -19,6 +19,9 @@ class RankNews {
   /// Handles news that arrived at `now`; ignored if newer ones are known. Returns whether that rank has something to
   /// give, and more work than assumed.
   bool hear(Rank rank, const LoadNews& news, double now);
+  /// A rank asked for work, and said how much memory it has free. Only of use until its first news, which may come
+  /// later.
+  void hear_memory(Rank rank, double free_memory);
   /// This much work will move from one rank to another, which they have not reported yet.
   void expect(Rank from, Rank to, double work, double now);
 

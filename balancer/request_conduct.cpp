@@ -190,6 +190,7 @@ void RequestConduct::ask(const Situation& situation, Loads& own, Decision& decis
 }
 
 void RequestConduct::place(const WorkRequest& request, const Situation& situation, Loads& own, Decision& decision) {
+  news_->hear_memory(request.thief, request.free_memory);
   if (pass_on(request, situation, own, decision)) return;
   hungry_.insert(request.thief);
   decision.messages.push_back({request.thief, WorkAnswer{request.round, {}}});

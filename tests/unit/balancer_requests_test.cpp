@@ -193,6 +193,20 @@ TEST_CASE("a rank that was refused with some work left is looked at again when t
   CHECK(!requests_for_thief(broker.think(1.2, {}, 1000)).empty());
 }
 
+TEST_CASE("the broker knows the memory of a rank whose request came before its first report") {
+  Layout layout = grid_layout(12, 1, 3);
+  for (Layout::Subdomain& s : layout.subdomains)
+    if (s.owner == 1_rank) s.owner = 0_rank;
+  Controller broker = controller_of(0_rank, layout, "stealing");
+  broker.receive(2_rank, balancer::LoadNews{1, 0, 0, 300}, 1);
+  broker.receive(1_rank, balancer::WorkRequest{.thief = 1_rank, .round = 1, .speed = 300, .free_memory = 500}, 1);
+  CHECK(sent<balancer::WorkAnswer>(broker.think(1, {}, 300)).size() == 1);  // nobody has any
+  broker.receive(2_rank, balancer::LoadNews{2, 3000, 2000, 300}, 1.01);
+  const auto of_refused = requests_for_thief(broker.think(1.01, {}, 300));
+  REQUIRE(!of_refused.empty());
+  CHECK(of_refused[0].free_memory == 500);
+}
+
 TEST_CASE("a rank on whose behalf the broker asked in vain asks again by itself") {
   const Layout layout = grid_layout(12, 1, 3);
   Controller thief = controller_of(1_rank, layout, "stealing");
