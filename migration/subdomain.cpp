@@ -76,7 +76,7 @@ struct Subdomain::Body {
   double forecast;  // triangles when all bounds are met
 };
 
-Subdomain::Subdomain(SubdomainId id, const SubdomainContext& context) : id_(id), context_(&context) {}
+Subdomain::Subdomain(SubdomainId id, const SubdomainContext& context) : Work(id), context_(&context) {}
 Subdomain::Subdomain(Subdomain&&) noexcept = default;
 Subdomain& Subdomain::operator=(Subdomain&&) noexcept = default;
 Subdomain::~Subdomain() = default;
@@ -91,7 +91,7 @@ const RefineCounters& Subdomain::counters() const {
 
 double Subdomain::forecast() const {
   if (dormant_) return dormant_->forecast;
-  return body_ ? body_->forecast : context_->decomposition->subdomains[id_].predicted;
+  return body_ ? body_->forecast : context_->decomposition->subdomains[id()].predicted;
 }
 
 double Subdomain::remaining() const {
@@ -103,6 +103,18 @@ double Subdomain::remaining() const {
 std::int64_t Subdomain::triangles() const {
   if (dormant_) return dormant_->mesh.triangles();
   return body_ ? static_cast<std::int64_t>(body_->part.mesh.live_triangles()) : 0;
+}
+
+WorkState Subdomain::state() const {
+  return {.active = active(),
+          .started = started(),
+          .refined = refined(),
+          .backlog = backlog(),
+          .triangles = triangles(),
+          .predicted = context_->decomposition->subdomains[id()].predicted,
+          .forecast = forecast(),
+          .remaining = remaining(),
+          .packed_bytes = packed_bytes()};
 }
 
 std::uint64_t Subdomain::packed_bytes() const {
@@ -117,6 +129,7 @@ SliceWork Subdomain::work(std::int64_t insertions, std::vector<SplitPoint<Global
   wake();
   if (!body_) {
     make_body();
+    done.begun = true;
     done.prepared = triangles();
   }
   const std::int64_t points_before = points_made(counters()), triangles_before = triangles();
@@ -129,13 +142,20 @@ SliceWork Subdomain::work(std::int64_t insertions, std::vector<SplitPoint<Global
       refined_ = false;
       break;
     case Refiner::Status::kFull:
-      throw LimitError("subdomain " + to_string(id_) +
+      throw LimitError("subdomain " + to_string(id()) +
                        " has more triangles than can be numbered; cut the domain into more subdomains");
   }
   say_new_points(said);
   done.points = points_made(counters()) - points_before;
   done.triangles = triangles() - triangles_before;
   return done;
+}
+
+std::int64_t Subdomain::rest() {
+  if (context_->finished) context_->finished(*this);
+  if (!context_->sleep) return 0;
+  sleep();
+  return dormant() ? triangles() : 0;
 }
 
 void Subdomain::sleep() {
@@ -171,7 +191,7 @@ void Subdomain::wake() {
   try {
     body_ = std::make_unique<Body>(std::move(*dormant_), context_->bounds);
   } catch (const Error& error) {
-    throw Error("the dormant form of subdomain " + to_string(id_) + " is damaged: " + error.what());
+    throw Error("the dormant form of subdomain " + to_string(id()) + " is damaged: " + error.what());
   }
   dormant_.reset();
 }
@@ -179,7 +199,7 @@ void Subdomain::wake() {
 /// Whether it already has the point.
 bool Subdomain::has(const SplitPoint<GlobalRootId>& split) const {
   if (!started()) return false;
-  const auto roots = context_->decomposition->roots_of(id_);
+  const auto roots = context_->decomposition->roots_of(id());
   const auto place = std::ranges::lower_bound(roots, split.root);
   if (place == roots.end() || *place != split.root) return false;
   const auto root = static_cast<RootId>(place - roots.begin());
@@ -189,7 +209,7 @@ bool Subdomain::has(const SplitPoint<GlobalRootId>& split) const {
 }
 
 Bytes Subdomain::pack() const {
-  SubdomainView view{id_, refined_, pending_, {}, nullptr};
+  SubdomainView view{id(), refined_, pending_, {}, nullptr};
   if (body_) view.body.emplace(SubdomainView::Body{body_->part, body_->refiner.state(), body_->forecast});
   if (!stored_) {
     view.dormant = dormant_.get();
@@ -220,7 +240,7 @@ Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainCon
 }
 
 void Subdomain::make_body() {
-  body_ = std::make_unique<Body>(subdomain_triangulation(*context_->decomposition, id_), context_->bounds);
+  body_ = std::make_unique<Body>(subdomain_triangulation(*context_->decomposition, id()), context_->bounds);
   if (!context_->presplit) return;
   for (const GlobalRootId root : body_->part.roots)
     for (const dyadic::Path path : presplit_of(root)) take_in({root, path});
@@ -236,10 +256,10 @@ void Subdomain::take_in(const SplitPoint<GlobalRootId>& split) {
   const IdVector<RootId, GlobalRootId>& roots = body_->part.roots;
   const auto place = std::lower_bound(roots.begin(), roots.end(), split.root);
   if (place == roots.end() || *place != split.root)
-    throw Error("subdomain " + to_string(id_) + " is told of a point on root " + to_string(split.root) +
+    throw Error("subdomain " + to_string(id()) + " is told of a point on root " + to_string(split.root) +
                 ", which is not on its border");
   if (!body_->refiner.add_split_point(static_cast<RootId>(place - roots.begin()), split.path))
-    throw Error("root " + to_string(split.root) + " of the decomposition, between subdomain " + to_string(id_) +
+    throw Error("root " + to_string(split.root) + " of the decomposition, between subdomain " + to_string(id()) +
                 " and a neighbor, cannot be split at depth " + std::to_string(dyadic::depth(split.path)) +
                 ": coordinates have no room for the point; ask for larger triangles or a smaller angle there");
 }

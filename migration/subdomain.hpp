@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,25 +17,23 @@
 #include "mesh/refine_counters.hpp"
 #include "migration/packed_form.hpp"
 #include "migration/stored_bulk.hpp"
-#include "protocol/messages.hpp"
+#include "migration/work.hpp"
 
 namespace driftmesh {
 
-/// Shared by all subdomains of a run, equal on every rank but for the file. Not owned; must outlive them.
+class Subdomain;
+
+/// Shared by all subdomains of a run, equal on every rank but for the file and the observer. Not owned; must outlive
+/// them.
 struct SubdomainContext {
   const Decomposition* decomposition = nullptr;
   QualityBounds bounds;
   bool presplit = false;  ///< cut interfaces to the bounds' size before refinement (see decompose/presplit.hpp)
   ScratchFile* scratch = nullptr;                 ///< where those that sleep keep most of their bytes; null: in memory
   const PresplitPaths* presplit_paths = nullptr;  ///< those to take; null: those of the bounds
-};
-
-/// Result of a slice of work.
-struct SliceWork {
-  std::int64_t points = 0;     ///< inserted
-  std::int64_t triangles = 0;  ///< more than before
-  std::int64_t prepared = 0;   ///< triangles of the initial triangulation, if it was made in this slice
-  std::int64_t woken = 0;      ///< triangles of the dormant mesh, if it was woken in this slice
+  bool sleep = false;                             ///< whether subdomains that rest() fall asleep
+  /// Called before that, by whichever thread has worked on the subdomain; may be empty.
+  std::function<void(const Subdomain&)> finished{};
 };
 
 /// One subdomain: it refines itself, reports the points it inserts on shared edges, and inserts those of its neighbors.
@@ -47,14 +46,14 @@ struct SliceWork {
 ///
 /// Sleep, moves and pauses change no bit of the mesh: once its bounds are met, a subdomain refines on in an order that
 /// does not depend on how its mesh is stored (see refiner.hpp).
-class Subdomain {
+class Subdomain final : public Work {
  public:
   Subdomain(SubdomainId id, const SubdomainContext& context);
   Subdomain(Subdomain&&) noexcept;
   Subdomain& operator=(Subdomain&&) noexcept;
-  ~Subdomain();
+  ~Subdomain() override;
 
-  [[nodiscard]] SubdomainId id() const { return id_; }
+  [[nodiscard]] WorkState state() const override;
   /// Whether there is something to do: bounds not met yet, or points to insert.
   [[nodiscard]] bool active() const { return !refined_ || !pending_.empty(); }
   /// Whether it has met all bounds once. Points received later may make more work.
@@ -75,11 +74,17 @@ class Subdomain {
   void tell(const SplitPoint<GlobalRootId>& split) {
     if (!has(split)) pending_.push_back(split);
   }
+  void tell(std::span<const SplitPoint<GlobalRootId>> splits) override {
+    for (const SplitPoint<GlobalRootId>& split : splits) tell(split);
+  }
 
   /// Works for about this many insertions. Points inserted on shared edges are appended to `said`, each after its
   /// ancestors. Throws Error if a shared edge cannot be split where the neighbor has split it, LimitError at the
   /// capacity of handles.
-  SliceWork work(std::int64_t insertions, std::vector<SplitPoint<GlobalRootId>>& said);
+  SliceWork work(std::int64_t insertions, std::vector<SplitPoint<GlobalRootId>>& said) override;
+
+  /// Does with a subdomain that has nothing to do what the context says.
+  std::int64_t rest() override;
 
   /// Shrinks to the dormant form (see dormant_mesh.hpp), if it has worked and has nothing to do; with a scratch file
   /// most of it goes there. Refinement after waking, if any, is bit for bit that without sleep.
@@ -93,7 +98,7 @@ class Subdomain {
 
   /// Everything as bytes (see packed_form.hpp), very few before the first work(); the subdomain that unpack makes of
   /// them continues exactly as this one would.
-  [[nodiscard]] Bytes pack() const;
+  [[nodiscard]] Bytes pack() const override;
   /// Throws Error, naming the subdomain, for bytes that are not the packed form of a subdomain of this context.
   [[nodiscard]] static Subdomain unpack(std::span<const std::byte> bytes, const SubdomainContext& context,
                                         Source source = Source::kUnknown);
@@ -113,7 +118,6 @@ class Subdomain {
   void take_in(const SplitPoint<GlobalRootId>& split);
   void say_new_points(std::vector<SplitPoint<GlobalRootId>>& said);
 
-  SubdomainId id_;
   const SubdomainContext* context_;
   bool refined_ = false;
   std::vector<SplitPoint<GlobalRootId>> pending_;

@@ -8,7 +8,7 @@ namespace {
 
 double remaining_on(const RankLoop& loop) {
   double remaining = 0;
-  for (const auto& [id, subdomain] : loop.subdomains()) remaining += subdomain.remaining();
+  loop.held().each([&](const Work& work) { remaining += work.state().remaining; });
   return remaining;
 }
 
@@ -41,8 +41,8 @@ void sort_by_time(std::vector<Record>& records, double Record::*time) {
 
 }  // namespace
 
-RankLog::RankLog(const protocol::Transport& transport, const RunPlan& plan)
-    : transport_(&transport), plan_(&plan), start_(transport.now()) {}
+RankLog::RankLog(const protocol::Transport& transport, const Decomposition* decomposition)
+    : transport_(&transport), decomposition_(decomposition), start_(transport.now()) {}
 
 void RankLog::sample(const RankLoop& loop, double seconds, SubdomainId subdomain) {
   samples_.push_back({now(), transport_->rank(), loop.triangles(), remaining_on(loop), seconds, subdomain});
@@ -56,7 +56,7 @@ void RankLog::worked(const RankLoop& loop, const RankLoop::Slice& slice, double 
   sample(loop, seconds, slice.subdomain);
   told_.clear();
   for (const SplitPoint<GlobalRootId>& split : slice.said)
-    ++told_[plan_->decomposition.roots[split.root].across_from(slice.subdomain)];
+    ++told_[decomposition_->roots[split.root].across_from(slice.subdomain)];
   for (const auto& [neighbor, points] : told_)
     splits_.push_back({now(), transport_->rank(), slice.subdomain, neighbor, points});
 }
@@ -82,7 +82,7 @@ void RankLog::deliberated(std::vector<balancer::Deliberation> considered) {
 void RankLog::ends(const RankLoop& loop) {
   end_ = now();
   outcome_ = loop.outcome();
-  for (const auto& [id, subdomain] : loop.subdomains()) held_.push_back(id);
+  loop.held().each([&](const Work& work) { held_.push_back(work.id()); });
 }
 
 void RankLog::write(ByteWriter& writer) const {

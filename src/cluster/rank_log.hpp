@@ -5,9 +5,9 @@
 
 #include "base/bytes.hpp"
 #include "cluster/cluster_run.hpp"
+#include "decompose/decomposition.hpp"
 #include "protocol/transport.hpp"
 #include "runtime/rank_loop.hpp"
-#include "runtime/run_plan.hpp"
 
 namespace driftmesh {
 
@@ -17,8 +17,9 @@ class RankLog {
  public:
   /// An empty one, for read() to fill.
   RankLog() = default;
-  /// The run begins now. `transport` and `plan` must outlive the writing.
-  RankLog(const protocol::Transport& transport, const RunPlan& plan);
+  /// The run begins now. `transport` and `decomposition`, which is null where work has no borders, must outlive the
+  /// writing.
+  RankLog(const protocol::Transport& transport, const Decomposition* decomposition);
 
   void begins(const RankLoop& loop);
   /// `seconds`: the duration of the slice, drag included.
@@ -46,7 +47,7 @@ class RankLog {
   void sample(const RankLoop& loop, double seconds, SubdomainId subdomain);
 
   const protocol::Transport* transport_ = nullptr;
-  const RunPlan* plan_ = nullptr;
+  const Decomposition* decomposition_ = nullptr;
   double start_ = 0;
   double end_ = 0;
   RankOutcome outcome_;

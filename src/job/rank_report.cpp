@@ -17,10 +17,11 @@ RankReport RankReport::read(ByteReader& reader) {
   return report;
 }
 
-RankReport report_of(const RankLoop& loop, const RunPlan& plan, FactsBook& book) {
+RankReport report_of(const RankOutcome& outcome, const std::map<SubdomainId, Subdomain>& subdomains,
+                     const RunPlan& plan, FactsBook& book) {
   RankReport report;
-  static_cast<RankOutcome&>(report.rank) = loop.outcome();
-  for (const auto& [id, subdomain] : loop.subdomains()) {
+  static_cast<RankOutcome&>(report.rank) = outcome;
+  for (const auto& [id, subdomain] : subdomains) {
     if (!book.has(id)) book.note(subdomain, plan.bounds);
     add_facts(report.facts, book.of(id));
   }

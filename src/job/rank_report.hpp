@@ -1,11 +1,14 @@
 #pragma once
 
+#include <map>
+
 #include "base/bytes.hpp"
 #include "job/facts_book.hpp"
 #include "job/prepare.hpp"
 #include "job/record.hpp"
 #include "job/team.hpp"
-#include "runtime/rank_loop.hpp"
+#include "migration/subdomain.hpp"
+#include "runtime/rank_outcome.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh::job {
@@ -19,8 +22,10 @@ struct RankReport {
   [[nodiscard]] static RankReport read(ByteReader& reader);
 };
 
-/// The report of a rank whose loop has ended, on `plan`. Subdomains that are not in the book yet are noted there.
-[[nodiscard]] RankReport report_of(const RankLoop& loop, const RunPlan& plan, FactsBook& book);
+/// The report of a rank whose loop has ended with these subdomains of `plan`. Those that are not in the book yet are
+/// noted there.
+[[nodiscard]] RankReport report_of(const RankOutcome& outcome, const std::map<SubdomainId, Subdomain>& subdomains,
+                                   const RunPlan& plan, FactsBook& book);
 
 /// Adds the report of a rank to the record of its run.
 void add_report(RunRecord& run, const RankReport& report);

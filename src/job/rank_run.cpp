@@ -60,7 +60,7 @@ void RankRun::refine(bool logs, const RankHooks& hooks) {
   team_.meet();  // the clocks of all start together
   channel_ = team_.open();
   by_itself(team_, [&] {
-    if (logs) log_.emplace(channel_->transport(), order_.plan);
+    if (logs) log_.emplace(channel_->transport(), &order_.plan.decomposition);
     run_loop(hooks);
     if (logs) log_->ends(*loop_);
   });
@@ -71,7 +71,7 @@ void RankRun::refine(bool logs, const RankHooks& hooks) {
 void RankRun::run_loop(const RankHooks& hooks) {
   protocol::Transport& own = channel_->transport();
   protocol::Transport& transport = hooks.through ? hooks.through(own) : own;
-  loop_.emplace(transport, order_.plan, CostModel{}, observers(hooks));
+  loop_.emplace(transport, order_.plan, CostModel{}, observers(hooks), inspection());
   if (order_.plan.work.threads > 1) {
     crew_ = std::make_unique<ThreadCrew>(to_index(order_.plan.work.threads - 1));
     loop_->hire(*crew_);
@@ -115,11 +115,7 @@ RankLoop::Observers RankRun::observers(const RankHooks& hooks) {
     drag(share, slice.seconds);
     if (log_) log_->worked(loop, slice, slice.seconds + (channel_->transport().now() - begin));
   };
-  if (!log_) {  // a log times the work alone
-    if (inspects_at_once(order_.plan))
-      observers.finished = [this](const Subdomain& subdomain) { book_.note(subdomain, order_.plan.bounds); };
-    return observers;
-  }
+  if (!log_) return observers;
   observers.handed_over = [this](const RankLoop& loop, const RankLoop::Passage& passage) {
     log_->departs(loop, passage);
   };
@@ -130,12 +126,19 @@ RankLoop::Observers RankRun::observers(const RankHooks& hooks) {
   return observers;
 }
 
+/// What is done with a subdomain that has nothing to do, while it is in the cache; nothing in a run that is logged: a
+/// log times the work alone.
+std::function<void(const Subdomain&)> RankRun::inspection() {
+  if (log_ || !inspects_at_once(order_.plan)) return {};
+  return [this](const Subdomain& subdomain) { book_.note(subdomain, order_.plan.bounds); };
+}
+
 double RankRun::share_of_time() const {
   return order_.shares.empty() ? 1 : order_.shares[team_.rank()];
 }
 
 RankReport RankRun::report() {
-  RankReport report = report_of(*loop_, order_.plan, book_);
+  RankReport report = report_of(loop_->outcome(), loop_->subdomains(), order_.plan, book_);
   report.rank.peak = peak_memory();
   return report;
 }

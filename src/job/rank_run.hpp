@@ -15,7 +15,7 @@
 #include "job/team.hpp"
 #include "job/watch.hpp"
 #include "runtime/crew.hpp"
-#include "runtime/rank_loop.hpp"
+#include "runtime/subdomain_loop.hpp"
 
 namespace driftmesh::job {
 
@@ -24,7 +24,7 @@ struct RankHooks {
   /// Returns the transport for the loop to use instead of the given one, which it may wrap. Called right before the
   /// loop is created.
   std::function<protocol::Transport&(protocol::Transport&)> through;
-  std::function<void(RankLoop&)> before_step;
+  std::function<void(SubdomainLoop&)> before_step;
   std::function<void(const RankLoop::Slice&)> after_slice;
 };
 
@@ -46,7 +46,7 @@ class RankRun {
 
   // After refine():
 
-  [[nodiscard]] const RankLoop& loop() const { return *loop_; }
+  [[nodiscard]] const SubdomainLoop& loop() const { return *loop_; }
   [[nodiscard]] RankReport report();
   [[nodiscard]] const RankLog& log() const { return *log_; }
   [[nodiscard]] const RunPlan& plan() const { return order_.plan; }
@@ -58,6 +58,7 @@ class RankRun {
   void agree_on_size();
   [[nodiscard]] double share_of_time() const;
   [[nodiscard]] RankLoop::Observers observers(const RankHooks& hooks);
+  [[nodiscard]] std::function<void(const Subdomain&)> inspection();
   void run_loop(const RankHooks& hooks);
   [[nodiscard]] protocol::StepResult step_or_abandon();
   [[nodiscard]] std::exception_ptr stopped(bool by_memory) const;
@@ -72,7 +73,7 @@ class RankRun {
   std::optional<RankLog> log_;
   FactsBook book_;
   std::unique_ptr<Crew> crew_;  // if ranks have several threads
-  std::optional<RankLoop> loop_;
+  std::optional<SubdomainLoop> loop_;
   std::int64_t triangles_ = -1;  // when memory was looked at
   std::exception_ptr failure_;   // thrown by the work on this rank
 };

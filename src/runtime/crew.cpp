@@ -4,10 +4,8 @@ namespace driftmesh {
 
 void Shift::perform() {
   try {
-    done = subdomain->work(insertions, said);
-    if (subdomain->active()) return;
-    if (finished != nullptr && *finished) (*finished)(*subdomain);
-    if (sleep) subdomain->sleep();
+    done = work->work(insertions, said);
+    if (!work->state().active) done.asleep = work->rest();
   } catch (...) {
     failure = std::current_exception();
   }

@@ -3,19 +3,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <vector>
 
-#include "migration/subdomain.hpp"
+#include "migration/work.hpp"
 
 namespace driftmesh {
 
 /// A slice of work on one subdomain, which nobody else touches meanwhile.
 struct Shift {
-  Subdomain* subdomain = nullptr;
-  std::int64_t insertions = 0;                                      ///< about as many
-  const std::function<void(const Subdomain&)>* finished = nullptr;  ///< called if it has nothing to do after them
-  bool sleep = false;                                               ///< whether it sleeps then
+  Work* work = nullptr;
+  std::int64_t insertions = 0;  ///< about as many
 
   // Results:
   SliceWork done{};
@@ -23,7 +20,7 @@ struct Shift {
   std::exception_ptr failure{};                  ///< what the work threw
   double seconds = 0;                            ///< wall-clock time, if a crew did it
 
-  /// Does the work, on any thread.
+  /// Does the work, on any thread; if there is nothing to do after it, lets it rest.
   void perform();
 };
 

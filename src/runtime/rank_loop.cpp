@@ -1,89 +1,55 @@
 #include "runtime/rank_loop.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include "balancer/codec.hpp"
 #include "balancer/effort.hpp"
 #include "driftmesh/error.hpp"
-#include "geometry/midpoint.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/packed_size.hpp"
 #include "protocol/protocol_error.hpp"
 
 namespace driftmesh {
-namespace {
 
-std::string needs_neighbor(const Decomposition& d, SubdomainId id, GlobalRootId border) {
-  const Point m = midpoint(d.points[d.roots[border].a], d.points[d.roots[border].b]);
-  std::ostringstream message;
-  message << "the decoupled method does not suffice: subdomain " << to_string(id)
-          << " needs another point on its border near (" << m.x << ", " << m.y
-          << "), of which its neighbor would not know, since details there are finer than the bound "
-          << "on size; ask for more triangles, a smaller angle or fewer subdomains, or use the coupled method";
-  return message.str();
-}
-
-}  // namespace
-
-RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, IdSpan<SubdomainId, const Rank> owners,
-                   Observers observers, const protocol::Rules& rules)
+RankLoop::RankLoop(protocol::Transport& transport, const LoopPlan& plan, Holding& held, Coupling& coupling,
+                   const CostModel& costs, Observers observers, const protocol::Rules& rules)
     : transport_(transport),
       plan_(plan),
-      own_context_{&plan.decomposition, plan.bounds, plan.presplit, plan.scratch, plan.presplit_paths.get()},
+      held_(held),
+      coupling_(coupling),
+      costs_(costs),
       observers_(std::move(observers)),
       rules_(rules),
-      protocol_(transport.rank(), transport.ranks(), owners, plan.work.aggregation, rules),
-      limits_{transport.ranks(), static_cast<std::int32_t>(owners.size()),
-              static_cast<std::int32_t>(plan.decomposition.roots.size())},
+      protocol_(transport.rank(), transport.ranks(), plan.owners, plan.work.aggregation, rules),
+      limits_{transport.ranks(), static_cast<std::int32_t>(plan.owners.size()), coupling.roots()},
       agenda_(plan.work.order),
       experience_(plan.balancing.options.work_to_start),
-      clock_(transport.now()) {}
-
-RankLoop::RankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs, Observers observers,
-                   const protocol::Rules& rules)
-    : RankLoop(transport, plan, plan.owners, std::move(observers), rules) {
-  costs_ = costs;
-  balance_with(plan.layout);
-  for (const SubdomainId s : ids_of(plan.owners))
-    if (plan.owners[s] == transport.rank()) put(Subdomain(s, *context_));
-}
-
-RankLoop::RankLoop(protocol::Transport& transport, Round round, const RunPlan& plan, Observers observers)
-    : RankLoop(transport, plan, round.owners, std::move(observers), protocol::sound_rules()) {
-  in_rounds_ = true;
-  round_owners_ = std::move(round.owners);  // they stay where the protocol sees them
-  context_ = round.context;
-  balance_with(std::move(round.layout));
-  for (auto& [id, subdomain] : round.subdomains) put(std::move(subdomain));
+      clock_(transport.now()) {
+  if (plan_.policy) controller_.emplace(transport_.rank(), plan_.layout, plan_.policy, plan_.balancing.options, clock_);
+  held_.each([this](const Work& work) { count_in(work); });
 }
 
 RankLoop::~RankLoop() {
   while (!out_.empty()) {
     crew_->wait();
-    while (const Shift* const shift = crew_->finished()) out_.erase(shift->subdomain->id());
+    while (const Shift* const shift = crew_->finished()) out_.erase(shift->work->id());
   }
 }
 
-void RankLoop::balance_with(std::shared_ptr<const balancer::Layout> layout) {
-  if (!plan_.policy) return;
-  layout_ = layout;
-  controller_.emplace(transport_.rank(), std::move(layout), plan_.policy, plan_.balancing.options, clock_);
-}
-
 bool RankLoop::hand_over(SubdomainId id, Rank to) {
-  const auto place = subdomains_.find(id);
-  if (to == transport_.rank() || place == subdomains_.end() || out_.contains(id)) return false;
-  if (!place->second.active() || abandoned_) return false;
-  if (place->second.packed_bytes() > protocol::kMostPackedBytes) return false;
-  triangles_ -= place->second.triangles();
-  Bytes packed = place->second.pack();
+  const Work* const work = held_.find(id);
+  if (to == transport_.rank() || work == nullptr || out_.contains(id)) return false;
+  const WorkState state = work->state();
+  if (!state.active || abandoned_) return false;
+  if (state.packed_bytes > protocol::kMostPackedBytes) return false;
+  triangles_ -= state.triangles;
+  Bytes packed = work->pack();
   transport_.spend(static_cast<double>(packed.size()) * costs_.packed_byte);
   agenda_.remove(id);
   experience_.left(id);
-  subdomains_.erase(place);
+  held_.drop(id);
   if (observers_.handed_over) observers_.handed_over(*this, {id, protocol_.where(id).epoch + 1, to, packed.size()});
   protocol_.hand_off(id, to, std::move(packed));
   return true;
@@ -121,26 +87,33 @@ protocol::StepResult RankLoop::step() {
 }
 
 RankOutcome RankLoop::outcome() const {
-  return {times_,    protocol_.counters(), triangles_, static_cast<std::int32_t>(subdomains_.size()), interface_splits_,
-          messages_, message_bytes_};
+  std::int32_t subdomains = 0;
+  held_.each([&](const Work&) { ++subdomains; });
+  return {times_, protocol_.counters(), triangles_, subdomains, interface_splits_, messages_, message_bytes_};
 }
 
 bool RankLoop::at_work() const {
   return !agenda_.empty() || !out_.empty() || protocol_.aggregated() > 0 || protocol_.held_groups() > 0;
 }
 
-void RankLoop::put(Subdomain&& subdomain) {
-  const SubdomainId id = subdomain.id();
-  triangles_ += subdomain.triangles();
-  const auto [place, is_new] = subdomains_.insert_or_assign(id, std::move(subdomain));
-  reschedule(place->second);
+// What the protocol says is here.
+Work& RankLoop::at(SubdomainId id) const {
+  Work* const work = held_.find(id);
+  if (work == nullptr) throw Error("subdomain " + to_string(id) + " is not on rank " + to_string(transport_.rank()));
+  return *work;
 }
 
-void RankLoop::reschedule(const Subdomain& s) {
-  if (s.active() && !abandoned_)
-    agenda_.put({s.id(), s.started() && !s.refined(), s.refined(), s.remaining(), s.backlog()});
+void RankLoop::count_in(const Work& work) {
+  const WorkState state = work.state();
+  triangles_ += state.triangles;
+  reschedule(work.id(), state);
+}
+
+void RankLoop::reschedule(SubdomainId id, const WorkState& s) {
+  if (s.active && !abandoned_)
+    agenda_.put({id, s.started && !s.refined, s.refined, s.remaining, s.backlog});
   else
-    agenda_.remove(s.id());
+    agenda_.remove(id);
 }
 
 bool RankLoop::poll() {
@@ -159,7 +132,7 @@ bool RankLoop::poll() {
 
 void RankLoop::settle(const protocol::HandOff& arrival, Rank sender) {
   charge(&RankTimes::polling);
-  protocol::read_from(sender, [&] { put(Subdomain::unpack(arrival.packed, *context_, Source::kThisRun)); });
+  protocol::read_from(sender, [&] { count_in(held_.unpack(arrival.packed)); });
   transport_.spend(static_cast<double>(arrival.packed.size()) * costs_.packed_byte);
   charge(&RankTimes::balancing);
   if (controller_) controller_->arrived(arrival.subdomain, arrival.epoch);
@@ -185,18 +158,18 @@ bool RankLoop::work() {
   transport_.spend(
       static_cast<double>(own.done.points) * costs_.point +
       (own.done.prepared > 0 ? costs_.start + static_cast<double>(own.done.prepared) * costs_.prepared : 0) +
-      static_cast<double>(own.done.woken) * costs_.woken +
-      (own.subdomain->dormant() ? static_cast<double>(own.subdomain->triangles()) * costs_.asleep : 0));
+      static_cast<double>(own.done.woken) * costs_.woken + static_cast<double>(own.done.asleep) * costs_.asleep +
+      own.done.seconds);
   end(own, transport_.now() - start);
   return true;
 }
 
 Shift& RankLoop::begin(SubdomainId id) {
-  Subdomain& subdomain = subdomains_.at(id);
+  Work& work = at(id);
+  const WorkState state = work.state();
   agenda_.remove(id);
-  const Shift shift{
-      .subdomain = &subdomain, .insertions = slice(), .finished = &observers_.finished, .sleep = plan_.work.sleep};
-  return out_.emplace(id, Out{shift, subdomain.triangles(), load_of(subdomain), {}}).first->second.shift;
+  const Shift shift{.work = &work, .insertions = slice()};
+  return out_.emplace(id, Out{shift, state.triangles, load_of(id, state), {}}).first->second.shift;
 }
 
 // Insertions. Where nothing is balanced, only points of neighbors wait for its end.
@@ -208,40 +181,37 @@ std::int64_t RankLoop::slice() const {
 }
 
 void RankLoop::end(Shift& shift, double seconds) {
-  Subdomain& subdomain = *shift.subdomain;
-  const SubdomainId id = subdomain.id();
+  Work& work = *shift.work;
+  const SubdomainId id = work.id();
   const Out out = std::move(out_.extract(id).mapped());
   if (abandoned_) return;
   own_failure_ = true;
   if (out.shift.failure) std::rethrow_exception(out.shift.failure);
-  triangles_ += subdomain.triangles() - out.triangles;
+  if (!out.told.empty()) work.tell(out.told);
+  const WorkState state = work.state();
+  triangles_ += state.triangles - out.triangles;
   if (triangles_ > plan_.max_triangles)
     throw LimitError("rank " + to_string(transport_.rank()) + " has more than " + std::to_string(plan_.max_triangles) +
                      " triangles");
-  for (const SplitPoint<GlobalRootId>& split : out.told) subdomain.tell(split);
-  reschedule(subdomain);
+  reschedule(id, state);
   const auto& said = out.shift.said;
   interface_splits_ += static_cast<std::int64_t>(said.size());
-  if (plan_.work.decoupled && !said.empty()) throw Error(needs_neighbor(plan_.decomposition, id, said.front().root));
   for (const SplitPoint<GlobalRootId>& split : said) tell_across(id, split);
   const double start = transport_.now();
   if (observers_.after_slice) observers_.after_slice(*this, {id, seconds, said});
   seconds += transport_.now() - start;  // a slow rank may be made by waiting there
   const SliceWork& done = out.shift.done;
-  learn(subdomain, done, seconds);
-  const double started =
-      done.prepared > 0 ? plan_.balancing.options.work_to_start + static_cast<double>(done.prepared) : 0;
-  speed_.add({started + static_cast<double>(done.triangles), seconds, done.prepared > 0 ? out.load.remaining : 0});
+  learn(id, state, done, seconds);
+  const double started = done.begun ? plan_.balancing.options.work_to_start + static_cast<double>(done.prepared) : 0;
+  speed_.add({started + static_cast<double>(done.triangles), seconds, done.begun ? out.load.remaining : 0});
   own_failure_ = false;
 }
 
-void RankLoop::learn(const Subdomain& subdomain, const SliceWork& done, double seconds) {
+void RankLoop::learn(SubdomainId id, const WorkState& s, const SliceWork& done, double seconds) {
   if (!controller_) return;
-  const SubdomainId id = subdomain.id();
-  experience_.worked(id, seconds, done.prepared > 0);
-  if (subdomain.refined())
-    experience_.finished(id, (*layout_)[id].on_segments, plan_.decomposition.subdomains[id].predicted,
-                         static_cast<double>(subdomain.triangles()));
+  experience_.worked(id, seconds, done.begun);
+  if (s.refined)
+    experience_.finished(id, (*plan_.layout)[id].on_segments, s.predicted, static_cast<double>(s.triangles));
 }
 
 // Calls the controller when it is due or work has just run out, but not after termination. Returns whether it did
@@ -279,17 +249,17 @@ bool RankLoop::balance(bool worked) {
 std::vector<balancer::ReportedLoad> RankLoop::loads() const {
   std::vector<balancer::ReportedLoad> own;
   for (const auto& [id, out] : out_) own.push_back(out.load);
-  for (const SubdomainId id : agenda_.in_order()) own.push_back(load_of(subdomains_.at(id)));
+  for (const SubdomainId id : agenda_.in_order()) own.push_back(load_of(id, at(id).state()));
   return own;
 }
 
-balancer::ReportedLoad RankLoop::load_of(const Subdomain& s) const {
-  double remaining = s.remaining();
-  if (layout_ && s.active() && !s.refined())
+balancer::ReportedLoad RankLoop::load_of(SubdomainId id, const WorkState& s) const {
+  double remaining = s.remaining;
+  if (controller_ && s.active && !s.refined)
     remaining =
-        std::max(1 + static_cast<double>(s.backlog()),
-                 experience_.rest((*layout_)[s.id()].on_segments, s.forecast(), static_cast<double>(s.triangles())));
-  return {s.id(), protocol_.where(s.id()).epoch, remaining, s.packed_bytes()};
+        std::max(1 + static_cast<double>(s.backlog),
+                 experience_.rest((*plan_.layout)[id].on_segments, s.forecast, static_cast<double>(s.triangles)));
+  return {id, protocol_.where(id).epoch, remaining, s.packed_bytes};
 }
 
 // Triangles, besides those here and those that they will become.
@@ -306,18 +276,18 @@ void RankLoop::tell(SubdomainId to, std::span<const SplitPoint<GlobalRootId>> sp
     out->second.told.insert(out->second.told.end(), splits.begin(), splits.end());
     return;
   }
-  Subdomain& subdomain = subdomains_.at(to);
-  for (const SplitPoint<GlobalRootId>& split : splits) subdomain.tell(split);
-  reschedule(subdomain);
+  Work& work = at(to);
+  work.tell(splits);
+  reschedule(to, work.state());
 }
 
 void RankLoop::tell_across(SubdomainId from, const SplitPoint<GlobalRootId>& split) {
-  if (in_rounds_) return;
-  const SubdomainId to = plan_.decomposition.roots[split.root].across_from(from);
-  if (protocol_.holds(to))
-    tell(to, std::span(&split, 1));
+  const std::optional<SubdomainId> to = coupling_.to_tell(from, split);
+  if (!to) return;
+  if (protocol_.holds(*to))
+    tell(*to, std::span(&split, 1));
   else
-    protocol_.send_split(to, split);
+    protocol_.send_split(*to, split);
 }
 
 bool RankLoop::send() {

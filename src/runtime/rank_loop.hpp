@@ -14,13 +14,14 @@
 #include "balancer/deliberation.hpp"
 #include "balancer/experience.hpp"
 #include "balancer/speed_estimate.hpp"
-#include "migration/subdomain.hpp"
+#include "migration/work.hpp"
 #include "protocol/rank_protocol.hpp"
 #include "protocol/rank_step.hpp"
 #include "protocol/rules.hpp"
 #include "protocol/transport.hpp"
 #include "protocol/wire.hpp"
 #include "runtime/agenda.hpp"
+#include "runtime/coupling.hpp"
 #include "runtime/crew.hpp"
 #include "runtime/rank_outcome.hpp"
 #include "runtime/rank_times.hpp"
@@ -29,10 +30,10 @@
 
 namespace driftmesh {
 
-/// The loop of one rank: poll the transport, dispatch what arrived, refine one subdomain for a slice, send. It runs on
-/// one thread, on real ranks and on simulated ones alike; it never waits and prints nothing. A
-/// crew may refine other subdomains meanwhile: it does nothing but slices of work, and everything else stays on this
-/// thread.
+/// The loop of one rank: poll the transport, dispatch what arrived, work on one subdomain for a slice, send. It runs on
+/// one thread, on real ranks and on simulated ones alike; it never waits and prints nothing. A crew may work on other
+/// subdomains meanwhile: it does nothing but slices of work, and everything else stays on this thread. What work is
+/// (Holding) and how it learns of its neighbors' points (Coupling) is up to whoever makes the loop.
 class RankLoop {
  public:
   /// A slice of work that was done.
@@ -51,8 +52,6 @@ class RankLoop {
   /// Observers of the loop; each may be empty.
   struct Observers {
     std::function<void(const RankLoop&, const Slice&)> after_slice;
-    /// A subdomain has nothing to do, for now, and is still awake.
-    std::function<void(const Subdomain&)> finished;
     /// Nothing has moved for a minute: what this rank waits for, and what waits here.
     std::function<void(const std::string&)> stalled;
     std::function<void(const RankLoop&, const Passage&)> handed_over;
@@ -61,26 +60,17 @@ class RankLoop {
     std::function<void(std::vector<balancer::Deliberation>)> deliberated;
   };
 
-  /// One round of a run in rounds (threads/refinement_in_rounds.hpp): the loop continues with subdomains of earlier
-  /// loops, and tells none of them what its neighbors put on their common border. Whoever runs the rounds does that
-  /// between them, with what after_slice reports.
-  struct Round {
-    std::map<SubdomainId, Subdomain> subdomains;  ///< those on this rank
-    const SubdomainContext* context = nullptr;    ///< theirs; outlives the loop
-    IdVector<SubdomainId, Rank> owners;           ///< one for each subdomain
-    std::shared_ptr<const balancer::Layout> layout;
-  };
-
-  /// `transport`, `plan` and `rules` must outlive the loop. `rules` are those of the protocol; tests pass broken ones.
-  RankLoop(protocol::Transport& transport, const RunPlan& plan, const CostModel& costs = {}, Observers observers = {},
+  /// `held` is the work that the plan gives this rank, new or already begun. All parameters but costs and observers
+  /// must outlive the loop. `rules` are those of the protocol; tests pass broken ones.
+  RankLoop(protocol::Transport& transport, const LoopPlan& plan, Holding& held, Coupling& coupling,
+           const CostModel& costs = {}, Observers observers = {},
            const protocol::Rules& rules = protocol::sound_rules());
-  RankLoop(protocol::Transport& transport, Round round, const RunPlan& plan, Observers observers);
   /// Waits for the shifts of the crew.
   ~RankLoop();
   RankLoop(const RankLoop&) = delete;
   RankLoop& operator=(const RankLoop&) = delete;
 
-  /// Lets a crew take part in the work from now on. It must outlive the loop, and so must the subdomains' context be
+  /// Lets a crew take part in the work from now on. It must outlive the loop, and all work must be
   /// fit for several threads.
   void hire(Crew& crew) { crew_ = &crew; }
 
@@ -105,9 +95,7 @@ class RankLoop {
   protocol::StepResult step();
 
   [[nodiscard]] const protocol::RankProtocol& protocol() const { return protocol_; }
-  [[nodiscard]] const std::map<SubdomainId, Subdomain>& subdomains() const { return subdomains_; }
-  /// The same, out of a loop that has ended.
-  [[nodiscard]] std::map<SubdomainId, Subdomain> take_subdomains() { return std::move(subdomains_); }
+  [[nodiscard]] const Holding& held() const { return held_; }
   [[nodiscard]] const RankTimes& times() const { return times_; }
   [[nodiscard]] std::int64_t triangles() const { return triangles_; }  ///< sum over all subdomains here
   /// Points that refinement inserted on interfaces here, whichever rank holds the other side.
@@ -118,22 +106,20 @@ class RankLoop {
   [[nodiscard]] bool at_work() const;
 
  private:
-  RankLoop(protocol::Transport& transport, const RunPlan& plan, IdSpan<SubdomainId, const Rank> owners,
-           Observers observers, const protocol::Rules& rules);
-  void balance_with(std::shared_ptr<const balancer::Layout> layout);
-  void put(Subdomain&& subdomain);
-  void reschedule(const Subdomain& s);
+  [[nodiscard]] Work& at(SubdomainId id) const;
+  void count_in(const Work& work);
+  void reschedule(SubdomainId id, const WorkState& s);
   bool poll();
   void settle(const protocol::HandOff& arrival, Rank sender);
   bool work();
   [[nodiscard]] Shift& begin(SubdomainId id);
   [[nodiscard]] std::int64_t slice() const;
   void end(Shift& shift, double seconds);
-  void learn(const Subdomain& subdomain, const SliceWork& done, double seconds);
+  void learn(SubdomainId id, const WorkState& s, const SliceWork& done, double seconds);
   bool balance(bool worked);
   void drop_work();
   [[nodiscard]] std::vector<balancer::ReportedLoad> loads() const;
-  [[nodiscard]] balancer::ReportedLoad load_of(const Subdomain& s) const;
+  [[nodiscard]] balancer::ReportedLoad load_of(SubdomainId id, const WorkState& s) const;
   [[nodiscard]] double free_memory(std::span<const balancer::ReportedLoad> own) const;
   void tell(SubdomainId to, std::span<const SplitPoint<GlobalRootId>> splits);
   void tell_across(SubdomainId from, const SplitPoint<GlobalRootId>& split);
@@ -155,23 +141,19 @@ class RankLoop {
   static constexpr double kWatchdogSeconds = 60, kLongSeconds = 600;
 
   protocol::Transport& transport_;
-  const RunPlan& plan_;
-  SubdomainContext own_context_;
-  const SubdomainContext* context_ = &own_context_;
-  bool in_rounds_ = false;
+  const LoopPlan& plan_;
+  Holding& held_;
+  Coupling& coupling_;
   CostModel costs_;
   Observers observers_;
   const protocol::Rules& rules_;
-  IdVector<SubdomainId, Rank> round_owners_;  // those of the round; otherwise the plan's count
   protocol::RankProtocol protocol_;
   protocol::WireLimits limits_;
-  std::map<SubdomainId, Subdomain> subdomains_;
   Agenda agenda_;
   Crew* crew_ = nullptr;
   std::map<SubdomainId, Out> out_;
   std::function<double()> room_;
   std::optional<balancer::Controller> controller_;
-  std::shared_ptr<const balancer::Layout> layout_;  // if there is a controller
   balancer::Experience experience_;
   balancer::SpeedEstimate speed_;
   std::optional<double> assembled_since_;  // this rank waits for all others since then

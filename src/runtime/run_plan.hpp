@@ -43,21 +43,25 @@ struct WorkSettings {
   std::int32_t threads = 1;  ///< number per rank, where ranks are real
 };
 
-/// What every rank of a parallel run knows from the start, equal on all ranks.
-struct RunPlan {
-  Decomposition decomposition;
+/// What the loops of all ranks know from the start, whatever they work on; equal on all of them.
+struct LoopPlan {
   IdVector<SubdomainId, Rank> owners;  ///< at the start
+  WorkSettings work;
+  std::int64_t max_triangles = INT64_MAX;  ///< on one rank; more is a LimitError
+
+  Balancing balancing;
+  std::shared_ptr<const balancer::Layout> layout;  ///< null without balancing
+  std::shared_ptr<const balancer::Policy> policy;  ///< null without balancing
+};
+
+/// What every rank of a parallel run knows from the start, equal on all ranks. prepare_balancing makes layout and
+/// policy from the rest.
+struct RunPlan : LoopPlan {
+  Decomposition decomposition;
   QualityBounds bounds;
   bool presplit = false;
   std::shared_ptr<const PresplitPaths> presplit_paths;  ///< null: each side of an interface computes them
-  WorkSettings work;
-  std::int64_t max_triangles = INT64_MAX;  ///< on one rank; more is a LimitError
-  ScratchFile* scratch = nullptr;          ///< this process's, for subdomains that sleep; not owned; null: memory
-
-  Balancing balancing;
-  /// Made from the above by prepare_balancing; null without balancing.
-  std::shared_ptr<const balancer::Layout> layout;
-  std::shared_ptr<const balancer::Policy> policy;
+  ScratchFile* scratch = nullptr;  ///< this process's, for subdomains that sleep; not owned; null: memory
 };
 
 /// Costs of a rank's work on the reference machine, in seconds, used for simulated time. Measured with

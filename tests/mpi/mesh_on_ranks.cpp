@@ -32,7 +32,7 @@ class Mover {
   Mover(const Job& job, Rank self, std::int32_t ranks)
       : wanted_(job.moves), ranks_(ranks), random_(job.seed * 131 + static_cast<std::uint64_t>(self)) {}
 
-  void look(RankLoop& loop) {
+  void look(SubdomainLoop& loop) {
     if (!wanted_ || random_() % 2 != 0) return;
     std::vector<SubdomainId> active;
     for (const auto& [id, subdomain] : loop.subdomains())
@@ -93,7 +93,7 @@ struct Account {
   }
 };
 
-Account account_of(const RankLoop& loop, const Mover& mover) {
+Account account_of(const SubdomainLoop& loop, const Mover& mover) {
   Account own{
       loop.protocol().counters(), loop.protocol().termination().work_balance(), mover.moved(), loop.at_work(), {}};
   for (const auto& [id, subdomain] : loop.subdomains())
@@ -152,7 +152,7 @@ Outcome run(const Job& job) {
   std::optional<DelayingTransport> delaying;
   run.refine(false,
              {.through = [&](Transport& inner) -> Transport& { return delaying.emplace(inner, job.seed, job.delay); },
-              .before_step = [&](RankLoop& loop) { mover.look(loop); },
+              .before_step = [&](SubdomainLoop& loop) { mover.look(loop); },
               .after_slice = {}});
   const std::vector<Bytes> reports = team.gather(account_of(run.loop(), mover).pack());
   if (outcome.leads) add_up(reports, run.plan().owners.size(), outcome);

@@ -25,7 +25,7 @@
 #include "protocol/rank_step.hpp"
 #include "protocol/threads/thread_network.hpp"
 #include "runtime/plan_run.hpp"
-#include "runtime/rank_loop.hpp"
+#include "runtime/subdomain_loop.hpp"
 #include "runtime/threads/refinement_in_rounds.hpp"
 #include "runtime/threads/thread_crew.hpp"
 #include "sizing/expression_field.hpp"
@@ -153,7 +153,7 @@ class Case {
     RunPlan plan;
     std::optional<FieldOfThreads> size;
     std::optional<ThreadCrew> crew;
-    std::optional<RankLoop> loop;
+    std::optional<SubdomainLoop> loop;
   };
 
   [[nodiscard]] Sizes fields(std::int32_t count) const {

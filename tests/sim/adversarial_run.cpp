@@ -23,8 +23,8 @@ AdversarialRun::AdversarialRun(const Scenario& scenario, Domain& domain, const W
       witness_(scenario.ranks, to_index(scenario.subdomains), [this] { return is_quiet(); }) {
   make_plan();
   for (const Rank r : first_ids<Rank>(scenario.ranks))
-    loops_.push_back(
-        std::make_unique<RankLoop>(transport_of(r, wrap), plan_, costs_of(r), RankLoop::Observers{}, rules_));
+    loops_.push_back(std::make_unique<SubdomainLoop>(transport_of(r, wrap), plan_, costs_of(r), RankLoop::Observers{},
+                                                     nullptr, rules_));
   for (const Rank r : ids_of(loops_)) {
     if (scenario.crew == 0) break;
     crews_.push_back(std::make_unique<testing::SimulatedCrew>(scenario.crew, scenario.seed + to_index(r)));
@@ -129,7 +129,7 @@ protocol::Adversary AdversarialRun::adversary() {
 }
 
 protocol::Transport& AdversarialRun::transport_of(Rank r, const Wrap& wrap) {
-  const auto loop = [this, r]() -> const RankLoop& { return *loops_[r]; };
+  const auto loop = [this, r]() -> const SubdomainLoop& { return *loops_[r]; };
   protocol::Transport* transport = &network_.transport(r);
   const auto put_on = [&](std::unique_ptr<protocol::Transport> layer) {
     layers_.push_back(std::move(layer));
@@ -164,7 +164,7 @@ bool AdversarialRun::go() {
 }
 
 protocol::StepResult AdversarialRun::step(Rank r) {
-  RankLoop& loop = *loops_[r];
+  SubdomainLoop& loop = *loops_[r];
   mover_.before_step(loop, r);
   const protocol::StepResult result = loop.step();
   watch_owners(r);
@@ -173,7 +173,7 @@ protocol::StepResult AdversarialRun::step(Rank r) {
 }
 
 void AdversarialRun::watch_owners(Rank r) {
-  const RankLoop& loop = *loops_[r];
+  const SubdomainLoop& loop = *loops_[r];
   const std::int64_t arrivals = loop.protocol().counters().arrivals;
   std::int64_t& seen = arrivals_seen_[r];
   if (std::exchange(seen, arrivals) == arrivals) return;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "protocol/rules.hpp"
-#include "runtime/rank_loop.hpp"
+#include "runtime/subdomain_loop.hpp"
 #include "sim/adversary_effects.hpp"
 #include "sim/domains.hpp"
 #include "sim/mover.hpp"
@@ -58,7 +58,7 @@ class AdversarialRun {
  public:
   /// Inserts a layer between a rank and the network. It may access the rank's loop once the run has started.
   using Wrap =
-      std::function<std::unique_ptr<protocol::Transport>(protocol::Transport&, std::function<const RankLoop&()>)>;
+      std::function<std::unique_ptr<protocol::Transport>(protocol::Transport&, std::function<const SubdomainLoop&()>)>;
 
   /// `scenario`, `domain` and `rules` must outlive the run. Broken rules test whether the oracles notice.
   AdversarialRun(const Scenario& scenario, Domain& domain, const Wrap& wrap = {},
@@ -108,7 +108,7 @@ class AdversarialRun {
   Witness witness_;
   std::vector<std::unique_ptr<protocol::Transport>> layers_;       // between ranks and network
   IdVector<Rank, std::unique_ptr<testing::SimulatedCrew>> crews_;  // if ranks have any
-  IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
+  IdVector<Rank, std::unique_ptr<SubdomainLoop>> loops_;
   IdVector<Rank, std::int64_t> arrivals_seen_;
   std::optional<std::uint64_t> quiet_since_;  // number of probes begun by then
   Outcome outcome_;

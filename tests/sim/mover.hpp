@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "driftmesh/ids.hpp"
-#include "runtime/rank_loop.hpp"
+#include "runtime/subdomain_loop.hpp"
 #include "sim/adversary_effects.hpp"
 #include "sim/scenario.hpp"
 
@@ -25,7 +25,7 @@ class Mover {
   Rank any_rank() { return static_cast<Rank>(below(static_cast<std::uint64_t>(scenario_.ranks))); }
 
   /// Called before a rank polls.
-  void before_step(RankLoop& loop, Rank rank) {
+  void before_step(SubdomainLoop& loop, Rank rank) {
     if (left_ <= 0 || scenario_.ranks == 1) return;
     if (scenario_.mover == "ping-pong")
       play(loop, rank);
@@ -40,26 +40,26 @@ class Mover {
   [[nodiscard]] const AdversaryEffects& effects() const { return effects_; }
 
  private:
-  bool hand_over(RankLoop& loop, SubdomainId s, Rank to) {
+  bool hand_over(SubdomainLoop& loop, SubdomainId s, Rank to) {
     const bool moved = loop.hand_over(s, to);
     if (moved) --left_;
     return moved;
   }
 
-  [[nodiscard]] static std::vector<SubdomainId> active(const RankLoop& loop) {
+  [[nodiscard]] static std::vector<SubdomainId> active(const SubdomainLoop& loop) {
     std::vector<SubdomainId> result;
     for (const auto& [id, subdomain] : loop.subdomains())
       if (subdomain.active()) result.push_back(id);
     return result;
   }
 
-  void move_any(RankLoop& loop) {
+  void move_any(SubdomainLoop& loop) {
     const auto all = active(loop);
     if (!all.empty() && hand_over(loop, all[below(all.size())], any_rank())) ++effects_.by_chance;
   }
 
   // A subdomain goes back and forth as long as it has work.
-  void play(RankLoop& loop, Rank rank) {
+  void play(SubdomainLoop& loop, Rank rank) {
     const auto from = came_from_.find(rank);
     const Rank to = from == came_from_.end() ? next_in_ring(rank, scenario_.ranks) : from->second;
     if (!hand_over(loop, ball_, to)) return;
@@ -67,14 +67,14 @@ class Mover {
     came_from_[to] = rank;
   }
 
-  void rotate(RankLoop& loop, Rank rank) {
+  void rotate(SubdomainLoop& loop, Rank rank) {
     const auto all = active(loop);
     for (const SubdomainId s : all) hand_over(loop, s, next_in_ring(rank, scenario_.ranks));
     if (!all.empty()) ++effects_.rotations;
   }
 
   // The case that Safra's colors are for: another rank may have answered the probe that this one holds up.
-  void follow_token(RankLoop& loop, Rank rank) {
+  void follow_token(SubdomainLoop& loop, Rank rank) {
     if (!loop.protocol().termination().has_token()) return;
     const auto all = active(loop);
     if (all.empty()) return;

@@ -32,7 +32,7 @@ void must_be_caught(const protocol::Rules& rules, std::uint64_t seeds, std::stri
 }
 
 using Layer = std::unique_ptr<protocol::Transport>;
-using FindLoop = std::function<const RankLoop&()>;
+using FindLoop = std::function<const SubdomainLoop&()>;
 
 // Edges and subdomains with any number: the loop checks them again.
 protocol::WireLimits limits_of(const protocol::Transport& transport) {

@@ -8,20 +8,20 @@
 #include <vector>
 
 #include "decompose/decomposition.hpp"
-#include "runtime/rank_loop.hpp"
+#include "runtime/subdomain_loop.hpp"
 #include "support/split_points.hpp"
 
 namespace driftmesh::testing {
 
 /// Rank loops on a simulated network (AdversarialNetwork or VirtualNetwork), all in this process.
 struct SimulatedRanks {
-  IdVector<Rank, std::unique_ptr<RankLoop>> loops;
+  IdVector<Rank, std::unique_ptr<SubdomainLoop>> loops;
   IdVector<Rank, protocol::RankStep> steps;
 
   template <class Network>
   SimulatedRanks(Network& network, std::int32_t ranks, const RunPlan& plan, const CostModel& costs = {}) {
     for (const Rank r : first_ids<Rank>(ranks))
-      loops.push_back(std::make_unique<RankLoop>(network.transport(r), plan, costs));
+      loops.push_back(std::make_unique<SubdomainLoop>(network.transport(r), plan, costs));
     for (const auto& loop : loops) steps.push_back([l = loop.get()] { return l->step(); });
   }
 

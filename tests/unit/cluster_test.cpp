@@ -94,9 +94,10 @@ TEST_CASE("a simulated run is reproducible, and its results are consistent") {
   std::size_t finished = 0;
   SimulationObservers observers;
   observers.progress = [&](std::int64_t now) { last_progress = now; };
-  observers.finished = [&](const RankLoop& rank) {
-    finished += rank.subdomains().size();
-    for (const auto& [id, subdomain] : rank.subdomains()) triangles += subdomain.triangles();
+  observers.finished = [&](const RankOutcome& rank, const std::map<SubdomainId, Subdomain>& subdomains) {
+    CHECK(to_index(rank.subdomains) == subdomains.size());
+    finished += subdomains.size();
+    for (const auto& [id, subdomain] : subdomains) triangles += subdomain.triangles();
   };
   const ClusterRun run = simulate(plan, equal_ranks(6), {}, observers);
   CHECK(finished == plan.decomposition.size());

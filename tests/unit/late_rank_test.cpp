@@ -7,7 +7,7 @@
 #include "driftmesh/generate.hpp"
 #include "mesh/exceptions.hpp"
 #include "protocol/virtual_network.hpp"
-#include "runtime/rank_loop.hpp"
+#include "runtime/subdomain_loop.hpp"
 #include "support/id_literals.hpp"
 #include "support/late_plan.hpp"
 #include "support/simulated_run.hpp"
@@ -41,7 +41,7 @@ class LateRun {
     REQUIRE(network_.run(steps).end == RunEnd::kFinished);
   }
 
-  [[nodiscard]] const RankLoop& loop(Rank r) const { return *loops_[r]; }
+  [[nodiscard]] const SubdomainLoop& loop(Rank r) const { return *loops_[r]; }
   [[nodiscard]] double makespan() const { return network_.makespan(); }
 
   void check_mesh() const {
@@ -74,7 +74,7 @@ class LateRun {
     }
     CostModel costs;
     costs.planning.unit.clear();  // on ranks as slow as these, planning would outlast the run
-    loop = std::make_unique<RankLoop>(transport, plan_, costs);
+    loop = std::make_unique<SubdomainLoop>(transport, plan_, costs);
     return StepResult::kBusy;
   }
 
@@ -82,7 +82,7 @@ class LateRun {
   Rank late_;
   Gift gift_;  // still to be made
   VirtualNetwork network_;
-  IdVector<Rank, std::unique_ptr<RankLoop>> loops_;
+  IdVector<Rank, std::unique_ptr<SubdomainLoop>> loops_;
 };
 
 RunPlan plan_for_late(std::int32_t ranks, const LateCase& late) {

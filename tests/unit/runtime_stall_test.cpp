@@ -24,7 +24,7 @@ TEST_CASE("a rank without work reports a stall only after a long wait") {
   std::vector<std::string> alarms;
   RankLoop::Observers observers;
   observers.stalled = [&](const std::string& why) { alarms.push_back(why); };
-  RankLoop loop(transport, plan, {}, observers);
+  SubdomainLoop loop(transport, plan, {}, observers);
   while (loop.step() != protocol::StepResult::kIdle) {
   }
   REQUIRE(!loop.at_work());

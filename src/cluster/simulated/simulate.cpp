@@ -1,6 +1,7 @@
 #include "cluster/simulated/simulate.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,11 +11,12 @@
 #include "driftmesh/error.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime/rank_loop.hpp"
+#include "runtime/subdomain_loop.hpp"
 
 namespace driftmesh {
 namespace {
 
-void require_fit(const RunPlan& plan, std::int32_t ranks) {
+void require_fit(const LoopPlan& plan, std::int32_t ranks) {
   const auto most = std::max_element(plan.owners.begin(), plan.owners.end());
   if (most != plan.owners.end() && *most >= Rank{ranks})
     throw Error("the plan has work for rank " + to_string(*most) + ", but the cluster has " + std::to_string(ranks) +
@@ -24,19 +26,18 @@ void require_fit(const RunPlan& plan, std::int32_t ranks) {
 /// The ranks of one run, and their network.
 class Simulation {
  public:
-  Simulation(const RunPlan& plan, const ClusterSpec& cluster, const CostModel& costs,
-             const SimulationObservers& observers)
+  Simulation(const LoopPlan& plan, const SimulatedWork& work, const ClusterSpec& cluster, const CostModel& costs,
+             const std::function<void(std::int64_t)>& progress)
       : network_(virtual_cluster(cluster, costs)),
         cutting_(cutting_seconds(costs, plan.owners.size())),
         memory_(cluster.memory > 0 ? cluster.memory : balancer::kAmpleMemory),
-        observers_(observers) {
+        progress_(progress) {
     const std::int32_t ranks = ranks_of(cluster);
-    require_fit(plan, ranks);
     const CostModel of_ranks = scaled(costs, cluster.scale);
     of_rank_.resize(to_index(ranks));
     logs_.reserve(to_index(ranks));  // the observers refer to its elements
     for (const Rank r : first_ids<Rank>(ranks)) {
-      RankLog& log = logs_.emplace_back(network_.transport(r), plan);
+      RankLog& log = logs_.emplace_back(network_.transport(r), work.decomposition);
       RankLoop::Observers watch;
       watch.after_slice = [this, r, &log](const RankLoop& loop, const RankLoop::Slice& slice) {
         log.worked(loop, slice, slice.seconds);
@@ -53,7 +54,8 @@ class Simulation {
       watch.deliberated = [&log](std::vector<balancer::Deliberation> considered) {
         log.deliberated(std::move(considered));
       };
-      loops_.push_back(std::make_unique<RankLoop>(network_.transport(r), plan, of_ranks, std::move(watch)));
+      loops_.push_back(std::make_unique<RankLoop>(network_.transport(r), plan, *work.held[r], *work.coupling[r],
+                                                  of_ranks, std::move(watch)));
       constexpr double kOffered = 0.9;  // as on real ranks: forecasts err
       if (memory_ < balancer::kAmpleMemory)
         loops_.back()->limit_memory(
@@ -67,10 +69,7 @@ class Simulation {
     for (const auto& loop : loops_) steps.push_back([l = loop.get()] { return l->step(); });
     if (network_.run(steps).end != protocol::RunEnd::kFinished)
       throw Error("deadlock of the simulated ranks: " + describe());
-    for (const Rank r : ids_of(loops_)) {
-      logs_[r].ends(*loops_[r]);
-      if (observers_.finished) observers_.finished(*loops_[r]);
-    }
+    for (const Rank r : ids_of(loops_)) logs_[r].ends(*loops_[r]);
     ClusterRun joined = RankLog::join(logs_);
     joined.cutting = cutting_;
     return joined;
@@ -83,7 +82,7 @@ class Simulation {
       throw LimitError("rank " + to_string(r) +
                        " has more triangles than cluster.memory allows; allow more, or have more ranks");
     triangles_ += triangles - std::exchange(of_rank_[r], triangles);
-    if (observers_.progress) observers_.progress(triangles_);
+    if (progress_) progress_(triangles_);
   }
 
   [[nodiscard]] std::string describe() const {
@@ -96,7 +95,7 @@ class Simulation {
   protocol::VirtualNetwork network_;
   double cutting_;  // seconds, on rank 0
   double memory_;   // triangles that each rank has memory for
-  const SimulationObservers& observers_;
+  const std::function<void(std::int64_t)>& progress_;
   IdVector<Rank, std::int64_t> of_rank_;  // triangles of each rank, as last reported
   std::int64_t triangles_ = 0;
   IdVector<Rank, RankLog> logs_;
@@ -105,9 +104,26 @@ class Simulation {
 
 }  // namespace
 
+ClusterRun simulate(const LoopPlan& plan, const SimulatedWork& work, const ClusterSpec& cluster, const CostModel& costs,
+                    const std::function<void(std::int64_t)>& progress) {
+  return Simulation(plan, work, cluster, costs, progress).run();
+}
+
 ClusterRun simulate(const RunPlan& plan, const ClusterSpec& cluster, const CostModel& costs,
                     const SimulationObservers& observers) {
-  return Simulation(plan, cluster, costs, observers).run();
+  const std::int32_t ranks = ranks_of(cluster);
+  require_fit(plan, ranks);
+  std::deque<SubdomainsOnRank> subdomains;  // they stay where they are
+  SimulatedWork work{.held = {}, .coupling = {}, .decomposition = &plan.decomposition};
+  for (const Rank r : first_ids<Rank>(ranks)) {
+    SubdomainsOnRank& of_rank = subdomains.emplace_back(plan, r);
+    work.held.push_back(&of_rank.holding);
+    work.coupling.push_back(of_rank.coupling.get());
+  }
+  ClusterRun run = simulate(plan, work, cluster, costs, observers.progress);
+  if (!observers.finished) return run;
+  for (const Rank r : ids_of(run.ranks)) observers.finished(run.ranks[r], subdomains[to_index(r)].holding.all());
+  return run;
 }
 
 }  // namespace driftmesh

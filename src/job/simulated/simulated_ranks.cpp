@@ -17,7 +17,9 @@ std::unique_ptr<Refined> SimulatedRanks::refine(Order&& order, const Limits& lim
   FactsBook book(plan.decomposition);
   SimulationObservers observers;
   observers.progress = progress_within(limits, forecast_of(plan), watch);
-  observers.finished = [&](const RankLoop& rank) { reports.push_back(report_of(rank, plan, book)); };
+  observers.finished = [&](const RankOutcome& rank, const std::map<SubdomainId, Subdomain>& subdomains) {
+    reports.push_back(report_of(rank, subdomains, plan, book));
+  };
   ClusterRun history = simulate(plan, cluster_, costs_, observers);
   plan.bounds.size = nullptr;
   return std::make_unique<SimulatedOutcome>(std::move(reports), std::move(history), std::move(plan));

@@ -11,6 +11,9 @@
 #include <utility>
 
 #include "protocol/threads/thread_network.hpp"
+#include "runtime/coupling.hpp"
+#include "runtime/rank_loop.hpp"
+#include "runtime/subdomain_loop.hpp"
 #include "runtime/threads/few_threads.hpp"
 
 namespace driftmesh {
@@ -33,26 +36,44 @@ void add(RankOutcome& sum, const RankOutcome& round) {
 
 }  // namespace
 
+/// A point that a subdomain has put on its border, for the subdomain on the other side.
+struct RefinementInRounds::Told {
+  SubdomainId to{};
+  SplitPoint<GlobalRootId> split;
+  [[nodiscard]] auto key() const { return std::tuple(to, split.root, split.path); }
+};
+
+/// Tells nobody within a round, and notes in `told` what is to be told after it.
+class RefinementInRounds::ToldLater final : public Coupling {
+ public:
+  ToldLater(const Decomposition& decomposition, std::vector<Told>& told) : decomposition_(decomposition), told_(told) {}
+
+  std::optional<SubdomainId> to_tell(SubdomainId from, const SplitPoint<GlobalRootId>& split) override {
+    told_.push_back({decomposition_.roots[split.root].across_from(from), split});
+    return std::nullopt;
+  }
+  [[nodiscard]] std::int32_t roots() const override { return 0; }
+
+ private:
+  const Decomposition& decomposition_;
+  std::vector<Told>& told_;
+};
+
 /// One round, with a loop for each thread.
 class RefinementInRounds::Round {
  public:
-  /// A point that a subdomain has put on its border, for the subdomain on the other side.
-  struct Told {
-    SubdomainId to{};
-    SplitPoint<GlobalRootId> split;
-    [[nodiscard]] auto key() const { return std::tuple(to, split.root, split.path); }
-  };
-
-  Round(RefinementInRounds& all, const std::shared_ptr<const balancer::Layout>& layout)
-      : all_(all), network_(static_cast<std::int32_t>(all.contexts_.size())), ranks_(all.contexts_.size()) {
-    IdVector<Rank, RankLoop::Round> starts(ranks_.size());
-    for (auto& [id, subdomain] : all.subdomains_) starts[all.owners_[id]].subdomains.emplace(id, std::move(subdomain));
-    all.subdomains_.clear();
+  Round(RefinementInRounds& all, LoopPlan plan)
+      : all_(all),
+        plan_(std::move(plan)),
+        network_(static_cast<std::int32_t>(all.held_.size())),
+        ranks_(all.held_.size()) {
     for (const Rank r : ids_of(ranks_)) {
-      starts[r].context = &all.contexts_[r];
-      starts[r].owners = all.owners_;
-      starts[r].layout = layout;
-      ranks_[r].loop.emplace(network_.transport(r), std::move(starts[r]), all.plan_, observers(r));
+      OneRank& rank = ranks_[r];
+      if (plan_.work.decoupled)
+        rank.coupling = coupling_of(all.plan_);
+      else
+        rank.coupling = std::make_unique<ToldLater>(all.plan_.decomposition, rank.told);
+      rank.loop.emplace(network_.transport(r), plan_, all.held_[r], *rank.coupling, CostModel{}, observers(r));
     }
   }
 
@@ -81,23 +102,15 @@ class RefinementInRounds::Round {
     return all;
   }
 
-  /// Gives the subdomains and the results of the ranks back.
-  void end() {
-    for (const Rank r : ids_of(ranks_)) {
-      add(all_.outcomes_[r], ranks_[r].loop->outcome());
-      for (auto& [id, subdomain] : ranks_[r].loop->take_subdomains()) {
-        all_.owners_[id] = r;
-        all_.subdomains_.emplace(id, std::move(subdomain));
-      }
-    }
-  }
+  [[nodiscard]] RankOutcome outcome(Rank r) const { return ranks_[r].loop->outcome(); }
 
  private:
   static constexpr Rank kCalling{0};  // the rank of the calling thread
 
   struct OneRank {
-    std::optional<RankLoop> loop;
     std::vector<Told> told;
+    std::unique_ptr<Coupling> coupling;
+    std::optional<RankLoop> loop;
     std::atomic<std::int64_t> triangles = 0;
     std::exception_ptr failure;
   };
@@ -127,16 +140,10 @@ class RefinementInRounds::Round {
   [[nodiscard]] RankLoop::Observers observers(Rank r) {
     RankLoop::Observers observers;
     observers.stalled = all_.watch_.stalled;
-    observers.after_slice = [this, &rank = ranks_[r]](const RankLoop& loop, const RankLoop::Slice& slice) {
-      for (const SplitPoint<GlobalRootId>& split : slice.said)
-        rank.told.push_back({all_.plan_.decomposition.roots[split.root].across_from(slice.subdomain), split});
+    observers.after_slice = [this, &rank = ranks_[r]](const RankLoop& loop, const RankLoop::Slice&) {
       rank.triangles = loop.triangles();
       if (all_.watch_.check) all_.watch_.check(triangles());
     };
-    if (all_.watch_.finished)
-      observers.finished = [this, size = all_.contexts_[r].bounds.size](const Subdomain& subdomain) {
-        all_.watch_.finished(subdomain, size);
-      };
     return observers;
   }
 
@@ -147,6 +154,7 @@ class RefinementInRounds::Round {
   }
 
   RefinementInRounds& all_;
+  LoopPlan plan_;
   protocol::ThreadNetwork network_;
   IdVector<Rank, OneRank> ranks_;
   std::atomic<bool> failed_ = false;
@@ -154,42 +162,52 @@ class RefinementInRounds::Round {
 };
 
 RefinementInRounds::RefinementInRounds(const RunPlan& plan, std::span<const SizeField* const> sizes, Watch watch)
-    : plan_(plan), watch_(std::move(watch)), owners_(plan.owners), outcomes_(sizes.size()) {
+    : plan_(plan), watch_(std::move(watch)), outcomes_(sizes.size()) {
   for (const SizeField* size : sizes) {
-    contexts_.push_back({&plan.decomposition, plan.bounds, plan.presplit, plan.scratch});
-    contexts_.back().bounds.size = size;
+    SubdomainContext& context = contexts_.emplace_back(context_of(plan));
+    context.bounds.size = size;
+    if (watch_.finished)
+      context.finished = [this, size](const Subdomain& subdomain) { watch_.finished(subdomain, size); };
   }
-  for (const SubdomainId s : ids_of(owners_)) subdomains_.emplace(s, Subdomain(s, contexts_[owners_[s]]));
+  for (const SubdomainContext& context : contexts_) held_.push_back(Subdomains(context));
+  for (const SubdomainId s : ids_of(plan.owners)) held_[plan.owners[s]].make(s);
 }
 
 RefinementInRounds::~RefinementInRounds() = default;
 
 void RefinementInRounds::run() {
   for (bool all_told = false; !all_told;) {
-    Round round(*this, rounds_ == 0 ? plan_.layout : present_layout());
+    Round round(*this, present_plan());
     ++rounds_;
     round.run();
-    round.end();
-    all_told = !tell_neighbors(round);
+    for (const Rank r : ids_of(outcomes_)) add(outcomes_[r], round.outcome(r));
+    all_told = !tell_neighbors(round.told());
   }
+  for (Subdomains& held : held_) subdomains_.merge(held.take());
 }
 
 /// False if there was nothing to tell.
-bool RefinementInRounds::tell_neighbors(Round& round) {
-  const std::vector<Round::Told> told = round.told();
-  for (const Round::Told& t : told) subdomains_.at(t.to).tell(t.split);
+bool RefinementInRounds::tell_neighbors(const std::vector<Told>& told) {
+  for (const Told& t : told)
+    for (Subdomains& held : held_)
+      if (Work* const subdomain = held.find(t.to)) subdomain->tell(std::span(&t.split, 1));
   return !told.empty();
 }
 
-/// Where the subdomains are, and the work that is left.
-std::shared_ptr<const balancer::Layout> RefinementInRounds::present_layout() const {
-  if (!plan_.layout) return nullptr;
-  auto layout = std::make_shared<balancer::Layout>(*plan_.layout);
-  for (const auto& [id, subdomain] : subdomains_) {
-    layout->subdomains[id].owner = owners_[id];
-    layout->subdomains[id].predicted = subdomain.remaining();
-  }
-  return layout;
+/// The plan from where the subdomains are now, with the work that is left.
+LoopPlan RefinementInRounds::present_plan() const {
+  LoopPlan plan = static_cast<const LoopPlan&>(plan_);
+  if (rounds_ == 0) return plan;
+  auto layout = plan.layout ? std::make_shared<balancer::Layout>(*plan.layout) : nullptr;
+  for (const Rank r : ids_of(held_))
+    for (const auto& [id, subdomain] : held_[r].all()) {
+      plan.owners[id] = r;
+      if (!layout) continue;
+      layout->subdomains[id].owner = r;
+      layout->subdomains[id].predicted = subdomain.remaining();
+    }
+  plan.layout = std::move(layout);
+  return plan;
 }
 
 }  // namespace driftmesh

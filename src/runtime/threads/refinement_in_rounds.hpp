@@ -10,7 +10,7 @@
 
 #include "driftmesh/size_field.hpp"
 #include "migration/subdomain.hpp"
-#include "runtime/rank_loop.hpp"
+#include "migration/subdomains.hpp"
 #include "runtime/rank_outcome.hpp"
 #include "runtime/run_plan.hpp"
 
@@ -55,16 +55,18 @@ class RefinementInRounds {
   [[nodiscard]] int rounds() const { return rounds_; }
 
  private:
+  struct Told;
+  class ToldLater;
   class Round;
 
-  [[nodiscard]] std::shared_ptr<const balancer::Layout> present_layout() const;
-  [[nodiscard]] bool tell_neighbors(Round& round);
+  [[nodiscard]] LoopPlan present_plan() const;
+  [[nodiscard]] bool tell_neighbors(const std::vector<Told>& told);
 
   const RunPlan& plan_;
   Watch watch_;
-  IdVector<Rank, SubdomainContext> contexts_;
-  IdVector<SubdomainId, Rank> owners_;
-  std::map<SubdomainId, Subdomain> subdomains_;  // between rounds
+  IdVector<Rank, SubdomainContext> contexts_;  // one for each of held_
+  IdVector<Rank, Subdomains> held_;            // until all rounds are over
+  std::map<SubdomainId, Subdomain> subdomains_;
   IdVector<Rank, RankOutcome> outcomes_;
   int rounds_ = 0;
 };
