@@ -52,8 +52,7 @@ void replay_run(const ReplayCommand& command) {
   table += line_of("recorded: " + record.policy, record.seconds, record, record.moves);
   for (std::size_t i = 0; i < policies.size(); ++i) {
     const ReplayedRun replayed = replay(record.run, made[i]);
-    table +=
-        line_of(balancer::short_name(policies[i]), replayed.seconds, record, static_cast<std::size_t>(replayed.moves));
+    table += line_of(balancer::short_name(policies[i]), replayed.seconds, record, replayed.moves);
   }
   print(table);
 }

@@ -7,7 +7,8 @@
 
 #include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
-#include "runtime/run_plan.hpp"
+#include "job/keys.hpp"
+#include "job/request.hpp"
 
 namespace driftmesh::study {
 namespace {
@@ -73,31 +74,38 @@ void read_options(const Record& record, RecordedRun& run) {
   options.gap = record.get<double>("/experiment/balance.gap");
   options.interval = record.get<double>("/experiment/balance.interval");
   options.worth.gain = record.get<double>("/experiment/balance.gain");
-  run.latency = record.get<double>("/experiment/cluster.latency");
-  run.bandwidth = record.get<double>("/experiment/cluster.bandwidth");
-  run.message_overhead = record.get<double>("/experiment/cluster.message-overhead");
-  const auto scale = record.get<double>("/experiment/cluster.scale");
-  options.reference_speed /= scale;
-  options.work_to_start /= scale;
-  options.cost.latency = run.latency + 2 * run.message_overhead;
-  options.cost.bandwidth = run.bandwidth;
-  run.slice = kTrianglesPerPoint * record.get<double>("/experiment/run.slice");
+  const ClusterSpec& cluster = run.cluster;
+  options.reference_speed /= cluster.scale;
+  options.cost.latency = cluster.latency + 2 * cluster.message_overhead;
+  options.cost.bandwidth = cluster.bandwidth;
+  run.slice = record.get<std::int64_t>("/experiment/run.slice");
+  job::Request request;
+  const job::KeyPath order = job::find_key("run.order");
+  job::store(request, order, job::read_value(*order.key, record.get<std::string>("/experiment/run.order")));
+  run.order = request.run.order;
 }
 
-IdVector<Rank, protocol::SpeedSchedule> recorded_schedules(const JsonValue& changes, std::size_t ranks) {
-  if (changes.empty()) return {};
-  IdVector<Rank, std::vector<protocol::SpeedChange>> of_rank(ranks);
-  for (const JsonValue& change : changes) {
-    const Record c(change);
-    const auto first = c.get<std::int32_t>("/rank"), count = c.get<std::int32_t>("/ranks");
-    if (first < 0 || count < 0 || static_cast<std::size_t>(first) + static_cast<std::size_t>(count) > ranks)
-      throw Error("changes the speed of a rank that is not there");
-    for (std::int32_t r = first; r < first + count; ++r)
-      of_rank[Rank{r}].push_back({c.get<double>("/at"), c.get<double>("/factor")});
+/// Each rank is a group of its own.
+ClusterSpec cluster_of(const Record& record) {
+  ClusterSpec cluster;
+  for (const auto speed : record.get<std::vector<double>>("/cluster/speeds")) {
+    if (!std::isfinite(speed) || speed <= 0) throw Error("has ranks without speed");
+    cluster.groups.push_back({"", 1, speed});
   }
-  IdVector<Rank, protocol::SpeedSchedule> schedules;
-  for (const auto& steps : of_rank) schedules.push_back(protocol::SpeedSchedule(steps));
-  return schedules;
+  if (cluster.groups.empty()) throw Error("has ranks without speed");
+  for (const JsonValue& change : record.get<JsonValue>("/experiment/cluster.changes")) {
+    const Record c(change);
+    cluster.changes.push_back(
+        {c.get<std::int32_t>("/rank"), c.get<std::int32_t>("/ranks"), c.get<double>("/at"), c.get<double>("/factor")});
+  }
+  cluster.memory = record.get<double>("/experiment/cluster.memory");
+  cluster.latency = record.get<double>("/experiment/cluster.latency");
+  cluster.bandwidth = record.get<double>("/experiment/cluster.bandwidth");
+  cluster.ranks_per_host = record.get<std::int32_t>("/experiment/cluster.ranks-per-host");
+  cluster.message_overhead = record.get<double>("/experiment/cluster.message-overhead");
+  cluster.scale = record.get<double>("/experiment/cluster.scale");
+  static_cast<void>(schedules_of(cluster));
+  return cluster;
 }
 
 RecordOfRun run_of(const JsonValue& json) {
@@ -108,12 +116,8 @@ RecordOfRun run_of(const JsonValue& json) {
   read.ideal = record.get<double>("/cluster/ideal_seconds");
   read.oracle = record.get<double>("/cluster/oracle_seconds");
   read.moves = record.get<JsonValue>("/cluster/moves").size();
-  const auto speeds = record.get<std::vector<double>>("/cluster/speeds");
-  if (speeds.empty() || !std::ranges::all_of(speeds, [](double s) { return std::isfinite(s) && s > 0; }))
-    throw Error("has ranks without speed");
-  read.run.speeds = IdVector<Rank, double>(speeds);
-  read.run.schedules = recorded_schedules(record.get<JsonValue>("/experiment/cluster.changes"), speeds.size());
-  const balancer::Layout layout = layout_of(record, speeds.size());
+  read.run.cluster = cluster_of(record);
+  const balancer::Layout layout = layout_of(record, read.run.cluster.groups.size());
   const auto work = record.amounts("/cluster/subdomains/work", layout.subdomains.size());
   for (const SubdomainId s : ids_of(layout.subdomains))
     read.run.work.push_back({0, work[to_index(s)], layout[s].predicted});

@@ -241,17 +241,17 @@ struct Case {
 
 template <class Network>
 void run(Network& network, const Case& drawn, const std::string& policy, const Parameters::Values& parameters,
-         const ControllerOptions& options, double given_speed, Tally& tally) {
+         const ControllerOptions& options, double triangle, Tally& tally) {
   constexpr double kWholeJobs = 1e9;  // what a rank has of a job is as exact as the forecast, then
   Overheard overheard(network, drawn.layout.ranks);
-  testing::WorkingRanks workers(overheard, drawn.layout, drawn.jobs, policy, parameters, options, kWholeJobs,
-                                given_speed, drawn.memory);
+  testing::WorkingRanks workers(overheard, drawn.layout, drawn.jobs, policy, parameters, options,
+                                {.slice = kWholeJobs, .triangle = triangle, .memory = drawn.memory});
   double most_over = 0;
   IdVector<Rank, protocol::RankStep> steps;
   for (const Rank r : ids_of(drawn.memory))
     steps.emplace_back([&, r] {
       const protocol::StepResult result = workers.steps()[r]();
-      most_over = std::max(most_over, workers[r].occupied() - drawn.memory[r]);
+      most_over = std::max(most_over, workers.occupied(r) - drawn.memory[r]);
       return result;
     });
   const testing::Outcome outcome = workers.outcome(network.run(steps).end);
@@ -287,11 +287,11 @@ TEST_CASE("hardly ever a rank gets more than it has memory for") {
     protocol::VirtualCluster cluster;
     cluster.link = [latency = options.cost.latency](Rank, Rank) { return protocol::Link{latency, 1e9}; };
     while (cluster.speeds.size() < drawn.memory.size())
-      cluster.speeds.push_back(std::exp(static_cast<double>(one() % 300) / 100) * 1e4);
+      cluster.speeds.push_back(std::exp(static_cast<double>(one() % 300) / 100) * 1e4 / reference_speed({}));
     for (const std::string& policy : kPolicies) {
       CAPTURE(policy);
       protocol::VirtualNetwork network(cluster);
-      run(network, drawn, policy, {}, options, 0, tallies[policy]);
+      run(network, drawn, policy, {}, options, 1 / reference_speed({}), tallies[policy]);
     }
   }
   for (const auto& [policy, tally] : tallies) {
@@ -320,8 +320,9 @@ TEST_CASE("on an adversarial network each question has one answer, and what is a
     for (const std::string& policy : kPolicies) {
       CAPTURE(policy);
       protocol::AdversarialNetwork network(drawn.layout.ranks, protocol::Adversary::from_seed(seed));
-      run(network, drawn, policy, policy == "stealing" ? Parameters::Values{{"low-water", "20"}} : Parameters::Values{},
-          options, 50, tallies[policy]);
+      testing::TimedNetwork timed(network, drawn.layout.ranks);
+      run(timed, drawn, policy, policy == "stealing" ? Parameters::Values{{"low-water", "1"}} : Parameters::Values{},
+          options, 1e-3, tallies[policy]);
       REQUIRE(network.in_flight() == 0);
     }
   }

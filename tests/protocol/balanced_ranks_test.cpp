@@ -203,8 +203,10 @@ TEST_CASE("on an adversarial network every request is answered, nothing is lost,
     for (const std::string& policy : kPolicies) {
       CAPTURE(policy);
       protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
-      testing::WorkingRanks workers(network, layout, jobs, policy,
-                                    policy == "stealing" ? low_water : Parameters::Values{}, options, 200, 50);
+      testing::TimedNetwork timed(network, ranks);
+      testing::WorkingRanks workers(timed, layout, jobs, policy,
+                                    policy == "stealing" ? low_water : Parameters::Values{}, options,
+                                    {.slice = 200, .triangle = 1.0 / 50});
       const Outcome o = workers.outcome(network.run(workers.steps()).end);
       REQUIRE(o.complete);
       REQUIRE(network.in_flight() == 0);

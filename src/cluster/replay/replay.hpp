@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
-#include "balancer/controller.hpp"
-#include "cluster/replay/working_rank.hpp"
+#include "balancer/conduct.hpp"
+#include "cluster/cluster_spec.hpp"
+#include "cluster/replay/counted_work.hpp"
+#include "driftmesh/load_snapshot.hpp"
+#include "driftmesh/options.hpp"
 #include "driftmesh/policy.hpp"
-#include "protocol/speed_schedule.hpp"
 
 namespace driftmesh {
 
@@ -13,24 +16,21 @@ namespace driftmesh {
 /// done.
 struct RecordedRun {
   std::shared_ptr<const balancer::Layout> layout;
-  IdVector<SubdomainId, CountedWork> work;
-  IdVector<Rank, double> speeds;                      ///< triangles a second
-  IdVector<Rank, protocol::SpeedSchedule> schedules;  ///< how they change; empty: not at all
-  double latency = 50e-6;                             ///< seconds
-  double bandwidth = 1e9;                             ///< bytes a second
-  double message_overhead = 1e-6;                     ///< seconds
-  double slice = 16384;                               ///< triangles
+  IdVector<SubdomainId, Count> work;  ///< their starts included
+  ClusterSpec cluster;
+  std::int64_t slice = 16384;  ///< insertions
+  WorkOrder order = WorkOrder::kGiven;
   balancer::ControllerOptions options;
 };
 
 struct ReplayedRun {
   double seconds = 0;  ///< until the last rank knows that all work is done
-  int moves = 0;
+  std::size_t moves = 0;
 };
 
-/// The recorded work anew, in virtual time, with another policy: real controllers and messages, charged planning, no
-/// meshing. Subdomains do not depend on each other, and take what they took in the recorded run wherever they are.
-/// Throws Error if the ranks get stuck.
+/// The recorded work anew, in virtual time, with another policy: the loops of real ranks, with their controllers and
+/// messages, and charged planning, but no meshing. Subdomains do not depend on each other, and take what they took in
+/// the recorded run wherever they are. Throws Error for a cluster as simulate() does, and if the ranks get stuck.
 [[nodiscard]] ReplayedRun replay(const RecordedRun& run, const std::shared_ptr<const balancer::Policy>& policy);
 
 }  // namespace driftmesh
