@@ -3,6 +3,12 @@
 #include <cstdint>
 
 /// Defaults of settings that several parts of the library have: the only place where they are written.
+///
+/// \code
+/// driftmesh::MeshOptions options;
+/// assert(options.min_angle == driftmesh::defaults::kMinAngle);
+/// options.subdomains.slice = driftmesh::defaults::kSlice / 4;  // looks at messages more often
+/// \endcode
 namespace driftmesh::defaults {
 
 inline constexpr double kMinAngle = 20;                ///< smallest angle of triangles, in degrees
