@@ -1000,6 +1000,15 @@ class Experiments(RunsOfExperiments):
         self.refuse("replay", record, "--policy", "greedy", "--parameter", "greedy.tolerance=-1", says=["tolerance"])
         self.refuse("replay", record, "--policy", "greedy", "--parameter", "tolerance", code=2, says=["NAME=VALUE"])
 
+    def test_a_replay_keeps_to_the_memory_of_its_ranks(self):
+        self.run_config("short-memory", "repetitions=1", "bounds.triangles=1e5", "decomposition.subdomains-per-rank=20",
+                        "cluster.memory=21e3", "balance.policy=[none, greedy, stealing]")
+        took = [float(row["seconds"]) for row in self.table()]
+        said = self.succeed("replay", self.folder / "results" / "run-1.json", "--policy", "greedy", "--policy", "stealing")
+        again = [float(line.split("|")[2]) for line in said.splitlines()[2:]]
+        for run, replay in zip(took, again, strict=True):
+            self.assertAlmostEqual(replay, run, delta=0.08 * run)
+
     def test_what_cannot_be_replayed_is_refused(self):
         self.run_config("first-run", *self.SHRUNK["first-run"])
         good = (self.folder / "results" / "run-1.json").read_text()
