@@ -1,10 +1,10 @@
 #include "errors.hpp"
 
 #include <exception>
-#include <string_view>
 #include <utility>
 
-#include "driftmesh/error.hpp"
+#include "api/library_request.hpp"
+#include "base/key_error.hpp"
 
 namespace driftmesh::python {
 namespace {
@@ -14,7 +14,7 @@ namespace py = pybind11;
 /// Sets the exception of this class of driftmesh, with the place where there is one.
 void raise(const char* name, const Error& error, const SourcePlace& place = {}) {
   const py::object type = py::module_::import("driftmesh._errors").attr(name);
-  const py::object exception = type(in_words_of_python(error.what()));
+  const py::object exception = type(text_of(error).in(words_of_python));
   if (!place.file.empty()) exception.attr("file") = place.file;
   if (place.line > 0) exception.attr("line") = place.line;
   PyErr_SetObject(type.ptr(), exception.ptr());
@@ -43,11 +43,8 @@ void translate_errors() {
   py::register_local_exception_translator(translate);
 }
 
-std::string in_words_of_python(std::string message) {
-  constexpr std::string_view kOwner = "MeshOptions::";
-  for (std::size_t at = message.find(kOwner); at != std::string::npos; at = message.find(kOwner, at))
-    message.erase(at, kOwner.size());
-  return message;
+std::string words_of_python(const std::string& key) {
+  return library_name(key).member;
 }
 
 }  // namespace driftmesh::python

@@ -9,7 +9,7 @@ namespace driftmesh::python {
 /// Makes Python's exceptions of those that the library throws.
 void translate_errors();
 
-/// A message of the library in the words of Python: an option is called by its name alone.
-[[nodiscard]] std::string in_words_of_python(std::string message);
+/// What Python calls a key: the library's name of the option alone.
+[[nodiscard]] std::string words_of_python(const std::string& key);
 
 }  // namespace driftmesh::python

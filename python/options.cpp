@@ -110,10 +110,8 @@ Options::Options(const py::kwargs& arguments) {
   const std::vector<std::string> names = names_of_options();
   Given given = flattened(arguments, names);
   job::Request request;
-  with_words_of_options([&] {
-    visit_options(values_, request, [&](const char* key, const char* name, auto& member, const auto& place) {
-      take_if_given(given, name, key, member, request, place);
-    });
+  visit_options(values_, request, [&](const char* key, const char* name, auto& member, const auto& place) {
+    take_if_given(given, name, key, member, request, place);
   });
   take_callables(given);
   refuse_rest(given, names);

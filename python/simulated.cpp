@@ -15,10 +15,8 @@ SimulatedCluster cluster_from(const py::dict& given) {
   SimulatedCluster cluster;
   job::Request request;
   Given entries = entries_of(given);
-  with_words_of_options([&] {
-    visit_cluster(cluster, request, [&](const char* key, const char* name, auto& member, const auto& place) {
-      take_if_given(entries, name, key, member, request, place);
-    });
+  visit_cluster(cluster, request, [&](const char* key, const char* name, auto& member, const auto& place) {
+    take_if_given(entries, name, key, member, request, place);
   });
   std::vector<std::string> names;
   visit_cluster(cluster, request,

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "api/library_request.hpp"
-#include "driftmesh/error.hpp"
+#include "base/key_error.hpp"
 #include "job/check.hpp"
 #include "job/here.hpp"
 
@@ -13,8 +13,9 @@ namespace driftmesh {
 double FunctionField::edge_length(const Point& p) const {
   const double length = function_(p);
   if (length > 0) return length;
-  throw Error("MeshOptions::size is " + std::to_string(length) + " at (" + std::to_string(p.x) + ", " +
-              std::to_string(p.y) + "); a length must be positive everywhere in the domain, or infinity for no bound");
+  throw Keyed<Error>(KeyText::of(
+      "{sizing.size} is {} at ({}, {}); a length must be positive everywhere in the domain, or infinity for no bound",
+      length, p.x, p.y));
 }
 
 void CallerWatch::warned(const std::string& warning) {
@@ -22,8 +23,7 @@ void CallerWatch::warned(const std::string& warning) {
 }
 
 void CallerWatch::refining(std::int64_t triangles, double forecast) {
-  if (options_.progress && !options_.progress({triangles, forecast}))
-    throw Cancelled("cancelled by MeshOptions::progress");
+  if (options_.progress && !options_.progress({triangles, forecast})) throw Keyed<Cancelled>("cancelled by {progress}");
 }
 
 Call::Call(const Pslg& input, const MeshOptions& options, const balancer::PolicyMaker& policies)
@@ -46,9 +46,9 @@ std::int32_t Call::threads() const {
 
 job::Asked Call::asked(job::PlaceKind place, const job::Request& request) const {
   if (options_.balance.own && (place & job::kMany) == 0)
-    throw Error("MeshOptions::balance.own is for many ranks, but this process is alone; remove it");
+    throw Keyed<Error>("{balance.own} is for many ranks, but this process is alone; remove it");
   if (options_.balance.own && options_.balance.policy != MeshOptions{}.balance.policy)
-    throw Error("MeshOptions::balance.own is given along with the name of another policy; remove one");
+    throw Keyed<Error>("{balance.own} is given along with the name of another policy; remove one");
   return {request, job::kLibrary, given_, {.mesh = place != job::kSimulated, .whole = true}};
 }
 

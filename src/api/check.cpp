@@ -87,11 +87,11 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
 }  // namespace
 
 CheckReport check(const Mesh& mesh, const MeshOptions& options) {
-  return with_words_of_options([&] { return check_against(mesh, nullptr, options); });
+  return in_words_of_library([&] { return check_against(mesh, nullptr, options); });
 }
 
 CheckReport check(const Mesh& mesh, const Pslg& input, const MeshOptions& options) {
-  return with_words_of_options([&] { return check_against(mesh, &input, options); });
+  return in_words_of_library([&] { return check_against(mesh, &input, options); });
 }
 
 }  // namespace driftmesh

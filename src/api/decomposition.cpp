@@ -21,7 +21,7 @@ Pslg repaired(Pslg input) {
 }  // namespace
 
 std::shared_ptr<const Decomposition> cut_domain(const Pslg& input, const MeshOptions& options, std::int32_t ranks) {
-  return with_words_of_options([&] {
+  return in_words_of_library([&] {
     Call call(input, options);
     const job::Asked asked = call.asked(ranks > 1 ? job::kRanks : job::kSubdomains);
     return std::make_shared<const Decomposition>(job::make_cut(asked, ranks, call.watch()).decomposition);

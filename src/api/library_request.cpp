@@ -1,25 +1,23 @@
 #include "api/library_request.hpp"
 
-#include <cctype>
-
-#include "job/keys.hpp"
+#include <algorithm>
+#include <map>
 
 namespace driftmesh {
 namespace {
 
-/// Replaces `word` wherever it stands by itself.
-void replace_word(std::string& text, const std::string& word, const std::string& by) {
-  const auto is_part = [&](std::size_t at) {
-    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '-');
-  };
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at)) {
-    if (is_part(at + word.size()) || (at > 0 && is_part(at - 1))) {
-      at += word.size();
-      continue;
-    }
-    text.replace(at, word.size(), by);
-    at += by.size();
-  }
+constexpr const char* kOfOptions = "MeshOptions::";
+
+/// The names that keys have in the library, by those in the table of keys.
+std::map<std::string, LibraryName> library_names() {
+  std::map<std::string, LibraryName> names;
+  job::Request unused;
+  visit_options(MeshOptions{}, unused, [&](const char* key, const char* member, const auto&, const auto&) {
+    names[key] = {kOfOptions, member};
+  });
+  names["sizing.size"] = {kOfOptions, "size"};  // a function, which no key can hold
+  names["allow-outside"] = {"ReadOptions::", "allow_outside"};
+  return names;
 }
 
 }  // namespace
@@ -32,17 +30,20 @@ job::Request request_of(const MeshOptions& options) {
   return request;
 }
 
-std::string in_words_of_options(const std::string& message) {
-  std::string text = message;
-  job::Request unused;
-  visit_options(MeshOptions{}, unused, [&](const char* key, const char* member, const auto&, const auto&) {
-    const std::string own = std::string("MeshOptions::") + member;
-    replace_word(text, key, own);
-    const std::string option = job::find_key(key).key->option;
-    if (!option.empty()) replace_word(text, "--" + option, own);
-  });
-  replace_word(text, "sizing.size", "MeshOptions::size");  // a function, which no key can hold
-  return text;
+LibraryName library_name(const std::string& key) {
+  static const std::map<std::string, LibraryName> names = library_names();
+  const auto found = names.find(key);
+  if (const std::string section = "cluster."; key.starts_with(section)) {
+    std::string member = key.substr(section.size());
+    std::ranges::replace(member, '-', '_');
+    return {"SimulatedCluster::", member};
+  }
+  return found != names.end() ? found->second : LibraryName{kOfOptions, key};
+}
+
+std::string words_of_library(const std::string& key) {
+  const LibraryName name = library_name(key);
+  return name.owner + name.member;
 }
 
 }  // namespace driftmesh

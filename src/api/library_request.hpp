@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "driftmesh/error.hpp"
+#include "base/key_error.hpp"
 #include "driftmesh/options.hpp"
 #include "job/key.hpp"
 #include "job/request.hpp"
@@ -55,18 +55,26 @@ void visit_options(Options&& o, job::Request& r, const Visit& visit) {
 /// The request equivalent to the options. Nothing is checked.
 [[nodiscard]] job::Request request_of(const MeshOptions& options);
 
-/// An error message of the job, with keys and command line options replaced by members of MeshOptions.
-[[nodiscard]] std::string in_words_of_options(const std::string& message);
+/// A member of the library's options.
+struct LibraryName {
+  std::string owner;  ///< "MeshOptions::"
+  std::string member;
+};
 
-/// Returns the result of `work`; errors that name keys or options are rephrased in terms of MeshOptions.
+/// What the library calls a key, or an option that no key can hold: "progress".
+[[nodiscard]] LibraryName library_name(const std::string& key);
+
+/// The same as messages say it: "MeshOptions::max_area".
+[[nodiscard]] std::string words_of_library(const std::string& key);
+
+/// Returns the result of `work`; errors that name keys are in the words of the library.
 template <class Work>
-auto with_words_of_options(const Work& work) {
+auto in_words_of_library(const Work& work) {
   try {
     return work();
-  } catch (const job::KeyError& error) {
-    throw Error(in_words_of_options(error.what()));
-  } catch (const LimitError& error) {
-    throw LimitError(in_words_of_options(error.what()));
+  } catch (const NamesKeys& error) {
+    error.throw_in(words_of_library);
+    throw;  // not reached
   }
 }
 

@@ -12,12 +12,12 @@
 namespace driftmesh {
 
 Mesh mesh(const Pslg& input, const MeshOptions& options) {
-  return with_words_of_options([&] {
+  return in_words_of_library([&] {
     Call call(input, options);
     job::Here here(call.place(), call.threads());
     job::RunRecord record;
     const std::unique_ptr<job::Refined> made = job::make(call.asked(here.kind()), here, record, call.watch());
-    if (const std::string why = made->shortfall(true); !why.empty()) throw LimitError(why);
+    if (const KeyText why = made->shortfall(true); !why.empty()) throw Keyed<LimitError>(why);
     Mesh mesh = made->take_piece(call.watch()).mesh;
     mesh.numbers.clear();  // only for points of a piece; this is the whole mesh
     mesh.ranks.clear();

@@ -15,6 +15,7 @@
 #include "app/commands.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
+#include "base/key_error.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
@@ -23,6 +24,7 @@
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
+#include "job/files.hpp"
 #include "job/memory.hpp"
 #include "job/rasters.hpp"
 #include "mesh/digest.hpp"
@@ -158,7 +160,7 @@ int run_check(CheckOptions& options) {
     flush_standard_output();
     return report.accepted() ? 0 : kRejected;
   } catch (const Error& error) {
-    std::cerr << "driftmesh: " << error.what() << '\n';
+    std::cerr << "driftmesh: " << text_of(error).in(job::words_of(job::kCheck)) << '\n';
     return kUnreadable;
   }
 }

@@ -49,11 +49,10 @@ class RepairView final : public job::Watch {
 
 job::Request request_of(const GivenKeys& given) {
   job::Request request;
-  in_words_of_options(given, {}, [&] {
-    given.apply(request);
-    if (request.decomposition.subdomains == 0) throw cli::UsageError("--subdomains is 0; it must be at least 1");
-    job::check(request, job::kSubdomains);
-  });
+  given.apply(request);
+  if (request.decomposition.subdomains == 0)
+    throw job::KeyError("decomposition.subdomains", "is 0", "it must be at least 1");
+  job::check(request, job::kSubdomains);
   return request;
 }
 
@@ -131,7 +130,7 @@ cli::Command decompose_command() {
       .examples = {"driftmesh decompose bay.poly -n 400 -o bay.decomposition --plot bay.png"},
       .exit_codes = "0 done, 1 error, 2 wrong usage",
       .run = [command](cli::Call&) {
-        run_decompose(*command);
+        in_words_of_options(command->given, {}, [&] { run_decompose(*command); });
         return 0;
       }};
 }

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <new>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -12,8 +11,8 @@
 #include "base/standard_streams.hpp"
 #include "base/temporary_files.hpp"
 #include "cli/command_line.hpp"
-#include "driftmesh/error.hpp"
 #include "driftmesh/version.hpp"
+#include "job/files.hpp"
 #include "job/limits.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 #include "report/report_page.hpp"
@@ -88,22 +87,22 @@ class Follower {
   std::streambuf* errors_;
 };
 
+/// Experiments name keys in full, all other commands by their options.
+Words words_of_command(int argc, char** argv) {
+  return job::words_of(argc >= 2 && std::string(argv[1]) == "run" ? job::kExperiment : job::kMesh);
+}
+
 int run_program(int argc, char** argv) {
   cli::Command program = commands_of_program();
   program.commands.push_back(config_command(program));
   program.commands.push_back(help_command(program));
   try {
     return flushed(cli::run(program, argc, argv));
-  } catch (const std::bad_alloc&) {
-    std::cerr << "driftmesh: " << kOutOfMemory << '\n';
-    return job::kStoppedByLimit;
-  } catch (const LimitError& error) {
-    std::cerr << "driftmesh: " << error.what() << '\n';
-    return job::kStoppedByLimit;
-  } catch (const std::exception& error) {
-    std::cerr << "driftmesh: " << error.what() << '\n';
+  } catch (const std::exception&) {
+    const Failure failure = failure_of(std::current_exception());
+    std::cerr << "driftmesh: " << text_of(failure).in(words_of_command(argc, argv)) << '\n';
+    return failure.kind == Failure::Kind::kLimit ? job::kStoppedByLimit : kError;
   }
-  return kError;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
 #include "job/domain.hpp"
+#include "job/files.hpp"
 #include "job/here.hpp"
 #include "job/make.hpp"
 #include "job/mpi/mpi_team.hpp"
@@ -64,7 +65,7 @@ int mesh_at(job::Place& place, const Told& told, RunNotes& notes) {
   place.commit(files);
   if (place.leads()) notes.show();
   if (notes.run.complete) return 0;
-  std::cerr << "driftmesh: " << made->shortfall(request.limits.keep_incomplete) << '\n';
+  std::cerr << "driftmesh: " << made->shortfall(request.limits.keep_incomplete).in(job::words_of(job::kMesh)) << '\n';
   return job::kStoppedByLimit;
 }
 
@@ -79,7 +80,7 @@ int mesh_here(job::PlaceKind kind, const Told& told) {
 
 int mesh_on_ranks(const Told& told) {
   const protocol::MpiSession session;
-  job::MpiTeam team(protocol::MpiSession::world());
+  job::MpiTeam team(protocol::MpiSession::world(), job::words_of(job::kMesh));
   try {
     const std::string start = team.alone() ? "" : "mpirun -n " + std::to_string(team.ranks()) + " ";
     job::OnRanks ranks(team, balancer::make_policy);

@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
+#include "job/files.hpp"
 #include "job/keys.hpp"
 
 namespace driftmesh::app {
@@ -87,22 +87,6 @@ std::string shown_default(const Key& key) {
   return tells ? text : "";
 }
 
-/// Replaces full names of keys in a text by their options.
-std::string in_words_of_options(std::string text) {
-  constexpr const char* kOfNames = "abcdefghijklmnopqrstuvwxyz.-";
-  for (const Key& key : job::keys()) {
-    const std::string option = key.name == "input.file" ? "INPUT" : "--" + key.option;
-    for (std::size_t at = 0; !key.option.empty() && (at = text.find(key.name, at)) != std::string::npos;) {
-      const std::size_t end = std::min(text.size(), text.find_first_not_of(kOfNames, at));
-      const bool begins = at == 0 || std::string_view(kOfNames).find(text[at - 1]) == std::string_view::npos;
-      const bool whole = begins && text.substr(at, end - at) == key.name;
-      if (whole) text.replace(at, key.name.size(), option);
-      at += whole ? option.size() : 1;
-    }
-  }
-  return text;
-}
-
 }  // namespace
 
 void GivenKeys::apply(job::Request& request) const {
@@ -117,7 +101,7 @@ void throw_with_option(const KeyError& error, const GivenKeys& given, const conf
   const auto by_line =
       std::ranges::any_of(given.items, [&](const GivenKeys::Item& item) { return item.key->name == error.key(); });
   if (!by_line && places.contains(error.key())) throw config::placed(error, places, "");
-  throw cli::UsageError(in_words_of_options(error.what()));
+  throw cli::UsageError(error.text().in(job::words_of(job::kMesh)));
 }
 
 std::vector<cli::Option> key_options(job::EntryPoint entry_point, GivenKeys& given, const std::string& group) {
@@ -136,11 +120,12 @@ std::vector<cli::Option> key_options(job::EntryPoint entry_point, GivenKeys& giv
     option.completes = completes(key);
     option.choices = job::choices_at(key, entry_point);
     option.or_file = key.or_file;
-    option.take = [&given, &key](const std::string& text) {
+    option.take = [&given, &key, entry_point](const std::string& text) {
       try {
         static_cast<void>(given_value(key, text, key.standard));
       } catch (const KeyError& error) {
-        throw cli::UsageError(error.problem() + "; " + error.next());  // the parser prepends the option
+        // the parser prepends the option
+        throw cli::UsageError(KeyText::of("{}; {}", error.problem(), error.next()).in(job::words_of(entry_point)));
       }
       given.items.push_back({&key, text});
     };

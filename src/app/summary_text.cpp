@@ -8,6 +8,7 @@
 #include "app/summary.hpp"
 #include "base/words.hpp"
 #include "io/mesh_file.hpp"
+#include "job/files.hpp"
 #include "protocol/counter_sum.hpp"
 
 namespace driftmesh::app {
@@ -50,7 +51,8 @@ void add_mesh(const RunRecord& run, Text out) {
   fmt::format_to(out, "mesh         {}, {}, {}\n", counted(run.triangles, "triangle"),
                  run.vertices == 1 ? "1 vertex" : grouped(run.vertices) + " vertices",
                  counted(run.subsegments, "subsegment"));
-  if (!run.complete) fmt::format_to(out, "             INCOMPLETE: stopped by {}\n", run.stopped_by);
+  if (!run.complete)
+    fmt::format_to(out, "             INCOMPLETE: stopped by {}\n", job::called(run.stopped_by, job::kMesh));
   fmt::format_to(out, "angles       {:.4f} to {:.4f} degrees", run.shape.smallest, run.shape.largest);
   if (run.min_angle > 0) fmt::format_to(out, "; at least {} requested", run.min_angle);
   fmt::format_to(out, "\nareas        {:.6g} to {:.6g}", run.shape.smallest_area, run.shape.largest_area);

@@ -9,17 +9,17 @@ namespace driftmesh {
 
 void Failure::write(ByteWriter& writer) const {
   writer.value(kind);
-  writer.text(message);
+  message.write(writer);
   writer.text(key);
-  writer.text(next);
+  next.write(writer);
 }
 
 Failure Failure::read(ByteReader& reader) {
   Failure failure;
   reader.value(failure.kind);
-  failure.message = reader.text();
+  failure.message = KeyText::read(reader);
   failure.key = reader.text();
-  failure.next = reader.text();
+  failure.next = KeyText::read(reader);
   return failure;
 }
 
@@ -28,42 +28,47 @@ Failure failure_of(const std::exception_ptr& error) {
   try {
     std::rethrow_exception(error);
   } catch (const InputError& e) {
-    return {Failure::Kind::kInput, e.what()};
+    return {Failure::Kind::kInput, text_of(e)};
   } catch (const FileError& e) {
-    return {Failure::Kind::kFile, e.what()};
+    return {Failure::Kind::kFile, text_of(e)};
   } catch (const LimitError& e) {
-    return {Failure::Kind::kLimit, e.what()};
+    return {Failure::Kind::kLimit, text_of(e)};
   } catch (const std::bad_alloc&) {
-    return {Failure::Kind::kLimit, kOutOfMemory};
+    return {Failure::Kind::kLimit, out_of_memory()};
   } catch (const Cancelled& e) {
-    return {Failure::Kind::kCancelled, e.what()};
+    return {Failure::Kind::kCancelled, text_of(e)};
   } catch (const KeyError& e) {
     return {Failure::Kind::kKey, e.problem(), e.key(), e.next()};
   } catch (const std::exception& e) {
-    return {Failure::Kind::kOther, e.what()};
+    return {Failure::Kind::kOther, text_of(e)};
   }
+}
+
+KeyText text_of(const Failure& failure) {
+  if (failure.kind != Failure::Kind::kKey) return failure.message;
+  return KeyError(failure.key, failure.message, failure.next).text();
 }
 
 Failure met_by(Rank rank, Failure failure) {
   if (failure.kind != Failure::Kind::kNothing && failure.kind != Failure::Kind::kKey)
-    failure.message.insert(0, "rank " + to_string(rank) + ": ");
+    failure.message = KeyText::of("rank {}: {}", to_string(rank), failure.message);
   return failure;
 }
 
 void raise(const Failure& failure) {
   switch (failure.kind) {
     case Failure::Kind::kInput:
-      throw InputError(failure.message);
+      throw Keyed<InputError>(failure.message);
     case Failure::Kind::kFile:
-      throw FileError(failure.message);
+      throw Keyed<FileError>(failure.message);
     case Failure::Kind::kLimit:
-      throw LimitError(failure.message);
+      throw Keyed<LimitError>(failure.message);
     case Failure::Kind::kCancelled:
-      throw Cancelled(failure.message);
+      throw Keyed<Cancelled>(failure.message);
     case Failure::Kind::kKey:
       throw KeyError(failure.key, failure.message, failure.next);
     default:
-      throw Error(failure.message);
+      throw Keyed<Error>(failure.message);
   }
 }
 

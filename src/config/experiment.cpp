@@ -33,7 +33,7 @@ void place_errors(const Experiment& experiment, const Work& work) {
   }
 }
 
-std::string full_name(const KeyPath& path) {
+std::string name_of(const KeyPath& path) {
   return path.entry.empty() ? path.key->name : path.key->name + "." + path.entry;
 }
 
@@ -60,7 +60,7 @@ class KeyReader {
 
   void take_key(const Origin& origin, const std::string& name, const YAML::Mark& mark, const YAML::Node& node) {
     const KeyPath path = known_key(origin, name, mark);
-    const std::string full = full_name(path);
+    const std::string full = name_of(path);
     if (&origin == &origin_ && !seen_.insert(full).second)
       origin.fail(mark, "'" + name + "' is given twice", "remove one of them");
     if (node.IsNull()) origin.fail(mark, "'" + name + "' has no value", "give one, or remove the key");
@@ -156,7 +156,7 @@ class ExperimentReader {
     if (!values.IsSequence() || values.size() == 0)
       origin.fail(values.Mark(), "sweep: '" + name + "' has no list of values", "write for example [1, 2, 4]");
     if (path.negated) origin.fail(mark, "sweep: '" + name + "' is not a key", "sweep over '" + path.key->name + "'");
-    Experiment::Axis axis{full_name(path), {}};
+    Experiment::Axis axis{name_of(path), {}};
     if (std::ranges::any_of(result_.sweep, [&](const auto& other) { return other.key == axis.key; }))
       origin.fail(mark, "sweep: '" + name + "' is given twice", "join the two");
     for (const YAML::Node& value : values) axis.values.push_back(value_of(path, value, origin));
@@ -174,7 +174,7 @@ class ExperimentReader {
     const KeyPath path = keys_.known_key(origin, name, YAML::Mark::null_mark());
     // YAML takes `a ? b : c` for a table because of its colon.
     if (value.IsMap() && path.key->kind == Kind::kText) value = YAML::Node(text);
-    std::erase_if(result_.sweep, [&](const Experiment::Axis& axis) { return axis.key == full_name(path); });
+    std::erase_if(result_.sweep, [&](const Experiment::Axis& axis) { return axis.key == name_of(path); });
     const bool one_list = path.key->kind == Kind::kList || path.key->kind == Kind::kNumbers;
     if (value.IsSequence() && (!one_list || (value.size() > 0 && value[0].IsSequence())))
       take_axis(origin, name, YAML::Mark::null_mark(), value);
@@ -203,7 +203,7 @@ class ExperimentReader {
   void check_point(const Request& request) const {
     if (request.input.file.empty() && request.input.generator.empty())
       throw KeyError("input.file", "is missing",
-                     "name a file with input.file, or what to generate with input.generate");
+                     "name a file with {input.file}, or what to generate with {input.generate}");
     if (!allow_code_) refuse_code_of_file(request, result_.places);
     job::check(request, job::place_of(request, job::kExperiment, false), balancer::make_policy);
   }
@@ -252,8 +252,9 @@ void check_processes(const Experiment& experiment, std::int32_t processes) {
 InputError placed(const KeyError& error, const SourcePlaces& places, const std::string& otherwise) {
   auto place = places.find(error.key());
   if (place == places.end()) place = places.find(error.key().substr(0, error.key().find('.')));
-  return {
-      {place != places.end() ? place->second : otherwise}, "'" + error.key() + "' " + error.problem(), error.next()};
+  return {{place != places.end() ? place->second : otherwise},
+          "'" + error.key() + "' " + error.problem().in(full_name),
+          error.next().in(full_name)};
 }
 
 }  // namespace driftmesh::config

@@ -68,7 +68,7 @@ class Values {
     try {
       return job::read_value(key, text(key, node));
     } catch (const KeyError& error) {
-      fail(key.name, node, error.problem(), error.next());
+      fail(key.name, node, error.problem().in(full_name), error.next().in(full_name));
     }
   }
 

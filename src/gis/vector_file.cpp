@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/key_error.hpp"
 #include "base/letter_case.hpp"
 #include "driftmesh/error.hpp"
 #include "gis/gdal_functions.hpp"
@@ -73,8 +74,8 @@ class VectorReader {
     const int count = gdal_.GDALDatasetGetLayerCount(data_.get());
     if (count == 0) throw InputError({file_}, "has no layer", "there is nothing to mesh");
     if (count > 1)
-      throw InputError({file_}, "has " + std::to_string(count) + " layers: " + list_of_layers(),
-                       "say which to read: --layers with names and commas between them");
+      throw Keyed<InputError>({file_}, "has " + std::to_string(count) + " layers: " + list_of_layers(),
+                              "say which to read: {input.layers} with names and commas between them");
     return {gdal_.GDALDatasetGetLayer(data_.get(), 0)};
   }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/file_identity.hpp"
+#include "base/key_error.hpp"
 #include "base/read_file.hpp"
 #include "base/xml_text.hpp"
 #include "driftmesh/error.hpp"
@@ -106,8 +107,8 @@ class PvtuParser {
       throw InputError({file_, tag.line}, "names the piece " + source + " twice", kDamaged);
     pvtu_.pieces.push_back(path);
     if (!options_.allow_outside && !lies_within(pvtu_.pieces.back(), folder.empty() ? "." : folder.string()))
-      throw InputError({file_, tag.line}, "names the piece " + source + ", outside of its own folder",
-                       "move it there, or allow it with --allow-outside");
+      throw Keyed<InputError>({file_, tag.line}, "names the piece " + source + ", outside of its own folder",
+                              "move it there, or allow it with {allow-outside}");
   }
 
   const std::string& file_;

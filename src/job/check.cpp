@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::size_t kMaxVtNodes = 32'768;  // vt numbers nodes with 16 bits, one of them for the sign
 
-void require(bool holds, const char* key, const char* what, const char* next) {
+/// Two literals, of which texts are made only if they are needed.
+template <std::size_t N, std::size_t M>
+void require(bool holds, const char* key, const char (&what)[N], const char (&next)[M]) {
   if (!holds) throw KeyError(key, what, next);
 }
 
@@ -42,10 +44,10 @@ void check_value(const Key& key, const Value& value) {
     throw KeyError(key.name, "applies only to simulated clusters", "remove it, or simulate the cluster");
   if ((key.places & kSubdomains) == 0)
     throw KeyError(key.name, "needs several ranks, but this process is alone", "start it with mpirun, or remove it");
-  throw KeyError(key.name,
-                 place == kOnePiece ? "applies only to a mesh in subdomains, but this one is made in one piece"
-                                    : "does not apply here",
-                 "cut the domain with --subdomains, or remove it");
+  if (place != kOnePiece)
+    throw KeyError(key.name, "does not apply here", "cut the domain with {decomposition.subdomains}, or remove it");
+  throw KeyError(key.name, "applies only to a mesh in subdomains, but this one is made in one piece",
+                 "cut the domain with {decomposition.subdomains}, or remove it");
 }
 
 void check_places(const Request& request, PlaceKind place) {
@@ -57,14 +59,14 @@ void check_places(const Request& request, PlaceKind place) {
 
 void check_input(const Request::Input& input) {
   require(input.file.empty() || input.generator.empty(), "input.generate", "names a second domain",
-          "remove it or input.file");
+          "remove it or {input.file}");
   require(!input.generator.empty() || input.parameters.empty(), "input.parameters", "needs a model to generate",
-          "name one with input.generate");
+          "name one with {input.generate}");
   if (input.generator.empty()) return;
   try {
     static_cast<void>(generate(input.generator, input.parameters));
   } catch (const Error& error) {
-    throw KeyError("input.generate", std::string("is invalid: ") + error.what(),
+    throw KeyError("input.generate", KeyText::of("is invalid: {}", text_of(error)),
                    "driftmesh generate --help lists the models and their parameters");
   }
 }
@@ -78,25 +80,27 @@ void check_rasters(const Request& request) {
   }
   const std::string& depth = request.output.depth;
   if (!depth.empty() && !request.input.rasters.contains(depth))
-    throw KeyError("output.depth", "is '" + depth + "', but no raster has this name", "name its file in input.rasters");
+    throw KeyError("output.depth", "is '" + depth + "', but no raster has this name",
+                   "name its file in {input.rasters}");
   require(request.input.rasters.empty() || !depth.empty() || !request.sizing.expression.empty(), "input.rasters",
-          "serves sizing.size and output.depth, but neither is given", "give one of them");
+          "serves {sizing.size} and {output.depth}, but neither is given", "give one of them");
 }
 
 void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
-  require(bounds.area == 0 || bounds.triangles == 0, "bounds.triangles", "cannot be combined with bounds.area",
+  require(bounds.area == 0 || bounds.triangles == 0, "bounds.triangles", "cannot be combined with {bounds.area}",
           "remove one of them");
   require(bounds.triangles_per_rank == 0 || (bounds.area == 0 && bounds.triangles == 0), "bounds.triangles-per-rank",
-          "cannot be combined with bounds.area or bounds.triangles", "remove all but one");
+          "cannot be combined with {bounds.area} or {bounds.triangles}", "remove all but one");
   require(sizing.expression.empty() || (bounds.triangles == 0 && bounds.triangles_per_rank == 0), "sizing.size",
-          "cannot be combined with a number of triangles", "remove one, or give bounds.area");
+          "cannot be combined with a number of triangles", "remove one, or give {bounds.area}");
   require(sizing.gradation == 0 || !sizing.background.empty() || !sizing.expression.empty(), "sizing.gradation",
-          "limits the growth of the lengths of sizing.size and sizing.background, but neither is given",
+          "limits the growth of the lengths of {sizing.size} and {sizing.background}, but neither is given",
           "give one of them");
-  require(sizing.longest == 0 || sizing.shortest <= sizing.longest, "sizing.min", "is greater than sizing.max",
+  require(sizing.longest == 0 || sizing.shortest <= sizing.longest, "sizing.min", "is greater than {sizing.max}",
           "swap the two");
   require(sizing.shortest == 0 || !sizing.expression.empty() || !sizing.background.empty() || sizing.longest > 0,
-          "sizing.min", "limits the lengths of sizing.size, sizing.background or sizing.max, but none of them is given",
+          "sizing.min",
+          "limits the lengths of {sizing.size}, {sizing.background} or {sizing.max}, but none of them is given",
           "give one of them");
 }
 
@@ -106,22 +110,22 @@ void check_policy(const Request& request, const balancer::PolicyMaker& policies)
   try {
     static_cast<void>(policies(request.balance.policy, parameters));
   } catch (const Error& error) {
-    throw KeyError("balance.parameters", std::string("is invalid: ") + error.what(), "see docs/balancing.md");
+    throw KeyError("balance.parameters", KeyText::of("is invalid: {}", text_of(error)), "see docs/balancing.md");
   }
 }
 
 void check_parts(const Request& request) {
   const Request::Decomposition& d = request.decomposition;
   require(d.subdomains == 0 || d.subdomains_per_rank == 0, "decomposition.subdomains-per-rank",
-          "cannot be combined with decomposition.subdomains", "remove one of them");
+          "cannot be combined with {decomposition.subdomains}", "remove one of them");
   require(d.file.empty() || (d.subdomains == 0 && d.subdomains_per_rank == 0), "decomposition.file",
           "has a number of subdomains, but another one is given", "remove one of them");
   const Request::Mapping& m = request.mapping;
   require(m.file.empty() || (m.method == Request::Mapping{}.method && m.speeds.empty() && !m.by_speed && !m.by_area &&
                              m.to_late_ranks),
-          "mapping.file", "replaces the mapping, but settings of one are given", "remove them or mapping.file");
+          "mapping.file", "replaces the mapping, but settings of one are given", "remove them or {mapping.file}");
   require(request.mapping.speeds.empty() || !request.mapping.by_speed, "mapping.by-speed",
-          "cannot be combined with mapping.speeds", "remove one of them");
+          "cannot be combined with {mapping.speeds}", "remove one of them");
 }
 
 void check_method(const Request& request) {
@@ -130,7 +134,7 @@ void check_method(const Request& request) {
           "is off, but the decoupled method splits interfaces beforehand", "remove it, or use the coupled method");
   require(request.sizing.expression.empty() && request.sizing.background.empty(), "run.method",
           "is decoupled, which needs the same bound on size everywhere, but lengths vary",
-          "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
+          "give {bounds.area} or {bounds.triangles} instead of lengths, or use the coupled method");
 }
 
 /// What partially coupled refinement does without.
@@ -140,11 +144,11 @@ void check_pdr(const Request& request, PlaceKind place) {
           "use driftmesh run");
   require(request.sizing.expression.empty() && request.sizing.background.empty() && request.sizing.longest == 0,
           "run.method", "is pdr, which needs the same bound on size everywhere, but lengths vary",
-          "give bounds.area or bounds.triangles instead of lengths, or use the coupled method");
+          "give {bounds.area} or {bounds.triangles} instead of lengths, or use the coupled method");
   require(request.bounds.area > 0 || request.bounds.triangles > 0 || request.bounds.triangles_per_rank > 0,
           "run.method", "is pdr, but nothing bounds the size of triangles",
-          "give bounds.area or bounds.triangles, or use the coupled method");
-  require(request.bounds.angle > 0, "run.method", "is pdr, which needs a bound on angles", "give bounds.angle");
+          "give {bounds.area} or {bounds.triangles}, or use the coupled method");
+  require(request.bounds.angle > 0, "run.method", "is pdr, which needs a bound on angles", "give {bounds.angle}");
   const Request standard;
   const bool parts = request.decomposition != standard.decomposition || request.mapping != standard.mapping;
   require(!parts, "run.method", "is pdr, which has no subdomains to cut or map", "remove what sets them");
@@ -154,7 +158,7 @@ void check_pdr(const Request& request, PlaceKind place) {
           "remove it");
   require(request.run.threads <= 1 && !request.run.sleep && request.run.scratch.empty(), "run.method",
           "is pdr, whose ranks have one thread and one mesh in memory",
-          "remove run.threads, run.sleep and run.scratch");
+          "remove {run.threads}, {run.sleep} and {run.scratch}");
 }
 
 void check_output(const Request::Output& output) {
@@ -165,25 +169,25 @@ void check_output(const Request::Output& output) {
 void check_scratch(const Request& request) {
   if (request.run.scratch.empty()) return;
   require(request.decomposition.subdomains != 1, "run.scratch", "is for subdomains, but one piece is asked for",
-          "remove it or decomposition.subdomains");
+          "remove it or {decomposition.subdomains}");
   require(!request.limits.keep_incomplete, "run.scratch",
-          "is for subdomains, but keeping an incomplete mesh takes one piece", "remove it or limits.keep-incomplete");
+          "is for subdomains, but keeping an incomplete mesh takes one piece", "remove it or {limits.keep-incomplete}");
 }
 
 void check_cluster(const Request& request) {
   const Request::Cluster& c = request.cluster;
   require(c.groups.empty() || c.speed == 0, "cluster.speed",
-          "cannot be combined with cluster.groups, which have their own speeds", "remove one of them");
+          "cannot be combined with {cluster.groups}, which have their own speeds", "remove one of them");
   require(c.groups.empty() || c.ranks == 0 || c.ranks == ranks_of(cluster_of(request)), "cluster.ranks",
-          "differs from the number of ranks in cluster.groups", "remove one of them");
+          "differs from the number of ranks in {cluster.groups}", "remove one of them");
   require(c.rank_speeds.empty() || (c.groups.empty() && c.ranks == 0 && c.speed == 0), "cluster.rank-speeds",
-          "cannot be combined with cluster.ranks, cluster.speed or cluster.groups", "remove one of them");
+          "cannot be combined with {cluster.ranks}, {cluster.speed} or {cluster.groups}", "remove one of them");
   require(!c.groups.empty() || !c.rank_speeds.empty() || c.ranks > 0, "cluster.ranks", "is 0",
-          "give the number of ranks, cluster.groups, or cluster.rank-speeds");
+          "give the number of ranks, {cluster.groups}, or {cluster.rank-speeds}");
   try {
     static_cast<void>(schedules_of(cluster_of(request)));
   } catch (const Error& error) {
-    throw KeyError("cluster.changes", std::string("is wrong: ") + error.what(),
+    throw KeyError("cluster.changes", KeyText::of("is wrong: {}", text_of(error)),
                    "list the changes of each rank in the order of time");
   }
   require(request.mapping.to_late_ranks || std::ranges::count(late_ranks_of(cluster_of(request)), false) > 0,

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/key_error.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/files.hpp"
 #include "driftmesh/repair.hpp"
@@ -63,10 +64,11 @@ void require_known(const Request& request, const std::set<Value>& known, const A
   for (const Value& value : known)
     if (listed++ < kMost) list += (list.empty() ? "" : ", ") + shortest_text(static_cast<double>(value));
   if (known.size() > kMost) list += " and " + std::to_string(known.size() - kMost) + " more";
-  throw InputError({input_name(request)},
-                   "has no " + what + " " + shortest_text(static_cast<double>(*missing)) + ", which " +
-                       called(key, kMesh) + " names",
-                   list.empty() ? "it has none" : "it has " + list);
+  const std::string input = input_name(request);
+  throw Keyed<InputError>(
+      KeyText::of("{}: has no {} {}, which {} names; {}", input, what, shortest_text(static_cast<double>(*missing)),
+                  KeyText::key(key), list.empty() ? "it has none" : "it has " + list),
+      {input});
 }
 
 void check_markers_and_regions(const Request& request, const Pslg& pslg) {
@@ -97,8 +99,8 @@ void open_rasters(const Request& request, Domain& domain, Watch& watch) {
   domain.rasters = rasters_of(request, domain.projection);
   if (domain.rasters.files.empty()) return;
   if (!request.output.depth.empty() && domain.pslg.attributes_per_point > 0)
-    throw InputError({input_name(request)}, "has attributes of points, but depths would take their place",
-                     "remove output.depth or the attributes");
+    throw Keyed<InputError>({input_name(request)}, "has attributes of points, but depths would take their place",
+                            "remove {output.depth} or the attributes");
   const auto opened = [&] { return open_all(domain.rasters, box_of(domain.pslg), domain.pslg.points); };
   warn(request, timed(watch, "rasters", opened), watch);
 }

@@ -11,9 +11,15 @@
 namespace driftmesh::job {
 
 std::string called(const std::string& key, EntryPoint entry_point) {
+  const Key* const found = find_key(key).key;
   if (entry_point == kExperiment) return key;
-  const std::string& option = find_key(key).key->option;
-  return key == "input.file" ? upper_case(option) : "--" + option;
+  if (found == nullptr) return "--" + key;
+  if (found->option.empty()) return key;
+  return key == "input.file" ? upper_case(found->option) : "--" + found->option;
+}
+
+Words words_of(EntryPoint entry_point) {
+  return [=](const std::string& key) { return called(key, entry_point); };
 }
 
 void register_reads(const Request& request, EntryPoint entry_point, FileRegistry& files) {

@@ -9,8 +9,11 @@
 namespace driftmesh::job {
 
 /// What a user of this entry point calls the key: "--size-mesh", "INPUT", or "sizing.background" in the file of an
-/// experiment.
+/// experiment. On the command line any other name is that of an option.
 [[nodiscard]] std::string called(const std::string& key, EntryPoint entry_point);
+
+/// The same for messages.
+[[nodiscard]] Words words_of(EntryPoint entry_point);
 
 /// Registers every file that making the mesh of a request reads: the domain, the background mesh and the decomposition,
 /// with the files beside them that are read along. Throws InputError (see FileRegistry).

@@ -12,6 +12,7 @@
 namespace driftmesh::job {
 
 using driftmesh::KeyError;
+using driftmesh::KeyText;
 
 /// Where a mesh is made; sets of places are sums.
 enum PlaceKind : unsigned {

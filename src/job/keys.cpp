@@ -13,7 +13,7 @@ namespace {
 
 using Kind = KeyInfo::Kind;
 
-[[noreturn]] void fail(const KeyInfo& key, const std::string& what, const std::string& next) {
+[[noreturn]] void fail(const KeyInfo& key, const KeyText& what, const KeyText& next) {
   throw KeyError(key.name, what, next);
 }
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "base/keep_memory.hpp"
+#include "base/key_error.hpp"
 #include "base/words.hpp"
 #include "driftmesh/error.hpp"
-#include "job/files.hpp"
 #include "job/memory.hpp"
 
 namespace driftmesh::job {
@@ -54,42 +54,40 @@ std::uint64_t bytes_finishing(const Pslg& pslg, const Use& use) {
   return use.gathers ? std::max(arrays, 3 * arrays - bytes_refined(use)) : arrays;
 }
 
-std::string advice(const Limits& limits, bool by_memory) {
+KeyText limit_name(bool by_memory) {
+  return KeyText::key(Limits::key(by_memory));
+}
+
+KeyText advice(const Limits& limits, bool by_memory) {
   if (!by_memory && limits.triangles == kCapacity)
-    return fmt::format("no piece can have more; cut the domain with {}, or ask for larger triangles",
-                       called("decomposition.subdomains", limits.by));
-  return fmt::format("allow more with {}, or ask for larger triangles", limits.called(by_memory));
+    return "no piece can have more; cut the domain with {decomposition.subdomains}, or ask for larger triangles";
+  return KeyText::of("allow more with {}, or ask for larger triangles", limit_name(by_memory));
 }
 
 /// Good angles require triangles as small as the gap all along it.
-std::string narrow_words(const NarrowPlace& narrow, const std::string& limit) {
-  return fmt::format(
+KeyText narrow_words(const NarrowPlace& narrow, bool by_memory) {
+  const std::string place = fmt::format(
       "near ({:.10g}, {:.10g}) two segments of the input that do not touch are {:.3g} apart and run side by side for "
-      "{:.3g}, which alone takes about {} triangles at any area bound; join them or move them apart there, or allow "
-      "more with {}",
-      narrow.at.x, narrow.at.y, narrow.width, narrow.length, estimate_words(narrow.triangles), limit);
+      "{:.3g}, which alone takes about {} triangles at any area bound",
+      narrow.at.x, narrow.at.y, narrow.width, narrow.length, estimate_words(narrow.triangles));
+  return KeyText::of("{}; join them or move them apart there, or allow more with {}", place, limit_name(by_memory));
 }
 
-std::string words_of(const Limits& limits) {
-  if (!limits.by_memory()) return "the " + grouped(limits.triangles) + " of " + limits.called(false);
+KeyText words_of(const Limits& limits) {
+  if (!limits.by_memory()) return KeyText::of("the {} of {limits.max-triangles}", grouped(limits.triangles));
   return fmt::format("the {} for which {} of memory suffice", grouped(limits.in_memory), bytes_words(limits.memory));
 }
 
-std::string reached_words(const Limits& limits, bool by_memory) {
-  if (!by_memory) return "the " + grouped(limits.triangles) + " of " + limits.called(false);
+KeyText reached_words(const Limits& limits, bool by_memory) {
+  if (!by_memory) return KeyText::of("the {} of {limits.max-triangles}", grouped(limits.triangles));
   return fmt::format("which fill {} of memory{}", bytes_words(limits.memory),
                      limits.bytes_finishing > 0 ? " together with what it takes to finish them" : "");
 }
 
 }  // namespace
 
-std::string Limits::called(bool by_memory) const {
-  return job::called(by_memory ? "limits.max-memory" : "limits.max-triangles", by);
-}
-
 Limits find_limits(const Request::Limits& asked, const Pslg& pslg, const Use& use, const Processes& processes) {
-  Limits limits{.by = use.by,
-                .triangles = most_triangles(asked, use),
+  Limits limits{.triangles = most_triangles(asked, use),
                 .memory = static_cast<std::uint64_t>(asked.max_memory),
                 .bytes_refined = bytes_refined(use),
                 .bytes_finishing = bytes_finishing(pslg, use)};
@@ -138,18 +136,18 @@ void check_forecast(const Limits& limits, double forecast, bool may_keep,
   if (!(forecast > kForecastError * static_cast<double>(most))) return;
   const auto narrow = find_narrow ? find_narrow() : std::nullopt;
   const bool by_narrowness = narrow && narrow->triangles > kGoodPart * forecast;
-  throw LimitError(fmt::format(
+  throw Keyed<LimitError>(KeyText::of(
       "these bounds need about {} triangles, more than {}; {}{}", estimate_words(forecast), words_of(limits),
-      by_narrowness ? narrow_words(*narrow, limits.called(limits.by_memory())) : advice(limits, limits.by_memory()),
-      may_keep ? ", or keep what fits with --keep-incomplete" : ""));
+      by_narrowness ? narrow_words(*narrow, limits.by_memory()) : advice(limits, limits.by_memory()),
+      may_keep ? KeyText(", or keep what fits with {limits.keep-incomplete}") : KeyText()));
 }
 
 void check_capacity(double subdomain, double file, EntryPoint by) {
   if (subdomain > static_cast<double>(kCapacity))
-    throw LimitError(
-        fmt::format("a subdomain would have about {} triangles, more than the {} that can be numbered; cut the domain "
-                    "into more with {}",
-                    estimate_words(subdomain), grouped(kCapacity), called("decomposition.subdomains", by)));
+    throw Keyed<LimitError>(KeyText::of(
+        "a subdomain would have about {} triangles, more than the {} that can be numbered; cut the domain into more "
+        "with {decomposition.subdomains}",
+        estimate_words(subdomain), grouped(kCapacity)));
   if (file > kMostInFile && by == kLibrary)
     throw LimitError(
         fmt::format("the mesh would have about {} triangles, more than the {} whose corners its arrays can "
@@ -163,13 +161,13 @@ void check_capacity(double subdomain, double file, EntryPoint by) {
                     estimate_words(file), grouped(static_cast<std::int64_t>(kMostInFile))));
 }
 
-std::string stopped_message(const Limits& limits, bool by_memory, std::int64_t triangles, bool kept,
-                            const std::optional<NarrowPlace>& narrow) {
+KeyText stopped_message(const Limits& limits, bool by_memory, std::int64_t triangles, bool kept,
+                        const std::optional<NarrowPlace>& narrow) {
   const bool by_narrowness = narrow && narrow->triangles > kGoodPart * static_cast<double>(triangles);
-  return fmt::format("stopped at {} triangles, {}, before all bounds were met; {}{}", grouped(triangles),
-                     reached_words(limits, by_memory),
-                     by_narrowness ? narrow_words(*narrow, limits.called(by_memory)) : advice(limits, by_memory),
-                     kept ? "" : ". No mesh was written; --keep-incomplete writes what was made");
+  return KeyText::of(
+      "stopped at {} triangles, {}, before all bounds were met; {}{}", grouped(triangles),
+      reached_words(limits, by_memory), by_narrowness ? narrow_words(*narrow, by_memory) : advice(limits, by_memory),
+      kept ? KeyText() : KeyText(". No mesh was written; {limits.keep-incomplete} writes what was made"));
 }
 
 }  // namespace driftmesh::job

@@ -28,7 +28,6 @@ struct Use {
 /// Limits on a mesh. The number of triangles for which memory suffices is an expectation, to refuse in time what cannot
 /// succeed; at work, a process measures what it has.
 struct Limits {
-  EntryPoint by = kMesh;                                 ///< messages use its words
   std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop at this number
   std::uint64_t memory = 0;                              ///< bytes that a process may have; 0: unknown
   std::int64_t in_memory = INT64_MAX;                    ///< the triangles for which that should suffice
@@ -37,8 +36,10 @@ struct Limits {
 
   /// Whether memory is expected to run out first.
   [[nodiscard]] bool by_memory() const { return in_memory < triangles; }
-  /// What the user calls the limit.
-  [[nodiscard]] std::string called(bool by_memory) const;
+  /// The key of the limit.
+  [[nodiscard]] static const char* key(bool by_memory) {
+    return by_memory ? "limits.max-memory" : "limits.max-triangles";
+  }
 };
 
 /// The processes that make a mesh together.
@@ -84,7 +85,7 @@ void check_capacity(double subdomain, double file, EntryPoint by);
 
 /// The message for a mesh stopped by the limit on memory or on triangles. `narrow` is the narrow place of the input
 /// that needs the most triangles; it is named if it accounts for a large part of them.
-[[nodiscard]] std::string stopped_message(const Limits& limits, bool by_memory, std::int64_t triangles, bool kept,
-                                          const std::optional<NarrowPlace>& narrow = {});
+[[nodiscard]] KeyText stopped_message(const Limits& limits, bool by_memory, std::int64_t triangles, bool kept,
+                                      const std::optional<NarrowPlace>& narrow = {});
 
 }  // namespace driftmesh::job

@@ -53,13 +53,13 @@ class OnePiece final : public Refined {
   void report(RunRecord& record) override {
     record.seconds_refine = result_.seconds_refine;
     record.peak_refining = peak_memory();
-    record.stopped_by = limits_.called(by_memory_);
+    record.stopped_by = Limits::key(by_memory_);
     record_mesh(record, result_, threads_);
   }
 
   [[nodiscard]] const RunPlan* plan() const override { return nullptr; }
 
-  [[nodiscard]] std::string shortfall(bool kept) override {
+  [[nodiscard]] KeyText shortfall(bool kept) override {
     if (result_.complete) return {};
     result_.mesh = {};  // its memory is needed
     return stopped_message(limits_, by_memory_, triangles_, kept, find_narrow_place(triangulate(domain_.pslg)));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "balancer/policy_list.hpp"
+#include "base/key_text.hpp"
 #include "base/staged_files.hpp"
 #include "cluster/cluster_run.hpp"
 #include "driftmesh/distributed_piece.hpp"
@@ -40,7 +41,7 @@ class Refined {
 
   /// If a limit stopped the work, what is to be said of it; empty if the mesh meets its bounds. `kept`: the mesh is
   /// used nevertheless. Frees the mesh.
-  [[nodiscard]] virtual std::string shortfall(bool /*kept*/) { return {}; }
+  [[nodiscard]] virtual KeyText shortfall(bool /*kept*/) { return {}; }
 
   /// Writes the files, and draws if `draw` is given. Frees the mesh. Throws FileError, on all ranks; Error at a place
   /// that keeps no mesh.

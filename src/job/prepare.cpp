@@ -61,10 +61,10 @@ void disturb_forecasts(Decomposition& decomposition, double most, std::uint64_t 
 void check_presplit(const Request& request, const QualityBounds& bounds) {
   if (request.run.presplit == Presplit::kOn && !bounds_size(bounds))
     throw KeyError("run.presplit", "is on, but nothing says how long the pieces of interfaces may be",
-                   "give bounds.area, bounds.triangles or sizing.size, or remove it");
+                   "give {bounds.area}, {bounds.triangles} or {sizing.size}, or remove it");
   if (request.run.method == Method::kDecoupled && !bounds_size(bounds))
     throw KeyError("run.method", "is decoupled, but nothing says how long the pieces of interfaces may be",
-                   "give bounds.area or bounds.triangles, or use the coupled method");
+                   "give {bounds.area} or {bounds.triangles}, or use the coupled method");
 }
 
 /// The number of ranks for which the number of subdomains is chosen. Not that of threads, on which no mesh depends:

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/bytes.hpp"
+#include "base/key_error.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/held_subdomains.hpp"
 #include "driftmesh/error.hpp"
@@ -100,8 +101,8 @@ protocol::StepResult RankRun::step_or_abandon() {
 }
 
 std::exception_ptr RankRun::stopped(bool by_memory) const {
-  return std::make_exception_ptr(
-      LimitError(stopped_message(limits_, by_memory, loop_->triangles(), true) + ". No mesh was written"));
+  return std::make_exception_ptr(Keyed<LimitError>(
+      KeyText::of("{}. No mesh was written", stopped_message(limits_, by_memory, loop_->triangles(), true))));
 }
 
 RankLoop::Observers RankRun::observers(const RankHooks& hooks) {

@@ -32,7 +32,7 @@ struct RunRecord : MeshFacts {
   std::string sizing;   ///< the size field in words, or empty
 
   bool complete = true;
-  std::string stopped_by;  ///< the limit that stopped the work, if it is not complete
+  std::string stopped_by;  ///< the key of the limit that stopped the work, if it is not complete
   std::int32_t acute_corners = 0;
   double forecast = 0;  ///< triangles, before refinement
 

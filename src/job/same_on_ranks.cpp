@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/bytes.hpp"
-#include "driftmesh/error.hpp"
+#include "base/key_error.hpp"
 #include "geometry/midpoint.hpp"
 #include "job/failure.hpp"
 #include "job/value.hpp"
@@ -65,9 +65,10 @@ void compare(const std::vector<RankSetting>& own, const std::vector<Bytes>& of_r
     for (const Rank r : first_ids<Rank>(values.size()))
       if (values[to_index(r)].at(k) != of_first) others.push_back(r);
     if (others.empty()) continue;
-    throw Error(fmt::format("{} differs between ranks: {} on rank 0, {} on rank {}{}; give the same on each rank",
-                            own[k].name, of_first, values[to_index(others.front())][k], to_string(others.front()),
-                            others.size() == 1 ? "" : " (not as on rank 0: " + ranks_words(others) + ")"));
+    throw Keyed<Error>(
+        KeyText::of("{} differs between ranks: {} on rank 0, {} on rank {}{}; give the same on each rank", own[k].name,
+                    of_first, values[to_index(others.front())][k], to_string(others.front()),
+                    others.size() == 1 ? "" : " (not as on rank 0: " + ranks_words(others) + ")"));
   }
 }
 

@@ -11,7 +11,7 @@ namespace driftmesh::job {
 
 /// A setting as one rank has it.
 struct RankSetting {
-  std::string name;
+  KeyText name;
   std::string value;  ///< in words that differ if the values do
 };
 

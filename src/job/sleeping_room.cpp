@@ -1,7 +1,7 @@
 #include "job/sleeping_room.hpp"
 
+#include "base/key_error.hpp"
 #include "base/words.hpp"
-#include "driftmesh/error.hpp"
 
 namespace driftmesh::job {
 
@@ -11,9 +11,10 @@ std::unique_ptr<ScratchFile> open_scratch(const std::string& folder, double tria
   auto file = std::make_unique<ScratchFile>(folder);
   const auto needed = static_cast<std::uint64_t>(kBytesOnDisk * triangles);
   if (const std::uint64_t room = file->room(); room < needed)
-    throw FileError(folder + ": has " + bytes_words(room) + " free, but " + estimate_words(triangles) +
-                    " triangles asleep take about " + bytes_words(needed) +
-                    "; name a folder on a larger disk with --scratch, or ask for larger triangles");
+    throw Keyed<FileError>(
+        KeyText::of("{}: has {} free, but {} triangles asleep take about {}; name a folder on a larger disk with "
+                    "{run.scratch}, or ask for larger triangles",
+                    folder, bytes_words(room), estimate_words(triangles), bytes_words(needed)));
   return file;
 }
 

@@ -1,28 +1,21 @@
 #include "job/team.hpp"
 
 #include <cstdlib>
-#include <new>
+#include <exception>
 
 #include "base/failure.hpp"
 #include "base/temporary_files.hpp"
-#include "driftmesh/error.hpp"
 #include "job/limits.hpp"
 
 namespace driftmesh::job {
+
 void fail_alone(Team& team) {
   if (team.alone()) throw;
   remove_noted_temporaries();  // nothing is destroyed
-  const std::string who = "driftmesh: rank " + to_string(team.rank()) + ": ";
-  try {
-    throw;
-  } catch (const LimitError& error) {
-    team.abort(who + error.what(), kStoppedByLimit);
-  } catch (const std::bad_alloc&) {
-    team.abort(who + kOutOfMemory, kStoppedByLimit);
-  } catch (const std::exception& error) {
-    team.abort(who + error.what(), EXIT_FAILURE);
-  }
-  std::abort();  // not reached: nothing but exceptions of the standard library's kind is thrown here
+  const Failure failure = failure_of(std::current_exception());
+  team.abort(KeyText::of("driftmesh: rank {}: {}", to_string(team.rank()), text_of(failure)),
+             failure.kind == Failure::Kind::kLimit ? kStoppedByLimit : EXIT_FAILURE);
+  std::abort();  // not reached
 }
 
 }  // namespace driftmesh::job

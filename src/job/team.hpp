@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/bytes.hpp"
+#include "base/key_text.hpp"
 #include "driftmesh/ids.hpp"
 #include "protocol/transport.hpp"
 
@@ -55,7 +56,7 @@ class Team {
   [[nodiscard]] virtual std::unique_ptr<Channel> open() = 0;
 
   /// Prints `message` and ends the whole job: the others would wait forever for a rank that failed on its own.
-  [[noreturn]] virtual void abort(const std::string& message, int code) = 0;
+  [[noreturn]] virtual void abort(const KeyText& message, int code) = 0;
 
  protected:
   Team() = default;

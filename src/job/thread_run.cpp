@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/in_parts.hpp"
+#include "base/key_error.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/exchange.hpp"
 #include "distributed/held_subdomains.hpp"
@@ -57,7 +58,8 @@ void ThreadRun::refine() {
 void ThreadRun::check(std::int64_t triangles) const {
   const bool by_memory = memory_is_full(limits_, triangles);
   if (by_memory || triangles > limits_.triangles)
-    throw LimitError(stopped_message(limits_, by_memory, triangles, true) + ". No mesh was written");
+    throw Keyed<LimitError>(
+        KeyText::of("{}. No mesh was written", stopped_message(limits_, by_memory, triangles, true)));
 }
 
 void ThreadRun::report(RunRecord& run) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "base/key_error.hpp"
 #include "base/nearest_name.hpp"
 #include "sizing/segment_distance.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 using Leaf = ExpressionStep::Leaf;
 
 constexpr std::string_view kDistance = "distance", kSlope = "slope";
-constexpr const char* kExample = "write for example 0.1 + 0.02*sqrt(x^2 + y^2)";
+constexpr char kExample[] = "write for example 0.1 + 0.02*sqrt(x^2 + y^2)";
 constexpr int kLoosest = 1, kSign = 6;  // precedences; a sign binds as tightly as ^
 
 // Not those of <cctype>, which depend on the locale.
@@ -295,7 +296,7 @@ class Parser {
     if (raster != rasters_.end()) return slope_of(raster->raster);
     const std::string asked(name.text);
     fail(name, "slope asks for the raster '" + asked + "', which is not given" + suggestion(asked, raster_names()),
-         "name its file: --raster " + asked + "=FILE");
+         KeyText::of("name its file: {input.rasters} {}=FILE", asked));
   }
 
   // ---- Steps ----
@@ -320,18 +321,18 @@ class Parser {
 
   // ---- Errors ----
 
-  [[noreturn]] void fail(const Token& at, const std::string& what, const std::string& next) const {
+  [[noreturn]] void fail(const Token& at, const std::string& what, const KeyText& next) const {
     const auto before = std::string_view(text_).substr(0, at.begin);
     const auto column = 1 + std::ranges::count_if(before, [](char c) { return !continues_character(c); });
-    throw InputError(place_of_expression(text_), "column " + std::to_string(column) + ": " + what, next);
+    throw Keyed<InputError>(place_of_expression(text_), "column " + std::to_string(column) + ": " + what, next);
   }
   [[noreturn]] void fail_here(const std::string& expected) const {
     const std::string found = token_.kind == Token::kEnd ? "the expression ends" : "found " + quoted(token_.text);
     const bool begins_value = token_.kind == Token::kNumber || token_.kind == Token::kName || token_.text == "(";
     fail(token_, found + ", expected " + expected,
-         token_.text == "=" ? "give the length alone, and compare with \"==\""
-         : begins_value && expected.find("operator") != std::string::npos ? "products need a \"*\""
-                                                                          : kExample);
+         std::string(token_.text == "=" ? "give the length alone, and compare with \"==\""
+                     : begins_value && expected.find("operator") != std::string::npos ? "products need a \"*\""
+                                                                                      : kExample));
   }
   [[noreturn]] void fail_nesting() const {
     fail(token_, "it is nested too deeply", "simplify it, or give a background mesh or a raster instead");

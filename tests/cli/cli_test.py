@@ -728,6 +728,12 @@ class Mesh(Cli):
         self.refuse("mesh", "--generate", "pipe", "--simplify", "1e6", says=["pipe: all of it fits", "give a smaller length"])
         self.refuse("mesh", "bay.poly", "--simplify", "-1", code=2, says=["--simplify", "at least 0"])
 
+    def test_errors_show_what_was_given_as_it_was(self):
+        for name in ("bounds.area", "--area", "MeshOptions::max_area"):
+            self.refuse("mesh", "--generate", "pipe", "--raster", f"{name}=x", "--size", "1", code=2,
+                        says=[f"--raster has the name '{name}'"])
+            self.refuse("mesh", f"./{name}.poly", says=[f"./{name}.poly: cannot open"])
+
     def test_partially_coupled_refinement_is_for_experiments(self):
         mesh = ["mesh", "--generate", "pipe", "--triangles", "5e4", "--method", "pdr", "-o", "pipe.vtu"]
         self.refuse(*mesh, code=2, says=["--method", "must be coupled or decoupled"])

@@ -122,6 +122,33 @@ class Errors(unittest.TestCase):
         self.refuse_options(driftmesh.Error, "holes is 'nets'", "'nested'", holes="nets")
         self.refuse_options(driftmesh.Error, "balance.policy", balance={"policy": "zoltan"})
 
+    def test_every_option_is_called_by_its_name(self):
+        checked = 0
+        for option in driftmesh.option_table():
+            section, _, entry = option["name"].rpartition(".")
+            for bad in (option["least"] - 1, option["most"] + 1):
+                if option["kind"] not in ("int", "float") or not abs(bad) < 2**31:
+                    continue
+                if option["name"] == "max_triangles" and bad == 0:  # which stands for the default
+                    continue
+                bad = int(bad) if option["kind"] == "int" else bad
+                error = self.refuse_options(driftmesh.Error, **{section or entry: {entry: bad} if section else bad})
+                self.assertTrue(str(error).startswith(f"{option['name']} is {bad:.15g}; "), error)
+                self.assertNotIn("--", str(error))
+                checked += 1
+        self.assertGreater(checked, 15)
+
+    def test_what_users_write_stays_as_it_is(self):
+        text = "MeshOptions::max_area --area bounds.area {bounds.area}"
+        with self.assertRaises(driftmesh.Error) as caught:
+            driftmesh.mesh(PLATE, holes=text)
+        self.assertTrue(str(caught.exception).startswith(f"holes is '{text}'; "), caught.exception)
+
+    def test_clusters(self):
+        for name in ("latency", "speed", "message_overhead"):
+            error = self.refuse(driftmesh.Error, call=lambda: driftmesh.simulate(PLATE, {"ranks": 2, name: -1}, max_area=1))
+            self.assertTrue(str(error).startswith(f"{name} is -1; it must be at least 0"), error)
+
     def test_arrays(self):
         three = [(0, 0), (1, 0), (0, 1)]
         for words, call in ((("points", "shape (2, 3)"), lambda: driftmesh.Pslg([(0, 0, 0), (1, 1, 1)])),

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "driftmesh/error.hpp"
+#include "base/key_error.hpp"
 #include "job/team.hpp"
 
 namespace driftmesh::testing {
@@ -19,7 +19,7 @@ class LoneTeam final : public job::Team {
   [[nodiscard]] Bytes broadcast(Bytes bytes) override { return bytes; }
   [[nodiscard]] std::vector<Bytes> gather(const Bytes& bytes) override { return {bytes}; }
   [[nodiscard]] std::unique_ptr<job::Channel> open() override { return nullptr; }
-  [[noreturn]] void abort(const std::string& message, int) override { throw Error(message); }
+  [[noreturn]] void abort(const KeyText& message, int) override { throw Keyed<Error>(message); }
 };
 
 }  // namespace driftmesh::testing

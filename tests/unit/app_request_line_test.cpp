@@ -67,18 +67,6 @@ TEST_CASE("errors name the option, or the place in the file") {
   CHECK(refusal(given({{"angle", "20"}}), {{"bounds.angle", "run.yaml:3:8"}}) == "--angle is too steep; lower it");
 }
 
-TEST_CASE("a key without a section becomes its option where it stands alone") {
-  try {
-    throw_with_option(job::KeyError("seed", "is odd", "choose another seed, not bounds.seed or seedling; seed"), {},
-                      {});
-    FAIL("nothing was thrown");
-  } catch (const std::exception& error) {
-    const std::string said = error.what();
-    CHECK(said.find("another --seed, not bounds.seed or seedling; --seed") != std::string::npos);
-    CHECK(said.find("----") == std::string::npos);
-  }
-}
-
 TEST_CASE("the command line that repeats a run has everything that is not a default") {
   Request request;
   request.input.file = "my bay.poly";

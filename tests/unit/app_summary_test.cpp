@@ -62,7 +62,7 @@ TEST_CASE("The summary names exceptions, places and an incomplete mesh") {
   run.exceptions.push_back({"small angle of the input", 12, 10.66, {{{1, 2}}, {{3.5, 4}}, {{5, 6}}}});
   run.exceptions.push_back({"wedge", 7, 12, {{{7, 8}}}});
   run.complete = false;
-  run.stopped_by = "--max-triangles";
+  run.stopped_by = "limits.max-triangles";
   run.digest = 0xABCDEF;
   const std::string text = summary_text(run);
   for (const char* expected : {"1,234 triangles", "12 triangles, small angle of the input, from 10.6600 degrees",

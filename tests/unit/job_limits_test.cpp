@@ -102,7 +102,7 @@ TEST_CASE("A forecast above the limit is rejected with both numbers and what to 
   CHECK(refusal(limits, 900'000) == "accepted");
   CHECK(refusal(limits, 1'050'000) == "accepted");  // forecasts err
   const std::string message = refusal(limits, 12'345'678);
-  for (const char* expected : {"12,300,000", "1,000,000", "--max-triangles", "--keep-incomplete"})
+  for (const char* expected : {"12,300,000", "1,000,000", "limits.max-triangles", "limits.keep-incomplete"})
     CHECK_MESSAGE(message.find(expected) != std::string::npos, message);
 }
 
@@ -116,20 +116,19 @@ TEST_CASE("More than can be numbered is rejected with what to do instead") {
     return "accepted";
   };
   CHECK(says(5e8, 2.1e9) == "accepted");
-  CHECK(says(6e8, 0).find("--subdomains") != std::string::npos);
+  CHECK(says(6e8, 0).find("decomposition.subdomains") != std::string::npos);
   CHECK(says(0, 2.2e9).find(".pvtu") != std::string::npos);
   const std::string of_one_piece = refusal(find_limits(with_memory(UINT64_C(1) << 50), Pslg{}, {}), 1e9);
-  CHECK_MESSAGE(of_one_piece.find("--subdomains") != std::string::npos, of_one_piece);
+  CHECK_MESSAGE(of_one_piece.find("decomposition.subdomains") != std::string::npos, of_one_piece);
 }
 
-TEST_CASE("The message for a stopped mesh names the limit and its option") {
+TEST_CASE("The message for a stopped mesh names the limit by its key") {
   const Limits limits = find_limits(with_memory(1 << 30), Pslg{}, {.writes = true});
-  const auto says = [](const std::string& message, const char* words) {
+  const auto says = [](const KeyText& text, const char* words) {
+    const std::string message = text.in(full_name);
     CHECK_MESSAGE(message.find(words) != std::string::npos, message);
   };
   says(stopped_message(limits, true, 12345, false), "12,345");
-  says(stopped_message(limits, true, 12345, false), "--max-memory");
-  says(stopped_message(limits, false, 12345, false), "--max-triangles");
-  const Limits of_experiment = find_limits(with_memory(1 << 30), Pslg{}, {.by = kExperiment});
-  says(stopped_message(of_experiment, true, 12345, false), "limits.max-memory");
+  says(stopped_message(limits, true, 12345, false), "limits.max-memory");
+  says(stopped_message(limits, false, 12345, false), "limits.max-triangles");
 }

@@ -180,8 +180,8 @@ TEST_CASE("an incomplete mesh says why, if it may be kept") {
   request.limits.keep_incomplete = true;
   const Made made = in_one_piece(request);
   CHECK_FALSE(made.record.complete);
-  CHECK(made.record.stopped_by == "--max-triangles");
-  CHECK(made.refined->shortfall(true).starts_with("stopped at 1,0"));
+  CHECK(made.record.stopped_by == "limits.max-triangles");
+  CHECK(made.refined->shortfall(true).in(full_name).starts_with("stopped at 1,0"));
 }
 
 TEST_CASE("data in the caller's memory replaces files") {

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "api/library_request.hpp"
+#include "api/simulated/cluster_request.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"
 #include "driftmesh/policy.hpp"
@@ -68,7 +70,18 @@ TEST_CASE("a policy of the caller moves subdomains of a simulated run") {
 }
 
 TEST_CASE("errors of simulated runs") {
-  CHECK(error_of({}, {}).find("cluster.ranks is 0") != std::string::npos);
-  CHECK(error_of({}, {.ranks = 2, .latency = -1}).find("cluster.latency") != std::string::npos);
+  CHECK(error_of({}, {}).find("SimulatedCluster::ranks is 0") == 0);
+  CHECK(error_of({}, {.ranks = 2, .latency = -1}).find("SimulatedCluster::latency is -1") == 0);
   CHECK(error_of(eager("grab"), kUneven).find("MeshOptions::balance.policy") != std::string::npos);
+}
+
+TEST_CASE("a cluster has the defaults and the names of its keys") {
+  job::Request request;
+  visit_cluster(SimulatedCluster{}, request,
+                [](const char* key, const char* member, const auto& value, const auto& place) {
+                  CAPTURE(std::string(key));
+                  CHECK(library_name(key).member == member);
+                  CHECK(words_of_library(key) == std::string("SimulatedCluster::") + member);
+                  CHECK(value == place);
+                });
 }

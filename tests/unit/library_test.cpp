@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "api/library_request.hpp"
-#include "base/failure.hpp"
 #include "driftmesh/driftmesh.hpp"
 #include "job/keys.hpp"
 #include "mesh/digest.hpp"
@@ -201,8 +200,6 @@ TEST_CASE("options are checked against the table of keys, and errors name them a
   const std::string too_many = error_of_options({.max_area = 1e-5, .max_triangles = 100});
   CHECK(too_many.find("MeshOptions::max_triangles") != std::string::npos);
   CHECK(too_many.find("--") == std::string::npos);
-  CHECK(in_words_of_options(kOutOfMemory).find("that the system or MeshOptions::max_memory allows") !=
-        std::string::npos);
   CHECK(error_of_options({.subdomains = {.count = 4, .presplit = Presplit::kOn}}) ==
         "MeshOptions::subdomains.presplit is on, but nothing says how long the pieces of interfaces may be; give "
         "MeshOptions::max_area, MeshOptions::triangles or MeshOptions::size, or remove it");

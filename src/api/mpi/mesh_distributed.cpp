@@ -36,15 +36,6 @@ auto then_close(Open& open, const Work& work) {
   }
 }
 
-/// Speaks of the library's options even when it ends the job.
-class LibraryTeam final : public job::MpiTeam {
- public:
-  explicit LibraryTeam(MPI_Comm communicator) : MpiTeam(MPI_Comm_c2f(communicator)) {}
-  [[noreturn]] void abort(const std::string& message, int code) override {
-    MpiTeam::abort(in_words_of_options(message), code);
-  }
-};
-
 /// Throws Error for a communicator without a group of ranks that could work together: its use would end the process.
 void require_usable(MPI_Comm communicator) {
   int began = 0, ended = 0, between_groups = 0;
@@ -66,7 +57,7 @@ void require_usable(MPI_Comm communicator) {
 template <class Work>
 auto with_team(MPI_Comm communicator, const Work& work, const std::exception_ptr& failed = nullptr) {
   require_usable(communicator);
-  LibraryTeam team(communicator);
+  job::MpiTeam team(MPI_Comm_c2f(communicator), words_of_library);
   return then_close(team, [&] {
     job::agree_on_failure(team, failed);
     return work(team);
@@ -85,14 +76,14 @@ auto with_channel(job::Team& team, const Work& work) {
 /// The options as this rank has them. Of a callable, only whether there is one.
 std::vector<job::RankSetting> settings_of(const MeshOptions& options, const job::Request& request) {
   std::vector<job::RankSetting> settings;
-  const auto add = [&](const std::string& member, const std::string& value) {
-    settings.push_back({"MeshOptions::" + member, value});
+  const auto add = [&](const std::string& key, const std::string& value) {
+    settings.push_back({KeyText::key(key), value});
   };
   job::Request unused;
-  visit_options(options, unused, [&](const char* key, const char* member, const auto&, const auto&) {
-    add(member, job::text_of(job::find_key(key).key->load(request)));
+  visit_options(options, unused, [&](const char* key, const char*, const auto&, const auto&) {
+    add(key, job::text_of(job::find_key(key).key->load(request)));
   });
-  add("size", options.size ? "a function" : "none");
+  add("sizing.size", options.size ? "a function" : "none");
   add("balance.own", options.balance.own ? "a policy" : "none");
   return settings;
 }
@@ -107,7 +98,7 @@ DistributedPiece mesh_on(job::Team& team, Call& call, const MeshOptions& options
 }  // namespace
 
 DistributedPiece mesh_distributed(MPI_Comm communicator, const Pslg& input, const MeshOptions& options) {
-  return with_words_of_options([&] {
+  return in_words_of_library([&] {
     Call call(input, options, balancer::make_policy);
     return with_team(communicator, [&](job::Team& team) { return mesh_on(team, call, options); });
   });

@@ -56,7 +56,7 @@ SimulatedRun run_on(Call& call, const SimulatedCluster& cluster) {
 }  // namespace
 
 SimulatedRun simulate(const Pslg& input, const MeshOptions& options, const SimulatedCluster& cluster) {
-  return with_words_of_options([&] {
+  return in_words_of_library([&] {
     Call call(input, options, balancer::make_policy);
     return run_on(call, cluster);
   });

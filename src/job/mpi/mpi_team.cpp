@@ -17,8 +17,9 @@ class MpiChannel final : public Channel {
 
 }  // namespace
 
-MpiTeam::MpiTeam(int communicator)
+MpiTeam::MpiTeam(int communicator, Words words)
     : communicator_(communicator),
+      words_(std::move(words)),
       ranks_on_machine_(protocol::MpiSession::ranks_on_this_machine(communicator)),
       control_(communicator) {}
 
@@ -34,8 +35,8 @@ std::unique_ptr<Channel> MpiTeam::open() {
   return std::make_unique<MpiChannel>(communicator_);
 }
 
-void MpiTeam::abort(const std::string& message, int code) {
-  protocol::MpiSession::abort(message, code);
+void MpiTeam::abort(const KeyText& message, int code) {
+  protocol::MpiSession::abort(message.in(words_), code);
 }
 
 }  // namespace driftmesh::job

@@ -1,5 +1,6 @@
 #include "job/simulated/simulated_ranks.hpp"
 
+#include "base/key_error.hpp"
 #include "cluster/simulated/simulate.hpp"
 #include "driftmesh/error.hpp"
 #include "job/domain.hpp"
@@ -35,7 +36,7 @@ std::function<void(std::int64_t)> progress_within(const Limits& limits, double f
   return [&limits, forecast, &watch](std::int64_t triangles) {
     const bool by_memory = memory_is_full(limits, triangles);
     if (by_memory || triangles > limits.triangles)
-      throw LimitError(stopped_message(limits, by_memory, triangles, true) + ". No mesh was made");
+      throw Keyed<LimitError>(KeyText::of("{}. No mesh was made", stopped_message(limits, by_memory, triangles, true)));
     watch.refining(triangles, forecast);
   };
 }
