@@ -202,8 +202,7 @@ TEST_CASE("errors in slopes name the column, and names that have a meaning are n
   CHECK(mentions(error_of("1+slope(2*depth)", nullptr), "column 9: the argument of slope is the name of a raster"));
   CHECK(mentions(error_of("slope()", nullptr), {"column 7", "slope(depth)"}));
   CHECK(mentions(error_of("slope(depth", nullptr), "column 12"));
-  CHECK(mentions(error_of("2*slope(dept)", nullptr),
-                 {"column 9: slope asks for the raster 'dept'", "--raster dept=FILE"}));
+  CHECK(mentions(error_of("2*slope(dept)", nullptr), {"column 9: slope asks for the raster 'dept'", "input.rasters"}));
   for (const char* name : {"depth", "_", "Depth2", "x1", "slope_a", "distance_0"}) CHECK(can_name_raster(name));
   for (const char* name : {"", "x", "pi", "_e", "2a", "a-b", "sqrt", "hypot", "asinh", "distance", "slope"})
     CHECK_FALSE(can_name_raster(name));
