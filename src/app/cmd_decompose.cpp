@@ -8,7 +8,6 @@
 #include <string>
 
 #include "app/commands.hpp"
-#include "app/decomposition_picture.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
 #include "base/staged_files.hpp"
@@ -21,6 +20,7 @@
 #include "job/check.hpp"
 #include "job/files.hpp"
 #include "job/make.hpp"
+#include "picture/plot_decomposition.hpp"
 
 namespace driftmesh::app {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "base/nearest_name.hpp"
 #include "base/read_file.hpp"
-#include "driftmesh/error.hpp"
+#include "config/yaml_origin.hpp"
 
 namespace driftmesh::config {
 namespace {
@@ -32,10 +32,10 @@ constexpr Cost kCosts[] = {{"start", &CostModel::start, "the initial triangulati
 /// Sets costs from the entries of a file.
 class CostReader {
  public:
-  explicit CostReader(std::string path) : path_(std::move(path)) {}
+  explicit CostReader(const std::string& path) : origin_(Origin::file(path)) {}
 
-  [[nodiscard]] CostModel read() {
-    const YAML::Node root = parse();
+  [[nodiscard]] CostModel read(const std::string& text) {
+    const YAML::Node root = origin_.parse(text);
     if (!root.IsMap()) fail(root, "is not a list of 'name: seconds' lines");
     for (const auto& entry : root) take(entry.first, entry.second);
     return costs_;
@@ -43,16 +43,7 @@ class CostReader {
 
  private:
   [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const {
-    throw InputError({path_, static_cast<std::size_t>(node.Mark().line + 1)}, what,
-                     "driftmesh calibrate writes such files");
-  }
-
-  [[nodiscard]] YAML::Node parse() const {
-    try {
-      return YAML::Load(read_file(path_));
-    } catch (const YAML::Exception& error) {
-      throw InputError({path_, static_cast<std::size_t>(error.mark.line + 1)}, error.msg, "this is not YAML");
-    }
+    origin_.fail(node.Mark(), what, "driftmesh calibrate writes such files");
   }
 
   void take(const YAML::Node& name, const YAML::Node& value) {
@@ -95,7 +86,7 @@ class CostReader {
     return names;
   }
 
-  std::string path_;
+  Origin origin_;
   CostModel costs_;
 };
 
@@ -113,7 +104,7 @@ std::string costs_text(const CostModel& costs) {
 }
 
 CostModel read_costs(const std::string& path) {
-  return CostReader(path).read();
+  return CostReader(path).read(read_file(path));
 }
 
 }  // namespace driftmesh::config

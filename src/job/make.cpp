@@ -64,7 +64,14 @@ Order in_one_piece(const Asked& asked, const Place& place, Domain&& domain, Tria
   Order order;
   order.limits = limits;
   order.use = use;
-  order.whole = Whole{std::move(domain), std::move(triangulated)};
+  if (place.kind() == kRanks) {  // each of them triangulates it
+    order.plan.bounds = std::move(triangulated.bounds);
+    order.plan.bounds.size = nullptr;
+    order.pslg = std::move(domain.pslg);
+    order.shares = place.speeds(asked.request);
+  } else {
+    order.whole = Whole{std::move(domain), std::move(triangulated)};
+  }
   return order;
 }
 

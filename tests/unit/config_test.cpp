@@ -342,6 +342,9 @@ TEST_CASE("costs are read as they were written, and mistakes are found") {
   CHECK(again.point == costs.point);
   CHECK(again.planning.unit == costs.planning.unit);
   CHECK(read("{planning: {rcb: 1}}").planning.unit.at("rcb") == 1);
-  for (const char* wrong : {"pint: 1", "point: -1", "point: soon", "planning: {grph: 1}", "planning: 3", "[1]", "{"})
+  for (const char* wrong :
+       {"pint: 1", "point: -1", "point: soon", "planning: {grph: 1}", "planning: 3", "[1]", "{", "point: 1\n\x04"})
     CHECK_THROWS_AS(static_cast<void>(read(wrong)), InputError);
+  CHECK_THROWS_WITH_AS(static_cast<void>(read("start: 1\npoint: soon\n")), doctest::Contains("costs.yaml:2:8: "),
+                       InputError);
 }

@@ -80,7 +80,41 @@ class Counting final : public Watch {
   std::vector<std::string> begun;
 };
 
+/// Two ranks that refine one domain without cutting it. They keep what they are told, and make nothing.
+class Uncut final : public Place {
+ public:
+  [[nodiscard]] PlaceKind kind() const override { return kRanks; }
+  [[nodiscard]] std::int32_t ranks() const override { return 2; }
+  [[nodiscard]] Cut cut(const Request& /*request*/) const override { return Cut::kNever; }
+  [[nodiscard]] IdVector<Rank, double> speeds(const Request& request) const override {
+    return shares_of_time(request, ranks());
+  }
+  [[nodiscard]] std::unique_ptr<Refined> refine(Order&& order, const Limits& /*limits*/, const SizeField* /*size*/,
+                                                Watch& /*watch*/) override {
+    told = std::move(order);
+    return nullptr;
+  }
+  Order told;
+};
+
 }  // namespace
+
+TEST_CASE("ranks that share an uncut domain are told its input, bounds, and their shares of time") {
+  Request request = pipe();
+  request.run.method = Method::kPdr;
+  request.cluster.kind = ClusterKind::kReal;
+  request.cluster.drag = {1, 0.5};
+  Uncut place;
+  Watch watch;
+  RunRecord record;
+  static_cast<void>(make({request, kExperiment, kPolicies}, place, record, watch));
+  CHECK(place.told.shares == IdVector<Rank, double>{1, 0.5});
+  CHECK(place.told.plan.bounds.max_area == record.max_area);
+  CHECK(record.max_area > 0);
+  CHECK(record.forecast == doctest::Approx(2e4).epsilon(0.1));
+  CHECK(static_cast<std::int64_t>(place.told.pslg.points.size()) == record.input_points);
+  CHECK(!place.told.whole);
+}
 
 TEST_CASE("a mesh in subdomains has about the requested number of triangles") {
   CHECK(by_threads(pipe()).record.forecast == doctest::Approx(2e4).epsilon(0.1));

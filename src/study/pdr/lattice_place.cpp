@@ -146,17 +146,6 @@ IdVector<Rank, double> points_near(const Triangulation& mesh, const Lattice& lat
 
 }  // namespace
 
-/// All that ranks need of the whole domain are its input and its bounds.
-job::Order LatticeOnRanks::share(const std::function<job::Order()>& make) {
-  return OnRanks::share([&] {
-    job::Order order = make();
-    order.plan.bounds = order.whole->triangulated.bounds;
-    order.pslg = std::move(order.whole->domain.pslg);
-    order.whole.reset();
-    return order;
-  });
-}
-
 std::unique_ptr<job::Refined> LatticeOnRanks::refine(job::Order&& order, const job::Limits& limits,
                                                      const SizeField* /*size*/, job::Watch& watch) {
   const QualityBounds& bounds = order.plan.bounds;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 
 #include "job/on_ranks.hpp"
@@ -14,7 +13,6 @@ class LatticeOnRanks final : public job::OnRanks {
   explicit LatticeOnRanks(job::Team& team) : OnRanks(team, nullptr) {}
 
   [[nodiscard]] job::Cut cut(const job::Request& /*request*/) const override { return job::Cut::kNever; }
-  [[nodiscard]] job::Order share(const std::function<job::Order()>& make) override;
   [[nodiscard]] std::unique_ptr<job::Refined> refine(job::Order&& order, const job::Limits& limits,
                                                      const SizeField* size, job::Watch& watch) override;
 };

@@ -1,4 +1,4 @@
-#include "app/decomposition_picture.hpp"
+#include "picture/plot_decomposition.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -7,7 +7,7 @@
 #include "decompose/subdomain_mesh.hpp"
 #include "picture/plot.hpp"
 
-namespace driftmesh::app {
+namespace driftmesh {
 namespace {
 
 /// Greedy coloring of the subdomain graph: the least used color that no neighbor has.
@@ -33,8 +33,9 @@ IdVector<SubdomainId, int> color_subdomains(const Decomposition& d) {
   return color;
 }
 
-/// A triangulation of the subdomains for plotting.
-Mesh subdomains_as_mesh(const Decomposition& d) {
+/// The subdomains as a mesh whose regions are their colors.
+Mesh colored_subdomains(const Decomposition& d) {
+  const IdVector<SubdomainId, int> color = color_subdomains(d);
   Mesh piece;
   piece.points = d.points;
   for (const SubdomainId i : ids_of(d.subdomains)) {
@@ -43,7 +44,7 @@ Mesh subdomains_as_mesh(const Decomposition& d) {
       if (!t.alive()) continue;
       const auto global = [&](VertexId v) { return to_int(part.points[v]); };
       piece.triangles.push_back({global(t.vertex[0]), global(t.vertex[1]), global(t.vertex[2])});
-      piece.subdomains.push_back(to_int(i));
+      piece.regions.push_back(color[i] + 1);
     }
   }
   for (const Decomposition::Root& r : d.roots) piece.edges.push_back({to_int(r.a), to_int(r.b), r.marker});
@@ -51,14 +52,6 @@ Mesh subdomains_as_mesh(const Decomposition& d) {
 }
 
 }  // namespace
-
-Mesh colored_subdomains(const Decomposition& d) {
-  const IdVector<SubdomainId, int> color = color_subdomains(d);
-  Mesh piece = subdomains_as_mesh(d);
-  for (const std::int32_t s : piece.subdomains) piece.regions.push_back(color[SubdomainId{s}] + 1);
-  piece.subdomains.clear();
-  return piece;
-}
 
 void plot_decomposition(const Decomposition& d, const std::string& path, const std::string& title) {
   PlotOptions options;
@@ -70,4 +63,4 @@ void plot_decomposition(const Decomposition& d, const std::string& path, const s
   plot_mesh(colored_subdomains(d), path, options);
 }
 
-}  // namespace driftmesh::app
+}  // namespace driftmesh
