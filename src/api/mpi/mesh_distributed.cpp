@@ -9,6 +9,7 @@
 #include "api/library_request.hpp"
 #include "api/mpi/fail_together.hpp"
 #include "balancer/policies/policy_factory.hpp"
+#include "base/key_error.hpp"
 #include "distributed/ghost_layer.hpp"
 #include "distributed/write_distributed.hpp"
 #include "driftmesh/error.hpp"
@@ -125,8 +126,18 @@ void write_distributed(MPI_Comm communicator, const DistributedPiece& piece, con
 }
 
 void fail_together(MPI_Comm communicator, const std::exception_ptr& failure) {
-  static_cast<void>(with_team(
-      communicator, [](job::Team&) { return true; }, failure));
+  const auto join = [&](const std::exception_ptr& own) {
+    static_cast<void>(with_team(
+        communicator, [](job::Team&) { return true; }, own));
+  };
+  try {
+    if (failure) std::rethrow_exception(failure);
+  } catch (const KeyError& error) {  // the others may have a valid value: tell them whose it is
+    return join(std::make_exception_ptr(Keyed<Error>(error.text())));
+  } catch (...) {
+    return join(failure);
+  }
+  join(nullptr);
 }
 
 }  // namespace driftmesh
