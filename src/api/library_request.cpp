@@ -17,6 +17,7 @@ std::map<std::string, LibraryName> library_names() {
   });
   names["sizing.size"] = {kOfOptions, "size"};  // a function, which no key can hold
   names["allow-outside"] = {"ReadOptions::", "allow_outside"};
+  names["input.layers"] = {"", "layers"};
   return names;
 }
 

@@ -19,20 +19,21 @@ void KeyText::add(std::string_view text, bool is_key) {
 KeyText KeyText::filled(std::string_view pattern, std::span<const KeyText> values) {
   KeyText made;
   std::size_t used = 0;
-  for (std::size_t at = 0; at < pattern.size();) {
+  for (std::size_t at = 0, after = 0; at < pattern.size(); at = after) {
     const std::size_t open = std::min(pattern.find('{', at), pattern.size());
     made.add(pattern.substr(at, open - at), false);
     if (open == pattern.size()) break;
-    const std::size_t close = pattern.find('}', open);
-    DM_ASSERT(close != std::string_view::npos);
+    const std::size_t close = std::min(pattern.find('}', open), pattern.size());
+    DM_ASSERT(close < pattern.size());
+    after = close + 1;
     if (const std::string_view key = pattern.substr(open + 1, close - open - 1); !key.empty()) {
       made.add(key, true);
     } else {
       DM_ASSERT(used < values.size());
+      if (used == values.size()) continue;
       const std::vector<Part>& parts = values[used++].parts_;
       made.parts_.insert(made.parts_.end(), parts.begin(), parts.end());
     }
-    at = close + 1;
   }
   return made;
 }

@@ -32,7 +32,8 @@ std::string area_words(const Suspect& suspect) {
 std::string angle_words(const Suspect& suspect, const ShortestEdge& edge, double min_angle) {
   const auto& p = suspect.corners;
   const std::size_t k = edge.apex;
-  const double angle = std::min({angle_at(p[0], p[1], p[2]), angle_at(p[1], p[2], p[0]), angle_at(p[2], p[0], p[1])});
+  const double angle =
+      std::min({degrees_at(p[0], p[1], p[2]), degrees_at(p[1], p[2], p[0]), degrees_at(p[2], p[0], p[1])});
   return triangle_words(suspect.place, suspect.numbers) +
          fmt::format(" has an angle of {:.6f} degrees at {}, circumradius / shortest edge {:.6f} (at most {:.6f})",
                      angle, point_words(suspect.numbers[k], p[k]), static_cast<double>(edge.ratio),
@@ -87,7 +88,7 @@ bool Judge::is_seditious(std::int32_t p, std::int32_t q) const {
     const long double op = std::sqrt(dot_extended(o, at_p, at_p)), oq = std::sqrt(dot_extended(o, at_q, at_q));
     const long double rounding =
         64 * 0x1p-52L * std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(at_p.x), std::fabs(at_p.y)});
-    const double angle = angle_at(o, at_p, at_q);
+    const double angle = degrees_at(o, at_p, at_q);
     const long double same =
         angle < kNarrowWedge ? kShareOfWidth * std::sqrt(dot_extended(at_p, at_q, at_q)) : kSameDistance * op;
     if (angle < 60 && std::fabs(op - oq) <= same + rounding) return true;

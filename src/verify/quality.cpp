@@ -138,7 +138,7 @@ class Measurement {
   /// Sorted, in degrees.
   [[nodiscard]] std::array<double, 3> angles_of(std::int32_t triangle) const {
     const auto [a, b, c] = corners(triangle);
-    std::array<double, 3> angles{angle_at(a, b, c), angle_at(b, c, a), angle_at(c, a, b)};
+    std::array<double, 3> angles{degrees_at(a, b, c), degrees_at(b, c, a), degrees_at(c, a, b)};
     std::sort(angles.begin(), angles.end());
     return angles;
   }
@@ -288,7 +288,7 @@ void find_suspects(const NamedMesh& mesh, const CheckedBounds& bounds,
   for (std::size_t block = 0; block < Measurement::blocks(mesh.mesh()); ++block) measurement.take_block(block);
 }
 
-double angle_at(const Point& o, const Point& a, const Point& b) {
+double degrees_at(const Point& o, const Point& a, const Point& b) {
   return static_cast<double>(std::atan2(std::fabs(cross_extended(o, a, b)), dot_extended(o, a, b)) * kDegrees);
 }
 

@@ -117,6 +117,6 @@ struct ShortestEdge {
 };
 [[nodiscard]] ShortestEdge shortest_edge(const std::array<Point, 3>& triangle);
 /// The angle at o between oa and ob in degrees, in extended precision.
-[[nodiscard]] double angle_at(const Point& o, const Point& a, const Point& b);
+[[nodiscard]] double degrees_at(const Point& o, const Point& a, const Point& b);
 
 }  // namespace driftmesh

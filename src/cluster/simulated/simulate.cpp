@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/key_error.hpp"
 #include "cluster/rank_log.hpp"
 #include "cluster/simulated/virtual_cluster.hpp"
 #include "driftmesh/error.hpp"
@@ -31,6 +32,7 @@ class Simulation {
       : network_(virtual_cluster(cluster, costs)),
         cutting_(cutting_seconds(costs, plan.owners.size())),
         memory_(cluster.memory > 0 ? cluster.memory : balancer::kAmpleMemory),
+        counted_(work.decomposition == nullptr),
         progress_(progress) {
     const std::int32_t ranks = ranks_of(cluster);
     const CostModel of_ranks = scaled(costs, cluster.scale);
@@ -78,9 +80,9 @@ class Simulation {
  private:
   /// Reports the triangles of all ranks together, now that rank `r` has this many.
   void count(Rank r, std::int64_t triangles) {
-    if (static_cast<double>(triangles) > memory_)
-      throw LimitError("rank " + to_string(r) +
-                       " has more triangles than cluster.memory allows; allow more, or have more ranks");
+    if (!counted_ && static_cast<double>(triangles) > memory_)
+      throw Keyed<LimitError>(KeyText::of(
+          "rank {} has more triangles than {cluster.memory} allows; allow more, or have more ranks", to_string(r)));
     triangles_ += triangles - std::exchange(of_rank_[r], triangles);
     if (progress_) progress_(triangles_);
   }
@@ -95,6 +97,7 @@ class Simulation {
   protocol::VirtualNetwork network_;
   double cutting_;  // seconds, on rank 0
   double memory_;   // triangles that each rank has memory for
+  bool counted_;    // work that is only counted may exceed memory_, since it includes the starts of subdomains
   const std::function<void(std::int64_t)>& progress_;
   IdVector<Rank, std::int64_t> of_rank_;  // triangles of each rank, as last reported
   std::int64_t triangles_ = 0;
