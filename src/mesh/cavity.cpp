@@ -26,8 +26,8 @@ void begin_at_least_corner(Triangle& triangle, const GrowingArray<Point, VertexI
     return p.x != q.x ? p.x < q.x : p.y < q.y;
   };
   const auto turn = std::ranges::min_element(triangle.vertex, before) - triangle.vertex.begin();
-  std::ranges::rotate(triangle.vertex, triangle.vertex.begin() + turn);
-  std::ranges::rotate(triangle.neighbor, triangle.neighbor.begin() + turn);
+  std::rotate(triangle.vertex.begin(), triangle.vertex.begin() + turn, triangle.vertex.end());
+  std::rotate(triangle.neighbor.begin(), triangle.neighbor.begin() + turn, triangle.neighbor.end());
 }
 
 }  // namespace
