@@ -55,13 +55,16 @@ void require_usable(MPI_Comm communicator) {
 }
 
 /// What `work` returns with the ranks of the communicator, unless one of them has `failed` before: then all throw that.
+/// Errors are in the words of the library.
 template <class Work>
 auto with_team(MPI_Comm communicator, const Work& work, const std::exception_ptr& failed = nullptr) {
-  require_usable(communicator);
-  job::MpiTeam team(MPI_Comm_c2f(communicator), words_of_library);
-  return then_close(team, [&] {
-    job::agree_on_failure(team, failed);
-    return work(team);
+  return in_words_of_library([&] {
+    require_usable(communicator);
+    job::MpiTeam team(MPI_Comm_c2f(communicator), words_of_library);
+    return then_close(team, [&] {
+      job::agree_on_failure(team, failed);
+      return work(team);
+    });
   });
 }
 

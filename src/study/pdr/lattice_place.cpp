@@ -150,20 +150,26 @@ std::unique_ptr<job::Refined> LatticeOnRanks::refine(job::Order&& order, const j
                                                      const SizeField* /*size*/, job::Watch& watch) {
   const QualityBounds& bounds = order.plan.bounds;
   const double share = order.shares.empty() ? 1 : order.shares[team().rank()];
-  const std::unique_ptr<job::Channel> channel = team().open();
-  LatticeRanks own;
+  Triangulation mesh;
+  std::optional<Lattice> lattice;
+  double forecast = 0;
   job::agree(team(), [&] {
-    Triangulation mesh = triangulate(order.pslg);
+    mesh = triangulate(order.pslg);
     static_cast<void>(prepare_corners(mesh, {bounds.min_angle, false}));
-    const auto check = job::progress_within(limits, forecast_triangles(mesh, bounds) / ranks(), watch);
-    const Lattice lattice = start(mesh, bounds, ranks());
+    forecast = forecast_triangles(mesh, bounds);
+    lattice.emplace(start(mesh, bounds, ranks()));
+  });
+  const std::unique_ptr<job::Channel> channel = team().open();  // and closed, since nobody fails alone from here on
+  LatticeRanks own;
+  job::by_itself(team(), [&] {
+    const auto check = job::progress_within(limits, forecast / ranks(), watch);
     const auto worked = [&own, share, check](const LatticeRank::Work& work) {
       job::drag(share, work.seconds);
       check(static_cast<std::int64_t>(own.front()->mesh().live_triangles()));
     };
-    own.push_back(std::make_unique<LatticeRank>(channel->transport(), std::move(mesh), lattice, bounds, worked));
+    own.push_back(std::make_unique<LatticeRank>(channel->transport(), std::move(mesh), *lattice, bounds, worked));
+    protocol::run_rank(channel->transport(), [&] { return own.front()->step(); });
   });
-  job::by_itself(team(), [&] { protocol::run_rank(channel->transport(), [&] { return own.front()->step(); }); });
   channel->close();
   return std::make_unique<RefinedLattice>(std::move(own), bounds, &team(), ClusterRun{});
 }
