@@ -21,7 +21,7 @@
 using namespace driftmesh;
 using namespace driftmesh::protocol;
 using driftmesh::testing::LateCase;
-using driftmesh::testing::Start;
+using driftmesh::testing::LateStart;
 
 namespace {
 
@@ -89,9 +89,9 @@ void check_reports(const LateCase& late, const std::vector<Bytes>& reports) {
   }
   CHECK(sent == handled);
   const LoopReport latecomer = LoopReport::unpack(reports[to_index(late.rank)]);
-  CHECK((latecomer.slices > 0) == (late.start != Start::kNothing || gives(late)));
-  if (late.start == Start::kShare) CHECK(latecomer.counters.splits_handled > 0);
-  if (late.start != Start::kShare) CHECK((latecomer.counters.arrivals > 0) == gives(late));
+  CHECK((latecomer.slices > 0) == (late.start != LateStart::kNothing || gives(late)));
+  if (late.start == LateStart::kShare) CHECK(latecomer.counters.splits_handled > 0);
+  if (late.start != LateStart::kShare) CHECK((latecomer.counters.arrivals > 0) == gives(late));
 }
 
 void run_with(const LateCase& late) {
@@ -149,10 +149,10 @@ TEST_CASE("the rank that plans for all, and begins to look for the end, may join
 }
 
 TEST_CASE("a rank that joins late with one subdomain is given more") {
-  for (const char* policy : {"zoltan", "diffusion"}) run_with({policy, last_rank(), Start::kOneSubdomain});
+  for (const char* policy : {"zoltan", "diffusion"}) run_with({policy, last_rank(), LateStart::kOneSubdomain});
 }
 
 TEST_CASE("a rank that joins late with subdomains receives the messages to them") {
   for (const char* policy : {"none", "zoltan", "diffusion", "stealing", "greedy"})
-    run_with({policy, last_rank(), Start::kShare});
+    run_with({policy, last_rank(), LateStart::kShare});
 }

@@ -11,7 +11,7 @@
 namespace driftmesh::testing {
 
 /// The subdomains of a rank that joins a run late.
-enum class Start {
+enum class LateStart {
   kNothing,       ///< none: the others have all subdomains
   kOneSubdomain,  ///< one
   kShare,         ///< as many as any other rank
@@ -21,13 +21,15 @@ enum class Start {
 struct LateCase {
   std::string policy;
   Rank rank{};
-  Start start = Start::kNothing;
+  LateStart start = LateStart::kNothing;
 };
 
 /// The initial owners of this number of subdomains: round-robin, so that neighbors communicate a lot, except that the
 /// late rank's subdomains beyond those it starts with go to the others.
 inline IdVector<SubdomainId, Rank> late_owners(std::size_t subdomains, std::int32_t ranks, const LateCase& late) {
-  const std::size_t kept = late.start == Start::kShare ? subdomains : late.start == Start::kOneSubdomain ? 1 : 0;
+  const std::size_t kept = late.start == LateStart::kShare          ? subdomains
+                           : late.start == LateStart::kOneSubdomain ? 1
+                                                                    : 0;
   IdVector<SubdomainId, Rank> owners;
   Rank turn{};
   for (std::size_t of_late = 0; owners.size() < subdomains; turn = next_in_ring(turn, ranks))

@@ -141,7 +141,7 @@ TEST_CASE("a run waits for a late rank when all work could be done; it gets what
 
 TEST_CASE("a late rank with subdomains finds them, and all messages to them") {
   for (const std::int32_t ranks : {2, 3, 8})
-    for (const Start start : {Start::kOneSubdomain, Start::kShare})
+    for (const LateStart start : {LateStart::kOneSubdomain, LateStart::kShare})
       for (const char* policy : kPolicies)
         for (const double share : {0.3, 3.0}) {
           const LateCase late{policy, Rank{ranks - 1}, start};
@@ -155,10 +155,10 @@ TEST_CASE("a late rank with subdomains finds them, and all messages to them") {
           CHECK(run.makespan() > moment);
           // It finds the advice of others, too, and may give away its only subdomain before it works.
           const auto& counters = run.loop(late.rank).protocol().counters();
-          const bool gave_all = counters.hand_offs > 0 && start == Start::kOneSubdomain;
+          const bool gave_all = counters.hand_offs > 0 && start == LateStart::kOneSubdomain;
           CHECK((run.loop(late.rank).times().computing > 0 || gave_all));
           CHECK(counters.splits_handled > 0);
-          if (start == Start::kOneSubdomain && share < 1)
+          if (start == LateStart::kOneSubdomain && share < 1)
             CHECK((run.loop(late.rank).protocol().counters().arrivals > 0) == (late.policy != "none"));
         }
 }
