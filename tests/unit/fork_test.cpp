@@ -2,14 +2,18 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <utility>
 #include <vector>
 
 #include "decompose/bridges.hpp"
+#include "geometry/segment_geometry.hpp"
+#include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 
@@ -44,6 +48,18 @@ double angle_between(const Point& center, const Point& a, const Point& b) {
   return std::atan2(std::fabs(ax * by - ay * bx), ax * bx + ay * by) / kDegree;
 }
 
+/// Whether points along a separator from a to b are a hundredth of its length from a wall, or 0.346 of their distance
+/// to the nearer end.
+bool keeps_away(const Point& a, const Point& b, const Point& u, const Point& v) {
+  const double length = std::sqrt(squared_distance(a, b));
+  for (int k = 1; k < 50; ++k) {
+    const double t = k / 50.0, keep = length * std::min(0.01, 0.346 * std::min(t, 1 - t));
+    const Point p{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+    if (squared_distance_to_segment(p, u, v) < 0.999 * keep * keep) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 TEST_CASE("a triangle with equal sides is cut from its middle to the middle of each side") {
@@ -68,6 +84,43 @@ TEST_CASE("a fork keeps the angle, at its center and at the border") {
       CHECK(Outline::allows(end, fork->center.x - end.at.x, fork->center.y - end.at.y));
     }
   }
+}
+
+TEST_CASE("what a fork does not meet keeps away from it") {
+  std::mt19937_64 random(1);
+  const auto unit = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
+  int forks = 0;
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    // A polygon with a narrow spike in each side, which points about at the middle.
+    std::vector<Point> corners;
+    const int sides = 3 + static_cast<int>(random() % 3);
+    for (int k = 0; k < sides; ++k) {
+      const auto corner = [&](int n) {
+        return Point{std::cos(2 * std::numbers::pi * n / sides), std::sin(2 * std::numbers::pi * n / sides)};
+      };
+      const auto along = [](const Point& p, const Point& q, double s) {
+        return Point{p.x + s * (q.x - p.x), p.y + s * (q.y - p.y)};
+      };
+      const double at = 0.4 + 0.2 * unit(), width = 0.001 + 0.01 * unit(), height = 0.3 + 0.6 * unit();
+      corners.push_back(corner(k));
+      corners.push_back(along(corner(k), corner(k + 1), at - width));
+      corners.push_back(along(along(corner(k), corner(k + 1), at), {0, 0}, height));
+      corners.push_back(along(corner(k), corner(k + 1), at + width));
+    }
+    Outline outline = outline_of(corners, 0.04, 15 * kDegree);
+    for (Outline::Station& station : outline.stations) station.usable = station.usable && !station.corner;
+    const std::optional<Fork> fork = find_fork(outline, 15 * kDegree);
+    if (!fork) continue;
+    ++forks;
+    for (const Outline::Station& end : fork->ends)
+      for (std::size_t k = 0; k < outline.loop.size(); ++k) {
+        const Point &u = outline.loop[k].at, &v = outline.loop[(k + 1) % outline.loop.size()].at;
+        if (u == end.at || v == end.at || (!end.corner && outline.loop[k].side == end.side)) continue;
+        CHECK(keeps_away(fork->center, end.at, u, v));
+      }
+  }
+  CHECK(forks > 30);
 }
 
 TEST_CASE("there is no fork where the border is not seen, or the angle leaves no room") {
