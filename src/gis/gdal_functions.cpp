@@ -102,6 +102,7 @@ CPLHTTPResult* refuse_request(const char* /*address*/, CSLConstList /*options*/,
 }  // namespace
 
 const GdalFunctions& gdal_for(const std::string& file) {
+  require_regular_file(file);
   static const Loaded loaded = load();
   if (!loaded.problem.empty())
     throw InputError({file}, "takes GDAL to be read, which cannot be loaded (" + loaded.problem + ")",
@@ -110,7 +111,6 @@ const GdalFunctions& gdal_for(const std::string& file) {
 }
 
 OwnedByUs<GDALDatasetH> open_by_gdal(const GdalFunctions& gdal, const std::string& file, unsigned kind) {
-  require_regular_file(file);
   const std::vector<const char*> drivers = drivers_for(file, kind);
   if (kind == GDAL_OF_RASTER) require_own_content(file);
   if (is_mosaic_file(file)) require_plain_mosaic(gdal, file);
@@ -160,6 +160,7 @@ bool QuietGdal::failed() const {
 #else
 
 void refuse_without_gdal(const std::string& file) {
+  require_regular_file(file);
   throw InputError({file}, "takes GDAL to be read, which this driftmesh was built without",
                    "install Debian's package libgdal-dev and build again, or convert the file to GeoJSON or .asc");
 }

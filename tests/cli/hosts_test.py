@@ -162,4 +162,4 @@ class Runs(Case):
 if __name__ == "__main__":
     SCRIPT, PROGRAM = (os.path.abspath(sys.argv.pop(1)) for _ in range(2))
     run = unittest.main(exit=False).result
-    sys.exit(0 if run.wasSuccessful() and not run.skipped else 77 if run.wasSuccessful() else 1)
+    sys.exit(1 if not run.wasSuccessful() else 77 if len(run.skipped) == run.testsRun else 0)

@@ -6,6 +6,7 @@ usage: results_test.py PROJECT_FOLDER
 """
 
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -71,8 +72,8 @@ class Results(unittest.TestCase):
         program = pathlib.Path(file.name)
         program.chmod(0o755)
         try:
-            if not (PROJECT / ".git").exists():
-                self.skipTest("no repository")
+            if not (PROJECT / ".git").exists() or not shutil.which("git"):
+                self.skipTest("no repository, or no git")
             line = results.origin(program)
         finally:
             program.unlink()
