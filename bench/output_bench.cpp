@@ -100,8 +100,8 @@ BENCHMARK_CAPTURE(write, triangle, ".ele")->Apply(settings);
 BENCHMARK_CAPTURE(read, vtu, ".vtu")->Apply(settings);
 BENCHMARK_CAPTURE(read, msh, ".msh")->Apply(settings);
 BENCHMARK_CAPTURE(read, triangle, ".ele")->Apply(settings);
-BENCHMARK_CAPTURE(plot, angle, PlotColor::angle)->Apply(settings);
-BENCHMARK_CAPTURE(plot, area, PlotColor::area)->Apply(settings);
+BENCHMARK_CAPTURE(plot, angle, PlotColor::kAngle)->Apply(settings);
+BENCHMARK_CAPTURE(plot, area, PlotColor::kArea)->Apply(settings);
 
 }  // namespace
 

@@ -12,19 +12,19 @@ namespace driftmesh {
 
 /// The quantity that a triangle's color shows.
 enum class PlotColor {
-  automatic,  ///< the angle, or the area where triangles are too small to be seen
-  angle,      ///< its smallest angle, 0 to 60 degrees
-  area,       ///< its area, on a logarithmic scale
-  region,     ///< its region attribute
-  subdomain,  ///< the subdomain that it was made in, if the mesh lists it
-  rank,       ///< the rank that made it, if the mesh lists it
-  none        ///< nothing: one light color for all
+  kAutomatic,  ///< the angle, or the area where triangles are too small to be seen
+  kAngle,      ///< its smallest angle, 0 to 60 degrees
+  kArea,       ///< its area, on a logarithmic scale
+  kRegion,     ///< its region attribute
+  kSubdomain,  ///< the subdomain that it was made in, if the mesh lists it
+  kRank,       ///< the rank that made it, if the mesh lists it
+  kPlain       ///< nothing: one light color for all
 };
 
 enum class PlotEdges {
-  automatic,  ///< drawn where they are long enough to be seen; none in a density image
-  on,         ///< always drawn, however small; slow for millions of lines
-  off
+  kAutomatic,  ///< drawn where they are long enough to be seen; none in a density image
+  kOn,         ///< always drawn, however small; slow for millions of lines
+  kOff
 };
 
 /// A part of the plane: low.x < high.x and low.y < high.y.
@@ -37,8 +37,8 @@ struct PlotOptions {
   std::string name = "the input";  ///< what is drawn, for messages
   int width = 1600;                ///< pixels (points in PDF)
   int height = 0;                  ///< 0: chosen to fit what is shown
-  PlotColor color = PlotColor::automatic;
-  PlotEdges edges = PlotEdges::automatic;
+  PlotColor color = PlotColor::kAutomatic;
+  PlotEdges edges = PlotEdges::kAutomatic;
   std::optional<PlotBox> box{};  ///< the part of the plane to show; absent: everything
   std::string title{};
   std::string subtitle{};  ///< instead of the numbers of triangles and points and the angles
@@ -54,7 +54,7 @@ struct PlotOptions {
 /// \code
 /// const driftmesh::Pslg pipe = driftmesh::generate("pipe");
 /// driftmesh::plot(pipe, "domain.svg");
-/// driftmesh::plot(driftmesh::mesh(pipe), "pipe.png", {.width = 800, .color = driftmesh::PlotColor::area});
+/// driftmesh::plot(driftmesh::mesh(pipe), "pipe.png", {.width = 800, .color = driftmesh::PlotColor::kArea});
 /// \endcode
 void plot(const Mesh& mesh, const std::string& path, const PlotOptions& options = {});
 

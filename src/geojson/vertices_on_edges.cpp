@@ -76,7 +76,7 @@ class VerticesOnEdges {
     const auto first = static_cast<std::ptrdiff_t>(all.size());
     const double margin = Closeness()(a, b);
     tree_.search(NearSegment(a, b, margin), [&](std::int32_t i) {
-      if (points_[i] != a && points_[i] != b && on_segment(points_[i], a, b, margin) != OnSegment::no)
+      if (points_[i] != a && points_[i] != b && on_segment(points_[i], a, b, margin) != OnSegment::kNo)
         all.push_back(points_[i]);
     });
     std::sort(all.begin() + first, all.end(), [&](const Point& p, const Point& q) {

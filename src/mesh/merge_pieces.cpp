@@ -31,7 +31,7 @@ class Merger {
     take_triangles();
     take_edges();
     take_names();
-    if (numbering_ == Numbering::sparse) whole_.numbers = std::move(numbers_);
+    if (numbering_ == Numbering::kSparse) whole_.numbers = std::move(numbers_);
     return std::move(whole_);
   }
 
@@ -51,7 +51,7 @@ class Merger {
         largest = std::max(largest, number);
       }
     }
-    const bool sparse = numbering_ == Numbering::sparse;
+    const bool sparse = numbering_ == Numbering::kSparse;
     if (sparse || largest >= static_cast<std::int64_t>(sum)) close_ranks();
     if (!sparse && !numbers_.empty()) report_large_numbers(largest);
     const std::size_t count = !sparse && numbers_.empty() ? to_index(largest + 1) : numbers_.size();

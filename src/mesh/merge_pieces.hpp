@@ -24,8 +24,8 @@ struct MergeFaults {
 
 /// Which numbers the points of all pieces together should have.
 enum class Numbering : std::uint8_t {
-  complete,  ///< all from 0 on
-  sparse,    ///< any: what is merged are parts of pieces. The result lists them (Mesh::numbers)
+  kComplete,  ///< all from 0 on
+  kSparse,    ///< any: what is merged are parts of pieces. The result lists them (Mesh::numbers)
 };
 
 /// The whole mesh from its pieces: points with the same number become one, at the place of that number; a subsegment
@@ -38,7 +38,7 @@ enum class Numbering : std::uint8_t {
 /// twice in one piece; a number below the largest that no piece has (such a point is in no triangle; if there are many,
 /// the gaps are closed). Throws Error if a piece has no numbers, or negative ones.
 [[nodiscard]] Mesh merge_pieces(std::span<const Mesh* const> pieces, MergeFaults& faults,
-                                Numbering numbering = Numbering::complete);
+                                Numbering numbering = Numbering::kComplete);
 [[nodiscard]] Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults);
 
 }  // namespace driftmesh

@@ -104,7 +104,7 @@ void Canvas::choose_font(const TextStyle& style) {
 
 void Canvas::text(const Point& at, const std::string& characters, const TextStyle& style) {
   const double width = text_width(characters, style);
-  const double shift = style.align == TextAlign::left ? 0 : style.align == TextAlign::center ? width / 2 : width;
+  const double shift = style.align == TextAlign::kLeft ? 0 : style.align == TextAlign::kCenter ? width / 2 : width;
   if (style.halo) {
     cairo_move_to(cairo_, at.x - shift, at.y);
     cairo_text_path(cairo_, characters.c_str());

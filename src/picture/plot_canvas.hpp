@@ -19,12 +19,12 @@ struct PixelRect {
   double height = 0;
 };
 
-enum class TextAlign { left, center, right };
+enum class TextAlign { kLeft, kCenter, kRight };
 
 struct TextStyle {
   double size = 12;
   Rgb color = kInk;
-  TextAlign align = TextAlign::left;
+  TextAlign align = TextAlign::kLeft;
   bool bold = false;
   bool halo = false;  ///< white around the letters, for text on top of lines
 };

@@ -55,8 +55,8 @@ Mesh colored_subdomains(const Decomposition& d) {
 
 void plot_decomposition(const Decomposition& d, const std::string& path, const std::string& title) {
   PlotOptions options;
-  options.color = PlotColor::region;
-  options.edges = PlotEdges::off;
+  options.color = PlotColor::kRegion;
+  options.edges = PlotEdges::kOff;
   options.title = title;
   options.subtitle = grouped(static_cast<std::int64_t>(interfaces(d).size())) + " interfaces";
   options.legend = false;

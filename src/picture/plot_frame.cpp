@@ -72,8 +72,8 @@ void PlotFrame::draw_title(Canvas& canvas, const std::string& title, const std::
 }
 
 void PlotFrame::draw_axes(Canvas& canvas) const {
-  const TextStyle below{.size = kTickFont * unit_, .color = kFaintInk, .align = TextAlign::center};
-  const TextStyle left{.size = kTickFont * unit_, .color = kFaintInk, .align = TextAlign::right};
+  const TextStyle below{.size = kTickFont * unit_, .color = kFaintInk, .align = TextAlign::kCenter};
+  const TextStyle left{.size = kTickFont * unit_, .color = kFaintInk, .align = TextAlign::kRight};
   const double bottom = plot_.y + plot_.height + 6 * unit_;
   const double side = plot_.x - 6 * unit_;
   const double tick = 4 * unit_;

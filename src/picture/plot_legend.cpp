@@ -62,7 +62,7 @@ void draw_color_bar(Canvas& canvas, const PlotFrame& frame, const ColorBar& bar)
     const double y = rect.y + rect.height * (1 - (tick.value - bar.low) / (bar.high - bar.low));
     canvas.line({rect.x - 4 * u, y}, {rect.x, y}, 0.8 * u, kFaintInk);
     canvas.text({rect.x - 7 * u, y + 4 * u}, tick.label,
-                {.size = 11.5 * u, .color = kFaintInk, .align = TextAlign::right});
+                {.size = 11.5 * u, .color = kFaintInk, .align = TextAlign::kRight});
   }
   draw_histogram(canvas, {rect.x + rect.width + 3 * u, rect.y, kHistogramWidth * u, rect.height}, bar.histogram);
 }

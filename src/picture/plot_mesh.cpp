@@ -50,10 +50,10 @@ class MeshPlot {
         canvas_(path, frame_.width(), frame_.height()),
         summary_(summarize(mesh, frame_.shown())),
         mean_side_(mean_side(summary_) * frame_.scale()),
-        is_dense_(mean_side_ < kDenseSide && options.edges != PlotEdges::on),
-        color_(options.color != PlotColor::automatic ? options.color
-               : is_dense_                           ? PlotColor::area
-                                                     : PlotColor::angle),
+        is_dense_(mean_side_ < kDenseSide && options.edges != PlotEdges::kOn),
+        color_(options.color != PlotColor::kAutomatic ? options.color
+               : is_dense_                            ? PlotColor::kArea
+                                                      : PlotColor::kAngle),
         values_(plot_values(mesh, color_, frame_.shown(), options.counts, is_dense_)) {}
 
   void draw() {
@@ -61,7 +61,7 @@ class MeshPlot {
     frame_.draw_axes(canvas_);
     frame_.begin_clip(canvas_);
     draw_triangles();
-    if (options_.edges != PlotEdges::off && !is_dense_) draw_edges();
+    if (options_.edges != PlotEdges::kOff && !is_dense_) draw_edges();
     draw_segments();
     PlotFrame::end_clip(canvas_);
     draw_legend();
@@ -72,10 +72,10 @@ class MeshPlot {
   [[nodiscard]] Point corner(std::int32_t vertex) const { return frame_.to_pixels(mesh_.points[vertex]); }
 
   /// Whether colors show a quantity; otherwise they show categories.
-  [[nodiscard]] bool is_range() const { return color_ == PlotColor::angle || color_ == PlotColor::area; }
+  [[nodiscard]] bool is_range() const { return color_ == PlotColor::kAngle || color_ == PlotColor::kArea; }
 
   [[nodiscard]] static bool has_legend(const PlotOptions& options) {
-    return options.legend && options.color != PlotColor::none;
+    return options.legend && options.color != PlotColor::kPlain;
   }
 
   [[nodiscard]] std::string subtitle() const {
@@ -128,14 +128,14 @@ class MeshPlot {
   }
 
   [[nodiscard]] ValueRaster::Keep what_a_pixel_keeps() const {
-    if (!is_dense_ || !is_range()) return ValueRaster::Keep::last;
-    return color_ == PlotColor::angle ? ValueRaster::Keep::minimum : ValueRaster::Keep::mean;
+    if (!is_dense_ || !is_range()) return ValueRaster::Keep::kLast;
+    return color_ == PlotColor::kAngle ? ValueRaster::Keep::kMinimum : ValueRaster::Keep::kMean;
   }
 
   void draw_raster() {
     const auto keep = what_a_pixel_keeps();
     ValueRaster raster(static_cast<int>(frame_.plot().width), static_cast<int>(frame_.plot().height),
-                       keep == ValueRaster::Keep::last ? 3 : 1, keep);
+                       keep == ValueRaster::Keep::kLast ? 3 : 1, keep);
     const Point origin{frame_.plot().x, frame_.plot().y};
     const auto inside = [&](std::int32_t vertex) {
       const Point p = corner(vertex);
@@ -145,7 +145,7 @@ class MeshPlot {
       const auto& [a, b, c] = mesh_.triangles[t];
       raster.add_triangle(inside(a), inside(b), inside(c), values_.of_triangle[t]);
     }
-    if (keep == ValueRaster::Keep::mean) raster.average_around(kAveraged);
+    if (keep == ValueRaster::Keep::kMean) raster.average_around(kAveraged);
     paint(raster, origin);
   }
 
@@ -183,7 +183,7 @@ class MeshPlot {
         if (a > b) continue;
         const Line line = {corner(a), corner(b)};
         const double length = std::hypot(line[1].x - line[0].x, line[1].y - line[0].y);
-        if (length < kShortestLine && options_.edges != PlotEdges::on) continue;
+        if (length < kShortestLine && options_.edges != PlotEdges::kOn) continue;
         lines_of_class[std::clamp(static_cast<int>(std::floor(2 * std::log2(length))), 0, 14)].push_back(line);
       }
     }
@@ -215,7 +215,7 @@ class MeshPlot {
     if (!is_range()) return draw_swatches(canvas_, frame_, values_.title, values_.swatches);
     ColorBar bar = values_.bar;
     if (is_dense_)
-      bar.notes.emplace_back(color_ == PlotColor::angle ? "worst of each pixel" : "mean around each pixel");
+      bar.notes.emplace_back(color_ == PlotColor::kAngle ? "worst of each pixel" : "mean around each pixel");
     draw_color_bar(canvas_, frame_, bar);
   }
 

@@ -167,7 +167,7 @@ class PslgPlot {
     std::string label = "region " + friendly_number(region.attribute, 6);
     if (region.max_area > 0) label += ", area \u2264 " + friendly_number(region.max_area);
     canvas_.text({p.x, p.y + 18 * u}, label,
-                 {.size = 12.5 * u, .color = kRegionMark, .align = TextAlign::center, .halo = true});
+                 {.size = 12.5 * u, .color = kRegionMark, .align = TextAlign::kCenter, .halo = true});
   }
 
   void draw_legend() {

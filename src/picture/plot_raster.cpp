@@ -28,7 +28,7 @@ ValueRaster::ValueRaster(int width, int height, int samples_per_side, Keep keep)
       columns_(std::int64_t{width} * samples_per_side),
       rows_(std::int64_t{height} * samples_per_side),
       values_(static_cast<std::size_t>(columns_ * rows_), std::numeric_limits<float>::quiet_NaN()),
-      counts_(keep == Keep::mean ? values_.size() : 0, 0) {}
+      counts_(keep == Keep::kMean ? values_.size() : 0, 0) {}
 
 void ValueRaster::add_triangle(const Point& a, const Point& b, const Point& c, float value) {
   const auto scaled = [this](const Point& p) { return Point{p.x * samples_, p.y * samples_}; };
@@ -48,7 +48,7 @@ void ValueRaster::add_triangle(const Point& a, const Point& b, const Point& c, f
       reached = true;
     }
   }
-  if (reached || keep_ == Keep::last) return;
+  if (reached || keep_ == Keep::kLast) return;
   const double x = (corner[0].x + corner[1].x + corner[2].x) / 3;
   const double y = (corner[0].y + corner[1].y + corner[2].y) / 3;
   if (x >= 0 && y >= 0 && x < static_cast<double>(columns_) && y < static_cast<double>(rows_))
@@ -88,13 +88,13 @@ void ValueRaster::average_around(int samples) {
 void ValueRaster::put(std::int64_t column, std::int64_t row, float value) {
   const auto index = static_cast<std::size_t>(row * columns_ + column);
   float& kept = values_[index];
-  if (std::isnan(kept) || keep_ == Keep::last)
+  if (std::isnan(kept) || keep_ == Keep::kLast)
     kept = value;
-  else if (keep_ == Keep::minimum)
+  else if (keep_ == Keep::kMinimum)
     kept = std::min(kept, value);
   else
     kept += value;
-  if (keep_ == Keep::mean) ++counts_[index];
+  if (keep_ == Keep::kMean) ++counts_[index];
 }
 
 ValueRaster::Pixel ValueRaster::pixel(int x, int y, const std::function<Rgb(double)>& color_of) const {
@@ -105,7 +105,7 @@ ValueRaster::Pixel ValueRaster::pixel(int x, int y, const std::function<Rgb(doub
       const auto index =
           static_cast<std::size_t>((std::int64_t{y} * samples_ + row) * columns_ + std::int64_t{x} * samples_ + column);
       if (std::isnan(values_[index])) continue;
-      const double value = keep_ == Keep::mean ? double{values_[index]} / counts_[index] : double{values_[index]};
+      const double value = keep_ == Keep::kMean ? double{values_[index]} / counts_[index] : double{values_[index]};
       const Rgb color = color_of(value);
       pixel.color = {pixel.color.red + color.red, pixel.color.green + color.green, pixel.color.blue + color.blue};
       ++reached;

@@ -14,9 +14,9 @@ class ValueRaster {
  public:
   /// The value that a sample keeps if several triangles reach it.
   enum class Keep {
-    last,     ///< the value of the one triangle that covers its center
-    minimum,  ///< over all that cover it or have their centroid in it
-    mean      ///< likewise
+    kLast,     ///< the value of the one triangle that covers its center
+    kMinimum,  ///< over all that cover it or have their centroid in it
+    kMean      ///< likewise
   };
 
   /// width x height pixels of samples_per_side^2 samples each.

@@ -147,18 +147,18 @@ PlotSummary summarize(const Mesh& mesh, const Box& shown) {
 
 PlotValues plot_values(const Mesh& mesh, PlotColor color, const Box& shown, bool counts, bool dense) {
   switch (color) {
-    case PlotColor::angle:
+    case PlotColor::kAngle:
       return angle_values(mesh, shown);
-    case PlotColor::area:
+    case PlotColor::kArea:
       return area_values(mesh, shown, dense);
-    case PlotColor::region:
+    case PlotColor::kRegion:
       return class_values(mesh, mesh.regions, "Region", counts);
-    case PlotColor::subdomain:
+    case PlotColor::kSubdomain:
       return class_values(mesh, mesh.subdomains, "Subdomain", counts);
-    case PlotColor::rank:
+    case PlotColor::kRank:
       return class_values(mesh, mesh.ranks, "Rank", counts);
-    case PlotColor::automatic:  // decided by now
-    case PlotColor::none:
+    case PlotColor::kAutomatic:  // decided by now
+    case PlotColor::kPlain:
       break;
   }
   PlotValues result;

@@ -32,13 +32,13 @@ double settle(double value, double a, double b, double c, double d) {
 }  // namespace
 
 OnSegment on_segment(const Point& p, const Point& a, const Point& b, double margin) {
-  if (!in_box(p, a, b, margin)) return OnSegment::no;
-  if (in_box(p, a, b, 0) && orient2d(a, b, p) == 0) return OnSegment::exactly;
+  if (!in_box(p, a, b, margin)) return OnSegment::kNo;
+  if (in_box(p, a, b, 0) && orient2d(a, b, p) == 0) return OnSegment::kExactly;
   const double dx = b.x - a.x, dy = b.y - a.y;
   const double reach = margin * std::hypot(dx, dy);
   const double from_a = dx * (p.x - a.x) + dy * (p.y - a.y), to_b = dx * (b.x - p.x) + dy * (b.y - p.y);
   const bool beside = std::fabs(dx * (p.y - a.y) - dy * (p.x - a.x)) <= reach;
-  return beside && from_a > reach && to_b > reach ? OnSegment::closely : OnSegment::no;
+  return beside && from_a > reach && to_b > reach ? OnSegment::kClosely : OnSegment::kNo;
 }
 
 bool cross_properly(const Point& a, const Point& b, const Point& c, const Point& d) {

@@ -34,7 +34,7 @@ class Closeness {
   double least_;
 };
 
-enum class OnSegment { no, exactly, closely };
+enum class OnSegment { kNo, kExactly, kClosely };
 
 /// Whether `p`, which is not close to a or b, lies in the interior of the segment from a to b, up to `margin`, which is
 /// the closeness of the segment. A point within the margin of an end does not: otherwise each of two points could be on

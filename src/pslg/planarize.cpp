@@ -359,10 +359,10 @@ void Planarizer::test_point(std::int32_t vertex, std::int32_t piece) {
   const Piece& p = pieces_[piece];
   if (vertex == p.segment.a || vertex == p.segment.b) return;
   const OnSegment where = on_segment(point(vertex), p.segment);
-  if (where == OnSegment::no) return;
+  if (where == OnSegment::kNo) return;
   add_split(piece, vertex);
   note_move(distance_to_line(point(vertex), point(p.segment.a), point(p.segment.b)));
-  note(where == OnSegment::exactly ? report_.points_on_segments : report_.points_close_segments,
+  note(where == OnSegment::kExactly ? report_.points_on_segments : report_.points_close_segments,
        [&] { return name(vertex) + " on " + name(p); });
 }
 
@@ -372,7 +372,7 @@ void Planarizer::test_pair(std::int32_t piece, std::int32_t other) {
   if (s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b) return;
   const Point &a = point(s.a), &b = point(s.b), &c = point(t.a), &d = point(t.b);
   if (!cross_properly(a, b, c, d)) return;
-  const auto touches = [&](const Point& p, const Pslg::Segment& on) { return on_segment(p, on) != OnSegment::no; };
+  const auto touches = [&](const Point& p, const Pslg::Segment& on) { return on_segment(p, on) != OnSegment::kNo; };
   if (touches(a, t) || touches(b, t) || touches(c, s) || touches(d, s)) return;
   add_crossing(piece, other);
 }

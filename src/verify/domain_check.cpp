@@ -38,7 +38,7 @@ Arrangement arrange_boundary(const Mesh& mesh, const std::vector<Mesh::Edge>& bo
 void check_embedding(const NamedMesh& mesh, const std::vector<Mesh::Edge>& boundary, Findings& findings) {
   const Arrangement arrangement = arrange_boundary(mesh.mesh(), boundary);
   if (arrangement.conflict()) {
-    findings.add(Flaw::boundary_crosses, [&] { return "on the boundary " + *arrangement.conflict(); });
+    findings.add(Flaw::kBoundaryCrosses, [&] { return "on the boundary " + *arrangement.conflict(); });
     return;
   }
   enum : char { kUnseen, kCovered, kBare };
@@ -48,7 +48,7 @@ void check_embedding(const NamedMesh& mesh, const std::vector<Mesh::Edge>& bound
     char& known = state[face];
     if (known == kUnseen) known = expected;
     if (known != expected)
-      findings.add(Flaw::overlap, [&] {
+      findings.add(Flaw::kOverlap, [&] {
         return fmt::format("boundary {}: the {} side is {} by triangles, the rest of that face is {}",
                            edge_words(mesh, boundary[edge].a, boundary[edge].b),
                            expected == kCovered ? "left" : "right", expected == kCovered ? "covered" : "not covered",
@@ -83,7 +83,7 @@ DomainCheck::DomainCheck(const NamedMesh& mesh, const Domain& domain, const Poin
 void DomainCheck::check_points() {
   for (std::size_t p = 0; p < vertex_of_point_.size(); ++p)
     if (domain_.point_inside(static_cast<std::int32_t>(p)) && vertex_of_point_[p] == kNone)
-      findings_.add(Flaw::point_missing, [&] {
+      findings_.add(Flaw::kPointMissing, [&] {
         return fmt::format("the input point {} lies in the domain and is not a vertex",
                            place_words(domain_.points()[p]));
       });
@@ -109,7 +109,7 @@ void DomainCheck::check_chains() {
     const Chains::Chain& chain = chains_.all()[c];
     const auto entry = segment_between.find(key(chain.vertices.front(), chain.vertices.back()));
     if (entry == segment_between.end() || !domain_.inside(segments[entry->second]) || found[entry->second]) {
-      findings_.add(Flaw::unknown_subsegment, [&] {
+      findings_.add(Flaw::kUnknownSubsegment, [&] {
         return chain_words(chain) + (entry == segment_between.end() ? " joins points that no input segment joins"
                                      : found[entry->second]         ? " doubles another one"
                                                                     : " is an input segment outside the domain");
@@ -123,7 +123,7 @@ void DomainCheck::check_chains() {
   }
   for (std::size_t i = 0; i < segments.size(); ++i)
     if (!found[i] && domain_.inside(segments[i]))
-      findings_.add(Flaw::segment_missing, [&] {
+      findings_.add(Flaw::kSegmentMissing, [&] {
         return fmt::format("no chain of subsegments joins the ends {} and {} of an input segment",
                            place_words(domain_.points()[segments[i].a]), place_words(domain_.points()[segments[i].b]));
       });
@@ -137,7 +137,7 @@ void DomainCheck::check_chain(const Chains::Chain& chain, const Domain::Segment&
   for (std::size_t i = 0; i < chain.subsegments.size(); ++i) {
     const std::int32_t s = chain.subsegments[i], from = chain.vertices[i];
     if (subsegments[s].marker != segment.marker)
-      findings_.add(Flaw::wrong_marker, [&] {
+      findings_.add(Flaw::kWrongMarker, [&] {
         return fmt::format("subsegment {}, {}, has marker {}, expected {}", s,
                            edge_words(names_, subsegments[s].a, subsegments[s].b), subsegments[s].marker,
                            segment.marker);
@@ -152,11 +152,11 @@ void DomainCheck::check_side(std::int32_t subsegment, std::int32_t triangle, std
   if (covered == expected) return;
   const Mesh::Edge& edge = chains_.subsegments()[subsegment];
   if (expected)
-    findings_.add(Flaw::not_covered, [&] {
+    findings_.add(Flaw::kNotCovered, [&] {
       return edge_words(names_, edge.a, edge.b) + " has no triangle on one side although the domain lies there";
     });
   else
-    findings_.add(face == Arrangement::kUnbounded ? Flaw::outside_filled : Flaw::hole_filled, [&] {
+    findings_.add(face == Arrangement::kUnbounded ? Flaw::kOutsideFilled : Flaw::kHoleFilled, [&] {
       return triangle_words(names_, triangle) + " lies " +
              (face == Arrangement::kUnbounded ? "outside the domain" : "in a hole") + ", at " +
              edge_words(names_, edge.a, edge.b);
@@ -175,7 +175,7 @@ void DomainCheck::check_straight(const Chains::Chain& chain) {
       before = along;
       continue;
     }
-    findings_.add(Flaw::off_segment, [&] {
+    findings_.add(Flaw::kOffSegment, [&] {
       return fmt::format(
           "{} on {} is {:.3g} off its line (at most {:.3g}) and {:.17g} of {:.17g} along it, after {:.17g}",
           point_words(names_, chain.vertices[i]), chain_words(chain), static_cast<double>(off),
@@ -188,7 +188,7 @@ void DomainCheck::check_straight(const Chains::Chain& chain) {
 
 void DomainCheck::check_area(double mesh_area) {
   if (std::fabs(mesh_area - domain_.area()) <= domain_.area_tolerance()) return;
-  findings_.add(Flaw::wrong_area, [&] {
+  findings_.add(Flaw::kWrongArea, [&] {
     return fmt::format("the triangles cover {:.17g}, the domain has {:.17g} (rounding explains {:.3g})", mesh_area,
                        domain_.area(), domain_.area_tolerance());
   });
@@ -198,7 +198,7 @@ void DomainCheck::check_area(double mesh_area) {
 void DomainCheck::check_euler(std::int64_t triangles, std::int64_t used_points, std::int64_t boundary_edges) {
   const std::int64_t expected = 2 * used_points - boundary_edges - 2 * domain_.euler_number();
   if (triangles == expected) return;
-  findings_.add(Flaw::wrong_euler, [&] {
+  findings_.add(Flaw::kWrongEuler, [&] {
     return fmt::format("{} triangles; {} vertices, {} boundary edges and Euler number {} of the domain require {}",
                        triangles, used_points, boundary_edges, domain_.euler_number(), expected);
   });

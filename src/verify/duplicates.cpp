@@ -12,7 +12,7 @@ void check_duplicates(const NamedMesh& mesh, const PointFilter& counts, const Po
     if (!counts(v)) continue;
     const std::int32_t first = index.add(v);
     if (first != v && (is_new(v) || is_new(first)))
-      findings.add(Flaw::duplicate_point, [&] {
+      findings.add(Flaw::kDuplicatePoint, [&] {
         return point_words(mesh, v) + fmt::format(" has the coordinates of point {}", mesh.number(first));
       });
   }

@@ -44,7 +44,7 @@ void EdgeCheck::note_interface(const Side& left, const Side& right, bool delauna
 
 void EdgeCheck::report(std::int32_t u, std::int32_t v, const Side& left, const Side& right) {
   const double inside = incircle(at(u), at(v), at(left.apex), at(right.apex));
-  findings_.add(Flaw::not_delaunay, [&] {
+  findings_.add(Flaw::kNotDelaunay, [&] {
     return edge_words(names_, u, v) +
            fmt::format(" between {} and {}: ", triangle_words(names_, left.triangle),
                        triangle_words(names_, right.triangle)) +

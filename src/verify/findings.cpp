@@ -4,69 +4,69 @@ namespace driftmesh {
 
 const char* flaw_name(Flaw flaw) {
   switch (flaw) {
-    case Flaw::bad_array:
+    case Flaw::kBadArray:
       return "bad array";
-    case Flaw::bad_index:
+    case Flaw::kBadIndex:
       return "bad index";
-    case Flaw::bad_coordinate:
+    case Flaw::kBadCoordinate:
       return "bad coordinate";
-    case Flaw::duplicate_point:
+    case Flaw::kDuplicatePoint:
       return "duplicate point";
-    case Flaw::pieces_disagree:
+    case Flaw::kPiecesDisagree:
       return "pieces disagree";
-    case Flaw::not_counterclockwise:
+    case Flaw::kNotCounterclockwise:
       return "not counterclockwise";
-    case Flaw::duplicate_triangle:
+    case Flaw::kDuplicateTriangle:
       return "duplicate triangle";
-    case Flaw::edge_used_twice:
+    case Flaw::kEdgeUsedTwice:
       return "edge used twice";
-    case Flaw::open_edge:
+    case Flaw::kOpenEdge:
       return "open edge";
-    case Flaw::tangled_vertex:
+    case Flaw::kTangledVertex:
       return "tangled vertex";
-    case Flaw::stray_subsegment:
+    case Flaw::kStraySubsegment:
       return "stray subsegment";
-    case Flaw::duplicate_subsegment:
+    case Flaw::kDuplicateSubsegment:
       return "duplicate subsegment";
-    case Flaw::boundary_crosses:
+    case Flaw::kBoundaryCrosses:
       return "boundary crosses itself";
-    case Flaw::overlap:
+    case Flaw::kOverlap:
       return "overlap";
-    case Flaw::not_delaunay:
+    case Flaw::kNotDelaunay:
       return "not Delaunay";
-    case Flaw::input_not_planar:
+    case Flaw::kInputNotPlanar:
       return "input not planar";
-    case Flaw::point_missing:
+    case Flaw::kPointMissing:
       return "input point missing";
-    case Flaw::segment_missing:
+    case Flaw::kSegmentMissing:
       return "input segment missing";
-    case Flaw::unknown_subsegment:
+    case Flaw::kUnknownSubsegment:
       return "unknown subsegment";
-    case Flaw::off_segment:
+    case Flaw::kOffSegment:
       return "off its segment";
-    case Flaw::wrong_marker:
+    case Flaw::kWrongMarker:
       return "wrong marker";
-    case Flaw::not_covered:
+    case Flaw::kNotCovered:
       return "domain not covered";
-    case Flaw::outside_filled:
+    case Flaw::kOutsideFilled:
       return "outside filled";
-    case Flaw::hole_filled:
+    case Flaw::kHoleFilled:
       return "hole filled";
-    case Flaw::wrong_polygons:
+    case Flaw::kWrongPolygons:
       return "not what the polygons say";
-    case Flaw::wrong_area:
+    case Flaw::kWrongArea:
       return "wrong area";
-    case Flaw::wrong_euler:
+    case Flaw::kWrongEuler:
       return "wrong Euler number";
-    case Flaw::wrong_region:
+    case Flaw::kWrongRegion:
       return "wrong region";
-    case Flaw::wrong_point_marker:
+    case Flaw::kWrongPointMarker:
       return "wrong point marker";
-    case Flaw::wrong_attribute:
+    case Flaw::kWrongAttribute:
       return "wrong attribute";
-    case Flaw::small_angle:
+    case Flaw::kSmallAngle:
       return "small angle";
-    case Flaw::large_area:
+    case Flaw::kLargeArea:
       return "large area";
   }
   return "unknown flaw";

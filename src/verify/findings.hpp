@@ -12,43 +12,43 @@ namespace driftmesh {
 /// What can be wrong with a mesh. Each kind is counted on its own.
 enum class Flaw : std::uint8_t {
   // The arrays of the piece.
-  bad_array,        ///< an array has the wrong length
-  bad_index,        ///< a triangle or subsegment names a point that does not exist, or the same point twice
-  bad_coordinate,   ///< a used point is not finite or outside the range of the exact predicates
-  duplicate_point,  ///< two used points have the same coordinates
-  pieces_disagree,  ///< a point differs between pieces in coordinates, marker or attributes, or a number is missing
+  kBadArray,        ///< an array has the wrong length
+  kBadIndex,        ///< a triangle or subsegment names a point that does not exist, or the same point twice
+  kBadCoordinate,   ///< a used point is not finite or outside the range of the exact predicates
+  kDuplicatePoint,  ///< two used points have the same coordinates
+  kPiecesDisagree,  ///< a point differs between pieces in coordinates, marker or attributes, or a number is missing
   // The triangulation.
-  not_counterclockwise,  ///< a triangle is inverted or flat (exact)
-  duplicate_triangle,    ///< two triangles have the same corners
-  edge_used_twice,       ///< two triangles lie on the same side of an edge
-  open_edge,             ///< an edge with one triangle is not a subsegment: a triangle is missing, or a T-junction
-  tangled_vertex,        ///< the triangles around a vertex form neither one closed fan nor only open ones
-  stray_subsegment,      ///< a subsegment is not an edge of the mesh
-  duplicate_subsegment,  ///< a subsegment is listed twice
-  boundary_crosses,      ///< two subsegments of the boundary cross, overlap or touch other than at a common end
-  overlap,               ///< a part of the plane is covered by more than one triangle
-  not_delaunay,          ///< the point opposite an unconstrained edge lies inside the circumcircle (exact)
+  kNotCounterclockwise,  ///< a triangle is inverted or flat (exact)
+  kDuplicateTriangle,    ///< two triangles have the same corners
+  kEdgeUsedTwice,        ///< two triangles lie on the same side of an edge
+  kOpenEdge,             ///< an edge with one triangle is not a subsegment: a triangle is missing, or a T-junction
+  kTangledVertex,        ///< the triangles around a vertex form neither one closed fan nor only open ones
+  kStraySubsegment,      ///< a subsegment is not an edge of the mesh
+  kDuplicateSubsegment,  ///< a subsegment is listed twice
+  kBoundaryCrosses,      ///< two subsegments of the boundary cross, overlap or touch other than at a common end
+  kOverlap,              ///< a part of the plane is covered by more than one triangle
+  kNotDelaunay,          ///< the point opposite an unconstrained edge lies inside the circumcircle (exact)
   // The mesh against the input it was made from.
-  input_not_planar,    ///< the input's segments cross or overlap: nothing can be checked against it
-  point_missing,       ///< a point of the input lies in the domain and is not a vertex
-  segment_missing,     ///< no chain of subsegments runs from one end of an input segment to the other
-  unknown_subsegment,  ///< a chain of subsegments joins input points that no input segment joins
-  off_segment,         ///< a vertex of a chain is off its input segment, or out of order along it
-  wrong_marker,        ///< a subsegment does not carry the marker of its input segment
-  not_covered,         ///< a part of the domain along an input segment has no triangles
-  outside_filled,      ///< a triangle lies outside the outer boundary
-  hole_filled,         ///< a triangle lies in a hole
-  wrong_polygons,      ///< the repaired input has another domain, or other regions, than the polygons as given
-  wrong_area,          ///< the triangles' areas do not sum to the area of the domain
-  wrong_euler,         ///< counts of triangles, vertices and boundary edges do not fit the domain's topology
-  wrong_region,        ///< a triangle does not carry the attribute of the region it lies in
-  wrong_point_marker,  ///< a point of the input does not carry its marker
-  wrong_attribute,     ///< a point of the input does not carry its attributes
+  kInputNotPlanar,     ///< the input's segments cross or overlap: nothing can be checked against it
+  kPointMissing,       ///< a point of the input lies in the domain and is not a vertex
+  kSegmentMissing,     ///< no chain of subsegments runs from one end of an input segment to the other
+  kUnknownSubsegment,  ///< a chain of subsegments joins input points that no input segment joins
+  kOffSegment,         ///< a vertex of a chain is off its input segment, or out of order along it
+  kWrongMarker,        ///< a subsegment does not carry the marker of its input segment
+  kNotCovered,         ///< a part of the domain along an input segment has no triangles
+  kOutsideFilled,      ///< a triangle lies outside the outer boundary
+  kHoleFilled,         ///< a triangle lies in a hole
+  kWrongPolygons,      ///< the repaired input has another domain, or other regions, than the polygons as given
+  kWrongArea,          ///< the triangles' areas do not sum to the area of the domain
+  kWrongEuler,         ///< counts of triangles, vertices and boundary edges do not fit the domain's topology
+  kWrongRegion,        ///< a triangle does not carry the attribute of the region it lies in
+  kWrongPointMarker,   ///< a point of the input does not carry its marker
+  kWrongAttribute,     ///< a point of the input does not carry its attributes
   // Quality.
-  small_angle,  ///< an angle below the bound that nothing in the input explains
-  large_area,   ///< an area above the bound
+  kSmallAngle,  ///< an angle below the bound that nothing in the input explains
+  kLargeArea,   ///< an area above the bound
 };
-inline constexpr std::size_t kFlawCount = to_index(Flaw::large_area) + 1;
+inline constexpr std::size_t kFlawCount = to_index(Flaw::kLargeArea) + 1;
 
 /// The name of the kind in words: "not Delaunay".
 [[nodiscard]] const char* flaw_name(Flaw flaw);

@@ -107,7 +107,7 @@ Frame join_frames(std::span<Frame> frames, MergeFaults& faults) {
     append(whole.parts, std::exchange(frame.parts, {}));
     meshes.push_back(&frame.mesh);
   }
-  whole.mesh = merge_pieces(meshes, faults, Numbering::sparse);
+  whole.mesh = merge_pieces(meshes, faults, Numbering::kSparse);
   const std::size_t count = whole.mesh.triangles.size();
   if (subdomains.size() == count) whole.mesh.subdomains = std::move(subdomains);
   if (ranks.size() == count) whole.mesh.ranks = std::move(ranks);

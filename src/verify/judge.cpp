@@ -23,7 +23,7 @@ std::string area_words(const Suspect& suspect) {
   const auto& [a, b, c] = suspect.corners;
   const auto area = static_cast<double>(cross_extended(a, b, c) / 2);
   const std::string triangle = triangle_words(suspect.place, suspect.numbers);
-  if (suspect.miss == Suspect::Miss::area)
+  if (suspect.miss == Suspect::Miss::kArea)
     return triangle + fmt::format(" has area {:.9g}, at most {:.9g} is allowed", area, suspect.bound);
   return triangle + fmt::format(" has area {:.9g}, but an edge of {:.9g} is asked for at {}", area, suspect.bound,
                                 place_words(suspect.at));
@@ -43,12 +43,12 @@ std::string angle_words(const Suspect& suspect, const ShortestEdge& edge, double
 }  // namespace
 
 void Judge::judge(const Suspect& suspect, Quality& quality, Findings& findings) {
-  if (suspect.miss == Suspect::Miss::angle) return judge_angle(suspect, quality, findings);
+  if (suspect.miss == Suspect::Miss::kAngle) return judge_angle(suspect, quality, findings);
   const auto describe = [&] { return area_words(suspect); };
   if (room().none_for_area(suspect.corners))
-    except(ExceptionReason::no_room, quality, describe);
+    except(ExceptionReason::kNoRoom, quality, describe);
   else
-    findings.add(Flaw::large_area, describe);
+    findings.add(Flaw::kLargeArea, describe);
 }
 
 void Judge::judge_angle(const Suspect& suspect, Quality& quality, Findings& findings) {
@@ -57,13 +57,13 @@ void Judge::judge_angle(const Suspect& suspect, Quality& quality, Findings& find
   const std::int32_t v = corner(0), p = corner(1), q = corner(2);
   const auto describe = [&] { return angle_words(suspect, edge, min_angle_); };
   if (is_subsegment(v, p) && is_subsegment(v, q))
-    except(ExceptionReason::input_angle, quality, describe);
+    except(ExceptionReason::kInputAngle, quality, describe);
   else if (is_seditious(p, q))
-    except(ExceptionReason::small_wedge, quality, describe);
+    except(ExceptionReason::kSmallWedge, quality, describe);
   else if (room().none_for_angle(suspect.corners, min_angle_))
-    except(ExceptionReason::no_room, quality, describe);
+    except(ExceptionReason::kNoRoom, quality, describe);
   else
-    findings.add(Flaw::small_angle, describe);
+    findings.add(Flaw::kSmallAngle, describe);
 }
 
 std::int32_t Judge::vertex_of(std::int64_t number) const {

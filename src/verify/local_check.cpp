@@ -13,7 +13,7 @@ namespace {
 
 void check_length(std::size_t actual, std::size_t expected, const char* array, Findings& findings) {
   if (actual != expected)
-    findings.add(Flaw::bad_array,
+    findings.add(Flaw::kBadArray,
                  [&] { return fmt::format("{} has {} entries, expected {}", array, actual, expected); });
 }
 
@@ -28,7 +28,7 @@ bool check_arrays(const NamedMesh& names, Findings& findings) {
     check_length(mesh.subdomains.size(), mesh.triangles.size(), "the array of subdomains", findings);
   if (!mesh.ranks.empty()) check_length(mesh.ranks.size(), mesh.triangles.size(), "the array of ranks", findings);
   if (mesh.attributes_per_point < 0)
-    findings.add(Flaw::bad_array, [&] {
+    findings.add(Flaw::kBadArray, [&] {
       return fmt::format("points have {} attributes, expected at least 0", mesh.attributes_per_point);
     });
   check_length(mesh.attributes.size(), n * std::max(0, mesh.attributes_per_point), "the array of point attributes",
@@ -37,14 +37,14 @@ bool check_arrays(const NamedMesh& names, Findings& findings) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     if (!valid(a) || !valid(b) || !valid(c) || a == b || b == c || c == a)
-      findings.add(Flaw::bad_index, [&] {
+      findings.add(Flaw::kBadIndex, [&] {
         return triangle_words(names, t) + fmt::format(": three different points below {} are expected", n);
       });
   }
   for (std::size_t s = 0; s < mesh.edges.size(); ++s) {
     const auto& [a, b, marker] = mesh.edges[s];
     if (!valid(a) || !valid(b) || a == b)
-      findings.add(Flaw::bad_index, [&, u = a, v = b] {
+      findings.add(Flaw::kBadIndex, [&, u = a, v = b] {
         return fmt::format("subsegment {} ({} {}): two different points below {} are expected", s, u, v, n);
       });
   }
@@ -59,7 +59,7 @@ std::size_t check_coordinates(const NamedMesh& names, const CornerTable& corners
     ++used;
     const Point& p = mesh.points[i];
     if (!in_coordinate_range(p.x) || !in_coordinate_range(p.y))
-      findings.add(Flaw::bad_coordinate,
+      findings.add(Flaw::kBadCoordinate,
                    [&] { return point_words(names, i) + " is outside the range of coordinates"; });
   }
   return used;
@@ -84,9 +84,9 @@ void check_subsegments(const NamedMesh& mesh, const Subsegments& subsegments, Fi
       return [&, u, v, what] { return fmt::format("subsegment {}, {}, {}", s, edge_words(mesh, u, v), what); };
     };
     if (subsegments.find(a, b) != s)
-      findings.add(Flaw::duplicate_subsegment, say("is listed before"));
+      findings.add(Flaw::kDuplicateSubsegment, say("is listed before"));
     else if (subsegments.left(s, a) == kNone && subsegments.right(s, a) == kNone)
-      findings.add(Flaw::stray_subsegment, say("is an edge of no triangle"));
+      findings.add(Flaw::kStraySubsegment, say("is an edge of no triangle"));
   }
 }
 
@@ -96,7 +96,7 @@ void check_orientations(const NamedMesh& names, std::size_t begin, std::size_t e
     const auto& [a, b, c] = mesh.triangles[t];
     const double orientation = orient2d(mesh.points[a], mesh.points[b], mesh.points[c]);
     if (!(orientation > 0))
-      findings.add(Flaw::not_counterclockwise, [&] {
+      findings.add(Flaw::kNotCounterclockwise, [&] {
         return triangle_words(names, t) +
                fmt::format(" is {}: orientation {}, expected > 0", orientation < 0 ? "inverted" : "flat", orientation);
       });
@@ -121,7 +121,7 @@ void FanCheck::check_hub(std::int32_t hub) {
   }
   const Fan::Shape shape = fan_.shape();
   if (shape.rings > (shape.sectors == 0 ? 1 : 0))
-    findings_.add(Flaw::tangled_vertex, [&] {
+    findings_.add(Flaw::kTangledVertex, [&] {
       return point_words(names_, hub) + fmt::format(
                                             ": its triangles form {} closed rings and {} open sectors, expected "
                                             "one ring or only sectors",
@@ -137,12 +137,12 @@ void FanCheck::check_sides(std::int32_t hub) {
     if (a.next != b.next) continue;
     if (a.prev == b.prev) {
       if (hub < a.next && hub < a.prev)
-        findings_.add(Flaw::duplicate_triangle, [&] {
+        findings_.add(Flaw::kDuplicateTriangle, [&] {
           return triangle_words(names_, a.triangle) + " and " + triangle_words(names_, b.triangle) +
                  " have the same corners";
         });
     } else {
-      findings_.add(Flaw::edge_used_twice, [&] {
+      findings_.add(Flaw::kEdgeUsedTwice, [&] {
         return triangle_words(names_, a.triangle) + " and " + triangle_words(names_, b.triangle) +
                " lie on the same side of " + edge_words(names_, hub, a.next);
       });
@@ -155,7 +155,7 @@ void FanCheck::check_edge(std::int32_t u, std::int32_t v, const Spoke* left, con
   if (s != kNone) {
     subsegments_.set_sides(s, u, left != nullptr ? left->triangle : kNone, right != nullptr ? right->triangle : kNone);
   } else if (left == nullptr || right == nullptr) {
-    findings_.add(Flaw::open_edge, [&] {
+    findings_.add(Flaw::kOpenEdge, [&] {
       return edge_words(names_, u, v) + " has one triangle, " +
              triangle_words(names_, (left != nullptr ? left : right)->triangle) +
              ", but is not a subsegment: two triangles are expected";

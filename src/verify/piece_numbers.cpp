@@ -27,7 +27,7 @@ PieceNumbers::PieceNumbers(std::span<const PieceReport> pieces) {
 
 void PieceNumbers::check_largest(Findings& findings) const {
   if (too_large_)
-    findings.add(Flaw::pieces_disagree, [&] {
+    findings.add(Flaw::kPiecesDisagree, [&] {
       return fmt::format("numbers go up to {}, but all pieces together have {} points: pieces are missing",
                          all_.largest(), all_.count());
     });
@@ -38,7 +38,7 @@ void PieceNumbers::check_gaps(Findings& findings) const {
   std::int64_t end = 0;
   for (const NumberRuns::Run& run : all_.runs()) {
     for (std::int64_t n = end; n < run.first; ++n)
-      findings.add(Flaw::pieces_disagree, [&] { return fmt::format("point {} is in no piece", n); });
+      findings.add(Flaw::kPiecesDisagree, [&] { return fmt::format("point {} is in no piece", n); });
     end = std::max(end, run.end);
   }
 }

@@ -42,7 +42,7 @@ void check_markers(const NamedMesh& names, const Pslg& input, const PointIndex& 
   for (const auto& [v, i] : unlike) {
     const std::int32_t actual = mesh.point_markers[v], expected = input.point_markers[i];
     if (expected == 0 && subsegments.give(v, actual)) continue;
-    findings.add(Flaw::wrong_point_marker, [&, vertex = v] {
+    findings.add(Flaw::kWrongPointMarker, [&, vertex = v] {
       return fmt::format("{} has marker {}, expected {}", point_words(names, vertex), actual, expected);
     });
   }
@@ -51,7 +51,7 @@ void check_markers(const NamedMesh& names, const Pslg& input, const PointIndex& 
 void check_attributes(const NamedMesh& names, const Pslg& input, const PointIndex& mesh_points, Findings& findings) {
   const Mesh& mesh = names.mesh();
   if (mesh.attributes_per_point != input.attributes_per_point) {
-    findings.add(Flaw::wrong_attribute, [&] {
+    findings.add(Flaw::kWrongAttribute, [&] {
       return fmt::format("points have {} attributes, expected {}", mesh.attributes_per_point,
                          input.attributes_per_point);
     });
@@ -63,7 +63,7 @@ void check_attributes(const NamedMesh& names, const Pslg& input, const PointInde
     for (std::size_t k = 0; k < width && v != kNone; ++k) {
       const double actual = mesh.attributes[to_index(v) * width + k], expected = input.attributes[i * width + k];
       if (actual != expected)
-        findings.add(Flaw::wrong_attribute, [&] {
+        findings.add(Flaw::kWrongAttribute, [&] {
           return fmt::format("{} has {} as attribute {}, expected {}", point_words(names, v), actual, k + 1, expected);
         });
     }

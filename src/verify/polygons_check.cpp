@@ -32,7 +32,7 @@ class PolygonsCheck {
   void check_face(std::int32_t face, const Point& place, std::int32_t given_face) {
     if (given_face == Arrangement::kOnBoundary) return;
     const auto say = [&](const std::string& what) {
-      findings_.add(Flaw::wrong_polygons, [&] {
+      findings_.add(Flaw::kWrongPolygons, [&] {
         return fmt::format("the face of area {:.9g} around {} {}", domain_.area(face), place_words(place), what);
       });
     };
@@ -53,7 +53,7 @@ class PolygonsCheck {
  private:
   void check_area(const std::string& what, double actual, double expected) {
     if (std::fabs(actual - expected) <= tolerance_) return;
-    findings_.add(Flaw::wrong_polygons, [&] {
+    findings_.add(Flaw::kWrongPolygons, [&] {
       return fmt::format("the area of {} is {:.17g}, by the polygons of the input {:.17g} (rounding explains {:.3g})",
                          what, actual, expected, tolerance_);
     });

@@ -201,19 +201,19 @@ class Measurement {
 
   void check_size(std::size_t t, double area) {
     if (const std::optional<SizeCheck::Miss> miss = bounds_.size->find_miss(corners(t), area))
-      suspect(t, Suspect::Miss::size, miss->length, miss->at);
+      suspect(t, Suspect::Miss::kSize, miss->length, miss->at);
   }
 
   void check_large_area(std::size_t t, double bound) {
     const auto [a, b, c] = corners(t);
     if (cross_extended(a, b, c) / 2 > bound * (1 + static_cast<long double>(kSlack)))
-      suspect(t, Suspect::Miss::area, bound, {});
+      suspect(t, Suspect::Miss::kArea, bound, {});
   }
 
   void check_small_angle(std::size_t t) {
     const auto [a, b, c] = corners(t);
     const ShortestEdge edge = shortest_edge({a, b, c});
-    if (!(edge.ratio <= max_ratio_ && edge.ratio > 0)) suspect(t, Suspect::Miss::angle, 0, {});
+    if (!(edge.ratio <= max_ratio_ && edge.ratio > 0)) suspect(t, Suspect::Miss::kAngle, 0, {});
   }
 
   void suspect(std::size_t t, Suspect::Miss miss, double bound, const Point& at) {
@@ -308,9 +308,9 @@ ShortestEdge shortest_edge(const std::array<Point, 3>& triangle) {
 
 const char* reason_name(ExceptionReason reason) {
   switch (reason) {
-    case ExceptionReason::input_angle:
+    case ExceptionReason::kInputAngle:
       return "small angle of the input";
-    case ExceptionReason::small_wedge:
+    case ExceptionReason::kSmallWedge:
       return "wedge between input segments";
     default:
       return "no room between coordinates";

@@ -18,11 +18,11 @@ namespace driftmesh {
 
 /// Why a triangle may miss the bound on angles or, in the last case, that on areas.
 enum class ExceptionReason : std::uint8_t {
-  input_angle,  ///< the angle is given by the input: both of its sides are subsegments
-  small_wedge,  ///< the shortest edge joins, at nearly the same distance from their common end, two input segments that
+  kInputAngle,  ///< the angle is given by the input: both of its sides are subsegments
+  kSmallWedge,  ///< the shortest edge joins, at nearly the same distance from their common end, two input segments that
                 ///< meet at less than 60 degrees (a "seditious" edge: Shewchuk and Si 2014; Miller, Pav, Walkington
                 ///< 2003)
-  no_room,      ///< double precision leaves no room for a point that would help; see Room
+  kNoRoom,      ///< double precision leaves no room for a point that would help; see Room
 };
 inline constexpr std::size_t kExceptionReasonCount = 3;
 [[nodiscard]] const char* reason_name(ExceptionReason reason);
@@ -61,12 +61,12 @@ struct CheckedBounds {
 
 /// A triangle that misses a bound: a flaw unless there is an accepted reason. See Judge.
 struct Suspect {
-  enum class Miss : std::uint8_t { angle, area, size };
+  enum class Miss : std::uint8_t { kAngle, kArea, kSize };
 
   TrianglePlace place;
   std::array<std::int64_t, 3> numbers{};  ///< numbers of the corners
   std::array<Point, 3> corners{};
-  Miss miss = Miss::angle;
+  Miss miss = Miss::kAngle;
   double bound = 0;  ///< the largest area, or the length of an edge that is asked for
   Point at{};        ///< where that length is asked for
 };

@@ -46,7 +46,7 @@ void check_regions(const NamedMesh& names, const Domain& domain, const std::vect
     const Pslg::Region* region = domain.region_of(faces[t]);
     const double expected = region != nullptr ? region->attribute : 0, actual = names.mesh().regions[t];
     if (actual != expected)
-      findings.add(Flaw::wrong_region, [&] {
+      findings.add(Flaw::kWrongRegion, [&] {
         return fmt::format("{} has region attribute {}, expected {}", triangle_words(names, t), actual, expected);
       });
   }

@@ -51,7 +51,7 @@ class Verification {
     check_pieces();
     join_pieces();
     if (computable_) {
-      if (conflict_) findings_.add(Flaw::input_not_planar, [&] { return *conflict_; });
+      if (conflict_) findings_.add(Flaw::kInputNotPlanar, [&] { return *conflict_; });
       check_triangulation();
       check_against_domain();
       list_duplicates();
@@ -170,7 +170,7 @@ class Verification {
     MergeFaults faults;
     frame_ = join_frames(frames, faults);
     for (std::size_t i = 0; i < faults.count; ++i)
-      findings_.add(Flaw::pieces_disagree, [&] { return i < faults.first.size() ? faults.first[i] : "..."; });
+      findings_.add(Flaw::kPiecesDisagree, [&] { return i < faults.first.size() ? faults.first[i] : "..."; });
     numbers.check_gaps(findings_);
   }
 

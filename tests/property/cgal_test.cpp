@@ -325,7 +325,7 @@ TEST_CASE("CGAL's refined meshes are accepted with the angle bound that they wer
     CHECK(report.accepted());
     CHECK(report.quality.smallest_angle > 1);
     options.min_angle = report.quality.smallest_angle * 1.0001;
-    CHECK(verify(mesh, random.input, options).findings.count(Flaw::small_angle) +
+    CHECK(verify(mesh, random.input, options).findings.count(Flaw::kSmallAngle) +
               verify(mesh, random.input, options).quality.exception_count() >=
           1);
     options.min_angle = report.quality.smallest_angle * 0.9999;

@@ -167,7 +167,7 @@ class Trial {
       const Mesh mesh = driftmesh::mesh(other.given, options_for(1));
       if (check(mesh, case_.given, options_for(1)).accepted) return "the mesh of another set is accepted";
       const VerifyReport report = verify(mesh, repaired, {.region_areas = false, .given = &case_.given});
-      if (report.findings.count(Flaw::wrong_polygons) == 0 && report.polygons_judged)
+      if (report.findings.count(Flaw::kWrongPolygons) == 0 && report.polygons_judged)
         return "another reading of the polygons is not noticed";
     } catch (const Error&) {
       // Nothing may be left to mesh.

@@ -34,7 +34,7 @@ TEST_CASE("inputs that once failed") {
           options.max_area = area;
         }
         const VerifyReport report = verify(to_piece(result.mesh, pslg), pslg, options);
-        CHECK(report.findings.count(Flaw::not_delaunay) == 0);
+        CHECK(report.findings.count(Flaw::kNotDelaunay) == 0);
         CHECK(report.accepted());
       }
   }

@@ -71,7 +71,7 @@ TEST_CASE("scan conversion gives every sample to exactly one triangle of a mesh"
     std::vector<int> hits(60 * 60 * 4, 0);
     double area = 0;
     for (const auto& triangle : mesh.triangles) {
-      ValueRaster raster(60, 60, 2, ValueRaster::Keep::last);
+      ValueRaster raster(60, 60, 2, ValueRaster::Keep::kLast);
       const Point& a = mesh.points[triangle[0]];
       const Point& b = mesh.points[triangle[1]];
       const Point& c = mesh.points[triangle[2]];
@@ -92,7 +92,7 @@ TEST_CASE("scan conversion gives every sample to exactly one triangle of a mesh"
 
 TEST_CASE("a pixel of many triangles shows the worst or the mean of them, including those without a sample") {
   const auto red = [](double value) { return Rgb{value, 0, 0}; };
-  for (const auto& [keep, expected] : {std::pair{ValueRaster::Keep::minimum, 0.25}, {ValueRaster::Keep::mean, 0.5}}) {
+  for (const auto& [keep, expected] : {std::pair{ValueRaster::Keep::kMinimum, 0.25}, {ValueRaster::Keep::kMean, 0.5}}) {
     ValueRaster raster(3, 3, 1, keep);
     raster.add_triangle({1.1, 1.1}, {1.2, 1.1}, {1.1, 1.2}, 0.25F);
     raster.add_triangle({1.8, 1.8}, {1.9, 1.8}, {1.8, 1.9}, 0.75F);
@@ -104,7 +104,7 @@ TEST_CASE("a pixel of many triangles shows the worst or the mean of them, includ
 }
 
 TEST_CASE("a triangle far larger than the raster is cut off at its sides") {
-  ValueRaster raster(4, 3, 2, ValueRaster::Keep::last);
+  ValueRaster raster(4, 3, 2, ValueRaster::Keep::kLast);
   raster.add_triangle({-1e30, -1e30}, {1e30, -1e30}, {0, 1e30}, 1);
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 4; ++x) CHECK(raster.pixel(x, y, viridis).coverage == 1);
@@ -167,7 +167,7 @@ TEST_CASE("viridis ends in the published colors and gets lighter all the way") {
 TEST_CASE("a picture shows triangles in their colors and leaves holes white") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.png";
-  plot_mesh(square_with_hole(), path, {.width = 800, .height = 600, .color = PlotColor::none, .title = "ring"});
+  plot_mesh(square_with_hole(), path, {.width = 800, .height = 600, .color = PlotColor::kPlain, .title = "ring"});
   const Picture picture(path);
   REQUIRE(picture.width() == 800);
   REQUIRE(picture.height() == 600);
@@ -188,7 +188,7 @@ TEST_CASE("a picture shows triangles in their colors and leaves holes white") {
 TEST_CASE("a fine mesh becomes a density image, in SVG embedded") {
   const TemporaryFolder folder;
   const RandomMesh random(5, 250, 250);
-  for (PlotColor color : {PlotColor::angle, PlotColor::area, PlotColor::region}) {
+  for (PlotColor color : {PlotColor::kAngle, PlotColor::kArea, PlotColor::kRegion}) {
     const std::string path = folder.path() / "fine.svg";
     plot_mesh(random.mesh(), path, {.width = 300, .color = color});
     const std::string text = file_bytes(path);
@@ -196,7 +196,7 @@ TEST_CASE("a fine mesh becomes a density image, in SVG embedded") {
     CHECK(text.size() < 500000);
   }
   const std::string path = folder.path() / "fine.png";
-  plot_mesh(random.mesh(), path, {.width = 300, .color = PlotColor::angle});
+  plot_mesh(random.mesh(), path, {.width = 300, .color = PlotColor::kAngle});
   const Picture picture(path);
   CHECK(picture.width() == 300);
   CHECK(picture.drawn(0, 0, 300, picture.height()) > 300 * 300 / 4);
@@ -205,7 +205,7 @@ TEST_CASE("a fine mesh becomes a density image, in SVG embedded") {
 TEST_CASE("a coarse mesh in SVG is made of polygons, and the file is XML") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.svg";
-  plot_mesh(square_with_hole(), path, {.color = PlotColor::region, .title = "a <b> & c"});
+  plot_mesh(square_with_hole(), path, {.color = PlotColor::kRegion, .title = "a <b> & c"});
   const std::string text = file_bytes(path);
   CHECK(text.find("data:image/png;base64") == std::string::npos);
   XmlScanner scanner(path, text);
@@ -223,14 +223,14 @@ TEST_CASE("colors show angles where triangles can be seen, and areas where they 
     return file_bytes(path);
   };
   const Mesh coarse = square_with_hole();
-  CHECK(bytes(coarse, PlotColor::automatic) == bytes(coarse, PlotColor::angle));
+  CHECK(bytes(coarse, PlotColor::kAutomatic) == bytes(coarse, PlotColor::kAngle));
   const Mesh fine = RandomMesh(5, 250, 250).mesh();
-  CHECK(bytes(fine, PlotColor::automatic) == bytes(fine, PlotColor::area));
-  CHECK(bytes(fine, PlotColor::area) != bytes(fine, PlotColor::angle));
+  CHECK(bytes(fine, PlotColor::kAutomatic) == bytes(fine, PlotColor::kArea));
+  CHECK(bytes(fine, PlotColor::kArea) != bytes(fine, PlotColor::kAngle));
 }
 
 TEST_CASE("means go over the triangles around a sample, and nothing gets a value that has none") {
-  ValueRaster raster(5, 5, 1, ValueRaster::Keep::mean);
+  ValueRaster raster(5, 5, 1, ValueRaster::Keep::kMean);
   const auto put = [&](double x, double y, float value) {
     raster.add_triangle({x, y}, {x + 0.1, y}, {x, y + 0.1}, value);
   };
@@ -253,7 +253,7 @@ TEST_CASE("text stays inside a narrow picture, and a legend leaves room for the 
   const RandomMesh random(5, 250, 250);
   for (const int width : {100, 150, 200, 300, 450, 700}) {
     CAPTURE(width);
-    for (const PlotColor color : {PlotColor::angle, PlotColor::area, PlotColor::region}) {
+    for (const PlotColor color : {PlotColor::kAngle, PlotColor::kArea, PlotColor::kRegion}) {
       plot_mesh(random.mesh(), path,
                 {.width = width, .color = color, .title = "a-file-with-a-name-of-medium-length.vtu"});
       const Picture picture(path);
@@ -268,7 +268,7 @@ TEST_CASE("empty meshes and boxes beside the mesh can be drawn") {
   const std::string path = folder.path() / "mesh.png";
   Mesh one_point;
   one_point.points = {{1e9, -1e9}};
-  for (PlotColor color : {PlotColor::angle, PlotColor::area, PlotColor::region, PlotColor::none}) {
+  for (PlotColor color : {PlotColor::kAngle, PlotColor::kArea, PlotColor::kRegion, PlotColor::kPlain}) {
     plot_mesh({}, path, {.width = 300, .color = color});
     plot_mesh(one_point, path, {.width = 300, .color = color});
     plot_mesh(square_with_hole(), path, {.width = 300, .color = color, .box = PlotBox{{10, 10}, {11, 20}}});

@@ -82,16 +82,16 @@ TEST_CASE("a split point that one side lacks is found") {
   right.ranks.pop_back();
   const VerifyReport report = check({left_square(), right});
   CHECK(!report.accepted());
-  CHECK(report.findings.count(Flaw::open_edge) == 3);
-  CHECK(report.findings.count(Flaw::pieces_disagree) == 0);
+  CHECK(report.findings.count(Flaw::kOpenEdge) == 3);
+  CHECK(report.findings.count(Flaw::kPiecesDisagree) == 0);
 }
 
 TEST_CASE("a coordinate that differs in its last bit is found") {
   Mesh right = right_square();
   right.points[4].y = std::nextafter(0.5, 1);
   const VerifyReport report = check({left_square(), right});
-  CHECK(report.findings.count(Flaw::pieces_disagree) == 1);
-  CHECK(report.findings.messages(Flaw::pieces_disagree)[0] ==
+  CHECK(report.findings.count(Flaw::kPiecesDisagree) == 1);
+  CHECK(report.findings.messages(Flaw::kPiecesDisagree)[0] ==
         "point 6 has other coordinates in piece 0 than in piece 1");
 }
 
@@ -102,13 +102,13 @@ TEST_CASE("other markers and attributes of the same point are found") {
     piece->attributes_per_point = 2;
     piece->attributes.assign(10, 0.25);
   }
-  CHECK(check({left, right}).findings.count(Flaw::pieces_disagree) == 0);
+  CHECK(check({left, right}).findings.count(Flaw::kPiecesDisagree) == 0);
   right.point_markers[2] = 3;
   right.attributes[9] = 0.5;
   const VerifyReport report = check({left, right});
-  CHECK(report.findings.count(Flaw::pieces_disagree) == 2);
-  CHECK(report.findings.messages(Flaw::pieces_disagree)[0] == "point 4 has other marker in piece 0 than in piece 1");
-  CHECK(report.findings.messages(Flaw::pieces_disagree)[1] ==
+  CHECK(report.findings.count(Flaw::kPiecesDisagree) == 2);
+  CHECK(report.findings.messages(Flaw::kPiecesDisagree)[0] == "point 4 has other marker in piece 0 than in piece 1");
+  CHECK(report.findings.messages(Flaw::kPiecesDisagree)[1] ==
         "point 6 has other attributes in piece 0 than in piece 1");
 }
 
@@ -129,23 +129,23 @@ TEST_CASE("points with different numbers at the same place of an interface are f
   Mesh right = right_square();
   right.numbers[4] = 7;
   const VerifyReport report = check({left_square(), right});
-  CHECK(report.findings.count(Flaw::duplicate_point) == 1);
-  CHECK(report.findings.count(Flaw::open_edge) == 4);
+  CHECK(report.findings.count(Flaw::kDuplicatePoint) == 1);
+  CHECK(report.findings.count(Flaw::kOpenEdge) == 4);
 }
 
 TEST_CASE("a missing piece is found") {
   const VerifyReport report = check({left_square(), Mesh{}});
-  CHECK(report.findings.messages(Flaw::pieces_disagree)[0] ==
+  CHECK(report.findings.messages(Flaw::kPiecesDisagree)[0] ==
         "numbers go up to 6, but all pieces together have 5 points: pieces are missing");
-  CHECK(report.findings.count(Flaw::open_edge) == 2);
+  CHECK(report.findings.count(Flaw::kOpenEdge) == 2);
   Mesh more = left_square();  // with points that no triangle uses: one number is missing, not most of them
   more.points.insert(more.points.end(), {{5, 5}, {6, 6}, {7, 7}});
   more.numbers.insert(more.numbers.end(), {2, 7, 8});
-  CHECK(check({more, Mesh{}, left_square()}).findings.messages(Flaw::pieces_disagree)[0] == "point 5 is in no piece");
+  CHECK(check({more, Mesh{}, left_square()}).findings.messages(Flaw::kPiecesDisagree)[0] == "point 5 is in no piece");
   Mesh far = left_square();
   far.numbers[0] = 700'000'000'000;
   CHECK(check({far, right_square()})
-            .findings.messages(Flaw::pieces_disagree)[0]
+            .findings.messages(Flaw::kPiecesDisagree)[0]
             .starts_with("numbers go up to 700000000000"));
   far.numbers[0] = -1;
   CHECK_THROWS_WITH_AS(check({far, right_square()}), doctest::Contains("number -1"), Error);
@@ -155,13 +155,13 @@ TEST_CASE("a missing piece is found") {
 
 TEST_CASE("a duplicate piece is found") {
   const VerifyReport report = check({left_square(), right_square(), right_square()});
-  CHECK(report.findings.count(Flaw::duplicate_triangle) == 3);
+  CHECK(report.findings.count(Flaw::kDuplicateTriangle) == 3);
 }
 
 TEST_CASE("a number twice in one piece is found") {
   Mesh left = left_square();
   left.numbers[4] = 0;
-  CHECK(check({left, right_square()}).findings.messages(Flaw::pieces_disagree)[0] == "point 0 is twice in piece 0");
+  CHECK(check({left, right_square()}).findings.messages(Flaw::kPiecesDisagree)[0] == "point 0 is twice in piece 0");
 }
 
 TEST_CASE("a subsegment between two pieces is one; with another marker it is two") {
@@ -173,9 +173,9 @@ TEST_CASE("a subsegment between two pieces is one; with another marker it is two
   CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).accepted());
   CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).subsegments == 8);
   right.edges.back().marker = 3;
-  CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).findings.count(Flaw::duplicate_subsegment) == 1);
+  CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).findings.count(Flaw::kDuplicateSubsegment) == 1);
   left.edges.push_back({4, 3, 9});
-  CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).findings.count(Flaw::duplicate_subsegment) == 2);
+  CHECK(verify_pieces(std::vector{left, right}, nullptr, {}).findings.count(Flaw::kDuplicateSubsegment) == 2);
 }
 
 TEST_CASE("an edge that is not Delaunay is a flaw inside a subdomain, and only counted between two") {
@@ -183,9 +183,9 @@ TEST_CASE("an edge that is not Delaunay is a flaw inside a subdomain, and only c
   mesh.points = {{0, 0}, {2, 0}, {1, 0.5}, {1, -0.5}};
   mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
   mesh.edges = {{1, 2, 1}, {2, 0, 1}, {0, 3, 1}, {3, 1, 1}};
-  CHECK(verify(mesh, {}).findings.count(Flaw::not_delaunay) == 1);
+  CHECK(verify(mesh, {}).findings.count(Flaw::kNotDelaunay) == 1);
   mesh.subdomains = {4, 4};
-  CHECK(verify(mesh, {}).findings.count(Flaw::not_delaunay) == 1);
+  CHECK(verify(mesh, {}).findings.count(Flaw::kNotDelaunay) == 1);
   mesh.subdomains = {4, 9};
   const VerifyReport report = verify(mesh, {});
   CHECK(report.accepted());
@@ -218,6 +218,6 @@ TEST_CASE("pieces that do not fit together are read for a check, and otherwise r
   Mesh right = right_square();
   right.points[4].y = std::nextafter(0.5, 1);
   write_mesh(right, pvtu_piece_path(path, 1));
-  CHECK(check(read_pieces(path)).findings.count(Flaw::pieces_disagree) == 1);
+  CHECK(check(read_pieces(path)).findings.count(Flaw::kPiecesDisagree) == 1);
   CHECK_THROWS_WITH_AS((void)read_mesh(path), doctest::Contains("point 6 has other coordinates"), InputError);
 }

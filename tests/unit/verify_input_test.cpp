@@ -16,48 +16,48 @@ using oracles::GridCase;
 TEST_CASE("a subsegment that is missing, listed twice or no edge") {
   GridCase grid;
   drop_subsegment(grid.mesh, grid.at(3, 0), grid.at(4, 0));
-  CHECK_HAS(check(grid), Flaw::open_edge);
-  CHECK_HAS(check(grid), Flaw::segment_missing);
+  CHECK_HAS(check(grid), Flaw::kOpenEdge);
+  CHECK_HAS(check(grid), Flaw::kSegmentMissing);
   grid = GridCase();  // inside the domain, only the input shows it
   drop_subsegment(grid.mesh, grid.at(3, 9), grid.at(4, 9));
   CHECK(verify(grid.mesh, {}).accepted());
-  CHECK_HAS(check(grid), Flaw::segment_missing);
+  CHECK_HAS(check(grid), Flaw::kSegmentMissing);
   grid = GridCase();
   grid.mesh.edges.push_back(grid.mesh.edges[4]);
-  CHECK_HAS(check(grid), Flaw::duplicate_subsegment);
-  CHECK_ONLY(verify(grid.mesh, {}), Flaw::duplicate_subsegment);
+  CHECK_HAS(check(grid), Flaw::kDuplicateSubsegment);
+  CHECK_ONLY(verify(grid.mesh, {}), Flaw::kDuplicateSubsegment);
   grid = GridCase();
   grid.mesh.edges.push_back({grid.at(1, 1), grid.at(9, 2), 1});
-  CHECK_HAS(check(grid), Flaw::stray_subsegment);
-  CHECK_ONLY(verify(grid.mesh, {}), Flaw::stray_subsegment);
+  CHECK_HAS(check(grid), Flaw::kStraySubsegment);
+  CHECK_ONLY(verify(grid.mesh, {}), Flaw::kStraySubsegment);
 }
 
 TEST_CASE("a subsegment that lies on no input segment") {
   GridCase grid;
   grid.mesh.edges.push_back({grid.at(1, 10), grid.at(1, 11), 0});
   CHECK(verify(grid.mesh, {}).accepted());
-  CHECK_ONLY(check(grid), Flaw::unknown_subsegment);
+  CHECK_ONLY(check(grid), Flaw::kUnknownSubsegment);
 }
 
 TEST_CASE("all subsegments of an input segment missing") {
   GridCase grid;
   for (int x = 0; x < GridCase::kSize; ++x) drop_subsegment(grid.mesh, grid.at(x, 9), grid.at(x + 1, 9));
   CHECK(verify(grid.mesh, {}).accepted());
-  CHECK_HAS(check(grid), Flaw::segment_missing);
+  CHECK_HAS(check(grid), Flaw::kSegmentMissing);
 }
 
 TEST_CASE("a wrong marker") {
   GridCase grid;
   subsegment(grid.mesh, grid.at(7, 3), grid.at(6, 3)).marker = 4;
-  CHECK_ONLY(check(grid), Flaw::wrong_marker);
-  CHECK(check(grid).findings.messages(Flaw::wrong_marker).front().find("has marker 4, expected 5") !=
+  CHECK_ONLY(check(grid), Flaw::kWrongMarker);
+  CHECK(check(grid).findings.messages(Flaw::kWrongMarker).front().find("has marker 4, expected 5") !=
         std::string::npos);
 }
 
 TEST_CASE("a wrong region attribute") {
   GridCase grid;
   grid.mesh.regions[17] = 20;
-  CHECK_ONLY(check(grid), Flaw::wrong_region);
+  CHECK_ONLY(check(grid), Flaw::kWrongRegion);
   grid = GridCase();
   CHECK(check(grid).regions_listed);
   grid.mesh.regions.clear();
@@ -77,16 +77,16 @@ TEST_CASE("a wrong marker or attribute of a point") {
   const GridCase right = grid;
   const std::size_t corner = to_index(grid.at(0, 0));
   grid.mesh.point_markers[corner] = 8;
-  CHECK_ONLY(check(grid), Flaw::wrong_point_marker);
-  CHECK(check(grid).findings.messages(Flaw::wrong_point_marker).front().find("has marker 8, expected 7") !=
+  CHECK_ONLY(check(grid), Flaw::kWrongPointMarker);
+  CHECK(check(grid).findings.messages(Flaw::kWrongPointMarker).front().find("has marker 8, expected 7") !=
         std::string::npos);
   grid = right;
   grid.mesh.attributes[2 * corner + 1] = std::nextafter(0.5, 1);
-  CHECK_ONLY(check(grid), Flaw::wrong_attribute);
+  CHECK_ONLY(check(grid), Flaw::kWrongAttribute);
   grid = right;
   grid.mesh.attributes_per_point = 1;
   grid.mesh.attributes.resize(grid.mesh.points.size());
-  CHECK_ONLY(check(grid), Flaw::wrong_attribute);
+  CHECK_ONLY(check(grid), Flaw::kWrongAttribute);
   grid = right;  // a mesh that lists neither
   grid.mesh.point_markers.clear();
   grid.mesh.attributes.clear();
@@ -107,7 +107,7 @@ TEST_CASE("a point without a marker may have that of a subsegment there, or 1") 
   grid.mesh.point_markers[corner] = 1;
   CHECK(check(grid).accepted());
   grid.mesh.point_markers[corner] = 77;
-  CHECK_ONLY(check(grid), Flaw::wrong_point_marker);
+  CHECK_ONLY(check(grid), Flaw::kWrongPointMarker);
 }
 
 TEST_CASE("a filled hole") {
@@ -128,9 +128,9 @@ TEST_CASE("a filled hole") {
     }
   CHECK(verify(grid.mesh, {}).accepted());
   const VerifyReport report = check(grid);
-  CHECK_HAS(report, Flaw::hole_filled);
-  CHECK_HAS(report, Flaw::wrong_area);
-  CHECK_HAS(report, Flaw::wrong_euler);
+  CHECK_HAS(report, Flaw::kHoleFilled);
+  CHECK_HAS(report, Flaw::kWrongArea);
+  CHECK_HAS(report, Flaw::kWrongEuler);
 }
 
 TEST_CASE("a triangle outside the domain") {
@@ -140,8 +140,8 @@ TEST_CASE("a triangle outside the domain") {
   grid.mesh.edges.push_back({grid.at(6, 12), tip, 3});
   grid.mesh.edges.push_back({tip, grid.at(5, 12), 3});
   CHECK(verify(grid.mesh, {}).accepted());
-  CHECK_HAS(check(grid), Flaw::unknown_subsegment);
-  CHECK_HAS(check(grid), Flaw::wrong_area);
+  CHECK_HAS(check(grid), Flaw::kUnknownSubsegment);
+  CHECK_HAS(check(grid), Flaw::kWrongArea);
 
   Mesh two;
   two.points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -150,13 +150,13 @@ TEST_CASE("a triangle outside the domain") {
   Pslg one;
   one.points = two.points;
   one.segments = {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}};
-  CHECK_HAS(verify(two, one, {}), Flaw::outside_filled);
+  CHECK_HAS(verify(two, one, {}), Flaw::kOutsideFilled);
 }
 
 TEST_CASE("an input point that is not a vertex") {
   GridCase grid;
   grid.input.points.push_back({1.5, 6.5});
-  CHECK_HAS(check(grid), Flaw::point_missing);
+  CHECK_HAS(check(grid), Flaw::kPointMissing);
   grid = GridCase();  // in the hole and outside, points are carved
   grid.input.points.push_back({4.5, 6.5});
   grid.input.points.push_back({40, 6});
@@ -166,19 +166,19 @@ TEST_CASE("an input point that is not a vertex") {
 TEST_CASE("a chain that leaves its segment") {
   GridCase grid;
   grid.mesh.points[grid.at(6, 9)].y = 9.0000001;
-  CHECK_HAS(check(grid, 0, 0), Flaw::off_segment);
-  CHECK(check(grid, 0, 0).findings.messages(Flaw::off_segment).front().find("off its line") != std::string::npos);
+  CHECK_HAS(check(grid, 0, 0), Flaw::kOffSegment);
+  CHECK(check(grid, 0, 0).findings.messages(Flaw::kOffSegment).front().find("off its line") != std::string::npos);
   grid = GridCase();  // rounding is not a flaw
   grid.mesh.points[grid.at(6, 9)].y = std::nextafter(9.0, 10.0);
-  CHECK(check(grid, 0, 0).findings.count(Flaw::off_segment) == 0);
+  CHECK(check(grid, 0, 0).findings.count(Flaw::kOffSegment) == 0);
 }
 
 TEST_CASE("bounds") {
   const GridCase grid;
-  CHECK_ONLY(check(grid, 45.1), Flaw::small_angle);
-  CHECK(check(grid, 45.1).findings.count(Flaw::small_angle) == grid.mesh.triangles.size());
-  CHECK(check(grid, 45.1).findings.messages(Flaw::small_angle).size() == 5);
-  CHECK_ONLY(check(grid, 0, 0.499), Flaw::large_area);
+  CHECK_ONLY(check(grid, 45.1), Flaw::kSmallAngle);
+  CHECK(check(grid, 45.1).findings.count(Flaw::kSmallAngle) == grid.mesh.triangles.size());
+  CHECK(check(grid, 45.1).findings.messages(Flaw::kSmallAngle).size() == 5);
+  CHECK_ONLY(check(grid, 0, 0.499), Flaw::kLargeArea);
   CHECK(check(grid, 45, 0.5).accepted());
 }
 
@@ -186,8 +186,8 @@ TEST_CASE("the area bound of a region") {
   GridCase grid;
   grid.input.regions[1].max_area = 0.4;
   const VerifyReport report = check(grid, 0, 0);
-  CHECK_ONLY(report, Flaw::large_area);
-  CHECK(report.findings.count(Flaw::large_area) == 72);
+  CHECK_ONLY(report, Flaw::kLargeArea);
+  CHECK(report.findings.count(Flaw::kLargeArea) == 72);
   VerifyOptions options;
   options.region_areas = false;
   CHECK(verify(grid.mesh, grid.input, options).accepted());
@@ -196,19 +196,19 @@ TEST_CASE("the area bound of a region") {
 TEST_CASE("an input that is not planar") {
   GridCase grid;
   grid.input.segments.push_back({0, 3, 7});
-  CHECK_ONLY(check(grid), Flaw::input_not_planar);
+  CHECK_ONLY(check(grid), Flaw::kInputNotPlanar);
   grid = GridCase();
   grid.input.points.push_back({6, 0});
-  CHECK_ONLY(check(grid), Flaw::input_not_planar);
+  CHECK_ONLY(check(grid), Flaw::kInputNotPlanar);
 }
 
 TEST_CASE("another input") {
   GridCase grid;
   grid.input.segments.pop_back();
-  CHECK_HAS(check(grid), Flaw::unknown_subsegment);
+  CHECK_HAS(check(grid), Flaw::kUnknownSubsegment);
   grid = GridCase();
   grid.input.holes.clear();
-  CHECK_HAS(check(grid), Flaw::not_covered);
+  CHECK_HAS(check(grid), Flaw::kNotCovered);
 }
 
 TEST_CASE("a mesh whose file lists no subsegments") {
@@ -217,13 +217,13 @@ TEST_CASE("a mesh whose file lists no subsegments") {
   const VerifyReport report = verify(grid.mesh, {});
   CHECK(report.accepted());
   CHECK(!report.subsegments_listed);
-  CHECK_HAS(check(grid), Flaw::segment_missing);
+  CHECK_HAS(check(grid), Flaw::kSegmentMissing);
 }
 
 TEST_CASE("an empty mesh") {
   CHECK(verify(Mesh{}, {}).accepted());
   const VerifyReport report = verify(Mesh{}, GridCase().input, {});
-  CHECK_HAS(report, Flaw::segment_missing);
-  CHECK_HAS(report, Flaw::point_missing);
-  CHECK_HAS(report, Flaw::wrong_area);
+  CHECK_HAS(report, Flaw::kSegmentMissing);
+  CHECK_HAS(report, Flaw::kPointMissing);
+  CHECK_HAS(report, Flaw::kWrongArea);
 }

@@ -35,19 +35,19 @@ TEST_CASE("a correct mesh is accepted, with and without its input") {
 TEST_CASE("arrays of the wrong length") {
   GridCase grid;
   grid.mesh.regions.pop_back();
-  CHECK_ONLY(check(grid), Flaw::bad_array);
+  CHECK_ONLY(check(grid), Flaw::kBadArray);
   grid = GridCase();
   grid.mesh.point_markers.pop_back();
-  CHECK_ONLY(check(grid), Flaw::bad_array);
+  CHECK_ONLY(check(grid), Flaw::kBadArray);
   grid = GridCase();
   grid.mesh.attributes.push_back(1);
-  CHECK_ONLY(check(grid), Flaw::bad_array);
+  CHECK_ONLY(check(grid), Flaw::kBadArray);
 }
 
 TEST_CASE("a negative number of attributes") {
   GridCase grid;
   grid.mesh.attributes_per_point = -1;
-  CHECK_ONLY(check(grid), Flaw::bad_array);
+  CHECK_ONLY(check(grid), Flaw::kBadArray);
 }
 
 TEST_CASE("neighbors that coincide, with subsegments and without") {
@@ -60,11 +60,11 @@ TEST_CASE("neighbors that coincide, with subsegments and without") {
         mesh.triangles = {{0, 1, 2}};
         if (listed) mesh.edges = {{0, 1, 1}, {1, 2, 1}, {2, 0, 1}};
         const VerifyReport report = verify(mesh, {});
-        CHECK(report.findings.count(Flaw::not_counterclockwise) == 1);
-        CHECK(report.findings.count(Flaw::duplicate_point) == 1);
+        CHECK(report.findings.count(Flaw::kNotCounterclockwise) == 1);
+        CHECK(report.findings.count(Flaw::kDuplicatePoint) == 1);
         CHECK(report.quality.smallest_area == 0);
         mesh.points.assign(3, other);
-        CHECK_HAS(verify(mesh, {}), Flaw::duplicate_point);
+        CHECK_HAS(verify(mesh, {}), Flaw::kDuplicatePoint);
       }
 }
 
@@ -74,8 +74,8 @@ TEST_CASE("each point of the boundary moved onto each other one") {
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
       GridCase moved;
       moved.mesh.points[from] = grid.mesh.points[to];
-      CHECK_HAS(check(moved), Flaw::duplicate_point);
-      CHECK_HAS(verify(moved.mesh, {}), Flaw::duplicate_point);
+      CHECK_HAS(check(moved), Flaw::kDuplicatePoint);
+      CHECK_HAS(verify(moved.mesh, {}), Flaw::kDuplicatePoint);
     }
 }
 
@@ -88,52 +88,52 @@ TEST_CASE("a triangle far beyond the domain does not take forever where sizes ar
   grid.mesh.points[grid.at(2, 2)] = {1e60, 2};
   const VerifyReport report =
       verify(grid.mesh, grid.input, {.region_areas = false, .size = &field, .size_spacing = 0.1});
-  CHECK(report.findings.count(Flaw::not_counterclockwise) > 0);
+  CHECK(report.findings.count(Flaw::kNotCounterclockwise) > 0);
 }
 
 TEST_CASE("indices that name a missing point, or the same point twice") {
   GridCase grid;
   grid.mesh.triangles[7][1] = static_cast<std::int32_t>(grid.mesh.points.size());
-  CHECK_ONLY(check(grid), Flaw::bad_index);
+  CHECK_ONLY(check(grid), Flaw::kBadIndex);
   grid = GridCase();
   grid.mesh.triangles[7][1] = -1;
-  CHECK_ONLY(check(grid), Flaw::bad_index);
+  CHECK_ONLY(check(grid), Flaw::kBadIndex);
   grid = GridCase();
   grid.mesh.triangles[7][1] = grid.mesh.triangles[7][0];
-  CHECK_ONLY(check(grid), Flaw::bad_index);
+  CHECK_ONLY(check(grid), Flaw::kBadIndex);
   grid = GridCase();
   grid.mesh.edges[3].b = -7;
-  CHECK_ONLY(check(grid), Flaw::bad_index);
+  CHECK_ONLY(check(grid), Flaw::kBadIndex);
 }
 
 TEST_CASE("coordinates outside the range of the predicates") {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300, 1e-300}) {
     GridCase grid;
     grid.mesh.points[5].x = bad;
-    CHECK_ONLY(check(grid), Flaw::bad_coordinate);
+    CHECK_ONLY(check(grid), Flaw::kBadCoordinate);
   }
 }
 
 TEST_CASE("an inverted triangle") {
   GridCase grid;
   std::swap(grid.mesh.triangles[40][0], grid.mesh.triangles[40][1]);
-  CHECK_HAS(check(grid), Flaw::not_counterclockwise);
-  CHECK_HAS(verify(grid.mesh, {}), Flaw::not_counterclockwise);
+  CHECK_HAS(check(grid), Flaw::kNotCounterclockwise);
+  CHECK_HAS(verify(grid.mesh, {}), Flaw::kNotCounterclockwise);
 }
 
 TEST_CASE("a vertex moved across an edge inverts a triangle; moved a little it breaks Delaunay") {
   GridCase grid;
   grid.mesh.points[grid.at(2, 2)] = {3.5, 2};
-  CHECK_HAS(check(grid), Flaw::not_counterclockwise);
+  CHECK_HAS(check(grid), Flaw::kNotCounterclockwise);
   grid = GridCase();
   grid.mesh.points[grid.at(2, 2)] = {2.25, 2.125};
-  CHECK_ONLY(verify(grid.mesh, {}), Flaw::not_delaunay);
+  CHECK_ONLY(verify(grid.mesh, {}), Flaw::kNotDelaunay);
 }
 
 TEST_CASE("a Steiner vertex moved by one unit in the last place breaks an exact cocircularity") {
   GridCase grid;
   grid.mesh.points[grid.at(2, 2)].x = std::nextafter(2.0, 3.0);
-  CHECK_ONLY(check(grid, 0, 0), Flaw::not_delaunay);
+  CHECK_ONLY(check(grid, 0, 0), Flaw::kNotDelaunay);
 }
 
 TEST_CASE("an edge flipped against Delaunay") {
@@ -143,7 +143,7 @@ TEST_CASE("an edge flipped against Delaunay") {
   mesh.triangles = {{0, 1, 3}, {1, 2, 3}};
   CHECK(verify(mesh, {}).accepted());
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  CHECK_ONLY(verify(mesh, {}), Flaw::not_delaunay);
+  CHECK_ONLY(verify(mesh, {}), Flaw::kNotDelaunay);
   mesh.edges.push_back({0, 2, 1});  // a constrained edge need not be Delaunay
   CHECK(verify(mesh, {}).accepted());
 }
@@ -151,27 +151,27 @@ TEST_CASE("an edge flipped against Delaunay") {
 TEST_CASE("a missing triangle") {
   GridCase grid;
   drop_triangle(grid.mesh, find_triangle(grid.mesh, {grid.at(10, 10), grid.at(11, 10), grid.at(11, 11)}));
-  CHECK_HAS(check(grid), Flaw::open_edge);
-  CHECK_HAS(check(grid), Flaw::wrong_area);
-  CHECK_HAS(check(grid), Flaw::wrong_euler);
-  CHECK_HAS(verify(grid.mesh, {}), Flaw::open_edge);
+  CHECK_HAS(check(grid), Flaw::kOpenEdge);
+  CHECK_HAS(check(grid), Flaw::kWrongArea);
+  CHECK_HAS(check(grid), Flaw::kWrongEuler);
+  CHECK_HAS(verify(grid.mesh, {}), Flaw::kOpenEdge);
 }
 
 TEST_CASE("a triangle listed twice") {
   GridCase grid;
   add_triangle(grid.mesh, grid.mesh.triangles[33], 10);
-  CHECK_HAS(check(grid), Flaw::duplicate_triangle);
+  CHECK_HAS(check(grid), Flaw::kDuplicateTriangle);
   GridCase turned;
   const auto [a, b, c] = turned.mesh.triangles[33];
   add_triangle(turned.mesh, {b, c, a}, 10);
-  CHECK_HAS(check(turned), Flaw::duplicate_triangle);
+  CHECK_HAS(check(turned), Flaw::kDuplicateTriangle);
 }
 
 TEST_CASE("a third triangle on an edge") {
   GridCase grid;
   const std::int32_t far = grid.at(10, 5);
   add_triangle(grid.mesh, {grid.at(0, 2), grid.at(1, 2), far}, 10);
-  CHECK_HAS(check(grid), Flaw::edge_used_twice);
+  CHECK_HAS(check(grid), Flaw::kEdgeUsedTwice);
 }
 
 TEST_CASE("a point that no triangle uses is counted, but is not a flaw") {
@@ -188,11 +188,11 @@ TEST_CASE("a vertex in an edge: a T-junction") {
   const std::int32_t m = add_point(grid.mesh, {2.5, 2});
   grid.mesh.triangles[find_triangle(grid.mesh, {a, b, c})] = {a, m, c};
   add_triangle(grid.mesh, {m, b, c}, 10);
-  CHECK_HAS(check(grid), Flaw::open_edge);
-  CHECK_HAS(verify(grid.mesh, {}), Flaw::open_edge);
+  CHECK_HAS(check(grid), Flaw::kOpenEdge);
+  CHECK_HAS(verify(grid.mesh, {}), Flaw::kOpenEdge);
   // Declared as a slit of constrained edges, it is still detected: the boundary touches itself.
   grid.mesh.edges.insert(grid.mesh.edges.end(), {{a, m, 0}, {m, b, 0}, {a, b, 0}});
-  CHECK_HAS(verify(grid.mesh, {}), Flaw::boundary_crosses);
+  CHECK_HAS(verify(grid.mesh, {}), Flaw::kBoundaryCrosses);
 }
 
 TEST_CASE("a crack between two copies of a point") {
@@ -202,8 +202,8 @@ TEST_CASE("a crack between two copies of a point") {
   for (auto& triangle : grid.mesh.triangles)
     if (std::find(triangle.begin(), triangle.end(), above) != triangle.end())
       std::replace(triangle.begin(), triangle.end(), old, copy);
-  CHECK_HAS(check(grid), Flaw::duplicate_point);
-  CHECK_HAS(verify(grid.mesh, {}), Flaw::duplicate_point);
+  CHECK_HAS(check(grid), Flaw::kDuplicatePoint);
+  CHECK_HAS(verify(grid.mesh, {}), Flaw::kDuplicatePoint);
 }
 
 TEST_CASE("two sheets over the same place") {
@@ -214,7 +214,7 @@ TEST_CASE("two sheets over the same place") {
   for (const Point& p : sheet.points) add_point(grid.mesh, {p.x + 0.5, p.y + 0.25});
   for (const auto& [a, b, c] : sheet.triangles) add_triangle(grid.mesh, {a + shift, b + shift, c + shift}, 10);
   for (const auto& [a, b, marker] : sheet.edges) grid.mesh.edges.push_back({a + shift, b + shift, marker});
-  CHECK_ONLY(verify(grid.mesh, {}), Flaw::boundary_crosses);
+  CHECK_ONLY(verify(grid.mesh, {}), Flaw::kBoundaryCrosses);
 }
 
 TEST_CASE("a sheet inside another one, no edges crossing") {
@@ -223,7 +223,7 @@ TEST_CASE("a sheet inside another one, no edges crossing") {
                      c = add_point(grid.mesh, {1.5, 1.25});
   add_triangle(grid.mesh, {a, b, c}, 10);
   grid.mesh.edges.insert(grid.mesh.edges.end(), {{a, b, 1}, {b, c, 1}, {c, a, 1}});
-  CHECK_ONLY(verify(grid.mesh, {}), Flaw::overlap);
+  CHECK_ONLY(verify(grid.mesh, {}), Flaw::kOverlap);
 }
 
 TEST_CASE("triangles that wind twice around a vertex") {
@@ -237,7 +237,7 @@ TEST_CASE("triangles that wind twice around a vertex") {
   }
   const VerifyReport report = verify(mesh, {});
   INFO(all_messages(report));
-  CHECK((report.findings.count(Flaw::boundary_crosses) > 0 || report.findings.count(Flaw::overlap) > 0));
+  CHECK((report.findings.count(Flaw::kBoundaryCrosses) > 0 || report.findings.count(Flaw::kOverlap) > 0));
 }
 
 TEST_CASE("a closed ring and another fan at one vertex") {
@@ -246,7 +246,7 @@ TEST_CASE("a closed ring and another fan at one vertex") {
   const std::int32_t p = add_point(grid.mesh, {2.25, 2.0625}), q = add_point(grid.mesh, {2.25, 2.125});
   add_triangle(grid.mesh, {hub, p, q}, 10);
   grid.mesh.edges.insert(grid.mesh.edges.end(), {{hub, p, 1}, {p, q, 1}, {q, hub, 1}});
-  CHECK_HAS(check(grid), Flaw::tangled_vertex);
+  CHECK_HAS(check(grid), Flaw::kTangledVertex);
 }
 
 TEST_CASE("the report does not depend on the number of threads") {

@@ -232,7 +232,7 @@ TEST_CASE("the area bound of a size field is that of its shortest length at the 
     const Field field(small_at);
     VerifyOptions options;
     options.size = &field;
-    CHECK(verify(mesh, options).findings.count(Flaw::large_area) == 1);
+    CHECK(verify(mesh, options).findings.count(Flaw::kLargeArea) == 1);
   }
   const Field field({9, 9});
   VerifyOptions options;
@@ -261,7 +261,7 @@ TEST_CASE(
   const auto flaws = [&](double radius, double inside) {
     field.radius = radius;
     field.inside = inside;
-    return verify(mesh, options).findings.count(Flaw::large_area);
+    return verify(mesh, options).findings.count(Flaw::kLargeArea);
   };
   CHECK(flaws(0.2, 3) == 0);
   CHECK(flaws(0.4, 1) == 1);
@@ -283,7 +283,7 @@ TEST_CASE("a small angle is accepted where the input has it, and nowhere else") 
   Mesh wedge = one_triangle({0, 0}, {4, 0}, {4, 1});  // 14 degrees
   VerifyReport report = verify(wedge, options);
   CHECK(report.accepted());
-  CHECK(report.quality.exceptions[ExceptionReason::input_angle].count == 1);
+  CHECK(report.quality.exceptions[ExceptionReason::kInputAngle].count == 1);
 
   // The same corner cut by a vertex: its two angles of 7 degrees are not angles of the input.
   Mesh cut;
@@ -291,7 +291,7 @@ TEST_CASE("a small angle is accepted where the input has it, and nowhere else") 
   cut.triangles = {{0, 1, 2}, {0, 2, 3}};
   cut.edges = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
   report = verify(cut, options);
-  CHECK(report.findings.count(Flaw::small_angle) == 2);
+  CHECK(report.findings.count(Flaw::kSmallAngle) == 2);
 }
 
 TEST_CASE("a skinny triangle on a seditious edge is accepted if its ends are equally far from the apex") {
@@ -309,10 +309,10 @@ TEST_CASE("a skinny triangle on a seditious edge is accepted if its ends are equ
   options.check_delaunay = false;
   VerifyReport report = verify(mesh(1), options);
   CHECK(report.accepted());
-  CHECK(report.quality.exceptions[ExceptionReason::small_wedge].count == 1);
+  CHECK(report.quality.exceptions[ExceptionReason::kSmallWedge].count == 1);
   CHECK(report.quality.exception_count() == 1);
   report = verify(mesh(1.01), options);
-  CHECK(report.findings.count(Flaw::small_angle) == 1);
+  CHECK(report.findings.count(Flaw::kSmallAngle) == 1);
 }
 
 TEST_CASE("chains end at corners, at forks and at bends") {
@@ -364,7 +364,7 @@ TEST_CASE("a skinny triangle is accepted next to a segment that doubles cannot s
     VerifyOptions options;
     options.min_angle = 20;
     options.check_delaunay = false;
-    return verify(m, options).quality.exceptions[ExceptionReason::no_room].count;
+    return verify(m, options).quality.exceptions[ExceptionReason::kNoRoom].count;
   };
   CHECK(excused(1, true) == 1);
   CHECK(excused(1, false) == 0);

@@ -179,7 +179,7 @@ TEST_CASE("random flaws are found in one piece and in several") {
     const VerifyReport joined = verify(whole, input, options);
     accepted += joined.accepted() ? 1 : 0;
     // Otherwise a triangle can be part of several regions.
-    if (joined.findings.count(Flaw::edge_used_twice) == 0) check_same(verify_pieces(pieces, &input, options), joined);
+    if (joined.findings.count(Flaw::kEdgeUsedTwice) == 0) check_same(verify_pieces(pieces, &input, options), joined);
   }
   CHECK(accepted < 100);
 }
@@ -223,7 +223,7 @@ TEST_CASE("random flaws across interfaces are found as in the joined mesh") {
     const VerifyOptions options = all_messages_with(30, 0.51);
     const VerifyReport joined = verify(whole, input, options), alone = verify_pieces(pieces, &input, options);
     CHECK(alone.accepted() == (joined.accepted() && faults.count == 0));
-    CHECK(alone.findings.count(Flaw::pieces_disagree) == faults.count);
+    CHECK(alone.findings.count(Flaw::kPiecesDisagree) == faults.count);
     contradictions += faults.count != 0 ? 1 : 0;
     if (faults.count == 0) check_same(alone, joined);
   }
@@ -268,12 +268,12 @@ TEST_CASE("more suspects than are kept are found on a second look") {
       VerifyOptions options{.min_angle = 20, .max_area = 0.0625};
       options.threads = threads;
       const VerifyReport report = verify_pieces(pieces, nullptr, options), whole = verify(mesh, options);
-      CHECK(report.findings.count(Flaw::small_angle) + report.quality.exception_count() == 2 * kColumns);
-      CHECK(report.findings.count(Flaw::small_angle) == whole.findings.count(Flaw::small_angle));
+      CHECK(report.findings.count(Flaw::kSmallAngle) + report.quality.exception_count() == 2 * kColumns);
+      CHECK(report.findings.count(Flaw::kSmallAngle) == whole.findings.count(Flaw::kSmallAngle));
       CHECK(report.quality.exception_count() == whole.quality.exception_count());
       CHECK(report.quality.exception_count() > 0);
-      CHECK(report.findings.messages(Flaw::small_angle).size() == 5);
-      CHECK(whole.findings.messages(Flaw::small_angle).size() == 5);
+      CHECK(report.findings.messages(Flaw::kSmallAngle).size() == 5);
+      CHECK(whole.findings.messages(Flaw::kSmallAngle).size() == 5);
     }
   }
 }
@@ -292,7 +292,7 @@ TEST_CASE("threads ask a field of sizes at once") {
   VerifyOptions options = all_messages_with(0, 0);
   options.size = &field;
   const VerifyReport alone = verify(mesh, options);
-  CHECK(alone.findings.count(Flaw::large_area) == 128);
+  CHECK(alone.findings.count(Flaw::kLargeArea) == 128);
   for (const std::size_t threads : {1, 2, 3}) {
     options.threads = threads;
     check_same(verify(mesh, options), alone);

@@ -124,10 +124,10 @@ TEST_CASE("a mesh of polygons is judged by them") {
   CHECK(check(halves(), input, input).accepted());
   Mesh mesh = halves();
   mesh.regions[2] = 1;
-  CHECK(verify(mesh, input, {}).findings.count(Flaw::wrong_region) == 1);
+  CHECK(verify(mesh, input, {}).findings.count(Flaw::kWrongRegion) == 1);
   Pslg other = input;
-  other.polygons[1].rings.push_back({1, 3, 4});                                    // a hole
-  CHECK(verify(halves(), other, {}).findings.count(Flaw::input_not_planar) == 1);  // without a segment
+  other.polygons[1].rings.push_back({1, 3, 4});                                   // a hole
+  CHECK(verify(halves(), other, {}).findings.count(Flaw::kInputNotPlanar) == 1);  // without a segment
   other.polygons.pop_back();
   CHECK(!verify(halves(), other, {}).accepted());
 }
@@ -141,7 +141,7 @@ TEST_CASE("a mesh has no regions where those of the polygons are all taken away"
     bare.region = -1;
     input.polygons.push_back(std::move(bare));
   }
-  CHECK(verify(halves(), input, {}).findings.count(Flaw::wrong_region) == 4);
+  CHECK(verify(halves(), input, {}).findings.count(Flaw::kWrongRegion) == 4);
   Mesh mesh = halves();
   mesh.regions.assign(4, 0);
   CHECK(verify(mesh, input, {}).accepted());
@@ -157,21 +157,21 @@ TEST_CASE("what repair made of polygons is judged by the polygons as they were g
 
   raw = given({{{rectangle(1, 0, 2, 2)}, 2}, {{rectangle(0, 0, 2, 2)}, 1}});  // the last counts
   report = check(halves(), input, raw);
-  CHECK(report.findings.total() == report.findings.count(Flaw::wrong_polygons));
-  CHECK(report.findings.count(Flaw::wrong_polygons) == 3);
-  CHECK(report.findings.messages(Flaw::wrong_polygons)[0] ==
+  CHECK(report.findings.total() == report.findings.count(Flaw::kWrongPolygons));
+  CHECK(report.findings.count(Flaw::kWrongPolygons) == 3);
+  CHECK(report.findings.messages(Flaw::kWrongPolygons)[0] ==
         "the face of area 2 around (1.6666666666666665, 0.6666666666666666) belongs to region 2, by the polygons of "
         "the input to 1");
-  CHECK(report.findings.messages(Flaw::wrong_polygons)[1].starts_with(
+  CHECK(report.findings.messages(Flaw::kWrongPolygons)[1].starts_with(
       "the area of region 1 is 2, by the polygons of the input 4 (rounding explains "));
 
   raw = given({{{rectangle(0, 0, 1, 2)}, 1}, {{rectangle(0, 0, 2, 2), rectangle(0, 0, 2, 2)}, 2}});  // no right half
   report = check(halves(), input, raw);
-  CHECK(report.findings.messages(Flaw::wrong_polygons)[0].ends_with(") lies in no polygon of the input"));
+  CHECK(report.findings.messages(Flaw::kWrongPolygons)[0].ends_with(") lies in no polygon of the input"));
 
   raw = given({{{rectangle(0, 0, 2, 2)}, 1}, {{rectangle(1, 0, 2, 3)}, 2}});  // more than is meshed
   report = check(halves(), input, raw);
-  CHECK(report.findings.messages(Flaw::wrong_polygons)[0].starts_with("the area of the domain is 4, by"));
+  CHECK(report.findings.messages(Flaw::kWrongPolygons)[0].starts_with("the area of the domain is 4, by"));
 }
 
 TEST_CASE("points in the same place make no other polygons") {
