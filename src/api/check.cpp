@@ -74,7 +74,9 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
   VerifyOptions asked{.min_angle = request.bounds.angle,
                       .max_area = request.bounds.area,
                       .region_areas = request.bounds.region_areas,
-                      .given = request.input.simplify == 0 && request.input.snap == 0 ? input : nullptr,
+                      .given = input,
+                      .moved = request.input.snap + request.input.simplify,
+                      .nested_holes = request.input.holes == HoleRule::kNested,
                       .threads = threads_for(options)};
   if (options.size) {
     asked.size = &size;

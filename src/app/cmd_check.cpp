@@ -50,14 +50,16 @@ struct CheckOptions {
   ReadOptions reading;
 };
 
-/// Keeps what has polygons as the file has it, too. Snapped or simplified ones are others.
+/// Keeps what has polygons as the file has it, too.
 std::optional<InputFile> read_and_repair(CheckOptions& options, const job::Request::Input& asked) {
   if (options.input.empty()) return std::nullopt;
   InputFile input = read_input(options.input, asked.layers);
-  if (!input.pslg.polygons.empty() && asked.simplify == 0 && asked.snap == 0) {
+  if (!input.pslg.polygons.empty()) {
     options.given = input.pslg;
     options.verify.given = &options.given;
   }
+  options.verify.moved = asked.snap + asked.simplify;
+  options.verify.nested_holes = asked.holes == HoleRule::kNested;
   const RepairReport repairs = job::clean_input(asked, options.input, input.pslg);
   if (!options.quiet) print(repairs.summary());
   return input;

@@ -14,6 +14,7 @@
 #include "job/key.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/nested_rings.hpp"
+#include "mesh/with_seeds.hpp"
 #include "pslg/generators.hpp"
 #include "pslg/names.hpp"
 #include "sizing/sampled_field.hpp"
@@ -38,10 +39,14 @@ void keep_original_points(RepairReport& repairs, const std::vector<std::int32_t>
   repairs.original_point = std::move(original);
 }
 
-/// Adds hole points to a repaired input where the rule makes holes of its rings.
+/// Adds hole points to a repaired input where the rule makes holes of its rings, all of which count, whatever else is a
+/// hole.
 void add_nested_holes(HoleRule rule, Pslg& pslg) {
   if (rule != HoleRule::kNested) return;
-  const std::vector<Point> holes = find_nested_rings(triangulate(pslg)).alternating_holes;
+  Pslg rings = with_seeds(pslg);  // of regions
+  rings.segments = pslg.segments;
+  rings.holes.clear();
+  const std::vector<Point> holes = find_nested_rings(triangulate(rings)).alternating_holes;
   pslg.holes.insert(pslg.holes.end(), holes.begin(), holes.end());
 }
 
@@ -154,7 +159,6 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
 RepairReport clean_input(const Request::Input& asked, const std::string& name, Pslg& pslg) {
   RepairReport repairs = repair(pslg, name, repairs_asked(asked));
   if (asked.simplify > 0) simplify(pslg, asked.simplify, name);
-  add_nested_holes(asked.holes, pslg);
   return repairs;
 }
 

@@ -39,8 +39,8 @@ struct Domain {
 /// Throws InputError, FileError.
 [[nodiscard]] Domain read_domain(const Request& request, const Given& given, Watch& watch);
 
-/// Does to an input what read_domain does, without telling anybody: repairs and simplifies it, and applies the rule for
-/// holes. `name` is for messages. Throws InputError.
+/// Does to an input what read_domain does, without telling anybody: repairs and simplifies it. Holes between nested
+/// rings are left for who judges a mesh to find. `name` is for messages. Throws InputError.
 RepairReport clean_input(const Request::Input& asked, const std::string& name, Pslg& pslg);
 
 /// The names that a request gives to markers and regions. Throws KeyError for what is no marker or no region.

@@ -7,6 +7,7 @@
 
 #include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
+#include "verify/alternating_rings.hpp"
 #include "verify/extended.hpp"
 #include "verify/face_cover.hpp"
 #include "verify/point_index.hpp"
@@ -46,7 +47,7 @@ std::vector<std::int32_t> convex_hull(const std::vector<Point>& points) {
 
 }  // namespace
 
-Domain::Domain(const Pslg& input, std::span<const Point> places) {
+Domain::Domain(const Pslg& input, Holes holes, std::span<const Point> places) {
   std::vector<std::int32_t> number;
   take_points(input, number);
   if (conflict_) return;
@@ -67,7 +68,7 @@ Domain::Domain(const Pslg& input, std::span<const Point> places) {
   const Arrangement arrangement(points_, std::move(links), std::move(seeds));
   conflict_ = arrangement.conflict();
   if (conflict_) return;
-  classify(input, arrangement);
+  classify(input, holes, arrangement);
   measure(arrangement);
   if (!polygons_.empty()) measure_faces();
   for (std::size_t i = seeds_count; i < seeds_count + places.size(); ++i)
@@ -146,7 +147,7 @@ void Domain::take_hull() {
   }
 }
 
-void Domain::classify(const Pslg& input, const Arrangement& arrangement) {
+void Domain::classify(const Pslg& input, Holes holes, const Arrangement& arrangement) {
   inside_.assign(arrangement.face_count(), 1);
   inside_[Arrangement::kUnbounded] = 0;
   region_of_face_.assign(inside_.size(), kNoRegion);
@@ -161,6 +162,11 @@ void Domain::classify(const Pslg& input, const Arrangement& arrangement) {
     if (const std::int32_t face = arrangement.face_of_query(hole); face != Arrangement::kOnBoundary) inside_[face] = 0;
 
   find_regions(input, arrangement);
+  if (holes == Holes::kAlternating) {
+    const std::vector<char> odd = inside_of_alternating_rings(arrangement);
+    for (std::int32_t face = 0; face < face_count(); ++face)
+      if (odd[face] == 0 && region_of_face_[face] == kNoRegion) inside_[face] = 0;
+  }
 
   point_inside_.assign(points_.size(), 0);
   for (std::size_t i = 0; i < segments_.size(); ++i) {
@@ -217,17 +223,17 @@ void Domain::measure(const Arrangement& arrangement) {
 }
 
 void Domain::measure_faces() {
-  double length = 0, largest = 0;
+  double largest = 0;
   std::vector<CompensatedSum> of_faces(inside_.size());
   for (const Segment& s : segments_) {
     const Point &a = points_[s.a], &b = points_[s.b];
-    if (inside(s)) length += std::hypot(b.x - a.x, b.y - a.y);
+    if (inside(s)) border_length_ += std::hypot(b.x - a.x, b.y - a.y);
     largest = std::max(largest, split_tolerance(a, b));
     const long double cross = cross_extended(points_.front(), a, b);
     of_faces[s.left_face].add(cross);
     of_faces[s.right_face].add(-cross);
   }
-  border_tolerance_ = largest * length + 1e-14 * area_;
+  border_tolerance_ = largest * border_length_ + 1e-14 * area_;
   for (const CompensatedSum& twice : of_faces) area_of_face_.push_back(twice.value() / 2);
 }
 

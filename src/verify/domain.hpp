@@ -14,8 +14,9 @@ namespace driftmesh {
 
 /// The part of the plane that an input asks to be meshed, from an arrangement of its segments: the faces that its
 /// polygons cover (see FaceCover) or, without polygons, all but the unbounded face; those that hold a hole point are
-/// carved. Duplicate points and segments count once. Without segments, the domain is the convex hull of the points,
-/// with marker 1 on its border.
+/// carved, and, if asked for, every second face of rings within rings (see inside_of_alternating_rings). Duplicate
+/// points and segments count once. Without segments, the domain is the convex hull of the points, with marker 1 on its
+/// border.
 class Domain {
  public:
   struct Segment {
@@ -26,8 +27,14 @@ class Domain {
     std::int32_t right_face = 0;  ///< to the right on the way a -> b
   };
 
+  /// Which faces inside of the input's borders are not in the domain.
+  enum class Holes : std::uint8_t {
+    kPoints,       ///< those that hold a hole point
+    kAlternating,  ///< those, too, that an even number of rings encloses and no region names
+  };
+
   /// `places` are located in the domain and have no part in it.
-  explicit Domain(const Pslg& input, std::span<const Point> places = {});
+  explicit Domain(const Pslg& input, Holes holes = Holes::kPoints, std::span<const Point> places = {});
 
   /// Why the input describes no domain (segments that cross, overlap or pass through points, polygons without
   /// segments), if so. If so, nothing below may be called.
@@ -53,6 +60,8 @@ class Domain {
   [[nodiscard]] double area_tolerance() const { return area_tolerance_; }
   /// The same for the area of a part of the domain after repair, which rounds everywhere as at the largest coordinates.
   [[nodiscard]] double border_tolerance() const { return border_tolerance_; }
+  /// The length of all segments in the domain, if there are polygons.
+  [[nodiscard]] double border_length() const { return border_length_; }
   /// Vertices - edges + faces of any triangulation of the domain.
   [[nodiscard]] std::int64_t euler_number() const { return euler_number_; }
   /// How far a split point of a segment between these ends may be off the segment.
@@ -69,7 +78,7 @@ class Domain {
   void take_polygons(const Pslg& input, const std::vector<std::int32_t>& number);
   [[nodiscard]] bool has_segment(std::int32_t a, std::int32_t b) const;
   void take_hull();
-  void classify(const Pslg& input, const Arrangement& arrangement);
+  void classify(const Pslg& input, Holes holes, const Arrangement& arrangement);
   void find_regions(const Pslg& input, const Arrangement& arrangement);
   void measure(const Arrangement& arrangement);
   void measure_faces();
@@ -88,6 +97,7 @@ class Domain {
   double area_ = 0;
   double area_tolerance_ = 0;
   double border_tolerance_ = 0;
+  double border_length_ = 0;
   std::int64_t euler_number_ = 0;
 };
 

@@ -23,11 +23,13 @@ double attribute_of(const Domain& domain, std::int32_t face) {
 
 class PolygonsCheck {
  public:
-  PolygonsCheck(const Domain& domain, const Domain& given, Findings& findings)
+  PolygonsCheck(const Domain& domain, const Domain& given, double moved, Findings& findings)
       : domain_(domain),
         given_(given),
         findings_(findings),
-        tolerance_(domain.border_tolerance() + given.border_tolerance()) {}
+        tolerance_(domain.border_tolerance() + given.border_tolerance() +
+                   2 * moved * (domain.border_length() + given.border_length())),
+        explains_(moved > 0 ? "what was snapped and simplified" : "rounding") {}
 
   void check_face(std::int32_t face, const Point& place, std::int32_t given_face) {
     if (given_face == Arrangement::kOnBoundary) return;
@@ -54,8 +56,8 @@ class PolygonsCheck {
   void check_area(const std::string& what, double actual, double expected) {
     if (std::fabs(actual - expected) <= tolerance_) return;
     findings_.add(Flaw::kWrongPolygons, [&] {
-      return fmt::format("the area of {} is {:.17g}, by the polygons of the input {:.17g} (rounding explains {:.3g})",
-                         what, actual, expected, tolerance_);
+      return fmt::format("the area of {} is {:.17g}, by the polygons of the input {:.17g} ({} explains {:.3g})", what,
+                         actual, expected, explains_, tolerance_);
     });
   }
 
@@ -63,6 +65,7 @@ class PolygonsCheck {
   const Domain& given_;
   Findings& findings_;
   double tolerance_;
+  const char* explains_;  // it
 };
 
 }  // namespace
@@ -84,24 +87,24 @@ bool has_seeds(const Pslg& input) {
 }
 
 bool check_polygons(const Pslg& input, const Domain& domain, const std::vector<std::optional<Point>>& places,
-                    Findings& findings) {
+                    double moved, Findings& findings) {
   std::optional<Pslg> rings = rings_alone(input);
   if (!rings) return false;
   std::vector<std::int32_t> faces;
   std::vector<Point> known;
   for (const std::int32_t face : first_ids<std::int32_t>(places.size()))
-    if (places[face]) {
+    if (places[face] && moved == 0) {
       faces.push_back(face);
       known.push_back(*places[face]);
     }
-  Domain given(*rings, known);
+  Domain given(*rings, Domain::Holes::kPoints, known);
   if (given.conflict()) {
     rings = cut_rings(std::move(*rings));
     if (!rings) return false;
-    given = Domain(*rings, known);
+    given = Domain(*rings, Domain::Holes::kPoints, known);
     if (given.conflict()) return false;
   }
-  PolygonsCheck check(domain, given, findings);
+  PolygonsCheck check(domain, given, moved, findings);
   for (std::size_t i = 0; i < faces.size(); ++i) check.check_face(faces[i], known[i], given.face_of_place(i));
   check.check_areas();
   return true;

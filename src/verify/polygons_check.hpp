@@ -18,8 +18,9 @@ namespace driftmesh {
 /// Checks the domain of a repaired input against the polygons as they were given, which are cut and covered anew (see
 /// cut_rings, FaceCover): the area in total and of each region, as far as rounding does not explain the difference,
 /// and that each face whose place is given lies in them and has their region. `places`: for each face of `domain` a
-/// place that is well inside, if one is known. False if rounding keeps the polygons from being cut.
+/// place that is well inside, if one is known. `moved`: by how much repair may have moved borders besides rounding; if
+/// it may, areas alone are compared. False if rounding keeps the polygons from being cut.
 [[nodiscard]] bool check_polygons(const Pslg& given, const Domain& domain,
-                                  const std::vector<std::optional<Point>>& places, Findings& findings);
+                                  const std::vector<std::optional<Point>>& places, double moved, Findings& findings);
 
 }  // namespace driftmesh

@@ -65,7 +65,7 @@ class Verification {
 
   void find_domain() {
     if (input_ == nullptr) return;
-    domain_.emplace(*input_);
+    domain_.emplace(*input_, options_.nested_holes ? Domain::Holes::kAlternating : Domain::Holes::kPoints);
     conflict_ = domain_->conflict();
     if (conflict_) return domain_.reset();
     corners_.emplace(domain_->points());
@@ -217,8 +217,9 @@ class Verification {
   /// Seeds and holes would need the segments that repair leaves.
   void check_given(const DomainCheck& against) {
     if (options_.given == nullptr || input_->polygons.empty() || same_polygons(*options_.given, *input_)) return;
-    if (input_->holes.empty() && !has_seeds(*input_))
-      report_.polygons_judged = check_polygons(*options_.given, *domain_, against.find_places(), findings_);
+    if (!options_.nested_holes && input_->holes.empty() && !has_seeds(*input_))
+      report_.polygons_judged =
+          check_polygons(*options_.given, *domain_, against.find_places(), options_.moved, findings_);
   }
 
   [[nodiscard]] Chains make_chains() const {

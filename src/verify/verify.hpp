@@ -24,6 +24,10 @@ struct VerifyOptions {
   /// The input before it was repaired, or null. If it consists of polygons, these are read anew, in the verifier's own
   /// way: what repair made of them must be the same up to rounding. Must outlive the call.
   const Pslg* given = nullptr;
+  /// By how much repair may have moved the borders of polygons in `given`, where it was asked to: lengths within which
+  /// points were joined or borders simplified. Areas then only agree within twice that along all borders.
+  double moved = 0;
+  bool nested_holes = false;   ///< whether rings within rings of the input are holes: see Domain::Holes
   bool check_delaunay = true;  ///< false for meshes that only need to be conforming
   std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
   /// Pieces are spread over them, and most of the work on a mesh in one piece. With several, `size` is asked by several

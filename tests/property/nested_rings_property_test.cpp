@@ -6,15 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/error.hpp"
 #include "driftmesh/repair.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/nested_rings.hpp"
+#include "oracles/meshing.hpp"
 #include "oracles/random_pslg.hpp"
 #include "property/cases.hpp"
 #include "support/warnings_of.hpp"
+#include "verify/domain.hpp"
 
-// Random trees of rings inside rings: what is known from how they are made against what is found in the triangulation.
+// Random trees of rings inside rings: what is known from how they are made against what is found in the triangulation;
+// rings that touch, overlap and cross: what the verifier finds from face to face against that.
 
 using namespace driftmesh;
 using testing::warnings_of;
@@ -114,5 +118,73 @@ TEST_CASE("domains that are known to be complete give no warning") {
     shape.rings = 0;  // those may have no region point
     const oracles::RandomPslg random = oracles::make_random_pslg(seed, shape);
     CHECK(warnings_of(random.input).empty());
+  }
+}
+
+namespace {
+
+/// Triangles, quadrilaterals and lines with corners on a small grid inside a square, so that many share corners and
+/// parts of their sides, or cross; hole points and regions anywhere.
+Pslg random_grid_rings(std::mt19937_64& random) {
+  const auto below = [&](std::uint64_t n) { return static_cast<std::int32_t>(random() % n); };
+  const std::int32_t width = 4 + below(8);
+  Pslg input;
+  const auto add_ring = [&](const std::vector<Point>& corners) {
+    const auto first = static_cast<std::int32_t>(input.points.size()), n = static_cast<std::int32_t>(corners.size());
+    input.points.insert(input.points.end(), corners.begin(), corners.end());
+    for (std::int32_t i = 0; i < (n > 2 ? n : 1); ++i) input.segments.push_back({first + i, first + (i + 1) % n, 0});
+  };
+  const auto on_grid = [&](double from, double to) {
+    return Point{from + below(static_cast<std::uint64_t>(to - from) + 1),
+                 from + below(static_cast<std::uint64_t>(to - from) + 1)};
+  };
+  const auto w = static_cast<double>(width);
+  add_ring({{0, 0}, {w, 0}, {w, w}, {0, w}});
+  for (std::int32_t rings = 1 + below(6); rings > 0; --rings) {
+    if (random() % 3 == 0) {
+      const double d = 1 + below(static_cast<std::uint64_t>(width) / 2);
+      add_ring({{d, d}, {w - d + 0.5, d}, {w - d + 0.5, w - d + 0.5}, {d, w - d + 0.5}});
+      continue;
+    }
+    std::vector<Point> corners;
+    for (std::int32_t n = 2 + below(3); n > 0; --n) corners.push_back(on_grid(0, w));
+    add_ring(corners);
+  }
+  const auto place = [&] { return Point{w * (below(997) + 0.31) / 997, w * (below(991) + 0.17) / 991}; };
+  if (random() % 3 == 0) input.holes.push_back(place());
+  if (random() % 3 == 0) input.regions.push_back({place(), 1, -1});
+  return input;
+}
+
+}  // namespace
+
+TEST_CASE("the verifier's holes between rings are the mesher's, whatever touches, overlaps and crosses") {
+  std::mt19937_64 random = testing::seeded_generator("rings on a grid");
+  std::size_t alternating = 0, touching = 0;
+  for (std::int64_t i = 0; testing::more_cases(i, 3000, alternating > 200 && touching > 100); ++i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 drawn(seed);
+    Pslg input = random_grid_rings(drawn);
+    try {
+      repair(input, "input");
+    } catch (const Error&) {
+      continue;  // nothing is left of it
+    }
+    Pslg rings = input;
+    rings.holes.clear();
+    Pslg nested = input;
+    const std::vector<Point> found = find_nested_rings(triangulate(rings)).alternating_holes;
+    nested.holes.insert(nested.holes.end(), found.begin(), found.end());
+    const Domain judged(input, Domain::Holes::kAlternating);
+    REQUIRE(!judged.conflict());
+    alternating += !found.empty();
+    touching += found.size() > 1;
+    const double area = judged.area();
+    if (area == 0) continue;
+    CAPTURE(oracles::poly_text(input));
+    CAPTURE(oracles::poly_text(nested));
+    CHECK(area == doctest::Approx(Domain(nested).area()).epsilon(1e-12));
+    CHECK(judged.euler_number() == Domain(nested).euler_number());
   }
 }

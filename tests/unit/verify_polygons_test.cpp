@@ -59,7 +59,7 @@ Domain domain_of(const Pslg& input, const std::vector<Point>& places = {}) {
   REQUIRE(rings);
   if (Domain(*rings).conflict()) rings = cut_rings(*rings);
   REQUIRE(rings);
-  Domain domain(*rings, places);
+  Domain domain(*rings, Domain::Holes::kPoints, places);
   INFO(domain.conflict().value_or(""));
   REQUIRE(!domain.conflict());
   return domain;
@@ -172,6 +172,36 @@ TEST_CASE("what repair made of polygons is judged by the polygons as they were g
   raw = given({{{rectangle(0, 0, 2, 2)}, 1}, {{rectangle(1, 0, 2, 3)}, 2}});  // more than is meshed
   report = check(halves(), input, raw);
   CHECK(report.findings.messages(Flaw::kWrongPolygons)[0].starts_with("the area of the domain is 4, by"));
+}
+
+TEST_CASE("polygons that were snapped or simplified are judged by areas, within what that explains") {
+  const Pslg input = halves_as_polygons();
+  const auto wrong = [&](const Pslg& raw, double moved) {
+    const VerifyReport report = verify(halves(), input, {.given = &raw, .moved = moved});
+    CHECK(report.findings.total() == report.findings.count(Flaw::kWrongPolygons));
+    return report.findings.count(Flaw::kWrongPolygons);
+  };
+  Pslg raw = given(RandomPolygons{{{{rectangle(0, 0, 100, 201)}, 1}, {{rectangle(100, 0, 200, 200)}, 2}}, {}, 0.01});
+  CHECK(wrong(raw, 0) == 2);  // the domain and region 1
+  CHECK(wrong(raw, 0.01) == 0);
+  raw = given(RandomPolygons{{{{rectangle(0, 0, 200, 200)}, 1}}, {}, 0.01});  // region 2 is missing
+  CHECK(wrong(raw, 0.01) == 2);
+}
+
+TEST_CASE("a mesh is judged by the verifier's own holes between nested rings") {
+  Pslg input = halves_as_polygons();
+  input.polygons.clear();
+  input.regions.clear();
+  Mesh mesh = halves();
+  mesh.regions.clear();
+  CHECK(verify(mesh, input, {.nested_holes = true}).accepted());  // the halves share a segment, and so are one ring
+  input.points.insert(input.points.end(), {{1.25, 0.25}, {1.75, 0.25}, {1.75, 0.75}});
+  for (const std::int32_t a : {6, 7, 8}) input.segments.push_back({a, a < 8 ? a + 1 : 6, 0});
+  CHECK(Domain(input).area() == 4);
+  CHECK(Domain(input, Domain::Holes::kAlternating).area() == 3.875);
+  const VerifyReport report = verify(mesh, input, {.nested_holes = true});
+  CHECK(report.input_area == 3.875);
+  CHECK(!report.accepted());
 }
 
 TEST_CASE("points in the same place make no other polygons") {
